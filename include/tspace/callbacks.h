@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Functions of the caller that long calls use: to give bytes, and to tell how far they are.
+// Callbacks of long calls: for output bytes and for progress.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace tspace {
 
-/// Takes bytes of an output, in their order. Returns false when it can take no more. Called by one thread at a time, which
-/// need not be that of the call. What it throws ends the call (internal, or outOfMemory); so it is with Progress, FindFile and
-/// all that the caller has called: no exception leaves the library.
+/// Receives the bytes of an output, in order. Returns false if it cannot accept more. Called by one thread at a time,
+/// which need not be the calling thread. An exception that it throws ends the call (internal, or outOfMemory); this
+/// also applies to Progress, FindFile and all other callbacks: no exception leaves the library.
 using Sink = std::function<bool(std::span<const std::uint8_t>)>;
 
-/// Called now and then during long work, by the thread of the call. `done` of `total` steps; `what` names the step ("computing
-/// tangents"). It may throw Cancelled, which ends the call with ErrorCode::cancelled: there is no result, and nothing on disk
-/// has changed then.
+/// Called periodically during long work, by the thread of the call. `done` of `total` steps; `what` names the step
+/// ("computing tangents"). It may throw Cancelled, which ends the call with ErrorCode::cancelled, without a result and
+/// without changes on disk.
 using Progress = std::function<void(const char* what, std::uint64_t done, std::uint64_t total)>;
 
 }  // namespace tspace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Conventions of formats and engines: what the sign of a tangent means and which side of a face is out.
+// Conventions of formats and engines: meaning of the tangent sign, and which side of a face is outside.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ enum class Green : std::uint32_t {
     down = 1  ///< towards the bottom row ("DirectX", -Y)
 };
 
-/// Whether the stored sign is the one of `B = sign * cross(N, T)` or its negative.
+/// Whether the stored sign is the sign in `B = sign * cross(N, T)` or its negative.
 enum class StoredSign : std::uint32_t { asIs = 0, negated = 1 };
 
 enum class Handedness : std::uint32_t { right = 0, left = 1 };
@@ -27,15 +27,16 @@ enum class Handedness : std::uint32_t { right = 0, left = 1 };
 /// Order of a face's vertices as seen from outside.
 enum class Winding : std::uint32_t { counterClockwise = 0, clockwise = 1 };
 
-/// There is no default: take a preset, `conventions::gltf` for glTF. `conventions::opengl` is the plain mathematical
-/// reading: B points along growing v, B = sign * cross(N, T), faces are counter-clockwise in a right-handed system;
-/// `mikktspace` under it gives the reference's sign.
+/// There is no default: choose a preset, such as `conventions::gltf`. `conventions::opengl` is the mathematical
+/// convention: B points along increasing v, B = sign * cross(N, T), and faces are counter-clockwise in a right-handed
+/// system; with it `mikktspace` returns the sign of the reference.
 ///
-/// T always points along growing u. The image's green axis decides where B must point, and so the stored sign:
+/// T always points along increasing u. The green axis of the image determines the direction of B, and so the stored
+/// sign:
 ///     sign = uv_orientation * (v_axis down ? -1 : 1) * (green down ? -1 : 1) * (stored_sign negated ? -1 : 1)
-/// where uv_orientation is +1 when cross(dP/du, dP/dv) points along N. Handedness and winding say which side of a
-/// face is out (see `normalFactor`), and so which way N points; B = sign * cross(N, T) holds numerically in either.
-/// Normals look at handedness and winding only.
+/// where uv_orientation is +1 when cross(dP/du, dP/dv) points along N. Handedness and winding define which side of a
+/// face is outside (see `normalFactor`), and so the direction of N; B = sign * cross(N, T) holds numerically in both
+/// cases. Normals depend on handedness and winding only.
 struct Convention {
     VAxis v_axis = VAxis::unset;
     Green green = Green::up;
@@ -46,21 +47,21 @@ struct Convention {
     friend bool operator==(const Convention&, const Convention&) = default;
 };
 
-/// +1 or -1: what the raw sign (the one of dP/dv over the UVs as given) is multiplied with before it is stored.
+/// Returns the factor (+1 or -1) from the raw sign (of dP/dv for the UVs as given) to the stored sign.
 inline constexpr float signFactor(const Convention& c) {
     const bool flip = (c.v_axis == VAxis::down) != (c.green == Green::down);
     return flip != (c.stored_sign == StoredSign::negated) ? -1.0f : 1.0f;
 }
 
-/// +1 or -1: what cross(P1-P0, P2-P0) is multiplied with to point outside.
+/// Returns the factor (+1 or -1) that makes cross(P1-P0, P2-P0) point outside.
 inline constexpr float normalFactor(const Convention& c) {
     return (c.handedness == Handedness::left) != (c.winding == Winding::clockwise) ? -1.0f : 1.0f;
 }
 
-/// Named presets. `docs/concepts/conventions.md` says where each one comes from.
+/// Named presets. `docs/concepts/conventions.md` lists their sources.
 namespace conventions {
 inline constexpr Convention opengl{.v_axis = VAxis::up};
-/// glTF 2.0: v down, green up; so w is the negative of the raw UV orientation.
+/// glTF 2.0: v down, green up; w is therefore the negative of the raw UV orientation.
 inline constexpr Convention gltf{.v_axis = VAxis::down};
 inline constexpr Convention directx{
     .v_axis = VAxis::down, .green = Green::down, .handedness = Handedness::left, .winding = Winding::clockwise};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How model files are opened, and the temporary files that killed runs leave. CMake target tspace::asset.
+// Options for reading model files, and removal of temporary files that killed runs left behind. CMake target
+// tspace::asset.
 #pragma once
 
 #include <cstdint>
@@ -13,54 +14,57 @@ namespace tspace {
 
 inline constexpr std::uint64_t kNoMemoryLimit = ~std::uint64_t{0};
 
-/// Gives the bytes of a file that a model in memory names. `path` is relative to the model: escapes of the URI decoded, with
-/// slashes. The bytes must stay as they are until the call that asks is over. cannotRead: there is no such file; any other
-/// error ends the call. Called from the thread of the call, and perhaps more than once for a file.
+/// Returns the bytes of a file that a model in memory refers to. `path` is relative to the model, with URI escapes
+/// decoded and slashes as separators. The bytes must stay valid until the calling function returns. Return cannotRead
+/// if the file does not exist; any other error ends the call. Called from the thread of the call, possibly repeatedly
+/// for one file.
 using FindFile = std::function<Result<std::span<const std::uint8_t>>(const std::string& path)>;
 
-/// How files are opened.
+/// Options for reading files.
 struct FileOptions {
-    /// URIs in a model may lead only to files in its own folder (and below). true: anywhere.
+    /// true: URIs in a model may refer to any file. false: only to files in the model's folder and below.
     bool allow_external = false;
     /// Path of tspace-import, the program that reads .fbx, .ply, .stl, .dae, .3ds and others; empty: such files are
-    /// refused. It runs as a process of its own, so that a crash or a runaway there is an error here (invalidFile).
+    /// rejected. It runs in a separate process, so that a crash or runaway of the importer only causes an error
+    /// (invalidFile).
     std::string importer = {};
-    /// Files of more bytes are not given to the importer. The default is 2 GiB.
+    /// Maximum size of a file for the importer, in bytes. Default: 2 GiB.
     std::uint64_t import_max_file_bytes = std::uint64_t{2} << 30;
-    /// Address space of the importer, in bytes; a file gets 192 MiB and 256 times its size at most.
+    /// Maximum address space of the importer, in bytes; the limit for a file is at most 192 MiB plus 256 times its
+    /// size.
     std::uint64_t import_max_memory_bytes = std::uint64_t{16} << 30;
-    /// Time limit of the importer: processor time in seconds, and twice that in wall-clock time. 0: 2 s, and 1 s more per MiB
-    /// of the file.
+    /// Maximum processor time of the importer in seconds; wall-clock time: twice that. 0: 2 s, plus 1 s per MiB of the
+    /// file.
     std::uint32_t import_max_seconds = 0;
-    /// What working on one file may take of memory, about; what it would take is estimated first, and more is
-    /// refused (tooLarge). 0: 64 MB, and 16 times the bytes of the file, of those it names, and of what its
-    /// compressed geometry unpacks to. Other values stand for that, and for import_max_memory_bytes;
-    /// kNoMemoryLimit: as much as there is.
+    /// Approximate memory limit per file. The need is estimated first; more than the limit is rejected (tooLarge). 0:
+    /// 64 MB plus 16 times the bytes of the file, of the files it refers to, and of its unpacked geometry. Other values
+    /// replace both that limit and import_max_memory_bytes; kNoMemoryLimit: unlimited.
     std::uint64_t memory_limit_bytes = 0;
-    /// The model itself, where it is not in a file: GLB, glTF, or OBJ where the path, which is only what it is called,
-    /// ends in .obj. Read during the call only. It has no folder: files that it names come from `find_file`.
+    /// The model itself, if it is in memory: GLB, glTF, or OBJ if the path (used only as its name) ends in .obj. Read
+    /// during the call only. It has no folder: `find_file` provides the files that it refers to.
     std::span<const std::uint8_t> content = {};
-    /// Gives the files that `content` names; only those in the model's own folder (and below), unless `allow_external`.
-    /// Without it they are an error (invalidFile) where they are needed.
+    /// Provides the files that `content` refers to, restricted to the model's folder and below unless `allow_external`.
+    /// Without it, a required reference is an error (invalidFile).
     FindFile find_file = {};
-    /// Told the path of each file that is read, at once, and of each image on the disk that a glTF names, read or not. Perhaps
-    /// called by several threads at one time.
+    /// Called with the path of each file that is read, immediately, and of each image on disk that a glTF refers to,
+    /// read or not. May be called by several threads at the same time.
     std::function<void(const std::string& path)> opened = {};
-    /// Told of the images that a glTF names, in the place of `opened`, where it is there: they need not be read.
+    /// Called with the paths of images that a glTF refers to, instead of `opened`, if set; these need not have been
+    /// read.
     std::function<void(const std::string& path)> named = {};
-    /// A written file is on the disk, and not in its cache alone, before it takes its name: after a power cut the old file is
-    /// there or the new one, and never half of one. false: for many small files, where that takes most of the time.
+    /// true: flush a written file to disk before it is renamed to its final name, so that after a power failure either
+    /// the complete old file or the complete new file exists. false: faster for many small files.
     bool sync = true;
-    /// OBJ, PLY and STL: coordinates so far from the origin (metres of a map) that 32-bit floats would not hold the shape are
-    /// read in double, and an offset is taken out of them before they become floats. In glTF it is the translation of the
-    /// nodes. true: no offset; the shape then loses what floats lose, and a warning says so.
+    /// OBJ, PLY and STL: if coordinates are so far from the origin (meters of a map) that 32-bit floats would lose the
+    /// shape, they are read as doubles, and an offset is subtracted before the conversion to float. In glTF the offset
+    /// becomes the translation of the nodes. true: no offset; the precision is lost, and a warning reports it.
     bool keep_coordinates = false;
 };
 
-/// Removes the temporary files that killed runs of any call that writes left in a folder, and below it where that is asked
-/// for. Their names tell which process on which machine made them; only those of processes of this machine that are gone are
-/// removed. A file that such a run had set aside comes back where its place is empty. Returns how many files it was. What
-/// cannot be read or removed is passed over. Linear in the number of files there; thread-safe.
+/// Removes temporary files that killed runs of any writing call left in a folder and, on request, in its subfolders.
+/// Their names identify process and machine; only files of terminated processes of this machine are removed. A file
+/// that such a run had set aside is restored if its original path is free. Files that cannot be read or removed are
+/// skipped. Returns the number of files. Linear in the number of files in the folders; thread-safe.
 std::uint64_t removeAbandonedFiles(const std::string& folder, bool with_folders_below = true);
 
 }  // namespace tspace

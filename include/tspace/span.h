@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A caller-owned array whose elements lie a fixed number of bytes apart (interleaved vertex buffers).
+// Caller-owned array with a fixed distance in bytes between elements (interleaved vertex buffers).
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace tspace {
 
-// Plain float tuples used at the border. They have no padding, so an array of Vec3 is an array of 3 floats
-// per element and may be viewed as such.
+// Float tuples used at the API boundary. They have no padding, so an array of Vec3 is an array of 3 floats per element
+// and may be viewed as such.
 
 struct Vec2 {
     float x = 0, y = 0;
@@ -22,7 +22,7 @@ struct Vec3 {
     friend bool operator==(const Vec3&, const Vec3&) = default;
 };
 
-/// A tangent with its sign: x, y, z is the tangent, w the sign (+1 or -1).
+/// Tangent with its sign: x, y, z is the tangent, w is the sign (+1 or -1).
 struct Vec4 {
     float x = 0, y = 0, z = 0, w = 0;
     friend bool operator==(const Vec4&, const Vec4&) = default;
@@ -30,12 +30,12 @@ struct Vec4 {
 
 static_assert(sizeof(Vec2) == 8 && sizeof(Vec3) == 12 && sizeof(Vec4) == 16);
 
-/// The first three components: the tangent without its sign.
+/// Returns the first three components: the tangent without its sign.
 inline Vec3 xyz(const Vec4& v) { return {v.x, v.y, v.z}; }
 
-/// `count` elements of T, the first at `data`, each `stride_bytes` after the one before. Owns nothing.
-/// `data` may be null only when `count` is 0. Functions that take a span check at their border that the
-/// stride is at least sizeof(T) (when there are two or more elements) and a multiple of alignof(T).
+/// View of `count` elements of T. The first is at `data`; each next one follows at a distance of `stride_bytes`. `data`
+/// may be null only if `count` is 0. Functions that take a span check that the stride is at least sizeof(T) (if there
+/// are two or more elements) and a multiple of alignof(T).
 template <class T>
 struct StridedSpan {
     T* data = nullptr;
@@ -46,18 +46,18 @@ struct StridedSpan {
     constexpr StridedSpan(T* first, std::size_t n, std::size_t stride = sizeof(T))
         : data(first), count(n), stride_bytes(stride) {}
     constexpr StridedSpan(std::span<T> s) : data(s.data()), count(s.size()) {}
-    /// Any contiguous container of T (std::vector, std::array); implicit, as for std::span.
+    /// From any contiguous container of T (std::vector, std::array); implicit, as for std::span.
     template <class Container>
     requires std::is_constructible_v<std::span<T>, Container&> constexpr StridedSpan(Container& c)
         : StridedSpan(std::span<T>(c)) {}
-    /// A mutable span converts to a const one.
+    /// Converts a mutable span to a const one.
     template <class U>
     requires(std::is_same_v<const U, T> && !std::is_const_v<U>) constexpr StridedSpan(const StridedSpan<U>& s)
         : data(s.data), count(s.count), stride_bytes(s.stride_bytes) {}
 
     [[nodiscard]] constexpr bool empty() const { return count == 0; }
 
-    /// Element `i`, 0 <= i < count. Not checked.
+    /// Returns element `i`, 0 <= i < count. Not checked.
     T& operator[](std::size_t i) const {
         using Byte = std::conditional_t<std::is_const_v<T>, const std::byte, std::byte>;
         return *reinterpret_cast<T*>(reinterpret_cast<Byte*>(data) + i * stride_bytes);

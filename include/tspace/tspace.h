@@ -1,32 +1,32 @@
 /* SPDX-License-Identifier: MIT */
-/* The C API of the core library: everything that the C++ headers offer, for C11 and for bindings. Comments are those of
- * the C++ headers, with names of C; what holds in C alone is said behind "In C:".
+/* The C API of the core library: everything in the C++ headers, for C11 and for bindings. Comments are copied from the
+ * C++ headers, with C names; text after "In C:" applies to C only.
  *
- * Words: a *face* is a triangle, quad or n-gon; a *corner* is one (face, local vertex) pair, numbered face
+ * Terms: a *face* is a triangle, quad or n-gon; a *corner* is one (face, local vertex) pair, numbered face
  * after face; a *vertex* is one entry of the vertex arrays. A *sign* is +1 or -1: B = sign * cross(N, T).
  *
  * Rules that hold for every function:
  * - A function that can fail returns TSPACE_OK or an error code. Its last parameter `error` may be null;
  *   otherwise it is written in either case (code TSPACE_OK and an empty message after success).
- * - Structs that start with `struct_size` are prepared with TSPACE_INIT, which sets the size and every default; what
- *   has no other default is zero. Fields are only ever added at the end, and the size says which a program knows: one
- *   that was compiled with any older header works with a newer library, and gets the defaults of newer fields. A size
- *   that this version does not know is TSPACE_ERROR_INVALID_OPTION.
- * - Languages without the macro prepare options by tspace_init..., and fill all other sized structs with zeros and the
- *   size. Options of zeros are other ones than the defaults: they are refused where they look forgotten, which is said
+ * - Structs that start with `struct_size` are initialized with TSPACE_INIT, which sets the size and every default;
+ *   other fields are set to zero. Fields are only added at the end, and the size tells the library which fields a
+ *   program has: a program compiled with an older header works with a newer library, and gets the defaults of newer fields. A
+ *   size that this version does not support causes TSPACE_ERROR_INVALID_OPTION.
+ * - Languages without the macro initialize options with tspace_init..., and all other sized structs with zeros and the
+ *   size. Zero-filled options differ from the defaults: they are rejected if they appear uninitialized, as documented
  *   at each of these functions.
- * - Structs without `struct_size` that a program fills never change. tspace_Convention stands in the middle of others:
- *   what a later version adds to it is a field at the end of each struct that holds one.
- * - Arguments come in one order: inputs, options, outputs that the caller owns, execution, then what C++ returns (a
- *   result or a report), and the error. Execution may be null: the default, which is the calling thread.
- * - Options and reports may be null: default options, no report wanted. (Tangents need options: a convention has no
- *   default.) A report is written only on success. Other pointers are not null, where nothing else is said: a function
- *   that can fail then fails with TSPACE_ERROR_NULL_DATA.
- * - Arrays are the caller's. Inputs are read during the call only. Outputs must not overlap inputs or each
- *   other. An array is empty when its count is 0; it may then be null.
- * - Every function may be called from any thread at the same time as any other, as long as nobody writes what
+ * - Structs without `struct_size` that a program fills never change. tspace_Convention is embedded in other structs:
+ *   additions of a later version are appended to each struct that contains one.
+ * - Arguments have a fixed order: inputs, options, outputs owned by the caller, execution, the results that C++ returns
+ *   (a result or a report), and the error. Execution may be null: the default, which is the calling thread.
+ * - Options and reports may be null: default options, no report. (Tangents require options: a convention has no
+ *   default.) A report is written only on success. Other pointers must not be null unless documented otherwise: a
+ *   function that can fail then fails with TSPACE_ERROR_NULL_DATA.
+ * - The caller owns all arrays. Inputs are read during the call only. Outputs must not overlap inputs or each
+ *   other. An array is empty if its count is 0; it may then be null.
+ * - Every function may be called from any thread at the same time as any other, as long as no thread writes data that
  *   another one uses. There is no global state. Results have the same bits for any thread count.
- * - Nothing is printed, nothing aborts, and no C++ exception comes out.
+ * - The library never prints, never aborts, and never lets a C++ exception escape.
  */
 #ifndef TSPACE_TSPACE_H
 #define TSPACE_TSPACE_H
@@ -37,7 +37,7 @@
 
 #include "tspace/version.h"
 
-/* Exported by shared libraries, whose other symbols are hidden. */
+/* Exports the symbols of this header from shared libraries; all other symbols are hidden. */
 #if defined(__GNUC__) && !defined(_WIN32)
 #pragma GCC visibility push(default)
 #endif
@@ -48,27 +48,28 @@ extern "C" {
 #define TSPACE_NOEXCEPT
 #endif
 
-/* Prepares a sized struct, from its size and the defaults of this header: tspace_TangentOptions options;
+/* Initializes a sized struct with its size and the defaults of this header: tspace_TangentOptions options;
  * TSPACE_INIT(options); */
 #define TSPACE_INIT(object)                                                                               \
     ((void)memset(&(object), 0, sizeof(object)), (void)((object).struct_size = (uint32_t)sizeof(object)), \
      TSPACE_SET_DEFAULTS(object))
 
-/* Version of the library that is linked: 10000 * major + 100 * minor + patch. TSPACE_VERSION_NUMBER is that
- * of the headers. */
+/* Returns the version of the linked library: 10000 * major + 100 * minor + patch. TSPACE_VERSION_NUMBER is the
+ * version of the headers. */
 uint32_t tspace_version(void) TSPACE_NOEXCEPT;
 
-/* Why a call failed. The numbers are stable, the same in C and C++, and never reused. */
+/* Reason why a call failed. The numbers are stable, equal in C and C++, and never reused. */
 typedef uint32_t tspace_ErrorCode;
 enum {
     TSPACE_OK = 0,                   /* not an error */
-    TSPACE_ERROR_NULL_DATA = 1,      /* a pointer is null although it is needed, or its count is not zero */
-    TSPACE_ERROR_COUNT_MISMATCH = 2, /* two arrays that must have the same length do not */
-    /* an index is not smaller than the number of vertices; `element` is its position */
+    TSPACE_ERROR_NULL_DATA = 1,      /* a required pointer is null, or a null array has a nonzero count */
+    TSPACE_ERROR_COUNT_MISMATCH = 2, /* two arrays that must have equal lengths differ in length */
+    /* an index is not less than the number of vertices; `element` is its position */
     TSPACE_ERROR_INDEX_OUT_OF_RANGE = 3,
     TSPACE_ERROR_STRIDE_TOO_SMALL = 4, /* elements of a span would overlap */
     TSPACE_ERROR_MISALIGNED = 5,       /* a pointer or stride is not a multiple of its element's alignment */
-    TSPACE_ERROR_TOO_LARGE = 6, /* a size does not fit: the sum of face sizes, or a limit stated by the function */
+    /* a size exceeds a limit: the sum of face sizes, or a limit stated by the function */
+    TSPACE_ERROR_TOO_LARGE = 6,
     /* the method needs an attribute (normals, UVs) that the mesh does not have */
     TSPACE_ERROR_MISSING_ATTRIBUTE = 7,
     /* an option has a value outside its stated range.
@@ -76,65 +77,64 @@ enum {
     TSPACE_ERROR_INVALID_OPTION = 8,
     TSPACE_ERROR_OUT_OF_MEMORY = 9,  /* the allocator returned null */
     TSPACE_ERROR_PLAN_MISMATCH = 10, /* arrays do not fit the plan they are evaluated with */
-    TSPACE_ERROR_INTERNAL = 11,      /* a defect of tspace; please report it */
-    /* the caller ended the call from a function of its own; nothing was made or written */
-    TSPACE_ERROR_CANCELLED = 12,
-    TSPACE_ERROR_INVALID_FILE = 100, /* asset layer: the file breaks its format; the error says where */
-    /* asset layer: valid, but needs a feature that this version does not have */
+    TSPACE_ERROR_INTERNAL = 11,      /* a bug in tspace; please report it */
+    TSPACE_ERROR_CANCELLED = 12,     /* a callback of the caller canceled the call; no result was returned or written */
+    TSPACE_ERROR_INVALID_FILE = 100, /* asset layer: the file violates its format; the error states where */
+    /* asset layer: the file is valid, but needs a feature that this version does not support */
     TSPACE_ERROR_UNSUPPORTED_FILE = 101,
-    TSPACE_ERROR_FORBIDDEN_PATH = 102, /* asset layer: a URI leads outside the model's folder */
+    TSPACE_ERROR_FORBIDDEN_PATH = 102, /* asset layer: a URI leads outside the folder of the model */
     TSPACE_ERROR_CANNOT_READ = 103,    /* asset layer: a file cannot be opened or read */
     TSPACE_ERROR_CANNOT_WRITE = 104    /* asset layer: a file cannot be written; nothing was changed */
 };
 
-/* Element of an error that is about no element in particular. */
+/* Value of `element` for an error that concerns no particular element. */
 #define TSPACE_NO_ELEMENT UINT64_MAX
 
-/* What went wrong, in words for the person who has to mend it, and where.
+/* Description and location of an error, for the person who has to fix it.
  * In C: the layout of this struct never changes. */
 typedef struct tspace_Error {
     tspace_ErrorCode code;
     uint32_t reserved; /* 0 */
     uint64_t element;  /* index of the offending element, or TSPACE_NO_ELEMENT */
-    char message[240]; /* one sentence, no line break. In C: UTF-8, ended by 0; cut when it is longer. */
+    char message[240]; /* one sentence, no line break. In C: UTF-8, zero-terminated; truncated if longer. */
 } tspace_Error;
 
-/* Stable identifier of a code in lowerCamelCase, for logs and JSON ("indexOutOfRange"); "unknown" for other numbers.
- * Static memory. */
+/* Returns the stable lowerCamelCase identifier of a code, for logs and JSON ("indexOutOfRange"); "unknown" for other
+ * numbers. Static memory. */
 const char* tspace_errorName(tspace_ErrorCode code) TSPACE_NOEXCEPT;
 
-/* `count` elements of T, the first at `data`, each `stride_bytes` after the one before. Owns nothing.
- * `data` may be null only when `count` is 0. Functions that take a span check at their border that the stride is at
- * least sizeof(T) (when there are two or more elements) and a multiple of alignof(T).
- * In C: T is as many floats as is said where the span is used. stride_bytes 0: tightly packed. */
+/* View of `count` elements of T. The first is at `data`; each next one follows at a distance of `stride_bytes`.
+ * `data` may be null only if `count` is 0. Functions that take a span check that the stride is at least sizeof(T)
+ * (if there are two or more elements) and a multiple of alignof(T).
+ * In C: T is the number of floats documented where the span is used. stride_bytes 0: tightly packed. */
 typedef struct tspace_ConstSpan {
     const float* data;
     size_t count;
     size_t stride_bytes;
 } tspace_ConstSpan;
 
-/* The same for results. */
+/* Like tspace_ConstSpan, for results. */
 typedef struct tspace_Span {
     float* data;
     size_t count;
     size_t stride_bytes;
 } tspace_Span;
 
-/* The same for results that are one byte each. stride_bytes 0: tightly packed. */
+/* Like tspace_ConstSpan, for results of one byte each. stride_bytes 0: tightly packed. */
 typedef struct tspace_ByteSpan {
     uint8_t* data;
     size_t count;
     size_t stride_bytes;
 } tspace_ByteSpan;
 
-/* Bytes of one index. */
+/* Type of an index; the value is its size in bytes. */
 typedef uint32_t tspace_IndexType;
 enum {
     TSPACE_INDEX_NONE = 0,
     TSPACE_INDEX_U8 = 1,
     TSPACE_INDEX_U16 = 2,
     TSPACE_INDEX_U32 = 4,
-    /* for tspace_Mesh.normal_indices and uv_indices: corner c uses entry c, without a list in memory */
+    /* for tspace_Mesh.normal_indices and uv_indices: corner c uses entry c, without an index list in memory */
     TSPACE_INDEX_CORNERS = 8
 };
 
@@ -146,127 +146,128 @@ typedef struct tspace_Indices {
     tspace_IndexType type;
 } tspace_Indices;
 
-/* Most corners (and so vertices and indices) that one mesh may have: corner ids are 32 bit with room for marks. */
+/* Maximum number of corners (and so of vertices and indices) of a mesh: corner IDs are 32-bit with room for flags. */
 #define TSPACE_MAX_CORNERS 0x7fffffff
 
-/* A mesh. Only positions are always needed; each function says what else it uses. Positions are floats: of doubles
- * far from the origin (metres of a map) subtract an offset in double first, such as the middle of the model, and put
- * it into the model's place; normals and tangents do not depend on it. */
+/* A mesh. Positions are always required; each function lists the other attributes that it uses. Positions are
+ * floats: for doubles far from the origin (meters of a map), first subtract an offset in double precision, such as
+ * the center of the model, and move it to the model's transform; normals and tangents do not depend on it. */
 typedef struct tspace_Mesh {
     uint32_t struct_size;
-    uint32_t face_size;         /* corners of every face when face_sizes is empty; at least 1. In C: 0 means 3. */
+    uint32_t face_size; /* number of corners of every face if face_sizes is empty; at least 1. In C: 0 means 3. */
     tspace_ConstSpan positions; /* 3 floats each: one per vertex */
     /* 3 floats each: one per vertex, used as given (see tspace_TangentOptions.normalize_normals), or empty */
     tspace_ConstSpan normals;
     tspace_ConstSpan uvs;   /* 2 floats each: one per vertex, or empty */
     tspace_Indices indices; /* one per corner, or TSPACE_INDEX_NONE: every corner has its own vertex */
-    /* Corners of each face. Empty: all faces have `face_size` corners. Faces of 0, 1 or 2 corners are allowed and
-     * ignored: nothing is computed for them. */
+    /* Number of corners of each face. Empty: all faces have `face_size` corners. Faces with 0, 1 or 2 corners are
+     * allowed and ignored. */
     const uint32_t* face_sizes;
     size_t face_count; /* entries of face_sizes */
-    /* One per corner, into `normals` and `uvs`, which then have any number of entries: FBX, USD, OBJ and Houdini
-     * keep them so. TSPACE_INDEX_NONE: these attributes have one entry per vertex, and follow `indices`.
-     * TSPACE_INDEX_CORNERS: they have one entry per corner. Corners count as one vertex, as if the mesh had one
-     * list, where their three indices are equal, and for TSPACE_INDEX_CORNERS where the entries have the same bits. */
+    /* Indices per corner into `normals` and `uvs`, which then may have any number of entries, as in FBX, USD, OBJ
+     * and Houdini. TSPACE_INDEX_NONE: these attributes have one entry per vertex and use `indices`.
+     * TSPACE_INDEX_CORNERS: they have one entry per corner. Corners are welded, as with a single index list, if
+     * their three indices are equal, and for TSPACE_INDEX_CORNERS if the bits of the entries are equal. */
     tspace_Indices normal_indices;
     tspace_Indices uv_indices;
 } tspace_Mesh;
 
-/* Corners of the mesh: the length of results. Not checked: call tspace_validate for that.
+/* Returns the number of corners: the length of results. Not checked: call tspace_validate for that.
  * In C: 0 for null. */
 size_t tspace_cornerCount(const tspace_Mesh* mesh) TSPACE_NOEXCEPT;
-/* Faces of the mesh, not checked either.
+/* Returns the number of faces. Not checked.
  * In C: 0 for null. */
 size_t tspace_faceCount(const tspace_Mesh* mesh) TSPACE_NOEXCEPT;
 
-/* Checks everything that later code relies on: pointers against counts, equal lengths of vertex arrays, strides,
- * alignment, every index in range, face sizes that add up to the corners (or a corner count that is a multiple of
- * `face_size`), sizes within TSPACE_MAX_CORNERS. Does not look at the values of floats: those may be anything.
+/* Checks all preconditions of other functions: pointers against counts, equal lengths of vertex arrays, strides,
+ * alignment, index ranges, face sizes that add up to the corners (or a corner count that is a multiple of
+ * `face_size`), sizes within TSPACE_MAX_CORNERS. Does not check the values of floats: any value is allowed.
  *
- * Every function that takes a tspace_Mesh calls this first; call it yourself only to get the error early.
- * Reads every index once; no allocation but for an error's message. Thread-safe.
+ * Every function that takes a tspace_Mesh calls this first; call it directly only to get the error early.
+ * Reads every index once; allocates only for an error's message. Thread-safe.
  * Errors: NULL_DATA, COUNT_MISMATCH, INDEX_OUT_OF_RANGE, STRIDE_TOO_SMALL, MISALIGNED, TOO_LARGE, INVALID_OPTION. */
 tspace_ErrorCode tspace_validate(const tspace_Mesh* mesh, tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* The caller's job system. `run` must call task(context, i) exactly once for each i in [0, task_count), on any
- * threads and in any order, and return when all are done. Tasks never call back into `run`, never throw. */
+/* Job system of the caller. `run` must call task(context, i) exactly once for each i in [0, task_count), on any
+ * threads and in any order, and return when all calls have returned. Tasks never call `run`, and never throw. */
 typedef struct tspace_Executor {
     void (*run)(void* user, size_t task_count, void (*task)(void* context, size_t task_index), void* context);
     void* user;
     uint32_t concurrency; /* number of tasks that can run at the same time. In C: 0 means 1. */
 } tspace_Executor;
 
-/* The caller's memory. `allocate` returns memory of that alignment (a power of two, at most 64) or null, which makes
- * the call fail with TSPACE_ERROR_OUT_OF_MEMORY. Called from the calling thread only. */
+/* Allocator of the caller. `allocate` returns memory of the given alignment (a power of two, at most 64) or null,
+ * which makes the call fail with TSPACE_ERROR_OUT_OF_MEMORY. Called from the calling thread only. */
 typedef struct tspace_Allocator {
     void* (*allocate)(void* user, size_t bytes, size_t alignment);
     void (*release)(void* user, void* memory, size_t bytes, size_t alignment);
     void* user;
 } tspace_Allocator;
 
-/* The instructions that the hot loops use. Results have the same bits with all of them. */
+/* SIMD instruction set of the inner loops. Results have the same bits for every target. */
 typedef uint32_t tspace_SimdTarget;
 enum {
-    TSPACE_SIMD_BEST = 0,   /* the best that this CPU has */
-    TSPACE_SIMD_SCALAR = 1, /* no SIMD: for CPUs without any of these; elsewhere only tests of tspace have it */
-    TSPACE_SIMD_SSE2 = 2,   /* x86-64 without anything else */
+    TSPACE_SIMD_BEST = 0, /* the best target that this CPU supports */
+    /* no SIMD: for CPUs that support no other target; elsewhere available only in tests of tspace */
+    TSPACE_SIMD_SCALAR = 1,
+    TSPACE_SIMD_SSE2 = 2, /* baseline of x86-64 */
     TSPACE_SIMD_AVX2 = 3,
     TSPACE_SIMD_AVX512 = 4, /* AVX-512 F and DQ */
-    TSPACE_SIMD_NEON = 5    /* 64-bit ARM, every CPU */
+    TSPACE_SIMD_NEON = 5    /* 64-bit ARM, supported by every CPU */
 };
 
-/* For tspace_Execution.thread_count: as many as there are cores. */
+/* Value of tspace_Execution.thread_count for one thread per core. */
 #define TSPACE_ALL_THREADS UINT32_MAX
 
-/* Where work runs and where its memory comes from. A call has one, for all that it does: the last argument of
- * functions on arrays, a member of the options of functions on files. What it points to must outlive the call (and a
- * plan made with it).
- * In C: the structs that it points to are read during the call only; a plan needs the functions in them, and `user`. */
+/* Threads and memory of a call: the last argument of functions on arrays, a member of the options of functions on
+ * files. The objects it points to must outlive the call, and any plan made with it.
+ * In C: the structs it points to are read during the call only; a plan requires their functions and `user`. */
 typedef struct tspace_Execution {
     uint32_t struct_size;
     uint32_t thread_count; /* 0 and 1: the calling thread only; TSPACE_ALL_THREADS */
-    /* Runs all work, whatever thread_count says; null: threads that are started and joined within the call. */
+    /* Runs all tasks, whatever thread_count is. Null: threads are started and joined within the call. */
     const tspace_Executor* executor;
-    /* Only for scratch memory and plans. Null: operator new, and nothing is kept between calls. With a tspace_Arena
-     * calls that follow each other take a tenth less time (tspace_generateTangents with more than 4096 corners). */
+    /* Allocates scratch memory and plans. Null: operator new, and no memory is kept between calls. With a
+     * tspace_Arena, consecutive calls take a tenth less time (tspace_generateTangents with more than 4096 corners). */
     const tspace_Allocator* allocator;
-    tspace_SimdTarget simd; /* For tests and measurements. What this CPU lacks becomes the best of a lower number. */
+    /* For tests and measurements. A target that this CPU does not support is replaced by the best one with a lower
+     * number. */
+    tspace_SimdTarget simd;
     uint32_t reserved;
 } tspace_Execution;
 
-/* In C: prepares it as TSPACE_INIT does, for languages that have no macros. Zeros, but for the size, are the defaults.
- * struct_size  bytes of the struct as the caller declares it. One that this version does not know is INVALID_OPTION,
- *              and nothing is written.
+/* In C: initializes an execution like TSPACE_INIT, for languages without macros. The defaults are zeros.
+ * struct_size  size of the struct as declared by the caller, in bytes. If this version does not support the size:
+ *              INVALID_OPTION, and nothing is written.
  * Errors: NULL_DATA, INVALID_OPTION. */
 tspace_ErrorCode tspace_initExecution(tspace_Execution* execution, uint32_t struct_size,
                                       tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* Scratch memory for calls that follow each other. Pass tspace_arenaAllocator in tspace_Execution.allocator; the
- * memory of plans may come from it as well. A call on an arena that another one like it has used takes nothing from
- * the system.
+/* Scratch memory for consecutive calls. Pass tspace_arenaAllocator in tspace_Execution.allocator; plans may use it
+ * too. A call that follows a similar call on the same arena requests no memory from the system.
  *
- * Memory: the most that was in use at one time, plus the holes between allocations of different sizes (a few percent
- * for calls of this library) and up to 2 MiB. It is kept until tspace_trimArena or the end of the arena. Large parts
- * use huge pages where the system has them.
+ * Memory: the largest amount in use at one time, plus gaps between allocations of different sizes (a few percent for
+ * calls of this library) and up to 2 MiB. It is kept until tspace_trimArena or the destructor. Large blocks use huge
+ * pages where the system supports them.
  *
- * For one call at a time: not thread-safe, as no tspace_Allocator is. One arena per thread that makes calls. It must
- * outlive the plans whose memory it holds; it does not move. */
+ * For one call at a time: not thread-safe, like every tspace_Allocator. Use one arena per calling thread. It must
+ * outlive the plans whose memory it holds. It cannot be moved. */
 typedef struct tspace_Arena tspace_Arena;
 
-/* Makes an arena, which holds nothing at first.
- * arena     *arena is null after an error. End it with tspace_destroyArena.
+/* Creates an empty arena.
+ * arena     *arena is null after an error. Free it with tspace_destroyArena.
  * Errors: NULL_DATA, OUT_OF_MEMORY. */
 tspace_ErrorCode tspace_createArena(tspace_Arena** arena, tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* For tspace_Execution.allocator. Valid as long as the arena. */
+/* Returns the allocator for tspace_Execution.allocator. Valid as long as the arena exists. */
 const tspace_Allocator* tspace_arenaAllocator(const tspace_Arena* arena) TSPACE_NOEXCEPT;
 
-/* Bytes of memory that the arena holds now, in use or not. Reserved address space without memory does not count. */
+/* Returns the number of bytes that the arena holds, in use or not. Excludes address space that is only reserved. */
 size_t tspace_arenaHeldBytes(const tspace_Arena* arena) TSPACE_NOEXCEPT;
-/* Bytes in use now: 0 between calls, except for plans. */
+/* Returns the number of bytes in use: 0 between calls, except for plans. */
 size_t tspace_arenaUsedBytes(const tspace_Arena* arena) TSPACE_NOEXCEPT;
 
-/* Gives back what lies behind the last allocation in use; between calls without plans, that is everything. */
+/* Releases the memory behind the last allocation in use; between calls without plans, that is all memory. */
 void tspace_trimArena(tspace_Arena* arena) TSPACE_NOEXCEPT;
 
 /* Frees an arena. Null is allowed. */
@@ -287,7 +288,7 @@ enum {
     TSPACE_GREEN_DOWN = 1 /* towards the bottom row ("DirectX", -Y) */
 };
 
-/* Whether the stored sign is the one of `B = sign * cross(N, T)` or its negative. */
+/* Whether the stored sign is the sign in `B = sign * cross(N, T)` or its negative. */
 typedef uint32_t tspace_StoredSign;
 enum { TSPACE_SIGN_AS_IS = 0, TSPACE_SIGN_NEGATED = 1 };
 
@@ -298,15 +299,16 @@ enum { TSPACE_HANDEDNESS_RIGHT = 0, TSPACE_HANDEDNESS_LEFT = 1 };
 typedef uint32_t tspace_Winding;
 enum { TSPACE_WINDING_COUNTER_CLOCKWISE = 0, TSPACE_WINDING_CLOCKWISE = 1 };
 
-/* There is no default: take a preset, "gltf" for glTF. "opengl" is the plain mathematical reading: B points along
- * growing v, B = sign * cross(N, T), faces are counter-clockwise in a right-handed system; TSPACE_METHOD_MIKKTSPACE
- * under it gives the reference's sign.
+/* There is no default: choose a preset, such as "gltf". "opengl" is the mathematical convention: B points along
+ * increasing v, B = sign * cross(N, T), and faces are counter-clockwise in a right-handed system; with it
+ * TSPACE_METHOD_MIKKTSPACE returns the sign of the reference.
  *
- * T always points along growing u. The image's green axis decides where B must point, and so the stored sign:
+ * T always points along increasing u. The green axis of the image determines the direction of B, and so the stored
+ * sign:
  *     sign = uv_orientation * (v_axis down ? -1 : 1) * (green down ? -1 : 1) * (stored_sign negated ? -1 : 1)
- * where uv_orientation is +1 when cross(dP/du, dP/dv) points along N. Handedness and winding say which side of a
- * face is out (see `tspace_normalFactor`), and so which way N points; B = sign * cross(N, T) holds numerically in
- * either. Normals look at handedness and winding only.
+ * where uv_orientation is +1 when cross(dP/du, dP/dv) points along N. Handedness and winding define which side of a
+ * face is outside (see `tspace_normalFactor`), and so the direction of N; B = sign * cross(N, T) holds numerically
+ * in both cases. Normals depend on handedness and winding only.
  * In C: the layout of this struct never changes. */
 typedef struct tspace_Convention {
     tspace_VAxis v_axis;
@@ -318,186 +320,188 @@ typedef struct tspace_Convention {
 
 /* Finds a preset by its name in lower case ("gltf", "opengl", "directx", "unreal", "unity", "blender", "godot").
  * INVALID_OPTION for any other name.
- * In C: name ends in 0; out is written after success only. */
+ * In C: name is zero-terminated; out is written on success only. */
 tspace_ErrorCode tspace_findConvention(const char* name, tspace_Convention* out, tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* +1 or -1: what the raw sign (the one of dP/dv over the UVs as given) is multiplied with before it is stored. */
+/* Returns the factor (+1 or -1) from the raw sign (of dP/dv for the UVs as given) to the stored sign. */
 float tspace_signFactor(tspace_Convention convention) TSPACE_NOEXCEPT;
-/* +1 or -1: what cross(P1-P0, P2-P0) is multiplied with to point outside. */
+/* Returns the factor (+1 or -1) that makes cross(P1-P0, P2-P0) point outside. */
 float tspace_normalFactor(tspace_Convention convention) TSPACE_NOEXCEPT;
 
-/* How tangents are computed. `docs/concepts/methods/` has a page for each. */
+/* Method of computing tangents. `docs/concepts/methods/` has a page for each. */
 typedef uint32_t tspace_Method;
 enum {
-    /* Bit for bit the result of the MikkTSpace reference implementation (Mikkelsen 2008), for triangles and quads. */
+    /* Bit-identical to the MikkTSpace reference implementation (Mikkelsen 2008), for triangles and quads. */
     TSPACE_METHOD_MIKKTSPACE = 0,
-    /* Sum of the unnormalised dP/du and dP/dv of the faces at a vertex index, Gram-Schmidt against N, sign from the
-     * bitangent (Lengyel 2001). Never splits: all corners of one vertex index get one tangent. */
+    /* Sum of the unnormalized dP/du and dP/dv of the faces at a vertex index, Gram-Schmidt against N, sign from the
+     * bitangent (Lengyel 2001). Never splits: all corners of a vertex index get the same tangent. */
     TSPACE_METHOD_LENGYEL = 1,
     /* Weighted mean of unit face tangents in the groups of TSPACE_METHOD_MIKKTSPACE with corrected pairing. The
-     * weight of a face at a corner is 1, the corner angle, or the face's area. */
+     * weight of a face at a corner is 1 (TSPACE_METHOD_UNIFORM), the corner angle (TSPACE_METHOD_ANGLE), or the
+     * face's area (TSPACE_METHOD_AREA). */
     TSPACE_METHOD_UNIFORM = 2,
     TSPACE_METHOD_ANGLE = 3,
     TSPACE_METHOD_AREA = 4,
-    TSPACE_METHOD_FLAT = 5, /* The face's own dP/du at each of its corners, made orthogonal to that corner's N. */
-    /* No UVs: an orthonormal basis from N alone (Duff et al. 2017). No such basis is continuous over a closed
-     * surface. */
+    /* The face's own dP/du at each of its corners, orthogonalized against that corner's N. */
+    TSPACE_METHOD_FLAT = 5,
+    /* Orthonormal basis from N, without UVs (Duff et al. 2017). No such basis is continuous over a closed surface. */
     TSPACE_METHOD_BASIS = 6,
     /* Two weighted sums of dP/du in the groups of TSPACE_METHOD_ANGLE: one that is accurate on smooth surfaces (Max
-     * 1999), one that is robust on bevels and noise, mixed by the angle between them. More accurate than all
-     * weighted means, and hardly dearer than TSPACE_METHOD_UNIFORM. */
+     * 1999), and one that is robust on bevels and noise, blended by the angle between them. More accurate than all
+     * weighted means, at little more cost than TSPACE_METHOD_UNIFORM. */
     TSPACE_METHOD_FAST = 7,
-    /* A quadratic map from UVs to the tangent plane, fitted to the edges around each vertex (polynomial preserving
-     * recovery, Zhang and Naga 2005), in the groups of TSPACE_METHOD_ANGLE; where the fit is doubtful it becomes a
-     * robust mean. The error of its tangents falls with the square of the edge length, not with the length as that
-     * of all others. */
+    /* Quadratic map from UVs to the tangent plane, fitted to the edges around each vertex (polynomial preserving
+     * recovery, Zhang and Naga 2005), in the groups of TSPACE_METHOD_ANGLE; if the fit is unreliable, a robust mean.
+     * The error of its tangents decreases with the square of the edge length; the error of all other methods
+     * decreases linearly. */
     TSPACE_METHOD_BEST = 8
 };
 
-/* The name of a method as the tool and the docs spell it ("mikktspace"); "unknown" for other values. */
+/* Returns the name of a method as in the tool and the docs ("mikktspace"); "unknown" for other values. */
 const char* tspace_methodName(tspace_Method method) TSPACE_NOEXCEPT;
 
-/* How TSPACE_METHOD_MIKKTSPACE finds neighbouring faces. */
+/* How TSPACE_METHOD_MIKKTSPACE finds neighboring faces. */
 typedef uint32_t tspace_Pairing;
 enum {
-    TSPACE_PAIRING_REFERENCE = 0, /* with the reference's defect: the last bucket of its edge list is not sorted */
-    TSPACE_PAIRING_CORRECTED = 1  /* without it: grouping no longer depends on the order of faces */
+    TSPACE_PAIRING_REFERENCE = 0, /* with the reference's bug: the last bucket of its edge list is not sorted */
+    TSPACE_PAIRING_CORRECTED = 1  /* without the bug: grouping does not depend on the order of faces */
 };
 
-/* What happens to faces with more than 4 corners, which the MikkTSpace reference ignores. */
+/* Treatment of faces with more than 4 corners, which the MikkTSpace reference ignores. */
 typedef uint32_t tspace_Ngons;
 enum {
-    TSPACE_NGONS_TRIANGULATE = 0, /* cut as by tspace_triangulate; results come back per corner of the n-gon */
-    TSPACE_NGONS_SKIP = 1         /* as the reference: nothing is computed, outputs are 0 */
+    TSPACE_NGONS_TRIANGULATE = 0, /* triangulated by tspace_triangulate; results are per corner of the n-gon */
+    TSPACE_NGONS_SKIP = 1         /* skipped, as in the reference: all outputs are 0 */
 };
 
-/* What one entry of the outputs belongs to. */
+/* Element type of the outputs. */
 typedef uint32_t tspace_OutputDomain;
 enum {
     TSPACE_DOMAIN_CORNER = 0,
-    /* One entry per vertex of the mesh: TSPACE_METHOD_LENGYEL and TSPACE_METHOD_BASIS, whose results are the same at
-     * all corners of a vertex. Every entry has the bits that the vertex's corners would get. Vertices that no used
-     * face names get 0. */
+    /* One entry per vertex of the mesh: for TSPACE_METHOD_LENGYEL and TSPACE_METHOD_BASIS, whose results are equal
+     * at all corners of a vertex. Every entry has the bits of the vertex's corners. Vertices that no used face
+     * refers to get 0. */
     TSPACE_DOMAIN_VERTEX = 1
 };
 
-/* Which orthonormal frame stands for dP/du and dP/dv, where UVs are sheared and the two are not perpendicular. */
+/* Orthonormal frame that replaces dP/du and dP/dv where sheared UVs make them non-perpendicular. */
 typedef uint32_t tspace_FrameShape;
 enum {
-    /* T is the direction of dP/du, and the shader's `sign * cross(N, T)` is off from dP/dv by the shear. */
+    /* T is the direction of dP/du; the shader's `sign * cross(N, T)` deviates from dP/dv by the shear. */
     TSPACE_FRAME_GRAM_SCHMIDT = 0,
-    /* T is the bisector of dP/du and of the direction perpendicular to dP/dv (Löwdin 1950): both are off by half of
-     * the shear. Nearer to what the UVs say, but not what a baker or an engine with another tangent space expects. */
+    /* T is the bisector of dP/du and the direction perpendicular to dP/dv (Löwdin 1950): both deviate by half of the
+     * shear. Closer to the UVs, but not what bakers and engines with another tangent space expect. */
     TSPACE_FRAME_SYMMETRIC = 1
 };
 
-/* How tangents are computed. First what all methods have, then what one of them has alone and others do not look at. */
+/* Options of tspace_generateTangents: first those for all methods, then those of a single method, which others
+ * ignore. */
 typedef struct tspace_TangentOptions {
     uint32_t struct_size;
     tspace_Method method; /* the default is what bakers and glTF expect */
-    /* Decides the stored sign, and has no default: "gltf" for glTF; "opengl" stores the raw sign, as the reference
-     * does. INVALID_OPTION where it is not set.
+    /* Determines the stored sign; there is no default: "gltf" for glTF; "opengl" stores the raw sign, as the
+     * reference does. If unset: INVALID_OPTION.
      * In C: by tspace_findConvention. */
     tspace_Convention convention;
-    tspace_Ngons ngons; /* the default leaves no corner without a tangent */
-    /* TSPACE_DOMAIN_VERTEX for TSPACE_METHOD_LENGYEL and TSPACE_METHOD_BASIS only: others have no one result per
-     * vertex */
+    tspace_Ngons ngons; /* by default every corner gets a tangent */
+    /* TSPACE_DOMAIN_VERTEX for TSPACE_METHOD_LENGYEL and TSPACE_METHOD_BASIS only: other methods have several
+     * results per vertex */
     tspace_OutputDomain domain;
-    /* TSPACE_FRAME_SYMMETRIC is refused for TSPACE_METHOD_MIKKTSPACE, whose results are the reference's, and for
-     * TSPACE_METHOD_BASIS, which has no UVs. The default is what bakers and engines expect. */
+    /* TSPACE_FRAME_SYMMETRIC is rejected for TSPACE_METHOD_MIKKTSPACE, whose results are those of the reference, and
+     * for TSPACE_METHOD_BASIS, which uses no UVs. The default is what bakers and engines expect. */
     tspace_FrameShape frame;
-    /* Degrees, meant for 0..360. Faces of one group whose tangents (or bitangents) differ by this or more are not
-     * averaged. 180 is the reference's default and what every baker uses. As in the reference, any float is taken:
-     * only its cosine counts, and with NaN no two faces are averaged. Default: 180. */
+    /* Angular threshold in degrees, usually 0..360: faces of a group whose tangents (or bitangents) differ by this
+     * or more are not averaged. 180 is the default of the reference and of every baker. As in the reference, any
+     * float is accepted: only its cosine is used, and with NaN no two faces are averaged. Default: 180. */
     float angular_threshold_deg;
-    tspace_Pairing pairing; /* the default has the bits of every other MikkTSpace */
-    /* 0, 1 or 2 steps after the fit. A step changes each frame so that, interpolated along the edges around it, it
-     * gives these edges, as far as they agree. 1: a fifth less error in what is shaded. 2: another twentieth less.
-     * 0: the fit alone. Default: 1. */
+    tspace_Pairing pairing; /* the default is bit-identical to every other MikkTSpace */
+    /* Number of refinement steps after the fit: 0, 1 or 2. A step changes each frame so that, interpolated along the
+     * edges around it, it reproduces these edges, as far as they agree. 1: a fifth less shading error. 2: another
+     * twentieth less. Default: 1. */
     uint32_t refine;
-    /* 0 or 1. 1: a normal whose length is further from 1 than rounding to 8 bits explains (0.00674) is scaled to
-     * length 1 before anything is computed from it; all others, and those without a direction, keep their bits. 0,
-     * the default, takes normals as they are: no method scales them, as the reference does not. A tangent is then
-     * not perpendicular to a normal that is not unit: on a sphere it is off by up to 28 degrees at length 2. */
+    /* 0 or 1. 1: normalize normals whose length deviates from 1 by more than 8-bit rounding does (0.00674) before
+     * they are used; all others, and those without a direction, keep their bits. 0, the default: use normals as
+     * given, as the reference does. A tangent is then not perpendicular to a normal that is not unit: on a sphere it
+     * deviates by up to 28 degrees at length 2. */
     uint32_t normalize_normals;
 } tspace_TangentOptions;
 
-/* In C: prepares options as TSPACE_INIT does, for languages that have no macros.
- * struct_size  bytes of the struct as the caller declares it. One that this version does not know is INVALID_OPTION, and
- *              nothing is written.
- * Zeros are refused: without a convention, and with one where angular_threshold_deg and refine are both 0 (INVALID_OPTION
- * of whatever takes the options). Either may be 0 alone, and no method looks at both.
+/* In C: initializes options like TSPACE_INIT, for languages without macros.
+ * struct_size  size of the struct as declared by the caller, in bytes. If this version does not support the size:
+ *              INVALID_OPTION, and nothing is written.
+ * Functions reject zero-filled options (INVALID_OPTION): without a convention, and also with one if
+ * angular_threshold_deg and refine are both 0. Either may be 0 alone; no method uses both.
  * Errors: NULL_DATA, INVALID_OPTION. */
 tspace_ErrorCode tspace_initTangentOptions(tspace_TangentOptions* options, uint32_t struct_size,
                                            tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* Counts of triangles, groups and defects of the input. Broken input never makes a call fail. */
+/* Counts of triangles, groups and defects of the input. Invalid geometry never makes a call fail. */
 typedef struct tspace_TangentReport {
     uint32_t struct_size;
-    /* 0 or 1. TSPACE_METHOD_MIKKTSPACE: the input drives the reference itself into quadratic time, so its last step
-     * was left out. Either its sort (with TSPACE_PAIRING_REFERENCE): the corrected pairing was used for the last
-     * bucket; only crafted inputs do this. Or its angular test: a group of more than 4096 faces whose tangents
+    /* 0 or 1. TSPACE_METHOD_MIKKTSPACE: the input would drive the reference into quadratic time, so its last step
+     * was skipped. Either its sort (with TSPACE_PAIRING_REFERENCE): the corrected pairing was used for the last
+     * bucket; only crafted inputs cause this. Or its angular test: a group of more than 4096 faces whose tangents
      * spread too far was not split. */
     uint32_t reference_order_abandoned;
-    uint64_t triangle_count;            /* triangles computed with, after cutting quads and n-gons */
-    uint64_t degenerate_triangle_count; /* two corners at the same position */
-    uint64_t degenerate_uv_count;       /* triangles without UV area: they take their neighbours' frame */
-    uint64_t mirrored_count;            /* triangles that show the image mirrored, in the convention */
+    uint64_t triangle_count;            /* processed triangles, after triangulation of quads and n-gons */
+    uint64_t degenerate_triangle_count; /* triangles with two corners at the same position */
+    uint64_t degenerate_uv_count;       /* triangles without UV area: they use the frames of their neighbors */
+    uint64_t mirrored_count;            /* triangles that show the image mirrored, in the chosen convention */
     uint64_t skipped_face_count;        /* faces for which nothing was computed */
     uint64_t group_count;               /* groups: sets of corners that share one tangent */
-    uint64_t default_corner_count;      /* outputs that no face gives a tangent: the method's default */
+    uint64_t default_corner_count;      /* outputs without a tangent from any face: default of the method */
     uint64_t not_finite_count;          /* outputs whose tangent has a NaN or infinity */
 } tspace_TangentReport;
 
-/* Where results go: one entry per corner (or vertex, see tspace_OutputDomain). Only `tangents` is required; empty
- * spans are not written. */
+/* Output arrays: one entry per corner (or vertex, see tspace_OutputDomain). Only `tangents` is required; empty spans
+ * are not written. */
 typedef struct tspace_TangentOutput {
     uint32_t struct_size;
     uint32_t reserved;
     /* 4 floats each: xyz: unit tangent; w: sign (+1 or -1), `B = w * cross(N, T)` in the chosen convention. */
     tspace_Span tangents;
     /* 3 floats each: unit direction of dP/dv (times tspace_signFactor(convention)), averaged like the tangent; in
-     * general not cross(N, T). For methods that have none (TSPACE_METHOD_BASIS): sign * cross(N, T). */
+     * general not cross(N, T). For methods without a bitangent (TSPACE_METHOD_BASIS): sign * cross(N, T). */
     tspace_Span bitangents;
-    tspace_Span magnitudes_s; /* 1 float each: mean length of dP/du; 1 for methods without */
-    tspace_Span magnitudes_t; /* 1 float each: mean length of dP/dv; 1 for methods without */
-    /* 1: at least one face gives the entry its tangent. 0: none does, and the method's default was written (counted
-     * in tspace_TangentReport.default_corner_count), or the entry was cleared, as corners of skipped faces and
-     * unused vertices are. */
+    tspace_Span magnitudes_s; /* 1 float each: mean length of dP/du; 1 for methods that compute none */
+    tspace_Span magnitudes_t; /* 1 float each: mean length of dP/dv; 1 for methods that compute none */
+    /* 1: at least one face contributes to the tangent. 0: none does, and the method's default was written (counted
+     * in tspace_TangentReport.default_corner_count), or the entry was cleared, as for corners of skipped faces and
+     * unused vertices. */
     tspace_ByteSpan has_tangent;
 } tspace_TangentOutput;
 
-/* Tangents for a mesh in one call.
+/* Computes the tangents of a mesh in one call.
  *
  * mesh       positions; unit normals (all methods; see tspace_TangentOptions.normalize_normals); UVs (all but
  *            TSPACE_METHOD_BASIS)
  * options    the convention must be set
  * out        spans of tspace_cornerCount(mesh) entries (mesh->positions.count with TSPACE_DOMAIN_VERTEX); must not
  *            overlap the inputs or each other
- * execution  threads and memory; changes no bit
+ * execution  threads and memory; does not affect the result
  * Corners of faces with fewer than 3 corners (and of n-gons with TSPACE_NGONS_SKIP) get 0 in every output. Results
- * are per corner: do not write them through the old index list, but split vertices whose corners disagree
- * (tspace_splitVertices, or tspace_makeIndexedFrames for all in one). Tangents that are not finite or not unit stay
- * as the method gives them: tspace_sanitizeTangents mends them.
- * The bits are those of tspace_planTangents and then tspace_evaluateTangents on the mesh's own pose, but most meshes
- * take a shorter way. A mesh with several index lists (tspace_Mesh.normal_indices, uv_indices) has the results of
- * the mesh that its caller would have unrolled.
+ * are per corner: do not write them through the old index list, but split vertices whose corners differ
+ * (tspace_splitVertices, or tspace_makeIndexedFrames for all steps). Tangents that are not finite or not unit are
+ * left as the method computed them: tspace_sanitizeTangents repairs them.
+ * The result has the same bits as tspace_planTangents followed by tspace_evaluateTangents on the mesh's own pose,
+ * but most meshes take a faster path. A mesh with several index lists (tspace_Mesh.normal_indices, uv_indices) has
+ * the results of the mesh that its caller would otherwise have unrolled.
  * Errors: those of tspace_validate; MISSING_ATTRIBUTE, COUNT_MISMATCH (outputs), NULL_DATA, INVALID_OPTION,
- * OUT_OF_MEMORY; TOO_LARGE also for more than 715,827,882 triangles (the methods that group: mikktspace, uniform,
- * angle, area, fast, best). Until the call returns, and when it fails, the outputs hold anything.
- * Linear in the number of corners whatever the input (fans, books, collapsed faces). Thread-safe. Same bits for any
+ * OUT_OF_MEMORY; TOO_LARGE also for more than 715,827,882 triangles (methods with groups: mikktspace, uniform,
+ * angle, area, fast, best). The contents of the outputs are undefined until the call returns, and after an error.
+ * Linear in the number of corners for any input (fans, books, collapsed faces). Thread-safe. Same bits for any
  * thread count and SIMD target.
  *
- * Scratch memory on a mesh of triangles: TSPACE_METHOD_LENGYEL 16 bytes per vertex, or 8 with TSPACE_DOMAIN_VERTEX
- * (24 where the tangents' stride is not 16). TSPACE_METHOD_MIKKTSPACE, TSPACE_METHOD_UNIFORM, TSPACE_METHOD_ANGLE
- * and TSPACE_METHOD_AREA about 36 bytes per vertex without equal vertices, 46 with some, 80 when more than tangents
- * is asked for, and 32 per triangle for unindexed corners (where the tangents' stride is not 16 some more: see
- * docs/reference/memory.md); up to about 130 bytes per triangle for meshes that need the long way (thresholds,
- * values that are not finite), and about 150 beside the first for each triangle around a vertex that needs a second
- * look (several groups, doubtful splits, degenerate triangles). TSPACE_METHOD_FAST and TSPACE_METHOD_BEST take about
- * as much, and up to 2 MB per thread; TSPACE_METHOD_BEST 32 bytes per group more for each of its steps.
- * TSPACE_FRAME_SYMMETRIC adds 12 bytes per output unless bitangents are asked for, and a mesh with several index
- * lists about 40 bytes per corner of operator new. */
+ * Scratch memory on a triangle mesh: TSPACE_METHOD_LENGYEL 16 bytes per vertex, or 8 with TSPACE_DOMAIN_VERTEX (24
+ * if the tangents' stride is not 16). TSPACE_METHOD_MIKKTSPACE, TSPACE_METHOD_UNIFORM, TSPACE_METHOD_ANGLE and
+ * TSPACE_METHOD_AREA about 36 bytes per vertex without equal vertices, 46 with some, 80 if more than tangents is
+ * requested, and 32 per triangle for unindexed corners (more if the tangents' stride is not 16: see
+ * docs/reference/memory.md); up to about 130 bytes per triangle for meshes that need the general path (thresholds,
+ * values that are not finite), and about 150 more for each triangle around a vertex with special cases (several
+ * groups, uncertain splits, degenerate triangles). TSPACE_METHOD_FAST and TSPACE_METHOD_BEST need about as much, and
+ * up to 2 MB per thread; TSPACE_METHOD_BEST 32 bytes more per group for each refinement step. TSPACE_FRAME_SYMMETRIC
+ * adds 12 bytes per output unless bitangents are requested, and a mesh with several index lists about 40 bytes per
+ * corner of operator new. */
 tspace_ErrorCode tspace_generateTangents(const tspace_Mesh* mesh, const tspace_TangentOptions* options,
                                          const tspace_TangentOutput* out, const tspace_Execution* execution,
                                          tspace_TangentReport* report, tspace_Error* error) TSPACE_NOEXCEPT;
@@ -506,49 +510,50 @@ tspace_ErrorCode tspace_generateTangents(const tspace_Mesh* mesh, const tspace_T
  * In C: the layout of this struct never changes. */
 typedef struct tspace_MeshJob {
     const tspace_Mesh* mesh;
-    const tspace_TangentOptions* options; /* the convention must be set, as in a call for one mesh */
-    const tspace_TangentOutput* out;      /* spans of the size that a call for this mesh alone needs */
-    tspace_TangentReport* report;         /* null, or a prepared report, which is written when the job succeeds */
-    tspace_Error* error;                  /* null, or written in either case: what this job alone would return */
+    const tspace_TangentOptions* options; /* the convention must be set */
+    const tspace_TangentOutput* out;      /* spans of the sizes that a single call for this mesh requires */
+    tspace_TangentReport* report;         /* null, or an initialized report, which is written if the job succeeds */
+    tspace_Error* error;                  /* null, or always written: the error of this job */
 } tspace_MeshJob;
 
-/* Tangents for many meshes in one call. It starts threads once, not once per mesh, and each thread reuses its
- * scratch memory. Use it for models with hundreds or thousands of small primitives.
+/* Computes the tangents of many meshes in one call. It starts threads once, not once per mesh, and each thread
+ * reuses its scratch memory. Use it for models with hundreds or thousands of small primitives.
  *
  * jobs       any number of meshes, which may share inputs; outputs must not overlap inputs or each other, across all
  *            jobs
- * execution  each thread takes whole meshes, except that all threads together work on a mesh with more corners than
- *            a thread's share of all corners
+ * execution  each thread takes whole meshes, except that all threads cooperate on a mesh with more corners than a
+ *            thread's share of all corners
  * Returns one result per job, in the order of the jobs: the report or the error that tspace_generateTangents(mesh,
  * options, out) returns for this job alone. A job that fails does not affect the others. The outputs have the bits
- * of single calls. Errors of the call itself: OUT_OF_MEMORY (for the results and the scratch memory of the threads);
- * the outputs of all jobs hold anything then.
+ * of single calls.
+ * Errors of the call itself: OUT_OF_MEMORY (for the results and the scratch memory of the threads); the contents of
+ * all outputs are then undefined.
  * Linear in the number of all corners and jobs. Thread-safe. Same bits for any thread count and SIMD target.
  *
- * Scratch memory: 128 KB per thread; where a job needs more, what a call for this mesh alone takes. An allocator of
+ * Scratch memory: 128 KB per thread; if a job needs more, as much as a single call for this mesh. An allocator of
  * `execution` is called from all threads, but never by two of them at the same time.
- * In C: a job reports through its members `report` and `error`. The call returns TSPACE_OK when all jobs succeeded,
- * and otherwise the code of the first job that failed; `error` then has its message, and as `element` the number of the
- * job. Jobs that did not fail have their results in either case. `jobs` may be null when job_count is 0. */
+ * In C: the results of a job are in its members `report` and `error`. The call returns TSPACE_OK if all jobs succeeded,
+ * otherwise the code of the first job that failed; `error` then has its message, and the job's index as `element`. Jobs
+ * that did not fail have their results in either case. `jobs` may be null if job_count is 0. */
 tspace_ErrorCode tspace_generateTangentsOfMeshes(const tspace_MeshJob* jobs, size_t job_count,
                                                  const tspace_Execution* execution,
                                                  tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* Everything about a mesh that does not change while it deforms: welding, neighbours, groups, splits, UVs.
- * Owns its memory and keeps no pointer into the mesh it was made from. Immutable, so many threads may evaluate one
- * plan at the same time. If it was made with a tspace_Allocator, that must outlive it. A plan that was moved from is
- * that of a mesh without vertices. */
+/* Precomputed data that do not change while a mesh deforms: welding, neighbors, groups, splits, UVs. Owns its memory
+ * and keeps no pointer to the mesh. Immutable, so many threads may evaluate one plan at the same time. If it was
+ * created with a tspace_Allocator, that must outlive it. A moved-from plan is equivalent to the plan of a mesh
+ * without vertices. */
 typedef struct tspace_TangentPlan tspace_TangentPlan;
 
-/* Makes the plan: welds equal vertices (position, normal and UV all equal), finds neighbours, groups and splits.
+/* Creates a plan: welds equal vertices (position, normal and UV all equal), finds neighbors, groups and splits.
  * Inputs, errors and complexity as tspace_generateTangents. An allocator of `execution` must outlive the plan.
- * In C: *plan is null after an error. End it with tspace_destroyTangentPlan. */
+ * In C: *plan is null after an error. Free it with tspace_destroyTangentPlan. */
 tspace_ErrorCode tspace_planTangents(const tspace_Mesh* mesh, const tspace_TangentOptions* options,
                                      const tspace_Execution* execution, tspace_TangentPlan** plan,
                                      tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* The shape of a mesh at one moment: what changes while a mesh deforms. Counts and meaning as in the tspace_Mesh
- * that the plan was made from, index lists included. */
+/* Shape of a mesh at one moment: the data that change while it deforms. Counts, order and index lists are those of
+ * the tspace_Mesh that the plan was created from. */
 typedef struct tspace_Pose {
     uint32_t struct_size;
     uint32_t reserved;
@@ -556,28 +561,29 @@ typedef struct tspace_Pose {
     tspace_ConstSpan normals;   /* 3 floats each */
 } tspace_Pose;
 
-/* Computes frames for a pose with the plan's groups and splits. Each corner has the pose's position and normal of
- * its own vertex, also where vertices that were equal on the mesh come apart. On the pose the plan was made from the
- * result is bit for bit that of tspace_generateTangents. `execution` replaces the plan's. Scratch memory of the
- * grouping methods: 12 bytes per group when only tangents are asked for, else 44; with several threads also up to 12
- * bytes per triangle where triangles are in no order, and next to nothing where they are. Errors: PLAN_MISMATCH when
- * counts differ from the plan's, and those of span checks. O(corners).
- * In C: execution null: the default. */
+/* Computes frames for a pose with the plan's groups and splits. Each corner uses the pose's position and normal of
+ * its own vertex, also if vertices that were equal on the mesh differ in the pose. For the pose that the plan was
+ * created from, the result is bit-identical to tspace_generateTangents. `execution` replaces the plan's. Scratch
+ * memory of methods with groups: 12 bytes per group if only tangents are requested, otherwise 44; with several
+ * threads also up to 12 bytes per triangle for triangles in random order, and almost none for ordered ones. Errors:
+ * PLAN_MISMATCH if counts differ from the plan's, and those of span checks. O(corners).
+ * In C: execution may be null: the default. */
 tspace_ErrorCode tspace_evaluateTangents(const tspace_TangentPlan* plan, const tspace_Pose* pose,
                                          const tspace_TangentOutput* out, const tspace_Execution* execution,
                                          tspace_TangentReport* report, tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* What a plan is for. */
+/* Properties of a plan. */
 typedef struct tspace_TangentPlanInfo {
     uint32_t struct_size;
     tspace_Method method;
     size_t vertex_count;
     size_t corner_count;
-    size_t output_count; /* Entries of every output: corner_count, or vertex_count with TSPACE_DOMAIN_VERTEX. */
-    size_t memory_bytes; /* Bytes held by the plan. */
+    /* Returns the number of entries of every output: corner_count, or vertex_count with TSPACE_DOMAIN_VERTEX. */
+    size_t output_count;
+    size_t memory_bytes; /* Returns the memory that the plan uses, in bytes. */
 } tspace_TangentPlanInfo;
 
-/* Describes a plan. info is written after success only.
+/* Returns the properties of a plan. info is written on success only.
  * Errors: NULL_DATA, INVALID_OPTION. */
 tspace_ErrorCode tspace_describeTangentPlan(const tspace_TangentPlan* plan, tspace_TangentPlanInfo* info,
                                             tspace_Error* error) TSPACE_NOEXCEPT;
@@ -585,25 +591,25 @@ tspace_ErrorCode tspace_describeTangentPlan(const tspace_TangentPlan* plan, tspa
 /* Frees a plan. Null is allowed. */
 void tspace_destroyTangentPlan(tspace_TangentPlan* plan) TSPACE_NOEXCEPT;
 
-/* Triangles of a polygon mesh, as corners of the original mesh (not vertices), so that results per corner carry
- * over.
- * In C: made by the library; later versions may append fields. */
+/* Triangles of a polygon mesh, as corners of the original mesh (not vertices), so that per-corner results still
+ * apply.
+ * In C: allocated by the library; later versions may append fields. */
 typedef struct tspace_Triangulation {
-    const uint32_t* corners; /* three per triangle, winding kept */
-    const uint32_t* faces;   /* one per triangle: the face it was cut from */
+    const uint32_t* corners; /* three per triangle; winding is preserved */
+    const uint32_t* faces;   /* one per triangle: its original face */
     size_t triangle_count;
 } tspace_Triangulation;
 
-/* Cuts every face with 4 or more corners.
+/* Triangulates every face with 4 or more corners.
  *
- * Quads: the diagonal that MikkTSpace takes: the shorter one in UV space; if equal (or without UVs) 1-3 only when it
- * is strictly shorter in space, else 0-2.
- * n-gons: ears are clipped, the ear with the shortest diagonal first (squared length in space; ties by the diagonal
- * in UV space, then by the coordinates of its end points), ears seen in the plane of Newell's normal. The cut
- * depends on the polygon's geometry, not on the vertex it starts with. Where no ear is left (polygon not simple),
- * the shortest diagonal is cut anyway. Above 1024 corners the test that an ear is empty is left out.
- * Faces with fewer than 3 corners give nothing. Triangles come in face order.
- * Errors: those of tspace_validate; OUT_OF_MEMORY. O(corners) for triangles and quads, O(n^2) at most for an n-gon.
+ * Quads: the diagonal that MikkTSpace chooses: the shorter one in UV space; if equal (or without UVs), 1-3 only if
+ * it is strictly shorter in space, otherwise 0-2.
+ * n-gons: ear clipping in the plane of Newell's normal. The ear with the shortest diagonal is clipped first (squared
+ * length in space; ties by the diagonal in UV space, then by the coordinates of its end points). The result depends
+ * on the polygon's geometry, not on its first vertex. If no ear is left (polygon not simple), the shortest diagonal
+ * is cut. Above 1024 corners ears are not tested for emptiness.
+ * Faces with fewer than 3 corners produce no triangles. Triangles are in face order.
+ * Errors: those of tspace_validate; OUT_OF_MEMORY. O(corners) for triangles and quads, at most O(n^2) for an n-gon.
  * In C: *result is null after an error. Free it with tspace_destroyTriangulation. */
 tspace_ErrorCode tspace_triangulate(const tspace_Mesh* mesh, tspace_Triangulation** result,
                                     tspace_Error* error) TSPACE_NOEXCEPT;
@@ -612,9 +618,9 @@ tspace_ErrorCode tspace_triangulate(const tspace_Mesh* mesh, tspace_Triangulatio
 void tspace_destroyTriangulation(tspace_Triangulation* result) TSPACE_NOEXCEPT;
 
 /* == frame.h ==
- * The mathematics of one frame (T, B, N), after Lengyel, "Foundations of Game Engine Development 2", 2019, ch. 7.
- * All functions are pure, O(1), use no memory, cannot fail, and may be called from any thread. Results are finite
- * for finite sound input. Vectors need not be unit unless a function says so. */
+ * Operations on a single frame (T, B, N), after Lengyel, "Foundations of Game Engine Development 2", 2019, ch. 7.
+ * All functions are pure and O(1), use no memory, cannot fail, and may be called from any thread. Results are finite
+ * for finite valid input. Vectors need not have unit length unless a function says so. */
 
 typedef struct tspace_Vec2 {
     float x, y;
@@ -624,176 +630,177 @@ typedef struct tspace_Vec3 {
     float x, y, z;
 } tspace_Vec3;
 
-/* A tangent with its sign: x, y, z is the tangent, w the sign (+1 or -1). */
+/* Tangent with its sign: x, y, z is the tangent, w is the sign (+1 or -1). */
 typedef struct tspace_Vec4 {
     float x, y, z, w;
 } tspace_Vec4;
 
-/* T, B and N in object space. Columns of the matrix that takes tangent space to object space. */
+/* T, B and N in object space: the columns of the matrix from tangent space to object space. */
 typedef struct tspace_Frame {
     tspace_Vec3 tangent, bitangent, normal;
 } tspace_Frame;
 
-/* Row-major 3x3. */
+/* Row-major 3x3 matrix. */
 typedef struct tspace_Mat3 {
     tspace_Vec3 rows[3];
 } tspace_Mat3;
 
-/* Unnormalised dP/du and dP/dv of a triangle and the UV determinant s1 t2 - s2 t1 (twice the signed UV area). */
+/* Unnormalized dP/du and dP/dv of a triangle, and the UV determinant s1 t2 - s2 t1 (twice the signed UV area). */
 typedef struct tspace_FaceFrame {
     tspace_Vec3 tangent;   /* (t2 E1 - t1 E2) / determinant; zero when the determinant is zero */
     tspace_Vec3 bitangent; /* (s1 E2 - s2 E1) / determinant; zero when the determinant is zero */
     float determinant;
 } tspace_FaceFrame;
 
-/* From the edges P1-P0 and P2-P0. Divides by nothing when the determinant is zero or not finite.
- * In C: positions and uvs are 3 each. */
+/* Computes the frame from the edges P1-P0 and P2-P0. Does not divide if the determinant is zero or not finite.
+ * In C: positions and uvs have 3 elements each. */
 tspace_FaceFrame tspace_faceFrame(const tspace_Vec3* positions, const tspace_Vec2* uvs) TSPACE_NOEXCEPT;
-/* tspace_faceFrame from the edges P1-P0 and P2-P1: equal up to rounding.
- * In C: positions and uvs are 3 each. */
+/* Computes tspace_faceFrame from the edges P1-P0 and P2-P1; the results are equal except for rounding.
+ * In C: positions and uvs have 3 elements each. */
 tspace_FaceFrame tspace_faceFrameFromPath(const tspace_Vec3* positions, const tspace_Vec2* uvs) TSPACE_NOEXCEPT;
 
-/* Determinant of the matrix with columns T, B, N. */
+/* Returns the determinant of the matrix with columns T, B, N. */
 float tspace_determinant(tspace_Frame frame) TSPACE_NOEXCEPT;
-/* +1 or -1: the sign of tspace_determinant(frame); +1 when it is zero. */
+/* Returns the sign of tspace_determinant(frame): +1 or -1; +1 if the determinant is zero. */
 float tspace_frameSign(tspace_Frame frame) TSPACE_NOEXCEPT;
 
-/* B = sign * cross(N, T). `tangent.w` is the sign. */
+/* Returns B = sign * cross(N, T). `tangent.w` is the sign. */
 tspace_Vec3 tspace_rebuildBitangent(tspace_Vec3 normal, tspace_Vec4 tangent) TSPACE_NOEXCEPT;
 
-/* Orthonormal frame by Gram-Schmidt: N' = N/|N|; T' = T - N'(N'.T); B' = B - N'(N'.B) - T'(T'.B)/(T'.T'); each
- * normalised. Where T is (nearly) parallel to N, or zero, T' comes from tspace_basisFromNormal; where B' vanishes,
- * it is cross(N', T'). N zero or not finite is taken as (0, 0, 1). The result is always finite, unit and orthogonal. */
+/* Orthonormalizes a frame by Gram-Schmidt: N' = N/|N|; T' = T - N'(N'.T); B' = B - N'(N'.B) - T'(T'.B)/(T'.T'); each
+ * vector is normalized. If T is zero or (nearly) parallel to N, T' is taken from tspace_basisFromNormal; if B'
+ * vanishes, it is cross(N', T'). If N is zero or not finite, (0, 0, 1) replaces it. The result is always finite,
+ * unit and orthogonal. */
 tspace_Frame tspace_orthonormalize(tspace_Frame frame) TSPACE_NOEXCEPT;
 
-/* The packed form of an orthonormalised frame: T' and the sign of the original frame. */
+/* Returns the packed form of an orthonormalized frame: T' and the sign of the original frame. */
 tspace_Vec4 tspace_packTangent(tspace_Frame frame) TSPACE_NOEXCEPT;
 
-/* Right-handed orthonormal frame with the given unit normal: Duff et al., "Building an Orthonormal Basis,
+/* Returns a right-handed orthonormal frame with the given unit normal: Duff et al., "Building an Orthonormal Basis,
  * Revisited", JCGT 6(1), 2017. Continuous except where n.z changes sign. */
 tspace_Frame tspace_basisFromNormal(tspace_Vec3 unit_normal) TSPACE_NOEXCEPT;
 
-/* Columns T, B, N: takes tangent space to object space. */
+/* Returns the matrix from tangent space to object space, with columns T, B, N. */
 tspace_Mat3 tspace_tangentToObject(tspace_Frame frame) TSPACE_NOEXCEPT;
-/* Rows T, B, N: the inverse of tspace_tangentToObject for an orthonormal frame only. */
+/* Returns the matrix with rows T, B, N: the inverse of tspace_tangentToObject, for an orthonormal frame only. */
 tspace_Mat3 tspace_objectToTangentOrthonormal(tspace_Frame frame) TSPACE_NOEXCEPT;
-/* The inverse of tspace_tangentToObject for any frame. Returns 0, and writes nothing, when the determinant is zero
- * or not finite.
- * In C: else returns 1. */
+/* Computes the inverse of tspace_tangentToObject for any frame. Returns 0, and writes nothing, if the determinant is
+ * zero or not finite.
+ * In C: otherwise returns 1. */
 int tspace_objectToTangent(tspace_Frame frame, tspace_Mat3* out) TSPACE_NOEXCEPT;
 
-/* m * v. */
+/* Returns m * v. */
 tspace_Vec3 tspace_transform(tspace_Mat3 m, tspace_Vec3 v) TSPACE_NOEXCEPT;
 
-/* Direction to tangent space and back, for any frame (general inverse). Not normalised. tspace_toTangentSpace
- * returns (0, 0, 0) for a singular frame. */
+/* Transforms a direction to tangent space or back, for any frame (general inverse), without normalization.
+ * tspace_toTangentSpace returns (0, 0, 0) for a singular frame. */
 tspace_Vec3 tspace_toTangentSpace(tspace_Frame frame, tspace_Vec3 direction) TSPACE_NOEXCEPT;
 tspace_Vec3 tspace_toObjectSpace(tspace_Frame frame, tspace_Vec3 direction) TSPACE_NOEXCEPT;
 
-/* A normal-map texel, each channel in [0, 1], decoded to a unit tangent-space normal: 2c - 1, x and y times `scale`
- * (usually 1; glTF normalTexture.scale), y negated for TSPACE_GREEN_DOWN, normalised. (0, 0, 1) when the result has
- * no length. */
+/* Decodes a normal-map texel, each channel in [0, 1], to a unit tangent-space normal: 2c - 1, x and y times `scale`
+ * (usually 1; glTF normalTexture.scale), y negated for TSPACE_GREEN_DOWN, normalized. Returns (0, 0, 1) if the
+ * result has no length. */
 tspace_Vec3 tspace_decodeNormal(tspace_Vec3 texel, float scale, tspace_Green green) TSPACE_NOEXCEPT;
 
-/* uv * tiling + offset, then taken into [0, 1) per component: where a tiled texture is sampled. */
+/* Returns uv * tiling + offset, wrapped to [0, 1) per component: the coordinates at which a tiled texture is
+ * sampled. */
 tspace_Vec2 tspace_tileUv(tspace_Vec2 uv, tspace_Vec2 tiling, tspace_Vec2 offset) TSPACE_NOEXCEPT;
 
-/* Lambert's cosine in tangent space: max(0, n.l) with n the decoded texel and l the object-space direction towards
- * the light taken to tangent space by the orthonormalised frame. The CPU reference for shaders. */
+/* Returns Lambert's cosine in tangent space: max(0, n.l), where n is the decoded texel and l the object-space
+ * direction towards the light, transformed to tangent space by the orthonormalized frame. The CPU reference for
+ * shaders. */
 float tspace_lambert(tspace_Frame frame, tspace_Vec3 light_direction, tspace_Vec3 tangent_space_normal) TSPACE_NOEXCEPT;
 
-/* Object-space normal for a decoded texel: unit(T x + B y + N z) with the frame orthonormalised first. */
+/* Returns the object-space normal for a decoded texel: unit(T x + B y + N z) with the orthonormalized frame. */
 tspace_Vec3 tspace_objectNormal(tspace_Frame frame, tspace_Vec3 tangent_space_normal) TSPACE_NOEXCEPT;
 
-/* tspace_objectNormal in MikkTSpace's convention, which bakers assume: T and N as interpolated, not normalised, B =
- * sign * cross(N, T) from them; only the result is normalised. */
+/* Returns tspace_objectNormal in MikkTSpace's convention, which bakers assume: T and N as interpolated, not
+ * normalized, and B = sign * cross(N, T) from them; only the result is normalized. */
 tspace_Vec3 tspace_objectNormalMikktspace(tspace_Vec3 interpolated_normal, tspace_Vec4 interpolated_tangent,
                                           tspace_Vec3 tangent_space_normal) TSPACE_NOEXCEPT;
 
 /* == normals.h ==
- * Normals of faces, averaged at vertices: one result per corner, so that hard edges can be split afterwards. */
+ * Face normals averaged at vertices. Results are per corner, so that hard edges can be split afterwards. */
 
-/* How much a face counts in the mean at one of its corners. e1, e2 are the edges at the corner, a the interior angle
- * between them (above 180 degrees where a polygon is reflex). */
+/* Weight of a face in the mean at one of its corners. e1 and e2 are the edges at the corner, a is the interior angle
+ * between them (above 180 degrees at reflex corners of a polygon). */
 typedef uint32_t tspace_NormalWeighting;
 enum {
-    /* no averaging: each corner gets its face's unit normal, as glTF asks where normals are missing */
+    /* no averaging: each corner gets its face's unit normal, as glTF requires for missing normals */
     TSPACE_NORMAL_WEIGHTING_FLAT = 0,
     TSPACE_NORMAL_WEIGHTING_UNIFORM = 1,    /* 1: mean of unit face normals (Gouraud 1971) */
-    TSPACE_NORMAL_WEIGHTING_AREA = 2,       /* the face's area (|e1 x e2| / 2 for a triangle): large faces count more */
-    TSPACE_NORMAL_WEIGHTING_ANGLE = 3,      /* a: independent of tessellation (Thuermer & Wuethrich 1998) */
+    TSPACE_NORMAL_WEIGHTING_AREA = 2,       /* area of the face (|e1 x e2| / 2 for a triangle) */
+    TSPACE_NORMAL_WEIGHTING_ANGLE = 3,      /* a: independent of the tessellation (Thuermer & Wuethrich 1998) */
     TSPACE_NORMAL_WEIGHTING_ANGLE_AREA = 4, /* a * area */
     TSPACE_NORMAL_WEIGHTING_MAX = 5,        /* sin(a) / (|e1| |e2|): exact on a sphere (Max 1999) */
-    /* No mean: the normal of a quadratic surface through the edges at the point. Where these look like noise or a
-     * bevel it is the mean of TSPACE_NORMAL_WEIGHTING_ANGLE_AREA, and in between a blend. The most accurate, and the
-     * slowest. */
+    /* Normal of a quadratic surface fitted to the edges at the point. If the edges look like noise or a bevel, the
+     * mean of TSPACE_NORMAL_WEIGHTING_ANGLE_AREA; in between, a blend of both. The most accurate and the slowest. */
     TSPACE_NORMAL_WEIGHTING_BEST = 6
 };
 
-/* How normals are computed. First what all weightings have, then what some do not look at. */
+/* Options of tspace_generateNormals: first those that apply to all weightings, then those that apply to some. */
 typedef struct tspace_NormalOptions {
     uint32_t struct_size;
-    /* the default does not depend on how faces were cut. Default: TSPACE_NORMAL_WEIGHTING_ANGLE. */
+    /* the default does not depend on how faces were triangulated. Default: TSPACE_NORMAL_WEIGHTING_ANGLE. */
     tspace_NormalWeighting weighting;
-    tspace_Convention convention; /* Its handedness and winding say which side is out; the default is glTF's. */
-    /* Degrees, 0..180. Two faces that share an edge are smoothed over it only when their normals differ by no more
-     * than this (and 1e-6 rad for rounding). 180, the default, because no angle fits all models: never hard (except
-     * by smoothing groups); then all faces at a point are smoothed together, also those that share no edge. -1: by
-     * the mesh. The angle is in the widest gap between those that most edges have and those that few have, and noise
-     * of positions is filtered out before. tspace_NormalReport says which it is. Default: 180. */
+    tspace_Convention convention; /* Handedness and winding define the outside of faces. Default: glTF. */
+    /* Maximum angle between the normals of two faces whose shared edge is smooth, in degrees, 0..180 (plus 1e-6 rad
+     * for rounding). Default: 180, because no angle suits all models: no hard edges (except from smoothing groups),
+     * and all faces at a point are smoothed together, also faces that share no edge. -1: derived from the mesh. The
+     * angle lies in the widest gap between the angles of most edges and those of few edges; noise of positions is
+     * filtered out first. tspace_NormalReport contains the angle that was used. Default: 180. */
     float crease_angle_deg;
-    /* One number per face, or empty. Faces smooth together only when their numbers are equal and not 0 (OBJ `s`),
-     * or, with `smoothing_groups_are_masks`, when they have a bit in common (3ds Max). Connections pass on: where A
-     * is smooth with B and B with C around a point, all three share one normal. */
+    /* One number per face, or empty. Faces are smoothed together only if their numbers are equal and not 0 (OBJ
+     * `s`), or, with `smoothing_groups_are_masks`, if they have a bit in common (3ds Max). Smoothing is transitive:
+     * if A is smooth with B and B with C around a point, all three share one normal. */
     const uint32_t* smoothing_groups;
     size_t smoothing_group_count;        /* entries of smoothing_groups */
     uint32_t smoothing_groups_are_masks; /* 0 or 1. */
-    /* 0 or 1. 1: vertices at the same position are one point (so UV seams stay smooth); 0: only equal indices are.
-     * Default: 1. */
+    /* 0 or 1. 1: weld vertices with equal positions (so UV seams stay smooth); 0: weld by index only. Default: 1. */
     uint32_t weld_positions;
-    /* 0, 1 or 2 steps after the fit. A step moves each normal so that, interpolated along the edges around it, it is
-     * across them, as far as these agree. 1: a third less error at vertices and in what is shaded between them. 2:
-     * another quarter less. 0: the fit alone. Default: 2. */
+    /* Number of refinement steps after the fit: 0, 1 or 2. A step moves each normal so that, interpolated along the
+     * edges around it, it is perpendicular to these edges, as far as they agree. 1: a third less error at vertices
+     * and in the shading between them. 2: another quarter less. Default: 2. */
     uint32_t refine;
     uint32_t reserved;
-    /* For meshes whose positions are noisy: scans, marching cubes of a noisy field. Vertices stay; at each the
-     * normals of quadratic surfaces through two and three rings around it are blended with that of
-     * TSPACE_NORMAL_WEIGHTING_BEST, by how far each is likely to err. 0, the default: off. -1: by the noise that is
-     * measured. Where there is none, or what there is looks like shape (CAD, bevels, decimated meshes), results have
-     * the bits of 0. Above 0, up to 4: so many times the noise that is measured, whatever it looks like. 3 is for
-     * noise that is smooth from vertex to vertex, which no measure tells from detail. Hard edges hold: no surface
-     * goes through points on both sides. */
+    /* Denoising for meshes with noisy positions: scans, marching cubes of a noisy field. Vertices are not moved; at
+     * each vertex the normals of quadratic surfaces through two and three rings are blended with the normal of
+     * TSPACE_NORMAL_WEIGHTING_BEST, weighted by their expected errors. 0, the default: off. -1: by the measured
+     * noise; if there is none, or it looks like shape (CAD, bevels, decimated meshes), results have the bits of 0.
+     * Above 0, up to 4: factor of the measured noise, without that check; 3 suits noise that is smooth from vertex
+     * to vertex, which cannot be distinguished from detail. Hard edges are preserved: no surface is fitted across
+     * them. */
     float denoise;
-    /* With `weld_positions`: positions that differ by no more than this in each coordinate are one position, that of
-     * the lowest vertex among them, in the unit of positions. For meshes that close by computed coordinates, as a
-     * torus does whose last ring has sin(2 pi) = -2.4e-16 where the first has 0. 0, the default: only equal
-     * positions are. -1: twice the spacing of floats at the largest coordinate, and only at positions with an edge
-     * of 32 times that. Vertices are taken in their order: each joins the lowest earlier one within the distance
-     * that has joined no other, so that positions in a row are not all one. */
+    /* With `weld_positions`: maximum difference per coordinate, in the unit of positions, of positions that are
+     * welded to the lowest vertex among them. For meshes closed by computed coordinates, such as a torus whose last
+     * ring has sin(2 pi) = -2.4e-16 instead of 0. 0, the default: only equal positions. -1: twice the spacing of
+     * floats at the largest coordinate, and only at positions with an edge of at least 32 times that length.
+     * Vertices are processed in order: each joins the lowest earlier vertex within the distance that has not joined
+     * another one, so chains of close positions are not all welded. */
     float weld_distance;
 } tspace_NormalOptions;
 
-/* In C: prepares options as TSPACE_INIT does, for languages that have no macros.
- * struct_size  bytes of the struct as the caller declares it. One that this version does not know is INVALID_OPTION, and
- *              nothing is written.
- * Zeros are refused (INVALID_OPTION of whatever takes the options): weighting, crease_angle_deg, weld_positions and refine
- * all 0. TSPACE_NORMAL_WEIGHTING_FLAT, which is 0, looks at none of the others.
+/* In C: initializes options like TSPACE_INIT, for languages without macros.
+ * struct_size  size of the struct as declared by the caller, in bytes. If this version does not support the size:
+ *              INVALID_OPTION, and nothing is written.
+ * Functions reject zero-filled options (INVALID_OPTION): weighting, crease_angle_deg, weld_positions and refine all 0.
+ * TSPACE_NORMAL_WEIGHTING_FLAT, which is 0, uses none of the others.
  * Errors: NULL_DATA, INVALID_OPTION. */
 tspace_ErrorCode tspace_initNormalOptions(tspace_NormalOptions* options, uint32_t struct_size,
                                           tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* Counts of faces and defects of the input. Broken input never makes the call fail. */
+/* Counts of faces and defects of the input. Invalid geometry never makes the call fail. */
 typedef struct tspace_NormalReport {
     uint32_t struct_size;
     uint32_t reserved;
     uint64_t face_count;            /* faces with at least 3 corners */
     uint64_t degenerate_face_count; /* faces without a normal (zero area or not finite) */
-    uint64_t fallback_corner_count; /* corners whose mean vanished: they got a substitute, see below */
-    /* What `denoise` removed: the standard deviation of positions along the normal, in mean edge lengths. 0: it was
-     * not asked, or found no noise, and changed no bit. */
+    uint64_t fallback_corner_count; /* corners whose mean vanished and was replaced (see tspace_generateNormals) */
+    /* Noise that `denoise` removed: standard deviation of positions along the normal, in mean edge lengths. 0:
+     * denoising was off or found no noise, and changed no bit. */
     float noise;
-    /* The angle that edges were held against: as given, or as found by the mesh. That holds, where positions are
-     * noisy, for faces that were smoothed. TSPACE_NORMAL_WEIGHTING_FLAT: 0. */
+    /* Crease angle that was used: as given, or as derived from the mesh (for noisy positions, an angle between
+     * smoothed faces). TSPACE_NORMAL_WEIGHTING_FLAT: 0. */
     float crease_angle_deg;
 } tspace_NormalReport;
 
@@ -802,136 +809,136 @@ typedef struct tspace_NormalReport {
  * Face normal: Newell's sum over the polygon (for a triangle: cross(P1-P0, P2-P0)), times
  * tspace_normalFactor(convention). Vertex normal: the weighted mean of the unit face normals of all faces that are
  * connected to the corner's face around the vertex over smooth edges; weights as in tspace_NormalWeighting, summed
- * in double precision and in face order. A corner whose mean vanishes (is below 1e-10 of the weights) takes its own
- * face normal; if that is degenerate, the mean of the other faces at the vertex; if there is none, (0, 0, 1). So
- * every result is finite and unit.
- * Corners of faces with fewer than 3 corners get (0, 0, 0).
+ * in double precision and in face order. A corner whose mean vanishes (is below 1e-10 of the weights) gets its own
+ * face normal; if that is degenerate, the mean of the other faces at the vertex; if there is none, (0, 0, 1). Every
+ * result is therefore finite and unit. Corners of faces with fewer than 3 corners get (0, 0, 0).
  *
- * mesh       positions and indices; UVs and normals are not looked at
+ * mesh       positions and indices; UVs and normals are ignored
  * out        3 floats each: one per corner (count == tspace_cornerCount(mesh)); must not overlap the inputs
- * execution  threads and memory; changes no bit
+ * execution  threads and memory; does not affect the result
  * Errors: those of tspace_validate; COUNT_MISMATCH (out, smoothing_groups), INVALID_OPTION, OUT_OF_MEMORY.
- * Angles in triangles are good to 2e-7, those of polygons (face_sizes, or a face_size other than 3) are exact.
+ * Angles in triangles are accurate to 2e-7; angles in polygons (face_sizes, or a face_size other than 3) are exact.
  * O(corners). Scratch memory: about 36 bytes per vertex; with hard edges or polygons less for large meshes, up to 40
- * bytes per triangle for small ones; TSPACE_NORMAL_WEIGHTING_BEST 28 bytes per corner more. Thread-safe; same bits
- * for any thread count. */
+ * bytes per triangle for small ones; 28 bytes more per corner for TSPACE_NORMAL_WEIGHTING_BEST. Thread-safe; same
+ * bits for any thread count. */
 tspace_ErrorCode tspace_generateNormals(const tspace_Mesh* mesh, const tspace_NormalOptions* options, tspace_Span out,
                                         const tspace_Execution* execution, tspace_NormalReport* report,
                                         tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* Lengths are parts of `mean_edge`. */
+/* Result of tspace_measurePositionNoise. Lengths are relative to `mean_edge`. */
 typedef struct tspace_PositionNoise {
     uint32_t struct_size;
-    /* How far positions lie from a smooth surface through their neighbours: the standard deviation along the normal.
-     * Detail as small as a triangle is in it too. 0: less than 200 vertices have enough neighbours to tell. */
+    /* Standard deviation of positions from a smooth surface through their neighbors, along the normal. Includes
+     * detail of the size of a triangle. 0: fewer than 200 vertices have enough neighbors for a measurement. */
     float sigma;
-    /* Of how normals differ along an edge, the part that no smooth surface has: the median, 0..1. Noise gives .3 to
-     * .8; CAD, bevels and what was decimated give less for their sigma. */
+    /* Median share, 0..1, of the change of normals along an edge that no smooth surface can have. Noise: 0.3 to 0.8;
+     * CAD, bevels and decimated meshes: less, for the same sigma. */
     float kink_share;
-    /* What of `sigma` is noise: so much tspace_NormalOptions.denoise removes where it goes by the mesh. 0: positions
-     * are not noisy. That is so, too, where most edges are flatter than noise would leave them. */
+    /* Part of `sigma` that is noise, which tspace_NormalOptions.denoise removes automatically. 0: positions are not
+     * noisy, or most edges are flatter than noise would leave them. */
     float noise;
-    double mean_edge; /* of a sample, in the unit of positions, less what noise of sigma adds to it */
+    /* mean edge length of a sample, in the unit of positions, minus the share that noise of sigma adds */
+    double mean_edge;
 } tspace_PositionNoise;
 
-/* Measures the noise in the positions of a mesh, by samples: up to 4096 vertices and 16384 edges. sigma is within 15
- * % of random noise from .03 to .3 on smooth shapes; noise that is smooth from vertex to vertex cannot be told from
- * detail.
+/* Measures the noise in the positions of a mesh from samples: up to 4096 vertices and 16384 edges. sigma is within
+ * 15 % of random noise from 0.03 to 0.3 on smooth shapes; noise that is smooth from vertex to vertex cannot be
+ * distinguished from detail.
  *
- * mesh       positions and indices; UVs and normals are not looked at. Vertices at one position are one
- * execution  threads and memory; changes no bit
+ * mesh       positions and indices; UVs and normals are ignored. Vertices with equal positions are welded
+ * execution  threads and memory; does not affect the result
  * Errors: those of tspace_validate; OUT_OF_MEMORY.
- * O(corners): the time of TSPACE_NORMAL_WEIGHTING_BEST and half as much again. Scratch memory: that of
+ * O(corners): 1.5 times the time of TSPACE_NORMAL_WEIGHTING_BEST. Scratch memory: that of
  * TSPACE_NORMAL_WEIGHTING_BEST, then 28 bytes per corner, 56 per vertex, and 4 per vertex and thread. Thread-safe;
  * same bits for any thread count. */
 tspace_ErrorCode tspace_measurePositionNoise(const tspace_Mesh* mesh, const tspace_Execution* execution,
                                              tspace_PositionNoise* noise, tspace_Error* error) TSPACE_NOEXCEPT;
 
 /* == indexed_frames.h ==
- * The usual case in one call: an indexed mesh in, an indexed mesh with normals and tangents out. */
+ * Computes the normals and tangents of an indexed mesh in one call, and splits its vertices where needed. */
 
 typedef struct tspace_SanitizeOptions {
     uint32_t struct_size;
-    /* 0 or 1. Also make every sound tangent unit and orthogonal to N. Off by default: the result then no longer
-     * matches a bake made with the method's own tangents (quantised normals are not unit, so the reference's
-     * tangents can be off by up to a degree there). */
+    /* 0 or 1. Also make every valid tangent unit and orthogonal to N. Off by default: the result would no longer
+     * match a bake made with the method's own tangents (quantized normals are not unit, so the reference's tangents
+     * can deviate by up to a degree). */
     uint32_t orthogonalize_all;
 } tspace_SanitizeOptions;
 
-/* In C: prepares options as TSPACE_INIT does, for languages that have no macros.
- * struct_size  bytes of the struct as the caller declares it. One that this version does not know is INVALID_OPTION, and
- *              nothing is written.
- * Zeros, but for the size, are the defaults.
+/* In C: initializes options like TSPACE_INIT, for languages without macros.
+ * struct_size  size of the struct as declared by the caller, in bytes. If this version does not support the size:
+ *              INVALID_OPTION, and nothing is written.
+ * The defaults are zeros.
  * Errors: NULL_DATA, INVALID_OPTION. */
 tspace_ErrorCode tspace_initSanitizeOptions(tspace_SanitizeOptions* options, uint32_t struct_size,
                                             tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* Corners mended, by cause (the first that applies, in this order) and by cure. */
+/* Corners repaired, by cause (the first that applies, in this order) and by fix. */
 typedef struct tspace_SanitizeReport {
     uint32_t struct_size;
     uint32_t reserved;
     uint64_t not_finite_count;     /* NaN or infinity in the tangent */
-    uint64_t zero_count;           /* length 0 (or too small to be normalised) */
+    uint64_t zero_count;           /* length 0 (or too small to normalize) */
     uint64_t not_unit_count;       /* length off by more than 5e-4 (the glTF validator's tolerance) */
     uint64_t parallel_count;       /* within 1 degree of +N or -N: no frame can be built */
     uint64_t bad_sign_count;       /* sign not exactly +1 or -1 */
-    uint64_t mixed_sign_count;     /* sign changed because the face's corners disagreed */
-    uint64_t orthogonalized_count; /* sound ones changed by orthogonalize_all */
-    uint64_t normalized_count;     /* cure: own direction, made unit and orthogonal to N */
-    uint64_t from_neighbor_count;  /* cure: direction taken from a sound corner of the same face or position */
-    uint64_t from_basis_count;     /* cure: basis from N alone (Duff et al. 2017) */
-    uint64_t bad_normal_count;     /* corners whose N is zero or not finite: only a unit tangent is promised */
-    uint64_t mended_count;         /* All corners that were written: the sum of the causes. */
-    /* exactly (1, 0, 0), and not in the plane across N.
-     * In C: comes after parallel_count. */
+    uint64_t mixed_sign_count;     /* sign changed because the signs of the face's corners differed */
+    uint64_t orthogonalized_count; /* valid tangents changed by orthogonalize_all */
+    uint64_t normalized_count;     /* fix: its own direction, made unit and orthogonal to N */
+    uint64_t from_neighbor_count;  /* fix: direction of a valid corner of the same face or position */
+    uint64_t from_basis_count;     /* fix: basis from N (Duff et al. 2017) */
+    uint64_t bad_normal_count;     /* corners whose N is zero or not finite: only a unit tangent is guaranteed */
+    uint64_t mended_count;         /* Returns the number of corners that were written: the sum of the causes. */
+    /* exactly (1, 0, 0), and not perpendicular to N.
+     * In C: its cause is tested after parallel_count. */
     uint64_t placeholder_count;
 } tspace_SanitizeReport;
 
-/* Mends tangents in place. A tangent is broken when it is not finite, zero, not unit (beyond 5e-4), within 1 degree
- * of +-N, a placeholder that leans out of the surface, when its sign is not +-1, or when the signs inside its face
- * differ. What is written is unit and orthogonal to the corner's N (normalised) within 1e-6, with sign +1 or -1.
- * Sound tangents keep every bit.
+/* Repairs tangents in place. A tangent is invalid if it is not finite, zero, not unit (beyond 5e-4), within 1 degree
+ * of +-N, a placeholder that is not perpendicular to N, if its sign is not +-1, or if the signs inside its face
+ * differ. Repaired tangents are unit and orthogonal to the corner's N (normalized) within 1e-6, with sign +1 or -1.
+ * Valid tangents keep every bit.
  *
- * Placeholder: the reference gives exactly (1, 0, 0) to corners around which no triangle has UV area, wherever N
- * points. What UVs give has been projected along N, so that with these bits it lies in the plane.
+ * Placeholder: the reference writes exactly (1, 0, 0) to corners around which no triangle has UV area, for any N. A
+ * tangent from UVs with these bits has been projected along N, so it is perpendicular to N.
  *
- * Cures, in this order: the tangent's own direction, when it has one that is not parallel to N; the tangent of the
- * first sound corner of the same face; of the first sound corner at the same position (in corner order); a basis
- * from N. Signs inside a face: the majority of the sound corners decides, of those whose N has a direction where
- * there are any; on a tie, the first of them. Where N has none, corners at one position that get a tangent from
- * elsewhere get that of the first of them with their sign.
- * The result does not depend on how vertices are indexed, so mending a split mesh again changes nothing.
+ * Fixes, in this order: the tangent's own direction, if it has one that is not parallel to N; the tangent of the
+ * first valid corner of the same face; of the first valid corner at the same position (in corner order); a basis
+ * from N. Signs inside a face: the majority of the valid corners decides (of those whose N has a direction, if there
+ * are any); on a tie, the first of them. If N has no direction, corners at one position that take a tangent from
+ * elsewhere take the tangent of the first of them with their sign.
+ * The result does not depend on the indexing of vertices, so repairing a split mesh again changes nothing.
  *
- * mesh       positions and normals; UVs are not looked at
- * tangents   4 floats each: one per corner, read and written; corners of faces with fewer than 3 corners are left
- *            alone
- * execution  threads and memory; changes no bit
+ * mesh       positions and normals; UVs are ignored
+ * tangents   4 floats each: one per corner, read and written; corners of faces with fewer than 3 corners are not
+ *            changed
+ * execution  threads and memory; does not affect the result
  * Errors: those of tspace_validate; MISSING_ATTRIBUTE (normals), COUNT_MISMATCH, NULL_DATA, OUT_OF_MEMORY.
  * O(corners). Thread-safe; same bits for any thread count. */
 tspace_ErrorCode tspace_sanitizeTangents(const tspace_Mesh* mesh, const tspace_SanitizeOptions* options,
                                          tspace_Span tangents, const tspace_Execution* execution,
                                          tspace_SanitizeReport* report, tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* One attribute given per corner, as `component_count` floats. */
+/* Attribute given per corner, as `component_count` floats. */
 typedef struct tspace_CornerAttribute {
-    const float* data;        /* In C: not null unless there are no corners. */
-    size_t stride_bytes;      /* from corner to corner; at least 4 * component_count. In C: 0 means tightly packed. */
+    const float* data;   /* In C: may be null only if there are no corners. */
+    size_t stride_bytes; /* distance between corners; at least 4 * component_count. In C: 0 means tightly packed. */
     uint32_t component_count; /* 1..16 */
-    /* 0: corners are equal only when all bits are. Above 0: equal when every component differs by at most this from
-     * the first corner that got the vertex (so float noise does not split); NaN equals nothing but its own bits. */
+    /* 0: corners are equal only if all bits are. Above 0: equal if every component differs by at most this from the
+     * first corner of the vertex (so rounding noise does not split); NaN equals only its own bits. */
     float tolerance;
 } tspace_CornerAttribute;
 
-/* Marks a vertex that no corner uses. */
+/* Value for a vertex that no corner uses. */
 #define TSPACE_NO_CORNER UINT32_MAX
 
-/* The new index buffer and where each new vertex comes from.
- * In C: made by the library; later versions may append fields. */
+/* New index buffer, and the source of each new vertex.
+ * In C: allocated by the library; later versions may append fields. */
 typedef struct tspace_SplitResult {
     const uint32_t* indices; /* one per corner: the new vertex */
     size_t corner_count;
     /* One per new vertex: the old vertex that it copies. The first `old vertex count` entries are 0, 1, 2, ...: old
-     * vertices keep their place, copies are appended. Gather every vertex attribute, skin weight and morph target
+     * vertices keep their indices, copies are appended. Gather every vertex attribute, skin weight and morph target
      * through it. */
     const uint32_t* source_vertices;
     /* One per new vertex: the corner whose attribute values belong to it, or TSPACE_NO_CORNER when no corner uses
@@ -940,19 +947,20 @@ typedef struct tspace_SplitResult {
     size_t vertex_count;
 } tspace_SplitResult;
 
-/* Splits vertices whose corners disagree in any of the attributes.
+/* Splits vertices whose corners differ in any of the attributes.
  *
  * The first corner (in corner order) of an old vertex keeps the vertex; each corner that equals none of the vertex's
  * earlier variants gets a copy, appended in corner order. Deterministic.
  *
  * indices       the old vertex of each corner (TSPACE_INDEX_NONE: corner c uses vertex c)
  * vertex_count  number of old vertices
- * corner_count  length of every attribute; equals the count of `indices` unless there are none
- * execution     threads; scratch memory is only needed where a vertex becomes more than 8
+ * corner_count  length of every attribute; equals the count of `indices`, if there are any
+ * execution     threads; scratch memory is only needed for vertices with more than 8 variants
  * Errors: NULL_DATA, COUNT_MISMATCH, INDEX_OUT_OF_RANGE, STRIDE_TOO_SMALL, TOO_LARGE, INVALID_OPTION, OUT_OF_MEMORY.
- * O(corners) expected, exact or tolerant. Thread-safe; same result for any thread count.
- * In C: indices and execution may be null: none, and the default. So may attributes, when attribute_count is 0. *result
- * is null after an error. Free it with tspace_destroySplitResult. It holds 4 bytes per corner and 8 per new vertex. */
+ * O(corners) expected, with or without tolerance. Thread-safe; same result for any thread count.
+ * In C: indices and execution may be null: no indices, and the default. attributes may be null if attribute_count is
+ * 0. *result is null after an error. Free it with tspace_destroySplitResult. It uses 4 bytes per corner and 8 per new
+ * vertex. */
 tspace_ErrorCode tspace_splitVertices(const tspace_Indices* indices, size_t vertex_count, size_t corner_count,
                                       const tspace_CornerAttribute* attributes, size_t attribute_count,
                                       const tspace_Execution* execution, tspace_SplitResult** result,
@@ -961,66 +969,66 @@ tspace_ErrorCode tspace_splitVertices(const tspace_Indices* indices, size_t vert
 /* Frees a result of tspace_splitVertices. Null is allowed. */
 void tspace_destroySplitResult(tspace_SplitResult* result) TSPACE_NOEXCEPT;
 
-/* How tspace_makeIndexedFrames works. */
+/* Options of tspace_makeIndexedFrames. */
 typedef struct tspace_IndexedFramesOptions {
     uint32_t struct_size;
-    uint32_t make_normals; /* 0 or 1. Also where the mesh has normals; they are made anyway where it has none */
-    /* 0 or 1. Mend tangents that are not finite, zero, not unit, parallel to N, or of mixed sign inside a face.
+    uint32_t make_normals; /* 0 or 1. Recompute existing normals; missing normals are always computed */
+    /* 0 or 1. Repair tangents that are not finite, zero, not unit, parallel to N, or of mixed sign inside a face.
      * Default: 1. */
     uint32_t sanitize;
     uint32_t orthogonalize_all; /* 0 or 1. Like tspace_SanitizeOptions.orthogonalize_all */
-    /* Its convention must be set; it also says which side of a face is out.
-     * Results are per corner (`domain`): the split makes vertices of them.
+    /* Tangent options. The convention must be set; it also defines the outside of a face. Results are per corner
+     * (`domain`): the split turns them into vertices.
      * In C: not null. */
     const tspace_TangentOptions* tangents;
-    /* Where normals are made. Its convention is not looked at: that of `tangents` counts.
-     * In C: null: the defaults. */
+    /* Options for computed normals. Their convention is ignored; the convention of `tangents` is used.
+     * In C: may be null: the defaults. */
     const tspace_NormalOptions* normals;
-    /* Further attributes, one entry per corner, that must not be shared: corners that disagree get a vertex each.
-     * Only a mesh without indices needs it, for what hangs on its vertices beside position, normal and UV. */
+    /* Further attributes, one entry per corner, that must not be shared: corners with different values get separate
+     * vertices. Only a mesh without indices needs them, for vertex attributes other than position, normal and UV. */
     const tspace_CornerAttribute* keep_apart;
     size_t keep_apart_count;
 } tspace_IndexedFramesOptions;
 
-/* In C: prepares options as TSPACE_INIT does, for languages that have no macros.
- * struct_size  bytes of the struct as the caller declares it. One that this version does not know is INVALID_OPTION, and
- *              nothing is written.
- * Zeros are refused, since `tangents` has no convention then; with options there, they mean that nothing is mended.
+/* In C: initializes options like TSPACE_INIT, for languages without macros.
+ * struct_size  size of the struct as declared by the caller, in bytes. If this version does not support the size:
+ *              INVALID_OPTION, and nothing is written.
+ * Functions reject zero-filled options, because `tangents` is required; with `tangents` set, they disable the repair.
  * Errors: NULL_DATA, INVALID_OPTION. */
 tspace_ErrorCode tspace_initIndexedFramesOptions(tspace_IndexedFramesOptions* options, uint32_t struct_size,
                                                  tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* A mesh with the faces of the given one. Gather every other vertex attribute, skin weight and morph target through
- * source_vertices, and attributes that have an index list of their own through the corner:
+/* Indexed mesh with the same faces as the input. Gather every other vertex attribute, skin weight and morph target
+ * through source_vertices, and attributes with their own index list through the corner:
  * their_indices[source_corners[v]].
- * In C: made by the library; later versions may append fields. */
+ * In C: allocated by the library; later versions may append fields. */
 typedef struct tspace_IndexedFrames {
     const uint32_t* indices; /* one per corner: the new vertex */
     size_t corner_count;
     const uint32_t* source_vertices; /* one per new vertex: the entry of `positions` that it copies */
-    /* One per new vertex: the first corner that uses it, or TSPACE_NO_CORNER where none does. */
+    /* One per new vertex: the first corner that uses it, or TSPACE_NO_CORNER if there is none. */
     const uint32_t* source_corners;
-    /* 3 floats each: one per new vertex: those of the mesh (see tspace_TangentOptions.normalize_normals), or the
-     * ones made */
+    /* 3 floats each: one per new vertex: normals of the mesh (see tspace_TangentOptions.normalize_normals), or
+     * computed ones */
     const float* normals;
     const float* tangents; /* 4 floats each: one per new vertex: unit tangent and sign */
     size_t vertex_count;
-    const tspace_NormalReport* normal_report; /* null where normals were not made */
+    const tspace_NormalReport* normal_report; /* null if no normals were computed */
     const tspace_TangentReport* tangent_report;
     const tspace_SanitizeReport* sanitize_report;
 } tspace_IndexedFrames;
 
-/* Makes normals where they are missing or asked for (tspace_generateNormals), tangents (tspace_generateTangents),
- * mends those that are broken (tspace_sanitizeTangents), and splits vertices whose corners disagree in either
- * (tspace_splitVertices). Each corner has the tangent that these calls give it, bit for bit.
+/* Computes normals if they are missing or requested (tspace_generateNormals) and tangents (tspace_generateTangents),
+ * repairs invalid tangents (tspace_sanitizeTangents), and splits vertices whose corners differ in either
+ * (tspace_splitVertices). The tangent of each corner equals the result of these calls, bit for bit.
  *
- * A mesh with one index list keeps its vertices in their places, also those that no corner uses (which get a frame
- * from their normal), and copies come behind them. A mesh without indices, or with an index list per attribute, gets
- * new vertices in the order in which corners first use them, one for all corners with the same bits of position,
- * normal, UV, tangent and `keep_apart` (the zeros of a position are equal, as they are for normals).
+ * A mesh with one index list keeps its vertices and their order, including unused ones (which get a frame from their
+ * normal); copies are appended. A mesh without indices, or with an index list per attribute, gets new vertices in
+ * the order in which corners first use them: one for all corners with the same bits of position, normal, UV, tangent
+ * and `keep_apart` (+0 and -0 of a position are equal, as for normals).
  *
  * mesh       positions; normals or none; UVs (all methods but TSPACE_METHOD_BASIS)
- * execution  threads and memory of all steps; changes no bit
+ * execution  threads and memory of all steps; does not affect the result
  * Errors: those of the four calls. O(corners) expected. Thread-safe; same bits for any thread count.
  * In C: *frames is null after an error. Free it with tspace_destroyIndexedFrames. */
 tspace_ErrorCode tspace_makeIndexedFrames(const tspace_Mesh* mesh, const tspace_IndexedFramesOptions* options,
@@ -1031,56 +1039,56 @@ tspace_ErrorCode tspace_makeIndexedFrames(const tspace_Mesh* mesh, const tspace_
 void tspace_destroyIndexedFrames(tspace_IndexedFrames* frames) TSPACE_NOEXCEPT;
 
 /* == plan_buffers.h ==
- * A tangent plan as one flat array of words, for compute shaders: shaders/tspace_evaluate.* read it. */
+ * Tangent plan as one flat array of 32-bit words, for the compute shaders shaders/tspace_evaluate.*. */
 
-/* What tspace_planBuffers writes beside the plan itself. */
+/* Optional additions to the plan that tspace_planBuffers writes. */
 typedef struct tspace_PlanBufferOptions {
     uint32_t struct_size;
     uint32_t reserved;
-    /* The vertex of each corner in the arrays of a pose, as tspace_IndexedFrames.indices; empty: the indices of the
+    /* Vertex of each corner in the arrays of a pose, as tspace_IndexedFrames.indices. Empty: the indices of the
      * plan's mesh. */
     const uint32_t* indices;
     size_t index_count;
-    /* The corner that each result belongs to, as tspace_IndexedFrames.source_corners; TSPACE_NO_CORNER: none. Empty:
-     * one result per output of tspace_evaluateTangents. */
+    /* Corner that each result belongs to, as tspace_IndexedFrames.source_corners; TSPACE_NO_CORNER: none. Empty: one
+     * result per output of tspace_evaluateTangents. */
     const uint32_t* source_corners;
     size_t source_corner_count;
-    /* The mesh of the plan, whose normals the shader computes from positions. Positions decide which corners share
-     * one. No vertices, the default: a pose brings its normals.
-     * In C: null: none. */
+    /* Mesh of the plan, for computing normals from positions in the shader. Corners with equal positions share
+     * normals. Without vertices, the default, a pose provides its normals.
+     * In C: may be null: no mesh. */
     const tspace_Mesh* mesh;
-    /* How the normals of `mesh` are computed: every weighting but TSPACE_NORMAL_WEIGHTING_BEST. `denoise` must be 0,
-     * and only lengyel reads the convention: other plans have theirs.
-     * In C: null: the defaults. */
+    /* Computation of the normals of `mesh`: every weighting except TSPACE_NORMAL_WEIGHTING_BEST. `denoise` must be
+     * 0. Only lengyel uses the convention: other plans have their own.
+     * In C: may be null: the defaults. */
     const tspace_NormalOptions* normals;
 } tspace_PlanBufferOptions;
 
-/* The words of a plan: a header of 12 words, then the three arrays that it names. All numbers are 32-bit words in
- * the byte order of the machine. docs/guides/gpu.md describes the header, and how a result is computed.
+/* Words of a plan: a header of 12 words, and the three arrays that it refers to. All values are 32-bit words in
+ * native byte order. docs/guides/gpu.md describes the header, and how to compute a result.
  *
- * Results, 3 words each: the first entry; the count of entries (bits 0..27) with flags; the own corner of the result
- * as an entry, or 0xffffffff. Corners that share a tangent and a normal have the same entries.
+ * Results, 3 words each: index of its first entry; number of its entries (bits 0..27) with flags; its own corner as
+ * an entry, or 0xffffffff. Corners that share a tangent and a normal have equal entries.
  * Entries, 1 word each, in the order of summation: a corner of a triangle, 4 * triangle + corner, with flags.
  * 0xffffffff separates parts of a result that is the normalized mean of several.
  * Triangles: three vertices, then UV coefficients as floats: (a, b) with dP/du along a * e1 - b * e2, where e1 = P1
  * - P0, e2 = P2 - P0; for TSPACE_METHOD_LENGYEL (a, b, c, d) with dP/du = a * e1 - b * e2 and dP/dv = c * e2 - d *
  * e1.
- * In C: made by the library; later versions may append fields. */
+ * In C: allocated by the library; later versions may append fields. */
 typedef struct tspace_PlanBuffers {
     const uint32_t* words;
     size_t word_count;
-    size_t result_count; /* as in the header: the number of threads to dispatch */
+    size_t result_count; /* as in the header: number of threads to dispatch */
 } tspace_PlanBuffers;
 
-/* Writes the plan as words. About 12 bytes per result and 32 per triangle of entries and triangles (40 for
+/* Writes the plan as words: about 12 bytes per result, and 32 per triangle for entries and triangles (40 for
  * TSPACE_METHOD_LENGYEL).
  *
  * Errors: INVALID_OPTION for the methods flat, basis and best, for TSPACE_FRAME_SYMMETRIC, for normals that are
- * `best` or denoised, and for a plan of several index lists without `indices`; COUNT_MISMATCH and INDEX_OUT_OF_RANGE
- * for arrays of `options` that do not fit the plan; TOO_LARGE above 268,435,455 triangles; those of
- * tspace_generateNormals; OUT_OF_MEMORY. O(n log n) in results, else linear, plus the size of groups that an angular
- * threshold splits. Thread-safe.
- * In C: options null: the defaults. *buffers is null after an error. Free it with tspace_destroyPlanBuffers. */
+ * `best` or denoised, and for a plan with several index lists without `indices`; COUNT_MISMATCH and
+ * INDEX_OUT_OF_RANGE for arrays of `options` that do not match the plan; TOO_LARGE above 268,435,455 triangles;
+ * those of tspace_generateNormals; OUT_OF_MEMORY.
+ * O(n log n) in results, otherwise linear, plus the size of groups that an angular threshold splits. Thread-safe.
+ * In C: options may be null: the defaults. *buffers is null after an error. Free it with tspace_destroyPlanBuffers. */
 tspace_ErrorCode tspace_planBuffers(const tspace_TangentPlan* plan, const tspace_PlanBufferOptions* options,
                                     const tspace_Execution* execution, tspace_PlanBuffers** buffers,
                                     tspace_Error* error) TSPACE_NOEXCEPT;
@@ -1089,13 +1097,12 @@ tspace_ErrorCode tspace_planBuffers(const tspace_TangentPlan* plan, const tspace
 void tspace_destroyPlanBuffers(tspace_PlanBuffers* buffers) TSPACE_NOEXCEPT;
 
 /* == pack.h ==
- * Whole frames (N, T and the sign) in 4 to 16 bytes, with a bound on the error that is never exceeded.
- * All functions are pure, allocate nothing, use one thread, and may be called from any thread at the same time.
- * Their bits are the same on every machine: arithmetic and square roots alone, in a fixed order. See
- * docs/concepts/pack.md. */
+ * Packing of whole frames (N, T and the sign) into 4 to 16 bytes, with a guaranteed error bound. All functions are
+ * pure, allocate nothing, use one thread, and may be called from any thread at the same time. Their bits are equal
+ * on every machine: only arithmetic and square roots, in a fixed order. See docs/concepts/pack.md. */
 
-/* How a frame is stored, and how far N and T may be off (tspace_frameErrorBound), in degrees. Numbers are
- * little-endian; "word" is all bytes of one frame as one unsigned number. The enumerators' values are stable and
+/* Storage format of a frame, with the maximum error of N and T (tspace_frameErrorBound) in degrees. Numbers are
+ * little-endian; "word" means all bytes of one frame as one unsigned number. The enumerators' values are stable and
  * never reused. */
 typedef uint32_t tspace_FrameFormat;
 enum {
@@ -1106,68 +1113,71 @@ enum {
     TSPACE_FRAME_FORMAT_FRAME48 = 1,
     /* 8 bytes, N 0.0001 and T 0.00015: i:21 | j:21 | angle:21 | mirrored:1 from the top; as frame48, finer. */
     TSPACE_FRAME_FORMAT_FRAME64 = 2,
-    /* 4 bytes, N 0.15 and T 0.165: i:10 | j:10 | angle:11 | mirrored:1 from the top; the cheapest to decode of the
-     * codes of 4 bytes. */
+    /* 4 bytes, N 0.15 and T 0.165: i:10 | j:10 | angle:11 | mirrored:1 from the top; the 4-byte format that is
+     * cheapest to decode. */
     TSPACE_FRAME_FORMAT_OCT32 = 3,
-    /* 8 bytes, 0.004: the quaternion x, y, z, w of the rotation (T, N x T, N) as snorm16; w is never 0, its sign is
-     * the sign. */
+    /* 8 bytes, 0.004: the quaternion x, y, z, w of the rotation (T, N x T, N) as snorm16; w is never 0, and its sign
+     * is the sign of the frame. */
     TSPACE_FRAME_FORMAT_QTANGENT64 = 4,
     /* 8 bytes, 0.391: T.xyz, 127, N.xyz, sign as snorm8: the order of Unreal's TangentX and TangentZ. */
     TSPACE_FRAME_FORMAT_SNORM8_PAIR = 5,
-    TSPACE_FRAME_FORMAT_SNORM16_PAIR = 6, /* 16 bytes, 0.00152: the same as snorm16. */
+    /* 16 bytes, 0.00152: like TSPACE_FRAME_FORMAT_SNORM8_PAIR, but as snorm16. */
+    TSPACE_FRAME_FORMAT_SNORM16_PAIR = 6,
     /* 7 bytes, 0.391: TANGENT (4 snorm8), then NORMAL (3 snorm8), as KHR_mesh_quantization stores them, without
      * padding. */
     TSPACE_FRAME_FORMAT_GLTF_SNORM8 = 7,
-    TSPACE_FRAME_FORMAT_GLTF_SNORM16 = 8 /* 14 bytes, 0.00152: the same as snorm16. */
+    /* 14 bytes, 0.00152: like TSPACE_FRAME_FORMAT_GLTF_SNORM8, but as snorm16. */
+    TSPACE_FRAME_FORMAT_GLTF_SNORM16 = 8
 };
 
-/* Bytes of one frame; 0 when `format` is none of the enumerators. */
+/* Returns the number of bytes of one frame; 0 if `format` is not an enumerator. */
 size_t tspace_frameBytes(tspace_FrameFormat format) TSPACE_NOEXCEPT;
 
-/* How far a frame may be from the one that was packed, in degrees. */
+/* Maximum angle between an unpacked frame and the frame that was packed, in degrees. */
 typedef struct tspace_FrameErrorBound {
     double normal_deg;
     double tangent_deg;
 } tspace_FrameErrorBound;
 
-/* The bounds that tspace_packFrames followed by tspace_unpackFrames never exceeds. They count against the frame that
- * is packed: the input when it is sound, else what it was mended to. The sign is always exact. Zeros when `format`
- * is none of the enumerators. */
+/* Returns bounds that tspace_packFrames followed by tspace_unpackFrames never exceeds. They refer to the packed
+ * frame: the input if it is valid, otherwise its repaired value. The sign is always exact. Returns zeros if `format`
+ * is not an enumerator. */
 tspace_FrameErrorBound tspace_frameErrorBound(tspace_FrameFormat format) TSPACE_NOEXCEPT;
 
-/* Frames mended on the way in, each counted once, by the first cause that applies, in this order. */
+/* Frames repaired before packing. Each is counted once, by the first cause that applies, in this order. */
 typedef struct tspace_PackReport {
     uint32_t struct_size;
     uint32_t reserved;
-    uint64_t bad_normal_count;     /* N zero or not finite: (0, 0, 1) took its place */
-    uint64_t not_finite_count;     /* NaN or infinity in the tangent: a basis from N took its place */
-    uint64_t zero_count;           /* tangent of length 0 (or too small to be normalised): a basis from N */
-    uint64_t parallel_count;       /* tangent within 1 degree of +N or -N: a basis from N */
-    uint64_t not_unit_count;       /* length of N or T off by more than 5e-4: made unit */
+    uint64_t bad_normal_count;     /* N zero or not finite: replaced by (0, 0, 1) */
+    uint64_t not_finite_count;     /* NaN or infinity in the tangent: replaced by a basis from N */
+    uint64_t zero_count;           /* tangent of length 0 (or too small to normalize): replaced by a basis from N */
+    uint64_t parallel_count;       /* tangent within 1 degree of +N or -N: replaced by a basis from N */
+    uint64_t not_unit_count;       /* length of N or T off by more than 5e-4: normalized */
     uint64_t not_orthogonal_count; /* cosine between N and T beyond 5e-4: T made orthogonal to N */
-    uint64_t bad_sign_count;       /* sign not exactly +1 or -1: below 0 is taken as -1, all else as +1 */
-    uint64_t mended_count;         /* All frames that were mended: the sum of the causes. */
+    uint64_t bad_sign_count;       /* sign not exactly +1 or -1: below 0 becomes -1, other values +1 */
+    uint64_t mended_count;         /* Returns the number of repaired frames: the sum of the causes. */
 } tspace_PackReport;
 
-/* Packs frames, each by itself, into the code next to it. Any input is packed: what is broken is mended and counted.
- * N and T that are off by less than what the report counts are made unit, and T orthogonal to N, without being
+/* Packs frames independently of each other, each to the nearest code. Accepts any input: invalid frames are repaired
+ * and counted. Smaller deviations than those that the report counts are normalized and orthogonalized without being
  * counted.
  *
  * normals   3 floats each: one per frame, unit
  * tangents  4 floats each: one per frame, unit and orthogonal to N; w is the sign, +1 or -1
- * out       exactly tspace_frameBytes(format) bytes per frame, without padding, any alignment; not over the inputs
+ * out       exactly tspace_frameBytes(format) bytes per frame, without padding, any alignment; must not overlap the
+ *           inputs
  * Errors: INVALID_OPTION (format), COUNT_MISMATCH (tangents, or the size of `out`), NULL_DATA, STRIDE_TOO_SMALL,
- * MISALIGNED. Nothing is written then. O(frames).
- * In C: out may be null when there are no frames. */
+ * MISALIGNED. On error nothing is written. O(frames).
+ * In C: out may be null if there are no frames. */
 tspace_ErrorCode tspace_packFrames(tspace_ConstSpan normals, tspace_ConstSpan tangents, tspace_FrameFormat format,
                                    void* out, size_t out_bytes, tspace_PackReport* report,
                                    tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* Unpacks frames. All bytes are frames: N and T are finite and unit within 5e-7, and w is +1 or -1. T is orthogonal
- * to N within 5e-7 too, but for the formats that store N and T apart (TSPACE_FRAME_FORMAT_SNORM8_PAIR,
- * TSPACE_FRAME_FORMAT_SNORM16_PAIR, TSPACE_FRAME_FORMAT_GLTF_SNORM8, TSPACE_FRAME_FORMAT_GLTF_SNORM16): there both
- * are as stored, made unit, as a shader has them; a zero N reads as (0, 0, 1), a zero T as a basis from N. Packing
- * unpacked frames of frame32, frame48, frame64 or oct32 in the same format gives words that unpack to the same
+/* Unpacks frames. All byte values are valid: N and T are finite and unit within 5e-7, and w is +1 or -1. T is also
+ * orthogonal to N within 5e-7, except for formats that store N and T separately (TSPACE_FRAME_FORMAT_SNORM8_PAIR,
+ * TSPACE_FRAME_FORMAT_SNORM16_PAIR, TSPACE_FRAME_FORMAT_GLTF_SNORM8, TSPACE_FRAME_FORMAT_GLTF_SNORM16): these return
+ * the stored vectors, normalized, as a shader does. A zero N becomes (0, 0, 1), a zero T a basis from N. Packing
+ * unpacked frames of frame32, frame48, frame64 or oct32 again in the same format gives words that unpack to the same
  * frames.
  *
  * bytes     exactly tspace_frameBytes(format) bytes per frame
@@ -1178,76 +1188,76 @@ tspace_ErrorCode tspace_unpackFrames(const void* bytes, size_t byte_count, tspac
                                      tspace_Span normals, tspace_Span tangents, tspace_Error* error) TSPACE_NOEXCEPT;
 
 /* == winding.h ==
- * Mends the winding of faces: those that are wound against their neighbours, and whole parts that are inside out. */
+ * Fixes the winding of faces: faces wound against their neighbors, and components that are inside out. */
 
 typedef struct tspace_WindingOptions {
     uint32_t struct_size;
-    /* Its handedness and winding say which order of corners is right as seen from outside; the default is glTF's. */
+    /* Handedness and winding define the corner order of a face seen from outside. Default: glTF. */
     tspace_Convention convention;
-    /* 0 or 1. 1: the mesh's normals, where it has some, say which side of a component is out, if they agree among
-     * themselves. Default: 1. */
+    /* 0 or 1. 1: the mesh's normals, if present and consistent within a component, decide which side of it is
+     * outside. Default: 1. */
     uint32_t use_normals;
-    /* 0 or 1. 1: vertices at the same position are one point (so a mesh without indices is a surface); 0: only equal
-     * indices are. Default: 1. */
+    /* 0 or 1. 1: weld vertices with equal positions (so a non-indexed mesh is a connected surface); 0: weld by index
+     * only. Default: 1. */
     uint32_t weld_positions;
-    /* With `weld_positions`: positions that differ by no more than this in each coordinate are one, as for normals.
-     * 0, the default: only equal positions are. -1: by the spacing of floats, as there. */
+    /* With `weld_positions`: maximum difference per coordinate of welded positions, as in
+     * tspace_NormalOptions.weld_distance. 0, the default: only equal positions. -1: derived from the spacing of
+     * floats. */
     float weld_distance;
 } tspace_WindingOptions;
 
-/* In C: prepares options as TSPACE_INIT does, for languages that have no macros.
- * struct_size  bytes of the struct as the caller declares it. One that this version does not know is INVALID_OPTION, and
- *              nothing is written.
- * Zeros, the convention's too, are refused (INVALID_OPTION of whatever takes the options). For use_normals and
- * weld_positions both 0 set a convention, by tspace_findConvention.
+/* In C: initializes options like TSPACE_INIT, for languages without macros.
+ * struct_size  size of the struct as declared by the caller, in bytes. If this version does not support the size:
+ *              INVALID_OPTION, and nothing is written.
+ * Functions reject zero-filled options, including a zero convention (INVALID_OPTION). To set both use_normals and
+ * weld_positions to 0, set a convention with tspace_findConvention.
  * Errors: NULL_DATA, INVALID_OPTION. */
 tspace_ErrorCode tspace_initWindingOptions(tspace_WindingOptions* options, uint32_t struct_size,
                                            tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* What was found and done. A *component* is what hangs together over pairs of faces at edges. A pair is in
- * *conflict* where both faces run through their edge in the same direction. */
+/* Results of tspace_mendWinding. A *component* is a set of faces connected by pairs of faces at edges. A pair is in
+ * *conflict* if both faces traverse their shared edge in the same direction. */
 typedef struct tspace_WindingReport {
     uint32_t struct_size;
     uint32_t reserved;
     uint64_t face_count;   /* faces with at least 3 corners */
-    uint64_t turned_count; /* faces to be turned */
+    uint64_t turned_count; /* faces to flip */
     uint64_t conflict_count_before;
-    uint64_t conflict_count_after; /* as if the faces had been turned */
+    uint64_t conflict_count_after; /* conflicts left after flipping */
     uint64_t component_count;
-    uint64_t turned_component_count; /* of which more than half of the faces are turned */
+    uint64_t turned_component_count; /* components in which more than half of the faces are flipped */
 
-    uint64_t by_normals_count; /* by normals of the mesh */
-    uint64_t by_volume_count;  /* closed: the volume is positive */
-    /* Closed, and lying in another one: as most of the area was wound, or, if that says nothing, a cavity. */
+    uint64_t by_normals_count; /* normals of the mesh */
+    uint64_t by_volume_count;  /* closed: the volume must be positive */
+    /* Closed, inside another component: keeps the winding of most of its area; if that is undecided, it is a cavity. */
     uint64_t by_nesting_count;
-    uint64_t by_winding_number_count; /* open, but with an inside: the winding number on its own faces */
-    uint64_t by_majority_count;       /* open, and no side is inside: as most of the area was wound */
-    /* Fewer than 4 faces, such as leaves and cards: nothing is turned, since nothing says what is right. */
+    uint64_t by_winding_number_count; /* open, but with an inside: generalized winding number at its own faces */
+    uint64_t by_majority_count;       /* open, without an inside: keeps the winding of most of its area */
+    /* Fewer than 4 faces, such as leaves and cards: never flipped, because nothing shows their outside. */
     uint64_t small_count;
-    /* Turning some faces would leave as many conflicts as there are, as on a Moebius band: none is turned, or all,
-     * where the component is open and its winding number says that it is inside out. */
+    /* Flipping single faces would not reduce the number of conflicts, as on a Moebius band. No face is flipped, or
+     * all faces if the component is open and its winding number shows that it is inside out. */
     uint64_t one_sided_count;
 } tspace_WindingReport;
 
-/* Says which faces to turn (to reverse the order of their corners) so that neighbours are wound alike and the
- * outside is where the convention wants it.
+/* Determines which faces to flip (reverse the order of their corners) so that neighboring faces have consistent
+ * winding and the outside matches the convention.
  *
- * Faces are paired at the edges that they share. Where more than two meet, those that share the edge by their
- * indices are paired if they are two; others are sorted as they turn about the edge, and neighbours in that order
- * are paired, of the two ways to do so the one with the smaller gaps; of an odd number only the two that lie
- * straightest. Pairs by turn that contradict the others are none. Faces that lie on one another keep the winding
- * that they have to each other: both sides of a sheet stay so.
- * Each component is wound alike in itself, and then decided as a whole, by the first of the rules in
- * tspace_WindingReport that applies. Nothing else about it is known: an open surface without an inside, such as a
- * terrain, that is wholly inside out and has no normals stays so.
+ * Faces are paired at shared edges. If more than two faces meet at an edge, two that share it by index are paired;
+ * other faces are sorted by angle around the edge and adjacent ones are paired (of the two possible pairings, the
+ * one with the smaller gaps; of an odd number, only the straightest pair). Pairs by angle that contradict other
+ * pairs are dropped. Coincident faces keep their relative winding, so two-sided sheets stay two-sided.
+ * Winding is first made consistent within each component; then the first applicable rule of tspace_WindingReport
+ * decides the component as a whole. An open surface without an inside (such as a terrain) that is entirely inverted
+ * and has no normals cannot be detected; it is left unchanged.
  *
- * mesh       positions and indices, and normals where options.use_normals; UVs are not looked at
- * turned     one per face: 1 to turn it, else 0; must not overlap the inputs
- * execution  threads and memory; changes no bit
+ * mesh       positions and indices, and normals with options.use_normals; UVs are ignored
+ * turned     one per face: 1 to flip it, else 0; must not overlap the inputs
+ * execution  threads and memory; does not affect the result
  * Errors: those of tspace_validate; COUNT_MISMATCH (turned), OUT_OF_MEMORY.
- * O(corners) but for sorting the edges of one point and, where closed components lie in one another, O(n log n).
- * Scratch memory: 16 bytes per corner, 32 per face and 28 per vertex, and where closed components lie in one another
- * 50 per face more. Thread-safe; same bits for any thread count.
+ * O(corners), except for sorting the edges of one point, and O(n log n) for nested closed components. Scratch
+ * memory: 16 bytes per corner, 32 per face, 28 per vertex, and 50 more per face for nested closed components.
+ * Thread-safe; same bits for any thread count.
  * In C: `turned` has face_count bytes. */
 tspace_ErrorCode tspace_mendWinding(const tspace_Mesh* mesh, const tspace_WindingOptions* options, uint8_t* turned,
                                     size_t turned_count, const tspace_Execution* execution,

@@ -1,101 +1,101 @@
 // SPDX-License-Identifier: MIT
 //! Choices, with the numbers of the C API. Written by scripts/api.
 
-/// How tangents are computed. `docs/concepts/methods/` has a page for each.
+/// Method of computing tangents. `docs/concepts/methods/` has a page for each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Method {
-    /// Bit for bit the result of the MikkTSpace reference implementation (Mikkelsen 2008), for triangles and quads.
+    /// Bit-identical to the MikkTSpace reference implementation (Mikkelsen 2008), for triangles and quads.
     #[default]
     Mikktspace = 0,
-    /// Sum of the unnormalised dP/du and dP/dv of the faces at a vertex index, Gram-Schmidt against N, sign from the
-    /// bitangent (Lengyel 2001). Never splits: all corners of one vertex index get one tangent.
+    /// Sum of the unnormalized dP/du and dP/dv of the faces at a vertex index, Gram-Schmidt against N, sign from the
+    /// bitangent (Lengyel 2001). Never splits: all corners of a vertex index get the same tangent.
     Lengyel = 1,
     /// Weighted mean of unit face tangents in the groups of `Mikktspace` with corrected pairing. The weight of a
-    /// face at a corner is 1, the corner angle, or the face's area.
+    /// face at a corner is 1 (`Uniform`), the corner angle (`Angle`), or the face's area (`Area`).
     Uniform = 2,
     Angle = 3,
     Area = 4,
-    /// The face's own dP/du at each of its corners, made orthogonal to that corner's N.
+    /// The face's own dP/du at each of its corners, orthogonalized against that corner's N.
     Flat = 5,
-    /// No UVs: an orthonormal basis from N alone (Duff et al. 2017). No such basis is continuous over a closed
-    /// surface.
+    /// Orthonormal basis from N, without UVs (Duff et al. 2017). No such basis is continuous over a closed surface.
     Basis = 6,
-    /// Two weighted sums of dP/du in the groups of `Angle`: one that is accurate on smooth surfaces (Max 1999), one
-    /// that is robust on bevels and noise, mixed by the angle between them. More accurate than all weighted means,
-    /// and hardly dearer than `Uniform`.
+    /// Two weighted sums of dP/du in the groups of `Angle`: one that is accurate on smooth surfaces (Max 1999), and
+    /// one that is robust on bevels and noise, blended by the angle between them. More accurate than all weighted
+    /// means, at little more cost than `Uniform`.
     Fast = 7,
-    /// A quadratic map from UVs to the tangent plane, fitted to the edges around each vertex (polynomial preserving
-    /// recovery, Zhang and Naga 2005), in the groups of `Angle`; where the fit is doubtful it becomes a robust mean.
-    /// The error of its tangents falls with the square of the edge length, not with the length as that of all
-    /// others.
+    /// Quadratic map from UVs to the tangent plane, fitted to the edges around each vertex (polynomial preserving
+    /// recovery, Zhang and Naga 2005), in the groups of `Angle`; if the fit is unreliable, a robust mean. The error
+    /// of its tangents decreases with the square of the edge length; the error of all other methods decreases
+    /// linearly.
     Best = 8,
 }
 
-/// How `mikktspace` finds neighbouring faces.
+/// How `mikktspace` finds neighboring faces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Pairing {
-    /// With the reference's defect: the last bucket of its edge list is not sorted.
+    /// With the reference's bug: the last bucket of its edge list is not sorted.
     #[default]
     Reference = 0,
-    /// Without it: grouping no longer depends on the order of faces.
+    /// Without the bug: grouping does not depend on the order of faces.
     Corrected = 1,
 }
 
-/// What happens to faces with more than 4 corners, which the MikkTSpace reference ignores.
+/// Treatment of faces with more than 4 corners, which the MikkTSpace reference ignores.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Ngons {
-    /// Cut as by triangulate(); results come back per corner of the n-gon.
+    /// Triangulated by triangulate(); results are per corner of the n-gon.
     #[default]
     Triangulate = 0,
-    /// As the reference: nothing is computed, outputs are 0.
+    /// Skipped, as in the reference: all outputs are 0.
     Skip = 1,
 }
 
-/// What one entry of the outputs belongs to.
+/// Element type of the outputs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum OutputDomain {
     #[default]
     Corner = 0,
-    /// One entry per vertex of the mesh: `lengyel` and `basis`, whose results are the same at all corners of a
-    /// vertex. Every entry has the bits that the vertex's corners would get. Vertices that no used face names get 0.
+    /// One entry per vertex of the mesh: for `lengyel` and `basis`, whose results are equal at all corners of a
+    /// vertex. Every entry has the bits of the vertex's corners. Vertices that no used face refers to get 0.
     Vertex = 1,
 }
 
-/// Which orthonormal frame stands for dP/du and dP/dv, where UVs are sheared and the two are not perpendicular.
+/// Orthonormal frame that replaces dP/du and dP/dv where sheared UVs make them non-perpendicular.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum FrameShape {
-    /// T is the direction of dP/du, and the shader's `sign * cross(N, T)` is off from dP/dv by the shear.
+    /// T is the direction of dP/du; the shader's `sign * cross(N, T)` deviates from dP/dv by the shear.
     #[default]
     GramSchmidt = 0,
-    /// T is the bisector of dP/du and of the direction perpendicular to dP/dv (Löwdin 1950): both are off by half of
-    /// the shear. Nearer to what the UVs say, but not what a baker or an engine with another tangent space expects.
+    /// T is the bisector of dP/du and the direction perpendicular to dP/dv (Löwdin 1950): both deviate by half of
+    /// the shear. Closer to the UVs, but not what bakers and engines with another tangent space expect.
     Symmetric = 1,
 }
 
-/// How much a face counts in the mean at one of its corners. e1, e2 are the edges at the corner, a the interior
-/// angle between them (above 180 degrees where a polygon is reflex).
+/// Weight of a face in the mean at one of its corners. e1 and e2 are the edges at the corner, a is the interior
+/// angle between them (above 180 degrees at reflex corners of a polygon).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum NormalWeighting {
-    /// No averaging: each corner gets its face's unit normal, as glTF asks where normals are missing.
+    /// No averaging: each corner gets its face's unit normal, as glTF requires for missing normals.
     Flat = 0,
     /// 1: mean of unit face normals (Gouraud 1971).
     Uniform = 1,
-    /// The face's area (|e1 x e2| / 2 for a triangle): large faces count more.
+    /// Area of the face (|e1 x e2| / 2 for a triangle).
     Area = 2,
-    /// a: independent of tessellation (Thuermer & Wuethrich 1998).
+    /// a: independent of the tessellation (Thuermer & Wuethrich 1998).
     #[default]
     Angle = 3,
     /// a * area.
     AngleArea = 4,
     /// sin(a) / (|e1| |e2|): exact on a sphere (Max 1999).
     Max = 5,
-    /// No mean: the normal of a quadratic surface through the edges at the point. Where these look like noise or a
-    /// bevel it is the mean of `AngleArea`, and in between a blend. The most accurate, and the slowest.
+    /// Normal of a quadratic surface fitted to the edges at the point. If the edges look like noise or a bevel, the
+    /// mean of `AngleArea`; in between, a blend of both. The most accurate and the slowest.
     Best = 6,
 }
 
-/// How a frame is stored, and how far N and T may be off (frameErrorBound), in degrees. Numbers are little-endian;
-/// "word" is all bytes of one frame as one unsigned number. The enumerators' values are stable and never reused.
+/// Storage format of a frame, with the maximum error of N and T (frameErrorBound) in degrees. Numbers are
+/// little-endian; "word" means all bytes of one frame as one unsigned number. The enumerators' values are stable and
+/// never reused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FrameFormat {
     /// 4 bytes, 0.135: (rotation << 1) | mirrored. The rotation is a cell of a lattice in one of 24 charts.
@@ -105,20 +105,20 @@ pub enum FrameFormat {
     Frame48 = 1,
     /// 8 bytes, N 0.0001 and T 0.00015: i:21 | j:21 | angle:21 | mirrored:1 from the top; as frame48, finer.
     Frame64 = 2,
-    /// 4 bytes, N 0.15 and T 0.165: i:10 | j:10 | angle:11 | mirrored:1 from the top; the cheapest to decode of the
-    /// codes of 4 bytes.
+    /// 4 bytes, N 0.15 and T 0.165: i:10 | j:10 | angle:11 | mirrored:1 from the top; the 4-byte format that is
+    /// cheapest to decode.
     Oct32 = 3,
-    /// 8 bytes, 0.004: the quaternion x, y, z, w of the rotation (T, N x T, N) as snorm16; w is never 0, its sign is
-    /// the sign.
+    /// 8 bytes, 0.004: the quaternion x, y, z, w of the rotation (T, N x T, N) as snorm16; w is never 0, and its
+    /// sign is the sign of the frame.
     Qtangent64 = 4,
     /// 8 bytes, 0.391: T.xyz, 127, N.xyz, sign as snorm8: the order of Unreal's TangentX and TangentZ.
     Snorm8Pair = 5,
-    /// 16 bytes, 0.00152: the same as snorm16.
+    /// 16 bytes, 0.00152: like `Snorm8Pair`, but as snorm16.
     Snorm16Pair = 6,
     /// 7 bytes, 0.391: TANGENT (4 snorm8), then NORMAL (3 snorm8), as KHR_mesh_quantization stores them, without
     /// padding.
     GltfSnorm8 = 7,
-    /// 14 bytes, 0.00152: the same as snorm16.
+    /// 14 bytes, 0.00152: like `GltfSnorm8`, but as snorm16.
     GltfSnorm16 = 8,
 }
 
@@ -140,7 +140,7 @@ pub enum Green {
     Down = 1,
 }
 
-/// Whether the stored sign is the one of `B = sign * cross(N, T)` or its negative.
+/// Whether the stored sign is the sign in `B = sign * cross(N, T)` or its negative.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum StoredSign {
     AsIs = 0,
