@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checking and decoding of accessors (glTF 2.0 specification, section 3.6.2; KHR_mesh_quantization).
+// Validation and decoding of accessors (glTF 2.0 specification, section 3.6.2; KHR_mesh_quantization).
 #include "model/gltf/accessor.h"
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace tspace::gltf {
 
 namespace {
 
-/// An accessor without a buffer view is all zeros and costs its file nothing, so their number needs a
-/// limit of its own.
+/// Maximum number of elements of accessors without a buffer view. Such elements are all zero and take no space in the
+/// file, so the file size does not limit them.
 constexpr std::size_t kMaxZeroElements = std::size_t{1} << 24;
 
 [[noreturn]] void failAt(std::string message, std::string place) {
@@ -64,8 +64,8 @@ void setShape(Accessor& accessor, const Json& object, const std::string& place) 
     accessor.component_count = accessor.element_bytes = accessor.data_bytes = 0;
 }
 
-/// `count` elements of `element_bytes` (not 0), `stride` apart, from `offset` must lie inside the view. No
-/// sum can overflow.
+/// Checks that `count` elements of `element_bytes` (not 0), `stride` apart, starting at `offset`, lie inside the view.
+/// No sum can overflow.
 void checkRange(const BufferView& view, std::size_t offset, std::size_t count, std::size_t stride,
                 std::size_t element_bytes, const std::string& place) {
     if (count == 0) return;
@@ -117,8 +117,8 @@ bool viewHasData(const Document& document, std::size_t index) {
                                      document.views_without_data.count(index) == 0);
 }
 
-/// Bytes of a view, `count` from `offset`. Its range was checked against the declared length, which the data has
-/// unless it is absent.
+/// Returns `count` bytes of a view, starting at `offset`. The caller has checked the range against the declared length;
+/// the data has this length unless it is absent.
 const std::uint8_t* viewBytes(const Document& document, std::size_t index, std::size_t offset, std::size_t count) {
     const BufferView view = readBufferView(document, index);
     const Buffer& buffer = document.buffers[view.buffer];
@@ -182,7 +182,7 @@ const std::uint8_t* elementSource(const Document& document, const Accessor& acce
                      (accessor.count - 1) * accessor.stride + accessor.data_bytes);
 }
 
-/// Copies elements from their stride to one behind the other.
+/// Copies strided elements to a tightly packed array.
 void pack(const Accessor& accessor, const std::uint8_t* source, std::uint8_t* elements) {
     if (accessor.stride == accessor.element_bytes) {
         std::memcpy(elements, source, (accessor.count - 1) * accessor.element_bytes + accessor.data_bytes);
@@ -195,7 +195,7 @@ void pack(const Accessor& accessor, const std::uint8_t* source, std::uint8_t* el
     });
 }
 
-/// Indices of one type as numbers; returns the largest.
+/// Converts indices of one type to 32 bits; returns the largest index.
 template <class Index>
 std::uint32_t widen(const ElementView& elements, std::span<std::uint32_t> numbers) {
     const auto widenFrom = [&](auto stride) {
@@ -211,8 +211,8 @@ std::uint32_t widen(const ElementView& elements, std::span<std::uint32_t> number
     return elements.stride == kTight ? widenFrom(kTight) : widenFrom(elements.stride);
 }
 
-/// f = max(c / 127, -1) and its like, in float as the specification writes it; not normalised: the value
-/// itself.
+/// Decodes a component to float by the formulas of the specification, such as f = max(c / 127, -1); if not normalized,
+/// returns the integer value.
 float componentAt(const std::uint8_t* bytes, ComponentType type, bool normalized) {
     switch (type) {
         case ComponentType::i8: {
@@ -320,7 +320,7 @@ Accessor readAccessor(const Document& document, std::size_t index) {
                  join(place, "count"));
     }
     accessor.count = static_cast<std::size_t>(count);
-    // Decoded elements are tight, whatever a view beside them says.
+    // Decoded elements are tightly packed, regardless of the stride of their view.
     if (accessor.view && document.elements.count(index) == 0) {
         const BufferView view = readBufferView(document, *accessor.view);
         if (view.stride != 0) accessor.stride = view.stride;
@@ -369,7 +369,7 @@ std::optional<ElementView> viewElements(const Document& document, const Accessor
 
 Bytes copyElements(const Document& document, const Accessor& accessor) {
     const std::uint8_t* source = elementSource(document, accessor);
-    // Zeros only where something stays unset.
+    // Zero-fill only if some bytes are not copied.
     const bool covers_all = source != nullptr && accessor.data_bytes == accessor.element_bytes;
     Bytes elements =
         covers_all ? Bytes(accessor.count * accessor.element_bytes) : Bytes(accessor.count * accessor.element_bytes, 0);
@@ -408,7 +408,7 @@ std::vector<std::uint32_t> decodeIndices(const Document& document, const Accesso
                                                : widen<std::uint32_t>(*elements, indices);
     if (indices.empty() || largest < vertex_count) return indices;
     const auto wrong = std::find_if(indices.begin(), indices.end(), [&](std::uint32_t v) { return v >= vertex_count; });
-    const std::uint32_t restart = 0xffffffffu >> (32 - 8 * bytes);  // the largest of its type
+    const std::uint32_t restart = 0xffffffffu >> (32 - 8 * bytes);  // the largest value of the index type
     failAt("index " + std::to_string(wrong - indices.begin()) + " is " + std::to_string(*wrong) +
                ", but the primitive has " + std::to_string(vertex_count) + " vertices" +
                (*wrong == restart ? "; as a mark that restarts a strip, glTF does not allow it" : ""),
@@ -439,7 +439,7 @@ std::string formatName(const Accessor& accessor) {
     }
     if (accessor.component_count == 0) return name + " of an unknown type";
     if (accessor.component_count == 1) return name;
-    // "snorm16x3", but "float3".
+    // "snorm16x3", but "float3" without an x.
     return name + (accessor.component == ComponentType::f32 ? "" : "x") + std::to_string(accessor.component_count);
 }
 

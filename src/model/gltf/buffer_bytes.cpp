@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pieces of a buffer: appending, cutting and making lazy bytes.
+// Pieces of a buffer: appending, cutting and generating lazy bytes.
 #include "model/gltf/buffer_bytes.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace tspace::gltf {
 
-/// Bytes that are made once, by whichever thread needs them first.
+/// Bytes that are generated once, by the first thread that needs them.
 class BufferBytes::Later {
   public:
     explicit Later(std::shared_ptr<const ByteMaker> maker) : maker_(std::move(maker)) {}
@@ -25,7 +25,7 @@ class BufferBytes::Later {
         });
         return bytes_;
     }
-    /// For writing to a file: bytes that were not made yet are made block by block, and not kept.
+    /// Returns a piece for writing to a file: bytes not yet generated are generated block by block, and not kept.
     [[nodiscard]] OutputPiece piece() const { return is_made_ ? OutputPiece(bytes_) : OutputPiece(maker_); }
 
   private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bytes of a buffer as a row of pieces, so that neither appending nor cutting copies what is there.
+// Bytes of a buffer as a sequence of pieces, so that neither appending nor cutting copies existing bytes.
 #pragma once
 
 #include <cstddef>
@@ -21,32 +21,32 @@ class BufferBytes {
   public:
     BufferBytes() = default;
     explicit BufferBytes(Bytes bytes) { append(std::move(bytes), 1); }
-    /// A view of bytes that the caller owns; they must outlive this.
+    /// Creates a view of bytes that the caller owns; they must outlive this object.
     explicit BufferBytes(std::span<std::uint8_t> bytes);
     BufferBytes(BufferBytes&&) = default;
     BufferBytes& operator=(BufferBytes&&) = default;
 
     [[nodiscard]] std::size_t size() const { return size_; }
 
-    /// The `count` bytes from `begin`, which must lie in one piece: so does everything that was appended at once, but
-    /// for parts that were cut.
+    /// Returns `count` bytes, starting at `begin`, which must be in one piece. Bytes that were appended in one call are
+    /// one piece, unless parts were cut.
     [[nodiscard]] std::span<const std::uint8_t> range(std::size_t begin, std::size_t count) const;
     [[nodiscard]] std::span<std::uint8_t> range(std::size_t begin, std::size_t count);
 
-    /// A copy of the range, which may span several pieces.
+    /// Returns a copy of the range, which may span several pieces.
     [[nodiscard]] Bytes copy(std::size_t begin, std::size_t count) const;
 
-    /// Appends at the next multiple of `alignment`, behind zeros, and returns where that is.
+    /// Appends the bytes at the next multiple of `alignment`, padding with zeros, and returns their offset.
     std::size_t append(Bytes bytes, std::size_t alignment);
-    /// Appends bytes that are made lazily: when they are written, or when range(), copy() or joined() reads them.
+    /// Appends bytes that are generated lazily: when they are written, or when range(), copy() or joined() reads them.
     std::size_t append(std::shared_ptr<const ByteMaker> maker, std::size_t alignment);
-    /// Makes all bytes that were not made yet.
+    /// Generates all lazy bytes.
     void makeAll();
 
     /// Removes ranges. They must be in order and disjoint.
     void cut(std::span<const ByteCut> cuts);
 
-    /// All bytes, one piece after the other.
+    /// Returns all bytes, as consecutive pieces.
     [[nodiscard]] std::vector<OutputPiece> pieces() const;
     [[nodiscard]] Bytes joined() const;
 
@@ -54,7 +54,7 @@ class BufferBytes {
     class Later;
     struct Piece {
         std::size_t begin = 0, count = 0;
-        std::span<std::uint8_t> bytes = {};  ///< empty: `later` has the bytes
+        std::span<std::uint8_t> bytes = {};  ///< empty: `later` provides the bytes
         std::shared_ptr<Later> later = {};
 
         [[nodiscard]] std::span<std::uint8_t> there() const;
@@ -63,9 +63,9 @@ class BufferBytes {
     void pad(std::size_t alignment);
 
     std::vector<Piece> pieces_;   ///< the pieces, none of them empty
-    std::vector<Bytes> storage_;  ///< owns the bytes of all pieces but views
+    std::vector<Bytes> storage_;  ///< owns the bytes of all pieces except views
     std::size_t size_ = 0;
-    std::size_t there_count_ = 0;  ///< leading pieces whose bytes are known to be made
+    std::size_t there_count_ = 0;  ///< number of leading pieces whose bytes are known to be generated
 };
 
 }  // namespace tspace::gltf

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Packs the geometry of whole files.
+// Geometry compression of whole files.
 #include "model/gltf/compression.h"
 
 #include <algorithm>
@@ -20,11 +20,11 @@
 
 namespace tspace::gltf {
 
-// Encodes plain accessors as Draco data.
+// Encodes uncompressed accessors as Draco data.
 
 namespace {
 
-/// The bits that exporters commonly use.
+/// Quantization bits that exporters commonly use.
 constexpr int kPositionBits = 14, kNormalBits = 10, kUvBits = 12;
 
 bool isFinite(const Bytes& floats) {
@@ -36,7 +36,7 @@ bool isFinite(const Bytes& floats) {
     return true;
 }
 
-/// Bits to round an attribute to; 0: none.
+/// Returns the quantization bits of an attribute; 0: none.
 int roundingOf(const DracoAttribute& attribute) {
     if (attribute.component != ComponentType::f32 || !isFinite(attribute.values)) return 0;
     switch (attribute.kind) {
@@ -82,7 +82,7 @@ class Packer {
     bool canPack(const Primitive& primitive) {
         if (findExtension(json(primitive), kDraco) != nullptr || !hasTriangles(primitive.mode)) return false;
         if (!primitive.find("POSITION") || primitive.triangleCount() == 0) return false;
-        // Corners without a triangle would be lost.
+        // Corners that form no triangle would be lost.
         if (primitive.mode == Mode::triangles && primitive.corner_count % 3 != 0) return false;
         if (primitive.indices && !hasData(document_, readAccessor(document_, *primitive.indices))) return false;
         return std::all_of(primitive.attributes.begin(), primitive.attributes.end(), [&](const auto& attribute) {
@@ -91,7 +91,7 @@ class Packer {
         });
     }
 
-    /// True when only the primitives of the group use these vertices.
+    /// Returns whether only the primitives of the group use these vertices.
     bool ownsVertices(const std::vector<const Primitive*>& group) {
         std::map<std::size_t, std::size_t> uses;
         for (const Primitive* primitive : group) {
@@ -101,8 +101,8 @@ class Packer {
                            [&](const auto& use) { return editor_.accessorUses(use.first) == use.second; });
     }
 
-    /// Keeps the vertices that corners use, and renumbers the corners. Decoders refuse more points than corners, and
-    /// unused vertices together with later splits could exceed that.
+    /// Keeps only the vertices that corners use, and renumbers the corners. Decoders reject meshes with more points
+    /// than corners, which unused vertices together with later splits could cause.
     static std::vector<std::uint32_t> chooseVertices(std::vector<std::uint32_t>& corners) {
         std::vector<std::uint32_t> chosen = corners;
         sortList(chosen.begin(), chosen.end());
@@ -125,7 +125,7 @@ class Packer {
         for (const auto& [name, index] : first.attributes) {
             const Accessor accessor = readAccessor(document_, index);
             elements.push_back(gatherElements(document_, accessor, chosen));
-            if (elements.back().places) return;  // a custom attribute that is all but zero stays sparse
+            if (elements.back().places) return;  // a custom attribute with mostly zeros stays sparse
             mesh.attributes.push_back({.kind = dracoKind(name),
                                        .component = accessor.component,
                                        .normalized = accessor.normalized,
@@ -135,7 +135,8 @@ class Packer {
         }
         Bytes data;
         const DracoLimits no_limits{mesh.corners.size(), mesh.point_count, ~std::size_t{0}};
-        if (!encodeDraco(mesh, false, data) || !decodeDraco(data, no_limits, mesh).empty()) return;  // it stays plain
+        // leave the primitive uncompressed
+        if (!encodeDraco(mesh, false, data) || !decodeDraco(data, no_limits, mesh).empty()) return;
         store(group, mesh, std::move(elements), std::move(data), chosen, owns);
         if (chosen.size() != first.vertex_count) numbers_.carry(group, {chosen, mesh.corners, first.vertex_count});
         requireExtension(document_, kDraco);
@@ -146,7 +147,7 @@ class Packer {
         const Primitive& first = *group[0];
         const std::size_t indices = storeIndices(group, mesh);
         Json extension = Json::object();
-        std::map<std::size_t, std::size_t> stored;  // an accessor may be two attributes
+        std::map<std::size_t, std::size_t> stored;  // one accessor may be used for two attributes
         for (std::size_t i = 0; i < first.attributes.size(); ++i) {
             const auto& [name, old] = first.attributes[i];
             extension["attributes"][name] = mesh.attributes[i].id;
@@ -200,7 +201,7 @@ class Packer {
         for (std::size_t t = 0; t < group[0]->targets.size(); ++t) {
             for (const auto& [name, old] : group[0]->targets[t]) {
                 if (stored.count(old) == 0) {
-                    // Undrawn vertices were dropped, and with them perhaps the stated extremes.
+                    // Unused vertices were dropped, possibly including the declared extremes.
                     ElementData data = gatherElements(document_, readAccessor(document_, old), chosen);
                     renewBounds(data);
                     const bool alone = editor_.accessorUses(old) == uses[old];
@@ -227,7 +228,7 @@ std::vector<std::string> packDraco(Document& document, Editor& editor) {
     return packer.warnings();
 }
 
-// Changes the compression of a file, by way of plain views.
+// Changes the compression of a file via uncompressed views.
 
 namespace {
 
@@ -270,7 +271,7 @@ void unpackDraco(Document& document, Editor& editor) {
         std::iota(all.begin(), all.end(), 0u);
         ElementData data = gatherElements(document, accessor, all);
         data.like.reset();
-        renewBounds(data);  // decoded Draco values rarely have exactly the stated extremes
+        renewBounds(data);  // decoded Draco values rarely match the declared extremes exactly
         if (indices.count(index) != 0) data.target = kIndexTarget;
         document.elements.erase(index);
         editor.store(std::move(data), index);
@@ -279,12 +280,12 @@ void unpackDraco(Document& document, Editor& editor) {
     dropExtension(document, kDraco);
 }
 
-/// The geometry that reads a buffer view.
+/// Accessors that read a buffer view.
 struct ViewUse {
     std::set<std::size_t> accessors = {};
     bool by_indices = false, by_vertices = false;
-    std::size_t stride = 0;      ///< stride of all accessors; 0 if they differ
-    std::size_t byte_count = 0;  ///< whole rows that they read
+    std::size_t stride = 0;      ///< common stride of all accessors; 0 if they differ
+    std::size_t byte_count = 0;  ///< size of the complete rows that they read
 };
 
 class ViewUses {
@@ -303,7 +304,8 @@ class ViewUses {
 
     [[nodiscard]] const ViewUse& operator[](std::size_t view) const { return uses_[view]; }
 
-    /// Whether the codec can hold the view: rows of one size, read either as vertices or as indices and not otherwise.
+    /// Returns whether the codec supports the view: rows of one size, used either as vertices or as indices and for
+    /// nothing else.
     [[nodiscard]] bool canPack(std::size_t view) const {
         const ViewUse& use = uses_[view];
         if (use.accessors.empty() || use.accessors.size() != all_[view] || use.by_indices == use.by_vertices)
@@ -359,7 +361,7 @@ bool usesMeshopt(const Document& document) {
     return std::any_of(views.begin(), views.end(), [](const Json& view) { return meshoptExtension(view) != nullptr; });
 }
 
-/// Whether anything changed.
+/// Returns whether the body changed the document.
 template <class Body>
 bool edit(Document& document, const std::string& new_file_name, Body&& body) {
     Editor editor(document, new_file_name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Packs the geometry of whole files: by Draco, or by meshopt as it came.
+// Geometry compression of whole files, with Draco or meshopt.
 #pragma once
 
 #include <string>
@@ -11,25 +11,25 @@
 
 namespace tspace::gltf {
 
-// Giving plain triangle primitives the extension KHR_draco_mesh_compression.
+// Adds KHR_draco_mesh_compression to uncompressed triangle primitives.
 
-/// Encodes every primitive of triangles (strips and fans become lists) that is not Draco-compressed yet. Float
-/// positions are rounded to 14 bits, normals to 10 and UVs to 12; all else is stored exactly. The accessors then have
-/// the rounded values. Vertices and triangles keep their order; a primitive that shares vertices with others gets its
-/// own part of them. Morph targets stay plain. Returns warnings about extensions that name vertices.
+/// Encodes every triangle primitive that is not Draco-compressed yet (strips and fans become lists). Float positions
+/// are quantized to 14 bits, normals to 10 and UVs to 12; everything else is stored exactly. The accessors then contain
+/// the quantized values. Vertices and triangles keep their order; a primitive that shares vertices with others gets a
+/// copy of its vertices. Morph targets stay uncompressed. Returns warnings about extensions that reference vertices.
 std::vector<std::string> packDraco(Document& document, Editor& editor);
 
-// The geometry of a whole file, from any compression to a given one: unpacked before anything is computed from it, and packed
-// when all is done.
+// Conversion of a file's geometry from any compression to a requested one: it is decompressed before frames are
+// computed, and compressed at the end.
 
-/// Unpacks geometry whose compression differs from the requested one. Draco is encoded here, before frames are
-/// computed: it rounds, and frames must fit the rounded values. `new_file_name` as for Editor. Returns false when nothing
-/// had to change. Fails with unsupportedFile when this build lacks the library.
+/// Decompresses geometry whose compression differs from the requested one. Draco encoding happens here, before frames
+/// are computed, because it quantizes and frames must match the quantized values. `new_file_name`: see Editor. Returns
+/// whether anything changed. Fails with unsupportedFile if this build lacks the library.
 bool unpackGeometry(Document& document, Compression compression, const std::string& new_file_name,
                     std::vector<std::string>& warnings);
 
-/// Encodes plain geometry by meshopt, which is lossless and so can run after frames are computed. Returns false when
-/// nothing had to change.
+/// Encodes uncompressed geometry with meshopt, which is lossless and can therefore run after frames are computed.
+/// Returns whether anything changed.
 bool packGeometry(Document& document, Compression compression, const std::string& new_file_name);
 
 }  // namespace tspace::gltf

@@ -10,7 +10,7 @@ inline constexpr const char* kExtMeshopt = "EXT_meshopt_compression";
 inline constexpr const char* kKhrMeshopt = "KHR_meshopt_compression";
 inline constexpr const char* kDraco = "KHR_draco_mesh_compression";
 
-/// Name of the compression extension of a buffer view or buffer; null when it has none.
+/// Returns the name of the compression extension of a buffer view or buffer, or null.
 inline const char* meshoptExtension(const Json& object) {
     for (const char* name : {kExtMeshopt, kKhrMeshopt}) {
         if (findExtension(object, name) != nullptr) return name;

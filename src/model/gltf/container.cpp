@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The files of a glTF model.
+// Files of a glTF model.
 #include "model/gltf/container.h"
 
 #include <algorithm>
@@ -125,16 +125,16 @@ GlbFrame frameGlb(const std::string& json, std::optional<std::size_t> bin_bytes,
     return frame;
 }
 
-// Conversion between .glb and .gltf: joining buffers, taking in images, naming files.
+// Conversion between .glb and .gltf: joins buffers, embeds images, and chooses file names.
 
 namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kJoinAlignment = 8;  // more than glTF's 4: data of extensions may want 8
+constexpr std::size_t kJoinAlignment = 8;  // more than glTF's 4, because data of extensions may require 8
 constexpr const char* kNewBufferEnding = ".tspace.bin";
 
-/// The bytes and media type that an image's URI names, or nothing (with a warning) when they cannot be read.
+/// Returns the bytes and media type of an image's URI, or nullopt (with a warning) if it cannot be read.
 std::optional<DataUri> loadImage(Document& document, const std::string& uri, const std::string& declared,
                                  std::size_t number, std::vector<std::string>& warnings) {
     const std::string place = join("/images", number);
@@ -151,7 +151,7 @@ std::optional<DataUri> loadImage(Document& document, const std::string& uri, con
         warnings.push_back("the image " + inQuotes(uri) + " is not a file and stays outside of the GLB");
         return {};
     } else {
-        // FBX files name the folder of an image that has no name.
+        // FBX files store the folder of an image that has no name.
         if (const std::string why = document.files.whyNotRead(uri, place); !why.empty()) {
             warnings.push_back("the image " + inQuotes(uri) + " stays outside of the GLB, and its URI is kept: " + why);
             return {};
@@ -170,7 +170,7 @@ std::optional<DataUri> loadImage(Document& document, const std::string& uri, con
     return image;
 }
 
-/// BIN is buffer 0; makes an empty one where the document has no buffer.
+/// Returns buffer 0, which is stored in BIN; creates an empty buffer if the document has none.
 Buffer& binBuffer(Document& document) {
     if (document.buffers.empty()) {
         document.json["buffers"] = Json::array({Json{{"byteLength", 0}}});
@@ -190,7 +190,7 @@ struct Moved {
     std::size_t buffer = 0, offset = 0;
 };
 
-/// Points `object` (a view, or the compression extension of one) at the joined buffer.
+/// Makes `object` (a view, or the compression extension of one) refer to the joined buffer.
 void moveReference(Json& object, const std::vector<Moved>& moved) {
     const Moved& to = moved[readSize(object, "buffer", "")];
     const std::size_t offset = readSize(object, "byteOffset", "", 0);
@@ -198,7 +198,7 @@ void moveReference(Json& object, const std::vector<Moved>& moved) {
     if (to.offset != 0) object["byteOffset"] = offset + to.offset;
 }
 
-/// All buffers that have data become one, the first; those without data stay behind it.
+/// Joins all buffers that have data into the first one; buffers without data follow it.
 void joinBuffers(Document& document) {
     if (document.buffers.empty()) return;
     Json old_entries = document.json["buffers"];
@@ -218,10 +218,11 @@ void joinBuffers(Document& document) {
     }
     if (entries.empty()) {
         entries.push_back(Json::object());
-        bin.bytes = BufferBytes(Bytes(kJoinAlignment, 0));  // glTF has no empty buffers
+        bin.bytes = BufferBytes(Bytes(kJoinAlignment, 0));  // glTF does not allow empty buffers
     }
     entries[0].erase("uri");
-    // A `fallback` mark of the old buffer (readers of the extension need not load it) would be wrong on the joined one.
+    // The `fallback` mark of the old buffer (readers of the extension need not load it) would be wrong for the joined
+    // one.
     if (const char* mark = meshoptExtension(entries[0])) {
         entries[0]["extensions"].erase(mark);
         if (entries[0]["extensions"].empty()) entries[0].erase("extensions");
@@ -242,7 +243,7 @@ void joinBuffers(Document& document) {
     }
 }
 
-/// Replaces "uri" by "bufferView" and "mimeType" at the same place among the members.
+/// Replaces "uri" by "bufferView" and "mimeType" at the same position among the members.
 void embedImages(Document& document, std::vector<std::string>& warnings) {
     for (std::size_t i = 0; i < rootArray(document, "images").size(); ++i) {
         const std::string place = join("/images", i);
@@ -251,7 +252,7 @@ void embedImages(Document& document, std::vector<std::string>& warnings) {
         if (uri.empty()) continue;
         const auto image = loadImage(document, uri, readString(old, "mimeType", place), i, warnings);
         if (!image) continue;
-        // First, because a new member of the root invalidates references to the others.
+        // Must come first, because a new root member invalidates references to other members.
         Buffer& bin = binBuffer(document);
         Json& views = editableRootArray(document, "bufferViews");
         const std::size_t begin = appendAligned(bin, image->bytes, 4);
@@ -270,12 +271,12 @@ void embedImages(Document& document, std::vector<std::string>& warnings) {
     }
 }
 
-/// A path from the folder of the output; where that is named without a folder, so are the others.
+/// Returns a path relative to the folder of the output; without a folder if the output has none.
 Path besideTarget(const OutputTarget& target, const Path& name) {
     return fs::path(target.path).parent_path() / fs::path(name);
 }
 
-/// Copies one file that the model names to the same relative place in the output's folder.
+/// Copies one file that the model references to the same relative path in the output's folder.
 void copyNamedFile(const Document& document, const OutputTarget& target, const std::string& uri,
                    const std::string& place, AtomicOutput& output, std::vector<std::string>& warnings) {
     if (uri.empty() || uriKind(uri) != UriKind::path || document.new_files.contains(pathOfUri(uri))) return;
@@ -287,7 +288,7 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
     std::string why = document.files.whyNotRead(uri, place);
     if (leadsAway(relative) != nullptr) why = "it lies outside of the model's folder";
     if (!why.empty()) {
-        // Embedding it failed before, with a warning.
+        // Embedding it has already failed with a warning.
         if (!target.takes_images_in) warnings.push_back("the file " + inQuotes(uri) + " was not copied: " + why);
         return;
     }
@@ -307,7 +308,7 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
     output.addShared(to, document.files.read(from, place));
 }
 
-/// Warns about images that are missing where nothing else looks for them.
+/// Warns about missing images in cases where no other code reads them.
 void noteMissingImages(const Document& document, const OutputTarget& target, std::vector<std::string>& warnings) {
     if (target.takes_images_in || document.files.areNone()) return;
     for (const Json& image : rootArray(document, "images")) {
@@ -412,7 +413,7 @@ void convertContainer(Document& document, const OutputTarget& target, bool will_
             buffer.own = true;
         } else if (buffer.source == BufferSource::file && (target.in_place || !target.same_folder) &&
                    pathOfUri(entry["uri"].text()) == own_name) {
-            // An earlier run made this file for a model of this name.
+            // An earlier run wrote this file for a model with this name.
             buffer.own = true;
             buffer.path = own_name;
         }

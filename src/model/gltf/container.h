@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The files of a glTF model: the binary container (GLB), and .gltf with its buffers.
+// Files of a glTF model: the binary container (GLB), and .gltf with its buffers.
 #pragma once
 
 #include <cstdint>
@@ -15,66 +15,68 @@
 
 namespace tspace::gltf {
 
-// The binary container of glTF 2.0: a header and chunks.
+// Binary container of glTF 2.0: a header and chunks.
 
 struct GlbChunks {
-    std::span<const std::uint8_t> json;  ///< into the file's bytes
+    std::span<const std::uint8_t> json;  ///< points into the file's bytes
     std::optional<std::span<const std::uint8_t>> bin;
     std::vector<ExtraChunk> extra;
-    std::size_t ignored_bytes = 0;  ///< bytes beyond the length that the header states
+    std::size_t ignored_bytes = 0;  ///< bytes after the length that the header declares
 };
 
-/// True when the bytes start with the magic word of GLB.
+/// Returns whether the bytes start with the magic number of GLB.
 bool isGlb(std::span<const std::uint8_t> file);
 
-/// Fails with invalidFile (place: byte offset) or unsupportedFile (other versions).
+/// Splits a GLB into its chunks. Fails with invalidFile (with a byte offset) or unsupportedFile (other versions).
 GlbChunks readGlb(std::span<const std::uint8_t> file);
 
-/// Header, JSON chunk and the head of the BIN chunk in `head`; what follows the BIN bytes in `tail`. So a
-/// large BIN need not be copied. Fails with cannotWrite when the file would pass 4 GiB.
+/// Bytes before and after BIN: `head` contains the header, the JSON chunk and the header of the BIN chunk; `tail`
+/// contains everything after the BIN data. A large BIN is therefore not copied. Fails with cannotWrite if the file
+/// would exceed 4 GiB.
 struct GlbFrame {
     Bytes head;
     Bytes tail;
 };
 GlbFrame frameGlb(const std::string& json, std::optional<std::size_t> bin_bytes, std::span<const ExtraChunk> extra);
 
-// Changing how a document is stored (.glb or .gltf), and writing it out.
+// Conversion of the container (.glb or .gltf), and writing of documents.
 
 /// Destination of the document.
 struct OutputTarget {
     Path path = {};
     Container container = Container::glb;
-    bool in_place = false;         ///< the output is the input
+    bool in_place = false;         ///< the output replaces the input
     bool same_folder = false;      ///< output is in the input's folder: referenced files need not be copied
-    bool takes_images_in = false;  ///< .gltf to .glb
+    bool takes_images_in = false;  ///< a .gltf becomes a .glb, which embeds its images
 };
 
-/// Decides by isGlbOutput(). Fails with unsupportedFile for names that are neither a GLB's nor end in .gltf, and with
-/// invalidOption for a .gltf that goes to a stream.
+/// Determines the target by isGlbOutput(). Fails with unsupportedFile for names that are neither a GLB's nor end in
+/// .gltf, and with invalidOption for a .gltf that is written to a stream.
 OutputTarget outputTarget(const Document& document, const Path& path, bool is_stream);
 
-/// Prepares the document for its output: .gltf to .glb joins all buffers in BIN; .glb to .gltf gives BIN a file name.
-/// Marks the buffers that the output owns. `will_edit`: new data is to be expected.
+/// Prepares the document for its output: .gltf to .glb joins all buffers in BIN; .glb to .gltf assigns a file name to
+/// BIN. Marks the buffers that the output owns. `will_edit`: new data will be added.
 void convertContainer(Document& document, const OutputTarget& target, bool will_edit,
                       std::vector<std::string>& warnings);
 
-/// Embeds images in BIN where a .gltf becomes a .glb. Call after convertContainer; images have no URIs afterwards.
+/// Embeds images in BIN if a .gltf becomes a .glb. Must be called after convertContainer; embedded images have no URI
+/// afterwards.
 void takeImagesIn(Document& document, const OutputTarget& target, std::vector<std::string>& warnings);
 
-/// Whether a buffer or an image of the document names this file, a path from the model's folder.
+/// Returns whether a buffer or image of the document references this file (a path relative to the model's folder).
 bool namesFile(const Document& document, const std::string& name);
 
-/// Name for a buffer file of the output that no URI of the document has: "<stem><ending>".
+/// Returns a name for a buffer file of the output that no URI of the document uses: "<stem><ending>".
 std::string freeFileName(const Document& document, const OutputTarget& target, const std::string& ending);
 
-/// Buffer files that a model may get beside it; none unless its name ends in .gltf.
+/// Returns the buffer files that may be written next to a model; none unless its name ends in .gltf.
 std::vector<std::string> bufferFilesOf(const std::string& path);
 
-/// Writes model, own buffers, and copies of the other files it names when the folder is another one.
+/// Writes the model, its own buffers, and copies of the other referenced files if the folder changes.
 void writeDocument(Document& document, const OutputTarget& target, AtomicOutput& output,
                    std::vector<std::string>& warnings, const Execution& execution);
 
-/// Writes the input's own bytes, with copies of the files it names as above.
+/// Writes the input's bytes unchanged, with copies of the referenced files like writeDocument.
 void writeUnchanged(const Document& document, const OutputTarget& target, AtomicOutput& output,
                     std::vector<std::string>& warnings);
 

@@ -12,7 +12,7 @@ namespace tspace::gltf {
 
 namespace {
 
-/// An array, and what the budget was charged for it.
+/// Array together with its reservation in the memory budget.
 template <class T>
 struct Charged {
     Charged(std::shared_ptr<MemoryBudget> budget, std::uint64_t byte_count, const std::string& place)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Accessors as arrays of numbers, each decoded once for all that look at a document at one time.
+// Accessors as arrays of numbers, each decoded once for all concurrent users of a document.
 #pragma once
 
 #include <cstddef>
@@ -21,26 +21,26 @@
 
 namespace tspace::gltf {
 
-/// Hands out arrays, and remembers each as long as somebody has it. An array is charged to the document's memory budget
-/// once, however many have it, and given back when the last one lets go. Used by several threads at once.
+/// Cache of decoded arrays; an array is kept while it is in use. It is charged to the document's memory budget once,
+/// regardless of the number of users, and released with the last one. Thread-safe.
 class DecodedArrays {
   public:
-    /// The document must outlive this; arrays may outlive both.
+    /// The document must outlive this object; arrays may outlive both.
     explicit DecodedArrays(const Document& document) : document_(document) {}
 
-    /// An accessor as floats. `place`: of the attribute that names it, for errors.
+    /// Returns an accessor as floats. `place`: JSON pointer of the attribute that references it, for errors.
     SharedArray<Vec2> vec2(std::size_t accessor, const std::string& place);
     SharedArray<Vec3> vec3(std::size_t accessor, const std::string& place);
     SharedArray<Vec4> vec4(std::size_t accessor, const std::string& place);
-    /// NORMAL of the primitive, or of one of its morph targets, scaled as it says.
+    /// Returns NORMAL of the primitive, or of one of its morph targets, scaled as the primitive specifies.
     SharedArray<Vec3> normals(const Primitive& primitive, std::size_t accessor, const std::string& place);
     /// Like readTriangleCorners. Also fails with tooLarge if the budget does not allow reading them.
     SharedArray<std::uint32_t> corners(const Primitive& primitive);
     /// Like readPackedWords.
     SharedArray<std::uint8_t> packedWords(const Primitive& primitive, const PackedLayout& layout);
 
-    /// Returns a cached array, or one that is decoded only for the caller and not charged: for callers that reserve all their
-    /// memory in the budget. The attribute must exist.
+    /// Returns a cached array, or decodes one for the caller without charging the budget: for callers that reserve all
+    /// their memory in the budget. The attribute must exist.
     SharedArray<Vec2> borrowUvs(const Primitive& primitive, std::size_t uv_set);
     SharedArray<Vec3> borrowVec3(const Primitive& primitive, const char* attribute);
     SharedArray<Vec4> borrowTangents(const Primitive& primitive);
@@ -48,16 +48,16 @@ class DecodedArrays {
     /// Like corners(), as a list that the caller owns.
     std::vector<std::uint32_t> copyCorners(const Primitive& primitive);
 
-    /// The document has changed: accessors are decoded anew from now on. Arrays that somebody has stay as they are.
+    /// Must be called after the document has changed: accessors are then decoded again. Arrays in use are not changed.
     void forget();
 
   private:
     template <class T>
     using Known = std::weak_ptr<const std::vector<T>>;
-    /// Index list, vertices, mode.
+    /// Index accessor, vertex count, and mode.
     using CornerKey = std::tuple<std::size_t, std::size_t, Mode>;
 
-    /// Returns nothing if it is not cached.
+    /// Returns nullopt if the array is not cached.
     template <class T, class Key>
     std::optional<SharedArray<T>> known(const std::map<Key, Known<T>>& table, const Key& key) const;
     template <class T, class Key, class Decode>
@@ -70,11 +70,11 @@ class DecodedArrays {
 
     const Document& document_;
     mutable std::mutex mutex_ = {};
-    std::map<std::size_t, Known<Vec2>> vec2_ = {};  ///< by accessor
+    std::map<std::size_t, Known<Vec2>> vec2_ = {};  ///< keyed by accessor
     std::map<std::size_t, Known<Vec3>> vec3_ = {};
     std::map<std::size_t, Known<Vec4>> vec4_ = {};
     std::map<std::pair<std::size_t, std::size_t>, Known<Vec3>> scaled_normals_ =
-        {};  ///< keyed by the base's accessor and its own
+        {};  ///< keyed by the accessors of the base and of the array
     std::map<CornerKey, Known<std::uint32_t>> corners_ = {};
     std::map<std::vector<std::size_t>, Known<std::uint8_t>> words_ = {};  ///< keyed by the accessors of the words
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draco extensions of primitives: JSON, limits, decoding, encoding.
+// Draco extensions of primitives: JSON, limits, decoding, and encoding.
 #include "model/gltf/draco_primitives.h"
 
 #include <algorithm>
@@ -17,16 +17,16 @@ namespace tspace::gltf {
 
 namespace {
 
-/// Memory that decoding may take without a user's limit. Draco has no smallest size per vertex (a flat grid takes next
-/// to nothing), so the bound is a choice: a file of any size may decode to 4 MiB, a large one to 256 times its size.
+/// Maximum memory for decoding without a user's limit. Draco has no minimum size per vertex (a flat grid takes almost
+/// nothing), so the limit is a choice: a file of any size may decode to 4 MiB, a large file to 256 times its size.
 constexpr std::uint64_t kFreeBytes = std::uint64_t{4} << 20;
 constexpr std::uint64_t kRatio = 256;
-/// Scratch memory of the library per point, beside the values.
+/// Temporary memory of the library per point, in multiples of the size of the values.
 constexpr std::uint64_t kWorkFactor = 4;
 
 constexpr std::size_t kTriangles = 4;
 
-/// A primitive with the extension, as its JSON says.
+/// Primitive with the extension, as declared in its JSON.
 struct Packed {
     std::size_t mesh = 0, index = 0;
     std::size_t view = 0;
@@ -96,7 +96,7 @@ Json& primitiveJson(Document& document, const Packed& packed) {
     return document.json["meshes"][packed.mesh]["primitives"][packed.index];
 }
 
-/// Source of an accessor's data: a view, and an attribute id in it or its indices.
+/// Source of an accessor's data: a view, and an attribute ID in it or its indices.
 struct Source {
     std::size_t view = 0;
     std::int64_t id = -1;
@@ -137,7 +137,7 @@ class Decoder {
             document_.hidden_accessors.insert(attribute.accessor);
     }
 
-    /// References to accessors from outside of Draco primitives.
+    /// Counts references to accessors from outside Draco primitives.
     void countOtherUses(const std::vector<Packed>& all) {
         other_uses_ = countAccessorUses(document_);
         for (const Packed& packed : all) {
@@ -146,8 +146,8 @@ class Decoder {
         }
     }
 
-    /// The accessor that stands for `source` in this primitive: the given one, or a copy where it stands for other data
-    /// elsewhere.
+    /// Returns the accessor that represents `source` in this primitive: the given one, or a copy if the accessor
+    /// represents other data elsewhere.
     std::size_t own(std::size_t accessor, const Source& source) {
         const auto [entry, is_new] = sources_.try_emplace(accessor, source);
         const bool has_others = accessor < other_uses_.size() && other_uses_[accessor] > 0;
@@ -180,7 +180,7 @@ class Decoder {
         if (packed.mode != kTriangles) json["mode"] = kTriangles;
     }
 
-    /// Charges the budget for what accessors claim, before values are decoded.
+    /// Charges the budget for the declared size of accessors before values are decoded.
     void takeFromBudget(std::uint64_t bytes, const std::string& place) {
         if (document_.memory->isUsers()) {
             document_.memory->require(bytes * kWorkFactor, place);
@@ -224,7 +224,7 @@ class Decoder {
     }
 
     void takeElements(Packed& packed, DracoMesh mesh) {
-        // Unpacked bytes count as bytes of the file, so the budget grows with them; DracoLimits bound them.
+        // Decoded bytes count as bytes of the file, so the budget grows with them; DracoLimits bounds them.
         std::size_t bytes = mesh.corners.size() * sizeof(std::uint32_t);
         for (const DracoAttribute& attribute : mesh.attributes) bytes += attribute.values.size();
         document_.memory->allow(bytes);
@@ -252,7 +252,7 @@ class Decoder {
                      packed.place());
         Bytes elements(mesh.corners.size() * width);
         for (std::size_t i = 0; i < mesh.corners.size(); ++i)
-            std::memcpy(elements.data() + i * width, &mesh.corners[i], width);  // little-endian, as the file
+            std::memcpy(elements.data() + i * width, &mesh.corners[i], width);  // little-endian, like the file
         document_.elements[*packed.indices] = std::move(elements);
         document_.json["accessors"][*packed.indices]["count"] = mesh.corners.size();
     }
@@ -294,7 +294,7 @@ class Encoder {
     void encodeGroup(const std::vector<Packed>& group) {
         const Packed& first = group[0];
         if (!dracoMissing().empty()) {
-            // Plain data exists, or the edit could not have been made; the compressed copy is stale.
+            // Uncompressed data must exist, because the edit was possible; the compressed copy is outdated.
             for (const Packed& packed : group) dropExtension(primitiveJson(document_, packed));
             return;
         }
@@ -329,8 +329,8 @@ class Encoder {
         if (primitive["extensions"].empty()) primitive.erase("extensions");
     }
 
-    /// The attributes to encode: all without a view (they exist in Draco data only), and of the others those that the data
-    /// had before, and frames.
+    /// Returns whether an attribute is encoded: attributes without a view (which exist only in Draco data), attributes
+    /// that the old data contained, and frames.
     [[nodiscard]] bool belongs(const Packed& packed, const std::string& name, std::size_t accessor) const {
         return document_.elements.count(accessor) != 0 || name == "TANGENT" || name == "NORMAL" ||
                name == "_BITANGENT" || isPackedAttribute(name) || oldId(packed, name);

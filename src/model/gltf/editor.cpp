@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Overwriting, storing and re-using of accessors and buffer views.
+// Overwriting, storing and reusing of accessors and buffer views.
 #include "model/gltf/editor.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ void Editor::release(std::size_t index) {
     accessor["count"] = 1;
 }
 
-/// Frees the bytes of an accessor that is to be replaced, and views that nothing else uses.
+/// Frees the bytes of an accessor that will be replaced, and views without other uses.
 void Editor::letGoOf(const Accessor& old) {
     if (old.view) {
         const std::size_t begin = old.byte_offset;
@@ -72,7 +72,7 @@ void Editor::shrinkView(std::size_t index) {
     if (!document_.buffers[old.buffer].own) {
         view["byteLength"] = 1;
         if (!has_own_bytes) return;
-        // Moved to the output's own buffer, so that an unused view does not keep the old buffer referenced.
+        // Moved to the output's own buffer, so that an unused view does not keep a reference to the old buffer.
         vacated_.push_back({old.buffer, old.begin, old.begin + old.byte_count});
         view["buffer"] = targetBuffer();
         view["byteOffset"] = 0;
@@ -82,7 +82,7 @@ void Editor::shrinkView(std::size_t index) {
     }
 }
 
-/// The entry of a view that nothing uses any more, or a new one, with one reference.
+/// Returns an unused view entry, or a new one, with one reference.
 std::size_t Editor::newView() {
     Json& views = editableRootArray(document_, "bufferViews");
     std::size_t index = views.size();
@@ -108,7 +108,7 @@ bool Editor::canOverwrite(const Accessor& accessor) const {
 
 void Editor::overwrite(const Accessor& accessor, const Bytes& elements) {
     const BufferView view = readBufferView(document_, *accessor.view);
-    // Lazy pieces may still have to read these bytes.
+    // Lazy pieces may still need these bytes.
     for (Buffer& any : document_.buffers) any.bytes.makeAll();
     Buffer& buffer = document_.buffers[view.buffer];
     std::uint8_t* to =
@@ -141,7 +141,7 @@ std::size_t Editor::targetBuffer() {
     for (std::size_t i = 0; i < document_.buffers.size(); ++i) {
         if (document_.buffers[i].own) target_buffer_ = i;
     }
-    // A compressed view names its buffer by number too; data appended behind does not disturb it.
+    // A compressed view also references its buffer by index; appending data does not affect it.
     if (target_buffer_) return *target_buffer_;
     Json& buffers = editableRootArray(document_, "buffers");
     target_buffer_ = buffers.size();
@@ -183,7 +183,7 @@ Editor::Form Editor::formLike(std::optional<std::size_t> accessor) const {
     const auto request = to_encode_.find(view);
     form.meshopt = request != to_encode_.end() ? request->second.extension
                                                : meshoptExtension(rootArray(document_, "bufferViews")[view]);
-    // Without the library there are plain data beside the compressed ones, and only they can be renewed.
+    // Without the library, only the uncompressed data next to the compressed data can be updated.
     if (form.meshopt != nullptr && !meshoptMissing(form.meshopt == kKhrMeshopt).empty()) form.meshopt = nullptr;
     const std::size_t buffer = readBufferView(document_, view).buffer;
     if (document_.buffers[buffer].source == BufferSource::decoded) form.decoded_buffer = buffer;
@@ -191,10 +191,10 @@ Editor::Form Editor::formLike(std::optional<std::size_t> accessor) const {
 }
 
 std::size_t Editor::storeView(ElementData& data, const Form& form) {
-    // Vertex attributes start at multiples of 4 bytes each; indices are packed.
+    // Vertex attributes are aligned to 4 bytes each; indices are tightly packed.
     const std::size_t stride = data.target == kVertexTarget ? (data.element_bytes + 3) / 4 * 4 : data.element_bytes;
     const std::size_t count = data.byteCount() / data.element_bytes;
-    // The codec knows no indices of one byte.
+    // The codec does not support 1-byte indices.
     const bool packs = form.meshopt != nullptr && stride > 1;
     const std::size_t buffer = packs && form.decoded_buffer ? *form.decoded_buffer : targetBuffer();
     if (data.later && (packs || stride != data.element_bytes)) data.makeNow();
@@ -223,7 +223,7 @@ std::size_t Editor::storeView(ElementData& data, const Form& form) {
     return index;
 }
 
-/// The member `sparse` of an accessor with these elements.
+/// Stores elements and returns the member `sparse` of their accessor.
 Json Editor::storeSparse(ElementData& data) {
     const std::vector<std::uint32_t>& places = *data.places;
     ElementData indices;
@@ -248,7 +248,7 @@ Json Editor::storeSparse(ElementData& data) {
 }
 
 std::size_t Editor::store(ElementData&& data, std::optional<std::size_t> replaces) {
-    // Charged for the whole run: it stays in memory until the file is written.
+    // Charged for the whole run, because the data stays in memory until the file is written.
     document_.memory->take(data.byteCount() + data.unfiltered.size(), "/accessors");
     changed_ = true;
     const Form form = data.in_draco ? Form{.is_draco = true} : formLike(data.like);
@@ -257,7 +257,7 @@ std::size_t Editor::store(ElementData&& data, std::optional<std::size_t> replace
     std::optional<std::size_t> view;
     Json sparse;
     if (form.is_draco) {
-        // The bytes are moved into Draco data below.
+        // The caller moves the bytes into Draco data.
     } else if (!data.places) {
         view = storeView(data, form);
     } else {
@@ -338,7 +338,7 @@ void Editor::finish() {
     for (const std::size_t view : spare_views_) shrinkView(view);
     spare_views_.clear();
     if (!vacated_.empty()) cutVacated(document_, vacated_);
-    // Looked up only for a buffer: a document without buffers has no array of them.
+    // Looked up per buffer, because a document without buffers has no array of them.
     for (std::size_t i = 0; i < document_.buffers.size(); ++i) {
         if (document_.buffers[i].edited) document_.json["buffers"][i]["byteLength"] = document_.buffers[i].bytes.size();
     }
@@ -369,10 +369,10 @@ void Editor::unpackView(std::size_t index) {
     changed_ = true;
 }
 
-/// A buffer for the plain form of views that only have a compressed one in the file.
+/// Returns the buffer for the decoded form of views whose only data in the file is compressed.
 std::size_t Editor::fallbackBuffer() {
     if (fallback_buffer_) return *fallback_buffer_;
-    targetBuffer();  // first, because BIN is buffer 0
+    targetBuffer();  // must come first, because BIN is buffer 0
     for (std::size_t i = 0; i < document_.buffers.size(); ++i) {
         if (document_.buffers[i].source == BufferSource::decoded) fallback_buffer_ = i;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Changes to accessors, buffer views and buffers of a document. Array entries are never removed or
-// renumbered, because unknown extensions may point at them; entries that lose their last use are re-used.
+// Edits accessors, buffer views and buffers of a document. Array entries are never removed or renumbered, because
+// unknown extensions may reference them; entries without uses are reused.
 #pragma once
 
 #include <cstdint>
@@ -22,57 +22,57 @@ namespace tspace::gltf {
 
 class Editor {
   public:
-    /// `new_file_name` is the name of the buffer file that new data goes into when there is no better place.
+    /// `new_file_name`: name of the buffer file for new data if no existing buffer can hold it.
     Editor(Document& document, std::string new_file_name);
 
-    /// Number of references to an accessor in the document.
+    /// Returns the number of references to an accessor in the document.
     [[nodiscard]] std::size_t accessorUses(std::size_t accessor) const { return accessor_uses_[accessor]; }
     /// Moves one primitive's use from `from` (if any) to `to`.
     void moveUse(std::optional<std::size_t> from, std::size_t to);
 
-    /// Drops one primitive's use of an accessor. After the last use the data is freed; its entry stays as one zero, and
-    /// the entry of an unused view as one byte.
+    /// Drops one primitive's use of an accessor. After the last use the data is freed; the accessor entry remains with
+    /// a single zero, and an unused view entry with one byte.
     void release(std::size_t accessor);
 
-    /// True when the accessor's elements may be overwritten where they are: not sparse, in an own buffer, and
-    /// no other accessor, image or extension sees these bytes.
+    /// Returns whether the accessor's elements may be overwritten in place: it is not sparse, is in an own buffer, and
+    /// shares no bytes with another accessor, image or extension.
     [[nodiscard]] bool canOverwrite(const Accessor& accessor) const;
-    /// Elements of the accessor's own format. Bounds of floats are brought up to date where the accessor has them; of
-    /// others they are removed.
+    /// Overwrites elements, given in the accessor's format. Existing bounds of floats are updated; bounds of other
+    /// types are removed.
     void overwrite(const Accessor& accessor, const Bytes& elements);
 
-    /// Makes an accessor for `data`, whose bytes it takes. `replaces`: an accessor that nothing else uses; its entry is
-    /// re-used. Returns its index.
+    /// Creates an accessor for `data`, whose bytes are moved. `replaces`: an accessor without other uses, whose entry
+    /// is reused. Returns the index.
     std::size_t store(ElementData&& data, std::optional<std::size_t> replaces);
 
     /// Stores bytes in a view without a target and returns its index; `replaces`: a view that only the caller uses.
     std::size_t storeBlob(Bytes data, std::optional<std::size_t> replaces);
     /// Drops one reference to a view.
     void letGoOfView(std::size_t view);
-    /// Removes the meshopt extension of a view, whose plain bytes are then stored in the file.
+    /// Removes the meshopt extension of a view; the file then stores its decoded bytes.
     void unpackView(std::size_t view);
-    /// Has the first `byte_count` bytes of a plain view encoded by EXT_meshopt_compression; zeros follow where it has
-    /// fewer.
+    /// Requests meshopt encoding (EXT_meshopt_compression) of the first `byte_count` bytes of an uncompressed view,
+    /// padded with zeros if it is shorter.
     void packView(std::size_t view, std::size_t byte_count, std::size_t stride, bool is_indices);
 
     /// Adds the extension to extensionsUsed and extensionsRequired.
     void require(const char* extension);
 
-    /// JSON of a primitive or accessor, for editing.
+    /// Returns the JSON of a primitive or accessor, for editing.
     Json& primitive(std::size_t mesh, std::size_t index);
     Json& accessor(std::size_t index);
 
-    /// Encodes views and Draco primitives that changed, cuts out freed bytes, and updates lengths. Call once, after all
-    /// edits.
+    /// Encodes changed views and Draco primitives, removes freed bytes, and updates lengths. Must be called once, after
+    /// all edits.
     void finish();
 
     [[nodiscard]] bool changed() const { return changed_; }
-    /// Notes a change that the caller made to the document.
+    /// Marks the document as changed by the caller.
     void touch() { changed_ = true; }
 
   private:
-    /// How elements are stored: in the data of Draco primitives; or the meshopt extension of their view, and the
-    /// decoded buffer that the view lies in.
+    /// Storage form of elements: data of Draco primitives, or the meshopt extension of their view together with the
+    /// decoded buffer of that view.
     struct Form {
         bool is_draco = false;
         const char* meshopt = nullptr;
@@ -81,12 +81,13 @@ class Editor {
     [[nodiscard]] Form formLike(std::optional<std::size_t> accessor) const;
     std::size_t targetBuffer();
     std::size_t appendBytes(std::size_t buffer, Bytes bytes, std::size_t element_bytes, std::size_t stride);
-    /// These move the bytes out of `data`; its description stays.
+    /// storeView and storeSparse move the bytes out of `data`; its description stays valid.
     std::size_t storeView(ElementData& data, const Form& form);
     Json storeSparse(ElementData& data);
     std::size_t newView();
     std::size_t fallbackBuffer();
-    /// Drops one reference to a view and frees its bytes from `begin` to `end`. A view without references is spare.
+    /// Drops one reference to a view and frees its bytes from `begin` to `end`. A view without references becomes
+    /// spare.
     void letGo(std::size_t view, std::size_t begin, std::size_t end);
     void letGoOf(const Accessor& old);
     void shrinkView(std::size_t view);
@@ -98,8 +99,8 @@ class Editor {
     std::vector<std::size_t> view_uses_;
     std::vector<Extent> extents_;  ///< extents before any edit
     std::vector<ByteRange> vacated_;
-    std::vector<std::size_t> spare_views_;             ///< entries that nothing uses any more
-    std::map<std::size_t, MeshoptRequest> to_encode_;  ///< by view
+    std::vector<std::size_t> spare_views_;             ///< entries without uses
+    std::map<std::size_t, MeshoptRequest> to_encode_;  ///< keyed by view
     std::set<std::size_t> changed_accessors_;
     bool changed_ = false;
 };

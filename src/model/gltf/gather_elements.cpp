@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Copies of elements, made at once or when they are written, and sparse storage.
+// Copies of elements, made immediately or when they are written, and sparse storage.
 #include "model/gltf/gather_elements.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace tspace::gltf {
 
 namespace {
 
-/// The accessor's description without its elements.
+/// Returns the accessor's description without its elements.
 ElementData describe(const Document& document, const Accessor& accessor, std::size_t count) {
     ElementData data;
     data.component = accessor.component;
@@ -26,15 +26,15 @@ ElementData describe(const Document& document, const Accessor& accessor, std::si
     data.filter = filterOf(document, accessor);
     data.count = count;
     data.element_bytes = accessor.element_bytes;
-    // Copies change no bound.
+    // Copying elements does not change their bounds.
     const Json& object = rootArray(document, "accessors")[accessor.index];
     if (const Json* low = findMember(object, "min")) data.min = *low;
     if (const Json* high = findMember(object, "max")) data.max = *high;
     return data;
 }
 
-/// Whether the bytes lie in the model file (in BIN). Those live to the end of the run, and Editor::overwrite makes lazy
-/// pieces before it changes them.
+/// Returns whether the bytes are part of the model file (in BIN). These bytes live until the end of the run, and
+/// Editor::overwrite generates lazy pieces before it changes them.
 bool liesInModelFile(const Document& document, const std::uint8_t* data) {
     const std::uint8_t *begin = document.file_bytes.data(), *end = begin + document.file_bytes.size();
     return !std::less<>{}(data, begin) && std::less<>{}(data, end);
@@ -111,7 +111,7 @@ void renewBounds(ElementData& data) {
 
 namespace {
 
-/// The bytes of JSON for `sparse` and two buffer views, roughly.
+/// Approximate size of the JSON for `sparse` and two buffer views.
 constexpr std::size_t kJsonBytes = 256;
 
 }  // namespace
@@ -125,7 +125,8 @@ void makeSparseWhereSmaller(ElementData& data) {
             places.push_back(static_cast<std::uint32_t>(i));
         }
     }
-    // An accessor without a view and without sparse values is all zero, but Assimp and others cannot load it: it keeps one.
+    // An accessor without a view and without sparse values is valid and all zero, but Assimp and other readers cannot
+    // load it: keep one element.
     if (places.empty() && data.count != 0) places.push_back(0);
     const std::size_t sparse_bytes = places.size() * (size + sizeof(std::uint32_t)) + kJsonBytes;
     if (2 * places.size() > data.count || sparse_bytes >= data.bytes.size()) return;

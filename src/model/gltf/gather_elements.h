@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Copies of an accessor's elements in new numbers, to be stored anew.
+// Copies of an accessor's elements in a new order, for storing as a new accessor.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@
 
 namespace tspace::gltf {
 
-/// Elements for a new or replaced accessor, tightly packed.
+/// Elements of a new or replaced accessor, tightly packed.
 struct ElementData {
     ComponentType component = ComponentType::f32;
     std::string type = "SCALAR";
@@ -27,16 +27,17 @@ struct ElementData {
     std::size_t count = 0;
     std::size_t element_bytes = 4;
     Bytes bytes = {};
-    std::shared_ptr<const ByteMaker> later = {};  ///< makes the elements when they are written; `bytes` is then empty
+    /// generates the elements when they are written; `bytes` is then empty
+    std::shared_ptr<const ByteMaker> later = {};
     unsigned target = kVertexTarget;
-    /// The accessor whose compression the new elements get.
+    /// Accessor whose compression the new elements inherit.
     std::optional<std::size_t> like = {};
-    bool in_draco = false;  ///< they lie in data of a Draco primitive, which the caller stores
-    /// The elements before meshopt's `filter`, in rows of a multiple of 4 bytes; empty: only `bytes` exist.
+    bool in_draco = false;  ///< the elements are part of a Draco primitive's data, which the caller stores
+    /// Elements before meshopt's `filter` is applied, in rows of a multiple of 4 bytes; empty: only `bytes` exist.
     Bytes unfiltered = {};
     MeshoptFilter filter = MeshoptFilter::none;
-    /// If set, `bytes` holds only the elements at these ascending indices, and all others of the `count` are zero: they are
-    /// stored as a sparse accessor.
+    /// If set, `bytes` contains only the elements at these ascending indices, and all others of the `count` elements
+    /// are zero: they are stored as a sparse accessor.
     std::optional<std::vector<std::uint32_t>> places = {};
     Json min = nullptr, max = nullptr;  ///< written unless null
 
@@ -49,7 +50,7 @@ struct ElementData {
     }
 };
 
-/// The old vertex of each new one: the first `kept` keep their numbers, the others are `copies`.
+/// Source vertex of each new vertex: the first `kept` vertices keep their indices, the others are `copies`.
 struct SplitSources {
     std::size_t kept = 0;
     std::shared_ptr<const std::vector<std::uint32_t>> copies = {};
@@ -60,7 +61,7 @@ struct SplitSources {
 /// Elements of split vertices, copied when they are written.
 class GatheredBytes final : public ByteMaker {
   public:
-    /// Elements at `data`, `stride` apart. They must outlive this and stay as they are.
+    /// Gathers elements at `data`, `stride` apart, which must outlive this object and must not change.
     GatheredBytes(const std::uint8_t* data, std::size_t stride, std::size_t element_bytes, SplitSources sources)
         : data_(data), stride_(stride), element_bytes_(element_bytes), sources_(std::move(sources)) {}
 
@@ -77,23 +78,25 @@ class GatheredBytes final : public ByteMaker {
     SplitSources sources_;
 };
 
-/// Element i is a copy of old element sources[i]. Bounds stay, because copies change none; the elements are to be
-/// stored in the form that the accessor's have.
+/// Returns elements where element i is a copy of old element sources[i]. Bounds are kept, because copying does not
+/// change them; the elements are stored in the same form as those of the accessor.
 ElementData gatherElements(const Document& document, const Accessor& accessor, std::span<const std::uint32_t> sources);
 
-/// gatherElements for split vertices. Elements that lie in the model file's own bytes are copied when they are written.
+/// Like gatherElements, for split vertices. Elements that are part of the model file's bytes are copied when they are
+/// written.
 ElementData gatherSplit(const Document& document, const Accessor& accessor, const SplitSources& sources);
 
-/// Brings min and max of float vectors up to date, where there are any; both go when an element is not finite, because
-/// JSON has no such number.
+/// Updates min and max of float vectors if they exist; removes both if an element is not finite, because JSON cannot
+/// represent it.
 void renewBounds(ElementData& data);
 
-/// Keeps only the elements that are not zero, with their places, where most are zero and the file becomes smaller.
+/// Keeps only the nonzero elements, with their indices, if most are zero and the file becomes smaller.
 void makeSparseWhereSmaller(ElementData& data);
 
-/// Index lists as elements. u8 and u16 keep their width while every vertex fits below the primitive restart value.
+/// Returns index lists as elements. u8 and u16 keep their width while all vertex indices are below the primitive
+/// restart value.
 ElementData indexElements(std::vector<std::uint32_t>&& indices, ComponentType narrowest, std::size_t vertex_count);
-/// The index list of a primitive in place of its old one: no narrower, and with bounds if that has some.
+/// Returns a primitive's index list that replaces its old one: no narrower, and with bounds if the old one has them.
 ElementData newIndices(const Document& document, const Primitive& primitive, std::vector<std::uint32_t>&& indices,
                        std::size_t vertex_count);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The JSON of a glTF file: errors with their places, and checked access.
+// JSON of a glTF file: errors with their JSON pointers, and checked access.
 #include "model/gltf/json_access.h"
 
 #include <algorithm>
@@ -51,15 +51,15 @@ JsonStyle styleOf(std::string_view text) {
     return style;
 }
 
-/// Reads 64 bits also where size_t has 32, so that large numbers are compared and not truncated.
+/// Reads 64 bits even if size_t has 32, so that large numbers are compared instead of truncated.
 std::optional<std::uint64_t> wholeNumber(const Json& value) {
     if (value.is_number_integer()) {
-        // Parsed numbers are unsigned; those that this program wrote may be signed.
+        // Parsed numbers are unsigned; numbers that tspace wrote may be signed.
         if (!value.is_number_unsigned() && value.get<std::int64_t>() < 0) return {};
         return value.get<std::uint64_t>();
     }
     if (!value.is_number_float()) return {};
-    // 5.0 is a whole number too; beyond 2^53 a double cannot say which one.
+    // 5.0 is an integer too. Beyond 2^53 a double cannot represent every integer.
     const double number = value.get<double>();
     if (!(number >= 0 && number <= 9007199254740992.0) || number != std::floor(number)) return {};
     return static_cast<std::uint64_t>(number);

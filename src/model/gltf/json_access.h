@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The JSON of a glTF file: reading and writing of its text, and checked access that says where a value is wrong.
+// JSON of a glTF file: parsing, writing, and checked access with error locations.
 #pragma once
 
 #include <cstddef>
@@ -15,9 +15,9 @@ namespace tspace::gltf {
 
 using tspace::Json;
 
-/// How the text was laid out, so that an edited file looks like the one that was read.
+/// Formatting of the original text, so that an edited file looks like the original.
 struct JsonStyle {
-    int indent = -1;  ///< characters per level; -1: all on one line
+    int indent = -1;  ///< characters per level; -1: everything on one line
     char indent_char = ' ';
     bool final_newline = false;
 };
@@ -27,51 +27,51 @@ struct ParsedJson {
     JsonStyle style;
 };
 
-/// Fails with invalidFile: syntax, numbers that no double can hold, repeated members, nesting. What the values take is
-/// asked for in `budget`, which may be null.
+/// Parses JSON. Fails with invalidFile for syntax errors, numbers beyond the range of double, duplicate members, and
+/// excessive nesting. The memory of the values is charged to `budget`, which may be null.
 ParsedJson parseJson(std::span<const std::uint8_t> text, MemoryBudget* budget = nullptr);
 
-/// Bytes that are not UTF-8, as names of OBJ may have, become U+FFFD.
+/// Writes JSON. Bytes that are not UTF-8, as in names from OBJ files, become U+FFFD.
 std::string writeJson(const Json& root, const JsonStyle& style);
 
-// Access. `place` is the JSON pointer of `object`. All fail with invalidFile at the member's own pointer when
-// the type is wrong.
+// Access functions. `place` is the JSON pointer of `object`. All fail with invalidFile at the member's own pointer if
+// its type is wrong.
 
-/// Null when `object` is not an object or has no such member.
+/// Returns the member, or null if `object` is not an object or has no such member.
 const Json* findMember(const Json& object, const char* key);
 
-/// A whole number that is not negative; absent: `fallback`, or a failure when there is none.
+/// Reads a nonnegative integer. If it is absent, returns `fallback`, or fails without one.
 std::uint64_t readWhole(const Json& object, const char* key, const std::string& place,
                         std::optional<std::uint64_t> fallback = {});
 
-/// readWhole for counts of things in memory. Fails for numbers beyond size_t (32 bits in WebAssembly): such data cannot
-/// exist there.
+/// Like readWhole, for counts of items in memory. Fails for numbers beyond size_t (32 bits in WebAssembly): such data
+/// cannot exist there.
 std::size_t readSize(const Json& object, const char* key, const std::string& place,
                      std::optional<std::size_t> fallback = {});
 
-/// An index into an array of `limit` entries, or nothing when absent. `what` names an entry ("accessor").
+/// Reads an index into an array of `limit` entries; nullopt if absent. `what` is the name of an entry ("accessor").
 std::optional<std::size_t> readIndex(const Json& object, const char* key, const std::string& place, std::size_t limit,
                                      const char* what);
 
-/// readIndex for a value that was looked up already.
+/// Like readIndex, for a value that was already looked up.
 std::size_t toIndex(const Json& value, const std::string& place, std::size_t limit, const char* what);
 
 double readNumber(const Json& object, const char* key, const std::string& place, double fallback);
-/// An array of as many numbers as `numbers` has; they stay as they are when the member is absent.
+/// Reads an array of exactly numbers.size() numbers; they are unchanged if the member is absent.
 void readNumbers(const Json& object, const char* key, const std::string& place, std::span<double> numbers);
 std::string readString(const Json& object, const char* key, const std::string& place, const std::string& fallback = {});
 bool readBool(const Json& object, const char* key, const std::string& place, bool fallback);
 
-/// An array member; an empty array when absent. Every entry of it is an object where `of_objects`.
+/// Returns an array member, or an empty array if absent. With `of_objects`, every entry must be an object.
 const Json& readArray(const Json& object, const char* key, const std::string& place, bool of_objects = true);
 
-/// An object member, or null when absent.
+/// Returns an object member, or null if absent.
 const Json* readObject(const Json& object, const char* key, const std::string& place);
 
-/// object.extensions.<name>, or null.
+/// Returns object.extensions.<name>, or null.
 const Json* findExtension(const Json& object, const char* name);
 
-/// A JSON pointer one step further. Escapes ~ and /.
+/// Appends a key or index to a JSON pointer, escaping ~ and /.
 std::string join(const std::string& place, const std::string& key);
 std::string join(const std::string& place, std::size_t index);
 

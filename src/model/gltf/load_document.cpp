@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Loading a glTF file and the bytes that it needs.
+// Loads a glTF file and the bytes that it needs.
 #include "model/gltf/load_document.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace tspace::gltf {
 
 namespace {
 
-/// Required extensions that do not change how geometry is read.
+/// Required extensions that do not affect how geometry is read.
 constexpr std::array<const char*, 28> kHarmless = {"KHR_mesh_quantization",
                                                    "KHR_texture_transform",
                                                    "KHR_texture_basisu",
@@ -53,15 +53,15 @@ constexpr std::array<const char*, 28> kHarmless = {"KHR_mesh_quantization",
 
 bool isCompression(const std::string& name) { return name == kExtMeshopt || name == kKhrMeshopt || name == kDraco; }
 
-/// Why this build cannot read an extension; empty when it can.
+/// Returns why this build cannot read an extension, or an empty string if it can.
 std::string compressionMissing(const std::string& name) {
     return name == kDraco ? dracoMissing() : meshoptMissing(name == kKhrMeshopt);
 }
 
-/// Checked once, so that later code may assume that every entry of these arrays is an object, and finds arrays in
+/// Checks the root arrays once, so that later code may assume that every entry is an object, and finds arrays in
 /// constant time.
 void checkRoot(const Json& root) {
-    // Looking up a member is a linear search, done for every accessor.
+    // Member lookup is a linear search, done for every accessor.
     constexpr std::size_t kMaxRootMembers = 1000;
     if (root.size() > kMaxRootMembers) failFile(ErrorCode::invalidFile, "the root has more than 1000 members", "");
     for (const char* name :
@@ -70,7 +70,7 @@ void checkRoot(const Json& root) {
     }
 }
 
-/// Names other kinds of files in place of a "syntax error".
+/// Reports other file types by name instead of a syntax error.
 void checkLooksLikeJson(std::span<const std::uint8_t> text) {
     std::string_view view(reinterpret_cast<const char*>(text.data()), text.size());
     if (view.substr(0, 3) == "\xef\xbb\xbf") view.remove_prefix(3);  // byte order mark
@@ -134,7 +134,7 @@ Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, cons
         buffer.path = document.files.resolve(text, join(place, "uri"));
         bytes = document.files.read(buffer.path, join(place, "uri"));
         const std::string name = buffer.path.string();
-        // A file that is named twice is read twice, but its bytes count once.
+        // A file that is referenced twice is read twice, but its bytes count once.
         if (std::find(document.input_files.begin(), document.input_files.end(), name) == document.input_files.end()) {
             document.input_bytes += bytes.size();
             document.memory->allow(bytes.size());
@@ -153,7 +153,7 @@ Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, cons
     return buffer;
 }
 
-/// Images are not read here, but each of their files is part of the input. A URI that is refused gets a warning: geometry
+/// Images are not read here, but their files are part of the input. A rejected URI causes a warning, since geometry
 /// does not depend on it.
 void checkImageUris(Document& document) {
     constexpr std::size_t kMostWarnings = 8;
@@ -163,13 +163,13 @@ void checkImageUris(Document& document) {
         const std::string place = join("/images", i);
         const std::string uri = readString(images[i], "uri", place);
         if (uri.empty() || uriKind(uri) == UriKind::data) continue;
-        // With allow_external a web address is left as it is: it names no local file.
+        // With allow_external a web address is not an error: it names no local file.
         if (uriKind(uri) == UriKind::otherScheme && document.options.allow_external) continue;
         const std::optional<Error> failure = tryFile([&] {
             if (!document.files.areNone()) {
                 document.files.note(document.files.resolve(uri, join(place, "uri")));
             } else if (uriKind(uri) == UriKind::path) {
-                // No URI is followed, wherever it leads; but it is one.
+                // The URI is not followed, but it must be well-formed.
                 static_cast<void>(checkedPathOfUri(uri, true, join(place, "uri")));
             }
         });
@@ -180,7 +180,7 @@ void checkImageUris(Document& document) {
         document.warnings.push_back(std::to_string(refused_count - kMostWarnings) + " more images are not read either");
 }
 
-/// Charges each entry a fixed cost for tables of uses, places and reports: an entry takes only a few bytes of JSON.
+/// Charges each entry a fixed cost for tables of uses and reports: an entry takes only a few bytes of JSON.
 void takeEntries(const Document& document) {
     struct List {
         const char* name;
@@ -234,7 +234,7 @@ Document parseDocument(Bytes file_bytes, const Path& path, const FileOptions& op
     ParsedJson parsed = parseJson(text, document.memory.get());
     document.json = std::move(parsed.root);
     document.style = parsed.style;
-    checkVersion(document.json);  // first: glTF 1.0 has objects where 2.0 has arrays
+    checkVersion(document.json);  // must come first: glTF 1.0 has objects where 2.0 has arrays
     checkRoot(document.json);
     takeEntries(document);
     const Json& buffers = rootArray(document, "buffers");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Loading a glTF file and the bytes that it needs.
+// Loads a glTF file and the bytes that it needs.
 #pragma once
 
 #include "model/gltf/document.h"
@@ -8,13 +8,13 @@
 
 namespace tspace::gltf {
 
-/// Reads a .glb or .gltf (told apart by content) from its bytes, and its buffers. Checks asset.version, buffers, buffer views
-/// and accessors (types, ranges), and that no URI of a buffer leads out of the folder, which is that of `path`. Images are
-/// not read; a URI of one that may not be followed gets a warning.
+/// Parses a .glb or .gltf (distinguished by content), and reads its buffers. Checks asset.version, buffers, buffer
+/// views and accessors (types, ranges), and that no buffer URI leaves the folder of `path`. Images are not read; an
+/// image URI that may not be followed causes a warning.
 Document parseDocument(Bytes file_bytes, const Path& path, const FileOptions& options);
 
-/// Fails with unsupportedFile when a required extension hides the geometry and this build cannot decode it. Adds one
-/// warning for each other required extension that this program does not know; their data survives untouched.
+/// Fails with unsupportedFile if a required extension compresses the geometry and this build cannot decode it. Adds one
+/// warning for each other unknown required extension; their data is preserved unchanged.
 void checkRequiredExtensions(Document& document);
 
 }  // namespace tspace::gltf

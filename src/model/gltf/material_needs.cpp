@@ -17,7 +17,7 @@ namespace tspace::gltf {
 
 namespace {
 
-/// Fails beyond 31 bits: reports number UV sets in 32.
+/// Reads a UV set index. Fails beyond 31 bits, because reports store UV sets in 32 bits.
 std::size_t readUvSet(const Json& object, const std::string& place, std::size_t fallback) {
     constexpr std::size_t kMaxUvSet = 0x7fffffff;
     const std::uint64_t set = readWhole(object, "texCoord", place, fallback);
@@ -40,7 +40,8 @@ void readUvs(const Json& texture, const std::string& place, TextureReading& read
     readNumbers(*transform, "scale", transform_place, reading.transform.scale);
 }
 
-/// A member that is an index below `limit`, or nothing. A wrong image does not affect frames, so the file is not refused.
+/// Returns a member that is an index below `limit`, or nullopt. An invalid image does not affect frames, so it is not
+/// an error.
 std::optional<std::size_t> indexBelow(const Json& object, const char* key, std::size_t limit) {
     const Json* value = findMember(object, key);
     if (value == nullptr || !value->is_number_integer()) return {};
@@ -49,7 +50,7 @@ std::optional<std::size_t> indexBelow(const Json& object, const char* key, std::
     return static_cast<std::size_t>(index);
 }
 
-/// The texture that a reference names, or null.
+/// Returns the texture that a reference names, or null.
 const Json* textureOf(const Document& document, const Json& reference) {
     const Json* textures = findMember(document.json, "textures");
     if (textures == nullptr || !textures->is_array()) return nullptr;
@@ -57,7 +58,7 @@ const Json* textureOf(const Document& document, const Json& reference) {
     return index ? &(*textures)[*index] : nullptr;
 }
 
-/// `source` where there is one: the other formats are alternatives to it.
+/// Returns the image of a texture. `source` has priority, because other formats are alternatives to it.
 std::optional<std::size_t> imageOf(const Document& document, const Json& texture) {
     const Json* images = findMember(document.json, "images");
     if (images == nullptr || !images->is_array()) return {};
@@ -70,8 +71,7 @@ std::optional<std::size_t> imageOf(const Document& document, const Json& texture
     return {};
 }
 
-/// `key`: "wrapS" or "wrapT".
-/// The member `key` of the sampler of a texture; null where there is none.
+/// Returns the member `key` ("wrapS" or "wrapT") of the sampler of a texture, or null.
 const Json* samplerMember(const Document& document, const Json& texture, const char* key) {
     const Json* samplers = findMember(document.json, "samplers");
     if (samplers == nullptr || !samplers->is_array()) return nullptr;
@@ -118,7 +118,8 @@ const Json* vrmMaterial(const Document& document, std::size_t material) {
 
 namespace {
 
-/// Extensions of materials that read no tangents, or whose use of tangents is collected here. Any other may read them.
+/// Material extensions that read no tangents, or whose tangent uses are collected here. Any other extension may read
+/// tangents.
 bool isKnownExtension(const std::string& name) {
     static const std::set<std::string> kKnown{"ASOBO_normal_map_convention",
                                               "KHR_materials_unlit",
@@ -142,18 +143,18 @@ bool isKnownExtension(const std::string& name) {
     return kKnown.count(name) != 0;
 }
 
-/// Material extensions that shade with normals and take precedence over KHR_materials_unlit, which is then the fallback
-/// for readers that do not know them.
+/// Material extensions that shade with normals and take precedence over KHR_materials_unlit, which is then only a
+/// fallback for readers without them.
 constexpr std::array kOverridesUnlit{"VRMC_materials_mtoon"};
 
-/// The normal map of a material in VRM 0.x; null where it names none.
+/// Returns the normal map of a material in VRM 0.x, or null.
 const Json* vrmNormalMap(const Document& document, std::size_t material) {
     const Json* entry = vrmMaterial(document, material);
     const Json* textures = entry == nullptr ? nullptr : findMember(*entry, "textureProperties");
     return textures == nullptr ? nullptr : findMember(*textures, "_BumpMap");
 }
 
-/// Whether an object, at any depth, has a texture reference whose name says that it is a normal or bump map.
+/// Returns whether an object contains, at any depth, a texture reference whose name indicates a normal or bump map.
 bool namesNormalMap(const Json& object) {
     if (object.is_array()) return std::any_of(object.begin(), object.end(), namesNormalMap);
     if (!object.is_object()) return false;
@@ -173,7 +174,7 @@ std::vector<std::string> extensionsOf(const Json& object) {
     return names;
 }
 
-/// Whether a name suggests hand-made directions on a surface (flow maps, hair, brushed metal).
+/// Returns whether a name suggests hand-authored surface directions (flow maps, hair, brushed metal).
 bool namesFlow(const std::string& text) {
     const std::string name = lowerAscii(text);
     static constexpr std::array kWords{"tangent", "flow", "aniso", "hair", "brush"};
@@ -183,7 +184,7 @@ bool namesFlow(const std::string& text) {
     });
 }
 
-/// Whether the extras of an object suggest such directions, by the name of a member or by its text.
+/// Returns whether the extras of an object suggest hand-authored directions, by the name of a member or by its text.
 bool speaksOfFlow(const Json& object) {
     const Json* extras = findMember(object, "extras");
     if (extras == nullptr || !extras->is_object()) return false;
@@ -194,7 +195,8 @@ bool speaksOfFlow(const Json& object) {
     return false;
 }
 
-/// Microsoft Flight Simulator's models declare the convention of normal maps, in `asset` or in a material.
+/// Returns whether normal maps are declared as green-down: models for Microsoft Flight Simulator do so in `asset` or in
+/// a material.
 bool declaresGreenDown(const Json& object) {
     const Json* extension = findExtension(object, "ASOBO_normal_map_convention");
     const Json* convention =
@@ -220,11 +222,11 @@ class MaterialUses {
         const Json& material = rootArray(document_, "materials")[material_];
         const std::string place = join("/materials", material_);
         const bool has_map = addTexture(material, place, "normalTexture", "normalTexture");
-        // Its image stays unknown: commands that change maps change references in materials alone.
+        // The image is not recorded: commands that change maps update references in materials only.
         if (!has_map && vrmNormalMap(document_, material_) != nullptr)
             add("normalTexture", join("/extensions/VRM/materialProperties", material_) + "/textureProperties/_BumpMap");
         if (isUnlit(document_, material_)) {
-            // Malformed textures are refused here too.
+            // Malformed textures are rejected for unlit materials too.
             uses_.resize(first_);
             return;
         }
@@ -251,7 +253,7 @@ class MaterialUses {
         return use;
     }
 
-    /// Returns false when there is no such texture.
+    /// Adds a texture use. Returns false if the texture does not exist.
     bool addTexture(const Json& object, const std::string& place, const char* key, const char* needed_by) {
         const Json* texture = readObject(object, key, place);
         if (texture == nullptr) return false;
@@ -263,7 +265,7 @@ class MaterialUses {
         use.wrap_u = reading.wrap_u;
         use.wrap_v = reading.wrap_v;
         use.reads_levels = reading.reads_levels;
-        // A value that is no number is ignored, as viewers do: tangents do not depend on it.
+        // A scale that is not a number is ignored, as in viewers: tangents do not depend on it.
         if (const Json* scale = findMember(*texture, "scale"); scale != nullptr && scale->is_number())
             use.scale = scale->get<double>();
         use.is_declared_down = declaresGreenDown(rootArray(document_, "materials")[material_]);
@@ -277,7 +279,7 @@ class MaterialUses {
         if (readNumber(anisotropy, "anisotropyStrength", place, 0) == 0) return;
         TangentUse& use = add("anisotropy", place);
         use.has_texture = false;
-        // Without a texture it has no UVs of its own, and follows those of the material's other uses.
+        // A use without a texture has no UVs of its own and takes those of the material's first use.
         if (uses_.size() - 1 == first_) return;
         use.uv_set = uses_[first_].uv_set;
         use.transform = uses_[first_].transform;
@@ -302,7 +304,7 @@ std::vector<std::size_t> variantMaterials(const Document& document, const Primit
     std::set<std::size_t> seen;
     const std::size_t count = rootArray(document, "materials").size();
     for (std::size_t i = 0; i < mappings.size(); ++i) {
-        // Exporters leave mappings to materials that they dropped; viewers then keep the primitive's own material.
+        // Exporters keep mappings to deleted materials; viewers then use the primitive's own material.
         const std::uint64_t material = readWhole(mappings[i], "material", join(place + "/mappings", i), count);
         if (material >= count) continue;
         const auto index = static_cast<std::size_t>(material);
@@ -317,7 +319,7 @@ std::vector<TangentUse> tangentUses(const Document& document, const Primitive& p
     for (const std::size_t material : variantMaterials(document, primitive)) {
         if (material != primitive.material) MaterialUses(document, material, true, uses).collect();
     }
-    // Textures decide where tangents point; uses without one (a factor alone) follow them.
+    // Textures determine the direction of tangents; uses without one (only a factor) follow them.
     const auto texture = std::find_if(uses.begin(), uses.end(), [](const TangentUse& use) { return use.has_texture; });
     if (texture == uses.end()) return uses;
     for (auto use = uses.begin(); use != texture; ++use) {
@@ -379,14 +381,14 @@ std::string materialName(const Document& document, const Primitive& primitive) {
     return primitive.material ? materialName(document, *primitive.material) : std::string();
 }
 
-// Notes on textures that disagree, on texture transforms, and on their animations.
+// Notes on conflicting textures, on texture transforms, and on their animations.
 
 namespace {
 
-/// The most notes per primitive: a file may have any number of variants.
+/// Maximum number of notes per primitive: a file may have any number of variants.
 constexpr std::size_t kMaxDifferences = 8;
 
-/// Why tangents for `first` do not fit `other`.
+/// Returns why tangents for `first` do not fit `other`.
 std::string difference(const TangentUse& first, const TangentUse& other) {
     if (first.uv_set != other.uv_set) {
         return "follow TEXCOORD_" + std::to_string(first.uv_set) + " for " + textureName(first) + ", but " +

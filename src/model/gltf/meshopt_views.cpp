@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Meshopt extensions of buffer views: JSON, limits, decoding, encoding.
+// Meshopt extensions of buffer views: JSON, limits, decoding, and encoding.
 #include "model/gltf/meshopt_views.h"
 
 #include <array>
@@ -13,8 +13,8 @@ namespace tspace::gltf {
 
 namespace {
 
-/// Bytes that a fallback buffer without data may have beyond its compressed views, for files of any size: gaps take
-/// memory too.
+/// Number of bytes that a fallback buffer without data may have in addition to its compressed views, for files of any
+/// size: gaps take memory too.
 constexpr std::uint64_t kFreeGap = std::uint64_t{4} << 20;
 constexpr std::uint64_t kGapRatio = 16;
 
@@ -48,7 +48,7 @@ std::string placeOf(std::size_t view, const char* extension) {
     return join(join("/bufferViews", view) + "/extensions", std::string(extension));
 }
 
-/// The range of the compressed bytes, inside a buffer that has data.
+/// Reads the range of the compressed bytes, which must be inside a buffer that has data.
 void readRange(const Document& document, const Json& object, const std::string& place, MeshoptView& view) {
     const auto buffer = readIndex(object, "buffer", place, document.buffers.size(), "buffer");
     if (!buffer) failFile(ErrorCode::invalidFile, "the member 'buffer' is missing", place);
@@ -74,7 +74,7 @@ void decodeInto(const Document& document, std::size_t index, const MeshoptView& 
         failFile(ErrorCode::invalidFile, "the compressed data are broken", placeOf(index, view.extension));
 }
 
-/// The views to decode, by the fallback buffer that they go into.
+/// Returns the views to decode, keyed by their fallback buffer.
 std::map<std::size_t, std::vector<std::size_t>> viewsToDecode(const Document& document) {
     std::map<std::size_t, std::vector<std::size_t>> views;
     std::uint64_t decoded_bytes = 0, stored_bytes = 0;
@@ -85,7 +85,7 @@ std::map<std::size_t, std::vector<std::size_t>> viewsToDecode(const Document& do
         const std::size_t buffer = readBufferView(document, i).buffer;
         if (document.buffers[buffer].source != BufferSource::absent) continue;
         decoded_bytes += view->coding.byteCount();
-        // Several views may name the same compressed bytes, so their sum needs a limit too.
+        // Several views may refer to the same compressed bytes, so their sum needs a limit too.
         if (decoded_bytes > stored_bytes * meshoptRatio(view->coding.is_khr)) {
             failFile(ErrorCode::invalidFile, "the compressed views claim more data than the file can hold",
                      placeOf(i, view->extension));
@@ -95,7 +95,7 @@ std::map<std::size_t, std::vector<std::size_t>> viewsToDecode(const Document& do
     return views;
 }
 
-/// Memory for the plain form of the views in a fallback buffer.
+/// Allocates the fallback buffer that receives the decoded views.
 void makeFallback(Document& document, std::size_t index, std::span<const std::size_t> views) {
     const std::string place = join("/buffers", index);
     const std::size_t length = readSize(rootArray(document, "buffers")[index], "byteLength", place);
@@ -107,7 +107,7 @@ void makeFallback(Document& document, std::size_t index, std::span<const std::si
                      std::to_string(covered),
                  join(place, "byteLength"));
     }
-    // Unpacked bytes count as bytes of the file, so the budget grows with them; meshoptRatio bounds them.
+    // Decoded bytes count as bytes of the file, so the budget grows with them; meshoptRatio bounds them.
     document.memory->allow(covered);
     document.memory->take(length, place);
     Buffer& buffer = document.buffers[index];
@@ -174,12 +174,12 @@ Bytes gatherUnfiltered(const Document& document, const Accessor& accessor, std::
     if (!meshoptMissing(view.coding.is_khr).empty()) return {};
     const MeshoptFilter filter = std::exchange(view.coding.filter, MeshoptFilter::none);
     const std::size_t row = (accessor.element_bytes + 3) / 4 * 4;
-    // An exponent goes with each component of 4 bytes; the other filters need whole rows.
+    // The exponential filter encodes each 4-byte component separately; the other filters need complete rows.
     const bool can_cut = filter == MeshoptFilter::exponential
                              ? accessor.component == ComponentType::f32 && accessor.byte_offset % 4 == 0
                              : row == accessor.stride && accessor.byte_offset == 0;
     const std::size_t total =
-        readBufferView(document, *accessor.view).byte_count;  // the size that readMeshoptView requires
+        readBufferView(document, *accessor.view).byte_count;  // the size that readMeshoptView has checked
     if (!can_cut || accessor.byte_offset + (accessor.count - 1) * accessor.stride + row > total) return {};
     Bytes all(total);
     decodeInto(document, *accessor.view, view, all);

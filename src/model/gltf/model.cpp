@@ -48,7 +48,7 @@ DrawnScene Model::drawnScene(bool with_images) {
 
 namespace {
 
-/// COLOR_0 of each primitive; empty where there is none.
+/// Returns COLOR_0 of each primitive; empty for primitives without it.
 std::vector<SharedArray<Vec4>> colorsOf(const Document& document, DecodedArrays& arrays,
                                         std::span<const Primitive> primitives) {
     std::vector<SharedArray<Vec4>> all(primitives.size());
@@ -104,7 +104,7 @@ void Model::readAnew() {
         if (buffer.hasStoredBytes()) stored += buffer.bytes.size();
     }
     document.memory = std::make_shared<MemoryBudget>(document.options.memory_limit_bytes);
-    // Its JSON is not written yet, and is about as long as what was read.
+    // The JSON is not written yet; its length is estimated as that of the input.
     document.memory->allow(stored + document.input_bytes);
     document.memory->take(stored, {});
     for (Buffer& buffer : document.buffers) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A model file in memory: its glTF document, and beside that what is made of it once, when it is first asked for.
+// Model file in memory: its glTF document, and derived data that is computed on first use.
 #pragma once
 
 #include <cstddef>
@@ -16,27 +16,28 @@
 
 namespace tspace::gltf {
 
-/// Moving it leaves references to its document and primitives valid.
+/// Moving a Model keeps references to its document and primitives valid.
 class Model {
   public:
     explicit Model(Document&& document);
 
-    /// Whoever changes the document calls `wasEdited` before primitives, arrays or scenes are asked for again.
+    /// After changing the document, callers must call `wasEdited` before they use primitives, arrays or scenes again.
     [[nodiscard]] Document& document() { return *document_; }
     [[nodiscard]] DecodedArrays& arrays() { return *arrays_; }
 
     /// Like readPrimitives, cached.
     [[nodiscard]] std::vector<Primitive>& primitives();
 
-    /// All primitives as a Scene, which stays, and so do its arrays, until dropScene. Copies of it share the arrays.
+    /// Returns all primitives as a Scene, which is valid, with its arrays, until dropScene. Copies of it share the
+    /// arrays.
     [[nodiscard]] const Scene& scene();
-    /// Returns a scene that the caller owns: all primitives, or only these.
+    /// Returns a scene that the caller owns: all primitives, or only the given ones.
     [[nodiscard]] Scene sceneOf();
     [[nodiscard]] Scene sceneOf(std::span<const std::size_t> numbers);
     void dropScene() { scene_.reset(); }
 
-    /// The scene with looks and places, and `with_images` the bytes of those images that pictures show. The model does not
-    /// keep it.
+    /// Returns the scene with surface looks and placements; `with_images`: with the bytes of the images that pictures
+    /// show. The model does not keep it.
     [[nodiscard]] DrawnScene drawnScene(bool with_images);
     /// Like scene, with everything that materials use: the image bytes of base color, metalness and emission, and vertex
     /// colors.
@@ -44,11 +45,11 @@ class Model {
     /// Returns the scene as posed by its nodes; `with_images`: with the bytes of all images and the vertex colors.
     [[nodiscard]] PosedScene posedScene(bool with_images);
 
-    /// Primitives and scene are made anew when they are next asked for, and their old memory is free again.
+    /// Invalidates primitives and scene, which are read again on next use, and frees their memory.
     void wasEdited();
 
-    /// Makes the model what a reader of its file would get: compressed geometry is decoded again, since Draco reorders and
-    /// rounds vertices and meshopt turns triangles; the budget is that of a file of this size.
+    /// Makes the model equal to the result of reading its file: compressed geometry is decoded again, since Draco
+    /// reorders and rounds vertices and meshopt rotates triangles; the budget is that of a file of this size.
     void readAnew();
 
   private:

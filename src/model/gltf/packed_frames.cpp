@@ -12,7 +12,7 @@ namespace tspace::gltf {
 
 namespace {
 
-/// The format that the accessor of a part must have, spelled as formatName does.
+/// Returns the format that the accessor of a part must have, as spelled by formatName.
 std::string wantedFormat(const PackedPart& part) {
     Accessor wanted;
     wanted.component = part.component;

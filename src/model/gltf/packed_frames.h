@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Packed tangent frames that the primitives of a glTF file have.
+// Packed tangent frames in the primitives of a glTF file.
 #pragma once
 
 #include <optional>
@@ -13,26 +13,26 @@
 
 namespace tspace::gltf {
 
-/// Attributes of one format.
+/// Attributes of one packing format.
 struct StoredPacking {
     const PackedLayout* layout = nullptr;
-    std::string attribute = {};  ///< the first of them, or the one that `fault` is about
-    /// Why they are not valid packed frames, half a sentence about `attribute`; empty when they are.
+    std::string attribute = {};  ///< the first attribute of the format, or the one that `fault` is about
+    /// Why the attributes are not valid packed frames, as half a sentence about `attribute`; empty if they are valid.
     std::string fault = {};
 };
 
-/// The formats of which the primitive has an attribute, in the order of FrameFormat.
+/// Returns the formats for which the primitive has an attribute, in the order of FrameFormat.
 std::vector<StoredPacking> findPacked(const Document& document, const Primitive& primitive);
 
-/// The attribute with the primitive's only frames: packed ones without valid NORMAL and TANGENT beside them. Empty when
-/// the primitive has others, or none.
+/// Returns the packed attribute if it contains the primitive's only frames, that is, without valid NORMAL and TANGENT.
+/// Empty if the primitive has other frames, or none.
 std::string packedAlone(const Document& document, const Primitive& primitive);
 
-/// The words, without padding, of a format without fault. Fails as copyElements.
+/// Returns the words, without padding, of a format without a fault. Fails like copyElements.
 Bytes readPackedWords(const Document& document, const Primitive& primitive, const PackedLayout& layout);
 
-/// Removes the attributes in Primitive::miscounted that packing as `pack` makes anew; fails with invalidFile where there
-/// are others. Returns whether the document changed.
+/// Removes the attributes in Primitive::miscounted that packing as `pack` replaces; fails with invalidFile if there are
+/// others. Returns whether the document changed.
 bool removeMiscounted(Document& document, std::span<Primitive> primitives, std::optional<FrameFormat> pack);
 
 }  // namespace tspace::gltf

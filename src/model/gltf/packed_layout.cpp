@@ -15,8 +15,8 @@
 
 namespace tspace::gltf {
 
-// The table of formats. glTF allows attributes no 32-bit integers, so words are bytes or shorts, at most four to an
-// accessor, which every reader takes; vectors are normalised, so that a GPU decodes them.
+// Table of formats. glTF does not allow 32-bit integers as attributes, so words are stored as bytes or shorts, at most
+// four per accessor, which every reader supports; vectors are normalized, so that a GPU decodes them.
 
 namespace {
 
@@ -74,7 +74,8 @@ void putPart(const Bytes& elements, FrameFormat format, const PackedPart& part, 
 
 namespace {
 
-/// The least frames per task. Packing a frame takes about as long as ten corners of a method (the unit of Parallel).
+/// Minimum number of frames per task. Packing a frame takes about as long as ten corners of a method (the unit of
+/// Parallel).
 constexpr std::size_t kPackGrain = 512, kCornersPerFrame = 10;
 
 void add(const PackReport& part, PackReport& sum) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Packed tangent frames as attributes of glTF: the words, and which accessors hold those of each format. docs/concepts/pack.md has
-// the table.
+// Packed tangent frames as glTF attributes: the words, and the accessors of each format. See the table in
+// docs/concepts/pack.md.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace tspace::gltf {
 
-/// An attribute that holds `byte_count` bytes of each word, from `begin` on.
+/// Attribute that contains `byte_count` bytes of each word, starting at `begin`.
 struct PackedPart {
     const char* attribute;
     ComponentType component;
@@ -25,22 +25,22 @@ struct PackedPart {
 
 struct PackedLayout {
     FrameFormat format;
-    std::span<const PackedPart> parts;  ///< together all bytes of a word, each once
+    std::span<const PackedPart> parts;  ///< parts that together contain each byte of a word once
 };
 
-/// All formats, in the order of FrameFormat.
+/// Returns all formats, in the order of FrameFormat.
 std::span<const PackedLayout> packedLayouts();
-/// `format` must be one of the enumerators.
+/// Returns the layout of a format; `format` must be one of the enumerators.
 const PackedLayout& packedLayout(FrameFormat format);
 
-/// Whether an attribute of this name holds packed frames.
+/// Returns whether the attribute name is one of packed frames.
 bool isPackedAttribute(const std::string& name);
 
-/// Copies the bytes of one part out of whole words, tightly packed; putPart copies them back.
+/// takePart extracts the bytes of one part from words, tightly packed; putPart writes them back.
 Bytes takePart(const Bytes& words, FrameFormat format, const PackedPart& part);
 void putPart(const Bytes& elements, FrameFormat format, const PackedPart& part, Bytes& words);
 
-/// One word of `format` for each frame, without padding, by all threads. Adds repaired frames to `report`.
+/// Returns one word of `format` per frame, without padding, packed by all threads. Adds repaired frames to `report`.
 Bytes packWords(FrameFormat format, std::span<const Vec3> normals, std::span<const Vec4> tangents,
                 const Execution& execution, PackReport& report);
 

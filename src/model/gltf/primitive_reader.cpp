@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reading primitives: attributes, indices, and triangles out of lists, strips and fans.
+// Reads primitives: attributes, indices, and the triangles of lists, strips and fans.
 #include "model/gltf/primitive_reader.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace tspace::gltf {
 namespace {
 
 AttributeList readAttributes(const Json& object, const std::string& place, std::size_t accessor_count) {
-    // Looking up an attribute is a linear search, done for each of them.
+    // Attribute lookup is a linear search, done for each attribute.
     constexpr std::size_t kMaxAttributes = 1000;
     if (object.size() > kMaxAttributes)
         failFile(ErrorCode::unsupportedFile, "more than 1000 attributes are not supported", place);
@@ -29,7 +29,7 @@ AttributeList readAttributes(const Json& object, const std::string& place, std::
     return list;
 }
 
-/// Packed frames of another length are no reason to refuse a file: they can be made anew.
+/// Packed frames with a wrong number of elements do not make a file invalid: they can be recomputed.
 void setMiscountedApart(const Document& document, Primitive& primitive) {
     const auto is_good = [&](const auto& entry) {
         return !isPackedAttribute(entry.first) || readAccessor(document, entry.second).count == primitive.vertex_count;
@@ -40,7 +40,7 @@ void setMiscountedApart(const Document& document, Primitive& primitive) {
     list.erase(bad, list.end());
 }
 
-/// Empty: the accessor can hold tangents (`is_base`), or what a morph target adds to them.
+/// Returns why the accessor cannot contain tangents (`is_base`) or tangent offsets of a morph target; empty if it can.
 std::string whyUnreadable(const Accessor& accessor, bool is_base, std::size_t vertex_count) {
     const std::size_t wanted = is_base ? 4 : 3;
     if (accessor.type != "VEC" + std::to_string(wanted))
@@ -52,7 +52,7 @@ std::string whyUnreadable(const Accessor& accessor, bool is_base, std::size_t ve
     return "there are " + std::to_string(accessor.count) + " of them for " + std::to_string(vertex_count) + " vertices";
 }
 
-/// A TANGENT that cannot be one is no reason to refuse a file either.
+/// An invalid TANGENT does not make a file invalid either.
 void setUnreadableApart(const Document& document, Primitive& primitive) {
     const auto setApart = [&](AttributeList& list, std::ptrdiff_t target) {
         const auto entry =
@@ -68,7 +68,7 @@ void setUnreadableApart(const Document& document, Primitive& primitive) {
         setApart(primitive.targets[i], static_cast<std::ptrdiff_t>(i));
 }
 
-/// Least and greatest number of components of an attribute; 0, 0: any.
+/// Returns the minimum and maximum number of components of an attribute; 0, 0: any.
 std::pair<std::size_t, std::size_t> componentRange(const std::string& name) {
     if (name == "POSITION" || name == "NORMAL") return {3, 3};
     if (name.starts_with("TEXCOORD_")) return {2, 2};
@@ -77,13 +77,13 @@ std::pair<std::size_t, std::size_t> componentRange(const std::string& name) {
     return {};
 }
 
-/// Number of components of a vector; 0: the accessor has no vectors.
+/// Returns the number of components of a vector; 0 if the accessor has no vectors.
 std::size_t vectorSize(const Accessor& accessor) {
     return accessor.type.starts_with("VEC") ? accessor.component_count : 0;
 }
 
-/// Whether joints and weights both lack the same components, so that these stand for influences that no vertex has.
-/// Weights alone may lack one that readers compute from the others.
+/// Returns whether joints and weights lack the same components, so that these represent influences that no vertex has.
+/// Only weights may lack one component, which readers compute from the others.
 bool lackSameInfluences(const Document& document, const Primitive& primitive, const std::string& name) {
     const std::string set = name.substr(name.find('_'));
     const auto joints = primitive.find("JOINTS" + set), weights = primitive.find("WEIGHTS" + set);
@@ -94,13 +94,13 @@ bool lackSameInfluences(const Document& document, const Primitive& primitive, co
 }
 
 AttributeRepair repairOf(const std::string& name, const AttributeList& list, bool is_target) {
-    // Programs refuse an empty morph target, and without one of them targets and weights get other numbers.
+    // Programs reject an empty morph target, and removing a target would renumber targets and weights.
     if (is_target && list.size() == 1) return AttributeRepair::none;
     const bool is_needed = name == "POSITION" || name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_");
     return is_needed ? AttributeRepair::none : AttributeRepair::remove;
 }
 
-/// Returns nothing if the attribute is valid: one element per vertex, of a type that its name allows.
+/// Returns nullopt if the attribute is valid: one element per vertex, of a type that its name allows.
 std::optional<AttributeFault> attributeFault(const Document& document, const Primitive& primitive,
                                              const AttributeList& list, std::ptrdiff_t target,
                                              const AttributeList::value_type& attribute) {
@@ -126,7 +126,7 @@ std::optional<AttributeFault> attributeFault(const Document& document, const Pri
     return fault;
 }
 
-/// Attributes that cannot be read are no reason to refuse a file: findings say what to do, and the rest of the model is
+/// Attributes that cannot be read do not make a file invalid: findings state the remedy, and the rest of the model is
 /// processed.
 void setFaultyApart(const Document& document, Primitive& primitive) {
     const auto goodOf = [&](const AttributeList& list, std::ptrdiff_t target) {
@@ -186,19 +186,19 @@ Primitive readPrimitive(const Document& document, const Json& object, std::uint3
 
 template <class Vec>
 std::optional<StridedSpan<const Vec>> viewVectors(const Document& document, const Accessor& accessor) {
-    // They are turned while they are copied.
+    // Big-endian systems convert elements while copying.
     if constexpr (std::endian::native != std::endian::little) return {};
     const bool is_float = accessor.component == ComponentType::f32 && accessor.type[0] == 'V';
     if (!is_float || accessor.element_bytes != sizeof(Vec)) return {};
     const std::optional<ElementView> elements = viewElements(document, accessor);
-    // A file may put floats anywhere.
+    // The alignment must be checked: a file may place floats at any address.
     if (!elements || reinterpret_cast<std::uintptr_t>(elements->data) % alignof(Vec) != 0) return {};
     if (elements->stride % alignof(Vec) != 0) return {};
     return StridedSpan<const Vec>(reinterpret_cast<const Vec*>(elements->data), accessor.count, elements->stride);
 }
 
 std::shared_ptr<const NormalScales> findScales(const Document& document, const Accessor& accessor) {
-    // Without a view all are zero, however many there are.
+    // Without a view all normals are zero, regardless of their number.
     const bool is_stored = accessor.view || accessor.sparse || document.elements.count(accessor.index) != 0;
     if (accessor.type != "VEC3" || !is_stored || !hasData(document, accessor)) return nullptr;
     std::optional<StridedSpan<const Vec3>> normals = viewVectors<Vec3>(document, accessor);
@@ -226,7 +226,7 @@ std::shared_ptr<const NormalScales> findScales(const Document& document, const A
     return scales;
 }
 
-/// Unreadable normals are skipped here; reading them will report the reason.
+/// Skips unreadable normals; reading them will report the reason.
 void findScales(const Document& document, std::vector<Primitive>& primitives) {
     std::map<std::size_t, std::shared_ptr<const NormalScales>> known;
     for (Primitive& primitive : primitives) {
@@ -242,7 +242,7 @@ void findScales(const Document& document, std::vector<Primitive>& primitives) {
     }
 }
 
-/// Memory of a primitive besides its arrays: its lists, its report and its findings.
+/// Memory of a primitive in addition to its arrays: lists, report, and findings.
 void takePrimitive(const Document& document, const Json& object, std::size_t mesh, std::size_t index) {
     constexpr std::size_t kPrimitiveBytes = 1500, kTargetBytes = 100;
     const Json* targets = findMember(object, "targets");
@@ -378,7 +378,7 @@ std::vector<std::uint32_t> readTriangleCorners(const Document& document, const P
         if (primitive.mode == Mode::triangleFan) {
             corners.insert(corners.end(), {list[i + 1], list[i + 2], list[0]});
         } else {
-            // Every second triangle of a strip runs the other way.
+            // Every second triangle of a strip has the opposite winding.
             corners.insert(corners.end(), {list[i], list[i + 1 + i % 2], list[i + 2 - i % 2]});
         }
     }

@@ -16,7 +16,7 @@
 
 namespace tspace::gltf {
 
-// Materials for rendering, and the transforms of nodes.
+// Materials for rendering, and transforms of nodes.
 
 namespace {
 
@@ -35,7 +35,7 @@ Affine transformOf(const double (&move)[3], const double (&turn)[4], const doubl
             {move[0], move[1], move[2]}};
 }
 
-/// The local transform of a node: a matrix, or translation, rotation and scale.
+/// Reads the local transform of a node: a matrix, or translation, rotation and scale.
 Affine readTransform(const Json& node, const std::string& place) {
     if (findMember(node, "matrix") != nullptr) {
         double m[16] = {};
@@ -49,8 +49,8 @@ Affine readTransform(const Json& node, const std::string& place) {
     return transformOf(move, turn, scale);
 }
 
-/// EXT_mesh_gpu_instancing: where a node draws its mesh, relative to the node; one identity without it. An attribute of a
-/// wrong type, or without data, is ignored.
+/// Reads EXT_mesh_gpu_instancing: the transforms of a node's instances relative to the node, or a single identity
+/// without it. Ignores attributes of a wrong type or without data.
 std::vector<Affine> readInstances(const Document& document, const Json& node, const std::string& place) {
     const Json* const extension = findExtension(node, "EXT_mesh_gpu_instancing");
     const Json* const attributes = extension == nullptr ? nullptr : findMember(*extension, "attributes");
@@ -79,7 +79,7 @@ std::vector<Affine> readInstances(const Document& document, const Json& node, co
     return instances;
 }
 
-/// The nodes of a document as a forest: nodes with several parents, and cycles, are cut off.
+/// Nodes of a document as a forest: references that would give a node a second parent, or form a cycle, are ignored.
 class Nodes {
   public:
     explicit Nodes(const Document& document)
@@ -94,7 +94,7 @@ class Nodes {
         below(roots_);
     }
 
-    /// The nodes of the default scene, parents before children.
+    /// Returns the nodes of the default scene, parents before children.
     std::vector<std::size_t> shown() {
         const Json& scenes = rootArray(document_, "scenes");
         if (scenes.empty()) return below(roots_);
@@ -115,7 +115,7 @@ class Nodes {
         return result;
     }
 
-    /// Visits each node once, with the transform by which it is reached first.
+    /// Visits each node once, with the transform of the first path that reaches it.
     std::vector<std::size_t> below(const std::vector<std::size_t>& roots) {
         ++walk_;
         std::vector<std::size_t> order;
@@ -137,12 +137,12 @@ class Nodes {
     const Document& document_;
     const Json& list_;
     std::vector<Affine> worlds_;
-    std::vector<std::uint8_t> seen_;  ///< number of the last walk that met the node
+    std::vector<std::uint8_t> seen_;  ///< number of the last walk that visited the node
     std::uint8_t walk_ = 0;
     std::vector<std::size_t> roots_ = {};
 };
 
-/// The first inverse bind matrix of a skin; none: the identity, as the specification says.
+/// Reads the first inverse bind matrix of a skin; the identity if there is none, as the specification requires.
 Affine readFirstBind(const Document& document, const Json& skin, const std::string& place) {
     const std::size_t count = rootArray(document, "accessors").size();
     const auto index = readIndex(skin, "inverseBindMatrices", place, count, "accessor");
@@ -156,7 +156,7 @@ Affine readFirstBind(const Document& document, const Json& skin, const std::stri
     return {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
 }
 
-/// Transform of a mesh by the first joint of the node's skin; nothing if it has no skin.
+/// Returns the transform of a mesh by the first joint of the node's skin; nullopt if it has no skin.
 std::optional<Affine> boundPlace(const Document& document, const Nodes& nodes, std::size_t node) {
     const Json& skins = rootArray(document, "skins");
     const auto skin = readIndex(nodes[node], "skin", join("/nodes", node), skins.size(), "skin");
@@ -227,7 +227,7 @@ std::vector<ScenePlacement> readPlacements(const Document& document, std::span<c
         const Affine place = boundPlace(document, nodes, node).value_or(nodes.world(node));
         const std::vector<Affine> instances = readInstances(document, nodes[node], join("/nodes", node));
         document.memory->take(instances.size() * of_mesh[*mesh].size() * sizeof(ScenePlacement), join("/nodes", node));
-        // A name that is no text is none: it draws nothing.
+        // A name that is not a string is ignored.
         const Json* const given = findMember(nodes[node], "name");
         const std::string name = given != nullptr && given->is_string() ? given->get<std::string>() : std::string();
         for (const Affine& instance : instances) {
@@ -243,7 +243,7 @@ std::vector<ScenePlacement> readPlacements(const Document& document, std::span<c
 
 namespace {
 
-/// Adds weighted offsets of morph targets: those of one attribute.
+/// Adds the weighted morph target offsets of one attribute.
 void addOffsets(const ScenePrimitive& primitive, std::span<const double> weights,
                 SharedArray<Vec3> SceneMorphTarget::*attribute, std::vector<Vec3>& sums) {
     for (std::size_t i = 0; i < primitive.morph_targets.size() && i < weights.size(); ++i) {
@@ -255,7 +255,7 @@ void addOffsets(const ScenePrimitive& primitive, std::span<const double> weights
     }
 }
 
-/// Weights of a node's morph targets, else those of its mesh.
+/// Returns the morph target weights of a node, or those of its mesh if the node has none.
 std::vector<double> morphWeights(const Json& node, const std::string& node_place, const Json& mesh,
                                  const std::string& mesh_place) {
     const bool is_own = findMember(node, "weights") != nullptr;
@@ -265,7 +265,8 @@ std::vector<double> morphWeights(const Json& node, const std::string& node_place
     return weights;
 }
 
-/// The matrices of a skin's joints, from the mesh at rest into the world; none where they cannot be read.
+/// Returns the matrices of a skin's joints, from the rest pose of the mesh to world space; empty if they cannot be
+/// read.
 std::vector<Affine> jointMatrices(const Document& document, const Nodes& nodes, const Json& skin,
                                   const std::string& place) {
     const std::size_t node_count = rootArray(document, "nodes").size();
@@ -291,7 +292,7 @@ std::vector<Affine> jointMatrices(const Document& document, const Nodes& nodes, 
     return matrices;
 }
 
-/// Weighted joint matrices of each vertex; empty if the primitive has no joints.
+/// Returns the weighted joint matrix of each vertex; empty if the primitive has no joints.
 std::vector<Affine> blendedBones(DecodedArrays& arrays, const Primitive& primitive, std::span<const Affine> joints) {
     const auto joints_at = primitive.find("JOINTS_0"), weights_at = primitive.find("WEIGHTS_0");
     if (!joints_at || !weights_at || joints.empty()) return {};
@@ -303,7 +304,7 @@ std::vector<Affine> blendedBones(DecodedArrays& arrays, const Primitive& primiti
     for (std::size_t v = 0; v < result.size(); ++v) {
         const float number[4] = {numbers[v].x, numbers[v].y, numbers[v].z, numbers[v].w};
         double weight[4] = {weights[v].x, weights[v].y, weights[v].z, weights[v].w};
-        // CesiumMan has sums down to 0.18, where renderers make them 1.
+        // CesiumMan has weight sums down to 0.18, which renderers normalize to 1.
         const double all = weight[0] + weight[1] + weight[2] + weight[3];
         for (double& part : weight) part = all > 0 ? part / all : 0;
         if (!(all > 0)) weight[0] = 1;
@@ -401,7 +402,7 @@ std::set<std::size_t> materialImagesOf(std::span<const SurfaceLook> looks) {
 
 namespace {
 
-/// Sets beyond are not looked at: no renderer has so many, and a file may claim billions.
+/// Higher UV sets are ignored: no renderer supports so many, and a file may declare billions.
 constexpr std::size_t kMaxUvSets = 64;
 
 class PrimitiveLoader {
@@ -470,7 +471,7 @@ class PrimitiveLoader {
         return packed;
     }
 
-    /// Empty where the list has no such attribute. `place`: that of the list.
+    /// Returns an attribute, or an empty array if the list does not contain it. `place`: JSON pointer of the list.
     SharedArray<Vec3> vec3(const AttributeList& list, const char* name, const std::string& place) {
         const auto index = findAttribute(list, name);
         return index ? arrays_.vec3(*index, join(place, name)) : SharedArray<Vec3>();
@@ -485,7 +486,8 @@ class PrimitiveLoader {
     DecodedArrays& arrays_;
 };
 
-/// TGA, which no viewer of glTF shows. What was imported may name it. JavaScript's module does not know it.
+/// Returns whether the image is a TGA, which no glTF viewer shows. Imported models may reference TGA files. The
+/// JavaScript module does not support TGA.
 bool isForbidden([[maybe_unused]] const Document& document, [[maybe_unused]] const Bytes& bytes) {
 #ifdef TSPACE_SMALL
     return false;
@@ -542,14 +544,14 @@ void readImages(const Document& document, const std::set<std::size_t>& wanted, S
                 scene.images[i].why_empty = "it is TGA, which glTF does not have";
                 return;
             }
-            // A file that many entries name has its bytes once.
+            // A file that several entries reference is charged once.
             const bool is_file = !uri.empty() && uriKind(uri) == UriKind::path;
             if (is_file && files.insert(uri).second) document.memory->allow(bytes.size());
             document.memory->take(bytes.size(), place);
             scene.images[i].bytes.assign(bytes.begin(), bytes.end());
         });
         if (!failure) continue;
-        // A missing image is no error; only tooLarge is passed on.
+        // A missing image is not an error; only tooLarge is passed on.
         if (failure->code == ErrorCode::tooLarge) throw FileError{*failure};
         scene.images[i].why_empty = failure->message;
         scene.images[i].is_unavailable = !uri.empty() && !document.files.areNone();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Counts references, closes gaps in buffers, and removes buffers without readers.
+// Counts references, closes gaps in buffers, and removes unused buffers.
 #include "model/gltf/references.h"
 
 #include <algorithm>
@@ -14,11 +14,12 @@ namespace tspace::gltf {
 
 namespace {
 
-/// Cuts are multiples of this, so that everything behind keeps its alignment (glTF requires 4; data of extensions may
-/// need 8).
+/// Cuts are multiples of this size, so that all data after them keeps its alignment (glTF requires 4; data of
+/// extensions may need 8).
 constexpr std::size_t kCutAlignment = 8;
 
-/// Skips values of wrong types: members that tspace interprets were checked at loading, and others are not its concern.
+/// Counts a reference. Skips values of wrong types: members that tspace interprets were checked while loading, and
+/// others are irrelevant.
 void count(std::vector<std::size_t>& uses, const Json* value) {
     if (value == nullptr || !value->is_number() || !(value->get<double>() >= 0)) return;
     const double index = value->get<double>();
@@ -38,14 +39,14 @@ void countPrimitive(std::vector<std::size_t>& uses, const Json& primitive) {
     for (const Json& target : *targets) countMembers(uses, &target);
 }
 
-/// Depth is bounded by kMaxJsonDepth.
+/// The recursion depth is bounded by kMaxJsonDepth.
 void countViewMembers(std::vector<std::size_t>& uses, const Json& value) {
     if (value.is_object()) count(uses, findMember(value, "bufferView"));
     if (!value.is_structured()) return;
     for (const Json& child : value) countViewMembers(uses, child);
 }
 
-/// How often accessors (and their sparse parts) use each view.
+/// Returns how often accessors (and their sparse parts) use each view.
 std::vector<std::size_t> accessorViewUses(const Document& document) {
     std::vector<std::size_t> uses(rootArray(document, "bufferViews").size(), 0);
     for (const Json& accessor : rootArray(document, "accessors")) {
@@ -65,7 +66,7 @@ Extent solidExtent(const Document& document, std::size_t accessor, std::size_t v
     return {accessor, view.buffer, view.begin + offset, view.begin + offset + byte_count, 0, 0};
 }
 
-/// Ranges to cut from one buffer: vacated, not read by anything, aligned; sorted and disjoint.
+/// Returns the ranges to cut from one buffer: freed, unused and aligned; sorted and disjoint.
 std::vector<ByteRange> cutsOf(std::size_t buffer, std::span<const ByteRange> vacated, std::span<const Extent> live) {
     std::vector<ByteRange> holes, cuts;
     for (const ByteRange& range : vacated) {
@@ -85,7 +86,7 @@ std::vector<ByteRange> cutsOf(std::size_t buffer, std::span<const ByteRange> vac
     };
     for (const ByteRange& hole : holes) {
         std::size_t at = std::max(hole.begin, done);
-        // Blocks that begin before this hole: only their furthest end matters.
+        // For blocks that start before this hole, only the largest end matters.
         while (at < hole.end) {
             while (block < blocks.size() && blocks[block].begin <= at) reach = std::max(reach, blocks[block++].end);
             if (reach > at) {
@@ -101,7 +102,7 @@ std::vector<ByteRange> cutsOf(std::size_t buffer, std::span<const ByteRange> vac
     return cuts;
 }
 
-/// Maps byte offsets to their places after the cuts. A byte inside a cut maps to the cut's place.
+/// Maps byte offsets to their values after the cuts. A byte inside a cut maps to the position of the cut.
 class Mover {
   public:
     explicit Mover(std::span<const ByteRange> cuts) : cuts_(cuts) {
@@ -122,14 +123,14 @@ class Mover {
 
   private:
     std::span<const ByteRange> cuts_;
-    std::vector<std::size_t> removed_before_;  ///< bytes removed before each cut
+    std::vector<std::size_t> removed_before_;  ///< number of bytes removed before each cut
 };
 
 void setOffset(Json& object, std::size_t offset, const char* key) {
     if (offset != 0 || object.contains(key)) object[key] = offset;
 }
 
-/// Moves the byteOffset of `object`, which lies in a view that begins at `view_begin`.
+/// Updates the byteOffset of `object`, which is inside a view that starts at `view_begin`.
 void moveOffset(Json& object, const Mover& moved, std::size_t view_begin) {
     const std::size_t offset = readSize(object, "byteOffset", "", 0);
     setOffset(object, moved(view_begin + offset) - moved(view_begin), "byteOffset");
@@ -232,7 +233,7 @@ std::vector<Extent> collectExtents(const Document& document) {
                 {Extent::kNoAccessor, packed->buffer, packed->begin, packed->begin + packed->byte_count, 0, 0});
         }
     }
-    // Views that are read by images, by extensions or by nothing known count as a whole.
+    // Views that images, extensions or unknown readers use count as a whole.
     const std::vector<std::size_t> all = countViewUses(document), known = accessorViewUses(document);
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (known[i] > 0 && known[i] == all[i] && !rootArray(document, "bufferViews")[i].contains("extensions"))
@@ -245,7 +246,7 @@ std::vector<Extent> collectExtents(const Document& document) {
 bool overlaps(const Extent& a, const Extent& b) {
     if (a.buffer != b.buffer || a.begin >= b.end || b.begin >= a.end) return false;
     if (a.stride == 0 || a.stride != b.stride) return true;
-    // Same stride: compare the places inside one stride.
+    // For equal strides, compare the positions within one stride.
     const std::size_t distance =
         a.begin >= b.begin ? (a.begin - b.begin) % a.stride : (a.stride - (b.begin - a.begin) % a.stride) % a.stride;
     return distance < b.element_bytes || a.stride - distance < a.element_bytes;
@@ -262,7 +263,7 @@ void cutVacated(Document& document, std::span<const ByteRange> vacated) {
 
 namespace {
 
-/// Whether a view lies in each buffer.
+/// Returns, for each buffer, whether a view refers to it.
 std::vector<bool> usedBuffers(const Document& document) {
     std::vector<bool> is_used(document.buffers.size(), false);
     for (std::size_t i = 0; i < rootArray(document, "bufferViews").size(); ++i) {
@@ -308,7 +309,7 @@ void removeEmptiedBuffers(Document& document) {
     const auto is_emptied = [](const Buffer& buffer) {
         return buffer.own && buffer.edited && buffer.source != BufferSource::bin && buffer.bytes.size() == 0;
     };
-    // Rare, and checked first: finding used buffers reads every view.
+    // Rare, so it is checked first: finding used buffers reads every view.
     if (std::none_of(document.buffers.begin(), document.buffers.end(), is_emptied)) return;
     std::vector<bool> is_kept = usedBuffers(document);
     for (std::size_t i = 0; i < is_kept.size(); ++i) is_kept[i] = is_kept[i] || !is_emptied(document.buffers[i]);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kOutline = "CESIUM_primitive_outline";
 constexpr const char* kFeatures = "EXT_mesh_features";
-/// Extensions of primitives and meshes that name no vertices, or that are handled elsewhere.
+/// Extensions of primitives and meshes that reference no vertices, or that are handled elsewhere.
 constexpr std::array kNamesNoVertices = {kOutline,
                                          kFeatures,
                                          "KHR_draco_mesh_compression",
@@ -30,7 +30,7 @@ constexpr std::array kNamesNoVertices = {kOutline,
                                          "KHR_meshopt_compression",
                                          "EXT_structural_metadata",
                                          "EXT_instance_features"};
-/// An extension of scenes that states the count of vertices.
+/// Scene extension that declares the number of vertices.
 constexpr const char* kCounts = "FB_geometry_metadata";
 
 const Json& meshOf(const Document& document, const Primitive& primitive) {
@@ -41,7 +41,7 @@ const Json& jsonOf(const Document& document, const Primitive& primitive) {
     return meshOf(document, primitive)["primitives"][primitive.index];
 }
 
-/// Calls back with the name of each extension of the primitive and of its mesh.
+/// Calls visit with the name of each extension of the primitive and of its mesh.
 template <class Visit>
 void visitExtensions(const Document& document, const Primitive& primitive, Visit&& visit) {
     for (const Json* object : {&jsonOf(document, primitive), &meshOf(document, primitive)}) {
@@ -71,8 +71,8 @@ using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
 std::uint64_t keyOf(std::uint32_t a, std::uint32_t b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
 
-/// Renumbers outline edges. Where the triangles on both sides have vertices of their own now, the list gets the edge of
-/// both. An edge of no triangle stays if its vertices do.
+/// Renumbers outline edges. If the triangles on both sides of an edge now have separate vertices, the list gets both
+/// edges. An edge without a triangle is kept if its vertices still exist.
 std::vector<std::uint32_t> carriedEdges(std::span<const std::uint32_t> edges, const NewVertices& vertices) {
     std::unordered_map<std::uint64_t, std::vector<Edge>> found;
     for (std::size_t i = 0; i + 1 < edges.size(); i += 2) found[keyOf(edges[i], edges[i + 1])];
@@ -84,12 +84,12 @@ std::vector<std::uint32_t> carriedEdges(std::span<const std::uint32_t> edges, co
         std::vector<Edge>& list = entry->second;
         if (std::find(list.begin(), list.end(), edge) == list.end()) list.push_back(edge);
     }
-    std::unordered_map<std::uint32_t, std::uint32_t> first_of;  // new vertex by old
+    std::unordered_map<std::uint32_t, std::uint32_t> first_of;  // new vertex for each old one
     for (std::uint32_t i = 0; i < vertices.sources.size(); ++i) first_of.try_emplace(vertices.sources[i], i);
     std::vector<std::uint32_t> result;
     for (std::size_t i = 0; i + 1 < edges.size(); i += 2) {
         for (const Edge& edge : found[keyOf(edges[i], edges[i + 1])]) {
-            // Keeps the direction in which the file lists the edge.
+            // Keeps the direction of the edge in the file.
             const bool turned = vertices.sources[edge.first] != edges[i];
             result.push_back(turned ? edge.second : edge.first);
             result.push_back(turned ? edge.first : edge.second);
@@ -102,7 +102,7 @@ std::vector<std::uint32_t> carriedEdges(std::span<const std::uint32_t> edges, co
     return result;
 }
 
-/// "_FEATURE_ID_2", the first that no primitive has.
+/// Returns the lowest unused feature ID: n of the first "_FEATURE_ID_n" that no primitive has.
 std::size_t freeFeatureId(const Document& document, std::span<const Primitive* const> primitives) {
     for (std::size_t n = 0;; ++n) {
         const std::string name = "_FEATURE_ID_" + std::to_string(n);
@@ -113,7 +113,7 @@ std::size_t freeFeatureId(const Document& document, std::span<const Primitive* c
     }
 }
 
-/// Old numbers of vertices as an attribute for EXT_mesh_features: shorts, or floats for numbers beyond 16 bits.
+/// Returns the old vertex indices as an attribute for EXT_mesh_features: shorts, or floats for indices beyond 16 bits.
 ElementData numbersOf(const NewVertices& vertices) {
     constexpr std::size_t kMostShort = 65536, kMostFloat = std::size_t{1} << 24;
     if (vertices.old_count > kMostFloat)
@@ -134,7 +134,8 @@ ElementData numbersOf(const NewVertices& vertices) {
     return data;
 }
 
-/// Feature ids of a primitive that are neither in an attribute nor in a texture: the number of the vertex.
+/// Returns whether the feature IDs of a primitive are implicit: without an attribute or a texture, the ID is the vertex
+/// index.
 bool isImplicit(const Json& feature_id) {
     return feature_id.is_object() && !feature_id.contains("attribute") && !feature_id.contains("texture");
 }
@@ -150,7 +151,7 @@ bool mayNameVertices(const Document& document, const Primitive& primitive) {
 }
 
 void VertexNumbers::carry(std::span<const Primitive* const> primitives, const NewVertices& vertices) {
-    // A broken extension is left as it is, like unknown ones.
+    // An invalid extension is left unchanged, like an unknown one.
     if (tryFile([&] { carryOutline(primitives, vertices); })) left_[kOutline] += primitives.size();
     if (tryFile([&] { carryFeatureIds(primitives, vertices); })) left_[kFeatures] += primitives.size();
     for (const Primitive* primitive : primitives) noteOthers(*primitive);

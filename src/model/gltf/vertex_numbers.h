@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Extensions that name vertices by number, after vertices were renumbered or split.
+// Updates extensions that reference vertices by index after vertices were renumbered or split.
 #pragma once
 
 #include <cstddef>
@@ -15,25 +15,27 @@
 
 namespace tspace::gltf {
 
-/// Whether a primitive or its mesh has an extension that may name vertices.
+/// Returns whether a primitive or its mesh has an extension that may reference vertices.
 bool mayNameVertices(const Document& document, const Primitive& primitive);
 
-/// The new vertices of primitives that share vertices and triangles.
+/// New vertices of primitives that share vertices and triangles.
 struct NewVertices {
-    std::span<const std::uint32_t> sources;  ///< the old number of each vertex
-    std::span<const std::uint32_t> corners;  ///< three of them per triangle
+    std::span<const std::uint32_t> sources;  ///< old index of each vertex
+    std::span<const std::uint32_t> corners;  ///< three new vertices per triangle
     std::size_t old_count = 0;
 };
 
-/// Carries known extensions over: edges of CESIUM_primitive_outline are renumbered, and feature ids of EXT_mesh_features
-/// that are numbers of vertices become an attribute. Other extensions stay as they are, and a warning names them.
+/// Updates known extensions: edges of CESIUM_primitive_outline are renumbered, and implicit feature IDs of
+/// EXT_mesh_features (vertex indices) become an attribute. Other extensions are left unchanged, with a warning that
+/// names them.
 class VertexNumbers {
   public:
     VertexNumbers(Document& document, Editor& editor) : document_(document), editor_(editor) {}
 
-    /// `primitives`: all that share these vertices and triangles. Their attributes must be those of the new vertices.
+    /// Updates the extensions of `primitives`: all primitives that share these vertices and triangles. Their attributes
+    /// must already be those of the new vertices.
     void carry(std::span<const Primitive* const> primitives, const NewVertices& vertices);
-    /// Sentences about what could not be carried over.
+    /// Returns sentences about extensions that could not be updated.
     [[nodiscard]] std::vector<std::string> warnings() const;
 
   private:
@@ -45,7 +47,7 @@ class VertexNumbers {
 
     Document& document_;
     Editor& editor_;
-    std::map<std::string, std::size_t> left_ = {};  ///< count of primitives, by extension that was not carried over
+    std::map<std::string, std::size_t> left_ = {};  ///< number of primitives per extension that was not updated
 };
 
 }  // namespace tspace::gltf

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Formats that the importer reads, its limits, and its result as a document.
+// Formats that the importer reads, its limits, and conversion of its result to a document.
 #include "model/imported/import_document.h"
 
 #include <algorithm>
@@ -22,26 +22,26 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The formats of Assimp 5, except OBJ and glTF, which tspace reads itself, and formats without meshes or with
+/// Formats of Assimp 5, except OBJ and glTF, which tspace reads itself, and except formats without meshes or with
 /// unmaintained parsers.
 constexpr std::array kExtensions = {".3d",  ".3ds",     ".3mf", ".ac",   ".ase", ".b3d", ".blend", ".cob",
                                     ".dae", ".dxf",     ".fbx", ".hmp",  ".iqm", ".lwo", ".lws",   ".md2",
                                     ".md3", ".md5mesh", ".mdl", ".ms3d", ".ndo", ".nff", ".off",   ".ply",
                                     ".q3o", ".q3s",     ".smd", ".stl",  ".ter", ".x",   ".xgl",   ".zgl"};
 
-/// The importer's mark that a result without tangents means a file without tangents.
+/// Line of the importer's output: a result without tangents means that the file has no tangents.
 constexpr std::string_view kNoTangents = "tangents: none\n";
-/// Its mark that no offset was taken out because of FileOptions::keep_coordinates.
+/// Line of the importer's output: no offset was subtracted, because of FileOptions::keep_coordinates.
 constexpr std::string_view kCoordinatesKept = "coordinates: kept\n";
 
-/// Text of the importer for a message.
+/// Returns the first line of the importer's output, quoted for a message.
 std::string firstLine(const std::string& messages) {
     constexpr std::size_t kMostBytes = 300;
     const std::string quoted = inQuotes(messages.substr(0, messages.find('\n')), kMostBytes);
     return quoted.substr(1, quoted.size() - 2);
 }
 
-/// The importer's warnings: its lines that begin with "warning: ".
+/// Returns the importer's warnings: its lines that start with "warning: ".
 std::vector<std::string> warningsIn(const std::string& messages) {
     constexpr std::string_view kMark = "warning: ";
     std::vector<std::string> warnings;
@@ -52,7 +52,8 @@ std::vector<std::string> warningsIn(const std::string& messages) {
     return warnings;
 }
 
-/// The offset that the importer subtracted from coordinates: three numbers in its line that begins with "offset: ".
+/// Returns the offset that the importer subtracted from coordinates: three numbers in its line that starts with
+/// "offset: ".
 std::array<double, 3> offsetIn(const std::string& messages) {
     constexpr std::string_view kMark = "offset: ";
     std::array<double, 3> offset{};
@@ -66,11 +67,11 @@ std::array<double, 3> offsetIn(const std::string& messages) {
     return offset;
 }
 
-/// Limits by the size of the file, so that a small file with large claims is stopped early.
+/// Returns limits that depend on the file size, so that a small file with excessive declarations is stopped early.
 ImportLimits limitsFor(std::uint64_t size, const FileOptions& options) {
     constexpr std::uint64_t kMebibyte = std::uint64_t{1} << 20;
     constexpr std::uint64_t kAnyFile = 192 * kMebibyte, kPerByte = 256;
-    // Assimp reads 20 to 130 MB per second on the machine where that was measured; others may be much slower.
+    // Assimp reads 20 to 130 MB per second on the machine of the measurement; other machines may be much slower.
     constexpr std::uint32_t kLeastSeconds = 2;
     const auto seconds = kLeastSeconds + static_cast<std::uint32_t>(size / kMebibyte);
     ImportLimits limits;
@@ -79,12 +80,12 @@ ImportLimits limitsFor(std::uint64_t size, const FileOptions& options) {
                               : std::min(options.import_max_memory_bytes, kAnyFile + kPerByte * size);
     limits.processor_seconds = options.import_max_seconds != 0 ? options.import_max_seconds : seconds;
     limits.reads_anywhere = options.allow_external;
-    // The clock gets more than the processor, because other programs may use the processors too.
+    // The wall-clock limit is larger than the processor limit, because other programs may use the processors too.
     limits.seconds = options.import_max_seconds != 0 ? options.import_max_seconds : 2 * seconds;
     return limits;
 }
 
-/// Fails, with the reason, where there is no result.
+/// Fails with the reason if there is no result.
 void checkEnd(const ImportResult& result, const ImportLimits& limits) {
     std::string why;
     switch (result.end) {
@@ -123,7 +124,7 @@ gltf::Document importDocument(const Path& path, const FileOptions& options, cons
     }
     std::error_code error;
     const std::uintmax_t size = fs::file_size(fs::path(path), error);
-    if (error || !fs::is_regular_file(fs::path(path), error)) readFile(path);  // fails, and says why
+    if (error || !fs::is_regular_file(fs::path(path), error)) readFile(path);  // fails with the reason
     if (size > options.import_max_file_bytes) {
         failFile(ErrorCode::unsupportedFile, "the file is larger than the importer's limit of " +
                                                  std::to_string(options.import_max_file_bytes >> 20) + " MiB");
@@ -136,7 +137,7 @@ gltf::Document importDocument(const Path& path, const FileOptions& options, cons
     checkEnd(result, limits);
     gltf::Document document = gltf::parseDocument(std::move(result.glb), path, options);
     document.input_bytes = static_cast<std::uint64_t>(size);
-    // The output is tspace's, not the importer's.
+    // tspace writes the output, not the importer.
     document.source_generator = gltf::generatorOf(document);
     document.imported = true;
     document.json["asset"]["generator"] = "tspace";

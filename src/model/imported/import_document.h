@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files of other formats, by the program tspace-import.
+// Reads files of other formats with the program tspace-import.
 #pragma once
 
 #include <cstdint>
@@ -15,42 +15,43 @@
 
 namespace tspace {
 
-// Runs the importer as a child process with limits. It leaves no files behind, however it or this program ends.
+// Runs the importer as a child process with limits. It leaves no files behind, regardless of how it or this program
+// ends.
 
 struct ImportLimits {
     std::uint64_t memory_bytes = 0;       ///< address space; the result cannot be larger
     std::uint32_t processor_seconds = 0;  ///< processor time
-    std::uint32_t seconds = 0;            ///< on the clock
-    bool reads_anywhere = false;          ///< may read files outside of the model's folder
+    std::uint32_t seconds = 0;            ///< wall-clock time
+    bool reads_anywhere = false;          ///< may read files outside the model's folder
 };
 
 enum class ImportEnd {
     done,
-    refused,     ///< it exited with an error; `messages` says why
-    crashed,     ///< ended by a signal
-    outOfTime,   ///< stopped
-    outOfSpace,  ///< stopped: the result is larger than its memory can be
+    refused,     ///< exited with an error; `messages` contains the reason
+    crashed,     ///< terminated by a signal
+    outOfTime,   ///< stopped: time limit exceeded
+    outOfSpace,  ///< stopped: the result exceeds its memory limit
 };
 
 struct ImportResult {
     ImportEnd end = ImportEnd::done;
     Bytes glb = {};
-    std::string messages = {};  ///< lines; at most 64 KiB of them
+    std::string messages = {};  ///< text output, at most 64 KiB
 };
 
-/// Runs `program` on a file. `keep_coordinates`: as in FileOptions. `tick` is called twenty times per second; an exception
-/// from it kills the child and is passed on. Fails with unsupportedFile where the program cannot be started.
+/// Runs `program` on a file. `keep_coordinates`: see FileOptions. `tick` is called 20 times per second; an exception
+/// from it kills the child and is passed on. Fails with unsupportedFile if the program cannot be started.
 ImportResult runImporter(const std::string& program, const std::string& path, bool keep_coordinates,
                          const ImportLimits& limits, const std::function<void()>& tick);
 
-// Formats that tspace-import, a program of its own, converts to GLB.
+// Formats that the separate program tspace-import converts to GLB.
 
-/// True for the extensions of formats that tspace reads through the importer (.fbx, .ply, .stl, .dae, .3ds, ...).
+/// Returns whether tspace reads this file extension through the importer (.fbx, .ply, .stl, .dae, .3ds, ...).
 bool isImportedFormat(const Path& path);
 
-/// Runs the importer on the file, with limits on memory and time, and parses what it wrote. `path` and `folder` are
-/// those of the file. `progress` is called while the importer works, and may end it by throwing. Fails with
-/// unsupportedFile when there is no importer; with invalidFile when it cannot read the file, crashes, or passes a limit.
+/// Runs the importer on the file, with limits on memory and time, and parses its output. `progress` is called while the
+/// importer works, and may stop it by throwing. Fails with unsupportedFile if there is no importer; with invalidFile if
+/// it cannot read the file, crashes, or exceeds a limit.
 gltf::Document importDocument(const Path& path, const FileOptions& options, const Progress& progress = {});
 
 }  // namespace tspace

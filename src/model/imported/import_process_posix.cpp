@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A child process with two pipes. It confines itself before it reads the file (tools/tspace_import), and is killed when the
-// thread that started it, and waits for it here, ends.
+// Child process with two pipes. It confines itself before it reads the file (tools/tspace_import), and is killed if the
+// waiting thread that started it ends.
 #include "model/imported/import_document.h"
 
 #include <fcntl.h>
@@ -52,8 +52,8 @@ struct Pipe {
     Descriptor read_end, write_end;
 };
 
-/// A pipe that programs started by other threads do not inherit (close-on-exec). Its descriptors are above 2 even if this
-/// program was started without stdin, stdout or stderr, because the child replaces those.
+/// Creates a pipe that programs started by other threads do not inherit (close-on-exec). Its descriptors are above 2
+/// even if this program was started without stdin, stdout or stderr, because the child replaces those.
 Pipe makePipe() {
     std::array<int, 2> ends = {-1, -1};
 #ifdef __linux__
@@ -71,7 +71,7 @@ Pipe makePipe() {
     return pipe;
 }
 
-/// A running process, killed by the destructor unless it was waited for.
+/// Running process, killed by the destructor unless it was waited for.
 class Child {
   public:
     explicit Child(pid_t number) : number_(number) {}
@@ -87,7 +87,8 @@ class Child {
     [[nodiscard]] bool hasEnded() {
         if (has_ended_) return true;
         const pid_t done = waitpid(number_, &status_, WNOHANG);
-        // An error other than EINTR: the parent of this program set SIGCHLD to be ignored, and children are not waited for.
+        // Errors other than EINTR mean that SIGCHLD was set to be ignored by the parent of this program, so children
+        // cannot be waited for.
         has_ended_ = done == number_ || (done < 0 && errno != EINTR);
         return has_ended_;
     }
@@ -130,7 +131,7 @@ pid_t start(const std::vector<std::string>& command, const Descriptor& result, c
     return child;
 }
 
-/// Reserves the length that a GLB's header states, at most `most`.
+/// Reserves the length that a GLB's header declares, at most `most`.
 void reserveWhole(Bytes& glb, std::uint64_t most) {
     constexpr std::size_t kLengthEnd = 12;
     if (glb.size() < kLengthEnd) return;
@@ -139,7 +140,7 @@ void reserveWhole(Bytes& glb, std::uint64_t most) {
     glb.reserve(static_cast<std::size_t>(std::min(length, most)));
 }
 
-/// Reads until the child has closed both pipes. False where time or space runs out before.
+/// Reads until the child has closed both pipes. Stops early if the time or space limit is exceeded.
 class Reader {
   public:
     Reader(Descriptor glb, Descriptor messages, std::uint64_t most_bytes)
@@ -148,7 +149,7 @@ class Reader {
     ImportEnd read(Clock::time_point end, const std::function<void()>& tick, ImportResult& result) {
         while (glb_.isOpen() || messages_.isOpen()) {
             if (Clock::now() >= end) return ImportEnd::outOfTime;
-            // Closed pipes have the descriptor -1, which poll() skips.
+            // poll() skips closed pipes, whose descriptor is -1.
             std::array<pollfd, 2> polled = {pollfd{glb_.number(), POLLIN, 0}, pollfd{messages_.number(), POLLIN, 0}};
             if (poll(polled.data(), polled.size(), kTickMs) <= 0) {
                 tick();
@@ -162,7 +163,7 @@ class Reader {
     }
 
   private:
-    /// The bytes that are available; empty at the end of the pipe.
+    /// Returns the available bytes; empty at the end of the pipe.
     std::span<const std::uint8_t> take(Descriptor& from) {
         const ssize_t count = ::read(from.number(), block_.data(), block_.size());
         if (count == 0 || (count < 0 && errno != EINTR)) from.close();
@@ -187,7 +188,7 @@ class Reader {
     std::vector<std::uint8_t> block_ = std::vector<std::uint8_t>(std::size_t{64} << 10);  // the capacity of a pipe
 };
 
-/// False where time runs out before.
+/// Waits for the child to end. Returns false if the time limit is exceeded first.
 bool waitForEnd(Child& child, Clock::time_point end, const std::function<void()>& tick) {
     for (auto pause = milliseconds(1); !child.hasEnded(); pause = std::min(pause * 2, milliseconds(20))) {
         if (Clock::now() >= end) return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace-import confines itself by Landlock and seccomp, so there is none on Windows.
+// tspace-import confines itself with Landlock and seccomp, so it does not exist on Windows.
 #include "model/imported/import_document.h"
 #include "model/io/file_error.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes the pieces of an output in order, and holds what is common to outputs on disk and in memory.
+// Writes the pieces of an output in order; contains the code shared by outputs on disk and in memory.
 #include "model/io/atomic_output.h"
 
 #include <algorithm>
@@ -15,12 +15,12 @@ namespace tspace {
 
 namespace {
 
-/// The bytes of one write: views of existing bytes, and a block of made ones.
+/// Bytes of one write: views of existing bytes, and a block of generated ones.
 class Batch {
   public:
     [[nodiscard]] bool empty() const { return parts_.empty(); }
 
-    /// Fills it from the pieces, beginning at `piece` and `offset`, and advances both.
+    /// Fills the batch from the pieces, starting at `piece` and `offset`, and advances both.
     void fill(std::span<const OutputPiece> pieces, std::size_t& piece, std::size_t& offset) {
         parts_.clear();
         std::size_t used = 0, taken = 0;
@@ -62,8 +62,8 @@ int writePieces(const Sink& sink, std::span<const OutputPiece> pieces, Parallel&
     int error = 0;
     batches[0].fill(pieces, piece, offset);
     for (std::size_t current = 0; error == 0 && !batches[current].empty(); current ^= 1) {
-        // The next batch is filled while this one is written; at the end it is empty. An exception of the caller's sink
-        // is passed on.
+        // Fills the next batch while this one is written; at the end the batch is empty. An exception of the caller's
+        // sink is passed on.
         parallel.forTasks(2, [&](std::size_t task) {
             if (task == 1) return batches[current ^ 1].fill(pieces, piece, offset);
             errno = 0;
@@ -133,7 +133,7 @@ HeldOutputs* HeldOutputs::ofThread() { return held_outputs; }
 void HeldOutputs::take(AtomicOutput& output) {
     all_.files_.reserve(all_.files_.size() + output.files_.size());
     all_.created_folders_.reserve(all_.created_folders_.size() + output.created_folders_.size());
-    // No memory is allocated from here on.
+    // No allocations from here on.
     std::move(output.files_.begin(), output.files_.end(), std::back_inserter(all_.files_));
     std::move(output.created_folders_.begin(), output.created_folders_.end(),
               std::back_inserter(all_.created_folders_));

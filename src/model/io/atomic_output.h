@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Several output files that appear together or not at all: each is written beside its target under a
-// temporary name, and all are renamed at the end.
+// Writes several output files atomically: each is written next to its target under a temporary name, and all are
+// renamed at the end.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@
 
 namespace tspace {
 
-// Parts of an output file: existing bytes, or bytes that are made when they are written.
+// Parts of an output file: existing bytes, or bytes that are generated when they are written.
 
 class ByteMaker {
   public:
@@ -34,11 +34,11 @@ class ByteMaker {
     [[nodiscard]] virtual std::size_t size() const = 0;
     /// Fills `to` with the bytes from `begin` on. Must be thread-safe and deterministic.
     virtual void make(std::size_t begin, std::span<std::uint8_t> to) const = 0;
-    /// All bytes, where they exist already; valid as long as this object. Else empty.
+    /// Returns all bytes if they already exist, valid as long as this object; otherwise an empty span.
     [[nodiscard]] virtual std::span<const std::uint8_t> there() const { return {}; }
 };
 
-/// Owns a vector and serves its bytes without a copy. T: numbers of four bytes without padding.
+/// Owns a vector and provides its bytes without a copy. T: four-byte numbers without padding.
 template <class T>
 class KeptBytes final : public ByteMaker {
   public:
@@ -68,22 +68,22 @@ struct OutputPiece {
     [[nodiscard]] std::size_t size() const { return maker ? maker->size() : bytes.size(); }
 
     std::span<const std::uint8_t> bytes = {};
-    std::shared_ptr<const ByteMaker> maker = {};  ///< owner or maker of the bytes
+    std::shared_ptr<const ByteMaker> maker = {};  ///< owner or generator of the bytes
 };
 
-// Temporary files: their names, which tell whose they are, and the list of those of this process, which a signal handler
-// removes, together with the folders that were created for them.
+// Temporary files: their names, which identify the owning process, and the list of this process's files, which a signal
+// handler removes together with the folders that were created for them.
 
 inline constexpr const char* kTemporaryEnding = ".tmp";
-/// The old file while new ones are renamed.
+/// Name ending of the old file while new files are renamed.
 inline constexpr const char* kAsideEnding = ".old";
 
-/// An unpredictable name beside `target`: TARGET.tspace-MACHINE-PROCESS-RANDOM and the ending. Long names of targets are
-/// cut, so that it has at most 255 bytes.
+/// Returns an unpredictable name next to `target`: TARGET.tspace-MACHINE-PROCESS-RANDOM and the ending. Long target
+/// names are cut, so that the result has at most 255 bytes.
 Path besideName(const Path& target, const char* ending);
 
-/// A critical section in which temporary files are created, removed or renamed; signals are blocked, and one thread at a
-/// time is inside. The constructor does not return once removeTemporaryFiles() has removed the files.
+/// Critical section for creating, removing or renaming temporary files; signals are blocked, and only one thread can be
+/// inside. The constructor does not return once removeTemporaryFiles() has removed the files.
 class TemporaryFilesInWork {
   public:
     TemporaryFilesInWork();
@@ -91,35 +91,37 @@ class TemporaryFilesInWork {
     TemporaryFilesInWork(const TemporaryFilesInWork&) = delete;
     TemporaryFilesInWork& operator=(const TemporaryFilesInWork&) = delete;
 
-    /// Call before the file or folder is created.
+    /// Must be called before the file or folder is created.
     void add(const Path& path);
-    /// Call when the file or folder is removed, renamed, or kept for good.
+    /// Must be called when the file or folder is removed, renamed, or kept permanently.
     void forget(const Path& path) noexcept;
-    /// Call when outputs have been put in place.
+    /// Must be called after outputs have been put in place.
     void noteCommit() noexcept;
 
   private:
     HeldSignals signals_;
 };
 
-/// Removes all temporary files, and stops threads that would make others: the caller ends the program. Where outputs of this
-/// process are in place and `even_after_commit` is false, it removes nothing and returns false. Async-signal-safe.
+/// Removes all temporary files, and blocks threads that would create others: the caller must terminate the program. If
+/// outputs of this process are in place and `even_after_commit` is false, removes nothing and returns false.
+/// Async-signal-safe.
 bool removeTemporaryFiles(bool even_after_commit);
 
-/// The input files of one call, which its outputs must not replace: those that it reads, and images that its models name.
+/// Input files of one call, which its outputs must not replace: files that it reads, and images that its models
+/// reference.
 class InputFiles {
   public:
     InputFiles();
-    /// Fails with cannotRead (FileError) where another call of the same OneRun wrote this file.
+    /// Adds an input. Fails with cannotRead (FileError) if another call of the same OneRun wrote this file.
     void add(const Path& path) { addTo(identities_, path); }
-    /// Makes `options` report every file that is opened, and apart from them every image that is named, to this and then to the
-    /// callbacks that they had. Must outlive `options`.
+    /// Makes `options` report every opened file, and separately every referenced image, to this object and then to the
+    /// previous callbacks. Must outlive `options`.
     void watch(FileOptions& options);
-    /// From now on an output may replace this file where a model names it as an image and nothing reads it.
+    /// Allows outputs to replace this file if a model references it as an image and nothing reads it.
     void letOff(const Path& path);
     /// Whether `path` is one of the inputs, under any name (links, relative paths).
     [[nodiscard]] bool has(const Path& path) const;
-    /// Unique in this process.
+    /// Number of the call; unique in this process.
     [[nodiscard]] std::uint64_t call() const { return call_; }
 
   private:
@@ -130,8 +132,9 @@ class InputFiles {
     std::set<std::string> identities_ = {}, named_ = {}, let_off_ = {};
 };
 
-/// While it lives, no output of this process replaces these files (reports and manifests, which are written in other
-/// ways or later; the names of derived outputs are known only when they are written). Empty paths and "-" are skipped.
+/// While it exists, no output of this process replaces these files. Used for reports and manifests, which are written
+/// by other code or later (the names of derived outputs are known only when they are written). Empty paths and "-" are
+/// skipped.
 class KeptFiles {
   public:
     explicit KeptFiles(const std::vector<std::string>& paths);
@@ -143,8 +146,8 @@ class KeptFiles {
     std::vector<std::string> identities_ = {};
 };
 
-/// While it lives, all calls belong to one run over several models, perhaps in parallel: no call changes a file that
-/// another call read, wrote, or left because it already had the right bytes. At most one may exist.
+/// While it exists, all calls belong to one run over several models, possibly in parallel: no call changes a file that
+/// another call read, wrote, or left because its content was already correct. At most one may exist.
 class OneRun {
   public:
     OneRun();
@@ -153,23 +156,23 @@ class OneRun {
     OneRun& operator=(const OneRun&) = delete;
 };
 
-/// How outputs are written.
+/// Options for writing outputs.
 struct OutputWay {
-    /// If set, receives the single output file instead of the disk.
+    /// If set, the sink receives the single output file, and nothing is written to disk.
     Sink sink = {};
-    bool is_dry_run = false;  ///< writes nothing
-    /// Flushes files from the disk's cache before they are renamed. Costs some milliseconds per file.
+    bool is_dry_run = false;  ///< no output is written
+    /// Flushes files to the disk before they are renamed. Takes a few milliseconds per file.
     bool sync = true;
     const InputFiles* inputs = nullptr;  ///< inputs of the call, which outputs must not replace; null: none
-    bool replaces_inputs = false;        ///< outputs may replace inputs: the model is changed in place
+    bool replaces_inputs = false;        ///< outputs may replace inputs, as for in-place changes of a model
 };
 
-/// Collects files, then commit() puts them in place. Without commit() the destructor removes every temporary
-/// file. All functions fail with cannotWrite by throwing FileError.
+/// Collects files; commit() puts them in place. Without commit() the destructor removes all temporary files. All
+/// functions fail with cannotWrite by throwing FileError.
 ///
-/// Links are followed, except where isForeignLink(). A character device or FIFO is written into by commit(); any other
-/// target that is not a regular file is refused. A replaced file passes its owner, group and permissions on, and the
-/// temporary file never has more permissions than it.
+/// Symbolic links are followed, except if isForeignLink() returns true. commit() writes into a character device or
+/// FIFO; any other target that is not a regular file is rejected. The new file inherits the owner, group and
+/// permissions of the file it replaces, and the temporary file never has more permissions.
 class AtomicOutput {
   public:
     explicit AtomicOutput(OutputWay way = {}) : way_(std::move(way)) {}
@@ -177,60 +180,59 @@ class AtomicOutput {
     AtomicOutput(const AtomicOutput&) = delete;
     AtomicOutput& operator=(const AtomicOutput&) = delete;
 
-    /// Writes `pieces` one after the other to a temporary file beside `target`. Pieces are
-    /// made while the ones before them are written, where `execution` has a second thread. Fails where the target is
-    /// one of the inputs, or one that was added before.
+    /// Writes `pieces` consecutively to a temporary file next to `target`. Pieces are generated while earlier ones are
+    /// written, if `execution` has a second thread. Fails if the target is one of the inputs, or was added before.
     void add(const Path& target, std::span<const OutputPiece> pieces, const Execution& execution = {.thread_count = 1});
     void add(const Path& target, std::initializer_list<OutputPiece> pieces) {
         add(target, std::span(pieces.begin(), pieces.size()));
     }
     void add(const Path& target, std::span<const std::uint8_t> bytes) { add(target, {OutputPiece(bytes)}); }
 
-    /// add() for a file that several outputs may write (a shared texture) and that does not exist yet. Where it exists at
-    /// commit() with equal bytes, it stays; with other bytes commit() fails. Atomic among the threads of this process.
+    /// Like add(), for a file that several outputs may write (such as a shared texture) and that does not exist yet. If
+    /// it exists at commit() with equal bytes, it is kept; with different bytes commit() fails. Atomic among the
+    /// threads of this process.
     void addShared(const Path& target, std::span<const std::uint8_t> bytes) {
         add(target, bytes);
         files_.back().is_shared = true;
     }
 
-    /// Whether a file exists and has these bytes. If so, other calls of OneRun cannot change it.
+    /// Returns whether the file exists with exactly these bytes. If so, other calls of OneRun cannot change it.
     bool leave(const Path& target, std::span<const std::uint8_t> bytes);
 
     [[nodiscard]] bool isStream() const { return way_.sink != nullptr; }
 
-    /// Notes a file whose content went into an output.
+    /// Records a file whose content became part of an output.
     void addSource(const Path& source);
     [[nodiscard]] const std::vector<std::string>& sources() const { return sources_; }
 
-    /// Renames all temporary files to their targets, the last one added first kept for the end. When a rename
-    /// fails, the files renamed before it are put back as they were. While HeldOutputs live on this thread, it hands the files
-    /// to them.
+    /// Renames all temporary files to their targets; the last one added is renamed last. If a rename fails, the
+    /// previous renames are undone. While a HeldOutputs exists on this thread, commit() hands the files to it instead.
     void commit();
 
-    /// Targets in the order they were added, and the bytes of all of them.
+    /// Returns the targets in the order of adding, and their total size.
     [[nodiscard]] std::vector<std::string> files() const;
     [[nodiscard]] std::uint64_t byteCount() const { return byte_count_; }
 
   private:
     friend class HeldOutputs;
     struct File {
-        Path target;  ///< with links resolved
+        Path target;  ///< path with links resolved
         Path temporary = {};
         bool is_made = false;  ///< the temporary file exists
-        Bytes held = {};       ///< for a stream
+        Bytes held = {};       ///< content of a stream output
         bool is_stream = false;
         bool is_shared = false;  ///< see addShared()
-        std::uint64_t call = 0;  ///< InputFiles::call() of its call; 0: none
+        std::uint64_t call = 0;  ///< InputFiles::call() of the call; 0: none
     };
 
     [[noreturn]] static void failToWrite(const Path& target, const std::string& why);
-    // Implemented on the disk (atomic_output_disk.cpp).
-    /// The entry for a target that may be written.
+    // Implemented in atomic_output_disk.cpp.
+    /// Returns the entry for a target that may be written.
     File planFile(const Path& requested);
-    /// writeTo(sink) returns 0, or errno.
+    /// Adds a file written by writeTo(sink), which returns 0 or errno.
     void addFile(File planned, const std::function<int(const Sink&)>& writeTo);
     void makeFolders(const Path& target);
-    /// Fails where another call of the run relies on a target; skips targets that have equal bytes already.
+    /// Fails if another call of the run relies on a target; skips targets that already have equal bytes.
     void leaveSharedFiles();
     void leave(File& file);
     void renameFiles();
@@ -245,9 +247,9 @@ class AtomicOutput {
     bool committed_ = false;
 };
 
-/// While it lives, AtomicOutput::commit() on this thread keeps its files back, and commit() of this object puts all of them in
-/// place together. A caller prepares its report in between: nothing that needs memory follows once outputs are in place.
-/// Without commit() the destructor removes the files. Of several on one thread, the innermost holds.
+/// While it exists, AtomicOutput::commit() on this thread holds back its files, and commit() of this object puts them
+/// in place together. The caller prepares its report in between, so that no allocation follows once outputs are in
+/// place. Without commit() the destructor removes the files. If several exist on one thread, the innermost one is used.
 class HeldOutputs {
   public:
     HeldOutputs();
@@ -255,12 +257,12 @@ class HeldOutputs {
     HeldOutputs(const HeldOutputs&) = delete;
     HeldOutputs& operator=(const HeldOutputs&) = delete;
 
-    /// After an error no file is in place, and none is held any more.
+    /// Puts all held files in place. After an error no file is in place, and none is held any more.
     [[nodiscard]] Result<Done> commit();
 
   private:
     friend class AtomicOutput;
-    /// The object of this thread, or null.
+    /// Returns the object of this thread, or null.
     static HeldOutputs* ofThread();
     void take(AtomicOutput& output);
 

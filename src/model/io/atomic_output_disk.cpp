@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Temporary files beside their targets, renamed together at the end.
+// Temporary files next to their targets, renamed together at the end.
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
@@ -28,13 +28,13 @@
 
 namespace tspace {
 
-// Temporary files of this process, and those that killed processes left.
+// Temporary files of this process, and those left by killed processes.
 //
-// A signal handler may neither lock a mutex nor allocate. It waits until no thread works on the list; threads block signals
-// while they do, so the handler never interrupts such work on its own thread.
+// A signal handler may neither lock a mutex nor allocate. It waits until no thread works on the list; threads block
+// signals during such work, so the handler never interrupts it on its own thread.
 //
-// A process id is meaningful only on one machine, since its last boot, among processes that see each other. The names of
-// temporary files therefore hold all of that.
+// A process ID is meaningful only on one machine, since its last boot, among processes of one PID namespace. The names
+// of temporary files therefore contain all three.
 
 namespace fs = std::filesystem;
 
@@ -43,7 +43,7 @@ namespace {
 std::mutex work_mutex;
 std::atomic<bool> is_in_work = false, is_ending = false, has_committed = false;
 
-/// Never deleted: a signal may arrive while the program ends. Null until the first file.
+/// Never deleted, because a signal may arrive while the program ends. Null until the first file.
 std::vector<Path>* temporary_files = nullptr;
 
 }  // namespace
@@ -71,7 +71,7 @@ void TemporaryFilesInWork::forget(const Path& path) noexcept {
     const auto found = std::find_if(temporary_files->begin(), temporary_files->end(),
                                     [&](const Path& known) { return known.string() == path.string(); });
     if (found == temporary_files->end()) return;
-    // The order stays: a folder precedes what lies in it.
+    // The order is preserved: a folder precedes its contents.
     temporary_files->erase(found);
 }
 
@@ -79,7 +79,7 @@ void TemporaryFilesInWork::noteCommit() noexcept { has_committed = true; }
 
 bool removeTemporaryFiles(bool even_after_commit) {
     is_ending = true;
-    // Long enough to rename some files; the disk hangs if it takes longer.
+    // Long enough to rename a few files; if it takes longer, the disk hangs.
     constexpr int kPatience_ms = 5000;
     for (int waited = 0; is_in_work; ++waited) {
         if (waited == kPatience_ms) return true;
@@ -103,7 +103,7 @@ std::string sixteenDigits(std::uint64_t number) {
     return digits;
 }
 
-/// A hash of the space of process ids.
+/// Returns a hash of the PID namespace.
 std::string machineTag() {
     const std::string text = processSpace();
     std::uint64_t hash = text.size();
@@ -116,10 +116,10 @@ const std::string& machineMark() {
     return mark;
 }
 
-/// The arguments of besideName() in a process that no longer runs.
+/// Arguments of besideName() in a process that no longer runs.
 struct Abandoned {
     std::string target_name;
-    bool is_aside;  ///< else a temporary file
+    bool is_aside;  ///< false: a temporary file
 };
 
 std::optional<Abandoned> abandoned(std::string_view name) {
@@ -144,12 +144,12 @@ std::optional<Abandoned> abandoned(std::string_view name) {
 }
 
 bool removeAbandoned(const Path& folder, const FolderEntry& entry) {
-    // Links are left alone: abandoned files are regular ones.
+    // Skips links: abandoned files are always regular files.
     if (entry.kind != PathKind::file || entry.is_link) return false;
     const std::optional<Abandoned> found = abandoned(entry.name);
     if (!found) return false;
     const Path path = folder / entry.name, target = folder / found->target_name;
-    // The run was killed between two renames: the old file is restored.
+    // The run was killed between two renames, so the old file is restored.
     if (found->is_aside && kindOf(target) == PathKind::nothing) return renameFile(path, target) == 0;
     return removePath(path) == 0;
 }
@@ -163,7 +163,7 @@ Path besideName(const Path& target, const char* ending) {
     std::string name = Path(fs::path(target).filename()).string();
     if (name.size() + tail.size() > kMostBytes) {
         std::size_t length = kMostBytes - tail.size();
-        // Cuts before a whole UTF-8 character (bytes 10xxxxxx continue one).
+        // Cuts at the start of a UTF-8 character (continuation bytes are 10xxxxxx).
         while (length > 0 && (static_cast<unsigned char>(name[length]) & 0xc0u) == 0x80u) --length;
         name.resize(length);
     }
@@ -193,7 +193,7 @@ void removeAbandonedFiles(const std::string& top, bool with_folders_below, std::
 
 std::uint64_t removeAbandonedFiles(const std::string& folder, bool with_folders_below) {
     std::uint64_t count = 0;
-    // Files stay until the next call where memory does not suffice.
+    // If memory does not suffice, the files stay until the next call.
     static_cast<void>(atBorder([&]() -> Result<Done> {
         removeAbandonedFiles(folder, with_folders_below, count);
         return Done{};
@@ -225,7 +225,7 @@ int writeStream(const Path& path, std::span<const std::uint8_t> bytes) {
     return std::fclose(stream.release()) == 0 || failure != 0 ? failure : errno;
 }
 
-/// Identities of files that outputs must not replace, by their KeptFiles.
+/// Identities of files that outputs must not replace, from all KeptFiles.
 struct KeptIdentities {
     std::mutex mutex = {};
     std::multiset<std::string> identities = {};
@@ -242,10 +242,10 @@ bool isKept(const std::string& identity) {
     return kept.identities.contains(identity);
 }
 
-/// Uses of a file by the calls of one run, by resolved path.
+/// Uses of a file by the calls of one run, keyed by resolved path.
 struct RunFile {
     std::set<std::uint64_t> readers = {};
-    std::uint64_t owner = 0;  ///< the call that wrote it, or left it unchanged
+    std::uint64_t owner = 0;  ///< the call that wrote the file, or left it unchanged
     bool is_written = false;
 };
 
@@ -274,8 +274,8 @@ void inRun(const Path& path, const Work& work) {
     if (run.is_run) work(run.files[runName(path)]);
 }
 
-/// Held from the check whether a file exists to its renaming: a thread that works on another model may write the same
-/// name.
+/// Locked from the check whether a file exists until its renaming, because a thread that works on another model may
+/// write the same name.
 std::mutex& renaming() {
     static std::mutex mutex;
     return mutex;
@@ -373,7 +373,7 @@ void AtomicOutput::removeTemporaryFiles() noexcept {
 }
 
 AtomicOutput::File AtomicOutput::planFile(const Path& requested) {
-    // A link stays a link: the file that it points at is replaced.
+    // A symbolic link is preserved: the file that it refers to is replaced.
     std::error_code error;
     if (isForeignLink(requested))
         failToWrite(requested, "it is a symbolic link that another user created in a world-writable folder");
@@ -497,7 +497,7 @@ void AtomicOutput::renameFiles() {
     for (const File& file : files_) {
         if (!file.is_stream) recordOutput(file.target.string());
     }
-    // Old files are set aside first, so that a failure half-way can be undone. No memory is allocated from here on.
+    // Old files are set aside first, so that a partial failure can be undone. No allocations from here on.
     struct Aside {
         Path name = {};
         bool is_made = false;
@@ -538,7 +538,7 @@ void AtomicOutput::renameFiles() {
         for (std::size_t i = failed; failure != 0 && i < files_.size(); ++i) {
             if (aside[i].is_made) {
                 renameFile(aside[i].name, files_[i].target);
-                // If both names still are one file, renaming does nothing.
+                // If both names still refer to one file, renaming has no effect.
                 removePath(aside[i].name);
             } else if (i != failed && files_[i].is_made) {
                 removePath(files_[i].target);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The one copy of the functions of Bytes.
+// Explicit instantiation of the functions of Bytes.
 #include "model/io/bytes.h"
 
 template class std::vector<std::uint8_t, tspace::UnsetAllocator<std::uint8_t>>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bytes of a file in memory.
+// Bytes of a file in memory.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace tspace {
 
 inline constexpr std::size_t kLargeBytes = 2 * kHugePage;
 
-/// Allocates as Buffer does, with pages touched at once unless the block is large, and leaves new elements uninitialised:
-/// readers overwrite them anyway.
+/// Allocates like Buffer, touching pages immediately unless the block is large, and leaves new elements uninitialized,
+/// because readers overwrite them anyway.
 template <class T>
 struct UnsetAllocator {
     using value_type = T;
@@ -47,14 +47,14 @@ struct UnsetAllocator {
     }
 };
 
-/// Bytes(n) and resize(n) leave new bytes unset; say Bytes(n, 0) for zeros.
+/// Bytes(n) and resize(n) leave new bytes uninitialized; use Bytes(n, 0) for zeros.
 using Bytes = std::vector<std::uint8_t, UnsetAllocator<std::uint8_t>>;
 
 }  // namespace tspace
 
-// Its functions are in bytes.cpp, optimised. Without this each program has one copy of all that its files make of them, and
-// where one file is not optimised it may be that copy: a destructor there walks over every byte, which took 40 % of
-// model_golden_test. (Modules of WebAssembly have no bytes.cpp.)
+// The functions are instantiated in bytes.cpp, with optimization. Otherwise each program would use one of the copies
+// that its files instantiate, possibly from an unoptimized file: its destructor loops over every byte, which took 40 %
+// of model_golden_test. (WebAssembly modules have no bytes.cpp.)
 #ifndef __EMSCRIPTEN__
 extern template class std::vector<std::uint8_t, tspace::UnsetAllocator<std::uint8_t>>;
 #endif

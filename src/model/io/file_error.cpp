@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Text of unknown origin inside messages (well-formed byte sequences: Unicode 15.0, table 3-7).
+// Quotes text of unknown origin in messages (well-formed byte sequences: Unicode 15.0, table 3-7).
 #include "model/io/file_error.h"
 
 #include <filesystem>
@@ -16,7 +16,7 @@ struct Character {
     bool printable = false;
 };
 
-/// The character that `text`, which is not empty, starts with; a byte that starts none is one of its own.
+/// Returns the first character of a nonempty `text`; an invalid byte counts as a character.
 Character firstCharacter(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const unsigned lead = byte(0);
@@ -30,7 +30,7 @@ Character firstCharacter(std::string_view text) {
     }
     const bool overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
     if (overlong || code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) return {};
-    // Also line separators and marks that change the direction of text.
+    // Includes line separators and marks that change the text direction.
     const bool control = code < 0xa0 || code == 0x061c || code == 0x200b || code == 0x200e || code == 0x200f ||
                          (code >= 0x2028 && code <= 0x202e) || (code >= 0x2060 && code <= 0x206f);
     return {length, !control};

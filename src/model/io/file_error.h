@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Errors of the file layer: parsers throw FileError, and atFileBorder turns it into a Result. No exception leaves the
+// Errors of the file layer: parsers throw FileError, and atFileBorder converts it to a Result. No exception leaves the
 // library.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace tspace {
 
-/// Thrown in the model wing and above; caught by atFileBorder.
+/// Thrown in src/model and higher layers; caught by atFileBorder.
 struct FileError {
     Error error;
 };
@@ -25,22 +25,22 @@ struct CallerError {
     Error error;
 };
 
-/// `message` is one sentence without a line break; `place` a JSON pointer, line or byte offset.
+/// Throws a FileError. `message`: one sentence without a line break; `place`: JSON pointer, line or byte offset.
 [[noreturn]] void failFile(ErrorCode code, std::string message, std::string place = {});
 
-/// Text from a file or a user for a one-line message: in quotation marks, valid UTF-8, without control characters, cut
-/// after `limit` bytes.
+/// Quotes text from a file or a user for a one-line message: valid UTF-8, without control characters, cut after `limit`
+/// bytes.
 std::string inQuotes(std::string_view text, std::size_t limit = 80);
 std::string pathInQuotes(const Path& path);
 
-/// The value of a Result, or its error thrown as FileError.
+/// Returns the value of a Result, or throws its error as FileError.
 template <class T>
 T valueOrThrow(Result<T> result) {
     if (!result) throw FileError{std::move(result).error()};
     return *std::move(result);
 }
 
-/// Runs `body` and returns the error of a FileError that it throws. Bindings without exceptions unwind in another way
+/// Runs `body` and returns the error of a FileError that it throws. Bindings without exceptions unwind differently
 /// (tryFile of a function and its context).
 #ifdef TSPACE_THROWS_END_CALL
 std::optional<Error> tryFile(void (*body)(void*), void* context);
@@ -60,8 +60,8 @@ std::optional<Error> tryFile(Body&& body) {
 }
 #endif
 
-/// The error of the exception in flight, for FileError, CallerError and std::filesystem's; rethrows any other. Call
-/// inside a catch block.
+/// Returns the error of the current exception, for FileError, CallerError and std::filesystem's; rethrows any other.
+/// Must be called inside a catch block.
 Error fileErrorInFlight();
 
 /// Runs `body`, which returns a Result and may throw FileError or CallerError.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reading whole files, and questions about what is on the disk.
+// Reads whole files, and queries the file system.
 #include "model/io/file_io.h"
 
 #include <algorithm>
@@ -40,7 +40,8 @@ bool readSteps(std::FILE* file, std::span<std::uint8_t> to, const Execution& exe
 
 Bytes readFile(const Path& name, const std::string& place, const Execution& execution) {
     const fs::path path = name;
-    // A file that the user named is cannotRead; one that a model names makes the model invalid.
+    // For a file named by the user the error is cannotRead; a missing file that a model references makes the model
+    // invalid.
     const ErrorCode code = place.empty() ? ErrorCode::cannotRead : ErrorCode::invalidFile;
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
@@ -51,7 +52,7 @@ Bytes readFile(const Path& name, const std::string& place, const Execution& exec
         failFile(code, "the file " + pathInQuotes(name) + " does not exist", place);
     if (error) fail_open(error.message());
     if (fs::is_directory(status)) failFile(code, pathInQuotes(name) + " is a folder", place);
-    // Pipes and devices could block or never end.
+    // Reading pipes and devices could block or never end.
     if (!fs::is_regular_file(status)) {
         failFile(code, pathInQuotes(name) + " is not a regular file", place);
     }
@@ -99,7 +100,7 @@ Path resolveUri(const Path& in_folder, std::string_view uri, bool allow_external
     try {
         file = canonicalPath(root / relative);
     } catch (const fs::filesystem_error& failure) {
-        // Names that are too long, or links in a circle.
+        // Too long names, or circular links.
         failFile(ErrorCode::invalidFile,
                  "the URI " + inQuotes(uri, 200) + " can be no file: " + failure.code().message(), place);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whole files in and out of memory.
+// Reading of whole files, and file identity.
 #pragma once
 
 #include <string>
@@ -11,33 +11,34 @@
 
 namespace tspace {
 
-/// Reads a regular file, a large one with all threads. Fails with cannotRead, or with invalidFile when `place` (where a
-/// model names the file) is not empty.
+/// Reads a regular file; a large one with all threads. Fails with cannotRead, or with invalidFile if `place` (the
+/// model's reference to the file) is not empty.
 Bytes readFile(const Path& path, const std::string& place = {}, const Execution& execution = {.thread_count = 1});
 
-/// Whether the path exists; false where the system cannot tell.
+/// Returns whether the path exists; false if this cannot be determined.
 bool isThere(const Path& path);
 bool isFolder(const Path& path);
 
-/// True when both paths name the same existing file.
+/// Returns whether both paths refer to the same existing file.
 bool isOneFile(const Path& a, const Path& b);
-/// Equal for all names of a file, which need not exist yet.
+/// Returns a string that is equal for all names of a file, which need not exist yet.
 std::string identityOf(const Path& path);
-/// True when both paths name the same existing file, or are the same path where nothing exists yet.
+/// Returns whether both paths refer to the same existing file, or are equal if nothing exists yet.
 bool isSameFile(const Path& a, const Path& b);
 
-/// The file that `uri` names in a folder on the disk. Fails as checkedPathOfUri, and with forbiddenPath when a symbolic
-/// link leads out of `folder`, unless `allow_external`; with invalidFile where no file can have that name, as one that is
-/// longer than the system takes.
+/// Returns the file that `uri` refers to in a folder on the disk. Fails like checkedPathOfUri; with forbiddenPath if a
+/// symbolic link leaves `folder`, unless `allow_external`; and with invalidFile if no file can have that name, for
+/// example because it is too long.
 Path resolveUri(const Path& folder, std::string_view uri, bool allow_external, const std::string& place);
 
-/// In bytes; 0 where there is no such file.
+/// Returns the size in bytes; 0 if the file does not exist.
 std::uint64_t fileSize(const Path& path);
 
-/// The path of `file` relative to `folder`, with slashes; empty where it lies elsewhere.
+/// Returns the path of `file` relative to `folder`, with slashes; empty if the file is elsewhere.
 std::string pathBelow(const Path& folder, const Path& file);
 
-/// Whether a model written to this path is a GLB: isGlbName(), or a stream (kindOf()) that is not called .gltf.
+/// Returns whether a model written to this path is a GLB: if isGlbName(), or if it is a stream (kindOf()) whose name
+/// does not end in .gltf.
 bool isGlbOutput(const Path& path);
 
 }  // namespace tspace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The memory that reading a model may take: a fixed part and a multiple of the file's real size, or the user's limit. A
-// file can claim any number of vertices, and name the same bytes many times, so costs are charged here before memory is
-// allocated.
+// Memory that reading a model may take: a fixed part plus a multiple of the file's size, or the user's limit. A file
+// can declare any number of vertices, and refer to the same bytes many times, so costs are charged here before memory
+// is allocated.
 #pragma once
 
 #include <atomic>
@@ -20,25 +20,25 @@ namespace tspace {
 /// file. Thread-safe.
 class MemoryBudget {
   public:
-    /// Memory of the program itself, and slack for the estimates.
+    /// Memory of the program itself, and a margin for the estimates.
     static constexpr std::int64_t kProgram = std::int64_t{24} << 20;
     static constexpr std::int64_t kAnyFile = std::int64_t{64} << 20;
     static constexpr std::int64_t kPerByte = 16;
 
-    /// `limit_bytes`: as FileOptions::memory_limit_bytes.
+    /// `limit_bytes`: see FileOptions::memory_limit_bytes.
     explicit MemoryBudget(std::uint64_t limit_bytes = 0)
         : is_users_(limit_bytes != 0),
           granted_(is_users_ ? limited(limit_bytes) : kAnyFile),
           left_(granted_ - kProgram) {}
 
-    /// Raises the limit for bytes of the file, or of one that it names.
+    /// Raises the limit by the size of the file, or of a file that it references.
     void allow(std::uint64_t file_bytes) {
         if (is_users_) return;
         granted_ += kPerByte * limited(file_bytes);
         left_ += kPerByte * limited(file_bytes);
     }
 
-    /// Charges memory that stays allocated. Fails with tooLarge.
+    /// Charges permanently allocated memory. Fails with tooLarge.
     void take(std::uint64_t bytes, const std::string& place) {
         require(bytes, place);
         left_ -= limited(bytes);
@@ -47,19 +47,21 @@ class MemoryBudget {
     /// Returns bytes to the budget.
     void release(std::uint64_t bytes) { left_ += limited(bytes); }
 
-    /// The bytes that are left. giveBack(), with an earlier left(), gives back all that was charged since.
+    /// Returns the remaining bytes. giveBack(), with an earlier result of left(), returns everything that was charged
+    /// since.
     [[nodiscard]] std::int64_t left() const { return left_; }
     void giveBack(std::int64_t left_before) {
         if (left_ < left_before) left_ = left_before;
     }
 
-    /// Checks for memory that is allocated only for a while. Fails with tooLarge.
+    /// Checks a temporary allocation without charging it. Fails with tooLarge.
     void require(std::uint64_t bytes, const std::string& place) const {
         if (!has(bytes)) failFile(ErrorCode::tooLarge, "what the file claims " + whyNot(bytes), place);
     }
     [[nodiscard]] bool has(std::uint64_t bytes) const { return limited(bytes) <= left_; }
 
-    /// Number of the `count` tasks, at least one, that fit the budget together. bytesOf(i) is the memory of task i.
+    /// Returns how many of the `count` tasks, at least one, fit the budget together. bytesOf(i) is the memory of task
+    /// i.
     template <class BytesOf>
     [[nodiscard]] std::size_t countTogether(std::size_t count, BytesOf&& bytesOf) const {
         std::uint64_t bytes = 0;
@@ -70,10 +72,10 @@ class MemoryBudget {
         return count;
     }
 
-    /// Whether the limit is the user's.
+    /// Returns whether the user set the limit.
     [[nodiscard]] bool isUsers() const { return is_users_; }
 
-    /// The message of a failure: "needs ...".
+    /// Returns the message of a failure: "needs ...".
     [[nodiscard]] std::string whyNot(std::uint64_t bytes) const {
         const std::string needed = "needs about " + megabytes(granted_ - left_ + limited(bytes)) + " of memory, and ";
         return is_users_ ? needed + "--memory-limit allows " + megabytes(granted_)
@@ -81,12 +83,12 @@ class MemoryBudget {
     }
 
   private:
-    /// Clamps, so that no sum of two can overflow.
+    /// Clamps, so that no sum of two values can overflow.
     static std::int64_t limited(std::uint64_t bytes) {
         constexpr std::uint64_t kMost = std::uint64_t{1} << 56;
         return static_cast<std::int64_t>(bytes < kMost ? bytes : kMost);
     }
-    /// In the option's unit, rounded up.
+    /// Formats a size in the unit of the option, rounded up.
     static std::string megabytes(std::int64_t bytes) {
         constexpr std::int64_t kMegabyte = std::int64_t{1} << 20;
         return std::to_string((bytes + kMegabyte - 1) / kMegabyte) + " MB";
@@ -97,10 +99,10 @@ class MemoryBudget {
     std::atomic<std::int64_t> left_;
 };
 
-// Loops over the parts of a file with all threads, and no more memory than the file may take.
+// Loops over the parts of a file with all threads, within the memory budget.
 
-/// Calls work(i) for each i in [0, count), as many at a time as the budget has room for; bytesOf(i) is what one takes.
-/// `budget` may be null: no limit. Throws what the first one that failed threw, after all were tried.
+/// Calls work(i) for each i in [0, count), as many in parallel as the budget allows; bytesOf(i) is the memory of one
+/// call. `budget` may be null: no limit. After all calls, rethrows the exception of the first one that failed.
 template <class BytesOf, class Work>
 void workTogether(const MemoryBudget* budget, std::size_t count, Parallel& parallel, const BytesOf& bytesOf,
                   const Work& work) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reading named files from the disk, or by the callback of the caller.
+// Reads referenced files from the disk, or through the callback of the caller.
 #include "model/io/named_files.h"
 
 #include <filesystem>

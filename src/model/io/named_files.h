@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The files that a model names: in its folder, or given by the callback of the caller for a model in memory.
+// Files that a model references: in its folder, or provided by the callback of the caller for a model in memory.
 #pragma once
 
 #include <functional>
@@ -22,26 +22,27 @@ class NamedFiles {
     /// `model`: the path of the model or, with FileOptions::content, its name.
     NamedFiles(const Path& model, const FileOptions& options);
 
-    /// Whether the model is in memory.
+    /// Returns whether the model is in memory.
     [[nodiscard]] bool areInMemory() const { return is_in_memory_; }
-    /// Whether no file can be read: the model is in memory, and the caller gave no callback.
+    /// Returns whether no file can be read: the model is in memory, and the caller provided no callback.
     [[nodiscard]] bool areNone() const { return is_in_memory_ && !find_file_; }
-    /// The folder of the model; empty where it is in memory.
+    /// Returns the folder of the model; empty if it is in memory.
     [[nodiscard]] const Path& folder() const { return folder_; }
 
-    /// The path of the file that `uri` names, for the other functions. Fails as resolveUri; with invalidFile if areNone().
+    /// Returns the path of the file that `uri` refers to, as argument of the other functions. Fails like resolveUri,
+    /// and with invalidFile if areNone().
     [[nodiscard]] Path resolve(std::string_view uri, const std::string& place) const {
         return resolve(folder_, uri, place);
     }
-    /// resolve() for a URI in a file of another folder.
+    /// Like resolve() above, for a URI in a file of another folder.
     [[nodiscard]] Path resolve(const Path& folder, std::string_view uri, const std::string& place) const;
 
     [[nodiscard]] Kind kindOf(const Path& file) const;
-    /// Why the file that `uri` names cannot be read; empty: it is there. Not if areNone().
+    /// Returns why the file that `uri` refers to cannot be read; empty if it exists. Must not be called if areNone().
     [[nodiscard]] std::string whyNotRead(std::string_view uri, const std::string& place) const;
-    /// Reports a named file that is not read, or not yet.
+    /// Reports a referenced file that is not read, or not yet.
     void note(const Path& file) const;
-    /// Fails as readFile.
+    /// Reads a file. Fails like readFile.
     [[nodiscard]] Bytes read(const Path& file, const std::string& place = {}) const;
 
   private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rule for names of outputs, whose extension selects the format.
+// Rule for output names, whose extension selects the format.
 #pragma once
 
 #include <initializer_list>
@@ -9,10 +9,10 @@
 
 namespace tspace {
 
-/// Throws a FileError (invalidOption, a wrong command line) that lists the endings that the output's name may have.
+/// Throws a FileError (invalidOption, an invalid command line) that lists the allowed endings of the output's name.
 [[noreturn]] void failEnding(const Path& output, std::initializer_list<std::string_view> endings);
 
-/// Calls failEnding() unless the name ends in one of `endings` (".png", in lower case); upper case counts as lower case.
+/// Calls failEnding() unless the name ends in one of `endings` (".png", in lower case), ignoring case.
 void requireEnding(const Path& output, std::initializer_list<std::string_view> endings);
 
 }  // namespace tspace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Paths as text, without access to the disk.
+// Paths as text, without file system access.
 #include "model/io/path.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The path of a file or folder: UTF-8, with slashes, on every system. It converts from and to std::filesystem::path, whose
-// header takes most of a second to compile, so only files that access the disk or take paths apart include that. Convert
-// text by way of Path: on Windows, std::filesystem reads char strings in the system's code page.
+// Path of a file or folder: UTF-8, with slashes, on every system. It converts from and to std::filesystem::path, whose
+// header takes most of a second to compile, so only files that access the disk or split paths include that header. Text
+// must be converted through Path: on Windows, std::filesystem interprets char strings in the system's code page.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ class Path {
     Path() = default;
     Path(std::string text) : text_(std::move(text)) {}
     Path(const char* text) : text_(text) {}
-    /// From std::filesystem::path, and to it.
+    /// Converts from and to std::filesystem::path.
     template <class T>
     requires requires(const T& path) { path.lexically_normal().native(); }
     Path(const T& path) : text_(textOf(path)) {}
@@ -23,7 +23,7 @@ class Path {
     requires requires(const T& path) { path.lexically_normal().native(); }
     operator T() const { return T(std::u8string_view(reinterpret_cast<const char8_t*>(text_.data()), text_.size())); }
 
-    /// A file in this folder, or `name` itself where that is absolute.
+    /// Returns a file in this folder, or `name` itself if it is absolute.
     [[nodiscard]] Path operator/(const std::string& name) const;
     [[nodiscard]] const std::string& string() const { return text_; }
     [[nodiscard]] bool empty() const { return text_.empty(); }
@@ -42,20 +42,20 @@ class Path {
     std::string text_;
 };
 
-/// The folder that a file lies in; "." for a bare name.
+/// Returns the folder of a file; "." for a name without a folder.
 Path folderOf(const Path& file);
 
-/// The name of a file without its folder and extension.
+/// Returns the name of a file without its folder and extension.
 std::string stemOf(const Path& file);
 
-/// The extension in lower case with its dot, or "".
+/// Returns the extension in lower case with its dot, or "".
 std::string lowerExtension(const Path& path);
 
-/// Names of GLB files end in .glb, and those of avatars in .vrm.
+/// Returns whether the name is that of a GLB: .glb, or .vrm (avatars).
 bool isGlbName(const Path& path);
-/// isGlbName, or .gltf.
+/// Returns whether isGlbName() or the extension is .gltf.
 bool isGltfName(const Path& path);
-/// Names of images end in .png, .jpg, .jpeg, .webp, .exr, .tga, .ktx2 or .dds.
+/// Returns whether the extension is .png, .jpg, .jpeg, .webp, .exr, .tga, .ktx2 or .dds.
 bool isImageName(const Path& path);
 
 }  // namespace tspace

@@ -11,7 +11,7 @@
 namespace tspace {
 namespace {
 
-/// Paths in the order in which they were added, each file once.
+/// Paths in the order of adding, each file once.
 struct RecordedPaths {
     std::vector<std::string> paths = {};
     std::set<std::string> identities = {};
@@ -45,7 +45,7 @@ RecordedFiles::~RecordedFiles() {
 
 std::vector<std::string> RecordedFiles::inputs() const {
     const std::lock_guard lock(record().mutex);
-    // A file that did not exist yet had another identity.
+    // A file that did not exist when it was recorded had a different identity then.
     std::set<std::string> written;
     for (const std::string& path : record().outputs.paths) written.insert(identityOf(path));
     std::vector<std::string> paths = record().inputs.paths;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The files that a run reads and writes, for build systems that have to know them.
+// Files that a run reads and writes, for build systems that need this list.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace tspace {
 
-/// While it lives, records the inputs that calls of this process open (InputFiles) and the outputs that they put in place
-/// (AtomicOutput). At most one may exist; create it before the first call. Thread-safe.
+/// While it exists, records the inputs that calls of this process open (InputFiles) and the outputs that they put in
+/// place (AtomicOutput). At most one may exist; it must be created before the first call. Thread-safe.
 class RecordedFiles {
   public:
     RecordedFiles();
@@ -16,12 +16,13 @@ class RecordedFiles {
     RecordedFiles(const RecordedFiles&) = delete;
     RecordedFiles& operator=(const RecordedFiles&) = delete;
 
-    /// Each once, in the order in which they were first recorded. Files that were written are no inputs.
+    /// Return the recorded files, each once, in the order of their first recording. Files that were written are not
+    /// inputs.
     [[nodiscard]] std::vector<std::string> inputs() const;
     [[nodiscard]] std::vector<std::string> outputs() const;
 };
 
-/// Records a file, if there is a RecordedFiles. Paths are as the call spells them.
+/// Record a file if a RecordedFiles exists. Paths are as given to the call.
 void recordInput(const std::string& path);
 void recordOutput(const std::string& path);
 

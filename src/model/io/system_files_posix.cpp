@@ -137,9 +137,9 @@ void takePermissions(std::FILE* file, const Path& like) {
     const int number = ::fileno(file);
     struct stat old = {}, made = {};
     if (::stat(like.string().c_str(), &old) != 0 || !S_ISREG(old.st_mode)) return;
-    // Keeps the owner where this user may, else the group alone.
+    // Keeps the owner if this user may set it, otherwise only the group.
     if (::fchown(number, old.st_uid, old.st_gid) != 0)
-        static_cast<void>(::fchown(number, ~::uid_t{0}, old.st_gid) == 0);  // looked at below
+        static_cast<void>(::fchown(number, ~::uid_t{0}, old.st_gid) == 0);  // the result is checked below
     ::mode_t mode = old.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO);
     // If the group differs, it gets at most the permissions of others.
     if (::fstat(number, &made) != 0 || made.st_gid != old.st_gid) mode &= ~S_IRWXG | (mode & S_IRWXO) << 3;
@@ -148,7 +148,7 @@ void takePermissions(std::FILE* file, const Path& like) {
 
 bool syncFile(std::FILE* file) {
     if (std::fflush(file) != 0) return false;
-    // Some file systems do not support this call.
+    // Some file systems do not support fsync.
     return ::fsync(::fileno(file)) == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
 }
 
@@ -170,7 +170,7 @@ int removePath(const Path& path) noexcept { return std::remove(path.string().c_s
 std::uint64_t randomNumber() {
     std::uint64_t number = 0;
     if (::getentropy(&number, sizeof number) == 0) return number;
-    // Only on kernels before 2014. The time is predictable, but O_EXCL still protects.
+    // Only on kernels before 2014. The time is predictable, but O_EXCL still protects against planted files.
     return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
 }
 
@@ -193,7 +193,7 @@ void waitBriefly() { ::poll(nullptr, 0, 1); }
 std::uint32_t processNumber() { return static_cast<std::uint32_t>(::getpid()); }
 
 bool isRunning(std::uint32_t process) {
-    // kill() takes ids that are not positive for groups.
+    // kill() interprets IDs that are not positive as groups.
     if (process == 0 || process > static_cast<std::uint32_t>(std::numeric_limits<pid_t>::max())) return true;
     return ::kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH;
 }
@@ -203,7 +203,7 @@ std::string processSpace() {
     ::gethostname(name.data(), name.size() - 1);
     std::string text = name.data();
     std::string line;
-    // Linux only: the id of this boot, and of the namespace of processes. Empty elsewhere.
+    // Linux only: the ID of this boot, and of the PID namespace. Empty on other systems.
     if (std::ifstream boot("/proc/sys/kernel/random/boot_id"); std::getline(boot, line)) text += line;
     std::error_code ignored;
     text += fs::read_symlink("/proc/self/ns/pid", ignored).string();

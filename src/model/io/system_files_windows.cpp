@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Calls the UTF-16 functions of Windows: the encoding of the byte functions depends on the machine.
-#define _CRT_RAND_S  // NOLINT: rand_s is declared then
+// Calls the UTF-16 functions of Windows, because the encoding of the byte functions depends on the system settings.
+#define _CRT_RAND_S  // NOLINT: makes the header declare rand_s
 #include <fcntl.h>
 #include <io.h>
 #include <sys/stat.h>
@@ -27,7 +27,7 @@ struct EndHandle {
 };
 using Handle = std::unique_ptr<void, EndHandle>;
 
-/// Opens a file or folder to query it; null where there is none.
+/// Opens a file or folder to query it; returns null if it does not exist.
 Handle openToLook(const fs::path& path) {
     const HANDLE handle = CreateFileW(path.c_str(), 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, nullptr,
                                       OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, nullptr);
@@ -42,7 +42,7 @@ fs::path withoutMark(std::wstring text) {
     return text;
 }
 
-/// The path with links resolved; empty where the system cannot tell.
+/// Returns the path with links resolved; empty if it cannot be determined.
 fs::path finalPath(const fs::path& path) {
     const Handle file = openToLook(path);
     if (!file) return {};
@@ -173,7 +173,7 @@ std::uint64_t randomNumber() {
     return std::uint64_t{high} << 32 | low;
 }
 
-// Console handlers run on a thread of their own, and interrupt no other.
+// Console handlers run on a separate thread, and interrupt no other thread.
 HeldSignals::HeldSignals() = default;
 HeldSignals::~HeldSignals() = default;
 

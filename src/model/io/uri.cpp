@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// URIs, and the files that a model names by them.
+// URIs, and the files that a model references by URIs.
 #include "model/io/uri.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace tspace {
 
-// Decodes URIs (RFC 3986, RFC 2397, RFC 4648), and checks which files a model may name.
+// Decodes URIs (RFC 3986, RFC 2397, RFC 4648), and checks which files a model may reference.
 
 namespace fs = std::filesystem;
 
@@ -29,10 +29,10 @@ int hexDigit(char c) {
 bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
-/// Whether browsers ignore a character in base64 (forgiving-base64 of the WHATWG).
+/// Returns whether browsers ignore a character in base64 (forgiving-base64 of the WHATWG).
 bool isBase64Space(char c) { return c == '\n' || c == '\r' || c == ' ' || c == '\t' || c == '\f'; }
 
-/// Length of the scheme before the colon, or 0.
+/// Returns the length of the scheme before the colon, or 0.
 std::size_t schemeLength(std::string_view uri) {
     if (uri.empty() || !isLetter(uri[0])) return 0;
     std::size_t i = 1;
@@ -101,7 +101,7 @@ void refuseUri(std::string_view uri, const std::string& why, const std::string& 
 
 UriKind uriKind(std::string_view uri) {
     const std::size_t length = schemeLength(uri);
-    // One letter is a drive of Windows: no scheme is so short.
+    // A single letter is a Windows drive, because no scheme is that short.
     if (length <= 1) return UriKind::path;
     return equalsIgnoringCase(uri.substr(0, length), "data") ? UriKind::data : UriKind::otherScheme;
 }
@@ -120,7 +120,7 @@ DataUri decodeDataUri(std::string_view uri, const std::string& place) {
     DataUri result;
     result.mime_type = std::string(header.substr(0, header.find(';')));
     if (is_base64) {
-        // Escapes are rare in base64, so decode them only where there are any.
+        // Escapes are rare in base64, so they are decoded only if there are any.
         result.bytes = data.find('%') == std::string_view::npos ? decodeBase64(data, place)
                                                                 : decodeBase64(percentDecode(data), place);
     } else {

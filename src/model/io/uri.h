@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// URIs as model files use them.
+// URIs in model files.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace tspace {
 
-// URIs as model files use them: data URIs, and paths relative to the model's folder, which are the only ones
-// that are followed unless the caller allows more.
+// URIs in model files: data URIs, and paths relative to the model's folder; other paths are followed only if the caller
+// allows it.
 
 enum class UriKind { data, path, otherScheme };
 
@@ -29,24 +29,25 @@ std::string encodeBase64(const Bytes& bytes);
 
 std::string encodeDataUri(std::string_view mime_type, const Bytes& bytes);
 
-/// %41 -> A. A percent sign that starts no valid escape stays as it is, because file names contain them.
+/// Decodes percent escapes (%41 -> A). A percent sign without a valid escape is kept, because file names contain such
+/// signs.
 std::string percentDecode(std::string_view text);
 
-/// Escapes what may not stand in the path of a URI.
+/// Escapes characters that are not allowed in the path of a URI.
 std::string percentEncode(std::string_view path);
 
-/// The path that a relative URI stands for: escapes decoded, and Windows' separators, which some exporters write, as
-/// slashes, without "." and with ".." only at the front.
+/// Returns the path of a relative URI: escapes are decoded, backslashes (written by some exporters) become slashes, "."
+/// is removed, and ".." remains only at the front.
 std::string pathOfUri(std::string_view uri);
 
-/// pathOfUri with checks. Fails with forbiddenPath when the path is absolute (also at a drive of Windows), has a scheme or
-/// leads out of the folder; `allow_external` lifts all of these but the scheme.
+/// Like pathOfUri, with checks. Fails with forbiddenPath if the path is absolute (including Windows drives), has a
+/// scheme or leaves the folder; `allow_external` allows all of these except a scheme.
 std::string checkedPathOfUri(std::string_view uri, bool allow_external, const std::string& place);
 
-/// How messages on refused paths end: the option that lifts the rule.
+/// End of messages about rejected paths: the option that allows them.
 inline constexpr const char* kFollowed = " (--allow-external follows it)";
 
-/// Fails with forbiddenPath. `why`: the fault, a predicate of the URI.
+/// Fails with forbiddenPath. `why`: the fault, as a predicate whose subject is the URI.
 [[noreturn]] void refuseUri(std::string_view uri, const std::string& why, const std::string& place);
 
 }  // namespace tspace

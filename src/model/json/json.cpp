@@ -10,7 +10,7 @@
 
 namespace tspace {
 
-// Out of line, because reports construct hundreds of members.
+// Not inline, because reports construct hundreds of members.
 Json::Json(const char* text) : Json(std::string(text)) {}
 Json::Json(std::string_view text) : Json(std::string(text)) {}
 Json::Json(std::string text) : kind_(Kind::text) { value_.text = new std::string(std::move(text)); }
@@ -142,17 +142,17 @@ std::partial_ordering Json::compare(const Json& other) const {
     return get<std::uint64_t>() <=> other.get<std::uint64_t>();
 }
 
-// JSON as text. nlohmann's library parses, and spells numbers and special characters; no other file includes it.
+// JSON as text. nlohmann's library parses text, and formats numbers and special characters; no other file includes it.
 
 namespace {
 using Library = nlohmann::json;
 }
 
-/// Builds values from the parser's events. Members are appended, and repetitions are found once per object, when it
+/// Builds values from the parser's events. Members are appended, and duplicates are detected once per object, when it
 /// closes: a search per member would be quadratic.
 class JsonBuilder {
   public:
-    /// Functions return false after setting `error`.
+    /// The event functions return false after setting `error`.
     JsonBuilder(Json& root, JsonError& error, JsonMemory* memory) : root_(root), error_(error), memory_(memory) {}
 
     bool null() { return put(nullptr); }
@@ -195,7 +195,7 @@ class JsonBuilder {
     }
 
   private:
-    /// The cost of a small heap block: a string, or the head of an array or object.
+    /// Cost of a small heap block: a string, or the header of an array or object.
     static constexpr std::size_t kBlockBytes = 64;
 
     bool put(Json value) {
@@ -213,7 +213,7 @@ class JsonBuilder {
         stack_.push_back(&place);
         return true;
     }
-    /// The slot of the next value. In an object its name was appended already.
+    /// Returns the slot of the next value. In an object its name was appended already.
     Json& slot() {
         if (stack_.empty()) return root_;
         std::vector<Json>& values = stack_.back()->value_.children->values;
@@ -224,8 +224,8 @@ class JsonBuilder {
     void take(std::size_t bytes) {
         if (memory_ != nullptr) memory_->take(bytes);
     }
-    /// Charges the growth of a list, before an element is added. Long lists count twice, because the allocator may not
-    /// re-use their old block; blocks of short lists are re-used by the next.
+    /// Charges the growth of a list before an element is added. Long lists count twice, because the allocator may not
+    /// reuse their old block; blocks of short lists are reused.
     template <class List>
     void takeGrowth(const List& list) {
         if (list.size() < list.capacity()) return;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// JSON as a tree of values. Objects keep the order of their members; numbers keep their kind (signed, unsigned, real)
-// and with it their spelling. This is all that the rest of the program sees of JSON: the library that reads and spells
-// the text is used by json.cpp alone, because its header takes seconds to compile.
-// Members are named as those of the standard containers.
+// JSON as a tree of values. Objects keep the order of their members; numbers keep their type (signed, unsigned, real)
+// and therefore their formatting. The rest of the program uses only this interface: the library that parses and formats
+// text is used by json.cpp only, because its header takes seconds to compile.
+// Member functions are named like those of the standard containers.
 #pragma once
 
 #include <compare>
@@ -20,7 +20,7 @@
 
 namespace tspace {
 
-/// Thrown where text is not JSON, or a value is not of the kind that is asked for.
+/// Thrown if text is not JSON, or a value does not have the requested type.
 class JsonError : public std::exception {
   public:
     JsonError() = default;
@@ -29,7 +29,7 @@ class JsonError : public std::exception {
 
     std::string message = {};
     std::optional<std::size_t> byte = {};      ///< offset of a syntax error
-    std::optional<std::string> repeated = {};  ///< the name of a repeated member
+    std::optional<std::string> repeated = {};  ///< name of a duplicate member
 };
 
 /// Called before memory is allocated for values; may throw.
@@ -43,21 +43,20 @@ class JsonMemory {
 
 /// Handling of invalid UTF-8 by the writer.
 enum class BadUtf8 {
-    refuse,   ///< throws JsonError
-    replace,  ///< writes U+FFFD
+    refuse,   ///< throw JsonError
+    replace,  ///< write U+FFFD
 };
 
-/// Objects and arrays of a text may be nested this deep. Deeper ones are refused, so no later step can run out of
-/// stack.
+/// Maximum nesting depth of objects and arrays. Deeper text is rejected, so no later step can exhaust the stack.
 inline constexpr std::size_t kMaxJsonDepth = 256;
 
-/// A value. Not safe to change while another thread reads it. Look-up of a member is linear, as objects are small.
+/// JSON value. Must not be changed while another thread reads it. Member lookup is linear, since objects are small.
 class Json {
   public:
     struct Member;
     template <class Child>
     class Members;
-    /// A container or a C array, but neither text nor a path.
+    /// True for containers and C arrays, except text and paths.
     template <class T>
     static constexpr bool isList = requires(const T& values) {
         std::begin(values) != std::end(values);
@@ -83,12 +82,12 @@ class Json {
     Json(const char* text);
     Json(std::string_view text);
     Json(std::string text);
-    /// An array of what is in a container.
+    /// Creates an array with the elements of a container.
     template <class T>
     requires isList<T> Json(const T& values) : Json(array()) {
         for (const auto& value : values) push_back(value);
     }
-    /// An object where each entry is an array of a string and something else, otherwise an array.
+    /// Creates an object if each entry is an array of a string and one more value, otherwise an array.
     Json(std::initializer_list<Json> values);
     Json(const Json& other);
     Json(Json&& other) noexcept : kind_(std::exchange(other.kind_, Kind::null)), value_(other.value_) {}
@@ -98,14 +97,15 @@ class Json {
     static Json array() { return Json(Kind::array); }
     static Json array(std::initializer_list<Json> values);
     static Json object() { return Json(Kind::object); }
-    /// Builds an object from braces without copies of values.
+    /// Creates an object from braces without copying values.
     static Json object(std::initializer_list<Member> members);
 
-    /// Throws JsonError: syntax, numbers that no double can hold, repeated members, nesting. `memory` may be null.
+    /// Parses text. Throws JsonError for syntax errors, numbers beyond the range of double, duplicate members, and
+    /// excessive nesting. `memory` may be null.
     static Json parse(std::string_view text, JsonMemory* memory = nullptr);
-    /// Does not throw: returns nothing on failure, and `error` says why.
+    /// Like parse() without exceptions: returns nullopt on failure, and sets `error` to the reason.
     static std::optional<Json> read(std::string_view text, JsonError& error, JsonMemory* memory = nullptr);
-    /// `indent`: characters per level; -1: all on one line.
+    /// Formats the value. `indent`: characters per level; -1: everything on one line.
     [[nodiscard]] std::string dump(int indent = -1, char indent_char = ' ', BadUtf8 bad = BadUtf8::refuse) const;
 
     [[nodiscard]] bool is_null() const { return kind_ == Kind::null; }
@@ -119,8 +119,8 @@ class Json {
     [[nodiscard]] bool is_object() const { return kind_ == Kind::object; }
     [[nodiscard]] bool is_structured() const { return kind_ >= Kind::array; }
 
-    /// T: bool, a number (which is converted) or std::string. Throws JsonError where this is something else. A whole
-    /// number beyond T's becomes T's largest or smallest, which is no index of anything.
+    /// Converts the value. T: bool, a number type or std::string. Throws JsonError if the value has a different type.
+    /// An integer beyond T's range becomes T's largest or smallest value, which is not a valid index of anything.
     template <class T>
     [[nodiscard]] T get() const {
         if constexpr (std::is_same_v<T, bool>) {
@@ -136,13 +136,13 @@ class Json {
             return static_cast<T>(value_.real);
         }
     }
-    /// Throws JsonError where this is no string.
+    /// Returns the string. Throws JsonError if the value is not a string.
     [[nodiscard]] const std::string& text() const {
         expect(Kind::text);
         return *value_.text;
     }
 
-    // Arrays and objects. Everything else has no children.
+    // Arrays and objects. Other values have no children.
 
     [[nodiscard]] std::size_t size() const { return is_structured() ? value_.children->values.size() : 0; }
     [[nodiscard]] bool empty() const { return size() == 0; }
@@ -150,47 +150,48 @@ class Json {
     [[nodiscard]] Json* end() { return begin() + size(); }
     [[nodiscard]] const Json* begin() const { return is_structured() ? value_.children->values.data() : nullptr; }
     [[nodiscard]] const Json* end() const { return begin() + size(); }
-    /// The first and the last child; there must be one.
+    /// Return the first and the last child, which must exist.
     [[nodiscard]] const Json& front() const { return *begin(); }
     [[nodiscard]] Json& back() { return *(end() - 1); }
-    /// Name and value of each member of an object: for (const auto& [name, value] : json.items()).
+    /// Returns a range over name and value of each member of an object: for (const auto& [name, value] : json.items()).
     [[nodiscard]] Members<Json> items();
     [[nodiscard]] Members<const Json> items() const;
 
-    /// Null where this is no object, or has no such member.
+    /// Returns null if the value is not an object, or has no such member.
     [[nodiscard]] const Json* find(std::string_view key) const;
     [[nodiscard]] bool contains(std::string_view key) const { return find(key) != nullptr; }
-    /// Throws JsonError where it is not there.
+    /// Returns a member. Throws JsonError if it does not exist.
     [[nodiscard]] const Json& at(std::string_view key) const;
     [[nodiscard]] const Json& operator[](std::string_view key) const { return at(key); }
     [[nodiscard]] const Json& operator[](const char* key) const { return at(key); }
-    /// A member, made (null) where it is not there; it moves the others. Null becomes an object.
+    /// Returns a member, which is created as null if it does not exist; this invalidates references to other members.
+    /// Null becomes an object.
     Json& operator[](std::string_view key);
     Json& operator[](const char* key) { return (*this)[std::string_view(key)]; }
-    /// Does nothing where it is not there.
+    /// Removes a member if it exists.
     void erase(std::string_view key);
     void erase(const char* key) { erase(std::string_view(key)); }
 
-    /// An element of an array, which must have so many.
+    /// Returns an element of an array; the index must be in range.
     template <class Index>
     requires std::is_integral_v<Index>
     [[nodiscard]] const Json& operator[](Index index) const {
         expect(Kind::array);
         return value_.children->values[static_cast<std::size_t>(index)];
     }
-    /// The element for editing. Null becomes an array; a shorter array is padded with null.
+    /// Returns an element for editing. Null becomes an array; a shorter array is padded with null.
     template <class Index>
     requires std::is_integral_v<Index>
     [[nodiscard]] Json& operator[](Index index) { return element(static_cast<std::size_t>(index)); }
     template <class Index>
     requires std::is_integral_v<Index>
     void erase(Index index) { eraseElement(static_cast<std::size_t>(index)); }
-    /// Null becomes an array.
+    /// Appends an element. Null becomes an array.
     void push_back(Json value);
 
-    /// Numbers are equal by value, objects where the order is the same too.
+    /// Numbers are compared by value. Objects are equal only if their members have the same order.
     friend bool operator==(const Json& a, const Json& b) { return a.isEqual(b); }
-    /// Orders numbers; other values are unordered.
+    /// Orders numbers; values of other types are unordered.
     friend std::partial_ordering operator<=>(const Json& a, const Json& b) { return a.compare(b); }
 
   private:
@@ -200,7 +201,7 @@ class Json {
     enum class Kind : std::uint8_t { null, boolean, integer, natural, real, text, array, object };
     struct Children {
         std::vector<Json> values = {};
-        std::vector<std::string> names = {};  ///< names of an object's members, one for each value
+        std::vector<std::string> names = {};  ///< names of an object's members, parallel to the values
     };
     union Value {
         bool boolean;
@@ -238,10 +239,10 @@ class Json {
     Value value_ = {};
 };
 
-/// A member of an object that is being made.
+/// Member of an object under construction.
 struct Json::Member {
     const char* name;
-    mutable Json value;  ///< is moved from
+    mutable Json value;  ///< moved from by the constructor
 };
 
 /// Members of an object: `key` and `value` of each, in order.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Text that is not UTF-8. OBJ and MTL files do not name their encoding; older programs write that of their system.
+// Text that is not UTF-8. OBJ and MTL files do not declare their encoding; older programs write the encoding of their
+// system.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,7 @@ namespace tspace::obj {
 inline constexpr const char* kNotUtf8 =
     "the text is not UTF-8: its bytes are kept, but names may be shown wrong, and files of such names may not be found";
 
-/// Whether the text is valid UTF-8 (ASCII is). Linear.
+/// Returns whether the text is valid UTF-8 (which includes ASCII). Linear.
 inline bool isUtf8(std::string_view text) {
     for (std::size_t i = 0; i < text.size();) {
         const auto byte = static_cast<unsigned char>(text[i++]);
@@ -27,8 +28,9 @@ inline bool isUtf8(std::string_view text) {
     return true;
 }
 
-/// Whether the byte at `at` is the second of a character of two bytes, where it may be that of a backslash: an odd number of
-/// bytes before it begin one, in Shift-JIS, or in GBK, Big5 and their like. `text` is not UTF-8.
+/// Returns whether the byte at `at`, which has the value of a backslash, is the second byte of a two-byte character: if
+/// an odd number of preceding bytes are lead bytes of Shift-JIS, or of GBK, Big5 and similar encodings. `text` must not
+/// be UTF-8.
 inline bool isSecondByte(std::string_view text, std::size_t at) {
     const auto isBehindOdd = [&](auto&& begins) {
         std::size_t leads = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads MTL libraries as materials of glTF. Texture lines are completed first, because the parser misreads short ones.
+// Reads MTL libraries as glTF materials. Texture lines are completed first, because the parser misreads short ones.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,7 +25,7 @@ namespace {
 
 bool isDecimal(char c) { return c >= '0' && c <= '9'; }
 
-/// [+-] digits [. digits] [e [+-] digits], with a digit on one side of the point.
+/// Matches [+-] digits [. digits] [e [+-] digits], with a digit on at least one side of the point.
 bool isNumber(std::string_view word) {
     std::size_t i = 0;
     const auto skipSign = [&] { i += i < word.size() && (word[i] == '+' || word[i] == '-'); };
@@ -88,7 +88,7 @@ bool namesTexture(std::string_view keyword) {
            keyword == "decal" || keyword == "refl";
 }
 
-/// Appends the line with its options completed. True when an option moves the texture.
+/// Appends the line with its options completed. Returns whether an option moves the texture.
 bool appendLine(std::string_view line, std::string& out) {
     const std::vector<Word> words = wordsOf(line);
     if (words.empty() || !namesTexture(words[0].text)) {
@@ -101,7 +101,7 @@ bool appendLine(std::string_view line, std::string& out) {
         const Option* option = i == 0 ? nullptr : findOption(words[i].text);
         if (option == nullptr) continue;
         for (std::size_t number = 0; number < option->number_count; ++number) {
-            // The last word is the file, also when its name is a number.
+            // The last word is the file name, even if it is a number.
             const bool is_given = i + 2 < words.size() && isNumber(words[i + 1].text);
             const std::string_view value = is_given ? words[++i].text : option->defaults[number];
             out.append(" ").append(value);
@@ -113,9 +113,9 @@ bool appendLine(std::string_view line, std::string& out) {
 
 }  // namespace
 
-/// The options -o, -s, -t and -mm of a texture take up to three numbers (-mm: two). Where a line has fewer, the parser
-/// would take the name of the file for the next one; here the missing ones are written out. Returns how many lines
-/// move, scale or stir a texture by -o, -s or -t.
+/// The options -o, -s, -t and -mm of a texture take up to three numbers (-mm: two). If a line has fewer, the parser
+/// would interpret the file name as the next number, so missing numbers are inserted here. Returns the number of lines
+/// that move, scale or perturb a texture with -o, -s or -t.
 std::size_t completeTextureOptions(std::string& text) {
     std::string result;
     result.reserve(text.size());
@@ -133,7 +133,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A path as an MTL or OBJ file writes it: maybe quoted, maybe with Windows' separators.
+/// Returns a path from an MTL or OBJ file without quotes and with slashes as separators.
 std::string plainPath(std::string text) {
     text.erase(0, std::min(text.find_first_not_of(" \t"), text.size()));
     text.erase(text.find_last_not_of(" \t") + 1);
@@ -149,8 +149,8 @@ float inUnitRange(double number, float otherwise) {
 
 Vec3 color(const double rgb[3]) { return {inUnitRange(rgb[0], 1), inUnitRange(rgb[1], 1), inUnitRange(rgb[2], 1)}; }
 
-/// Blinn-Phong exponent to roughness: alpha = sqrt(2 / (n + 2)), roughness = sqrt(alpha) (Walter et al. 2007;
-/// glTF squares its roughness).
+/// Converts a Blinn-Phong exponent to roughness: alpha = sqrt(2 / (n + 2)), roughness = sqrt(alpha) (Walter et al.
+/// 2007; glTF squares its roughness).
 float roughnessOf(const tinyobj::material_t& source) {
     if (source.roughness > 0) return inUnitRange(source.roughness, 1);
     const auto shininess = static_cast<float>(source.shininess);
@@ -158,7 +158,7 @@ float roughnessOf(const tinyobj::material_t& source) {
     return inUnitRange(std::sqrt(std::sqrt(2.0f / (shininess + 2.0f))), 1);
 }
 
-/// The words of a line.
+/// Splits a line into words.
 std::vector<std::string> splitWords(const std::string& names) {
     constexpr const char* kBlanks = " \t\n\v\f\r";
     std::vector<std::string> result;
@@ -169,7 +169,7 @@ std::vector<std::string> splitWords(const std::string& names) {
     return result;
 }
 
-/// Names of the materials that state Kd. The parser makes the others black; here they stay white.
+/// Returns the names of the materials that specify Kd. The parser makes the others black; tspace makes them white.
 std::set<std::string> materialsWithDiffuse(const std::string& text) {
     std::set<std::string> names;
     std::string name;
@@ -187,14 +187,15 @@ std::set<std::string> materialsWithDiffuse(const std::string& text) {
     return names;
 }
 
-/// Finds the files that an OBJ file or a material library names.
+/// Finds files that an OBJ file or a material library references.
 class FileFinder {
   public:
     FileFinder(const NamedFiles& files, Path folder, std::vector<std::string>& warnings)
         : files_(files), folder_(std::move(folder)), warnings_(warnings) {}
 
-    /// The path in the folder as a URI's text is resolved: the plain path where it is a file. An absolute path is
-    /// that of another computer in nearly all files, so the name alone is a reading of it. Without a file: the plain path.
+    /// Returns the path in the folder, as the text of a URI would be resolved, if that file exists. Otherwise only the
+    /// file name is tried, because absolute paths nearly always come from another computer. If no file exists, returns
+    /// the path without quotes.
     std::string find(const std::string& text) {
         const std::string plain = plainPath(text);
         if (isThere(plain)) return plain;
@@ -228,7 +229,7 @@ class FileFinder {
 Material toMaterial(const tinyobj::material_t& source, FileFinder& finder, const Path& folder, bool has_diffuse) {
     Material material{.name = source.name, .found = true};
     material.base_color_texture = {finder.find(source.diffuse_texname), folder};
-    // With a texture, Kd is ignored: exporters write anything there, even black.
+    // With a texture, Kd is ignored: exporters write arbitrary values, even black.
     if (has_diffuse && !material.base_color_texture.used()) material.base_color = color(source.diffuse);
     material.opacity = inUnitRange(source.dissolve, 1);
     material.emission = color(source.emission);
@@ -248,8 +249,7 @@ std::uint64_t countOf(const std::string& word, const std::string& text) {
     return count;
 }
 
-/// False when there is no such file. Each file is read once. Fails with
-/// forbiddenPath.
+/// Reads a library; each file is read once. Returns false if the file does not exist. Fails with forbiddenPath.
 bool readLibrary(const std::string& name, Model& model, std::vector<Material>& materials) {
     if (model.files.areNone()) return false;
     FileFinder libraries(model.files, model.files.folder(), model.warnings);
@@ -271,7 +271,7 @@ bool readLibrary(const std::string& name, Model& model, std::vector<Material>& m
                                  "' moves or scales textures (-o, -s, -t), which is ignored");
     }
 
-    // Charged before the parser makes a large object of each material.
+    // Charged before the parser allocates a large object for each material.
     model.memory->take(countOf("newmtl", text) * (2 * sizeof(tinyobj::material_t) + sizeof(Material)), "mtllib");
     const std::vector<tinyobj::material_t> sources = parseMtl(text);
     const std::set<std::string> with_diffuse = materialsWithDiffuse(text);
@@ -282,7 +282,7 @@ bool readLibrary(const std::string& name, Model& model, std::vector<Material>& m
     return true;
 }
 
-/// Whether the whole line is the name of a file.
+/// Returns whether the whole line is the name of one file.
 bool isOneFile(const std::string& line, const NamedFiles& files) {
     bool is_there = false;
     tryFile([&] {
@@ -307,7 +307,7 @@ std::vector<Material> readMaterials(const std::vector<std::string>& names, Model
         if (line.empty() || std::find(seen.begin(), seen.end(), line) != seen.end()) continue;
         seen.push_back(line);
         const std::vector<std::string> words = splitWords(line);
-        // File names may have spaces in them, but several files may also stand in one line.
+        // File names may contain spaces, but a line may also list several files.
         if (words.size() == 1 || isOneFile(line, model.files)) {
             if (!read(line)) model.warnings.push_back("there is no material library '" + line + "'");
             continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Groups faces into primitives, computes missing normals, and finds the distinct vertices.
+// Groups faces into primitives, computes missing normals, and merges identical vertices.
 #include "model/obj/obj_primitives.h"
 
 #include <algorithm>
@@ -30,9 +30,9 @@ bool hasNormals(const Model& model, const Face& face) {
     return std::all_of(corner, corner + face.corner_count, [](const Corner& c) { return c.normal != kNone; });
 }
 
-/// The faces without normals as a mesh with positions only.
+/// Faces without normals, as a mesh that has only positions.
 struct BareMesh {
-    std::vector<std::uint32_t> faces = {};  // into Model::faces
+    std::vector<std::uint32_t> faces = {};  // indices into Model::faces
     std::vector<std::uint32_t> indices = {};
     std::vector<std::uint32_t> face_sizes = {};
     std::vector<std::uint32_t> smoothing_groups = {};
@@ -62,7 +62,7 @@ NormalOptions normalOptions(const Model& model, const BareMesh& mesh, const Gene
     return result;
 }
 
-/// Computes normals for the faces without any.
+/// Computes normals for the faces that lack them.
 Result<NormalReport> completeFaces(Model& model, std::span<const std::uint32_t> faces, const GenerateOptions& options) {
     const BareMesh bare = collectBareFaces(model, faces);
     if (bare.faces.empty()) return NormalReport{};
@@ -141,7 +141,7 @@ OwnedMesh buildMesh(const Model& model, const ObjPrimitive& primitive) {
         has_normals = has_normals && hasNormals(model, model.faces[index]);
         all_triangles = all_triangles && model.faces[index].corner_count == 3;
     }
-    // Normals are compared by value: computed ones have an index per corner.
+    // Normals are compared by value, because computed ones have a separate index per corner.
     UniqueIndex<std::array<std::uint32_t, 5>> vertices(primitive.faces.size());
     for (const std::uint32_t index : primitive.faces) {
         const Face& face = model.faces[index];
@@ -171,11 +171,12 @@ std::vector<std::uint32_t> triangleCorners(const OwnedMesh& mesh) {
     return corners;
 }
 
-// An OBJ file as a Scene: the primitives that a glTF made from it would have, before missing normals are computed.
+// Conversion of an OBJ file to a Scene: its primitives equal those of a glTF converted from it, before missing normals
+// are computed.
 
 namespace {
 
-/// Number of each texture among the images of the scene, one per file.
+/// Index of each texture among the images of the scene; one image per file.
 class ImageFiles {
   public:
     ImageFiles(const NamedFiles& files, bool with_bytes, MemoryBudget& memory)
@@ -195,7 +196,7 @@ class ImageFiles {
 
   private:
     void readBytes(const Texture& texture, SceneImage& image) const {
-        // An image that cannot be read does not affect geometry.
+        // An unreadable image does not affect geometry, so it is not an error.
         const std::optional<Error> failure = tryFile([&] {
             const std::string uri = percentEncode(texture.file);
             const Path file = files_.resolve(texture.folder, uri, "material");
@@ -245,7 +246,7 @@ ScenePrimitive loadPrimitive(const Model& model, const ObjPrimitive& primitive, 
 
 namespace {
 
-/// The scene without images; their names go to `files`.
+/// Returns the scene without images; their names are added to `files`.
 Scene loadScene(const Model& model, std::span<const ObjPrimitive> primitives, ImageFiles& files) {
     Scene scene;
     scene.format = "obj";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Reads OBJ text into a Model by the callbacks of tinyobjloader, which keep faces of any size (its mesh interface cuts
-// them at 255 corners). The parser is not trusted: every index is checked here. Coordinates are read as doubles; how they
-// become floats is at takePositions().
+// Reads OBJ text into a Model with the callbacks of tinyobjloader, which support faces of any size (its mesh interface
+// cuts faces at 255 corners). The parser is not trusted: every index is checked here. Coordinates are read as doubles;
+// takePositions() describes their conversion to floats.
 #include "model/obj/obj_reader.h"
 
 #include <algorithm>
@@ -21,14 +21,14 @@
 
 namespace tspace::obj {
 
-// A first pass over the text of an OBJ file, before the parser.
+// First pass over the text of an OBJ file, before the parser.
 
 namespace {
 
 bool isBlank(char c) { return c == ' ' || c == '\t'; }
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
-/// The next run of non-blank characters, taken off the front of `line`; empty at the end.
+/// Removes the next run of non-blank characters from the front of `line` and returns it; empty at the end.
 std::string_view takeToken(std::string_view& line) {
     std::size_t begin = 0;
     while (begin < line.size() && isBlank(line[begin])) ++begin;
@@ -47,18 +47,19 @@ std::string_view trimmed(std::string_view text) {
 
 std::string lineName(std::uint32_t line) { return "line " + std::to_string(line); }
 
-/// 0 for "off" and for anything that is no number.
+/// Returns the group number; 0 for "off" and for anything that is not a number.
 std::uint32_t smoothingGroup(std::string_view rest) {
     std::uint32_t group = 0;
     for (const char c : takeToken(rest)) {
         if (!isDigit(c)) return 0;
-        group = group * 10 + static_cast<std::uint32_t>(c - '0');  // wraps: still one number per spelling
+        // may wrap around, but each text still has one number
+        group = group * 10 + static_cast<std::uint32_t>(c - '0');
     }
     return group;
 }
 
 void noteFace(std::string_view rest, std::uint32_t line, std::uint32_t smoothing_group, LineNotes& notes) {
-    constexpr std::size_t kMostDigits = 9;  // fits a 32-bit int; no file can have more vertices than that
+    constexpr std::size_t kMostDigits = 9;  // fits a 32-bit int; no file can have more vertices
     std::size_t digits = 0;
     bool empty = true;
     for (const char c : rest) {
@@ -82,11 +83,11 @@ void noteNumbers(std::string_view rest, std::uint32_t line, bool is_position, Li
     if (is_position && count >= 6) notes.has_vertex_colors = true;
 }
 
-/// Blanks a comment behind a face: the parser would read its words as indices.
+/// Blanks a comment after a face, whose words the parser would interpret as indices.
 void blankFaceComment(std::string& text, std::size_t begin, std::size_t end) {
     while (begin < end && isBlank(text[begin])) ++begin;
     if (begin + 1 >= end || text[begin] != 'f' || !isBlank(text[begin + 1])) return;
-    // Limited to the line: text.find() would search the rest of the file for each face.
+    // Limited to the line, because text.find() would search the rest of the file for each face.
     const auto first = text.begin() + static_cast<std::ptrdiff_t>(begin);
     const auto last = text.begin() + static_cast<std::ptrdiff_t>(end);
     std::fill(std::find(first, last, '#'), last, ' ');
@@ -155,7 +156,7 @@ LineNotes prepareLines(std::string& text) {
 
 namespace {
 
-/// The shortest digits that round-trip.
+/// Formats a number with the fewest digits that round-trip.
 std::string spelled(double value) {
     const std::string text = Json(value).dump();
     return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
@@ -165,7 +166,7 @@ std::string spelled(const DVec3& v) { return "(" + spelled(v.x) + ", " + spelled
 
 bool isNone(const DVec3& offset) { return offset.x == 0 && offset.y == 0 && offset.z == 0; }
 
-/// "120 of 121 edges"
+/// Returns a text such as "120 of 121 edges of faces".
 std::string changedEdges(const FloatLoss& loss) {
     return std::to_string(loss.changed_count) + " of " + std::to_string(loss.edge_count) + " edges of faces";
 }
@@ -186,10 +187,10 @@ void warnOfLoss(const FloatLoss& loss, bool could_be_mended, Model& model) {
 
 }  // namespace
 
-/// Sets the positions of the model; faces and corners must be set. Where the coordinates are so far from the origin that
-/// floats would distort edges, Model::offset is subtracted from all of them first (one for the whole file, unless
-/// `keep_coordinates`), with a warning. A second warning says where floats distort edges all the same. Positions that are
-/// not finite become zero.
+/// Sets the positions of the model; faces and corners must be set already. If the coordinates are so far from the
+/// origin that floats would distort edges, Model::offset is subtracted from all of them first (one offset for the whole
+/// file, unless `keep_coordinates`), with a warning. A second warning reports edges that floats still distort.
+/// Positions that are not finite become zero.
 void takePositions(std::vector<DVec3> positions, const FileOptions& options, Model& model) {
     const VisitEdges edges = [&](const auto& visit) {
         for (const Face& face : model.faces) {
@@ -215,7 +216,7 @@ void takePositions(std::vector<DVec3> positions, const FileOptions& options, Mod
 }
 namespace {
 
-/// Counts of corner indices that name nothing.
+/// Number of corner indices that refer to nothing.
 struct DeadIndices {
     std::uint64_t count = 0;
     std::uint32_t first_line = kNone;
@@ -230,11 +231,11 @@ struct DeadIndices {
 struct Build {
     Model* model = nullptr;
     const LineNotes* notes = nullptr;
-    std::vector<DVec3> positions = {};  // positions; not finite if a float would overflow
-    std::size_t face_line = 0;          // the next of notes->faces
+    std::vector<DVec3> positions = {};  // not finite if a float would overflow
+    std::size_t face_line = 0;          // index of the next entry of notes->faces
     std::string object = {}, group = {};
     std::map<std::pair<std::string, std::string>, std::uint32_t> shapes = {};
-    std::uint32_t shape = kNone;  // kNone: looked up by the next face
+    std::uint32_t shape = kNone;  // kNone: determined at the next face
     std::map<std::string, std::uint32_t> materials = {};
     std::string material_name = {};
     std::uint32_t material = kNone;
@@ -273,7 +274,8 @@ void addUv(void* user, double u, double v, double) {
     build.model->uvs.push_back(uv);
 }
 
-/// glTF requires unit normals, OBJ does not. Normals within the tolerance of the glTF validator keep their bits.
+/// glTF requires unit normals, OBJ does not. Normals within the tolerance of the glTF validator keep their exact
+/// values.
 void addNormal(void* user, double x, double y, double z) {
     Build& build = buildOf(user);
     const Vec3 given = toFloat({x, y, z});
@@ -290,8 +292,8 @@ void addNormal(void* user, double x, double y, double z) {
     build.model->normals.push_back(normal);
 }
 
-/// Converts a file's index to one from 0: 1 is the first, -1 the latest so far. Positive ones may still point ahead; kNone
-/// for negative ones that reach before the first.
+/// Converts an index of the file to a zero-based one: in the file 1 is the first, -1 the latest so far. Positive
+/// indices may still point ahead; returns kNone for negative ones that reach before the first.
 std::uint32_t resolveIndex(int index, std::size_t count_so_far) {
     if (index > 0) return static_cast<std::uint32_t>(index - 1);
     const auto back = static_cast<std::size_t>(-static_cast<std::int64_t>(index));
@@ -310,7 +312,7 @@ std::uint32_t resolvePosition(const Build& build, int index) {
     return position;
 }
 
-/// The index of a UV or normal. Some exporters write 0 for "none", or indices that the file does not have.
+/// Returns the index of a UV or normal. Some exporters write 0 for "none", or indices that do not exist in the file.
 std::uint32_t resolveOptional(int index, std::size_t count_so_far, std::uint32_t line, DeadIndices& dead) {
     if (index == 0) return kNone;
     const std::uint32_t resolved = resolveIndex(index, count_so_far);
@@ -318,7 +320,7 @@ std::uint32_t resolveOptional(int index, std::size_t count_so_far, std::uint32_t
     return resolved;
 }
 
-/// Every shape and material with faces becomes a primitive: its lists, its report, its JSON.
+/// Memory of a primitive (one per shape and material with faces): lists, report, and JSON.
 constexpr std::uint64_t kPrimitiveBytes = 4000;
 
 std::uint32_t currentShape(Build& build) {
@@ -387,7 +389,7 @@ void setGroup(void* user, const char** names, int count) {
     Build& build = buildOf(user);
     build.group.clear();
     for (int i = 0; i < count; ++i) build.group.append(i == 0 ? "" : " ").append(names[i]);
-    // Exporters write these names for "no group".
+    // Exporters use these names for "no group".
     if (build.group == "default" || build.group == "off") build.group.clear();
     build.shape = kNone;
 }
@@ -418,8 +420,8 @@ void parse(std::string& text, Build& build) {
     if (!parseObj(text, callbacks, &build)) failFile(ErrorCode::invalidFile, "not an OBJ file that can be read");
 }
 
-/// Checks positive indices at the end of the file, since they may point ahead. A missing position is an error; corners
-/// drop UVs and normals that do not exist, and normals that are zero.
+/// Checks positive indices at the end of the file, since they may point ahead. A missing position is an error; UVs and
+/// normals that do not exist, and zero normals, are dropped from corners.
 void checkIndices(Build& build) {
     Model& model = *build.model;
     for (const Face& face : model.faces) {
@@ -470,7 +472,7 @@ void addWarnings(const Build& build, Model& model) {
     if (notes.has_free_form) warn("free-form curves and surfaces are ignored");
 }
 
-/// Fills the materials that faces use from the MTL files.
+/// Fills in the materials that faces use, from the MTL files.
 void fillMaterials(Model& model, std::vector<Material> library) {
     std::map<std::string, std::size_t> by_name;
     for (std::size_t i = 0; i < library.size(); ++i) by_name.emplace(library[i].name, i);
@@ -486,7 +488,7 @@ void fillMaterials(Model& model, std::vector<Material> library) {
 
 }  // namespace
 
-/// Memory that later steps take for faces. Polygons take more than triangles, because they are cut.
+/// Memory that later steps need for faces. Polygons need more than triangles, because they are triangulated.
 void requireFaces(const Model& model) {
     constexpr std::uint64_t kTriangleCornerBytes = 128, kPolygonCornerBytes = 200;
     std::uint64_t bytes = 0;
@@ -497,7 +499,7 @@ void requireFaces(const Model& model) {
 }
 
 Model readModel(const Path& path, const FileOptions& options) {
-    // Beyond this, counts of vertices might not fit 32 bits.
+    // Beyond this size, vertex counts might exceed 32 bits.
     constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30;
     const bool is_in_memory = options.content.data() != nullptr;
     const std::uint64_t size = is_in_memory ? options.content.size() : fileSize(path);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An OBJ model as a document of glTF 2.0.
+// Conversion of an OBJ model to a glTF 2.0 document.
 #include "model/obj/obj_writer.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ std::size_t addVertices(const std::vector<T>& values, const char* type, Document
     return builder.addFloats(values, values.size(), type, gltf::kVertexTarget);
 }
 
-/// `count` elements of a few bytes each, which start at multiples of 4 bytes.
+/// Adds `count` small elements, each aligned to 4 bytes.
 template <class ElementBytes>
 std::size_t addRows(const ElementBytes& elements, std::size_t count, Json accessor, DocumentBuilder& builder) {
     const std::size_t element = elements.size() / count, stride = (element + 3) / 4 * 4;
@@ -69,7 +69,7 @@ std::size_t addPacked(const PackedAttribute& attribute, DocumentBuilder& builder
     return addRows(attribute.elements, count, std::move(accessor), builder);
 }
 
-/// Images and textures, one per file however often it is used.
+/// Images and textures; one per file, regardless of the number of uses.
 class ImageBuilder {
   public:
     ImageBuilder(const Model& model, const Path& output, DocumentBuilder& builder, std::vector<std::string>& sources,
@@ -81,7 +81,7 @@ class ImageBuilder {
           sources_(sources),
           warnings_(warnings) {}
 
-    /// Sets material[key] to a reference to the texture; does nothing where the image cannot be read.
+    /// Sets material[key] to a reference to the texture; does nothing if the image cannot be read.
     void addReference(const Texture& texture, Json& material, const char* key) {
         if (!texture.used()) return;
         const std::string name = texture.path();
@@ -92,14 +92,14 @@ class ImageBuilder {
         if (entry->second >= 0) material[key] = {{"index", static_cast<unsigned>(entry->second)}};
     }
 
-    /// reference() for an image in memory.
+    /// Like addReference(), for an image in memory.
     void addMade(const Texture& like, const Bytes& bytes, Json& material, const char* key) {
         const fs::path path = Path(like.file);
         material[key] = {{"index", append(imageJson(path, bytes, mimeType(imageFormat(bytes)), false))}};
     }
 
   private:
-    /// `flipped`: replaces the file in the output; may be null.
+    /// Adds a texture. `flipped`: replaces the file in the output; may be null.
     int addTexture(const Texture& texture, const Bytes* flipped) {
         int number = -1;
         const std::optional<Error> failure = tryFile([&] {
@@ -107,13 +107,13 @@ class ImageBuilder {
             const Bytes read = named_.read(path);
             sources_.push_back(path.string());
             const Bytes& bytes = flipped == nullptr ? read : *flipped;
-            // Told by content, because names can be wrong. Core glTF allows no other formats.
+            // Determined by content, because names can be wrong. Core glTF allows no other formats.
             const ImageFormat format = imageFormat(bytes);
             if (format != ImageFormat::png && format != ImageFormat::jpeg) {
                 warnings_.push_back("the texture '" + texture.file + "' was ignored: it is neither PNG nor JPEG");
                 return;
             }
-            // Viewers may show a damaged image, but not one without a valid size.
+            // Viewers may show a damaged image, but not one with an invalid size.
             const ImageClaim claim = format == ImageFormat::png ? claimOfPng(bytes) : claimOfJpeg(bytes);
             if (claim.size.pixels() == 0) {
                 warnings_.push_back("the texture '" + texture.file + "' was ignored: its header is invalid");
@@ -126,14 +126,14 @@ class ImageBuilder {
         return number;
     }
 
-    /// Each image has one texture, of the same number.
+    /// Each image has one texture with the same index.
     std::size_t append(Json image) {
         return builder_.append("textures", {{"source", builder_.append("images", std::move(image))}});
     }
 
     Json imageJson(const fs::path& path, const Bytes& bytes, const char* type, bool names_by_uri) {
         Json image = {{"name", Path(path.stem()).string()}};
-        // Relative to the model's folder.
+        // The URI is relative to the model's folder.
         const std::string below = names_by_uri ? pathBelow(named_.folder(), path) : "";
         if (!below.empty()) {
             image["uri"] = percentEncode(below);
@@ -150,12 +150,13 @@ class ImageBuilder {
     DocumentBuilder& builder_;
     std::vector<std::string>& sources_;
     std::vector<std::string>& warnings_;
-    std::map<std::pair<std::string, bool>, int> textures_by_file_ = {};  ///< by path and whether green is inverted
+    /// keyed by path and by whether green is inverted
+    std::map<std::pair<std::string, bool>, int> textures_by_file_ = {};
 };
 
 Json rgb(const Vec3& color) { return {color.x, color.y, color.z}; }
 
-/// `images` null: without textures.
+/// Returns the JSON of a material. `images` may be null: without textures.
 Json materialJson(const Material& material, ImageBuilder* images) {
     Json json = Json::object();
     if (!material.name.empty()) json["name"] = material.name;
@@ -182,11 +183,11 @@ Json materialJson(const Material& material, ImageBuilder* images) {
     return json;
 }
 
-/// Writes the materials of the file. Faces before any `usemtl` have the default material, which is not written. Primitives
-/// without UVs get a copy without textures, because textures of glTF need UVs.
+/// Writes the materials of the file. Faces before any `usemtl` use the default material, which is not written.
+/// Primitives without UVs get a copy without textures, because textures require UVs in glTF.
 class MaterialNumbers {
   public:
-    /// Materials in the order of the file; copies without textures follow.
+    /// Adds the materials in file order, followed by copies without textures.
     MaterialNumbers(const Model& model, const std::vector<FinishedPrimitive>& primitives, ImageBuilder& images,
                     DocumentBuilder& builder, std::vector<std::string>& warnings)
         : numbers_(model.materials.size(), -1), bare_numbers_(numbers_) {
@@ -214,7 +215,7 @@ class MaterialNumbers {
         }
     }
 
-    /// Index of a primitive's material; -1: the default.
+    /// Returns the index of a primitive's material; -1: the default material.
     [[nodiscard]] int of(const FinishedPrimitive& primitive) const {
         return (primitive.mesh.uvs.empty() ? bare_numbers_ : numbers_)[primitive.material];
     }
@@ -222,7 +223,7 @@ class MaterialNumbers {
   private:
     static bool isDefault(const Material& material) { return material.name.empty() && !material.found; }
 
-    std::vector<int> numbers_, bare_numbers_;  ///< by index in Model::materials
+    std::vector<int> numbers_, bare_numbers_;  ///< indexed like Model::materials
 };
 
 Json primitiveJson(const FinishedPrimitive& primitive, int material, DocumentBuilder& builder) {
@@ -243,7 +244,7 @@ Json primitiveJson(const FinishedPrimitive& primitive, int material, DocumentBui
     return json;
 }
 
-/// Writes a mesh and a node per shape with faces, in the order of the file.
+/// Writes a mesh and a node per shape with faces, in file order.
 void addMeshes(const Model& model, const std::vector<FinishedPrimitive>& primitives, const MaterialNumbers& materials,
                DocumentBuilder& builder) {
     Json roots = Json::array();
@@ -266,7 +267,7 @@ void addMeshes(const Model& model, const std::vector<FinishedPrimitive>& primiti
     builder.json()["scenes"] = {{{"nodes", std::move(roots)}}};
 }
 
-/// The document's only buffer: the BIN of a GLB, or a file beside a .gltf.
+/// Adds the document's only buffer: BIN of a GLB, or a file next to a .gltf.
 void addBuffer(Bytes&& bytes, const Path& output, gltf::Document& document) {
     Json entry = {{"byteLength", bytes.size()}};
     gltf::Buffer& buffer = document.buffers.emplace_back();

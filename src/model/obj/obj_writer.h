@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A new glTF document: meshes, materials, images, and the buffer that holds them.
+// Creates a glTF document: meshes, materials, images, and their buffer.
 #pragma once
 
 #include <string>
@@ -13,25 +13,25 @@
 
 namespace tspace::obj {
 
-/// An attribute that holds packed frames, and its elements, tightly packed.
+/// Attribute of packed frames with its elements, tightly packed.
 struct PackedAttribute {
     gltf::PackedPart part;
     Bytes elements = {};
 };
 
-/// One primitive, ready to be written.
+/// Primitive that is ready to be written.
 struct FinishedPrimitive {
     std::uint32_t shape = 0;
     std::uint32_t material = 0;
-    OwnedMesh mesh = {};                ///< triangles, with indices
+    OwnedMesh mesh = {};                ///< triangles with indices
     std::vector<Vec3> bitangents = {};  ///< empty: none
     std::vector<PackedAttribute> packed = {};
     VectorFormat normal_format = VectorFormat::float32, tangent_format = VectorFormat::float32;
 };
 
-/// A document of the model, to be written to `output` (.glb, else .gltf with a .bin beside it), whose folder is the only one
-/// that it names files in: images that lie there are named by URI, others go into its buffer. Textures that are missing,
-/// forbidden or neither PNG nor JPEG are left out with a warning. Throws FileError.
+/// Returns a document of the model, to be written to `output` (.glb, or .gltf with a .bin next to it). It references
+/// only files in the folder of `output`: images in this folder are referenced by URI, others are stored in its buffer.
+/// Textures that are missing, forbidden or neither PNG nor JPEG are skipped with a warning. Throws FileError.
 gltf::Document toDocument(Model&& model, const std::vector<FinishedPrimitive>& primitives, const Path& output,
                           std::vector<std::string>& warnings);
 

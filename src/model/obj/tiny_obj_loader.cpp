@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compiles the parser from its header, so that sanitizers instrument it. The WebAssembly build has a file without
-// std::iostream in place of this (bindings/js/wasm).
+// Compiles the parser from its header, so that sanitizers instrument it. The WebAssembly build replaces this file by
+// one without std::iostream (bindings/js/wasm).
 #define TINYOBJLOADER_IMPLEMENTATION
 #include "model/obj/tiny_obj_loader.h"
 
@@ -12,7 +12,7 @@ namespace tspace::obj {
 
 namespace {
 
-/// A stream over bytes that are already in memory.
+/// Stream over bytes that are already in memory.
 class MemoryStream : private std::streambuf, public std::istream {
   public:
     explicit MemoryStream(std::string& text) : std::istream(static_cast<std::streambuf*>(this)) {

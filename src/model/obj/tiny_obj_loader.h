@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The parser of the tinyobjloader package on text in memory.
+// Calls the parser of the tinyobjloader package with text in memory.
 #pragma once
 
-// Coordinates of maps do not fit into floats.
+// Coordinates of geographic maps exceed the precision of floats.
 #define TINYOBJLOADER_USE_DOUBLE
 #include <tiny_obj_loader.h>
 
@@ -11,7 +11,7 @@
 
 namespace tspace::obj {
 
-/// Calls back for the lines of an OBJ file, which is not changed. It opens no other file.
+/// Calls the callbacks for the lines of an OBJ file, which is not changed. Opens no other file.
 bool parseObj(std::string& text, const tinyobj::callback_t& callbacks, void* user);
 
 std::vector<tinyobj::material_t> parseMtl(std::string& text);

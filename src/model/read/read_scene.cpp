@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A model file of any format.
+// Reading of model files of any format.
 #include "model/read/read_scene.h"
 
 #include <utility>
@@ -15,7 +15,7 @@
 
 namespace tspace::gltf {
 
-// Chooses between the bytes of the caller, the importer and the file.
+// Chooses between the caller's bytes, the importer and the file.
 
 Document loadDocument(const Path& path, const FileOptions& options, const Execution& execution,
                       const Progress& progress) {
@@ -29,7 +29,7 @@ Document loadDocument(const Path& path, const FileOptions& options, const Execut
 
 namespace tspace {
 
-// Chooses the reader by the name of the file.
+// Chooses the reader by the file name.
 
 namespace {
 
@@ -42,7 +42,7 @@ gltf::Model readModel(const std::string& input, const FileOptions& options) {
 }  // namespace
 
 Scene readScene(const std::string& input, const FileOptions& options, bool with_images) {
-    // An OBJ file has no magic word, so only its name tells it.
+    // An OBJ file has no magic number, so it is recognized by its name only.
     if (lowerExtension(input) == ".obj") {
         const obj::Model model = obj::readModel(input, options);
         return obj::sceneOf(model, obj::collectPrimitives(model), with_images);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A model as arrays, of any format: what its primitives are, how their textures are read, how it is drawn.
+// Model of any format as arrays: its primitives, how their textures are read, and how it is drawn.
 #pragma once
 
 #include <algorithm>
@@ -33,49 +33,51 @@ struct UvTransform {
     double rotation = 0;
     double scale[2] = {1, 1};
 
-    /// true when it turns, mirrors or squeezes directions: an offset alone does not touch frames.
+    /// Returns whether the transform rotates, mirrors or scales directions: an offset alone does not affect frames.
     [[nodiscard]] bool changesFrames() const { return rotation != 0 || scale[0] != 1 || scale[1] != 1; }
     [[nodiscard]] bool mirrors() const { return scale[0] * scale[1] < 0; }
 };
 
 struct TextureReading {
-    std::size_t uv_set = 0;  ///< n of TEXCOORD_n; KHR_texture_transform's own texCoord goes first
+    std::size_t uv_set = 0;  ///< n of TEXCOORD_n; texCoord of KHR_texture_transform has priority
     UvTransform transform = {};
     std::optional<std::size_t> image = {};  ///< index into the file's images
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
-    bool reads_levels = true;  ///< false: the sampler asks for the largest level alone
+    bool reads_levels = true;  ///< false: the sampler uses only the largest mip level
 };
 
-// Why a primitive needs tangents: one texture or parameter of a material that is shaded in tangent space.
+// Reasons why a primitive needs tangents: one texture or parameter of a material that is shaded in tangent space.
 
 struct TangentUse {
     std::string needed_by = {};  ///< "normalTexture", "clearcoatNormalTexture" or "anisotropy"
     std::string place = {};      ///< JSON pointer of the texture reference, or of the extension
-    /// False: a factor alone (KHR_materials_anisotropy), which tangents along any direction serve.
+    /// False: only a factor (KHR_materials_anisotropy), for which tangents in any direction suffice.
     bool has_texture = true;
-    std::size_t uv_set = 0;  ///< n of TEXCOORD_n; KHR_texture_transform's own texCoord goes first
+    std::size_t uv_set = 0;  ///< n of TEXCOORD_n; texCoord of KHR_texture_transform has priority
     UvTransform transform = {};
     std::optional<std::size_t> image = {};  ///< index into the file's images
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
-    double scale = 1;               ///< factor of x and y of a normal map
-    bool is_declared_down = false;  ///< the file says that green of its normal maps points down, as its readers know
-    bool may_be_heights = false;    ///< the format takes a grey image for a height map there (map_bump of OBJ)
-    bool reads_levels = true;       ///< like TextureReading::reads_levels
+    double scale = 1;  ///< factor for x and y of a normal map
+    /// the file declares that green of its normal maps points down, which its readers respect
+    bool is_declared_down = false;
+    bool may_be_heights = false;  ///< the format would interpret a gray image as a height map (map_bump of OBJ)
+    bool reads_levels = true;     ///< see TextureReading::reads_levels
     std::size_t material = 0;
     std::string material_name = {};  ///< may be empty
     bool only_in_variant = false;    ///< the material is one of KHR_materials_variants, not the primitive's own
 };
 
-/// "normalTexture of material 'Paint' (a variant)"; a material without a name is named by its index.
+/// Returns a text such as "normalTexture of material 'Paint' (a variant)"; a material without a name is identified by
+/// its index.
 inline std::string textureName(const TangentUse& use) {
     const std::string material = use.material_name.empty() ? std::to_string(use.material) : inQuotes(use.material_name);
     return use.needed_by + " of material " + material + (use.only_in_variant ? " (a variant)" : "");
 }
 
-// Contents of a model file that frames depend on, in one form for every format. Read-only: check, diff and identify examine it;
-// generate decides by it, and edits the file's own document (gltf/model.h).
+// Contents of a model file that affect frames, in the same form for every format. Read-only: check, diff and identify
+// examine it; generate uses it for decisions, and edits the file's own document (gltf/model.h).
 
-/// A read-only array that its copies share: files draw one accessor in many places.
+/// Read-only array shared by its copies: files use one accessor in many primitives.
 template <class T>
 class SharedArray {
   public:
@@ -90,43 +92,43 @@ class SharedArray {
     [[nodiscard]] const T* end() const { return data() + size(); }
     const T& operator[](std::size_t i) const { return (*values_)[i]; }
     [[nodiscard]] std::span<const T> span() const { return {data(), size()}; }
-    /// Expires when nobody has the array any more.
+    /// Returns a weak pointer that expires when the array has no more users.
     [[nodiscard]] std::weak_ptr<const std::vector<T>> watch() const { return values_; }
 
   private:
     std::shared_ptr<const std::vector<T>> values_ = {};
 };
 
-/// Offsets of one morph target, one per vertex of its primitive. Empty: the target does not move this attribute.
+/// Offsets of one morph target, one per vertex of its primitive. Empty: the target does not change the attribute.
 struct SceneMorphTarget {
     SharedArray<Vec3> positions = {};
     SharedArray<Vec3> normals = {};
     SharedArray<Vec3> tangents = {};
 };
 
-/// A TANGENT that cannot be read.
+/// TANGENT attribute that cannot be read.
 struct SceneTangentFault {
     std::ptrdiff_t target = -1;  ///< index of the morph target; -1: the base primitive
-    std::string why = {};        ///< "they do not have 4 components"
+    std::string why = {};        ///< reason, such as "they do not have 4 components"
 };
 
 /// How a repair handles an attribute that cannot be read.
 enum class AttributeRepair : std::uint8_t {
-    resize,  ///< keeps the first components that it may have, and fills missing ones with zeros
+    resize,  ///< keep the first components, and fill missing ones with zeros
     remove,
     none  ///< the primitive depends on the attribute, so no command can repair it
 };
 
-/// An attribute, other than TANGENT, that cannot be read, and so counts as absent.
+/// Attribute other than TANGENT that cannot be read and is treated as absent.
 struct SceneAttributeFault {
     std::string name = {};
-    std::ptrdiff_t target = -1;  ///< morph target that has the attribute; -1: the primitive itself
-    std::string why = {};        ///< "they do not have 3 components"
+    std::ptrdiff_t target = -1;  ///< index of the morph target that has the attribute; -1: the primitive itself
+    std::string why = {};        ///< reason, such as "they do not have 3 components"
     AttributeRepair repair = AttributeRepair::remove;
-    std::size_t vertex_count = 0;  ///< vertices of the primitive
+    std::size_t vertex_count = 0;  ///< number of vertices of the primitive
 };
 
-/// "COLOR_0", or "NORMAL of morph target 2"; `target` -1: the primitive itself.
+/// Returns "COLOR_0", or "NORMAL of morph target 2"; `target` -1: the primitive itself.
 inline std::string attributeText(const std::string& name, std::ptrdiff_t target) {
     return target < 0 ? name : name + " of morph target " + std::to_string(target);
 }
@@ -134,17 +136,18 @@ inline std::string attributeText(const std::string& name, std::ptrdiff_t target)
 /// Packed frames in one format.
 struct ScenePacked {
     FrameFormat format = FrameFormat::frame32;
-    std::string attribute = {};  ///< the first that holds them, or the one that `fault` is about
-    std::string fault = {};      ///< why they cannot be read, half a sentence about `attribute`; empty: they can
-    SharedArray<std::uint8_t> words = {};  ///< without padding; empty where there is a fault
+    std::string attribute = {};  ///< the first attribute of the format, or the one that `fault` is about
+    /// why the frames cannot be read, as half a sentence about `attribute`; empty if they can
+    std::string fault = {};
+    SharedArray<std::uint8_t> words = {};  ///< without padding; empty if there is a fault
 };
 
-/// Factors that scale normals to length 1. Normal deltas of morph targets are multiplied by the same factors, so that all sums
-/// keep their directions.
+/// Factors that scale normals to length 1. Normal deltas of morph targets are multiplied by the same factors, so that
+/// all sums keep their directions.
 struct NormalScales {
-    std::vector<double> of_vertices = {};  ///< 1 where the stored normal is unit within rounding, or has no direction
-    std::size_t count = 0;                 ///< number of factors other than 1
-    double least_length = 0, most_length = 0;  ///< range of the lengths of these normals
+    std::vector<double> of_vertices = {};      ///< 1 if the stored normal is unit within rounding, or has no direction
+    std::size_t count = 0;                     ///< number of factors other than 1
+    double least_length = 0, most_length = 0;  ///< range of the lengths of the scaled normals
 };
 
 /// Prefix of warnings about normals of other lengths.
@@ -153,40 +156,41 @@ inline constexpr const char* kNormalLengths = "normals that do not have length 1
 struct ScenePrimitive {
     std::string place = {};  ///< JSON pointer (glTF), or "usemtl NAME" (OBJ)
     std::uint32_t mesh = 0;
-    std::uint32_t primitive = 0;     ///< in its mesh
+    std::uint32_t primitive = 0;     ///< index of the primitive in its mesh
     std::string mesh_name = {};      ///< name of the mesh; may be empty
     std::string material_name = {};  ///< name of the material; may be empty
     std::string mode = {};           ///< "triangles", "triangle strip", "points", ...; OBJ: "triangles" or "polygons"
-    /// Three vertices per triangle, every one smaller than positions.size(). Empty for points and lines.
+    /// Three vertices per triangle, each less than positions.size(). Empty for points and lines.
     SharedArray<std::uint32_t> corners = {};
     SharedArray<Vec3> positions = {};
     double position_step = 0;        ///< quantization step, if positions are stored as integers; 0: floats
     SharedArray<Vec3> normals = {};  ///< one per vertex, scaled to length 1; empty: absent
     std::shared_ptr<const NormalScales> normal_scales = {};  ///< null: none had to be scaled
-    SharedArray<Vec4> tangents = {};                         ///< one per vertex, or empty: absent
+    SharedArray<Vec4> tangents = {};                         ///< one per vertex; empty: absent
     std::vector<SceneTangentFault> tangent_faults = {};      ///< faults of tangents that are ignored
     std::vector<SceneAttributeFault> attribute_faults = {};
-    bool tangents_not_read = false;               ///< they are empty, but the importer cannot tell that there are none
-    std::vector<SharedArray<Vec2>> uv_sets = {};  ///< entry n: TEXCOORD_n, empty where absent; v runs down
+    /// tangents are empty, but the importer cannot tell whether the file has some
+    bool tangents_not_read = false;
+    std::vector<SharedArray<Vec2>> uv_sets = {};  ///< entry n: TEXCOORD_n, empty if absent; v points down
     std::vector<SceneMorphTarget> morph_targets = {};
     std::vector<ScenePacked> packed = {};  ///< in the order of FrameFormat
-    bool is_unlit = false;                 ///< every material of it is unlit: normals are not looked at
-    bool is_double_sided = false;          ///< every material of it shows both sides
-    /// Everything in the primitive's materials (variants too) that needs tangents; the first decides which UV set the
-    /// tangents follow.
+    bool is_unlit = false;                 ///< every material of the primitive is unlit: normals are not used
+    bool is_double_sided = false;          ///< every material of the primitive is double-sided
+    /// All uses of tangents in the primitive's materials (including variants); the first use determines the UV set of
+    /// the tangents.
     std::vector<TangentUse> uses = {};
     /// Transforms of the primitive by the nodes of the scene; empty if not requested.
     std::vector<Affine> places = {};
-    /// Another possible reader of the tangents, or a sign that they are authored: "the material extension EXT_hair". Empty:
-    /// none.
+    /// Another possible reader of the tangents, or a sign that they are authored, such as "the material extension
+    /// EXT_hair". Empty: none.
     std::string other_reader = {};
 
-    /// Its triangles, with these UVs.
+    /// Returns the primitive's triangles with the given UVs.
     [[nodiscard]] MeshView view(std::span<const Vec2> uvs = {}) const {
         return {.positions = positions.span(), .normals = normals.span(), .uvs = uvs, .indices = corners.span()};
     }
 
-    /// Whether a texture is read with the tangents, so that its UVs say where they must point.
+    /// Returns whether a texture is read with the tangents, so that its UVs determine their direction.
     [[nodiscard]] bool uvsDecide() const {
         return std::any_of(uses.begin(), uses.end(), [](const TangentUse& use) { return use.has_texture; });
     }
@@ -198,13 +202,14 @@ struct ScenePrimitive {
         return found == attribute_faults.end() ? nullptr : &*found;
     }
 
-    /// There are tangents that something may read, but no texture with them: somebody may have drawn them, along hair or
-    /// brushed metal, and UVs are no authority on them.
+    /// Returns whether tangents exist that something may read, but without a texture. An artist may have authored them,
+    /// along hair or brushed metal, so that UVs do not determine their direction.
     [[nodiscard]] bool hasFreeTangents() const {
         return !tangents.empty() && (uses.empty() ? !other_reader.empty() : !uvsDecide());
     }
 
-    /// The packed frames that are the only ones it has, or null: `generate` then leaves it as it is.
+    /// Returns the packed frames if they are the primitive's only frames, otherwise null. `generate` does not change
+    /// such a primitive.
     [[nodiscard]] const ScenePacked* packedAlone() const {
         if (!normals.empty() && !tangents.empty()) return nullptr;
         for (const ScenePacked& frames : packed) {
@@ -214,7 +219,8 @@ struct ScenePrimitive {
     }
 };
 
-/// Approximate temporary memory for checking a primitive: highest if tangents are computed for comparison.
+/// Returns the approximate temporary memory for checking a primitive; it is highest if tangents are computed for
+/// comparison.
 inline std::uint64_t checkBytes(std::uint64_t corner_count, std::uint64_t vertex_count, bool has_tangents) {
     return corner_count * (has_tangents ? 96 : 24) + 48 * vertex_count;
 }
@@ -222,9 +228,9 @@ inline std::uint64_t checkBytes(std::uint64_t corner_count, std::uint64_t vertex
 struct SceneImage {
     std::string name = {};  ///< may be empty
     std::string uri = {};   ///< URI in the file; empty if embedded
-    /// The encoded image (PNG, JPEG, ...); empty when it was not asked for or cannot be read.
+    /// The encoded image (PNG, JPEG, ...); empty if it was not requested or cannot be read.
     std::vector<std::uint8_t> bytes = {};
-    bool is_unavailable = false;  ///< the file that the model names is not there, or may not be read
+    bool is_unavailable = false;  ///< the referenced file does not exist or may not be read
     std::string why_empty = "it cannot be read";
 };
 
@@ -232,13 +238,13 @@ struct Scene {
     std::string format = {};                      ///< "glb", "gltf", "obj"
     std::string generator = {};                   ///< may be empty
     std::vector<ScenePrimitive> primitives = {};  ///< in file order
-    std::vector<SceneImage> images = {};          ///< TangentUse::image points here
+    std::vector<SceneImage> images = {};          ///< referenced by TangentUse::image
     std::vector<std::string> warnings = {};       ///< warnings of the reader
     DVec3 offset = {};                            ///< offset subtracted from all positions while reading (OBJ)
     std::shared_ptr<MemoryBudget> memory = {};    ///< remaining memory budget
 };
 
-// A scene with what a picture of it needs beside frames: where its primitives stand, and how they look.
+// Scene with data for rendering in addition to frames: placements and looks of its primitives.
 
 /// Properties of a primitive's own material.
 struct SurfaceLook {
@@ -248,35 +254,35 @@ struct SurfaceLook {
     double normal_scale = 1;
     double metalness = 0, roughness = 1;
     std::optional<TextureReading> metal_texture = {};  ///< green: roughness; blue: metalness
-    std::array<double, 3> emission = {0, 0, 0};        ///< linear
+    std::array<double, 3> emission = {0, 0, 0};        ///< linear color
     double emission_strength = 1;                      ///< KHR_materials_emissive_strength
     std::optional<TextureReading> emission_texture = {};
-    /// The surface is absent where alpha is smaller; 0: it is present everywhere.
+    /// Alpha below which the surface is discarded; 0: no cutoff.
     double alpha_cutoff = 0;
     bool is_double_sided = false;
     bool is_unlit = false;
     bool is_blended = false;  ///< transparent by alpha
 };
 
-/// A primitive at one of its places.
+/// Placement of a primitive by a node.
 struct ScenePlacement {
     std::size_t primitive = 0;  ///< index of the primitive in the scene
     Affine to_world = {};
     std::string node_name = {};            ///< name of the node that places it; may be empty
-    std::optional<std::size_t> node = {};  ///< its index in the file (glTF)
+    std::optional<std::size_t> node = {};  ///< index of the node in the file (glTF)
 };
 
 struct DrawnScene {
     Scene scene = {};
     std::vector<SurfaceLook> looks = {};          ///< one per primitive
-    std::vector<ScenePlacement> placements = {};  ///< in the order of nodes; never empty where there are primitives
-    /// COLOR_0 as stored, one list per primitive, empty where it has none; no lists where they were not asked for.
+    std::vector<ScenePlacement> placements = {};  ///< in node order; never empty if there are primitives
+    /// COLOR_0 as stored, one list per primitive, empty for primitives without it; no lists if not requested.
     std::vector<SharedArray<Vec4>> colors = {};
 };
 
 /// Deformation of the vertices of a primitive by bones and morph weights, at one of its placements.
 struct ScenePose {
-    std::vector<Affine> bones = {};  ///< one per vertex, into the world; empty: no skin
+    std::vector<Affine> bones = {};  ///< one per vertex, from rest pose to world space; empty: no skin
     /// Weighted offsets of morph targets, one per vertex; empty: none.
     std::vector<Vec3> positions = {}, normals = {}, tangents = {};
 
@@ -285,7 +291,7 @@ struct ScenePose {
     }
 };
 
-/// A scene as the file poses it.
+/// Scene in the pose stored in the file.
 struct PosedScene {
     DrawnScene drawn = {};
     std::vector<ScenePose> poses = {};  ///< one per placement

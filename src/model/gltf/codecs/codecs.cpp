@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The parts of the codecs that need no library: sizes and heads are checked before a library reads a byte.
+// Library-independent parts of the codecs: sizes and headers are checked before a library reads a byte.
 #include "model/gltf/codecs/codecs.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace tspace::gltf {
 
-// Heads of Draco data, and encoding that loses nothing.
+// Checks of Draco headers, and lossless encoding.
 
 namespace {
 
@@ -51,7 +51,7 @@ bool encodeDraco(DracoMesh& mesh, bool exact, Bytes& data) {
     return is_exact || encodeDraco(mesh, true, data);
 }
 
-// Checks of the preconditions that the library does not check itself, and lossless encoding.
+// Checks of preconditions that the library does not check itself, and lossless encoding.
 
 namespace {
 
@@ -82,7 +82,7 @@ bool comesBack(const MeshoptCoding& coding, std::span<const std::uint8_t> rows, 
 }  // namespace
 
 std::uint64_t meshoptRatio(bool is_khr) {
-    // Codec 0 spends 2 bits on 16 equal bytes of a column; codec 1 spends 2 bits on 256 of them.
+    // Codec 0 uses 2 bits for 16 equal bytes of a column; codec 1 uses 2 bits for 256 of them.
     return is_khr ? 1024 : 64;
 }
 
@@ -90,7 +90,7 @@ std::string meshoptFault(const MeshoptCoding& coding, std::size_t byte_count) {
     const bool is_attributes = coding.mode == MeshoptMode::attributes;
     std::string fault = is_attributes ? attributeFault(coding) : indexFault(coding);
     if (!fault.empty()) return fault;
-    // A triangle takes at least one byte, and so does an index of any other row.
+    // A triangle takes at least one byte, and so does an index in the other index mode.
     const std::uint64_t most = coding.mode == MeshoptMode::triangles ? std::uint64_t{byte_count} * 3
                                : is_attributes ? byte_count * meshoptRatio(coding.is_khr) / coding.stride
                                                : byte_count;
@@ -106,7 +106,8 @@ bool encodeMeshopt(MeshoptCoding& coding, std::span<const std::uint8_t> rows, By
     if (data.empty() || coding.mode == MeshoptMode::attributes) return !data.empty();
     if (coding.mode == MeshoptMode::triangles) {
         if (comesBack(coding, rows, data)) return true;
-        // The triangle codec may rotate a triangle's corners, which changes the order of sums over corners and so their bits.
+        // The triangle codec may rotate the corners of a triangle, which changes the order of floating-point sums over
+        // corners.
         coding.mode = MeshoptMode::indices;
         data = encodeAsItIs(coding, rows);
     }

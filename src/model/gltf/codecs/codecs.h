@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Geometry packed by Draco and meshopt (KHR_draco_mesh_compression, EXT_meshopt_compression): what the codecs
-// ask and give. Knows no JSON.
+// Interface of the geometry codecs Draco and meshopt (KHR_draco_mesh_compression, EXT_meshopt_compression). Independent
+// of JSON.
 #pragma once
 
 #include <cstddef>
@@ -13,25 +13,24 @@
 
 namespace tspace::gltf {
 
-// The number formats of accessors.
+// Component types of accessors.
 
 enum class ComponentType : std::uint32_t { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
 
-/// 1, 2 or 4.
+/// Returns the size of a component: 1, 2 or 4 bytes.
 std::size_t bytesOf(ComponentType type);
 
-// The codec of KHR_draco_mesh_compression, by the library Draco. Knows no JSON.
+// Codec of KHR_draco_mesh_compression, using the library Draco. Independent of JSON.
 
-/// The lattice that the values of an attribute lie on.
+/// Quantization grid of the values of an attribute.
 struct DracoRounding {
-    int bits = 0;  ///< per component; 0: values are stored exactly
+    int bits = 0;  ///< bits per component; 0: values are stored exactly
     bool is_octahedral = false;
-    std::vector<float> origin =
-        {};  ///< smallest value of each component, then the extent of all; empty: to be measured
+    std::vector<float> origin = {};  ///< minimum of each component, then the common extent; empty: to be computed
     float range = 0;
 };
 
-/// Attribute kind for Draco; decides how its values are predicted.
+/// Attribute kind for Draco; determines how its values are predicted.
 enum class DracoKind { position, normal, color, uv, other };
 
 struct DracoAttribute {
@@ -50,73 +49,73 @@ struct DracoMesh {
     std::vector<DracoAttribute> attributes = {};
 };
 
-/// Upper bounds of a mesh, checked before memory is allocated. 64 bits wide, because a file may claim more than a
-/// size_t of 32 bits holds.
+/// Upper limits of a mesh, checked before memory is allocated. 64 bits wide, because a file may declare more than a
+/// 32-bit size_t can hold.
 struct DracoLimits {
     std::uint64_t corner_count = 0, point_count = 0, bytes = 0;
 };
 
-/// Why this build cannot decode or encode; empty when it can. One sentence.
+/// Returns why this build cannot decode or encode Draco data, in one sentence, or an empty string if it can.
 std::string dracoMissing();
 
-/// Decodes the triangles, and the attributes of `mesh`, of which id, component and component_count say what is wanted;
-/// fills the rest. Returns what is wrong with the data, or nothing.
+/// Decodes the triangles and the attributes of `mesh`. The caller sets id, component and component_count of each
+/// requested attribute; the function sets the rest. Returns a description of the fault in the data, or an empty string.
 std::string decodeDraco(std::span<const std::uint8_t> data, const DracoLimits& limits, DracoMesh& mesh);
 
-/// Encodes points and triangles in their order, and fills the ids. `exact`: an attribute whose rounding would change a
-/// value is stored without. False when the library cannot do it.
+/// Encodes points and triangles in their order, and sets the attribute IDs. `exact`: an attribute whose values would
+/// change is stored without quantization. Returns false if the library cannot encode the mesh.
 bool encodeDraco(DracoMesh& mesh, bool exact, Bytes& data);
 
-// The functions of the codec that call the library, beside dracoMissing and decodeDraco. WebAssembly modules
-// have others in their place (bindings/js/wasm).
+// Codec functions that call the library, like dracoMissing and decodeDraco. WebAssembly modules replace these functions
+// (bindings/js/wasm).
 
-/// The fault of a Draco header as a sentence; empty when it is valid.
+/// Returns the fault of a Draco header as a sentence, or an empty string if it is valid.
 std::string dracoHeaderFault(std::span<const std::uint8_t> data);
-/// Whether data with a valid header uses the Edgebreaker method; else it is sequential.
+/// Returns whether data with a valid header uses the Edgebreaker method; otherwise it is sequential.
 bool isEdgebreaker(std::span<const std::uint8_t> data);
 
-/// Encodes points and triangles in their order, attributes by their rounding, and fills the ids. False when the library
-/// cannot do it.
+/// Encodes points and triangles in their order, quantizes attributes as requested, and sets their IDs. Returns false if
+/// the library cannot encode the mesh.
 bool encodeDracoAsItIs(DracoMesh& mesh, Bytes& data);
 
-// The codec of EXT_meshopt_compression and KHR_meshopt_compression, by the library meshoptimizer. Knows no JSON.
+// Codec of EXT_meshopt_compression and KHR_meshopt_compression, using the library meshoptimizer. Independent of JSON.
 
 /// Kind of the elements: rows of vertex data, three indices per triangle, or a sequence of indices.
 enum class MeshoptMode { attributes, triangles, indices };
 
-/// A transform after decoding: expands vectors that are stored with fewer bits.
+/// Filter applied after decoding: expands vectors that are stored with fewer bits.
 enum class MeshoptFilter { none, octahedral, quaternion, exponential, color };
 
 struct MeshoptCoding {
     MeshoptMode mode = MeshoptMode::attributes;
     MeshoptFilter filter = MeshoptFilter::none;
-    bool is_khr = false;  ///< KHR_meshopt_compression: a newer vertex codec and one more filter
+    bool is_khr = false;  ///< KHR_meshopt_compression: newer vertex codec and one additional filter
     std::size_t count = 0, stride = 0;
 
     [[nodiscard]] std::uint64_t byteCount() const { return std::uint64_t{count} * stride; }
 };
 
-/// Why this build cannot decode it; empty when it can. One sentence.
+/// Returns why this build cannot decode the extension, in one sentence, or an empty string if it can.
 std::string meshoptMissing(bool is_khr);
 
-/// The most bytes that one byte of compressed data can stand for.
+/// Returns the maximum compression ratio: decoded bytes per byte of compressed data.
 std::uint64_t meshoptRatio(bool is_khr);
 
-/// The fault of a coding whose data has `byte_count` bytes, as a sentence; empty when it is valid. For a valid coding
-/// byteCount() cannot overflow and is at most meshoptRatio times `byte_count`.
+/// Returns the fault of a coding with `byte_count` bytes of data as a sentence, or an empty string if it is valid. For
+/// a valid coding byteCount() cannot overflow and is at most meshoptRatio times `byte_count`.
 std::string meshoptFault(const MeshoptCoding& coding, std::size_t byte_count);
 
-/// Decodes to coding.byteCount() bytes, and applies the filter. False when the data is broken.
+/// Decodes to coding.byteCount() bytes, and applies the filter. Returns false if the data is malformed.
 bool decodeMeshopt(const MeshoptCoding& coding, std::span<const std::uint8_t> data, std::span<std::uint8_t> to);
 
-/// Encodes rows as they are before the filter. Decoding gives the same bytes: where the triangle codec would rotate
-/// corners, `coding.mode` becomes `indices`. False when the library cannot encode them.
+/// Encodes rows in the form before the filter. Decoding restores the same bytes: if the triangle codec would rotate
+/// corners, `coding.mode` becomes `indices`. Returns false if the library cannot encode the rows.
 bool encodeMeshopt(MeshoptCoding& coding, std::span<const std::uint8_t> rows, Bytes& data);
 
-// The functions of the codec that call the library, beside meshoptMissing and decodeMeshopt. WebAssembly modules have
-// others in their place (bindings/js/wasm).
+// Codec functions that call the library, like meshoptMissing and decodeMeshopt. WebAssembly modules replace these
+// functions (bindings/js/wasm).
 
-/// Encodes rows in the mode that `coding` says. Empty when the library cannot do it.
+/// Encodes rows in the mode of `coding`. Returns an empty array if the library cannot encode them.
 Bytes encodeAsItIs(const MeshoptCoding& coding, std::span<const std::uint8_t> rows);
 
 }  // namespace tspace::gltf

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Calls of Draco. Its decoders are given limits, because their counts come from the file.
+// Calls of the library Draco. Its decoders are given limits, because their counts come from the file.
 #include "model/gltf/codecs/codecs.h"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ namespace {
 
 constexpr const char* kTooMuch = "the Draco data claim more points, triangles or attributes than the accessors say";
 
-/// A decoder of the library that looks at its counts before it asks for memory.
+/// Decoder of the library that checks counts before it allocates memory.
 template <class Decoder>
 class Limited : public Decoder {
   public:
@@ -45,7 +45,7 @@ class Limited : public Decoder {
         draco::DecoderBuffer ahead = *this->buffer();
         std::uint32_t first = 0, second = 0;
         if (!draco::DecodeVarint(&first, &ahead) || !draco::DecodeVarint(&second, &ahead)) return false;
-        // Edgebreaker states vertices, then faces; the sequential method faces, then points.
+        // Edgebreaker data declares vertices, then faces; sequential data declares faces, then points.
         constexpr bool vertices_first = std::is_base_of_v<draco::MeshEdgebreakerDecoder, Decoder>;
         const std::size_t faces = vertices_first ? second : first, points = vertices_first ? first : second;
         return fits(faces <= limits_.corner_count / 3 && points <= limits_.point_count) &&
@@ -53,7 +53,7 @@ class Limited : public Decoder {
     }
 
     bool DecodeAllAttributes() override {
-        // Each component is held once more as a whole number of 4 bytes.
+        // Draco stores an additional copy of each component as a 4-byte integer.
         std::size_t point_bytes = 0;
         for (std::int32_t i = 0; i < this->point_cloud()->num_attributes(); ++i) {
             const draco::PointAttribute& attribute = *this->point_cloud()->attribute(i);
@@ -75,7 +75,7 @@ class Limited : public Decoder {
 
 template <class Decoder>
 std::string runDecoder(draco::DecoderBuffer& buffer, const DracoLimits& limits, draco::Mesh& mesh) {
-    // Quantised values are kept as whole numbers with their lattice, so that encoding again reproduces the lattice.
+    // Keep quantized values as integers with their grid, so that encoding again reproduces the same grid.
     draco::DecoderOptions options;
     for (int kind = 0; kind < draco::GeometryAttribute::NAMED_ATTRIBUTES_COUNT; ++kind) {
         options.SetAttributeBool(static_cast<draco::GeometryAttribute::Type>(kind), "skip_attribute_transform", true);
@@ -93,7 +93,7 @@ std::string decodeMesh(std::span<const std::uint8_t> data, const DracoLimits& li
     return runDecoder<draco::MeshSequentialDecoder>(buffer, limits, mesh);
 }
 
-/// Turns whole numbers on a lattice into floats and fills the rounding. Null: the attribute holds plain values.
+/// Converts quantized integers to floats and sets the rounding. Returns null if the attribute is not quantized.
 std::unique_ptr<draco::PointAttribute> originalValues(const draco::PointAttribute& stored, DracoRounding& rounding,
                                                       bool& is_sound) {
     const draco::AttributeTransformData* transform = stored.GetAttributeTransformData();
@@ -209,8 +209,8 @@ void addAttribute(draco::Mesh& mesh, DracoAttribute& from) {
     from.id = mesh.attribute(number)->unique_id();
 }
 
-/// Spells a float so that the library reads back the same bits (its own writer keeps six decimals). The spelling is
-/// hexadecimal, a whole number and a power of two: the library parses by strtod, whose decimal point depends on the locale.
+/// Formats a float so that the library reads back the same bits (its own writer keeps six decimals). The format is a
+/// hexadecimal integer with a power of two: the library parses with strtod, whose decimal point depends on the locale.
 std::string exactText(float value) {
     int exponent = 0;
     const auto whole = static_cast<int>(std::ldexp(std::frexp(value, &exponent), 24));
@@ -245,7 +245,7 @@ bool encodeWith(DracoMesh& from, bool packs_triangles, Bytes& data) {
     }
     for (DracoAttribute& attribute : from.attributes) addAttribute(mesh, attribute);
     draco::ExpertEncoder encoder(mesh);
-    // Edgebreaker reorders points and triangles, and the last bits of frames depend on that order.
+    // Edgebreaker reorders points and triangles, which would change the last bits of frames.
     encoder.SetEncodingMethod(draco::MESH_SEQUENTIAL_ENCODING);
     encoder.options().SetGlobalBool("compress_connectivity", packs_triangles);
     for (std::size_t i = 0; i < from.attributes.size(); ++i)
@@ -281,8 +281,8 @@ std::string decodeDraco(std::span<const std::uint8_t> data, const DracoLimits& l
 }
 
 bool encodeDracoAsItIs(DracoMesh& from, Bytes& data) {
-    // Draco's decoders refuse sequential data with fewer than three bytes per triangle behind the header, however well
-    // the triangles compress. Uncompressed triangles take at least three bytes.
+    // Draco's decoders reject sequential data with fewer than three bytes per triangle after the header, even if the
+    // triangles compress better. Uncompressed triangles take at least three bytes.
     constexpr std::size_t kHeaderBytes = 64;
     if (!encodeWith(from, true, data)) return false;
     return data.size() >= from.corners.size() + kHeaderBytes || encodeWith(from, false, data);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Calls of meshoptimizer.
+// Calls of the library meshoptimizer.
 #include "model/gltf/codecs/codecs.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace tspace::gltf {
 
 namespace {
 
-/// The first version that decodes what KHR_meshopt_compression adds: vertex codec 1 and the colour filter.
+/// First version that decodes the additions of KHR_meshopt_compression: vertex codec 1 and the color filter.
 constexpr int kFirstKhrVersion = 1000;
 #ifdef TSPACE_HAS_MESHOPT
 constexpr int kVersion = MESHOPTIMIZER_VERSION;
@@ -76,8 +76,8 @@ Bytes encodeIndices(const MeshoptCoding& coding, const std::vector<unsigned>& in
     const std::size_t vertex_count =
         indices.empty() ? 0 : std::size_t{*std::max_element(indices.begin(), indices.end())} + 1;
     const bool triangles = coding.mode == MeshoptMode::triangles;
-    // The extensions require index version 1, which is not the default of all versions. The library keeps the version in
-    // a global variable.
+    // The extensions require index version 1, which is not the default in all versions. The library keeps the version
+    // in a global variable.
     static const bool version_is_set = (meshopt_encodeIndexVersion(1), true);
     static_cast<void>(version_is_set);
     Bytes data(triangles ? meshopt_encodeIndexBufferBound(indices.size(), vertex_count)
@@ -90,7 +90,7 @@ Bytes encodeIndices(const MeshoptCoding& coding, const std::vector<unsigned>& in
 }  // namespace
 
 bool decodeMeshopt(const MeshoptCoding& coding, std::span<const std::uint8_t> data, std::span<std::uint8_t> to) {
-    // Hostile data is safe here: the library checks every byte that it reads, and meshoptFault has checked the counts.
+    // Malicious data is safe here: the library checks every read, and meshoptFault has checked the counts.
     int failure = 0;
     switch (coding.mode) {
         case MeshoptMode::attributes:
@@ -112,7 +112,7 @@ Bytes encodeAsItIs(const MeshoptCoding& coding, std::span<const std::uint8_t> ro
     Bytes data;
     data.resize(meshopt_encodeVertexBufferBound(coding.count, coding.stride));
 #if MESHOPTIMIZER_VERSION >= 1000
-    // Newer versions encode what only KHR_meshopt_compression allows, unless told not to.
+    // By default newer versions use features that only KHR_meshopt_compression allows.
     data.resize(meshopt_encodeVertexBufferLevel(data.data(), data.size(), rows.data(), coding.count, coding.stride, 2,
                                                 coding.is_khr ? 1 : 0));
 #else
