@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The kernel behind BestKernels: the normal of the quadratic surface through the edges around a point, unless these
-// look like noise or a bevel: then the mean by angle * area. In between a blend. From sums, in single precision, so
-// that no list of the corners around a point is needed.
+// Kernels of BestKernels: the normal of the quadratic surface through the edges around a point, or, if the edges look
+// like noise or a bevel, the mean by angle * area; in between a blend. Uses sums in single precision, so no list of the
+// corners around a point is needed.
 // Based on: Zhang & Naga, "A New Finite Element Gradient Recovery Method: Superconvergence Property", 2005 (a quadratic
 // fit around each point, here of the height above a plane; a ridge keeps it solvable); Max, "Weights for Computing
 // Vertex Normals from Facet Normals", 1999 (the plane).
 //
-// A fit follows noise, and across a bevel it bends what is flat. What tells these from a smooth surface is an edge e
-// between normals m and n: on a circle, and nearly on everything that is smooth at the mesh's scale, dot(e, m + n) is
-// 0.
+// A fit follows noise, and across a bevel it bends flat faces. Both are distinguished from a smooth surface by an edge
+// e between normals m and n: on a circle, and nearly on all surfaces that are smooth at the mesh's scale, dot(e, m + n)
+// is 0.
 //
-// Included once per CPU, after lanes_*.h and with TSPACE_LANES set to its namespace. Each lane is one triangle, or one
-// point.
+// Included once per instruction set, after lanes_*.h and with TSPACE_LANES set to its namespace. Each lane is one
+// triangle or one point.
 #pragma once
 
 #include "core/normals/face_terms.h"
@@ -23,40 +23,40 @@ using namespace simd::TSPACE_LANES;
 
 namespace {
 
-// The value of each doubt at which the blend is half and half, found by trying values on analytic surfaces with and
-// without noise and on bevels (docs/evidence/accuracy.md).
-constexpr double kNoise = 0.45;  // share of the edge bend that no normal explains
-constexpr double kKink = 1.5;    // misfit of the sharp normals, in that of the robust ones: of the large faces
-// Like kNoise, for short edges. A flat cap that is a fan from one vertex of its rim has no edge that tells it from a dome;
-// its neighbors, the edges of a fillet, do.
+// Values of each doubt at which the blend is half and half, tuned on analytic surfaces with and without noise and on
+// bevels (docs/evidence/accuracy.md).
+constexpr double kNoise = 0.45;  // share of the edge bend that is not explained by any normal
+constexpr double kKink = 1.5;    // misfit of the sharp normals relative to the robust ones, for large faces
+// Like kNoise, for short edges. A flat cap triangulated as a fan from a vertex of its rim has no edge that
+// distinguishes it from a dome; its neighbors, the edges of a fillet, do.
 constexpr double kFillet = 1.3;
-constexpr double kBent = 1.25;    // turn as in kJump, in radians, from which on these two count wholly. Where a mesh is
-                                  // fine both misfits are small, and their ratio is chance.
-constexpr double kJump = 2.5;     // turn over the longest edge if all of it bent like the most bent one, in
-                                  // radians, times the sine between the two means
+constexpr double kBent = 1.25;    // bend (as in kJump, in radians) from which kKink and kFillet apply fully. In fine
+                                  // meshes both misfits are small, and their ratio is random.
+constexpr double kJump = 2.5;     // angle over the longest edge if all of it bent like the most bent edge, in radians,
+                                  // times the sine between the two means
 constexpr double kTurn = 0.8;     // twice the sine of half the angle between the sharp normals at an edge's ends
 constexpr double kSpread = 0.42;  // sine between fit and robust mean
 
-// The ridge, relative to the quadratic part: enough for rings with too few edges, negligible elsewhere. It weighs
-// second derivatives by their Frobenius norm, as in the method `best`
+// Ridge regularization, relative to the quadratic part: enough for rings with too few edges, negligible elsewhere. It
+// weights second derivatives by their Frobenius norm, as in the method `best`
 // (tangents/estimators/quadratic_recovery_kernel.h).
 constexpr double kFitRidge = 3e-4, kFitRidgeShare = 0.3;
 
-constexpr double kNoTrust = 1e12;  // large enough that a blend has exactly the bits of one side
+constexpr double kNoTrust = 1e12;  // large enough that a blend has exactly the bits of one of its inputs
 
-constexpr std::size_t kFitStep = 12 * kFitRows;  // floats from triangle to triangle
+constexpr std::size_t kFitStep = 12 * kFitRows;  // floats per triangle
 
-// The values at which the trust in a step is half, found by the same trials.
+// Values at which the trust in a step is one half, tuned in the same way.
 constexpr double kStepLeft = 0.5;          // unexplained / explained change at which trust is one half
-constexpr double kStepNoise = 1.0 / 30.0;  // of the turn over the edges, what the step does not explain
+constexpr double kStepNoise = 1.0 / 30.0;  // part of the step's residual relative to the edge angles
 
-constexpr std::size_t kStepStride = 12 * kStepRows;  // floats from triangle to triangle
+constexpr std::size_t kStepStride = 12 * kStepRows;  // floats per triangle
 
 inline Vectors gatherNormals(const Vec3* normals, const std::uint32_t* points) {
     return gatherVectors(reinterpret_cast<const std::byte*>(normals), sizeof(Vec3), points, false);
 }
 
-/// Edge k goes from corner k to corner k + 1. Of a triangle that does not count all is zero.
+/// Edge k goes from corner k to corner k + 1. All values of an ignored triangle are zero.
 struct Edges {
     Vectors edge[3];
     Floats square[3];
@@ -112,7 +112,7 @@ void finishSharp(float* rows, const float*, const float*, std::size_t count) {
     }
 }
 
-/// Terms of an edge that are equal at both its ends. The edge counts where both ends have a `max` normal.
+/// Edge terms that are equal at both ends. The edge counts if both ends have a `max` normal.
 struct EdgeDoubt {
     Floats misfit;  ///< misfit of the sharp normals along the edge
     Floats bend, count, sharp_misfit, robust_misfit, sharp_bend, robust_bend, square;
@@ -135,7 +135,7 @@ struct EdgeDoubt {
     }
 };
 
-/// An edge in the plane across the sharp normal of its first end.
+/// An edge in the plane perpendicular to the sharp normal of its first end.
 struct Seen {
     Floats x, y, slope, b0, b1, b2, misfit, curvature;
 
@@ -207,7 +207,7 @@ void addFit(const BestSource& source, const std::uint32_t* vertices, const std::
         addFitOf(source, vertices + 3 * t, points + 3 * t, rows + kFitStep * t);
 }
 
-// -- the normal of a point, from its sums --
+// -- normal of a point, from its sums --
 
 struct PointSums {
     Floats xx, xy, yy, xs, ys;
@@ -232,7 +232,7 @@ struct PointSums {
     }
 };
 
-/// The linear part of the fit, and of others to the same edges.
+/// Linear part of the fit, and of other fits to the same edges.
 struct Slopes {
     Mask spanned;  ///< whether edges point in more than one direction
     Floats xx, xy, yy;
@@ -249,7 +249,7 @@ struct Slopes {
     [[nodiscard]] Flat solve(Floats x, Floats y) const { return {xx * x + xy * y, xy * x + yy * y}; }
 };
 
-/// The three second derivatives, with the ridge.
+/// Solves for the three second derivatives, with the ridge.
 inline void solveCurvature(const PointSums& s, const Slopes& slopes, Floats (&q)[3]) {
     const Floats ridge = broadcast(static_cast<float>(kFitRidge * kFitRidgeShare)) * (s.bb[0] + s.bb[3] + s.bb[5]);
     Floats m[6], p[3];
@@ -261,7 +261,7 @@ inline void solveCurvature(const PointSums& s, const Slopes& slopes, Floats (&q)
     solveRidged(m, ridge, p, q);
 }
 
-/// The fitted normal; the plane's own where the edges do not span it.
+/// Returns the fitted normal, or the plane's normal if the edges do not span the plane.
 inline Vectors fittedNormal(const Plane& plane, const PointSums& s, const Slopes& slopes) {
     Floats q[3];
     solveCurvature(s, slopes, q);
@@ -272,21 +272,21 @@ inline Vectors fittedNormal(const Plane& plane, const PointSums& s, const Slopes
     }
     const Flat slope = slopes.solve(x, y);
     const Vectors n = plane.n - plane.raise(slope);
-    const Floats square = dot(n, n);  // at least 1; not a number for rings beyond reach
+    const Floats square = dot(n, n);  // at least 1; NaN for rings that are too large
     const Mask sound = slopes.spanned & (square < broadcast(1e12f));
     const Floats inverse = broadcast(1.0f) / squareRoot(square);
     return {select(sound, inverse * n.x, plane.n.x), select(sound, inverse * n.y, plane.n.y),
             select(sound, inverse * n.z, plane.n.z)};
 }
 
-/// 0/0 is a plane, where all normals are the same; what overflows is beyond doubt.
+/// Limits x to kNoTrust. 0/0 is a plane, where all normals are equal; an overflow is certain doubt.
 inline Floats bounded(Floats x) {
     const Floats most = broadcast(static_cast<float>(kNoTrust));
     return select(x < most, x, keep(absolute(x) > zero(), most));
 }
 inline Floats squared(Floats x) { return x * x; }
 
-/// From 0 to no limit; 1 where trust and doubt are even.
+/// Returns the doubt, from 0 without limit; 1 means that trust and doubt are equal.
 inline Floats doubtIn(const PointSums& s, const Slopes& slopes, Vectors robust, Vectors sharp, Vectors fit) {
     const auto per = [](double limit) { return broadcast(static_cast<float>(1 / (limit * limit))); };
     const Flat turned = slopes.solve(s.xm, s.ym);
@@ -317,7 +317,7 @@ void finishFit(float* sums, const float* robust_rows, const float* sharp_rows, s
         const Slopes slopes(s.xx, s.xy, s.yy);
         const Vectors fit = fittedNormal(Plane(sharp), s, slopes);
         const Floats share = one / (one + doubtIn(s, slopes, robust, sharp, fit));
-        // The two lean to the same side, so the sum does not vanish.
+        // Both point to the same side, so the sum does not vanish.
         const Vectors mixed = unit(share * fit + (one - share) * robust);
         const Mask has = dot(sharp, sharp) > zero();
         storeRows<kStep>(sums + kStep * g, select(has, mixed.x, robust.x), select(has, mixed.y, robust.y),
@@ -325,9 +325,11 @@ void finishFit(float* sums, const float* robust_rows, const float* sharp_rows, s
     }
 }
 
-// -- a step: the normal, interpolated along an edge, is across it. On any circle dot(e, m + n) is 0. --
+// -- refinement step: the normal, interpolated along an edge, must be perpendicular to it. On any circle dot(e, m + n)
+// is 0. --
 
-/// An edge as its beginning sees it: along the plane across the normal there, by its length.
+/// An edge from the viewpoint of its first end: projected to the plane perpendicular to the normal there, divided by
+/// its length.
 struct Pull {
     Floats x, y, misfit, turn;
 
@@ -367,7 +369,8 @@ void addStep(const BestSource& source, const std::uint32_t* vertices, const std:
     }
 }
 
-/// The normal turns by 14 degrees at most, however little the edges span: the tangent of that is x / (1 + x^2) / 2.
+/// A step rotates the normal by at most 14 degrees, even if the edges barely span the plane: its tangent is x / (1 +
+/// x^2) / 2.
 void finishStep(float* sums, const float* normals, const float*, std::size_t count) {
     constexpr std::size_t kStep = 4 * kStepRows;
     const Floats one = broadcast(1.0f), half = broadcast(0.5f);
@@ -383,7 +386,7 @@ void finishStep(float* sums, const float* normals, const float*, std::size_t cou
         const Slopes slopes(xx, xy, yy);
         const Flat lean = minus(one) * slopes.solve(xm, ym);
         const Floats explained = minus(lean.x * xm + lean.y * ym), left = larger(mm - explained, zero());
-        // NaN where the edges leave nothing to explain.
+        // NaN if the edges leave no residual to explain.
         const Floats share =
             half / (trust(kStepLeft, left / explained) * trust(kStepNoise, left / turn) * (one + dot(lean, lean)));
         const Plane plane(n);

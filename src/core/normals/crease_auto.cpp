@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint32_t kNoPair = ~std::uint32_t{0};
 
-/// Pairs each corner's edge with the corner on its other side, where an edge has two faces.
+/// For each edge with exactly two faces: maps the corner on one side to the corner on the other side.
 class EdgePairs {
   public:
     explicit EdgePairs(const NormalsCall& call)
@@ -66,7 +66,7 @@ Float4 toFloat4(const DVec3& v) {
     return Float4{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
 }
 
-/// Close to exp(-x) for x >= 0, and 0 from 16 on; without a function whose last bits differ between C libraries.
+/// Approximates exp(-x) for x >= 0; 0 from 16 on. Avoids library functions whose last bits differ between C libraries.
 float decay(float x) {
     float y = std::max(0.0f, 1 - x * (1.0f / 16));
     for (int i = 0; i < 4; ++i) y *= y;
@@ -79,7 +79,7 @@ Float4 decay(Float4 x) {
     return y;
 }
 
-/// Four rows as columns: the vectors, and the fourth numbers.
+/// Transposes four rows: three vector components, and the fourth components.
 struct Columns {
     Vec3x4 vectors;
     Float4 fourths;
@@ -111,7 +111,8 @@ class CreaseFinder {
 
   private:
     static constexpr double kLeastFilteredDeg = 3, kLoudDeg = 12, kLouderDeg = 30;
-    static constexpr double kTurnOfNoise = 183;  // degrees that noise of one edge turns edges by, at most
+    // maximum angle, in degrees, by which noise of one edge length rotates edges
+    static constexpr double kTurnOfNoise = 183;
 
     template <class Body>
     void forFaces(const Body& body) {
@@ -141,10 +142,11 @@ class CreaseFinder {
             storeFloat4(normals_.data() + 4 * std::size_t{f}, normal);
         });
     }
-    /// The fourth number is twice the area.
+    /// Returns the face normal, with twice the area as fourth component.
     [[nodiscard]] Float4 normal(std::size_t face) const { return loadFloat4(normals_.data() + 4 * face); }
 
-    /// Each face's normal becomes the mean of its own and those across its edges: near ones and like ones count more.
+    /// Replaces each face normal by the weighted mean of its own and those of the neighboring faces: close and similar
+    /// normals have larger weights.
     void filter() {
         const std::size_t count = call_.mesh.faceCount();
         Buffer<float> centres(call_.allocator, 4 * count);
@@ -184,14 +186,14 @@ class CreaseFinder {
             filterFaces(nearOf, per_turn, passes);
     }
 
-    /// Also true for OBJ files, whose faces each have a size.
+    /// Returns true also for OBJ files, whose faces have individual sizes.
     [[nodiscard]] bool areAllTriangles() const {
         const auto& sizes = call_.mesh.face_sizes;
         return call_.are_triangles || (!sizes.empty() && std::all_of(sizes.begin(), sizes.end(),
                                                                      [](std::uint32_t size) { return size == 3; }));
     }
 
-    /// The face across an edge.
+    /// A face adjacent across an edge.
     struct Near {
         std::uint32_t face;
         float weight;  ///< weight by the area and the proximity
@@ -220,8 +222,8 @@ class CreaseFinder {
         }
     }
 
-    /// Like filterFaces, for four triangles at a time, one per lane, with identical bits: 62 instead of 149 instructions per
-    /// triangle and pass (callgrind, a torus of 32,000 triangles).
+    /// Like filterFaces, for four triangles at a time, one per lane, with identical bits: 62 instead of 149
+    /// instructions per triangle and pass (callgrind, a torus of 32,000 triangles).
     template <class NearOf>
     void filterTriangles(const NearOf& nearOf, float per_turn, int passes) {
         struct Around {
@@ -274,7 +276,7 @@ class CreaseFinder {
         }
     }
 
-    /// Rows of faces come in fours; those behind the last face are zero.
+    /// Faces are stored in rows of four; entries after the last face are zero.
     [[nodiscard]] std::size_t paddedCount() const { return (call_.mesh.faceCount() + 3) / 4 * 4; }
 
     /// Computes the angle in degrees at both corners of each pair; -1 without a pair.
@@ -298,7 +300,7 @@ class CreaseFinder {
 
     static constexpr int kBins = 180;
 
-    /// The length of the edges of each degree.
+    /// Total edge length per degree of the dihedral angle.
     struct Histogram {
         std::array<double, kBins> lengths = {};
         double all = 0;
@@ -315,28 +317,29 @@ class CreaseFinder {
         return of;
     }
 
-    /// Noise turns half of the edges by 126 degrees times its size, or more: so where half turn by less than 2, it is too
-    /// little to be filtered, and need not be measured.
+    /// Returns whether noise must be measured. Noise rotates half of the edges by at least 126 degrees times its size:
+    /// if half of the edges have angles below 2 degrees, the noise is too small to need filtering.
     [[nodiscard]] static bool mayBeNoisy(const Histogram& angles) {
         return angles.lengths[0] + angles.lengths[1] < angles.all / 2;
     }
 
-    /// Whether less than a quarter of the edges, by length, is flat within 8 degrees. Of shapes with sharp edges, decimated
-    /// to 1 % and less so, a quarter is within 4; of smooth ones with so few triangles that no gap shows none is within 12
-    /// (scripts/accuracy --kinds): their edges turn by 40 degrees and more, and are soft.
+    /// Returns whether less than a quarter of the edges, by length, is flat within 8 degrees. For shapes with sharp
+    /// edges, decimated to 1 % or less, a quarter is within 4 degrees; for smooth shapes with so few triangles that the
+    /// histogram has no gap, a quarter is within 12 (scripts/accuracy --kinds): their edges have angles of 40 degrees
+    /// and more, and are soft.
     [[nodiscard]] static bool isBentEverywhere(const Histogram& angles) {
         double flat = 0;
         for (std::size_t bin = 0; bin < 8; ++bin) flat += angles.lengths[bin];
         return flat < angles.all / 4;
     }
 
-    /// The middle of the widest run of degrees in which there are the fewest edges, by length.
+    /// Returns the middle of the widest range of angles with the fewest edges, by length.
     [[nodiscard]] double angleInGap(const Histogram& angles) const {
         constexpr int kBlur = 6;
         constexpr double kMost = 70;
         const double all = angles.all;
         std::array<double, kBins> density{};
-        // A normal distribution of 2 degrees.
+        // Normal distribution with a standard deviation of 2 degrees.
         constexpr double kWeights[kBlur + 1] = {0.199676, 0.176213, 0.121109, 0.064826, 0.027023, 0.008773, 0.002218};
         for (int bin = 0; bin < kBins; ++bin) {
             for (int d = -kBlur; d <= kBlur; ++d) {
@@ -349,7 +352,8 @@ class CreaseFinder {
         const auto end = static_cast<int>(kMost);
         double least = density[static_cast<std::size_t>(first)];
         for (int bin = first; bin < end; ++bin) least = std::min(least, density[static_cast<std::size_t>(bin)]);
-        // Grids cut the edges of shapes, by all angles: then no gap shows, and this one is right on all that were tried.
+        // Grid meshes cut the edges of shapes at all angles: there is no gap, and this angle was correct for all that
+        // were tried.
         constexpr double kAngleOfGrids = 30;
         if (noise_deg_ <= kLeastFilteredDeg && least > 3e-4 * all)
             return isBentEverywhere(angles) ? kMost : kAngleOfGrids;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much noise there is (measureNoise), and normals without it (denoisedNormals).
+// Measurement of noise (measureNoise), and denoised normals (denoisedNormals).
 #include "tspace/normals.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace tspace {
 
 std::size_t sampledPlace(std::size_t number, std::size_t count, std::size_t all) {
     if (count >= all) return number;
-    const std::uint32_t turn = static_cast<std::uint32_t>(number) * 2654435769u;  // the golden ratio's
+    const std::uint32_t turn = static_cast<std::uint32_t>(number) * 2654435769u;  // golden ratio
     const double within = (turn >> 8) * (1.0 / (1 << 24));
     return std::min(all - 1, static_cast<std::size_t>((static_cast<double>(number) + within) *
                                                       (static_cast<double>(all) / static_cast<double>(count))));
@@ -27,16 +27,17 @@ double medianOf(float* begin, float* end) {
     return *middle;
 }
 
-// Noise in positions, by samples: how far vertices lie from the quadratic surface through two rings around them, and whether
-// what normals do along edges looks like noise or like shape.
+// Measurement of position noise on samples: distances of vertices from the quadratic surface through two rings around
+// them, and whether the normals along edges look like noise or like shape.
 
 namespace {
 
 constexpr std::size_t kEdgeSamples = 16384;
-constexpr std::size_t kMostVertexSamples = 4096, kLeastVertexSamples = 1024;  // a quarter of the vertices between these
+// a quarter of the vertices, within these limits
+constexpr std::size_t kMostVertexSamples = 4096, kLeastVertexSamples = 1024;
 constexpr std::size_t kLeastFits = 200;
 
-/// 3 u^2 - 2 u^3 of the place between two values.
+/// Returns 3 u^2 - 2 u^3 for the relative position u of `value` between `low` and `high`.
 double smoothStep(double low, double high, double value) {
     const double u = std::clamp((value - low) / (high - low), 0.0, 1.0);
     return u * u * (3 - 2 * u);
@@ -82,20 +83,20 @@ Dihedrals sampleDihedrals(const NormalGroups& groups, std::size_t all, const All
     return found;
 }
 
-/// Noise of 1 edge turns edges by 110 to 160 degrees in the median; the least that was measured, on shapes with many sharp
-/// edges, is 78. Of decimated shapes with sharp edges, whose faces are flat, it is below 31.
+/// Noise of 1 edge length rotates edges by 110 to 160 degrees in the median; the minimum measured, on shapes with many
+/// sharp edges, is 78. Decimated shapes with sharp edges, whose faces are flat, stay below 31.
 constexpr double kTurnOfNoise = 126, kLeastTurnOfNoise = 90;
 
 }  // namespace
 
 double noisePart(double sigma, double kink_share, const Dihedrals& dihedrals) {
-    constexpr double kLeast = 1e-3;  // in edge lengths: below this, the gain of a fit is less than its cost
+    constexpr double kLeast = 1e-3;  // in edge lengths: below this, a fit costs more than it gains
     if (!(sigma > 0) || !(dihedrals.median > 0)) return 0;
-    // On a clean mesh the share of kinks and sigma both grow with curvature.
+    // On a clean mesh both the kink share and sigma grow with curvature.
     const double high = std::min(0.4, kNoisyShare + 3 * sigma);
     const double turn = dihedrals.median / (kTurnOfNoise * sigma);
-    // Noise leaves no edge flat: a quarter of the length turns by less than .36 to .49 of the median then. What is decimated
-    // has its flat faces: .3 at most, on eleven shapes.
+    // Noise leaves no edge flat: the lower quartile of its angles is 0.36 to 0.49 of the median. Decimated meshes have
+    // flat faces: at most 0.3, on eleven shapes.
     const double part = std::min(sigma, dihedrals.median / kLeastTurnOfNoise) * smoothStep(high / 2, high, kink_share) *
                         smoothStep(0.25, 0.5, turn) * smoothStep(0.31, 0.36, dihedrals.quarter / dihedrals.median);
     return part >= kLeast ? part : 0;
@@ -132,8 +133,9 @@ PositionNoise sampleEdges(const NormalsCall& call) {
     return found;
 }
 
-/// Each vertex without itself: r = |z(0)| / sqrt(1 + (A^-1)_00) has the spread of the noise, on every surface that two rings
-/// show as a quadratic. By the median, so that edges and corners of the shape do not count.
+/// Evaluates each vertex without itself: r = |z(0)| / sqrt(1 + (A^-1)_00) has the standard deviation of the noise, on
+/// every surface that is quadratic within two rings. Uses the median, so that edges and corners of the shape have no
+/// influence.
 Roughness measureRoughness(const NormalGroups& groups, std::size_t all, const Allocator* allocator) {
     const std::size_t samples = std::min(all, std::clamp(all / 4, kLeastVertexSamples, kMostVertexSamples));
     Buffer<float> distances(allocator, samples);
@@ -168,9 +170,9 @@ double measureNoise(const NormalGroups& groups, const Allocator* allocator, Posi
 
 namespace {
 
-/// Noise of x lengthens edges by 2 x^2 (in units of their length without it: two of the three components of what it moves their
-/// ends apart lie across them). Of x in units of the longer edges, so many times as much it is in units of the others. Beyond
-/// .3, where this was looked at, no more.
+/// Returns the factor by which noise lengthens edges. Noise of x lengthens edges by 2 x^2 (relative to their original
+/// length: two of the three components of the displacement between their ends are perpendicular to them). `sigma` is
+/// relative to the lengthened edges. Limited to the value for 0.3, the largest noise that was examined.
 double growthOfEdges(double sigma) { return 2 / (1 + std::sqrt(1 - 8 * std::min(0.068, sigma * sigma))); }
 
 }  // namespace
@@ -201,16 +203,17 @@ PositionNoise noiseOf(const MeshView& mesh, const Execution& execution, Parallel
     return noise;
 }
 
-// NormalOptions::denoise: regional choice among fits. The more rings a quadratic surface goes through, the less noise its
-// normal has, and the more shape it may miss. The first follows from the points and the noise, the second from how much fits
-// differ beyond what noise explains, averaged over a region. Each normal counts by its risk, the sum of both.
-// Based on: Goldenshluger & Lepski's comparison of estimators ("Bandwidth selection in kernel density estimation", 2011): bias
-// by the differences of nested estimates, less their variance; here with a mean over a region in the place of a maximum.
+// NormalOptions::denoise: local selection among fits. A quadratic surface through more rings has a normal with less
+// noise, but may miss more shape. The noise follows from the points and sigma, the shape error from the difference
+// between fits beyond the noise, averaged over a region. Each normal is weighted by its risk, the sum of both errors.
+// Based on: Goldenshluger & Lepski's comparison of estimators ("Bandwidth selection in kernel density estimation",
+// 2011): bias from the differences of nested estimates, minus their variance; here with a regional mean instead of a
+// maximum.
 
 namespace {
 
-// In units of the mean edge. Above the first, planes of fits are smoothed more; above the second, a single ring's normal says
-// too little to compare with.
+// In units of the mean edge. Above kRoughNoise, planes of fits are smoothed more; above kLoudNoise, the normal of a
+// single ring is too uncertain for comparisons.
 constexpr double kRoughNoise = 0.15, kLoudNoise = 0.12;
 constexpr int kBiasPasses = 8;
 constexpr double kFirstVariance = 1.15;  // variance of `best` relative to the area-weighted mean, measured
@@ -221,7 +224,7 @@ Float4 unitOr(Float4 v, Float4 other) {
     return square > 0 && std::isfinite(square) ? splat(1 / std::sqrt(square)) * v : other;
 }
 
-/// A fit of some rings: its normal and the normal's variance.
+/// Fit over several rings: its normal and the variance of the normal.
 struct RingFit {
     Float4 normal = {};
     double variance = std::numeric_limits<double>::infinity();
@@ -241,9 +244,9 @@ struct RingFit {
     [[nodiscard]] bool isThere() const { return std::isfinite(variance); }
 };
 
-/// Two of them for each group: of two rings and of three.
+/// The two fits of each group: over two rings and over three.
 struct Fits {
-    float normals[2][4];  ///< the fourth number is the variance
+    float normals[2][4];  ///< the fourth component is the variance
 };
 
 class Denoiser {
@@ -251,7 +254,7 @@ class Denoiser {
     Denoiser(const NormalGroups& groups, const Allocator* allocator, Parallel& parallel, double noise)
         : groups_(groups), allocator_(allocator), parallel_(parallel), noise_(noise) {}
 
-    /// Makes better normals in place; `normals` has four floats per group.
+    /// Denoises normals in place; `normals` has four floats per group.
     void run(Buffer<float>& normals) {
         Buffer<float> planes = makePlanes();
         Buffer<Fits> fits(allocator_, groups_.count());
@@ -275,7 +278,7 @@ class Denoiser {
         });
     }
 
-    /// The area normals, averaged with their neighbours.
+    /// Returns the area-weighted normals, averaged with their neighbors.
     Buffer<float> makePlanes() {
         const std::size_t count = groups_.count();
         Buffer<float> planes(allocator_, 4 * count), before(allocator_, 4 * count);
@@ -319,8 +322,8 @@ class Denoiser {
         return kFirstVariance * noise_ * noise_ * groups_.areaVariance(group);
     }
 
-    /// Fits are nested least squares, so the variance of their difference is the difference of their variances: what they
-    /// differ beyond that is bias. NaN: nothing to compare.
+    /// Computes the squared bias of the fits. Fits are nested least squares, so the variance of their difference is the
+    /// difference of their variances: anything beyond that is bias. NaN: no comparison is possible.
     void compare(std::size_t group, Float4 first, const Fits& fits, float* bias) const {
         const bool is_loud = noise_ > kLoudNoise;
         const Float4 two = loadFloat4(fits.normals[0]), three = loadFloat4(fits.normals[1]);
@@ -381,7 +384,7 @@ class Denoiser {
     double noise_;
 };
 
-/// Makes better normals of those in call.out. noise: in the unit of `groups`
+/// Replaces the normals in call.out by denoised ones. noise: in the unit of `groups`
 void denoise(const NormalsCall& call, const CornerGroups& corner_groups, const NormalGroups& groups, double noise) {
     const std::size_t corner_count = call.mesh.cornerCount();
     Buffer<float> normals(call.allocator, 4 * groups.count(), 0.0f);
@@ -403,7 +406,7 @@ void denoise(const NormalsCall& call, const CornerGroups& corner_groups, const N
 NormalReport denoisedNormals(NormalsCall& call) {
     const NormalOptions& options = call.options;
     const bool by_guard = options.denoise == NormalOptions::denoise_auto;
-    // Noise is that of the whole surface: what lies between hard edges may be too little to tell.
+    // Noise is measured on the whole surface: regions between hard edges may be too small.
     const bool is_whole = options.weld_positions && options.crease_angle_deg >= 180 &&
                           options.smoothing_groups.empty() && call.posed.positions.data == call.mesh.positions.data;
     Buffer<std::uint32_t> components;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Noise in positions: what there is, and normals without it, by quadratic fits over rings of vertices.
+// Measurement and removal of noise in positions, by quadratic fits over rings of vertices.
 #pragma once
 
 #include <atomic>
@@ -15,10 +15,10 @@
 
 namespace tspace {
 
-// Corners that share a normal are one vertex of a mesh that is cut open at its hard edges: positions, who is next to whom,
-// and the rings around each.
+// Mesh that is cut open at its hard edges: all corners that share a normal are one vertex. Contains positions,
+// neighbors, and rings around each vertex.
 
-// Three components; the fourth one is 0.
+// Cross product of the first three components; the fourth is 0.
 inline Float4 crossed(Float4 a, Float4 b) {
     const Float4 a_yzx = __builtin_shufflevector(a, a, 1, 2, 0, 3), b_yzx = __builtin_shufflevector(b, b, 1, 2, 0, 3);
     const Float4 c = a * b_yzx - a_yzx * b;
@@ -29,10 +29,10 @@ inline float dotted(Float4 a, Float4 b) {
     return (c[0] + c[1]) + c[2];
 }
 
-/// The group of each corner: its point, or a dense number.
+/// Group of each corner: its point, or a dense number.
 class CornerGroups {
   public:
-    /// components: the lowest corner of each corner's component; empty where all corners of a point are one.
+    /// components: the lowest corner of each corner's component; empty if all corners of a point belong together.
     CornerGroups(const NormalsCall& call, Buffer<std::uint32_t> components);
 
     [[nodiscard]] std::uint32_t of(std::uint32_t corner) const {
@@ -46,27 +46,27 @@ class CornerGroups {
     std::size_t count_;
 };
 
-/// Triangles without area, or with a corner that is not finite, are left out. A polygon counts as `best` sees it: as a
-/// triangle at each corner, with the corners before and after it.
+/// Graph of the groups. Triangles without area, or with a corner that is not finite, are ignored. As in `best`, a
+/// polygon counts as one triangle per corner, formed with the previous and the next corner.
 class NormalGroups {
   public:
-    /// `length`: positions here are in units of it. Takes 56 bytes per group and 16 per corner, and 4 per group
-    /// and thread for marks. Throws OutOfMemory.
+    /// `length`: unit of the positions. Uses 56 bytes per group and 16 per corner, and 4 per group and thread for
+    /// marks. Throws OutOfMemory.
     NormalGroups(const NormalsCall& call, const CornerGroups& corner_groups, double length);
 
     [[nodiscard]] std::size_t count() const { return count_; }
     [[nodiscard]] Float4 position(std::size_t group) const { return loadFloat4(positions_.data() + 4 * group); }
-    /// Unit mean of the faces by area, or zero.
+    /// Returns the area-weighted unit mean of the face normals, or zero.
     [[nodiscard]] Float4 areaNormal(std::size_t group) const { return loadFloat4(normals_.data() + 4 * group); }
-    /// The variance of that mean's direction (of both its angles together, in rad^2), where noise moves all points but this one
-    /// by 1 along the normal. Infinite where there is no mean.
+    /// Returns the variance of that mean's direction (of both angles together, in rad^2) if noise moves all points
+    /// except this one by 1 along the normal. Infinite if there is no mean.
     [[nodiscard]] float areaVariance(std::size_t group) const { return variances_[group]; }
     [[nodiscard]] std::span<const std::uint32_t> neighbours(std::size_t group) const {
         return {neighbours_.data() + begins_[group], counts_[group]};
     }
 
-    /// body(i, group, marks) for i in [0, count), where group = groupOf(i), each group once at most. marks: one number per group,
-    /// which is none of a group in the beginning.
+    /// Calls body(i, group, marks) for i in [0, count), where group = groupOf(i); each group may occur once. marks: one
+    /// number per group, initially not the number of any group.
     template <class GroupOf, class Body>
     void forSome(std::size_t count, const GroupOf& groupOf, const Body& body) const {
         constexpr std::size_t kChunk = 256;
@@ -91,7 +91,7 @@ class NormalGroups {
             });
     }
 
-    /// The groups that a corner's edges lead to, after and before it on its face.
+    /// Groups at the other ends of a corner's edges: after and before it on its face.
     struct Ends {
         std::uint32_t next, previous;
     };
@@ -109,12 +109,12 @@ class NormalGroups {
     std::size_t most_corners_ = 0;  ///< maximum corners of any group
     Buffer<float> positions_, normals_, variances_;
     Buffer<Ends> corners_;
-    Buffer<std::uint32_t> begins_, counts_, neighbours_;  ///< room for two neighbours per corner
+    Buffer<std::uint32_t> begins_, counts_, neighbours_;  ///< two neighbors per corner at most
     mutable Buffer<std::uint32_t> marks_;                 ///< marks for each task
 };
 
-/// The groups around one, ring by ring. Bounded, so that a point with any number of neighbours takes no more time than
-/// others: of each group at most kFan neighbours are looked at, evenly spread, and there are at most kMost in all.
+/// Walk over the groups around a group, ring by ring. Bounded, so that points with many neighbors cost no more than
+/// others: at most kFan neighbors of each group are used, evenly distributed, and at most kMost groups in total.
 class RingWalk {
   public:
     static constexpr std::size_t kMost = 256, kFan = 32;
@@ -125,15 +125,15 @@ class RingWalk {
         add(centre);
     }
 
-    /// Adds the next ring. False if there are too many; then the last ring is not all here.
+    /// Adds the next ring. Returns false if there are too many groups; the last ring is then incomplete.
     bool grow();
 
     [[nodiscard]] std::size_t size() const { return size_; }
-    /// Ring after ring, from the centre on. Three places behind them are anyone's.
+    /// Returns the groups ring by ring, starting with the center. Callers may write three entries after the last group.
     [[nodiscard]] std::uint32_t* list() { return list_; }
 
   private:
-    /// Without a branch, which no CPU would foresee. There is room for one.
+    /// Adds a group unless it is marked, without a branch, which would be unpredictable. Requires room for one entry.
     void add(std::uint32_t group) {
         list_[size_] = group;
         size_ += marks_[group] != centre_ ? 1 : 0;
@@ -147,9 +147,9 @@ class RingWalk {
     std::uint32_t list_[kMost + kFan + 1];
 };
 
-// The quadratic z(x, y) through the groups around one, by sums that grow ring by ring.
+// Quadratic surface z(x, y) through the groups around a group, from sums that are extended ring by ring.
 
-/// A point's own axes: z along a unit normal.
+/// Local axes of a point: z along a unit normal.
 struct RingFrame {
     Float4 x, y, z;
 
@@ -168,7 +168,7 @@ struct RingFrame {
 ///     z = a xx + b xy + c yy + d x + e y + f.
 class RingSums {
   public:
-    /// Adds the groups of a walk from `begin` on. The centre is the origin.
+    /// Adds the groups of a walk, starting with entry `begin`. The origin is the center.
     void add(const NormalGroups& groups, const RingFrame& frame, RingWalk& walk, std::size_t begin) {
         std::uint32_t* const list = walk.list();
         const std::size_t end = walk.size();
@@ -196,9 +196,9 @@ class RingSums {
         double matrix[2][2], right[2];
         bool is_sound = false;
     };
-    /// For d and e.
+    /// Returns the remaining equations for d and e.
     [[nodiscard]] Rest slopes() const { return eliminate<false>(); }
-    /// For f, in matrix[1][1] and right[1].
+    /// Returns the remaining equation for f, in matrix[1][1] and right[1].
     [[nodiscard]] Rest height() const { return eliminate<true>(); }
 
   private:
@@ -248,14 +248,14 @@ class RingSums {
     std::size_t count_ = 0;
 };
 
-/// Gauss without pivots, for the matrix is positive definite. A pivot below this part of its diagonal means that the points
-/// do not determine the surface: sums in single precision are good to 1e-6 of it.
+/// Gaussian elimination without pivoting, since the matrix is positive definite. A pivot below this fraction of its
+/// diagonal means that the points do not determine the surface: sums in single precision are accurate to 1e-6 of it.
 template <bool kHeightLast>
 RingSums::Rest RingSums::eliminate() const {
     constexpr double kLeastPivot = 1e-4;
     constexpr std::size_t kSize = 6, kLast = 4;
     constexpr std::size_t f = kHeightLast ? 5 : 3, d = kHeightLast ? 3 : 4, e = kHeightLast ? 4 : 5;
-    double m[kSize][kSize + 1];  // the upper half, and the right sides
+    double m[kSize][kSize + 1];  // upper triangle, and right-hand sides
     const auto set = [&](std::size_t row, std::size_t column, double value) {
         m[row < column ? row : column][row < column ? column : row] = value;
     };
@@ -294,21 +294,21 @@ RingSums::Rest RingSums::eliminate() const {
     return rest;
 }
 
-// NormalOptions::denoise: what noise there is, and normals without it.
+// NormalOptions::denoise: measurement of noise, and normals without noise.
 
 /// Samples some thousand edges, using the normals of `best` at their ends (call.out). mean_edge is 0 if no edge has a finite
 /// length; a call without results returns only mean_edge. Takes 64 KB.
 PositionNoise sampleEdges(const NormalsCall& call);
 
-/// The share of kinks from which on all roughness is noise, where positions hardly differ from a smooth surface; up to half
-/// of it none is.
+/// Kink share from which all roughness is noise, if positions hardly deviate from a smooth surface; up to half of it,
+/// no roughness is.
 inline constexpr double kNoisyShare = 0.15;
 
-/// Adds sigma, and what of it is noise. Returns the most noise that edges as flat as these may have. groups: in units of the
-/// mean edge
+/// Sets sigma and noise. Returns the maximum noise that is consistent with the angles of the edges. groups: in units of
+/// the mean edge
 double measureNoise(const NormalGroups& groups, const Allocator* allocator, PositionNoise& noise);
 
-/// In units of the mean edge as it were without the noise.
+/// Converts to units of the mean edge without noise.
 PositionNoise withoutGrowth(PositionNoise noise);
 
 /// Like measureNoise, for a call without normals: measures the mesh that decides which edges are hard.
@@ -318,7 +318,7 @@ double roughnessOf(const NormalsCall& call);
 struct Dihedrals {
     double quarter = 0, median = 0;
 };
-/// How rough a surface is, whatever that is: sigma of PositionNoise, by fits alone, and its angles at edges.
+/// Roughness of a surface, from noise or shape: sigma of PositionNoise, from fits only, and its dihedral angles.
 struct Roughness {
     double sigma = 0;
     Dihedrals dihedrals = {};
@@ -330,23 +330,23 @@ Roughness measureRoughness(const NormalGroups& groups, std::size_t all, const Al
 /// The part of sigma that is noise rather than shape.
 double noisePart(double sigma, double kink_share, const Dihedrals& dihedrals);
 
-/// Of the edge between two points with unit normals m and n. On a circle e . (m + n) is 0, and nearly so on everything that is
-/// smooth at the mesh's scale; e . (n - m) is what an even bend gives. flat: the square of a sine; an edge that turns by less
-/// has no kink
+/// Returns the kink share of the edge between two points with unit normals m and n. On a circle e . (m + n) is 0, and
+/// nearly 0 on surfaces that are smooth at the mesh's scale; e . (n - m) is the part of uniform bending. flat: squared
+/// sine; an edge with a smaller angle has no kink
 double kinkShare(const DVec3& edge, const DVec3& m, const DVec3& n, double flat);
 
-/// Of `count` samples of [0, all) the one with this number: one per stretch of equal length, at a place in it that repeats
-/// with no period of the mesh.
+/// Returns an index in [0, all) for sample `number` of `count`: one per interval of equal length, at a position that
+/// avoids any period of the mesh.
 std::size_t sampledPlace(std::size_t number, std::size_t count, std::size_t all);
-/// Changes their order.
+/// Returns the median; reorders the values.
 double medianOf(float* begin, float* end);
 
-/// PositionNoise::noise of .03 and more, which is noted, needs a share of kinks of .22, whatever sigma is (noisePart).
+/// Reported noise (PositionNoise::noise of at least 0.03) requires a kink share of 0.22, for any sigma (noisePart).
 inline constexpr double kFewKinks = 0.2;
 
-/// Whether a mesh of triangles, which has been checked, may have so much noise (PositionNoise::noise). Where it says no, half
-/// a thousand edges and what is around them are far from it; yes means that it takes measurePositionNoise to tell. Takes no
-/// more memory than that and 64 KB. O(corners), a tenth of the time of `best`. Throws OutOfMemory.
+/// Returns whether a validated triangle mesh may have at least this noise (PositionNoise::noise). false is reliable:
+/// 512 edges and their surroundings have far less; true requires measurePositionNoise. Uses no more memory than that
+/// function and 64 KB. O(corners), a tenth of the time of `best`. Throws OutOfMemory.
 bool mayHaveNoise(const MeshView& mesh, double noise, const Execution& execution, Parallel& parallel);
 
 /// Like measurePositionNoise, or all 0 if mayHaveNoise(least) is false.
@@ -355,8 +355,8 @@ Result<PositionNoise> measureSureNoise(const MeshView& mesh, double least, const
 /// Measures a mesh without hard edges. If its share of kinks is at most `fewest_kinks`, sigma and noise stay 0.
 PositionNoise noiseOf(const MeshView& mesh, const Execution& execution, Parallel& parallel, double fewest_kinks);
 
-/// averageNormals by `best`, then without noise. That of the mesh: in a pose it is no other, so that what does not move near
-/// a point leaves its normal alone. Takes NormalGroups and 76 bytes per group. Throws OutOfMemory.
+/// Computes averageNormals with `best`, then denoises. Uses the noise of the mesh, also for a pose, so that a normal
+/// does not change if nothing near it moves. Uses NormalGroups and 76 bytes per group. Throws OutOfMemory.
 NormalReport denoisedNormals(NormalsCall& call);
 
 }  // namespace tspace

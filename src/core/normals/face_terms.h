@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What blocks of triangles add to sums of normals: face normals with their weights, and the rounds of NormalWeighting::best.
-// Written once (face_terms_kernel.h, best_sums_kernel.h), compiled for several CPUs, equal bits from all of them.
+// Contributions of blocks of triangles to sums of normals: weighted face normals, and the rounds of
+// NormalWeighting::best. Implemented once (face_terms_kernel.h, best_sums_kernel.h), compiled for several CPUs, with
+// equal bits.
 #pragma once
 
 #include <cstddef>
@@ -11,82 +12,82 @@
 
 namespace tspace::smooth {
 
-// The terms of a block of triangles: the face normal times the angle at the corner, which is added to the corner's
-// point. Written once (face_terms_kernel.h), compiled for several CPUs, equal bits from all of them.
+// Terms of a block of triangles: the face normal times the angle at the corner, which is added to the corner's point.
+// Implemented once (face_terms_kernel.h), compiled for several CPUs, with equal bits.
 
 struct FaceSource {
     const std::byte* positions = nullptr;
     std::size_t stride = 0;
-    std::uint32_t last_vertex = 0;  ///< right after its position nothing may be read
+    std::uint32_t last_vertex = 0;  ///< the memory directly after its position must not be read
     double factor = 1;              ///< normalFactor(convention)
     bool by_angle = false, by_area = false;
 };
 
-inline constexpr std::size_t kTermTriangles = 64;  ///< triangles per block; its arrays fit in the first-level cache
-inline constexpr std::size_t kTermGroup = 16;      ///< triangles; vertices are read by whole groups
+inline constexpr std::size_t kTermTriangles = 64;  ///< triangles per block; its arrays fit into the L1 cache
+inline constexpr std::size_t kTermGroup = 16;      ///< triangles; vertices are read in whole groups
 
-// Below the first fraction of the weights a sum is what rounding left of normals that cancel. Below the second it shows
-// how single-precision angles were rounded: it is then taken again, with angles in double.
+// Fractions of the weights. Below kVanished, a sum consists of rounding errors of normals that cancel. Below kDoubtful,
+// the rounding of single-precision angles matters: the sum is recomputed with angles in double precision.
 inline constexpr double kVanished = 1e-10, kDoubtful = 1e-2;
 
 struct FaceTerms {
-    /// The unit normal times `size`, and `size`: the area's double if that is a weight, else 1. Zeros if degenerate.
+    /// Unit normal times `size`, and `size`: twice the area if it is a weight, otherwise 1. Zeros if degenerate.
     alignas(64) double normal[kTermTriangles][4];
     alignas(64) double angle[3][kTermTriangles];  ///< angle at each corner, or 1 if it is not used as a weight
 };
 
 /// The functions for one CPU.
 struct FaceKernel {
-    /// `vertices`: three per triangle, and valid ones up to the end of the last group. count <= kTermTriangles. Returns
-    /// how many triangles are degenerate.
+    /// `vertices`: three per triangle, valid up to the end of the last group. count <= kTermTriangles. Returns the
+    /// number of degenerate triangles.
     std::size_t (*compute)(const FaceSource& source, const std::uint32_t* vertices, std::size_t count,
                            FaceTerms& terms);
-    /// Adds angle * normal to rows of four, one row per point, sums[4 * (point - begin)], for points from `begin` to
-    /// before `end`.
+    /// Adds angle * normal to rows of four doubles, one row per point, at sums[4 * (point - begin)], for points in
+    /// [begin, end).
     void (*add)(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums,
                 std::uint32_t begin, std::uint32_t end);
-    /// Finishes `count` rows of sums, a multiple of kTermGroup: writes four floats to the front of each row, the unit
-    /// normal and 0; or three zeros and -0 where the sum is not above `least` times the weights (the fourth number).
-    /// Returns the count of such rows that have weights.
+    /// Finishes `count` rows of sums, a multiple of kTermGroup: writes four floats to the front of each row: the unit
+    /// normal and 0, or three zeros and -0 if the sum is not above `least` times the weights (the fourth number).
+    /// Returns the number of such rows that have weights.
     std::uint64_t (*finish)(double* sums, std::size_t count, double least);
 };
 
 TSPACE_DECLARE_KERNEL(FaceKernel faceKernel())
 inline FaceKernel faceKernelFor(SimdTarget wish) { return simd::choose(wish, TSPACE_KERNEL_TABLE(faceKernel))(); }
 
-// NormalWeighting::best from sums: what each corner of a triangle adds to its point, and what a point makes of it. Two
-// rounds, since the second one needs the `max` normals of the first at both ends of an edge, and one for each step of
-// NormalOptions::refine. Written once (best_sums_kernel.h), compiled for several CPUs, same bits from all of them.
+// Sums of NormalWeighting::best: the contributions of each triangle corner to its point, and the result of a point.
+// There are two rounds, since the second one needs the `max` normals of the first at both ends of an edge, and one per
+// step of NormalOptions::refine. Implemented once (best_sums_kernel.h), compiled for several CPUs, with equal bits.
 
-/// Points have a normal of each kind, or zero.
+/// Input of a round. Points have a normal of each kind, or zero.
 struct BestSource {
     FaceSource faces;  ///< without weights
-    float scale = 1;   ///< scale of positions: a power of four that brings them near 1
-    /// Means by angle * area, and by `max`; four bytes behind each are read too. A step reads the normals of the round
-    /// before as `robust`; those that are zero stay so, and edges to them do not count.
+    float scale = 1;   ///< scale factor of positions: a power of four that brings them close to 1
+    /// Means by angle * area, and by `max`; four bytes after each are also read. A step reads the normals of the
+    /// previous round as `robust`; zero normals remain zero, and edges to them are ignored.
     const Vec3 *robust = nullptr, *sharp = nullptr;
 };
 
 inline constexpr std::size_t kBestTriangles = 32;  ///< triangles per block
-inline constexpr std::size_t kBestGroup = 16;      ///< lanes; vertices and points are read by whole groups
+inline constexpr std::size_t kBestGroup = 16;      ///< lanes; vertices and points are read in whole groups
 inline constexpr std::size_t kFitRows = 8;         ///< rows of four floats; the last one has maxima instead of sums
 inline constexpr std::size_t kStepRows = 2;        ///< rows of four floats
 
 /// One round, for one CPU.
 struct BestKernel {
     std::size_t row_count;  ///< rows of four floats per corner and point
-    /// `vertices` and `points`: three per triangle, and valid ones up to the end of the last group. Corner k of
-    /// triangle t writes to rows + 4 * row_count * (3 * t + k). Triangles without area, or with values that are not
-    /// finite, write zeros.
+    /// `vertices` and `points`: three per triangle, valid up to the end of the last group. Corner k of triangle t
+    /// writes to rows + 4 * row_count * (3 * t + k). Triangles without area, or with values that are not finite, write
+    /// zeros.
     void (*add)(const BestSource& source, const std::uint32_t* vertices, const std::uint32_t* points, std::size_t count,
                 float* rows);
-    /// Makes the first row of each point its unit normal, or zero. robust, sharp: four floats per point, of the source.
-    /// A multiple of kBestGroup.
+    /// Replaces the first row of each point by its unit normal, or zero. robust, sharp: four floats per point, from the
+    /// source. `count` is a multiple of kBestGroup.
     void (*finish)(float* sums, const float* robust, const float* sharp, std::size_t count);
 };
 
-/// The rounds in order, each of which reads the results before it: `sharp` gives the means by `max`, `fit` the normals
-/// that both means and the edges give, `step` refines these.
+/// Rounds in order; each reads the results of the previous ones: `sharp` computes the means by `max`, `fit` the normals
+/// from both means and the edges, `step` refines them.
 struct BestKernels {
     BestKernel sharp, fit, step;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kernel behind face_terms.h. Included once per CPU, after lanes_*.h and with TSPACE_LANES set to its namespace.
-// Each lane is one triangle.
+// Kernel of face_terms.h. Included once per instruction set, after lanes_*.h and with TSPACE_LANES set to its
+// namespace. Each lane is one triangle.
 #pragma once
 
 #include "core/normals/face_terms.h"
@@ -12,9 +12,9 @@ using namespace simd::TSPACE_LANES;
 
 namespace {
 
-/// The angle whose cotangent is c, in [0, pi], to 2e-7 of itself. The polynomial is (atan(t) - t) / t^3 in t^2,
-/// interpolated at the Chebyshev points of [0, 1]; it is good to 2e-9. Three at a time, step by step, because each step
-/// waits for the one before it.
+/// Replaces cotangents by angles in [0, pi], with a relative error of 2e-7. The polynomial is (atan(t) - t) / t^3 in
+/// t^2, interpolated at the Chebyshev points of [0, 1]; its error is 2e-9. Three at a time, interleaved, because each
+/// step depends on the previous one.
 inline void anglesOfCotangents(Floats (&c)[3]) {
     constexpr float kPolynomial[] = {1.350777142e-02f, -3.587153898e-02f, 6.250169444e-02f, -8.656880430e-02f,
                                      1.103376412e-01f, -1.427856875e-01f, 1.999973933e-01f, -3.333333173e-01f};
@@ -46,8 +46,8 @@ inline DoubleVectors cross(DoubleVectors a, DoubleVectors b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Writes normals and gives cotangents, and the bits of those that have a normal. In double: differences of floats are
-/// exact or nearly so, and nothing overflows or vanishes.
+/// Writes normals and computes cotangents; returns the bits of the triangles that have a normal. In double precision:
+/// differences of floats are exact or nearly so, without overflow or underflow.
 template <bool kByArea>
 inline unsigned faceNormals(DoubleVectors o, DoubleVectors p1, DoubleVectors p2, double factor, double* rows,
                             Doubles (&cotangents)[3]) {
@@ -65,8 +65,8 @@ inline unsigned faceNormals(DoubleVectors o, DoubleVectors p1, DoubleVectors p2,
     return bitsOf(sound);
 }
 
-/// Intermediate results of a block. Each step is a loop of its own: one long loop body would be one chain of dependent
-/// operations, while of short loops a processor overlaps several rounds.
+/// Intermediate results of a block. Each step is a separate loop: a single long loop body would be one chain of
+/// dependent operations, while a processor overlaps the iterations of short loops.
 struct Steps {
     alignas(64) float position[3][3][kTermTriangles];  ///< position of each corner: x, y, z
     alignas(64) float angle[3][kTermTriangles];        ///< angle at each corner; initially its cotangent
@@ -83,7 +83,7 @@ inline void readPositions(const FaceSource& source, const std::uint32_t* vertice
     }
 }
 
-/// The angles are the same for a corner of a face and of its reverse, so that the two cancel.
+/// Computes the terms. The angles are equal for a corner of a face and of its reverse, so that the two cancel.
 template <bool kByArea>
 std::size_t computeTerms(const FaceSource& source, const std::uint32_t* vertices, std::size_t count, FaceTerms& terms) {
     constexpr std::size_t kPart = kWidth / kDoubleParts;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The faces of a mesh, their normals, and the flat normals of corners. Based on: Newell's method as in Sutherland,
-// Sproull & Schumacker, "A Characterization of Ten Hidden-Surface Algorithms", 1974.
+// Faces of a mesh, their normals, and the flat normals of corners. Based on: Newell's method as in Sutherland, Sproull
+// & Schumacker, "A Characterization of Ten Hidden-Surface Algorithms", 1974.
 #include "core/normals/normals_call.h"
 
 #include <algorithm>
@@ -47,7 +47,8 @@ const std::uint32_t* PointItems::inPlace(std::size_t first, std::size_t) const {
     if (in_place_ == nullptr || points_.empty()) return in_place_ == nullptr ? nullptr : in_place_ + 3 * first;
     constexpr std::size_t kBlock = TriangleBatch::kMost;
     std::uint8_t* const block = &blocks_[first / kBlock];
-    std::uint8_t known = __atomic_load_n(block, __ATOMIC_RELAXED);  // two threads at once store equal answers
+    // benign race: concurrent threads store equal values
+    std::uint8_t known = __atomic_load_n(block, __ATOMIC_RELAXED);
     if (known == unknown) {
         const std::size_t begin = first / kBlock * kBlock, end = std::min(begin + kBlock, count);
         const std::uint32_t *v = in_place_ + 3 * begin, *const past = in_place_ + 3 * end,
@@ -97,7 +98,7 @@ void PointItems::readSome(const std::uint32_t* numbers, std::size_t size, std::u
     readEach([numbers](std::size_t i) { return std::size_t{numbers[i]}; }, size, vertices, points);
 }
 
-/// Newell's sum taken about the first corner: the same value, but far from the origin no digits cancel.
+/// Computes Newell's sum relative to the first corner: the same value, without cancellation far from the origin.
 FaceRow faceRow(const MeshView& mesh, std::uint32_t first, std::uint32_t past, double factor, bool by_area) {
     const DVec3 origin = toDouble(mesh.positions[mesh.indices[first]]);
     DVec3 sum;

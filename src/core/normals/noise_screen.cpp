@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Whether a mesh may be noisy (mayHaveNoise), by samples that are gathered in passes over its vertices and triangles, so that
-// a clean mesh is neither welded nor sorted: first the kinks of some edges, then, where there are many, two rings around
-// their first ends.
+// Screening test for noise (mayHaveNoise) on samples gathered in passes over vertices and triangles, so that a clean
+// mesh is neither welded nor sorted: first the kinks of some edges, then, if there are many kinks, two rings around the
+// first ends of these edges.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -16,22 +16,22 @@ namespace tspace {
 namespace {
 
 constexpr std::size_t kEdges = 512;
-/// Around so many ends of edges there are 20,000 in two rings, on most meshes. More than this: they are fans.
+/// Two rings around this many edge ends contain 20,000 points on most meshes. More points than this indicate fans.
 constexpr std::size_t kMostPoints = 32768;
 
-/// Bounds of what all vertices will give. Of sigma: three standard errors, each 5.3 % of the median of 480 distances that are
-/// noise and 1.8 % of one of 4096.
+/// Safety factors for the values that all vertices would give. For sigma: three standard errors, each 5.3 % for the
+/// median of 480 noisy distances and 1.8 % for the median of 4096.
 constexpr double kSigmaError = 1.17, kDihedralError = 1.25, kKinkError = 1.1;
-constexpr double kMostGrowth = 1.2;  // growth that withoutGrowth may cause
+constexpr double kMostGrowth = 1.2;  // maximum growth by withoutGrowth
 
 bool areEqual(const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-/// Some of the positions of a mesh, each once, numbered as they come. Nearly all others are told apart by one bit.
+/// Set of positions from the mesh, numbered in order of insertion. A one-bit filter rejects nearly all other positions.
 class SomePoints {
   public:
     static constexpr std::uint16_t kNone = 0xffff;
 
-    /// room: for so many, but for no more than kMostPoints.
+    /// `room`: capacity, limited to kMostPoints.
     SomePoints(const Allocator* allocator, std::size_t room)
         : points_(allocator, std::min(room, kMostPoints)),
           slots_(allocator, std::bit_ceil(2 * points_.size() + 1), kNone),
@@ -42,7 +42,7 @@ class SomePoints {
         std::fill(slots_.begin(), slots_.end(), kNone);
         std::fill(filter_.begin(), filter_.end(), 0u);
     }
-    /// kNone: there is no room.
+    /// Returns the number of a position, or kNone if the set is full.
     std::uint16_t add(const Vec3& position) {
         const std::uint32_t hash = hashOf(position);
         std::uint16_t& slot = slotOf(position, hash);
@@ -96,7 +96,8 @@ class NoiseScreen {
     bool mayHave(double noise) {
         sampleEdges();
         if (edge_count_ == 0) return false;
-        // These normals show more kinks than those of `best` (measured on 235 primitives); the error of the median is 0.02.
+        // These normals show more kinks than the normals of `best` (measured on 235 primitives); the error of the
+        // median is 0.02.
         const double kinks = kinkShareOfEdges(noise);
         if (kinks <= kFewKinks) return false;
         const std::optional<Roughness> roughness = roughnessAroundEdges();
@@ -130,7 +131,7 @@ class NoiseScreen {
     void findPoints() {
         for (std::size_t v = 0; v < point_of_.size(); ++v) point_of_[v] = points_.numberOf(mesh_.positions[v]);
     }
-    /// body(vertices) of each triangle with a corner that the last findPoints() found.
+    /// Calls body(vertices) for each triangle with a corner that the last findPoints() found.
     template <class Body>
     void forTrianglesThere(const Body& body) const {
         const std::size_t corners = mesh_.cornerCount();
@@ -143,7 +144,7 @@ class NoiseScreen {
         });
     }
 
-    /// The median, by sums of face normals that are exact on spheres.
+    /// Returns the median kink share, from sums of face normals that are exact on spheres.
     /// Based on: Max, "Weights for Computing Vertex Normals from Facet Normals", 1999.
     double kinkShareOfEdges(double noise) {
         Buffer<DVec3> normals(execution_.allocator, points_.list().size(), DVec3{});
@@ -161,7 +162,7 @@ class NoiseScreen {
         });
         for (DVec3& normal : std::span(normals.data(), normals.size())) normalize(normal);
         Buffer<float> shares(execution_.allocator, edge_count_);
-        // Smaller turns are not noise. Shares that noise leaves become at most 5 % smaller (measured on scans).
+        // Smaller angles are not noise. This reduces the kink shares of noise by at most 5 % (measured on scans).
         const double flat = noise * noise / 16;
         std::size_t count = 0;
         for (const Edge& edge : edges()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// generateNormals: checks, and which way is taken. For another pose points and components are those of the mesh; faces
-// and weights are the pose's. Then the rounds of `best`.
+// generateNormals: validation, and selection of the algorithm. For another pose, points and components come from the
+// mesh; faces and weights from the pose. Also the rounds of `best`.
 #include "tspace/normals.h"
 
 #include <cstring>
@@ -19,7 +19,7 @@ namespace tspace {
 
 namespace {
 
-/// For `best` and for creases each point groups its faces, which takes about so many times as long.
+/// For `best` and for creases each point groups its faces, which takes about this many times as long.
 constexpr std::uint64_t kSlow = 4;
 
 Error checkOptions(const MeshView& mesh, const NormalOptions& options) {
@@ -52,7 +52,7 @@ NormalReport averageNormals(const NormalsCall& call) {
 
 namespace {
 
-/// Corners of degenerate faces get the mean of the others at their point; without such faces no points are looked up.
+/// Corners of degenerate faces get the mean of the others at their point; without such faces points need not be found.
 NormalReport flatNormals(const MeshView& mesh, const MeshView& posed, const Call<NormalOptions>& options,
                          StridedSpan<Vec3> out, Parallel& parallel) {
     Call<NormalOptions> means = options;
@@ -182,7 +182,7 @@ namespace {
 
 static_assert(kBestTriangles == SumRound::kTriangles && kBestGroup == SumRound::kGroups);
 
-/// The vectors of a block of groups, from `first` on.
+/// Vectors of a block of groups, starting with group `first`.
 struct Fours {
     alignas(64) float floats[4 * SumRound::kGroups] = {};
 
@@ -193,7 +193,7 @@ struct Fours {
 
 class BestRound final : public SumRound {
   public:
-    /// to: the result of each group; never what the source names, but for the means by `max` in their own round.
+    /// to: the result of each group; must not be read by the source, except for the means by `max` in their own round.
     BestRound(const BestKernel& kernel, const BestSource& source, StridedSpan<Vec3> to)
         : SumRound(kernel.row_count, kernel.row_count == kFitRows), kernel_(kernel), source_(source), to_(to) {}
 
@@ -238,7 +238,7 @@ void refine(const NormalsCall& call, const TriangleGroups& triangles, std::size_
 
     if (!has_sharp) run(kernels.sharp, {sharp.data(), count});
     run(kernels.fit, normals);
-    // The others take no part in steps.
+    // Groups without both means are excluded from the steps.
     forGroups(
         [&](std::size_t i) { robust[i] = robust[i] == Vec3{} || sharp[i] == Vec3{} ? Vec3{} : Vec3{normals[i]}; });
     for (unsigned step = 0; step < call.options.refine; ++step) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Smoothing normals: the arguments and faces of a call, hard edges by the mesh, the two ways (smoothTriangles, smoothFaces),
-// the rounds of NormalWeighting::best, with which both end, and which corners around a point share one normal.
+// Smoothing of normals: arguments and faces of a call, automatic hard edges, the two algorithms (smoothTriangles,
+// smoothFaces), the final rounds of NormalWeighting::best, and the corners around a point that share a normal.
 #pragma once
 
 #include <cstdint>
@@ -18,36 +18,37 @@
 
 namespace tspace {
 
-// NormalOptions::crease_auto: which edges are hard, by the mesh.
+// NormalOptions::crease_auto: automatic detection of hard edges.
 
 /// Kind of the edge from a corner to the next one on its face.
 enum class EdgeKind : std::uint8_t {
-    byAngle,  ///< it has other than two faces
+    byAngle,  ///< an edge that does not have exactly two faces
     soft,
     hard,
 };
 
 struct Creases {
     float angle_deg = 180;
-    bool are_all_soft = true;     ///< no edge is hard, nor has more than two faces
+    bool are_all_soft = true;     ///< no edge is hard or has more than two faces
     Buffer<EdgeKind> edges = {};  ///< edge kind of each corner
 };
 
-/// By the histogram of the angles of edges: in the widest gap between those that most have and those that few have. Where
-/// positions are noisy, by faces whose normals were smoothed over what is no edge. Then without what is one edge long, and
-/// with what one edge interrupts. The mesh and its options have been checked.
-/// Takes NormalGroups (denoise.h), then 57 bytes per corner. O(n log n) for points with many edges, else linear. Throws OutOfMemory.
+/// Finds hard edges from the histogram of dihedral angles: the threshold is in the widest gap between the angles of
+/// most edges and those of few edges. For noisy positions, uses faces whose normals were smoothed except across edges.
+/// Then removes creases of one edge, and closes gaps of one edge. Requires a validated mesh and options.
+/// Uses NormalGroups (denoise.h), then 57 bytes per corner. O(n log n) for points with many edges, otherwise linear.
+/// Throws OutOfMemory.
 /// Based on: Zheng, Fu, Au & Tai, "Bilateral Normal Filtering for Mesh Denoising", 2011.
 Creases findCreases(const MeshView& mesh, const NormalOptions& options, const Execution& execution, Parallel& parallel);
 
-// The arguments and faces of a call, and the ways to smooth.
+// Arguments and faces of a call, and the smoothing algorithms.
 
-/// The faces of a mesh by their corners. Faces of one size need no table; otherwise 4 bytes per corner and face.
+/// Faces of a mesh by their corners. Faces of equal size need no table; otherwise 4 bytes per corner and face.
 class MeshFaces {
   public:
     MeshFaces(const MeshView& mesh, const Allocator* allocator);
 
-    /// The face of a corner, the first corner of a face, and the one after its last.
+    /// Returns the face of a corner. first(), past(): the first corner of a face, and the corner after its last.
     [[nodiscard]] std::uint32_t of(std::uint32_t corner) const {
         return size_ == 3 ? corner / 3 : size_ != 0 ? corner / size_ : corner_faces_[corner];
     }
@@ -56,7 +57,7 @@ class MeshFaces {
     }
     [[nodiscard]] std::uint32_t past(std::uint32_t face) const { return first(face + 1); }
     struct Around {
-        std::uint32_t corners[3];  ///< a corner, the one after it on the border of its face and the one before
+        std::uint32_t corners[3];  ///< a corner, the next one on the border of its face, and the previous one
     };
     [[nodiscard]] Around around(std::uint32_t corner) const {
         const std::uint32_t face = of(corner), begin = first(face), end = past(face);
@@ -74,10 +75,10 @@ class MeshFaces {
     Buffer<std::uint32_t> first_corners_, corner_faces_;
 };
 
-/// The items that range lists sort by points: triangles, or for other faces single corners.
+/// Items that range lists sort by points: triangles, or single corners of other faces.
 class PointItems final : public TriangleGroups {
   public:
-    /// `points`: of each vertex; empty when each is its own.
+    /// `points`: point of each vertex; empty if each vertex is its own point.
     PointItems(const MeshView& mesh, const MeshFaces& faces, const Buffer<std::uint32_t>& points,
                const Allocator* allocator);
 
@@ -87,8 +88,8 @@ class PointItems final : public TriangleGroups {
         const std::uint32_t vertex = mesh_.indices[corner];
         return points_.empty() ? vertex : points_[vertex];
     }
-    /// A corner comes with the next and the previous one, and its own point three times; those of faces with fewer than
-    /// 3 corners have none.
+    /// Reads items. A corner is read as a triangle with the next and the previous corner, and with its own point three
+    /// times; corners of faces with fewer than 3 corners have no points.
     void read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* points) const override;
     void readSome(const std::uint32_t* numbers, std::size_t size, std::uint32_t* vertices,
                   std::uint32_t* points) const override;
@@ -103,13 +104,13 @@ class PointItems final : public TriangleGroups {
     const MeshView& mesh_;
     const MeshFaces& faces_;
     const Buffer<std::uint32_t>& points_;
-    const std::uint32_t* in_place_;  ///< the indices; null where they are not triangles of 32-bit numbers
-    /// Result of inPlace for each block. Nearly all are `own` if triangles are stored close together, and comparing once is
-    /// cheaper than looking points up in each pass.
+    const std::uint32_t* in_place_;  ///< the indices; null if they are not triangles with 32-bit numbers
+    /// Result of inPlace for each block. Nearly all are `own` if triangles are stored close together, and one
+    /// comparison is cheaper than looking up points in each pass.
     mutable Buffer<std::uint8_t> blocks_;
 };
 
-/// The normal of a face times `size`, and `size`: zeros if it is degenerate.
+/// Normal of a face times `size`, and `size`; zeros if it is degenerate.
 struct FaceRow {
     double x, y, z, size;
 
@@ -117,11 +118,11 @@ struct FaceRow {
     [[nodiscard]] DVec3 unit() const { return (1 / size) * DVec3{x, y, z}; }
 };
 
-/// By Newell's sum over the corners from `first` to before `past`. size: its length, twice the area, if that is a
-/// weight, else 1. `factor` is normalFactor(convention).
+/// Computes Newell's sum over the corners in [first, past). size: its length, twice the area, if that is a weight,
+/// otherwise 1. `factor` is normalFactor(convention).
 FaceRow faceRow(const MeshView& mesh, std::uint32_t first, std::uint32_t past, double factor, bool by_area);
 
-/// A call whose mesh and options have been checked.
+/// A call with a validated mesh and options.
 struct NormalsCall {
     NormalsCall(const MeshView& m, const MeshView& p, const Call<NormalOptions>& o, StridedSpan<Vec3> to,
                 Parallel& threads)
@@ -152,13 +153,13 @@ struct NormalsCall {
                 areas};
     }
 
-    const MeshView &mesh, &posed;  ///< the mesh decides equal points and hard edges, the pose everything else
+    const MeshView &mesh, &posed;  ///< the mesh determines equal points and hard edges, the pose everything else
     const Call<NormalOptions>& options;
     StridedSpan<Vec3> out;
     const Allocator* allocator;
     Parallel& parallel;
     MeshFaces faces;
-    Buffer<std::uint32_t> points;  ///< the point of each vertex; empty when each is its own
+    Buffer<std::uint32_t> points;  ///< point of each vertex; empty if each vertex is its own point
     PointItems items;
     smooth::FaceKernel kernel;
     double factor;
@@ -167,28 +168,28 @@ struct NormalsCall {
     bool by_area, by_angle;
     /// Output of smoothFaces for `best`: the lowest corner of each corner's component. Null: not requested.
     Buffer<std::uint32_t>* components = nullptr;
-    /// Where smoothFaces writes the lowest corner that shares the normal of each corner. Null: not needed.
+    /// Output of smoothFaces: the lowest corner that shares the normal of each corner. Null: not needed.
     std::uint32_t* shared = nullptr;
-    const EdgeKind* edges = nullptr;  ///< per corner; null: all by their angle
+    const EdgeKind* edges = nullptr;  ///< per corner; null: all edges by their angle
 };
 
-/// The common case by a shorter way: triangles, all weightings but max, and a point has one normal. Scratch
-/// memory: 4 bytes per vertex, core/base/range_lists.h and 1 MB, or up to 4 MB for each of several threads; where triangles
-/// that follow one another are far apart 36 bytes per vertex; for `best` 60, and SumRounds. While vertices are
-/// welded 10 to 24. Throws OutOfMemory.
+/// Fast path for the common case: triangles, all weightings except max, and one normal per point. Scratch memory: 4
+/// bytes per vertex, core/base/range_lists.h and 1 MB, or up to 4 MB for each of several threads; if consecutive
+/// triangles are far apart, 36 bytes per vertex; for `best` 60, and SumRounds. While welding 10 to 24 bytes per vertex.
+/// Throws OutOfMemory.
 NormalReport smoothTriangles(const NormalsCall& call);
 
-/// Any mesh: faces of any size, hard edges, all weightings. Range by range of points, with a list of the corners around
-/// each. Scratch memory: 4 bytes per vertex, core/base/range_lists.h, MeshFaces where faces differ in size, and for each task
-/// 150 bytes per triangle of a range, which are an eighth of a small mesh and about 8000 of a large one; for `best`
-/// also 28 bytes per corner. While vertices are welded 10 to 24 bytes per vertex. Throws OutOfMemory.
+/// General path: faces of any size, hard edges, all weightings. Processes ranges of points, with a list of the corners
+/// around each point. Scratch memory: 4 bytes per vertex, core/base/range_lists.h, MeshFaces if faces differ in size,
+/// and for each task 150 bytes per triangle of a range (an eighth of a small mesh, about 8000 triangles of a large
+/// one); for `best` also 28 bytes per corner. While welding 10 to 24 bytes per vertex. Throws OutOfMemory.
 NormalReport smoothFaces(const NormalsCall& call);
 
-/// One of these two ways.
+/// Calls smoothTriangles or smoothFaces.
 NormalReport averageNormals(const NormalsCall& call);
 
-/// The weighting `flat`, except that corners of degenerate faces are left as they are and counted as substitutes.
-/// Points are not read.
+/// Writes normals of the weighting `flat`; corners of degenerate faces are not written and count as substitutes. Does
+/// not read points.
 NormalReport writeFaceNormals(const NormalsCall& call);
 
 namespace smooth {
@@ -196,12 +197,12 @@ namespace smooth {
 /// Padding: kernels read up to two vectors past the last group.
 inline constexpr std::size_t kBehind = 2;
 
-/// From the means by angle * area to the normals of `best`, in place; then options.refine steps.
+/// Converts the means by angle * area to the normals of `best`, in place; then performs options.refine steps.
 ///
-/// adding_corners  3, or 1 where only the first corner of each triangle adds something
-/// normals         one per group, zero where a mean vanished; what is there afterwards means nothing
-/// sharp           the means by `max`, or zero where one vanished, and kBehind more; empty: they are found by the same
-///                 triangles. Where one vanished the mean by angle * area stays
+/// adding_corners  3, or 1 if only the first corner of each triangle contributes
+/// normals         one per group, zero where a mean vanished; undefined values there afterwards
+/// sharp           the means by `max`, or zero where one vanished, and kBehind more; empty: computed from the same
+///                 triangles. Where one vanished, the mean by angle * area is kept
 ///
 /// Scratch memory: 24 bytes per group with `sharp`, and SumRounds. Linear. Throws OutOfMemory.
 void refine(const NormalsCall& call, const TriangleGroups& triangles, std::size_t adding_corners,
@@ -209,16 +210,17 @@ void refine(const NormalsCall& call, const TriangleGroups& triangles, std::size_
 
 }  // namespace smooth
 
-// Finds the corners around a point that share one normal.
+// Search for the corners around a point that share a normal.
 
-/// A triangle at hand; or, of another face, one of its corners with its neighbours, which has one entry.
+/// A triangle in local memory; for other faces, a corner with its two neighbors, as one entry.
 struct LocalTriangle {
-    std::uint32_t points[5];  ///< points of the corners, then the first two again, named by their lowest vertices
-    std::uint32_t corner;     ///< number of the first corner in the mesh
-    double weights[3];        ///< weights of the face's row
+    /// points of the corners, then the first two again; a point is identified by its lowest vertex
+    std::uint32_t points[5];
+    std::uint32_t corner;  ///< index of the first corner in the mesh
+    double weights[3];     ///< weights of the face's row
 };
 
-/// The corners at a point, ascending: entries, four times a triangle plus a corner of it.
+/// Corners at a point, ascending: entries are 4 * triangle + corner of the triangle.
 struct PointCorners {
     std::uint32_t point, count;
     const std::uint32_t* entries;
@@ -227,7 +229,7 @@ struct PointCorners {
     [[nodiscard]] std::uint32_t triangle(std::uint32_t slot) const { return entries[slot] >> 2; }
     [[nodiscard]] const LocalTriangle& at(std::uint32_t slot) const { return triangles[entries[slot] >> 2]; }
     [[nodiscard]] std::uint32_t corner(std::uint32_t slot) const { return at(slot).corner + (entries[slot] & 3); }
-    /// The points after and before it on the border of its face.
+    /// Returns the next point on the border of its face; previous(): the point before it.
     [[nodiscard]] std::uint32_t next(std::uint32_t slot) const { return at(slot).points[(entries[slot] & 3) + 1]; }
     [[nodiscard]] std::uint32_t previous(std::uint32_t slot) const { return at(slot).points[(entries[slot] & 3) + 2]; }
     [[nodiscard]] double weight(std::uint32_t slot) const { return at(slot).weights[entries[slot] & 3]; }
@@ -237,34 +239,34 @@ struct PointCorners {
 struct SmoothingRule {
     explicit SmoothingRule(const NormalsCall& c);
 
-    /// No crease: every pair of faces at a point may be connected.
+    /// Returns whether there are no creases: every pair of faces at a point may be connected.
     [[nodiscard]] bool anyAngle() const { return call.options.crease_angle_deg >= 180; }
-    /// All corners at a point are one component.
+    /// Returns whether all corners at a point are one component.
     [[nodiscard]] bool connectsAll() const { return anyAngle() && groups.empty(); }
 
     const NormalsCall& call;
-    double crease_rad, crease_cosine;  ///< with creases faces are connected over edges that turn by no more than this
+    double crease_rad, crease_cosine;       ///< with creases: maximum angle between connected faces
     std::span<const std::uint32_t> groups;  ///< one per face, or empty
     bool groups_are_masks;
 };
 
-/// A corner around a point, by its place there, and the component that it is in.
+/// A corner around a point, by its slot, and its component.
 struct Link {
     std::uint32_t key, slot;
 };
 
-/// Finds the components of the corners at a point: returns all of them, sorted by component, then by slot. `links` has
-/// room for 2 * count entries, `parents` for count. O(n log n), also when all faces share one edge.
+/// Finds the components of the corners at a point: returns all corners, sorted by component, then by slot. `links` has
+/// room for 2 * count entries, `parents` for count. O(n log n), also if all faces share one edge.
 ///
-/// Below 180 degrees two faces are connected over a shared edge. Where more than two faces meet in an edge,
-/// each is held against the next one of its smoothing group as they turn about it, which for flat faces
-/// connects the same faces as holding each against each.
+/// Below 180 degrees two faces are connected over a shared edge. If more than two faces meet at an edge, each is
+/// compared with the next one of its smoothing group by angle around the edge; for flat faces this connects the same
+/// faces as comparing all pairs.
 ///
-/// rows   of the triangles at hand, by the mesh, not a pose
+/// rows   rows of the local triangles, from the mesh, not from a pose
 const Link* findComponents(const SmoothingRule& rule, const FaceRow* rows, const PointCorners& at, Link* links,
                            std::uint32_t* parents);
 
-/// All corners as one component.
+/// Returns all corners as one component.
 const Link* oneComponent(std::uint32_t count, Link* links);
 
 }  // namespace tspace

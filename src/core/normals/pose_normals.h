@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Normals of a mesh that was deformed: the shape is the pose's, what is smooth and what is hard is the mesh's.
+// Normals of a deformed mesh: the pose provides the shape, the mesh the smooth and hard edges.
 #pragma once
 
 #include "tspace/normals.h"
 
 namespace tspace {
 
-/// generateNormals with other positions. The mesh's own positions still decide which vertices are one point and which
-/// edges are hard by the crease angle. So corners that share a normal on the mesh share it in every pose, and a normal
-/// near which nothing moves has the bits that it has on the mesh.
+/// Computes generateNormals for other positions. The mesh's own positions still determine welded vertices and hard
+/// edges (by the crease angle). Corners that share a normal on the mesh therefore share it in every pose, and a normal
+/// whose surroundings do not move keeps its bits.
 ///
 /// positions   one per vertex of the mesh
 /// Errors, complexity, memory and threads: as generateNormals.
@@ -16,10 +16,11 @@ Result<NormalReport> generatePoseNormals(const MeshView& mesh, const StridedSpan
                                          const NormalOptions& options, StridedSpan<Vec3> out,
                                          const Execution& execution = {});
 
-/// Finds which corners share one normal, in all poses: per corner the lowest such corner, or kNoSharedNormal where the corner
-/// adds nothing to the mean because its face visits the point twice. Weighting flat: each corner has its own.
+/// Finds the corners that share one normal, in all poses: per corner the lowest such corner, or kNoSharedNormal if the
+/// corner does not contribute to the mean because its face visits the point twice. Weighting flat: every corner is
+/// separate.
 /// Errors: as generateNormals, and invalidOption for faces that are not triangles.
-inline constexpr std::uint32_t kNoSharedNormal = 0x80000000u;  ///< a flag beside the corner
+inline constexpr std::uint32_t kNoSharedNormal = 0x80000000u;  ///< a flag, combined with the corner
 Result<std::vector<std::uint32_t>> findSharedNormals(const MeshView& mesh, const NormalOptions& options,
                                                      const Execution& execution = {});
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Range by range of points: the corners at each point, with the normals of their faces and their weights, are put side
-// by side; then the components around each point are found, and each gets its mean. Normals and angles of triangles
-// come from the kernel.
+// General path of normal smoothing, by ranges of points: the corners at each point are collected with their face
+// normals and weights; then the components around each point are found, and the mean of each is computed. The kernel
+// computes normals and angles of triangles.
 // Based on: Gouraud 1971 (uniform); Thuermer & Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998
 // (angle); Max, "Weights for Computing Vertex Normals from Facet Normals", 1999 (max).
 #include <algorithm>
@@ -22,24 +22,25 @@ namespace {
 
 using smooth::FaceTerms, smooth::kDoubtful, smooth::kTermTriangles, smooth::kVanished;
 
-constexpr std::size_t kMostRange = 4096, kLeastRange = 64, kRanges = 8;  // points; ranges of a small mesh
+constexpr std::size_t kMostRange = 4096, kLeastRange = 64, kRanges = 8;  // points; number of ranges of a small mesh
 constexpr std::uint32_t kNoPoint = ~std::uint32_t{0};
 constexpr std::size_t kItemsPerTask = 1024;
 
-/// For `best`: each corner with the next and the previous one, as a triangle of which that corner alone counts, for its
-/// component.
+/// For `best`: each corner with the next and the previous one, as a triangle in which only that corner contributes, to
+/// its component.
 class ComponentCorners final : public TriangleGroups {
   public:
-    static constexpr std::uint32_t kAside = 0x80000000u;  ///< mark: the corner's face is degenerate, and adds nothing
+    /// flag: the corner's face is degenerate and contributes nothing
+    static constexpr std::uint32_t kAside = 0x80000000u;
 
-    /// `components`: of each corner the lowest corner of its component, and kAside.
+    /// `components`: for each corner the lowest corner of its component, with kAside.
     ComponentCorners(const MeshView& mesh, const MeshFaces& faces, const Buffer<std::uint32_t>& components)
         : TriangleGroups(components.size()), mesh_(mesh), faces_(faces), components_(components) {}
 
     void read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* groups) const override {
         for (std::size_t i = 0; i < size; ++i) {
             const auto corner = static_cast<std::uint32_t>(first + i);
-            // Corners set aside use index `count`, which has a dummy entry.
+            // Excluded corners use index `count`, which has a dummy entry.
             const auto own =
                 (components_[corner] & kAside) != 0 ? static_cast<std::uint32_t>(count) : components_[corner];
             std::fill_n(groups + 3 * i, 3, own);
@@ -58,9 +59,9 @@ class ComponentCorners final : public TriangleGroups {
     const Buffer<std::uint32_t>& components_;
 };
 
-/// A sum of normals times weights.
+/// Weighted sum of normals.
 struct Sum {
-    static constexpr double kLeastExact = 1e-140;  ///< shorter lengths have squares that are rounded coarsely
+    static constexpr double kLeastExact = 1e-140;  ///< squares of shorter lengths are rounded coarsely
     using Pair = double __attribute__((vector_size(16)));
     Pair xy = {}, z_weights = {};
 
@@ -68,11 +69,11 @@ struct Sum {
         xy += weight * Pair{row.x, row.y};
         z_weights += weight * Pair{row.z, row.size};
     }
-    /// Writes the unit mean, unless it is not above `least` of the weights.
+    /// Writes the unit mean; returns false if it is not above `least` times the weights.
     [[nodiscard]] bool write(double least, Vec3& out) const {
         DVec3 sum{xy[0], xy[1], z_weights[0]};
         double l = length(sum), weights = z_weights[1];
-        if (l < kLeastExact) {  // weights of `max` may be so small that their squares vanish; no sum overflows
+        if (l < kLeastExact) {  // weights of `max` may be so small that their squares underflow; sums never overflow
             sum = (1 / kLeastExact) * sum;
             weights *= 1 / kLeastExact;
             l = length(sum);
@@ -83,7 +84,8 @@ struct Sum {
     }
 };
 
-/// The interior angle, so that a polygon weighs the same however it is cut: above pi where the corner is reflex.
+/// Returns the interior angle, above pi at reflex corners, so that the weight of a polygon does not depend on its
+/// triangulation.
 double interiorAngle(const DVec3& e1, const DVec3& e2, const DVec3& outward) {
     const DVec3 turn = cross(e1, e2);
     const double angle = polarAngle(dot(e1, e2), length(turn));
@@ -95,19 +97,20 @@ double maxWeight(const DVec3& e1, const DVec3& e2) {
     return lengths > 0 ? length(cross(e1, e2)) / lengths : 0;
 }
 
-/// Arguments that all ranges share.
+/// Arguments shared by all ranges.
 struct Setting {
     explicit Setting(const NormalsCall& c) : call(c), rule(c) {}
 
-    /// The weight of a face's row at a corner, in double. A face that visits a point with several consecutive corners
-    /// (a collapsed edge) counts once, at the first of them: the others weigh 0.
+    /// Returns the weight of a face's row at a corner, in double precision. A face that visits a point with several
+    /// consecutive corners (a collapsed edge) is counted once, at the first of them: the others have weight 0.
     [[nodiscard]] double weightOf(NormalWeighting by, std::uint32_t point, std::uint32_t corner,
                                   const FaceRow& row) const {
         const std::uint32_t previous = call.faces.previous(corner);
         if (row.isDegenerate() || call.items.pointOf(previous) == point) return 0;
         if (by != NormalWeighting::angle && by != NormalWeighting::angleArea && by != NormalWeighting::max) return 1;
         std::uint32_t next = call.faces.next(corner);
-        while (call.items.pointOf(next) == point) next = call.faces.next(next);  // ends: `previous` is another point
+        // terminates, because `previous` is another point
+        while (call.items.pointOf(next) == point) next = call.faces.next(next);
         const auto position = [&](std::uint32_t c) { return toDouble(call.posed.positions[call.mesh.indices[c]]); };
         const DVec3 here = position(corner), e1 = position(next) - here, e2 = position(previous) - here;
         return by == NormalWeighting::max ? maxWeight(e1, e2) / row.size
@@ -116,7 +119,7 @@ struct Setting {
 
     const NormalsCall& call;
     SmoothingRule rule;
-    // For `best`, per corner: the means by `max`, zero where one vanishes, and ComponentCorners.
+    // For `best`, per corner: the means by `max` (zero where one vanishes), and ComponentCorners.
     Vec3* sharp = nullptr;
     std::uint32_t* components = nullptr;
 };
@@ -124,17 +127,17 @@ struct Setting {
 /// Memory for one range.
 struct Room {
     FaceRow* rows;      ///< row of each triangle, from the pose
-    FaceRow* deciding;  ///< rows from the mesh, which decides what is hard; may be `rows`
+    FaceRow* deciding;  ///< rows from the mesh, which determine hard edges; may be `rows`
     LocalTriangle* triangles;
     Link* links;
-    std::uint32_t *entries, *parents, *begins;  ///< entries of PointCorners by point, and where those of each begin
+    std::uint32_t *entries, *parents, *begins;  ///< entries of PointCorners by point, and the first entry of each point
 };
 
 class RangeWork {
   public:
     RangeWork(const Setting& setting, const Room& room) : setting_(setting), call_(setting.call), room_(room) {}
 
-    /// Reads what lies at the points of a range; returns how many faces are degenerate, each counted once.
+    /// Reads the triangles at the points of a range; returns the number of degenerate faces, each counted once.
     std::uint64_t read(GroupRange range, RangeLists::Batches items) {
         first_ = range.begin;
         count_ = static_cast<std::uint32_t>(range.size());
@@ -146,7 +149,7 @@ class RangeWork {
         return degenerate_;
     }
 
-    /// Writes means, or what stands for them; returns how many corners got a substitute.
+    /// Writes means or their substitutes; returns the number of corners with a substitute.
     std::uint64_t average() {
         std::uint64_t substitutes = 0;
         for (std::uint32_t p = 0; p < count_; ++p) {
@@ -165,9 +168,9 @@ class RangeWork {
     }
 
   private:
-    /// The place of a point in `begins`; those of other ranges share one.
+    /// Returns the index of a point in `begins`; all points of other ranges share one index.
     [[nodiscard]] std::uint32_t placeOf(std::uint32_t point) const { return std::min(point - first_, count_); }
-    /// `begins` counts two places up: after the sums and the filling it holds the begins.
+    /// Counting sort: `begins` counts two entries ahead; after summation and filling it contains the begins.
     void countAt(std::uint32_t point) { ++room_.begins[placeOf(point) + 2]; }
     void enter(std::uint32_t point, std::uint32_t entry) { room_.entries[room_.begins[placeOf(point) + 1]++] = entry; }
 
@@ -192,8 +195,8 @@ class RangeWork {
         size_ += static_cast<std::uint32_t>(count);
     }
 
-    /// Handles cases that the kernel skips: degenerate triangles, weights of `max`, and rows of the mesh beside those of the
-    /// pose.
+    /// Handles cases that the kernel skips: degenerate triangles, weights of `max`, and rows of the mesh in addition to
+    /// rows of the pose.
     void mend() {
         for (std::size_t t = size_; t < size_ + batch_.count; ++t) {
             LocalTriangle& triangle = room_.triangles[t];
@@ -209,7 +212,7 @@ class RangeWork {
         }
     }
 
-    /// For faces that are no triangles, the items are corners.
+    /// For faces that are not triangles, the items are corners.
     void addCorners() {
         for (std::size_t i = 0; i < batch_.count; ++i) {
             const std::uint32_t corner = batch_.number(i), point = batch_.groups[3 * i], face = call_.faces.of(corner);
@@ -286,7 +289,8 @@ class RangeWork {
         return sum.write(kVanished, normal);
     }
 
-    /// A corner without a mean takes the normal of its face, or of the others at its point.
+    /// Writes the substitute of corners without a mean: the normal of their face, or the mean of the others at their
+    /// point.
     [[gnu::noinline]] void writeSubstitutes(const PointCorners& at, const Link* links, std::uint32_t count) {
         for (std::uint32_t i = 0; i < count; ++i) {
             const std::uint32_t corner = at.corner(links[i].slot);
@@ -295,7 +299,7 @@ class RangeWork {
                 call_.out[corner] = toFloat(row.unit());
                 continue;
             }
-            if (others_point_ != at.point) {  // taken once, however many components vanish
+            if (others_point_ != at.point) {  // computed once, however many components vanish
                 others_point_ = at.point;
                 const Link* const all = oneComponent(at.count, room_.links + at.count);
                 if (!mean(at, all, at.count, of_others_)) of_others_ = {0, 0, 1};
@@ -308,11 +312,11 @@ class RangeWork {
     const NormalsCall& call_;
     Room room_;
     std::uint32_t first_ = 0, count_ = 0;  ///< points of the range
-    std::uint32_t size_ = 0;               ///< triangles at hand
+    std::uint32_t size_ = 0;               ///< number of local triangles
     std::uint32_t last_face_ = 0;
     std::uint64_t degenerate_ = 0;
     std::uint32_t others_point_ = kNoPoint;
-    Vec3 of_others_;  ///< the mean of all corners at that point
+    Vec3 of_others_;  ///< mean of all corners at others_point_
     TriangleBatch batch_;
     FaceTerms terms_;
 };

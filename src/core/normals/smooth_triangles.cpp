@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Sums of weighted face normals per point, in blocks of triangles whose arithmetic is SIMD. No list of the
-// corners around a point is needed: where its mean vanishes, a corner's substitute depends on its own face. Ranges of
-// points are summed, finished and written one after the other, and fit into a cache where triangles lie close together.
+// Sums of weighted face normals per point, by SIMD in blocks of triangles. No list of the corners around a point is
+// needed: if its mean vanishes, a corner's substitute depends on its own face. Ranges of points are summed, finished
+// and written one after the other, and fit into a cache if triangles are stored close together.
 // Based on: Thuermer & Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998.
 #include <algorithm>
 #include <atomic>
@@ -24,26 +24,26 @@ using smooth::FaceTerms, smooth::FaceSource, smooth::kTermGroup, smooth::kTermTr
     smooth::kVanished;
 
 static_assert(kTermTriangles == TriangleBatch::kMost && kTermTriangles % kTermGroup == 0);
-constexpr std::size_t kNearPoints = 32768;   ///< their sums, 1 MB, fit into many a second cache
-constexpr std::size_t kRangesPerThread = 4;  ///< at least
+constexpr std::size_t kNearPoints = 32768;   ///< their sums, 1 MB, fit into typical L2 caches
+constexpr std::size_t kRangesPerThread = 4;  ///< minimum
 
-/// The weighted sum of the unit normals at a point. Later its place holds four floats: the normal, and a mark
-/// whose sign is set when there is none.
+/// Weighted sum of the unit normals at a point. It is later replaced by four floats: the normal, and a mark whose sign
+/// is set if there is none.
 struct PointSum {
-    double x, y, z, weights;  ///< `weights` is negative if the sum has to be computed again
+    double x, y, z, weights;  ///< `weights` is negative if the sum must be computed again
 
     // Accessors for the functions of Float4.
     [[nodiscard]] float* floats() { return reinterpret_cast<float*>(this); }
     [[nodiscard]] const float* floats() const { return reinterpret_cast<const float*>(this); }
 
-    /// Has the mark although something was added.
+    /// Returns whether it has the mark although it has contributions.
     [[nodiscard]] bool isDoubtful() const { return isMarked(loadFloat4(floats())) && weights > 0; }
     static bool isMarked(Float4 normal) { return (laneBits(std::bit_cast<Mask4>(normal)) & 8) != 0; }
 
     void takeAgain() { *this = {0, 0, 0, -0.0}; }
     [[nodiscard]] bool isTakenAgain() const { return std::signbit(weights); }
     void add(double weight, const DVec3& term) { *this = {x + term.x, y + term.y, z + term.z, weights - weight}; }
-    /// Writes the unit mean, or the mark.
+    /// Replaces the sum by the unit mean, or the mark.
     void finish() {
         const double length = std::sqrt(x * x + y * y + z * z);
         const bool has_mean = length > kVanished * -weights;
@@ -53,7 +53,7 @@ struct PointSum {
     }
 };
 
-/// The places of a range of points.
+/// Sums of a range of points.
 struct RangeSums {
     GroupRange range;
     PointSum* rows;  ///< rows of the points from range.begin to the end of a group
@@ -65,9 +65,9 @@ class TriangleSmoother {
   public:
     explicit TriangleSmoother(const NormalsCall& call) : call_(call), lists_(makeLists()) {}
 
-    /// Each range is written when it is summed, with memory for the sums of one per task, which stays in the cache. But
-    /// where nothing is near, and for `best`, which goes over all sums in between, vertices get the sums of their
-    /// points, so that no corner has to look its point up, and all are written at last.
+    /// Each range is written after it is summed, with memory for one range per task, which stays in the cache. If
+    /// triangles are not stored close together, and for `best`, which processes all sums in between, vertices get
+    /// copies of the sums of their points, so that corners need not look up points, and all are written at the end.
     NormalReport run() {
         const bool is_near = is_near_ && !call_.is_best;
         const std::size_t ranges = lists_.count(), size = lists_.range(0).size() + kTermGroup;
@@ -102,8 +102,8 @@ class TriangleSmoother {
     }
 
   private:
-    /// Ranges are near where blocks of triangles lie close together. Otherwise they would only be read more often:
-    /// there is one for each thread.
+    /// Uses small ranges if blocks of triangles are compact. Otherwise they would only be read more often: there is one
+    /// range per thread.
     [[nodiscard]] RangeLists makeLists() {
         const std::size_t points = call_.mesh.vertexCount();
         const std::size_t width = call_.items.count < Parallel::kGrain ? 1 : call_.parallel.width();
@@ -114,7 +114,7 @@ class TriangleSmoother {
         return {call_.items, kTermTriangles, points, near, call_.allocator, call_.parallel};
     }
 
-    /// Makes the unit normals of a range; returns the degenerate triangles whose first point is in it.
+    /// Computes the unit normals of a range; returns the number of degenerate triangles whose first point is in it.
     std::uint64_t sum(std::size_t index, const RangeSums& place) const {
         const GroupRange range = place.range;
         const std::size_t size = (range.size() + kTermGroup - 1) / kTermGroup * kTermGroup;
@@ -131,7 +131,7 @@ class TriangleSmoother {
                 degenerate += terms.normal[t][3] == 0.0 && range.has(batch.groups[3 * t]) ? 1u : 0u;
             call_.kernel.add(terms, batch.groups, batch.count, sums, range.begin, range.end);
         }
-        // Sums of products of floats neither overflow nor vanish when squared.
+        // Sums of products of floats neither overflow nor underflow when squared.
         if (call_.kernel.finish(sums, size, kDoubtful) != 0) [[unlikely]]
             sumDoubtful(index, place);
         return degenerate;
@@ -167,7 +167,7 @@ class TriangleSmoother {
         }
     }
 
-    /// Writes the corners of triangles at the points of a range; returns how many got a substitute.
+    /// Writes the corners of triangles at the points of a range; returns the number of substitutes.
     std::uint64_t write(RangeLists::Batches batches, const RangeSums& place) const {
         std::uint64_t substitutes = 0;
         TriangleBatch batch;
@@ -177,7 +177,7 @@ class TriangleSmoother {
         return substitutes;
     }
 
-    /// Returns false if a normal has the mark.
+    /// Writes a block. Returns false if a normal has the mark.
     bool writeBlock(const TriangleBatch& batch, const RangeSums& place) const {
         auto* to = reinterpret_cast<std::byte*>(&call_.out[std::size_t{3} * batch.numbers[0]]);
         // Local copies, so that the compiler need not assume aliasing.
@@ -210,7 +210,7 @@ class TriangleSmoother {
         return !PointSum::isMarked(marks);
     }
 
-    /// Corner by corner, those at the points of a range; returns how many got a substitute.
+    /// Writes the corners at the points of a range one by one; returns the number of substitutes.
     [[gnu::noinline]] std::uint64_t writeEach(const TriangleBatch& batch, const RangeSums& place) const {
         std::uint64_t substitutes = 0;
         for (std::size_t i = 0; i < 3 * batch.count; ++i) {
@@ -226,7 +226,7 @@ class TriangleSmoother {
         return substitutes;
     }
 
-    /// The substitute for a mean that vanished.
+    /// Returns the substitute for a mean that vanished.
     [[nodiscard]] Vec3 ownNormal(std::size_t triangle) const {
         std::uint32_t vertices[3 * kTermGroup];
         FaceTerms terms;
@@ -239,7 +239,7 @@ class TriangleSmoother {
     const NormalsCall& call_;
     bool is_near_ = false;
     RangeLists lists_;
-    Buffer<PointSum> sums_;  ///< sums of one range for each task; for `best` of all points
+    Buffer<PointSum> sums_;  ///< sums of one range per task; for `best`, sums of all points
 };
 
 }  // namespace

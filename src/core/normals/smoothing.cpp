@@ -14,12 +14,12 @@ namespace tspace {
 namespace {
 
 constexpr std::uint32_t kNoSlot = ~std::uint32_t{0};
-constexpr std::uint32_t kFew = 8;  ///< corners at a point: enough nearly everywhere
+constexpr std::uint32_t kFew = 8;  ///< corners at a point: sufficient nearly everywhere
 
 // Slack for float positions: an intended right angle may exceed 90 degrees by some 1e-7 rad.
 constexpr double kCreaseSlackRad = 1e-6;
 
-/// The position of a normal on its turn about an edge: monotonic in the angle, in [0, 4), without trigonometry.
+/// Position of a normal in the rotation about an edge: monotonic in the angle, in [0, 4), without trigonometry.
 class Turn {
   public:
     explicit Turn(const DVec3& edge) {
@@ -47,8 +47,8 @@ class Turn {
 [[gnu::noinline]] bool isSmoothByAngle(const SmoothingRule& rule, const FaceRow& a, const FaceRow& b) {
     return angleBetween(a.unit(), b.unit()) <= rule.crease_rad;
 }
-/// Mostly decided without an angle: that of nearly equal cosines is taken, since the cosine says little near 0 and 180
-/// degrees.
+/// Mostly decided by cosines. For nearly equal cosines the angle is computed, since the cosine is inaccurate near 0 and
+/// 180 degrees.
 inline bool isSmooth(const SmoothingRule& rule, const FaceRow& a, const FaceRow& b) {
     constexpr double kClear = 1e-12;  // rounding is below 1e-15
     const double cosine = a.x * b.x + a.y * b.y + a.z * b.z, sizes = a.size * b.size;
@@ -58,19 +58,19 @@ inline bool isSmooth(const SmoothingRule& rule, const FaceRow& a, const FaceRow&
     return !(above < -clear) && isSmoothByAngle(rule, a, b);
 }
 
-/// Points of few corners.
+/// Points of up to kFew corners.
 struct FewPoints {
     Mask4 four[kFew / 4] = {Mask4{} - 1, Mask4{} - 1};
 
     void set(std::uint32_t slot, std::uint32_t point) { four[slot / 4][slot % 4] = static_cast<std::int32_t>(point); }
-    /// The corners that have a point, by bits.
+    /// Returns the corners that have a point, as bits.
     [[nodiscard]] std::uint32_t with(std::uint32_t point) const {
         const Mask4 wanted = Mask4{} + static_cast<std::int32_t>(point);
         return laneBits(four[0] == wanted) | laneBits(four[1] == wanted) << 4;
     }
 };
 
-/// The corners around one point.
+/// Components of the corners around one point.
 class PointComponents {
   public:
     PointComponents(const SmoothingRule& rule, const FaceRow* rows, const PointCorners& at, Link* links,
@@ -137,9 +137,9 @@ class PointComponents {
         }
     }
 
-    /// For few corners of which no two have the same next point, or the same previous one: no list of edges has to be
-    /// sorted. Returns false for others, and has done nothing. (std::has_single_bit is a call where the target is plain
-    /// x86-64.)
+    /// Fast path for few corners, no two of which have the same next or the same previous point: no list of edges has
+    /// to be sorted. Returns false for other cases, without changes. (std::has_single_bit is a function call on
+    /// baseline x86-64.)
     bool joinFans() {
         FewPoints next, previous;
         std::uint8_t follower[kFew];
@@ -161,8 +161,7 @@ class PointComponents {
         return true;
     }
 
-    /// Adds the edges from the point to the next and previous one. Edges of length zero connect a face to
-    /// itself.
+    /// Adds the edges from the point to the next and previous one. Edges of length zero connect a face with itself.
     Link* addEdges(std::uint32_t slot, Link* end) {
         const std::uint32_t next = at_.next(slot), previous = at_.previous(slot);
         if (previous == at_.point) join(slot, slotOf(faces_.previous(corner(slot)), slot));
@@ -172,8 +171,8 @@ class PointComponents {
         return end;
     }
 
-    /// The slot of the corner before that of `near`: next to it, or at the end of the face when `near` begins
-    /// it.
+    /// Returns the slot of `wanted`, the corner before that of `near`: the previous slot, or at the end of the face if
+    /// `near` is the first corner of the face.
     [[nodiscard]] std::uint32_t slotOf(std::uint32_t wanted, std::uint32_t near) const {
         if (wanted < corner(near)) return near - 1;
         while (corner(near) != wanted) ++near;
@@ -190,7 +189,7 @@ class PointComponents {
         joinGroups(run, past);
     }
 
-    /// `edge`: a corner from which their edge goes to the next corner.
+    /// `edge`: the corner at the start of their edge.
     void joinTwo(std::uint32_t a, std::uint32_t b, std::uint32_t edge) {
         const std::uint32_t g = group(a), h = group(b);
         if (rule_.groups_are_masks ? (g & h) == 0 : g != h) return;
@@ -199,7 +198,7 @@ class PointComponents {
         if (kind == EdgeKind::soft) join(a, b);
     }
 
-    /// Each group for itself. They are sorted by group, unless these are masks.
+    /// Joins each smoothing group separately. Links are sorted by group, unless groups are masks.
     void joinGroups(const Link* run, const Link* past) {
         std::uint32_t masks = 0;
         for (const Link* link = run; rule_.groups_are_masks && link != past; ++link) masks |= group(link->slot);
@@ -211,7 +210,7 @@ class PointComponents {
         }
     }
 
-    /// Joins each corner that counts to the one before it, and the last to the first.
+    /// Joins each corner that `counts` accepts to the previous one, and the last to the first.
     template <class Counts>
     void joinRing(const Link* run, const Link* past, const Counts& counts) {
         std::uint32_t first = kNoSlot, last = kNoSlot;
