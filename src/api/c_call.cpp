@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Memory, errors, options and models of the caller.
+// Memory, errors, options and models at the C API border.
 #include "api/c_call.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace tspace::c_files {
 GrowingBytes::~GrowingBytes() { std::free(data_); }
 
 void GrowingBytes::append(std::span<const std::uint8_t> bytes) {
-    // One byte more for the 0 at the end.
+    // One additional byte for the terminating 0.
     if (bytes.size() >= capacity_ - size_ || data_ == nullptr) {
         const std::size_t capacity = std::max(size_ + bytes.size() + 1, size_ + size_ / 2);
         void* grown = std::realloc(data_, capacity);
@@ -42,7 +42,7 @@ tspace_ErrorCode finishCall(const Error& error, tspace_Error* out) noexcept {
              {std::string_view(" (at "), std::string_view(error.place), std::string_view(")")})
             c_api::appendMessage(part, *out);
     }
-    // An option may hold any text, and the message is one line.
+    // An option may contain any text, but the message must be one line.
     for (char* c = out->message; *c != '\0'; ++c) {
         if (static_cast<unsigned char>(*c) < 0x20 || *c == 0x7f) *c = ' ';
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Steps of every function of the C API of files: options from JSON, errors to codes, bytes to the caller.
+// Common steps of all functions of the C file API: parsing JSON options, converting errors to codes, returning bytes.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace tspace::c_files {
 
-/// Bytes for the caller, who frees them by tspace_destroyBytes.
+/// Bytes returned to the caller, who frees them with tspace_destroyBytes.
 class GrowingBytes {
   public:
     GrowingBytes() = default;
@@ -28,9 +28,9 @@ class GrowingBytes {
     GrowingBytes(const GrowingBytes&) = delete;
     GrowingBytes& operator=(const GrowingBytes&) = delete;
 
-    /// Throws std::bad_alloc.
+    /// Appends bytes. Throws std::bad_alloc.
     void append(std::span<const std::uint8_t> bytes);
-    /// Hands them over, where somebody wants them. Never fails.
+    /// Transfers the bytes to `to` unless it is null. Never fails.
     void giveTo(tspace_Bytes* to) noexcept;
 
   private:
@@ -38,11 +38,11 @@ class GrowingBytes {
     std::size_t size_ = 0, capacity_ = 0;
 };
 
-/// Writes `error` with its place to the caller's struct, which may be null, and returns its code. Takes no memory.
+/// Writes `error` with its location to the caller's struct, which may be null, and returns its code. Does not allocate.
 tspace_ErrorCode finishCall(const Error& error, tspace_Error* out) noexcept;
 
-/// Runs `body`, which may throw as the file layer does, at the border. `results`, which may be null, are empty
-/// before it, and after an error.
+/// Runs `body`, which may throw like the file layer, and converts its outcome. `results`, which may be null, are empty
+/// before the call and after an error.
 template <class Body>
 tspace_ErrorCode atCallBorder(tspace_Error* out, std::initializer_list<tspace_Bytes*> results, Body&& body) noexcept {
     for (tspace_Bytes* result : results) {
@@ -58,21 +58,21 @@ tspace_ErrorCode atCallBorder(tspace_Error* out, std::initializer_list<tspace_By
     return result ? finishCall(Error{ErrorCode::ok}, out) : finishCall(result.error(), out);
 }
 
-/// A text that may not be null. Fails with nullData.
+/// Returns a text that must not be null. Fails with nullData.
 std::string neededText(const char* text, const char* name);
 
-/// Reads options; null is none. Fails with invalidOption.
+/// Parses options; null means none. Fails with invalidOption.
 void readOptions(const options::OptionList& list, const char* text, options::Given& given);
 
-/// tspace_generateBytes and tspace_checkBytes with progress, which may end the call by throwing.
+/// Like tspace_generateBytes and tspace_checkBytes, with a progress callback that may end the call by throwing.
 tspace_ErrorCode generateBytes(const tspace_Model* model, const char* options, const Progress& progress,
                                tspace_Bytes* output, tspace_Bytes* report, tspace_Error* error) noexcept;
 tspace_ErrorCode checkBytes(const tspace_Model* model, const char* options, const Progress& progress,
                             tspace_Bytes* report, tspace_Error* error) noexcept;
 
-/// The name of a model.
+/// Returns the name of a model.
 std::string nameOf(const tspace_Model& model);
-/// Makes `options` open the model. Fails with nullData and invalidOption.
+/// Sets up `options` to open the model. Fails with nullData and invalidOption.
 void openModel(const tspace_Model* model, FileOptions& options);
 
 }  // namespace tspace::c_files

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// C API of files: each function reads its options, calls the C++ function of its name, and gives its report as JSON.
+// C API for files: each function reads its options, calls the C++ function of the same name, and returns its report as
+// JSON.
 #include <chrono>
 
 #include "api/c_call.h"
@@ -23,13 +24,13 @@ using report::ExitCode;
 
 namespace {
 
-/// The value of a Result, which stays, or its error thrown.
+/// Throws the error of a Result if it has one.
 template <class Value>
 void throwError(const Result<Value>& result) {
     if (!result) throw FileError{result.error()};
 }
 
-/// Gives an outcome the result of call() and its seconds, or throws its error.
+/// Stores the result of call() and its duration in `outcome`, or throws its error.
 template <class Outcome, class Call>
 void timeCall(Outcome& outcome, const Call& call) {
     using Clock = std::chrono::steady_clock;
@@ -43,8 +44,8 @@ void giveReport(const std::string& json, tspace_Bytes* to) {
     if (to != nullptr) GrowingBytes(json).giveTo(to);
 }
 
-/// Gives the outcome the result of call(), which writes files, and its report, toJson(). The files are put in place when the
-/// report is complete.
+/// Stores the result of call(), which writes files, in `outcome`, and returns its report, toJson(), in `to`. Files are
+/// put in place once the report is complete.
 template <class Outcome, class Call, class ToJson>
 void giveOutcome(Outcome& outcome, const Call& call, const ToJson& toJson, tspace_Bytes* to) {
     HeldOutputs outputs;
@@ -53,13 +54,13 @@ void giveOutcome(Outcome& outcome, const Call& call, const ToJson& toJson, tspac
     valueOrThrow(outputs.commit());
 }
 
-/// "a.b/helmet.gltf" without ".gltf".
+/// Returns a name without its file extension, such as "a.b/helmet" for "a.b/helmet.gltf".
 std::string withoutEnding(const std::string& name) {
     const std::size_t dot = name.rfind('.'), slash = name.rfind('/');
     return dot == std::string::npos || (slash != std::string::npos && dot < slash) ? name : name.substr(0, dot);
 }
 
-/// Makes `output` of `input` by `make`, and gives the report of it.
+/// Creates `output` from `input` with `make`, and returns its report.
 template <class Report, class Options>
 void makeFile(Result<Report> (*make)(const std::string&, const std::string&, const Options&),
               std::string (*toJson)(const report::Outcome<Report>&, ExitCode), const std::string& input,
@@ -69,7 +70,8 @@ void makeFile(Result<Report> (*make)(const std::string&, const std::string&, con
         outcome, [&] { return make(input, output, options); }, [&] { return toJson(outcome, ExitCode::done); }, json);
 }
 
-/// Options that mean something together. `list` must stay until they are applied: what is given points into it.
+/// Reads options that depend on each other. `list` must exist until they are applied, because the parsed options point
+/// into it.
 template <class Options>
 void readTogether(const options::OptionList& list, const char* text, Options& to) {
     options::Given given;

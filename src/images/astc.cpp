@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ASTC by Arm's astcenc, which is loaded when the first such texture comes.
+// ASTC with Arm's astcenc, which is loaded for the first ASTC texture.
 #include "images/texture_file.h"
 #include "images/write_texture.h"
 
@@ -22,7 +22,7 @@ namespace tspace {
 
 namespace {
 
-/// The functions of the library that is there at run time.
+/// Functions of the library installed at run time.
 struct Astc {
     LoadedLibrary library = LoadedLibrary(TSPACE_ASTC_LIBRARY, std::size_t{8} << 20);
     decltype(&astcenc_config_init) initConfig = library.find("astcenc_config_init");
@@ -74,7 +74,7 @@ bool decodeAstc(const TextureFile& texture, ByteSpan blocks, std::span<std::uint
     const TexelFormat& format = texture.format;
     astcenc_config config{};
     astcenc_context* made = nullptr;
-    // With the sRGB curve too: it would only change what the stored numbers mean.
+    // Also for sRGB: the curve only changes the interpretation of the stored values.
     if (astc().initConfig(ASTCENC_PRF_LDR, format.width, format.height, 1, ASTCENC_PRE_FASTEST,
                           ASTCENC_FLG_DECOMPRESS_ONLY, &config) != ASTCENC_SUCCESS)
         return false;
@@ -87,14 +87,14 @@ bool decodeAstc(const TextureFile& texture, ByteSpan blocks, std::span<std::uint
     const astcenc_swizzle swizzle{ASTCENC_SWZ_R, ASTCENC_SWZ_G, ASTCENC_SWZ_B, ASTCENC_SWZ_A};
     if (astc().decompress(context.get(), blocks.data(), blocks.size(), &image, &swizzle, 0) != ASTCENC_SUCCESS)
         return false;
-    // Blocks that are none come as what is no number.
+    // Invalid blocks are decoded as NaN.
     for (std::size_t at = 0; at < texels.size(); at += sizeof(Rgba)) {
         Rgba texel{};
         std::memcpy(&texel, &texels[at], sizeof texel);
         bool is_finite = true;
         for (const float part : texel) is_finite = is_finite && std::isfinite(part);
         if (is_finite) continue;
-        texel = {1, 0, 1, 1};  // the colour of errors
+        texel = {1, 0, 1, 1};  // the error color
         std::memcpy(&texels[at], &texel, sizeof texel);
     }
     return true;
@@ -113,7 +113,7 @@ std::optional<std::vector<std::uint8_t>> packAstc(std::uint32_t width, std::uint
     const unsigned tasks = parallel.width();
     astcenc_config config{};
     astcenc_context* made = nullptr;
-    // The library then counts angles, of x that it finds in red and y in alpha.
+    // Selects the library's angular error metric, with x in red and y in alpha.
     if (astc().initConfig(ASTCENC_PRF_LDR, kSide, kSide, 1, effortOf(effort), ASTCENC_FLG_MAP_NORMAL, &config) !=
             ASTCENC_SUCCESS ||
         astc().allocateContext(&config, tasks, &made) != ASTCENC_SUCCESS)
@@ -130,7 +130,8 @@ std::optional<std::vector<std::uint8_t>> packAstc(std::uint32_t width, std::uint
     const std::size_t across = (width + kSide - 1) / kSide, down = (height + kSide - 1) / kSide;
     std::vector<std::uint8_t> blocks(kBlockBytes * across * down);
     std::atomic<bool> is_done{true};
-    // Tasks share the blocks among themselves; one that comes late finds none, so they need not run together.
+    // The library distributes the blocks over the tasks; a late task finds none, so the tasks need not run
+    // concurrently.
     parallel.forTasks(tasks, [&](std::size_t task) {
         if (astc().compress(context.get(), &image, &swizzle, blocks.data(), blocks.size(),
                             static_cast<unsigned>(task)) != ASTCENC_SUCCESS)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// BasisLZ, which packs the blocks of ETC1S: two code books for all levels, and numbers of entries for each block. By the Khronos
+// BasisLZ supercompression of ETC1S: two codebooks shared by all levels, and codebook indices per block. See Khronos
 // KTX File Format Specification 2.0, appendix BasisLZ/ETC1S.
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@ namespace tspace {
 
 namespace {
 
-/// Bits from the lowest of each byte on; zeros, and a mark, behind the end.
+/// Reads bits, starting with the lowest of each byte; after the end it returns zeros and sets a flag.
 class BasisBits {
   public:
     explicit BasisBits(ByteSpan bytes) : bytes_(bytes) {}
@@ -30,7 +30,7 @@ class BasisBits {
         ++at_;
         return value;
     }
-    /// A number in parts of `count` bits, the highest of which says whether another follows.
+    /// Reads a number in groups of `count` bits, each followed by a bit that tells whether another group follows.
     std::uint32_t takeParts(unsigned count) {
         std::uint32_t value = 0;
         for (unsigned at = 0; at < 32; at += count) {
@@ -49,11 +49,11 @@ class BasisBits {
     bool has_failed_ = false;
 };
 
-/// A canonical code as Deflate has it (RFC 1951, 3.2.2), of up to 16 bits.
+/// Canonical Huffman code as in Deflate (RFC 1951, 3.2.2), with up to 16 bits.
 class HuffmanCode {
   public:
     HuffmanCode() = default;
-    /// The length of each symbol's code; 0: it has none.
+    /// `lengths`: code length of each symbol; 0: unused.
     HuffmanCode(std::span<const std::uint8_t> lengths, BasisBits& bits) {
         for (const std::uint8_t length : lengths) ++counts_[length];
         counts_[0] = 0;
@@ -61,7 +61,7 @@ class HuffmanCode {
         std::array<std::uint32_t, kMost + 2> begins{};
         for (std::size_t length = 1; length <= kMost; ++length) {
             left <<= 1;
-            if (counts_[length] > left) {  // more codes than there can be
+            if (counts_[length] > left) {  // more codes than possible
                 bits.fail();
                 return;
             }
@@ -93,7 +93,7 @@ class HuffmanCode {
     std::vector<std::uint16_t> symbols_ = {};  ///< symbols in code order
 };
 
-/// A code whose lengths are packed by another one.
+/// Reads a code whose lengths are compressed with another code.
 HuffmanCode readCode(BasisBits& bits) {
     constexpr std::uint8_t kOrder[] = {17, 18, 19, 20, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15, 16};
     const std::uint32_t symbols = bits.take(14), used = bits.take(5);
@@ -124,9 +124,9 @@ HuffmanCode readCode(BasisBits& bits) {
     return bits.hasFailed() ? HuffmanCode{} : HuffmanCode(lengths, bits);
 }
 
-/// Red, green, blue and the number of a table of modifiers.
+/// Red, green, blue, and the index of a modifier table.
 using Etc1sEnd = std::array<std::uint8_t, 4>;
-/// A row of four codes of two bits each.
+/// Four rows of four 2-bit selectors.
 using Etc1sCodes = std::array<std::uint8_t, 4>;
 
 std::vector<Etc1sEnd> readEnds(ByteSpan data, std::size_t count) {
@@ -168,7 +168,7 @@ std::vector<Etc1sCodes> readSelectors(ByteSpan data, std::size_t count) {
     return selectors;
 }
 
-/// The last selectors that were used, nearly in that order.
+/// Recently used selectors, approximately in order of use.
 class SelectorHistory {
   public:
     explicit SelectorHistory(std::size_t count) : values_(count), next_(count / 2) {}
@@ -197,7 +197,7 @@ struct BasisTables {
     std::size_t history = 0;
 };
 
-/// The blocks of one slice, one after the other.
+/// Decodes the blocks of one slice in order.
 class BasisSlice {
   public:
     BasisSlice(const BasisTables& tables, ByteSpan data, std::size_t across, std::size_t down)
@@ -209,7 +209,8 @@ class BasisSlice {
           above_(across),
           predictions_((across + 1) / 2) {}
 
-    /// Writes eight bytes a block: its end and its codes. `stride`: from one block to the next. False where it is broken.
+    /// Writes eight bytes per block: endpoint and selectors. `stride`: distance between blocks. Returns false for
+    /// corrupt data.
     bool read(std::uint8_t* to, std::size_t stride) {
         for (std::size_t y = 0; y < down_; ++y) {
             for (std::size_t x = 0; x < across_; ++x, to += stride) {
@@ -225,7 +226,7 @@ class BasisSlice {
     }
 
   private:
-    /// How the ends of four blocks are found, two bits each.
+    /// Reads how the endpoints of four blocks are predicted, two bits each.
     std::uint32_t readPredictions() {
         constexpr std::uint32_t kRepeats = 256, kLeastRepeats = 3;
         if (repeats_ > 0) {
@@ -298,13 +299,13 @@ class BasisSlice {
     std::uint64_t repeats_ = 0, run_ = 0;
 };
 
-/// The parts of the global data, which must fill it.
+/// Sections of the global data, which must cover it completely.
 struct BasisParts {
     std::size_t end_count = 0, selector_count = 0;
     ByteSpan image = {}, ends = {}, selectors = {}, tables = {};
 };
 
-/// `image`: the number of the one that is wanted, below `images`.
+/// Finds the sections. `image`: index of the requested image, less than `images`.
 std::optional<BasisParts> findParts(ByteSpan data, std::size_t images, std::size_t image) {
     constexpr std::size_t kHead = 20, kImage = 20;
     if (data.size() < kHead || images > (data.size() - kHead) / kImage) return {};

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kBc7Texels = 16;
 
-/// A row of the table of modes: bits of each field.
+/// Bits of each field of a mode.
 struct Bc7Mode {
     std::uint8_t subsets, partition_bits, rotation_bits, selection_bits, color_bits, alpha_bits, endpoint_p, shared_p,
         index_bits, second_bits;
@@ -21,14 +21,14 @@ constexpr Bc7Mode kBc7Modes[] = {{3, 4, 0, 0, 4, 0, 1, 0, 3, 0}, {2, 6, 0, 0, 6,
                                  {1, 0, 2, 1, 5, 6, 0, 0, 2, 3}, {1, 0, 2, 0, 7, 8, 0, 0, 2, 2},
                                  {1, 0, 0, 0, 7, 7, 1, 0, 4, 0}, {2, 6, 0, 0, 5, 5, 1, 0, 2, 0}};
 
-/// Bit i: the subset of texel i.
+/// Subset of each texel, one bit per texel.
 constexpr std::uint16_t kTwoSubsets[64] = {
     0xcccc, 0x8888, 0xeeee, 0xecc8, 0xc880, 0xfeec, 0xfec8, 0xec80, 0xc800, 0xffec, 0xfe80, 0xe800, 0xffe8,
     0xff00, 0xfff0, 0xf000, 0xf710, 0x008e, 0x7100, 0x08ce, 0x008c, 0x7310, 0x3100, 0x8cce, 0x088c, 0x3110,
     0x6666, 0x366c, 0x17e8, 0x0ff0, 0x718e, 0x399c, 0xaaaa, 0xf0f0, 0x5a5a, 0x33cc, 0x3c3c, 0x55aa, 0x9696,
     0xa55a, 0x73ce, 0x13c8, 0x324c, 0x3bdc, 0x6996, 0xc33c, 0x9966, 0x0660, 0x0272, 0x04e4, 0x4e40, 0x2720,
     0xc936, 0x936c, 0x39c6, 0x639c, 0x9336, 0x9cc6, 0x817e, 0xe718, 0xccf0, 0x0fcc, 0x7744, 0xee22};
-/// Two bits a texel.
+/// Subset of each texel, two bits per texel.
 constexpr std::uint32_t kThreeSubsets[64] = {
     0xaa685050, 0x6a5a5040, 0x5a5a4200, 0x5450a0a8, 0xa5a50000, 0xa0a05050, 0x5555a0a0, 0x5a5a5050,
     0xaa550000, 0xaa555500, 0xaaaa5500, 0x90909090, 0x94949494, 0xa4a4a4a4, 0xa9a59450, 0x2a0a4250,
@@ -39,7 +39,7 @@ constexpr std::uint32_t kThreeSubsets[64] = {
     0xaa444444, 0x54a854a8, 0x95809580, 0x96969600, 0xa85454a8, 0x80959580, 0xaa141414, 0x96960000,
     0xaaaa1414, 0xa05050a0, 0xa0a5a5a0, 0x96000000, 0x40804080, 0xa9a8a9a8, 0xaaaaaa44, 0x2a4a5254};
 
-/// The texel of a subset whose index has one bit less; that of the first is 0.
+/// Anchor texel of the second subset, whose index has one bit less; the anchor of the first subset is texel 0.
 constexpr std::uint8_t kAnchorOfTwo[64] = {15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 15,
                                            15, 2,  8,  2,  2,  8,  8,  15, 2,  8,  2,  2,  8,  8,  2,  2,
                                            15, 15, 6,  8,  2,  8,  15, 15, 2,  8,  2,  2,  2,  15, 15, 6,
@@ -52,7 +52,7 @@ constexpr std::uint8_t kThirdOfThree[64] = {15, 8, 8,  3,  15, 15, 3,  8,  15, 1
                                             15, 3, 15, 10, 10, 8,  9,  10, 6,  15, 8,  15, 3,  6,  6,  8,
                                             15, 3, 15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 3,  15, 15, 8};
 
-/// Weights by the number of index bits, in 64ths.
+/// Interpolation weights in 64ths, by the number of index bits.
 constexpr std::uint8_t kBc7Weights[5][16] = {{},
                                              {},
                                              {0, 21, 43, 64},
@@ -62,7 +62,7 @@ constexpr std::uint8_t kBc7Weights[5][16] = {{},
 struct Bc7Block {
     Bc7Mode mode = {};
     std::uint32_t partition = 0, rotation = 0, selection = 0;
-    /// Endpoints of 8 bits: [subset * 2 + end][channel].
+    /// 8-bit endpoints: [subset * 2 + end][channel].
     std::array<std::array<std::uint8_t, 4>, 6> ends = {};
     std::array<std::uint8_t, kBc7Texels> first = {}, second = {};  ///< indices
 
@@ -98,7 +98,7 @@ void readBc7Ends(BlockBits& bits, Bc7Block& block) {
     }
 }
 
-/// False where the mode is none.
+/// Returns false for the reserved mode.
 bool readBc7Block(const std::uint8_t* bytes, Bc7Block& block) {
     if (bytes[0] == 0) return false;
     const auto number = static_cast<unsigned>(std::countr_zero(bytes[0]));

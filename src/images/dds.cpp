@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The head of a DDS file, by Microsoft's programming guide for DDS.
+// Header of a DDS file, according to Microsoft's Programming Guide for DDS.
 #include <algorithm>
 #include <bit>
 #include <iterator>
@@ -17,7 +17,7 @@ constexpr std::uint32_t codeOf(const char (&text)[5]) {
     return code;
 }
 
-/// A format by its number in DXGI or its FourCC, which are numbers of Direct3D 9 too.
+/// Format by its DXGI number, or by its FourCC (which may be a Direct3D 9 format number).
 struct NamedFormat {
     std::uint32_t code;
     TexelKind kind;
@@ -84,7 +84,7 @@ class DdsReader {
   private:
     [[nodiscard]] std::uint32_t number(std::size_t at) const { return little32(bytes_.data() + at); }
 
-    /// One after the other; those that are cut off are left out.
+    /// Lists the levels in order; truncated levels are skipped.
     void listLevels() {
         constexpr std::size_t kCountAt = 28;
         constexpr std::uint32_t kMostLevels = 31;
@@ -121,7 +121,7 @@ class DdsReader {
             why_ = "it is a DDS of the format " + codeText(code) + ", which is not read";
             return false;
         }
-        // The game Doom 3's: as DXT5, with red in alpha.
+        // Used by the game Doom 3: DXT5 with red in alpha.
         if (code == codeOf("RXGB")) texture_.layout.x.channel = MapChannel::alpha;
         return true;
     }
@@ -153,7 +153,7 @@ class DdsReader {
         return false;
     }
 
-    /// Channels where masks say, in up to 32 bits.
+    /// Reads channels described by masks, with up to 32 bits per texel.
     bool findMasks(std::uint32_t flags) {
         constexpr std::uint32_t kAlpha = 1, kOnlyAlpha = 2, kColors = 0x40, kGrey = 0x20000, kSigned = 0x80000;
         constexpr std::size_t kBitsAt = 88, kMasksAt = 92;
@@ -172,7 +172,7 @@ class DdsReader {
             masks[i] = is_there ? number(kMasksAt + 4 * i) : 0;
             const std::uint32_t ones = masks[i] == 0 ? 0 : masks[i] >> std::countr_zero(masks[i]);
             if ((ones & (ones + 1)) != 0 || (bits < 32 && masks[i] >> bits != 0))
-                return false;  // bits apart, or outside
+                return false;  // bits not contiguous, or out of range
             if (ones > 255) texture_.format.bits = 16;
         }
         if (masks[0] == 0) return false;
@@ -181,7 +181,7 @@ class DdsReader {
         return true;
     }
 
-    /// Direct3D 9's V8U8, V16U16 and Q8W8V8U8.
+    /// Reads the Direct3D 9 formats V8U8, V16U16 and Q8W8V8U8.
     bool findSigned(std::uint32_t bits) {
         constexpr std::size_t kFirstMaskAt = 92;
         const std::uint32_t first = number(kFirstMaskAt);

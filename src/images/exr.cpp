@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// EXR by OpenEXR's C library, which is loaded when the first such image comes.
+// EXR with OpenEXR's C library, which is loaded for the first EXR image.
 #include <openexr.h>
 
 #include <algorithm>
@@ -22,19 +22,19 @@ namespace tspace {
 
 namespace {
 
-/// The fields of the header that are needed before the library reads the file.
+/// Header fields that are needed before the library reads the file.
 struct ExrHead {
     ImageSize size = {};
     std::uint64_t channel_count = 0, chunk_pixels = 0;
-    bool has_more = false;  ///< several parts, or several values a pixel
-    bool is_plain = false;  ///< packed in a way that every reader has long had
+    bool has_more = false;  ///< multiple parts, or multiple values per pixel
+    bool is_plain = false;  ///< uses a compression that all readers have supported for a long time
 };
 
 class ExrHeadReader {
   public:
     explicit ExrHeadReader(ByteSpan bytes) : bytes_(bytes) {}
 
-    /// Returns nothing for an invalid header.
+    /// Returns nullopt for an invalid header.
     std::optional<ExrHead> read() {
         at_ = 4;  // after the magic number
         ExrHead head;
@@ -42,7 +42,7 @@ class ExrHeadReader {
         head.has_more = (number() & kDeepOrParts) != 0;
         std::uint64_t tile_pixels = 0;
         for (std::string_view name = text(); !name.empty(); name = text()) {
-            text();  // its type
+            text();  // the attribute type
             const std::uint64_t size = number(), begin = at_;
             if (failed_ || size > bytes_.size() - at_) return {};
             if (name == "dataWindow" && size == 16) head.size = readWindow();
@@ -83,7 +83,7 @@ class ExrHeadReader {
         std::array<std::int64_t, 4> corner{};
         for (std::int64_t& value : corner) value = static_cast<std::int32_t>(number());
         const auto size = [](std::int64_t first, std::int64_t last) {
-            constexpr std::int64_t kMost = std::int64_t{1} << 30;  // no product overflows
+            constexpr std::int64_t kMost = std::int64_t{1} << 30;  // prevents overflow of products
             return static_cast<std::uint32_t>(std::clamp<std::int64_t>(last - first + 1, 0, kMost));
         };
         return {size(corner[0], corner[2]), size(corner[1], corner[3])};
@@ -107,7 +107,7 @@ class ExrHeadReader {
     bool failed_ = false;
 };
 
-/// The functions of the library that is there at run time.
+/// Functions of the library installed at run time.
 struct OpenExr {
     LoadedLibrary library = LoadedLibrary(TSPACE_OPENEXR_LIBRARY, std::size_t{8} << 20);
     decltype(&exr_start_read) startRead = library.find("exr_start_read");
@@ -176,7 +176,7 @@ std::int64_t exrByteCount(exr_const_context_t, void* data) {
     return static_cast<std::int64_t>(static_cast<const ByteSpan*>(data)->size());
 }
 
-/// The channels of a file that are read.
+/// Channels of a file that are read.
 struct ExrChannels {
     /// Channels of red, green and blue. The second is empty if there is one channel, the third if there are only x and y.
     std::array<std::string, 3> colors = {};
@@ -185,7 +185,7 @@ struct ExrChannels {
     [[nodiscard]] bool has(std::string_view name) const {
         return !name.empty() && (name == alpha || std::find(colors.begin(), colors.end(), name) != colors.end());
     }
-    /// Whether there is a layer, or no z.
+    /// Returns whether the channels are in a layer, or z is missing.
     [[nodiscard]] bool isUnusual() const { return colors[2].empty() || colors[0].find('.') != std::string::npos; }
     [[nodiscard]] std::string text() const {
         std::string text = colors[0];
@@ -194,19 +194,19 @@ struct ExrChannels {
     }
 };
 
-/// The names of channels of one layer ("layer.R"; empty: none), without the layer, in lower case.
+/// Channel names of one layer ("layer.R"; empty: no layer), without the layer name, in lower case.
 struct ExrLayer {
-    std::string prefix = {};  ///< with the dot
+    std::string prefix = {};  ///< including the dot
     std::vector<std::string_view> names = {};
 
-    /// The channel of that lower case letter; empty where there is none.
+    /// Returns the channel with this lower-case letter; empty if there is none.
     [[nodiscard]] std::string find(const char* letter) const {
         for (const std::string_view name : names) {
             if (lowerAscii(std::string(name.substr(prefix.size()))) == letter) return std::string(name);
         }
         return {};
     }
-    /// R, G and B or X, Y and Z, or the first two of them.
+    /// Returns the channels R, G, B or X, Y, Z, or the first two of them.
     [[nodiscard]] std::optional<ExrChannels> vectors() const {
         constexpr std::array<std::array<const char*, 3>, 2> kLetters{{{"r", "g", "b"}, {"x", "y", "z"}}};
         for (const std::size_t count : {3U, 2U}) {
@@ -220,7 +220,7 @@ struct ExrLayer {
         }
         return {};
     }
-    /// A single channel, whatever its name, and perhaps alpha.
+    /// Returns a single channel of any name, optionally with alpha.
     [[nodiscard]] std::optional<ExrChannels> heights() const {
         const std::string alpha = find("a");
         if (names.size() != (alpha.empty() ? 1U : 2U)) return {};
@@ -231,8 +231,8 @@ struct ExrLayer {
     }
 };
 
-/// Channels without a layer come first, then those of the layer whose name contains "normal", or of the only layer with
-/// vectors; finally a single channel.
+/// Chooses channels: those without a layer first, then those of a layer whose name contains "normal", or of the only
+/// layer with vectors; finally a single channel.
 std::optional<ExrChannels> chooseExrChannels(std::span<const std::string_view> names, std::string& why) {
     std::vector<ExrLayer> layers;
     for (const std::string_view name : names) {
@@ -369,7 +369,7 @@ class ExrReader {
         return true;
     }
 
-    /// Puts the chunk's pixels where its corner (x, y) is in the image.
+    /// Copies the chunk's pixels to the image, with its corner at (x, y).
     bool readChunk(const exr_chunk_info_t& chunk, std::uint32_t x, std::uint32_t y) {
         if (chunk.width <= 0 || chunk.height <= 0 || static_cast<std::uint32_t>(chunk.width) > size_.width - x ||
             static_cast<std::uint32_t>(chunk.height) > size_.height - y) {
@@ -415,7 +415,7 @@ class ExrReader {
         readFloats(is_whole_ ? ImageUse::numbers : use_, image_);
     }
 
-    /// Whole numbers n become n / (2^b - 1), with the least b of 8, 16 and 32 bits that holds all of them.
+    /// Scales integers n to n / (2^b - 1), with the smallest b of 8, 16 and 32 that fits all of them.
     void scaleWhole() {
         float most = 0;
         for (const Vec3& texel : image_.texels) most = std::max({most, texel.x, texel.y, texel.z});
@@ -458,7 +458,8 @@ bool addExrChannels(exr_context_t file, bool has_alpha, exr_pixel_type_t type) {
     return true;
 }
 
-/// Rows of the image from `row` on, as channels B, G, R and perhaps A; the rows that there are, where it ends.
+/// Writes one chunk of rows, starting at `row`, with channels B, G, R and optionally A; fewer rows at the end of the
+/// image.
 bool writeExrRows(exr_context_t file, const FloatImage& image, std::uint32_t row) {
     exr_chunk_info_t chunk{};
     exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
@@ -494,7 +495,7 @@ bool hasOpenExr() { return openExr().is_loaded; }
 ImageClaim claimOfExr(ByteSpan bytes) {
     const std::optional<ExrHead> head = ExrHeadReader(bytes).read();
     if (!head) return {};
-    // The pixels, and of one chunk what is packed, unpacked and between, 4 bytes a channel each.
+    // The pixels; and for one chunk the compressed, decompressed and intermediate data, with 4 bytes per channel each.
     constexpr std::uint64_t kMost = std::uint64_t{1} << 60;
     const double work = 16.0 * static_cast<double>(head->size.pixels()) +
                         16.0 * static_cast<double>(head->chunk_pixels) * static_cast<double>(head->channel_count);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Formats in and out, and what flipping takes.
+// Input and output formats, and the memory needed for flipping.
 #include "images/flip_green.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ ImageFileFormat fileFormat(ImageFormat format) {
     }
 }
 
-/// Told by content; an error for what this build does not read.
+/// Determines the format by content. Fails for formats that this build cannot read.
 Result<ImageFileFormat> readableFormat(ByteSpan bytes) {
     const ImageFormat format = imageFormat(bytes);
     if (const char* why_not = whyNotRead(format)) return Error{ErrorCode::unsupportedFile, why_not};
@@ -85,7 +85,7 @@ Result<FlippedImage> flipTgaToPng(ByteSpan bytes) {
 }
 #endif
 
-/// Pixels of a JPEG or WebP.
+/// Decodes the pixels of a JPEG or WebP.
 Result<ChannelImage> readPixels([[maybe_unused]] ByteSpan bytes, ImageFileFormat format) {
 #ifdef TSPACE_HAS_IMAGES
     if (format == ImageFileFormat::jpeg) return readJpegPixels(bytes);
@@ -96,7 +96,7 @@ Result<ChannelImage> readPixels([[maybe_unused]] ByteSpan bytes, ImageFileFormat
     return Error{ErrorCode::unsupportedFile, whyNotRead(ImageFormat::unknown)};
 }
 
-/// `like`: the file that the pixels were read from.
+/// Encodes pixels. `like`: the file that the pixels were read from.
 Result<std::vector<std::uint8_t>> writePixels([[maybe_unused]] const ChannelImage& image, ImageFileFormat format,
                                               [[maybe_unused]] int jpeg_quality, [[maybe_unused]] ByteSpan like) {
 #ifdef TSPACE_HAS_IMAGES
@@ -129,8 +129,8 @@ std::uint64_t flipWorkBytes(ByteSpan bytes) {
     const ImageClaim claim = claimOf(bytes);
     switch (imageFormat(bytes)) {
         case ImageFormat::png: {
-            // Rows of 4 channels of 16 bits, in and out, and those that filters look at. All of them where they come in
-            // no order.
+            // Input and output rows of 4 channels with 16 bits, and the rows that filters need. If the image is
+            // interlaced, all rows.
             constexpr std::size_t kInterlaceAt = 28;
             const std::uint64_t row_bytes = std::uint64_t{8} * claim.size.width;
             const bool is_interlaced = bytes.size() > kInterlaceAt && bytes[kInterlaceAt] != 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PNG in and out with all of its chunks, which are copied as they are; pixels are packed anew.
+// Reads and writes PNG with all of its chunks, which are copied unchanged; pixels are compressed again.
 #include <algorithm>
 #include <string_view>
 
@@ -14,10 +14,10 @@ constexpr std::size_t kSignatureBytes = 8;
 struct Chunk {
     std::string_view type = {};
     ByteSpan data = {};
-    ByteSpan whole = {};  ///< with length, type and checksum
+    ByteSpan whole = {};  ///< including length, type and checksum
 };
 
-/// All chunks up to the end mark, the header first.
+/// Returns all chunks up to the end chunk, starting with the header.
 Result<std::vector<Chunk>> readChunks(ByteSpan bytes) {
     std::vector<Chunk> chunks;
     for (std::size_t at = kSignatureBytes; chunks.empty() || chunks.back().type != "IEND";) {
@@ -35,7 +35,7 @@ Result<std::vector<Chunk>> readChunks(ByteSpan bytes) {
     return chunks;
 }
 
-/// The checksum of ISO 3309, which ends each chunk.
+/// Returns the CRC (ISO 3309) that ends each chunk.
 std::uint32_t checksum(ByteSpan bytes) {
     std::uint32_t sum = ~std::uint32_t{0};
     for (const std::uint8_t byte : bytes) {
@@ -51,7 +51,7 @@ void append(std::vector<std::uint8_t>& out, ByteSpan bytes) {
     std::copy(bytes.begin(), bytes.end(), out.begin() + static_cast<std::ptrdiff_t>(begin));
 }
 
-/// A chunk whose data `change` has changed.
+/// Appends a chunk with its data modified by `change`.
 template <class Change>
 void appendChanged(std::vector<std::uint8_t>& out, const Chunk& chunk, const Change& change) {
     const std::size_t begin = out.size();
@@ -62,7 +62,7 @@ void appendChanged(std::vector<std::uint8_t>& out, const Chunk& chunk, const Cha
     for (std::size_t i = 0; i < 4; ++i) out[out.size() - 4 + i] = static_cast<std::uint8_t>(sum >> (24 - 8 * i));
 }
 
-/// A colour of three numbers of 16 bits, of which 8 count where the image has so many.
+/// Inverts a color of three 16-bit numbers, of which only 8 bits are used in 8-bit images.
 void invertColor(std::span<std::uint8_t> data, std::uint8_t bits) {
     constexpr std::size_t kGreenAt = 2;
     if (data.size() != 6) return;
@@ -70,7 +70,7 @@ void invertColor(std::span<std::uint8_t> data, std::uint8_t bits) {
     data[kGreenAt + 1] ^= 0xff;
 }
 
-/// The chunks of the input; of pixels, header and colours, those that were changed.
+/// Returns the input's chunks, with modified pixels, header and colors.
 std::vector<std::uint8_t> joinChunks(ByteSpan bytes, const std::vector<Chunk>& chunks, const PngHeader& header,
                                      const std::vector<Chunk>& packed) {
     std::vector<std::uint8_t> out;
@@ -132,7 +132,7 @@ Result<FlippedPng> flipPng(ByteSpan bytes) {
         return Error{ErrorCode::unsupportedFile, "it is an animated PNG"};
     }
     if (header.color == PngHeader::kPalette) {
-        // Its pixels are numbers of colours, and stay.
+        // The pixels are palette indices and stay unchanged.
         if (Error error = checkPixels(bytes, header); error.code != ErrorCode::ok) return error;
         return FlippedPng{joinChunks(bytes, chunks, header, {}), 8};
     }

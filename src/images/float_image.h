@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Images as numbers: what normal maps are read into and written from. Linear; colour spaces are not looked at.
+// Images as floats: decoded normal maps, and input of the encoders. Linear; color spaces are ignored.
 #pragma once
 
 #include <optional>
@@ -9,29 +9,30 @@
 
 namespace tspace {
 
-/// Bytes per pixel that decoding, converting and packing a map hold, without the decoder's own.
+/// Bytes per pixel needed for decoding, converting and encoding a map, without the decoder's own memory.
 inline constexpr std::uint64_t kMapPixelBytes = 72;
-/// Larger images of a model are not written anew.
+/// Larger images of a model are not rewritten.
 inline constexpr std::uint64_t kMostModelMapPixels = std::uint64_t{1} << 26;
 
-/// Whether it is a WebP that was packed as photographs are.
+/// Returns whether the file is a lossy WebP.
 bool isLossyWebp(ByteSpan bytes);
 
-/// Reads only the header, so nothing is guessed; returns nothing for other files and unsupported formats.
+/// Reads only the header, so the layout is not guessed; returns nullopt for other files and unsupported formats.
 std::optional<TextureFacts> textureFacts(ByteSpan bytes);
 
-/// decodeImage with all bits of the file. Memory: 16 bytes a pixel, or 12 without alpha, and the decoder's.
+/// Like decodeImage, with all bits of the file. Memory: 16 bytes per pixel, or 12 without alpha, plus the decoder's
+/// memory.
 std::optional<FloatImage> decodeFloatImage(ByteSpan bytes, std::uint64_t most_pixels, std::string& why,
                                            ImageUse use = ImageUse::vectors);
 
-/// An EXR with channels of 16 (half) or 32 bits, packed without loss. All are finite. Nothing where it is out of memory.
-/// whyNotRead(ImageFormat::exr) must be null.
+/// Encodes an EXR with channels of 16 (half) or 32 bits, with lossless compression. All values must be finite. Returns
+/// nullopt if memory runs out. Requires whyNotRead(ImageFormat::exr) == nullptr.
 std::optional<std::vector<std::uint8_t>> encodeExr(const FloatImage& image, unsigned bits);
 
-/// A PNG of 8 or 16 bits without a word on colours: each channel clamped to 0 to 1, then rounded to the nearest integer
-/// (not finite: 0). Nothing where this build writes no PNG or libspng fails.
+/// Encodes a PNG with 8 or 16 bits, without color space information: each channel is clamped to 0 to 1 and rounded to
+/// the nearest integer (not finite: 0). Returns nullopt if this build cannot write PNG, or if libspng fails.
 std::optional<std::vector<std::uint8_t>> encodePng(const FloatImage& image, unsigned bits);
-/// encodePng for bytes.
+/// Like encodePng above, for 8-bit images.
 std::optional<std::vector<std::uint8_t>> encodePng(const RgbImage& image);
 
 }  // namespace tspace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Floats of an image file: values that are not finite, and vectors from -1 to 1.
+// Floats of an image file: values that are not finite, and vectors in the range -1 to 1.
 #include <algorithm>
 #include <cmath>
 
@@ -9,14 +9,14 @@ namespace tspace {
 
 namespace {
 
-/// A file of floats holds vectors as they are, from -1 to 1, or as integers would, (v + 1) / 2. Counts how well texels fit
-/// either way: unit length, or for two channels at most that. Texels of zeros have no say, since they are background.
+/// A float file stores vectors either directly, from -1 to 1, or encoded as (v + 1) / 2. Counts how well texels match
+/// either interpretation: unit length, or at most unit length for two channels. Zero texels are ignored as background.
 class RangeEvidence {
   public:
     explicit RangeEvidence(bool has_z) : has_z_(has_z) {}
 
     void add(const Vec3& texel) {
-        constexpr float kBelowZero = -1.0F / 64.0F;  // filters that sharpen make less
+        constexpr float kBelowZero = -1.0F / 64.0F;  // sharpening filters cause values down to this limit
         is_grey_ = is_grey_ && texel.x == texel.y && texel.y == texel.z;
         if (texel == Vec3{}) return;
         const Vec3 moved{2 * texel.x - 1, 2 * texel.y - 1, 2 * texel.z - 1};
@@ -29,7 +29,7 @@ class RangeEvidence {
         sum_z_ += static_cast<double>(texel.z);
     }
 
-    /// Why they are vectors from -1 to 1; empty where they are not.
+    /// Returns why the values are vectors from -1 to 1; empty if they are not.
     [[nodiscard]] std::string whySigned() const {
         constexpr double kMost = 0.9, kHalf = 0.5, kFew = 0.1, kSome = 0.01;
         if (count_ == 0 || is_grey_) return {};
@@ -55,7 +55,7 @@ class RangeEvidence {
     [[nodiscard]] double share(std::uint64_t count) const {
         return static_cast<double>(count) / static_cast<double>(count_);
     }
-    /// Colors and factors can have unit length too.
+    /// Returns whether most vectors point along +z: colors and factors can have unit length too.
     [[nodiscard]] bool pointsUp() const {
         constexpr double kUp = 0.8, kAside = 0.25;
         const auto n = static_cast<double>(count_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Formats by their first bytes, and the way to their decoders.
+// Detects formats by their first bytes, and selects the decoders.
 #include "images/image.h"
 
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace tspace {
 
 namespace {
 
-/// The segments for applications (Exif, colour profile) and comments. Not JFIF and Adobe, which say how the pixels are
-/// stored.
+/// Appends application segments (Exif, color profile) and comments, except JFIF and Adobe, which describe the storage
+/// of the pixels.
 void appendMetadata(ByteSpan jpeg, std::vector<std::uint8_t>& out) {
     constexpr unsigned kJfif = 0xe0, kAdobe = 0xee, kLastApplication = 0xef, kComment = 0xfe, kScan = 0xda;
     for (std::size_t at = 2; at + 4 <= jpeg.size() && jpeg[at] == 0xff && jpeg[at + 1] != kScan;) {
@@ -37,16 +37,16 @@ ImageClaim claimOfPng(ByteSpan bytes) {
     const auto number = [&](std::size_t at) {
         std::uint32_t value = 0;
         for (std::size_t i = 0; i < 4; ++i) value = value << 8 | bytes[at + i];
-        return std::min(value, std::uint32_t{1} << 30);  // no product overflows
+        return std::min(value, std::uint32_t{1} << 30);  // prevents overflow of products
     };
     const ImageSize size{number(kWidthAt), number(kHeightAt)};
     return {size, 3 * size.pixels() + 64 * std::uint64_t{size.width}};
 }
 
-/// libjpeg-turbo holds pixels; and the coefficients of all components where these come in several scans.
+/// libjpeg-turbo stores the pixels, and the coefficients of all components if they are split into several scans.
 ImageClaim claimOfJpeg(ByteSpan bytes) {
     constexpr std::size_t kHeadBytes = 4, kFrameBytes = 8;
-    constexpr unsigned kProgressive = 2;  // the last two bits of a frame's marker
+    constexpr unsigned kProgressive = 2;  // the lowest two bits of a frame marker
     ImageSize size;
     std::uint64_t components = 0;
     for (std::size_t at = 2; at + kHeadBytes + kFrameBytes < bytes.size();) {
@@ -71,7 +71,7 @@ ImageClaim claimOfJpeg(ByteSpan bytes) {
 }
 
 std::vector<std::uint8_t> joinJpeg(ByteSpan packed, ByteSpan like) {
-    // The size follows the start marker and the JFIF segment.
+    // Offset of the size field, after the start marker and the JFIF marker.
     constexpr std::size_t kMark = 2, kSizeAt = 4;
     const bool has_jfif = packed.size() > kSizeAt + 1 && packed[kMark] == 0xff && packed[kMark + 1] == 0xe0;
     const std::size_t count = has_jfif ? kMark + (std::size_t{packed[kSizeAt]} << 8 | packed[kSizeAt + 1]) : 0;
@@ -90,7 +90,7 @@ bool has(ByteSpan bytes, std::size_t at, std::string_view text) {
                       [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
 }
 
-/// A format: its names, and its decoder in this build.
+/// Names of a format, and its decoder in this build.
 struct Codec {
     const char* name = "";
     const char* mime_type = "";
@@ -103,7 +103,7 @@ struct Codec {
     std::optional<RgbImage> (*decode)(ByteSpan, std::uint64_t, std::string&, ImageUse) = nullptr;
 };
 
-/// A decoder of a format that has integers alone.
+/// Decodes a format that stores only integers.
 template <std::optional<RgbImage> (*decode)(ByteSpan, std::uint64_t, std::string&)>
 std::optional<RgbImage> decodeIntegers(ByteSpan bytes, std::uint64_t most_pixels, std::string& why, ImageUse) {
     return decode(bytes, most_pixels, why);
@@ -237,7 +237,7 @@ std::vector<std::uint8_t> decodeAlpha([[maybe_unused]] ByteSpan bytes) {
         if (image && image->channels == 4) pixels = std::move(image->pixels);
     }
 #endif
-    // In place: entry i lies before 4 i + 3.
+    // In place: byte i is written after byte 4 i + 3 was read.
     for (std::size_t i = 0; 4 * i < pixels.size(); ++i) pixels[i] = pixels[4 * i + 3];
     pixels.resize(pixels.size() / 4);
     return pixels;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Images as they come out of model files, which may be hostile: what format they are, what they claim, their pixels.
+// Images from model files, which may be malicious: format, declared size, and pixels.
 #pragma once
 
 #include <cstdint>
@@ -12,29 +12,31 @@
 
 namespace tspace {
 
-/// Told by the first bytes, whatever a file says of itself. TGA has no mark: what is nothing else and has a head that is right for its
-/// length. Not in JavaScript (TSPACE_SMALL).
+/// Returns the format according to the first bytes, regardless of the file's metadata. TGA has no magic number: a file
+/// of no other format is a TGA if its header is valid for its length. Not available in JavaScript (TSPACE_SMALL).
 ImageFormat imageFormat(ByteSpan bytes);
-/// "PNG", "WebP", "KTX2"; empty for an unknown one.
+/// Returns "PNG", "WebP", "KTX2"; empty for an unknown format.
 const char* formatName(ImageFormat format);
-/// "image/png"; empty for an unknown one, and for TGA, which has none.
+/// Returns "image/png"; empty for an unknown format, and for TGA, which has no MIME type.
 const char* mimeType(ImageFormat format);
-/// Null, or why this build reads no pixels of that format: half a sentence, "it is AVIF, which is not read".
+/// Returns why this build cannot read pixels of the format, as half a sentence ("it is AVIF, which is not read"), or
+/// null if it can.
 const char* whyNotRead(ImageFormat format);
 
-/// About the most memory that decodeImage holds for these bytes; 0 where it decodes nothing.
+/// Returns the approximate peak memory of decodeImage for these bytes; 0 if it cannot decode them.
 std::uint64_t imageWorkBytes(ByteSpan bytes);
 
-/// The size in the file's header, without any check; at most 2^30 each. 0 where decodeImage decodes nothing.
+/// Returns the size in the file's header, unchecked; at most 2^30 each. 0 if decodeImage cannot decode the file.
 ImageSize claimedSize(ByteSpan bytes);
 
-/// Decodes PNG, JPEG, WebP, EXR, KTX2, DDS and TGA (rounded to 8 bits), told apart by content. Nothing, with the reason in `why` (half a sentence), for other
-/// formats, broken files, more than `most_pixels` pixels, and images that are out of proportion to their bytes.
+/// Decodes PNG, JPEG, WebP, EXR, KTX2, DDS and TGA, distinguished by content, rounded to 8 bits. Returns nullopt, with
+/// the reason in `why` (half a sentence), for other formats, corrupt files, more than `most_pixels` pixels, and images
+/// that are out of proportion to their file size.
 std::optional<RgbImage> decodeImage(ByteSpan bytes, std::uint64_t most_pixels, std::string& why,
                                     ImageUse use = ImageUse::vectors);
 
-/// The alpha channel of an image that decodeImage decodes, rounded to 8 bits; empty where it has none, or is no PNG, WebP, KTX2, DDS or TGA.
-/// Holds 4 bytes a pixel beside what decodeImage holds.
+/// Returns the alpha channel of an image that decodeImage supports, rounded to 8 bits; empty if it has none, or is not
+/// PNG, WebP, KTX2, DDS or TGA. Needs 4 bytes per pixel in addition to the memory of decodeImage.
 std::vector<std::uint8_t> decodeAlpha(ByteSpan bytes);
 
 }  // namespace tspace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// JPEG by libjpeg-turbo, through its TurboJPEG interface, which returns errors and prints nothing.
+// JPEG with libjpeg-turbo, through its TurboJPEG interface, which returns errors and prints nothing.
 #include <turbojpeg.h>
 
 #include <cstring>
@@ -24,14 +24,15 @@ Decompressor makeDecompressor() {
     return made;
 }
 
-/// Whether a call succeeded. Throws where its message names memory ("Insufficient memory", "Memory allocation failure").
+/// Returns whether a call succeeded. Throws OutOfMemory if the error message mentions memory ("Insufficient memory",
+/// "Memory allocation failure").
 bool succeeds(int result, const Decompressor& decompressor) {
     if (result != 0 && std::strstr(tjGetErrorStr2(decompressor.get()), "emory") != nullptr) throw OutOfMemory{};
     return result == 0;
 }
 
 struct JpegHead {
-    ImageSize size = {};  ///< 0: broken
+    ImageSize size = {};  ///< 0: corrupt
     int color_space = 0;
 
     [[nodiscard]] bool isForPrint() const { return color_space == TJCS_CMYK || color_space == TJCS_YCCK; }
@@ -47,8 +48,8 @@ JpegHead readHead(const Decompressor& decompressor, ByteSpan bytes) {
     return {{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)}, color_space};
 }
 
-/// A progressive file may claim thousands of scans over all pixels. Where data are cut short the library would go on
-/// with grey.
+/// Limits scans, because a progressive file may declare thousands of scans over all pixels. Stops at warnings, because
+/// the library would fill truncated data with gray.
 bool decompress(const Decompressor& decompressor, ByteSpan bytes, ImageSize size, std::vector<std::uint8_t>& rgb) {
     constexpr int kFlags = TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS | TJFLAG_STOPONWARNING;
     rgb.resize(3 * size.pixels());
@@ -99,7 +100,7 @@ Result<std::vector<std::uint8_t>> writeJpeg(const ChannelImage& image, int quali
                                                  0, static_cast<int>(image.height), TJPF_RGB, &data, &size, TJSAMP_444,
                                                  quality, TJFLAG_ACCURATEDCT);
     const std::unique_ptr<unsigned char, decltype(&tjFree)> keeper(data, &tjFree);
-    if (result != 0) throw OutOfMemory{};  // all that can go wrong with pixels and sizes that were checked
+    if (result != 0) throw OutOfMemory{};  // the only possible error after pixels and sizes were checked
     return joinJpeg({data, size}, like);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The head of a KTX2 file, by the Khronos KTX File Format Specification 2.0.
+// Header of a KTX2 file, according to the Khronos KTX File Format Specification 2.0.
 #include <algorithm>
 #include <iterator>
 #include <string_view>
@@ -10,7 +10,7 @@ namespace tspace {
 
 namespace {
 
-/// Vulkan's number of a format, and whether it has the sRGB curve.
+/// Vulkan format number, and whether the format is sRGB.
 struct VulkanFormat {
     std::uint16_t number;
     TexelKind kind;
@@ -35,7 +35,7 @@ constexpr VulkanFormat kVulkanFormats[] = {
     {145, TexelKind::bc7},        {146, TexelKind::bc7, true},  {153, TexelKind::eacR},
     {154, TexelKind::eacRs},      {155, TexelKind::eacRg},      {156, TexelKind::eacRgs}};
 
-/// Data format descriptor: describes the texels beyond Vulkan's format number.
+/// Data format descriptor: describes the texels in addition to Vulkan's format number.
 struct Description {
     std::uint32_t model = 0, transfer = 0;
     std::uint32_t samples = 0, channel = 0,
@@ -64,7 +64,7 @@ class Ktx2Reader {
   private:
     [[nodiscard]] std::uint32_t number(std::size_t at) const { return little32(bytes_.data() + at); }
 
-    /// The bytes from `at` on; nothing where they are not in the file.
+    /// Returns `count` bytes from `at` on; nullopt if they exceed the file.
     [[nodiscard]] std::optional<ByteSpan> part(std::uint64_t at, std::uint64_t count) const {
         if (at > bytes_.size() || count > bytes_.size() - at) return {};
         return bytes_.subspan(static_cast<std::size_t>(at), static_cast<std::size_t>(count));
@@ -78,7 +78,7 @@ class Ktx2Reader {
         return depth <= 1 && layers <= 1 && faces == 1;
     }
 
-    /// The first block of the data format descriptor; of its samples the first.
+    /// Reads the first block of the data format descriptor, and the first two of its samples.
     bool readDescription() {
         constexpr std::size_t kHead = 4, kBlock = 24, kSample = 16, kChannelAt = kHead + kBlock + 3;
         const std::optional<ByteSpan> data = part(number(48), number(52));
@@ -161,7 +161,7 @@ class Ktx2Reader {
         return data.has_value();
     }
 
-    /// All levels must lie behind the head, apart from each other.
+    /// Checks that all levels are after the header and do not overlap.
     bool findLevel() {
         constexpr std::size_t kHeadBytes = 80, kEntry = 24, kMostLevels = 31;
         why_ = "it is a broken KTX2";
@@ -178,7 +178,7 @@ class Ktx2Reader {
             const auto size = [&](std::uint32_t side) { return std::max<std::uint32_t>(side >> i, 1); };
             const std::uint64_t wanted = texture_.format.bytesOf(size(texture_.size.width), size(texture_.size.height));
             if (range.begin < kHeadBytes + kEntry * count || !part(range.begin, range.count)) return false;
-            // BasisLZ says nothing of unpacked bytes.
+            // BasisLZ does not declare the uncompressed size.
             if (unpacked != wanted && texture_.repacking != Repacking::basisLz) return false;
             if (texture_.repacking == Repacking::none && range.count != wanted) return false;
             ranges.push_back(range);
@@ -192,7 +192,7 @@ class Ktx2Reader {
         return true;
     }
 
-    /// Keys with values, of which orientation and swizzle count. What is broken among them is left.
+    /// Reads the key/value data, of which orientation and swizzle are used. Invalid entries are ignored.
     void readValues() {
         const std::optional<ByteSpan> data = part(number(56), number(60));
         if (!data) return;
@@ -221,7 +221,7 @@ class Ktx2Reader {
             swizzle[i] = static_cast<std::uint8_t>(found);
         }
         texture_.swizzle = swizzle;
-        // Two channels of four alone are shown.
+        // Only two of four channels are shown.
         if (swizzle[0] < 4 && swizzle[1] < 4 && swizzle[2] == TextureFile::kZero && swizzle[3] == TextureFile::kOne) {
             x_ = swizzle[0];
             y_ = swizzle[1];
@@ -229,7 +229,7 @@ class Ktx2Reader {
         if (x_ != y_) setChannels(x_, y_);
     }
 
-    /// Channels of the format that hold x and y: looks where they are shown.
+    /// Sets the channels of the format that hold x and y, and finds the output colors that show them.
     void setChannels(std::uint8_t x, std::uint8_t y) {
         x_ = x;
         y_ = y;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Functions of a library that need not be there: found at run time, by their names.
+// Functions of an optional library, looked up by name at run time.
 #pragma once
 
 #include <dlfcn.h>
@@ -13,19 +13,19 @@
 
 namespace tspace {
 
-/// Throws OutOfMemory unless this many bytes can be mapped now. For libraries whose own handling of failed allocations
-/// is not trusted: called before them, with more than they take.
+/// Throws OutOfMemory unless this many bytes can be mapped now. Called before libraries whose handling of failed
+/// allocations is not trusted, with more than they need.
 inline void requireMemory(std::size_t bytes) {
     void* const memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (memory == MAP_FAILED) throwOutOfMemory();
     munmap(memory, bytes);
 }
 
-/// Stays loaded as long as the process lives.
+/// Library that stays loaded until the process ends.
 class LoadedLibrary {
   public:
-    /// `needed_bytes`: more address space than the library and its dependencies take. Throws OutOfMemory if that is not
-    /// available or the loader reports anything but an absent or unusable library. A static variable is then
+    /// `needed_bytes`: upper limit of the address space of the library and its dependencies. Throws OutOfMemory if that
+    /// is not available, or if the loader reports anything but an absent or unusable library. A static variable is then
     /// initialized again by the next call.
     LoadedLibrary(const char* name, std::size_t needed_bytes) {
         requireMemory(needed_bytes);
@@ -40,7 +40,7 @@ class LoadedLibrary {
         throwOutOfMemory();
     }
 
-    /// Becomes a pointer to a function, whose type the caller knows.
+    /// Converts to a function pointer of the type that the caller expects.
     class Address {
       public:
         explicit Address(void* address) : address_(address) {}
@@ -53,14 +53,14 @@ class LoadedLibrary {
         void* address_;
     };
 
-    /// Null where it is not there.
+    /// Returns null if the function does not exist.
     Address find(const char* name) {
         void* const address = library_ == nullptr ? nullptr : dlsym(library_, name);
         has_all_ = has_all_ && address != nullptr;
         return Address(address);
     }
 
-    /// Whether the library is there, with every function that was looked for.
+    /// Returns whether the library exists, with every requested function.
     [[nodiscard]] bool hasAll() const { return library_ != nullptr && has_all_; }
 
   private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Memory for C libraries whose error codes do not tell a lack of memory from a broken file.
+// Allocator for C libraries whose error codes do not distinguish a lack of memory from a corrupt file.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace tspace {
 
-/// Whether an allocation of a C library has failed in this thread since it was last cleared.
+/// Whether an allocation of a C library has failed in this thread since the flag was last cleared.
 inline thread_local bool has_allocation_failed = false;
 
 inline void* noted(void* memory, std::size_t bytes) {
@@ -22,8 +22,8 @@ inline void* notedCalloc(std::size_t count, std::size_t bytes) {
     return noted(std::calloc(count, bytes), count * bytes);
 }
 
-/// Calls body(), which returns something that is false for a file that cannot be read. Throws OutOfMemory where it is
-/// false because an allocation failed.
+/// Calls body(), whose result converts to false if a file cannot be read. Throws OutOfMemory if the cause was a failed
+/// allocation.
 template <class Body>
 auto orOutOfMemory(const Body& body) -> decltype(body()) {
     has_allocation_failed = false;

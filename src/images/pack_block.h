@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bits of blocks of one channel: what texel_format.cpp decodes.
+// Bit layout of one-channel blocks, which texel_format.cpp decodes.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace tspace {
 
-/// BC4. `first` > `second`: eight values, else six with 0 and 1; of a signed format they are negative too. Codes: 0 and 1 for the
-/// ends, then those between them; row by row.
+/// Packs a BC4 block. `first` > `second`: eight values; otherwise six values plus 0 and 1. Ends of signed formats may
+/// be negative. Codes: 0 and 1 for the ends, then those between them; row by row.
 inline std::array<std::uint8_t, 8> packBc4Block(int first, int second, const std::array<std::uint8_t, 16>& codes) {
     std::array<std::uint8_t, 8> block{static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(second)};
     std::uint64_t bits = 0;
@@ -27,8 +27,8 @@ inline constexpr std::int8_t kEacModifiers[16][8] = {
     {-3, -4, -7, -10, 2, 3, 6, 9},  {-1, -2, -3, -10, 0, 1, 2, 9},   {-4, -6, -8, -9, 3, 5, 7, 8},
     {-3, -5, -7, -9, 2, 4, 6, 8}};
 
-/// A channel of EAC: `base` as stored, `multiplier` and `table` up to 15. Codes row by row; in the block they stand column by column, the
-/// first in the highest bits.
+/// Packs one EAC channel: `base` as stored, `multiplier` and `table` up to 15. `codes` are row by row; the block stores
+/// them column by column, starting with the highest bits.
 inline std::array<std::uint8_t, 8> packEacBlock(int base, int multiplier, int table,
                                                 const std::array<std::uint8_t, 16>& codes) {
     std::array<std::uint8_t, 8> block{static_cast<std::uint8_t>(base),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All that libspng does: decoding to bytes and floats, encoding, and a PNG packed anew with its green channel inverted.
+// All uses of libspng: decoding to bytes and floats, encoding, and recompressing a PNG with inverted green.
 #include <spng.h>
 
 #include <cstdlib>
@@ -22,7 +22,7 @@ struct FreePngContext {
 };
 using PngContext = std::unique_ptr<spng_ctx, FreePngContext>;
 
-/// A decoder or encoder. Never null.
+/// Creates a decoder or encoder. Never null.
 PngContext makeContext(int flags) {
     has_allocation_failed = false;
     spng_alloc memory{notedMalloc, notedRealloc, notedCalloc, std::free};
@@ -31,13 +31,14 @@ PngContext makeContext(int flags) {
     return context;
 }
 
-/// Whether a call succeeded. Throws where it failed for lack of memory, which libspng also reports as broken data.
+/// Returns whether a call succeeded. Throws OutOfMemory if it failed for lack of memory, which libspng also reports as
+/// corrupt data.
 bool succeeds(int result) {
     if (result == SPNG_EMEM || (result != 0 && has_allocation_failed)) throw OutOfMemory{};
     return result == 0;
 }
 
-/// Opens a PNG that may be decoded. Returns false and says why where it is broken or too large.
+/// Opens a PNG for decoding. Returns false, with the reason in `why`, if it is corrupt or too large.
 bool openPng(ByteSpan bytes, std::uint64_t most_pixels, PngContext& context, spng_ihdr& header, std::string& why) {
     why = "it is a broken PNG";
     context = makeContext(0);
@@ -55,7 +56,7 @@ unsigned nearest(float part, unsigned largest) {
     return scaled >= largest ? largest : static_cast<unsigned>(scaled);
 }
 
-/// Samples one after the other, those of 16 bits as this machine has them: libspng turns them round.
+/// Returns the samples in sequence; 16-bit samples in native byte order, which libspng swaps.
 std::vector<std::uint8_t> samplesOf(const FloatImage& image, unsigned bits) {
     const bool has_alpha = !image.alpha.empty();
     const std::size_t sample_bytes = bits / 8;
@@ -80,10 +81,10 @@ std::vector<std::uint8_t> samplesOf(const FloatImage& image, unsigned bits) {
     return samples;
 }
 
-/// One filter for all rows: to try all on each row takes as long as all else, and saves a hundredth of the bytes.
+/// Uses one filter for all rows: trying all filters per row doubles the time and saves 1 % of the bytes.
 std::optional<std::vector<std::uint8_t>> encodeSamples(spng_ihdr header, const std::vector<std::uint8_t>& samples) {
-    // The lower half of 16 bits is noise: higher levels take four times as long, and save a tenth.
-    const int level = header.bit_depth == 16 ? 1 : 6;  // 6: what zlib takes by itself
+    // The lower half of 16 bits is noise: higher levels take four times as long, and save 10 %.
+    const int level = header.bit_depth == 16 ? 1 : 6;  // 6: the default of zlib
     struct Free {
         void operator()(void* memory) const { std::free(memory); }
     };
@@ -104,16 +105,16 @@ std::optional<std::vector<std::uint8_t>> encodeSamples(spng_ihdr header, const s
     return std::vector<std::uint8_t>(first, first + size);
 }
 
-// -- one row after the other, with green inverted --
+// -- streaming rows, with inverted green --
 
-/// Thrown and caught in this file alone.
+/// Thrown and caught in this file only.
 struct BrokenPng {};
 
 void check(int result) {
     if (!succeeds(result)) throw BrokenPng{};
 }
 
-/// The result of `body`, or the error for what libspng refused in it.
+/// Returns the result of `body`, or an error if libspng rejected the data.
 template <class Body>
 auto orBroken(Body&& body) -> decltype(body()) {
     try {
@@ -130,7 +131,7 @@ PngContext decoderOf(ByteSpan bytes) {
     return decoder;
 }
 
-/// Packs rows into a PNG of its own.
+/// Compresses rows to a new PNG.
 class RowPacker {
   public:
     RowPacker(std::uint32_t width, std::uint32_t height, std::uint8_t bits, std::uint8_t color)
@@ -236,8 +237,8 @@ std::vector<std::uint8_t> decodePngRgba(ByteSpan bytes) {
     return pixels;
 }
 
-/// Decodes to RGBA of 16 bits, which holds every PNG: samples of fewer bits are widened by repeating them, which keeps
-/// n / largest.
+/// Decodes to RGBA with 16 bits, which represents every PNG: samples of fewer bits are widened by repeating their bits,
+/// which preserves the ratio to the largest value.
 std::optional<FloatImage> decodeDeepPng(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
     PngContext context;
     spng_ihdr header{};

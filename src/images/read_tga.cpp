@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// TGA as it is read, after "Truevision TGA File Format Specification", version 2.0 (1991). A file has no mark at its beginning, and
-// one of version 1 none at its end either, so its head must be right in every field.
+// Reads TGA according to "Truevision TGA File Format Specification", version 2.0 (1991). Files have no magic number at
+// their start, and those of version 1 none at their end either, so every header field must be valid.
 #include <algorithm>
 #include <array>
 
@@ -23,7 +23,7 @@ struct TgaHead {
     std::size_t palette_at = 0, pixels_at = 0;
 
     [[nodiscard]] std::size_t pixelBytes() const { return pixel_bits / 8; }
-    /// Bits of a pixel, or of a palette entry, which are stored alike.
+    /// Returns the bits of a pixel, or of a palette entry, which have the same format.
     [[nodiscard]] unsigned storedBits() const { return kind == TgaKind::palette ? entry_bits : pixel_bits; }
     [[nodiscard]] bool hasAlpha() const {
         const bool is_bit = kind != TgaKind::grey && storedBits() == 16;
@@ -47,14 +47,14 @@ bool areBitsRight(const TgaHead& head) {
     return false;
 }
 
-/// The fewest bytes that its pixels can have: packets of 128 equal ones where they are packed.
+/// Returns the minimum size of the pixel data: packets of 128 equal pixels if it is run-length encoded.
 std::uint64_t leastBytes(const TgaHead& head) {
     const std::uint64_t pixels = head.size.pixels();
     if (!head.is_packed) return pixels * head.pixelBytes();
     return (pixels + kMostOfPacket - 1) / kMostOfPacket * (1 + head.pixelBytes());
 }
 
-/// Returns nothing if it is no supported TGA, or has too few bytes for its pixels.
+/// Returns nullopt if the file is not a supported TGA, or too short for its pixels.
 std::optional<TgaHead> readTgaHead(ByteSpan bytes) {
     constexpr std::uint8_t kPacked = 8, kFromTheRight = 0x10, kFromTheTop = 0x20, kReserved = 0xc0, kAlphaBits = 0x0f;
     if (bytes.size() < kHeadBytes) return {};
@@ -86,7 +86,7 @@ struct Texel {
     bool is_there = true;  ///< false: the palette has no such entry
 };
 
-/// Five bits a channel become the nearest of eight.
+/// Converts a channel from 5 bits to the nearest 8-bit value.
 std::uint8_t widened(unsigned bits) { return static_cast<std::uint8_t>((bits * 255 + 15) / 31); }
 
 Texel colorOf(const std::uint8_t* at, unsigned bits) {
@@ -108,7 +108,7 @@ class TgaReader {
                 colorOf(bytes.data() + head.palette_at + i * (head.entry_bits / 8), head.entry_bits);
     }
 
-    /// False: it is broken.
+    /// Reads the image. Returns false if it is corrupt.
     bool read(TgaImage& out) {
         const std::uint64_t pixels = head_.size.pixels();
         const std::size_t step = head_.pixelBytes();
@@ -161,7 +161,7 @@ class TgaReader {
     ByteSpan bytes_;
     const TgaHead& head_;
     std::array<Texel, 256> palette_ = {};
-    std::size_t column_ = 0, row_ = 0;  ///< position of the next pixel, from the corner where the file starts
+    std::size_t column_ = 0, row_ = 0;  ///< position of the next pixel, relative to the corner where the file starts
 };
 
 }  // namespace
@@ -180,7 +180,8 @@ std::optional<TgaImage> decodeTgaPixels(ByteSpan bytes, std::uint64_t most_pixel
     if (!head || isTooLarge(head->size, bytes.size(), most_pixels, why)) return {};
     TgaImage out;
     if (!TgaReader(bytes, *head).read(out)) return {};
-    // Programs that do not know what the fourth byte is leave 0, and say that there is no alpha. Others forget to say that there is.
+    // Programs that do not know the meaning of the fourth byte write 0, and declare no alpha. Others have alpha but do
+    // not declare it.
     const bool is_said = head->alpha_bits != 0;
     const bool is_nothing = std::all_of(out.alpha.begin(), out.alpha.end(), [](std::uint8_t a) { return a == 0; });
     if (!is_said && is_nothing) out.alpha = {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Formats of texels that stand one by one, and the table of all formats.
+// Uncompressed texel formats, and the table of all formats.
 #include "images/texel_format.h"
 
 #include <algorithm>
@@ -10,13 +10,15 @@
 
 namespace tspace {
 
-// BC1 to BC5 and EAC. Formulas: Khronos Data Format Specification 1.4, chapters S3TC, RGTC and ETC2; exact, where hardware rounds.
+// BC1 to BC5 and EAC. Formulas: Khronos Data Format Specification 1.4, chapters S3TC, RGTC and ETC2; computed exactly,
+// whereas hardware rounds.
 
 namespace {
 
 constexpr std::size_t kBlockTexels = 16;
 
-/// Colours of BC1, whose third and fourth are black and transparent where `has_alpha` and the first is not the larger.
+/// Decodes BC1 colors. With `has_alpha`, if the first end is not the larger one, the third color is the mean and the
+/// fourth is transparent black.
 void decodeColors(const std::uint8_t* block, bool has_alpha, Rgba* texels) {
     const std::uint32_t first = little16(block), second = little16(block + 2), codes = little32(block + 4);
     const bool is_cut = has_alpha && first <= second;
@@ -36,14 +38,14 @@ void decodeColors(const std::uint8_t* block, bool has_alpha, Rgba* texels) {
     for (std::size_t i = 0; i < kBlockTexels; ++i) texels[i] = palette[codes >> 2 * i & 3];
 }
 
-/// The eight values of a channel of BC4.
+/// Returns the eight values of a BC4 channel.
 std::array<float, 8> channelPalette(const std::uint8_t* block, bool is_signed) {
     const auto end = [&](std::uint8_t byte) {
         const int value = is_signed ? std::bit_cast<std::int8_t>(byte) : byte;
         return is_signed ? std::max(value, -127) + 127 : value;
     };
     const int most = is_signed ? 254 : 255, first = end(block[0]), second = end(block[1]);
-    // Compared as stored: -128 is not -127 there.
+    // Compared as stored, where -128 differs from -127.
     const bool is_full =
         is_signed ? std::bit_cast<std::int8_t>(block[0]) > std::bit_cast<std::int8_t>(block[1]) : block[0] > block[1];
     const auto of = [&](int sum, int parts) { return static_cast<float>(sum) / static_cast<float>(parts * most); };
@@ -60,7 +62,7 @@ void decodeChannel(const std::uint8_t* block, bool is_signed, std::size_t channe
     for (std::size_t i = 0; i < kBlockTexels; ++i, codes >>= 3) texels[i][channel] = palette[codes & 7];
 }
 
-/// Big-endian, and column by column.
+/// The block is big-endian, with column-major codes.
 void decodeEacChannel(const std::uint8_t* block, bool is_signed, std::size_t channel, Rgba* texels) {
     const int stored = is_signed ? std::max<int>(std::bit_cast<std::int8_t>(block[0]), -127) : block[0];
     const int base = is_signed ? stored * 8 : stored * 8 + 4;
@@ -79,7 +81,7 @@ void decodeEacChannel(const std::uint8_t* block, bool is_signed, std::size_t cha
 constexpr std::uint8_t kEtc1Modifiers[8][2] = {{2, 8},   {5, 17},  {9, 29},   {13, 42},
                                                {18, 60}, {24, 80}, {33, 106}, {47, 183}};
 
-/// A channel of a slice of ETC1S: 0 to 255.
+/// Returns a channel of an ETC1S slice, 0 to 255.
 int etc1sValue(const std::uint8_t* slice, std::size_t channel, std::size_t texel) {
     const unsigned code = slice[4 + texel / 4] >> 2 * (texel % 4) & 3;
     const std::uint8_t* const modifiers = kEtc1Modifiers[slice[3] & 7];
@@ -114,7 +116,7 @@ void decodeBc4(const TexelFormat& format, const std::uint8_t* block, Rgba* texel
     decodeChannels(format, block, texels, decodeChannel);
 }
 
-/// The ends are inverted and change places, and so do the codes; the values between stay.
+/// The ends are inverted and swapped, and so are their codes; the values between them stay the same.
 void invertBc4Channel(const TexelFormat& format, std::uint8_t* block, unsigned channel) {
     std::uint8_t* const at = block + std::size_t{8} * channel;
     const auto inverted = [&](std::uint8_t byte) {
@@ -127,7 +129,7 @@ void invertBc4Channel(const TexelFormat& format, std::uint8_t* block, unsigned c
     const std::uint8_t first = inverted(at[1]), second = inverted(at[0]);
     at[0] = first;
     at[1] = second;
-    // -127 and -128 are one number: where both are ends, all values are.
+    // -127 and -128 represent the same value: if both are ends, all values are equal.
     const bool is_one = is_full && first == second;
     std::uint64_t codes = 0;
     for (unsigned i = 0; i < kBlockTexels; ++i) {
@@ -156,7 +158,7 @@ namespace {
 float halfValue(std::uint32_t half) {
     const std::uint32_t sign = (half & 0x8000) << 16, exponent = half >> 10 & 31, fraction = half & 1023;
     if (exponent == 0) {
-        // Denormal: a multiple of 2^-24.
+        // Subnormal: a multiple of 2^-24.
         const float value = static_cast<float>(fraction) * 0x1p-24F;
         return sign != 0 ? -value : value;
     }
@@ -164,7 +166,7 @@ float halfValue(std::uint32_t half) {
     return std::bit_cast<float>(sign | wide << 23 | fraction << 13);
 }
 
-/// Gives the channels that there are their places.
+/// Assigns the existing channels to red, green, blue and alpha.
 template <class Channel>
 void placeChannels(unsigned count, Rgba& texel, const Channel& channel) {
     texel = {0, 0, 0, 1};
@@ -180,7 +182,7 @@ void decodeBytes(const TexelFormat& format, const std::uint8_t* block, Rgba* tex
     });
 }
 
-/// Decodes texels with blue first.
+/// Decodes texels with blue first (BGR order).
 void decodeTurnedBytes(const TexelFormat& format, const std::uint8_t* block, Rgba* texels) {
     decodeBytes(format, block, texels);
     const float blue = (*texels)[0];
@@ -241,7 +243,7 @@ void invertWord(const TexelFormat& format, std::uint8_t* block, unsigned channel
     at[1] = static_cast<std::uint8_t>(changed >> 8);
 }
 
-/// All bits of the mask.
+/// Inverts all bits of the mask.
 void invertMasked(const TexelFormat& format, std::uint8_t* block, unsigned channel) {
     for (unsigned i = 0; i < format.block_bytes; ++i)
         block[i] ^= static_cast<std::uint8_t>(format.masks[channel] >> 8 * i);
@@ -303,7 +305,8 @@ constexpr TexelFormat maskedFormat() {
     return format;
 }
 
-/// In the order of TexelKind. Of plain formats with blue first green is the second too. BC4, BC5 and EAC resolve more than 8 bits.
+/// In the order of TexelKind. In uncompressed formats with blue first, green is still the second channel. BC4, BC5 and
+/// EAC resolve more than 8 bits.
 constexpr TexelFormat kFormats[] = {
     plainFormat("R8", 1, 8, decodeBytes),
     plainFormat("R8 signed", 1, 8, decodeBytes, true),

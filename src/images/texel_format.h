@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Texels as texture files (KTX2, DDS) hold them: one by one, or 4 x 4 in a block. Decoded to the numbers of the formulas, not rounded to 8 bits.
+// Texels in texture files (KTX2, DDS): single texels, or blocks of 4 x 4. Decoded according to the formulas, without
+// rounding to 8 bits.
 #pragma once
 
 #include <array>
@@ -9,8 +10,8 @@
 
 namespace tspace {
 
-/// Red, green, blue and alpha, from 0 to 1; of a signed format (v + 1) / 2, of floats as they are. A channel that the format does not
-/// have is 0, alpha 1; a single channel is in all three colours.
+/// Red, green, blue and alpha, from 0 to 1; for signed formats (v + 1) / 2, for floats the stored value. A missing
+/// color channel is 0, missing alpha is 1; a single channel is copied to all three colors.
 using Rgba = std::array<float, 4>;
 
 enum class TexelKind : std::uint8_t {
@@ -42,7 +43,7 @@ enum class TexelKind : std::uint8_t {
     rg32f,
     rgb32f,
     rgba32f,
-    masked,  ///< up to 32 bits a texel, each channel where a mask says (DDS)
+    masked,  ///< up to 32 bits per texel, with a mask per channel (DDS)
     bc1,
     bc2,
     bc3,
@@ -57,26 +58,27 @@ enum class TexelKind : std::uint8_t {
     eacRgs,
     uastc,
     etc1s,       ///< as decoded by unpackBasisLz
-    etc1sAlpha,  ///< with a second slice, whose green is alpha
+    etc1sAlpha,  ///< with a second slice, whose green channel is alpha
     astc,        ///< 4 x 4 texels; other block sizes must be set
     none
 };
 
 struct TexelFormat;
 
-/// Inverts a channel of a block: 1 - c, exactly.
+/// Inverts a channel of a block exactly: 1 - c.
 using InvertChannel = void (*)(const TexelFormat&, std::uint8_t* block, unsigned channel);
 
 struct TexelFormat {
     const char* name = "";
-    std::uint8_t width = 1, height = 1;  ///< texels of a block
+    std::uint8_t width = 1, height = 1;  ///< size of a block in texels
     std::uint8_t block_bytes = 0;        ///< bytes per block
     std::uint8_t channels = 4;
     std::uint8_t bits = 8;  ///< effective bits per channel: 8, 16 or 32 (floats)
     bool is_signed = false, is_float = false;
-    /// Writes width * height texels, row by row. Any bytes may come. Null: whole levels are decoded at once (ASTC).
+    /// Writes width * height texels, row by row. Accepts arbitrary bytes. Null: whole levels are decoded at once
+    /// (ASTC).
     void (*decode)(const TexelFormat&, const std::uint8_t* block, Rgba* texels) = nullptr;
-    InvertChannel invert = nullptr;           ///< null where the format cannot hold the result exactly
+    InvertChannel invert = nullptr;           ///< null if the format cannot represent the result exactly
     std::array<std::uint32_t, 4> masks = {};  ///< channel masks of `masked`
 
     [[nodiscard]] std::uint64_t blocksAcross(std::uint32_t texels) const {
@@ -85,13 +87,13 @@ struct TexelFormat {
     [[nodiscard]] std::uint64_t blocksDown(std::uint32_t texels) const {
         return (std::uint64_t{texels} + height - 1) / height;
     }
-    /// Bytes of an image of that size. No product of sizes below 2^30 overflows.
+    /// Returns the size in bytes of an image. Does not overflow for sizes below 2^30.
     [[nodiscard]] std::uint64_t bytesOf(std::uint32_t across, std::uint32_t down) const {
         return blocksAcross(across) * blocksDown(down) * block_bytes;
     }
 };
 
-/// With block_bytes 0 for `none`; those of `masked` are to be set.
+/// Returns a format. `none` has block_bytes 0; the caller must set the masks of `masked`.
 TexelFormat texelFormat(TexelKind kind);
 
 // Decoders of blocks of 16 texels. BC7 and UASTC are defined in 8-bit integers.
@@ -99,11 +101,11 @@ TexelFormat texelFormat(TexelKind kind);
 void decodeBc1(const TexelFormat& format, const std::uint8_t* block, Rgba* texels);
 void decodeBc2(const TexelFormat& format, const std::uint8_t* block, Rgba* texels);
 void decodeBc3(const TexelFormat& format, const std::uint8_t* block, Rgba* texels);
-/// One or two channels, signed or not.
+/// Decodes one or two channels, signed or unsigned.
 void decodeBc4(const TexelFormat& format, const std::uint8_t* block, Rgba* texels);
 void decodeEac(const TexelFormat& format, const std::uint8_t* block, Rgba* texels);
 void decodeBc7(const TexelFormat& format, const std::uint8_t* block, Rgba* texels);
-/// Eight bytes a slice: the colour of 5 bits a channel, the number of a table, and four rows of codes.
+/// Decodes eight bytes per slice: RGB555 base color, intensity table index, and four rows of selectors.
 void decodeEtc1s(const TexelFormat& format, const std::uint8_t* block, Rgba* texels);
 void decodeUastc(const TexelFormat& format, const std::uint8_t* block, Rgba* texels);
 
@@ -113,12 +115,12 @@ inline std::uint32_t little16(const std::uint8_t* at) { return loadLittleEndian<
 inline std::uint32_t little32(const std::uint8_t* at) { return loadLittleEndian<std::uint32_t>(at); }
 inline std::uint64_t little64(const std::uint8_t* at) { return loadLittleEndian<std::uint64_t>(at); }
 
-/// A block of 128 bits, read from the lowest on.
+/// Block of 128 bits, read from the lowest bit on.
 class BlockBits {
   public:
     explicit BlockBits(const std::uint8_t* block) : low_(little64(block)), high_(little64(block + 8)) {}
 
-    /// `count`: up to 32.
+    /// Returns the next `count` bits (up to 32).
     std::uint32_t take(unsigned count) {
         if (count == 0) return 0;
         const auto value = static_cast<std::uint32_t>(low_ & ((std::uint64_t{1} << count) - 1));

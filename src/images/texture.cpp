@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Texture files as images: rows of texels out of their blocks, and where a normal map in them has x, y and z.
+// Texture files as images: decodes rows of texels from their blocks, and determines the channels of x, y and z in
+// normal maps.
 #include <algorithm>
 #include <cmath>
 
@@ -18,7 +19,7 @@ std::uint64_t rowBytes(const TextureFile& texture) {
     return format.blocksAcross(texture.size.width) * format.width * format.height * sizeof(Rgba);
 }
 
-/// The first level as it is unpacked, if it has to be.
+/// The first level, decompressed if necessary.
 class TextureLevel {
   public:
     explicit TextureLevel(const TextureFile& texture)
@@ -66,7 +67,7 @@ class TextureLevel {
     }
 
   private:
-    /// Channels and columns as the file wants them to be shown.
+    /// Applies the channel swizzle and the column order of the file.
     void arrange(std::span<Rgba> row) const {
         constexpr std::array<std::uint8_t, 4> kPlain = {0, 1, 2, 3};
         if (texture_.swizzle != kPlain) {
@@ -87,7 +88,7 @@ class TextureLevel {
     std::vector<std::uint8_t> unpacked_ = {};
 };
 
-/// Whether alpha is shown and may be anything but 1.
+/// Returns whether alpha is shown and may differ from 1.
 bool hasAlpha(const TextureFile& texture) {
     const std::uint8_t source = texture.swizzle[3];
     return source != TextureFile::kOne && (source != 3 || texture.format.channels == 4);
@@ -153,7 +154,7 @@ ImageClaim claimOfTexture(ByteSpan bytes) {
     if (!texture) return {};
     const std::uint64_t pixel_bytes = texture->format.is_float ? 16 + 3 : 3;
     std::uint64_t unpacked = texture->repacking == Repacking::none ? 0 : texture->levelBytes();
-    // All texels of ASTC at once, as floats, and the library's tables.
+    // ASTC decodes all texels at once, as floats; plus the library's tables.
     constexpr std::uint64_t kTables = std::uint64_t{8} << 20;
     if (texture->format.decode == nullptr) unpacked += sizeof(Rgba) * texture->size.pixels() + kTables;
     return {texture->size, pixel_bytes * texture->size.pixels() + unpacked + rowBytes(*texture)};
@@ -182,7 +183,7 @@ std::optional<FloatImage> decodeFloatTexture(ByteSpan bytes, std::uint64_t most_
     image.texture = {.name = texture->name(), .layout = texture->layout, .is_srgb = texture->is_srgb};
     if (texture->format.is_float) readFloats(use, image);
     guessLayout(image);
-    // Most formats of blocks have an alpha channel, whether it is used or not.
+    // Most block formats have an alpha channel, whether it is used or not.
     if (std::all_of(image.alpha.begin(), image.alpha.end(), [](float alpha) { return alpha == 1; }))
         image.alpha.clear();
     return image;
@@ -224,7 +225,7 @@ std::vector<std::uint8_t> decodeTextureAlpha(ByteSpan bytes) {
     return alpha;
 }
 
-// Green of a texture file inverted where it lies, in all levels.
+// Inverts green of a texture file in place, in all levels.
 
 Result<FlippedImage> flipTexture(ByteSpan bytes, ImageFileFormat format) {
     std::string why;
@@ -243,7 +244,7 @@ Result<FlippedImage> flipTexture(ByteSpan bytes, ImageFileFormat format) {
         if (!image) return Error{ErrorCode::invalidFile, why};
         facts = image->texture;
     }
-    // Green as it is shown, or y where that is elsewhere.
+    // Green as it is shown, or y if it is in a different channel.
     const std::uint8_t source = texture->swizzle[static_cast<std::size_t>(facts.layout.y.channel)];
     const bool is_masked_out = texels.masks[0] != 0 && source < texels.masks.size() && texels.masks[source] == 0;
     if (source >= texels.channels || texels.channels == 1 || is_masked_out)

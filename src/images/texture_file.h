@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Texture files, KTX2 and DDS: what their heads say. Any bytes may come; all that a head names lies inside of the file.
+// Headers of texture files, KTX2 and DDS. Arbitrary input is allowed; all ranges that a header declares are checked
+// against the file.
 #pragma once
 
 #include <array>
@@ -16,14 +17,14 @@
 
 namespace tspace {
 
-// Whether four channels of a texture look as if they held x and y of a normal map alone, and where.
+// Detects textures whose four channels contain only x and y of a normal map, and which channels hold them.
 
-/// One of the usual places: x in alpha and y in green, with red the same everywhere; or x in all three colours and y in alpha.
+/// Common layouts: x in alpha and y in green, with constant red; or x in all three colors and y in alpha.
 class LayoutGuess {
   public:
-    /// Channels from 0 to 1.
+    /// Adds a texel with channels from 0 to 1.
     void add(const Vec3& texel, float alpha) {
-        constexpr float kApart = 8.0F / 255.0F;  // lost in compression
+        constexpr float kApart = 8.0F / 255.0F;  // errors due to compression
         const std::array<float, 4> values{texel.x, texel.y, texel.z, alpha};
         for (std::size_t i = 0; i < 4; ++i) {
             least_[i] = std::fmin(least_[i], values[i]);
@@ -51,7 +52,7 @@ class LayoutGuess {
     }
     static MapLayout made(MapChannel x, MapChannel y) { return {.x = {x}, .y = {y}, .z = {MapChannel::none}}; }
 
-    /// Whether pairs are x and y of unit vectors around z.
+    /// Counts whether pairs are x and y of unit vectors around z.
     struct Pairs {
         double sum_x = 0, sum_y = 0;
         std::uint64_t inside = 0;
@@ -76,10 +77,11 @@ class LayoutGuess {
     Pairs green_ = {}, red_ = {};
 };
 
-/// How KTX2 packs its levels once more.
+/// Supercompression scheme of KTX2 levels.
 enum class Repacking : std::uint8_t { none, zstd, zlib, basisLz };
 
-/// Sizes in headers are clamped to this. The product of two sides and up to 256 bytes for each texel then fits 64 bits.
+/// Maximum side to which header sizes are clamped. The product of two sides and up to 256 bytes per texel then fits in
+/// 64 bits.
 inline constexpr std::uint32_t kMostTextureSide = std::uint32_t{1} << 28;
 
 struct TextureFile {
@@ -87,16 +89,17 @@ struct TextureFile {
     ImageSize size = {};         ///< at most kMostTextureSide each
     TexelFormat format = {};
     Repacking repacking = Repacking::none;
-    /// The first, which is the largest, as it lies in the file. Of a KTX2 that is packed once more any number of bytes.
+    /// First (largest) level, as stored in the file. In a supercompressed KTX2 it may have any size.
     ByteSpan level = {};
     std::size_t level_number = 0;  ///< index of the level in `level` and `size`: 0 unless another one was requested
     struct Place {
         std::size_t at = 0, bytes = 0;
     };
-    std::vector<Place> levels = {};                  ///< positions of all levels in the file
-    std::uint32_t cut_count = 0;                     ///< levels of which the head speaks, and that the file ends before
-    ByteSpan global = {};                            ///< code books of BasisLZ
-    bool is_srgb = false;                            ///< the file says that its numbers have the sRGB curve
+    std::vector<Place> levels = {};  ///< positions of all levels in the file
+    /// number of levels that the header declares but the file does not contain
+    std::uint32_t cut_count = 0;
+    ByteSpan global = {};                            ///< codebooks of BasisLZ
+    bool is_srgb = false;                            ///< the file declares its values as sRGB
     bool turns_columns = false, turns_rows = false;  ///< the first texel is not the top left one
     /// For each output color: a channel of the format, or one of these constants.
     static constexpr std::uint8_t kZero = 4, kOne = 5;
@@ -104,9 +107,9 @@ struct TextureFile {
     /// Channels of x, y and z among the output colors if the format defines them; otherwise as in glTF.
     MapLayout layout = {};
 
-    /// Bytes of the first level, unpacked.
+    /// Returns the size of the first level, decompressed.
     [[nodiscard]] std::uint64_t levelBytes() const { return format.bytesOf(size.width, size.height); }
-    /// "BC5 in a DDS".
+    /// Returns a name such as "BC5 in a DDS".
     [[nodiscard]] std::string name() const {
         std::string text = format.name;
         if (format.decode == nullptr)
@@ -115,27 +118,27 @@ struct TextureFile {
     }
 };
 
-/// Returns nothing, with the reason in `why`, for a broken file, for cube maps, volumes and arrays, and for unsupported
-/// formats.
+/// Parses the header. Returns nullopt, with the reason in `why`, for a corrupt file, for cube maps, volumes and arrays,
+/// and for unsupported formats.
 std::optional<TextureFile> readTextureHead(ByteSpan bytes, std::string& why);
 std::optional<TextureFile> readKtx2Head(ByteSpan bytes, std::string& why);
 std::optional<TextureFile> readDdsHead(ByteSpan bytes, std::string& why);
 
-/// The blocks of the first level, packed by BasisLZ. False where it is broken.
+/// Unpacks the blocks of the first level from BasisLZ. Returns false if it is corrupt.
 bool unpackBasisLz(const TextureFile& texture, std::span<std::uint8_t> blocks);
 
-/// Null, or why ASTC is not read.
+/// Returns why ASTC cannot be read, or null if it can.
 const char* whyNotAstc();
-/// Decodes blocks of ASTC to red, green, blue and alpha, four floats a texel: `texels` has as many bytes. False where the library
-/// fails.
+/// Decodes ASTC blocks to red, green, blue and alpha, four floats per texel; `texels` must have this size. Returns
+/// false if the library fails.
 bool decodeAstc(const TextureFile& texture, ByteSpan blocks, std::span<std::uint8_t> texels);
 
-/// The layout of two channels where colours `x` and `y` are shown.
+/// Returns the two-channel layout with x and y in the given output colors.
 MapLayout twoChannelLayout(MapChannel x, MapChannel y);
 
-/// Why this build does not unpack it; null where it does.
+/// Returns why this build cannot decompress the scheme, or null if it can.
 const char* whyNotUnpacked(Repacking repacking);
-/// False where `packed` does not unpack to exactly as many bytes as `out` has.
+/// Decompresses a level. Returns false unless `packed` decompresses to exactly out.size() bytes.
 bool unpackLevel(Repacking repacking, ByteSpan packed, std::span<std::uint8_t> out);
 
 }  // namespace tspace

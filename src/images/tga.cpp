@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// "Truevision TGA File Format Specification", version 2.0 (1991): a head of 18 bytes, blue, green and red of each pixel, and a
-// foot that says which version it is.
+// "Truevision TGA File Format Specification", version 2.0 (1991): a header of 18 bytes, blue, green and red of each
+// pixel, and a footer that identifies the version.
 #include "images/tga.h"
 
 #include <cmath>
@@ -25,7 +25,7 @@ std::optional<std::vector<std::uint8_t>> headOf(std::uint32_t width, std::uint32
     return file;
 }
 
-/// Neither a developer's area nor extensions.
+/// Adds the footer, without developer area and extensions.
 void addFoot(std::vector<std::uint8_t>& file) {
     constexpr std::string_view kSignature = "TRUEVISION-XFILE.";
     file.insert(file.end(), 8, 0);
@@ -34,7 +34,7 @@ void addFoot(std::vector<std::uint8_t>& file) {
 }
 
 std::uint8_t channelByte(float channel) {
-    if (!(channel > 0)) return 0;  // also what is not a number
+    if (!(channel > 0)) return 0;  // also for NaN
     return channel >= 1 ? 255 : static_cast<std::uint8_t>(std::floor(channel * 255.0F + 0.5F));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// TGA: 8 bits a channel, not packed. Written alone; see docs/reference/image-files.md.
+// TGA with 8 bits per channel, uncompressed. Encoder only; see docs/reference/image-files.md.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace tspace {
 
-/// A TGA of 24 bits a pixel, or of 32 where there is alpha, its first row the top one. Channels are rounded as encodePng's.
-/// Nothing for more than 65,535 pixels along a side, which the format cannot say.
+/// Encodes a TGA with 24 bits per pixel, or 32 with alpha; the first row is the top row. Channels are rounded as by
+/// encodePng. Returns nullopt for sides of more than 65,535 pixels, which the format does not support.
 std::optional<std::vector<std::uint8_t>> encodeTga(const FloatImage& image);
 std::optional<std::vector<std::uint8_t>> encodeTga(const RgbImage& image);
 

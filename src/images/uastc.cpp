@@ -12,15 +12,15 @@ namespace {
 
 constexpr std::size_t kUastcTexels = 16, kSolid = 8;
 
-/// A mode: how it is told, and bits of each field.
+/// A mode: its code, and the bits of each field.
 struct UastcMode {
     std::uint8_t code, code_bits;
-    std::uint8_t hint_bits;       ///< between the code and the pattern, for other formats
+    std::uint8_t hint_bits;       ///< bits between the code and the pattern: hints for transcoding
     std::uint8_t pattern_bits;    ///< bits of the subset pattern
-    std::uint8_t subsets, parts;  ///< parts: 2 luminance and alpha, 3 or 4 channels
-    std::uint8_t base;            ///< base of the digits beside the bits of an endpoint: 1 (none), 3 or 5
+    std::uint8_t subsets, parts;  ///< parts: number of channels (2: luminance-alpha, 3: RGB, 4: RGBA)
+    std::uint8_t base;            ///< base of the digits that extend the bits of an endpoint: 1 (none), 3 or 5
     std::uint8_t end_bits, weight_bits;
-    bool has_planes, has_selector;  ///< two planes of weights, and a field that says for which channel
+    bool has_planes, has_selector;  ///< two weight planes, and a field that selects the channel of the second one
 };
 constexpr UastcMode kUastcModes[] = {
     {0x01, 4, 15, 0, 1, 3, 3, 6, 4, false, false}, {0x35, 6, 15, 0, 1, 3, 1, 8, 2, false, false},
@@ -34,7 +34,7 @@ constexpr UastcMode kUastcModes[] = {
     {0x15, 6, 23, 5, 2, 2, 1, 8, 2, false, false}, {0x25, 6, 23, 0, 1, 2, 1, 8, 2, true, false},
     {0x09, 4, 15, 0, 1, 3, 1, 5, 5, false, false}};
 
-/// Bit i: the subset of texel i.
+/// Subset of each texel, one bit per texel.
 constexpr std::uint16_t kTwoPatterns[30] = {0xcccc, 0x8888, 0x1111, 0xecc8, 0x377f, 0xfeec, 0x0137, 0x137f,
                                             0xc800, 0x0013, 0xfe80, 0x17ff, 0x0017, 0x00ff, 0xfff0, 0x0fff,
                                             0xff71, 0x8eff, 0x08ce, 0x008c, 0x7310, 0xceff, 0x7331, 0x088c,
@@ -42,7 +42,7 @@ constexpr std::uint16_t kTwoPatterns[30] = {0xcccc, 0x8888, 0x1111, 0xecc8, 0x37
 constexpr std::uint16_t kPatternsOf7[19] = {0x00f0, 0x4444, 0x0133, 0xcc80, 0xf0ff, 0x2222, 0xffc8,
                                             0xccce, 0x3c03, 0x00ee, 0x7700, 0x3003, 0x00ce, 0xff80,
                                             0x6fff, 0x1333, 0x11ff, 0x136c, 0x00ef};
-/// Two bits a texel.
+/// Subset of each texel, two bits per texel.
 constexpr std::uint32_t kThreePatterns[11] = {0xa5a50000, 0xaa005555, 0xaa000055, 0x0000aa55, 0x25252525, 0x94949494,
                                               0x58585858, 0x56560202, 0x92929292, 0x55aa0055, 0xa05050a0};
 
@@ -54,7 +54,8 @@ constexpr std::uint8_t kUastcWeights[6][32] = {{},
                                                {0,  2,  4,  6,  8,  10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30,
                                                 34, 36, 38, 40, 42, 44, 46, 48, 50, 52, 54, 56, 58, 60, 62, 64}};
 
-/// An endpoint of `bits` and a digit as 8 bits: ASTC's formula, whose constants go with the number of bits.
+/// Expands an endpoint of `bits` bits and a digit to 8 bits by ASTC's formula, whose constants depend on the number of
+/// bits.
 std::uint32_t widenWithDigit(std::uint32_t value, std::uint32_t digit, unsigned base, unsigned bits) {
     const std::uint32_t high = value >> 1;
     std::uint32_t spread = 0, factor = 0;
@@ -89,7 +90,7 @@ struct UastcBlock {
     std::size_t number = 0;
     UastcMode mode = {};
     std::uint32_t pattern = 0, selected = 3;
-    std::array<std::array<std::uint32_t, 4>, 6> ends = {};  ///< [subset * 2 + end][channel], of 8 bits
+    std::array<std::array<std::uint32_t, 4>, 6> ends = {};  ///< [subset * 2 + end][channel], 8 bits each
     std::array<std::array<std::uint8_t, kUastcTexels>, 2> weights = {};
 
     [[nodiscard]] std::size_t subsetOf(std::size_t texel) const {
@@ -105,7 +106,7 @@ struct UastcBlock {
     }
 };
 
-/// One after the other: low and high of each channel, subset by subset.
+/// Order: low and high of each channel, subset by subset.
 void readUastcEnds(BlockBits& bits, UastcBlock& block) {
     const UastcMode& mode = block.mode;
     const std::size_t count = std::size_t{2} * mode.parts * mode.subsets;
@@ -138,7 +139,7 @@ void readUastcEnds(BlockBits& bits, UastcBlock& block) {
     }
 }
 
-/// The first texel of each subset has one bit less.
+/// The weight of the first texel of each subset has one bit less.
 void readUastcWeights(BlockBits& bits, UastcBlock& block) {
     unsigned seen = 0;
     const std::size_t planes = block.mode.has_planes ? 2 : 1;
@@ -151,7 +152,7 @@ void readUastcWeights(BlockBits& bits, UastcBlock& block) {
     }
 }
 
-/// False where the block is none. Of a solid one only the first end is read.
+/// Reads a block. Returns false if it is invalid. For a solid block only the first end is set.
 bool readUastcBlock(const std::uint8_t* bytes, UastcBlock& block) {
     const auto isOf = [&](const UastcMode& mode) { return (bytes[0] & ((1U << mode.code_bits) - 1)) == mode.code; };
     const auto* const found = std::find_if(std::begin(kUastcModes), std::end(kUastcModes), isOf);
@@ -178,7 +179,7 @@ bool readUastcBlock(const std::uint8_t* bytes, UastcBlock& block) {
 void decodeUastc(const TexelFormat&, const std::uint8_t* bytes, Rgba* texels) {
     UastcBlock block;
     if (!readUastcBlock(bytes, block)) {
-        std::fill_n(texels, kUastcTexels, Rgba{1, 0, 1, 1});  // the colour of errors
+        std::fill_n(texels, kUastcTexels, Rgba{1, 0, 1, 1});  // the error color
         return;
     }
     for (std::size_t i = 0; i < kUastcTexels; ++i) {
@@ -188,8 +189,8 @@ void decodeUastc(const TexelFormat&, const std::uint8_t* bytes, Rgba* texels) {
             if (block.number != kSolid) {
                 const std::size_t plane = block.mode.has_planes && channel == block.selected ? 1 : 0;
                 const std::uint32_t weight = block.weights[plane][i];
-                // Ends of 16 bits, of which the upper 8 are taken. (Where a file claims the sRGB curve, ASTC has other lower 8
-                // bits, which changes a value by 1 at most; basisu does not do that either.)
+                // Interpolates 16-bit ends and uses the upper 8 bits. (For files declared as sRGB, ASTC has different
+                // lower 8 bits, which changes a value by at most 1; basisu ignores that too.)
                 value = (257 * (value * (64 - weight) + block.ends[end + 1][channel] * weight) + 32) >> 14;
             }
             texels[i][channel] = static_cast<float>(value) / 255.0F;

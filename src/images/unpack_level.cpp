@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What KTX2 packs its levels with: Zstandard by libzstd, zlib by zlib. Both stop at the size that the level must have.
-// The page has other libraries for it (bindings/js/wasm/textures.cpp).
+// Supercompression of KTX2 levels: Zstandard with libzstd, zlib with zlib. Both stop at the required size of the level.
+// The web page uses other libraries (bindings/js/wasm/textures.cpp).
 #include "core/base/memory.h"
 #include "images/texture_file.h"
 

@@ -13,7 +13,7 @@ namespace tspace {
 
 namespace {
 
-/// The head of a still image; nothing, with the reason, for others.
+/// Returns the header of a still image; nullopt, with the reason in `why`, for other files.
 std::optional<WebPBitstreamFeatures> readHead(ByteSpan bytes, std::string& why) {
     WebPBitstreamFeatures features;
     why = "it is a broken WebP";
@@ -30,7 +30,8 @@ ImageSize sizeOf(const WebPBitstreamFeatures& features) {
     return {static_cast<std::uint32_t>(features.width), static_cast<std::uint32_t>(features.height)};
 }
 
-/// Decodes into `pixels`, of which each has `channels` bytes: RGB or RGBA. Throws OutOfMemory; false: it is broken.
+/// Decodes into `pixels`, with `channels` bytes each: RGB or RGBA. Returns false if the image is corrupt. Throws
+/// OutOfMemory.
 bool decodeInto(ByteSpan bytes, ImageSize size, unsigned channels, std::vector<std::uint8_t>& pixels) {
     WebPDecoderConfig config;
     if (WebPInitDecoderConfig(&config) == 0) return false;
@@ -49,8 +50,8 @@ ImageClaim claimOfWebp(ByteSpan bytes) {
     WebPBitstreamFeatures features;
     if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK) return {};
     const ImageSize size{static_cast<std::uint32_t>(features.width), static_cast<std::uint32_t>(features.height)};
-    // libwebp holds all pixels of a lossless image, and all of the alpha channel of a lossy one (8 bits, unpacked from
-    // 32), beside those that it gives.
+    // libwebp stores all pixels of a lossless image, and the whole alpha channel of a lossy one (8 bits, expanded from
+    // 32), in addition to the pixels that it returns.
     return {size, (features.format == 2 || features.has_alpha != 0 ? 8 : 4) * size.pixels()};
 }
 
@@ -95,7 +96,7 @@ Result<std::vector<std::uint8_t>> writeWebp(const ChannelImage& image) {
                          WebPEncode(&config, &picture) != 0;
     WebPPictureFree(&picture);
     const std::unique_ptr<WebPMemoryWriter, decltype(&WebPMemoryWriterClear)> keeper(&writer, &WebPMemoryWriterClear);
-    if (!is_done) throw OutOfMemory{};  // all that can go wrong with pixels and sizes that were checked
+    if (!is_done) throw OutOfMemory{};  // the only possible error after pixels and sizes were checked
     return std::vector<std::uint8_t>{writer.mem, writer.mem + writer.size};
 }
 

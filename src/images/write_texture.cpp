@@ -15,11 +15,11 @@ namespace tspace {
 
 namespace {
 
-/// Properties of a format in the containers. Numbers: Vulkan's formats, Direct3D's (DXGI), and the models of the Khronos Data
-/// Format.
+/// Properties of a format in the containers: Vulkan format number, Direct3D format number (DXGI), and color model of
+/// the Khronos Data Format.
 struct WrittenFormat {
     TexelKind kind;
-    std::uint32_t vulkan, dxgi;  ///< 0: there is none
+    std::uint32_t vulkan, dxgi;  ///< 0: not available
     std::uint8_t model, samples, sample_bits;
 };
 constexpr std::uint8_t kPlainModel = 1, kBc5Model = 132, kEtc2Model = 161, kAstcModel = 162;
@@ -55,7 +55,7 @@ class TextureBytes {
     }
 };
 
-/// The data format descriptor: the colour model, linear, and a sample for each channel.
+/// Returns the data format descriptor: color model, linear, and a sample per channel.
 std::vector<std::uint8_t> descriptionOf(const WrittenFormat& format) {
     constexpr std::uint32_t kUnknownPrimaries = 0, kLinear = 1, kSigned = 0x40, kAlpha = 15, kVersion = 2;
     const TexelFormat texels = texelFormat(format.kind);
@@ -118,7 +118,7 @@ const char* whyNotDds(TexelKind kind) {
 
 namespace {
 
-/// The pixel format of Direct3D 9, 32 bytes: a FourCC for blocks, else masks. V8U8 has masks of numbers with a sign.
+/// Adds the Direct3D 9 pixel format, 32 bytes: a FourCC for blocks, otherwise masks. V8U8 has masks of signed numbers.
 void addOldFormat(const TexelFormat& format, const char* four_cc, TextureBytes& out) {
     constexpr std::uint32_t kAlpha = 1, kHasCode = 4, kColors = 0x40, kSigned = 0x80000;
     out.add32(32);

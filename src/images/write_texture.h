@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// DDS and KTX2 around levels of texels or blocks.
+// Writes DDS and KTX2 containers for levels of texels or blocks.
 #pragma once
 
 #include <cstdint>
@@ -15,34 +15,36 @@
 
 namespace tspace {
 
-/// Levels, the largest first: each half as wide and high as the one before, rounded down, and 1 at least.
+/// Levels, largest first: each half as wide and high as the previous one, rounded down, but at least 1.
 struct Texture {
     std::uint32_t width = 0, height = 0;
-    TexelKind kind = TexelKind::bc5;  ///< rg8, rgba8, bc5, eacRg and those with a sign; astc of 4 x 4 texels
+    TexelKind kind = TexelKind::bc5;  ///< rg8, rgba8, bc5, eacRg and their signed variants; astc with 4 x 4 texels
     std::vector<std::vector<std::uint8_t>> levels = {};
 };
 
-/// Null, or why no DDS holds the format: half a sentence.
+/// Returns why DDS does not support the format, as half a sentence, or null if it does.
 const char* whyNotDds(TexelKind kind);
-/// The header of Direct3D 9 in place of that of Direct3D 10. `four_cc` names BC5, with a sign or not; texels are described by masks.
+/// Direct3D 9 header as an alternative to that of Direct3D 10. `four_cc`: FourCC of signed or unsigned BC5; texels are
+/// described by masks.
 struct OldDdsHeader {
     const char* four_cc = "ATI2";
 };
-/// With the header of Direct3D 10, or `old`. whyNotDds must be null.
+/// Writes a DDS with a Direct3D 10 header, or with `old`. Requires whyNotDds(texture.kind) == nullptr.
 std::vector<std::uint8_t> writeDds(const Texture& texture, const OldDdsHeader* old = nullptr);
 
-/// Null, or why this build does not pack levels by Zstandard: a sentence.
+/// Returns why this build cannot compress levels with Zstandard, as a sentence, or null if it can.
 const char* whyNotZstd();
-/// Linear, rows from the top. `zstd_level`: from 1 (fast) to 22 (small), each level by itself; 0: not packed. Nothing where it runs out of
-/// memory.
+/// Writes a linear KTX2 with rows from the top. `zstd_level`: from 1 (fast) to 22 (small), applied to each level
+/// separately; 0: uncompressed. Returns nullopt if memory runs out.
 std::optional<std::vector<std::uint8_t>> writeKtx2(const Texture& texture, int zstd_level = 0);
 
 enum class AstcEffort : std::uint8_t { quick, fast, best };
 
-/// Null, or why no ASTC is written here: a sentence.
+/// Returns why ASTC cannot be written, as a sentence, or null if it can.
 const char* whyNoAstcWritten();
-/// Blocks of 4 x 4 texels of x (in red, green and blue) and y (in alpha), row by row. `texels`, from -1 to 1, become those of the blocks. Nothing
-/// where the library fails. The same for any number of threads. whyNoAstcWritten must be null.
+/// Encodes x (in red, green and blue) and y (in alpha) as ASTC blocks of 4 x 4 texels, row by row. Replaces `texels`
+/// (-1 to 1) by the decoded values. Returns nullopt if the library fails. The result does not depend on the number of
+/// threads. Requires whyNoAstcWritten() == nullptr.
 std::optional<std::vector<std::uint8_t>> packAstc(std::uint32_t width, std::uint32_t height, AstcEffort effort,
                                                   std::span<Vec2> texels, Parallel& parallel);
 
