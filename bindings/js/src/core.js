@@ -168,6 +168,11 @@ export class Plan {
       module.evaluatePlan(this.#place, ...places));
   }
 
+  /** How "tspace/webgpu", which does not load this module, writes a plan. */
+  [Symbol.for("tspace.planBuffers")](options) {
+    return planBuffers(this, options);
+  }
+
   destroy() {
     if (this.#place === 0) return;
     forgotten.unregister(this);

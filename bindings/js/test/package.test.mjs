@@ -63,9 +63,9 @@ describe("the archive", { skip: !archive && "run scripts/js" }, () => {
   }
 
   it("is as small as the documentation says", () => {
-    const [whole, small, files, textures] = ["index.js", "mikktspace.js", "gltf.js", "textures.js"].map(sizeOf);
-    console.log(`tspace ${whole} bytes gzipped, tspace/mikktspace ${small}, tspace/gltf ${files}, tspace/textures ${textures}`);
-    assert.ok(whole < 110_000 && small < 45_500 && files < 453_500 && textures < 65_800);
+    const [whole, small, files, textures, webgpu] = ["index.js", "mikktspace.js", "gltf.js", "textures.js", "webgpu.js"].map(sizeOf);
+    console.log(`tspace ${whole} bytes gzipped, tspace/mikktspace ${small}, tspace/gltf ${files}, tspace/textures ${textures}, tspace/webgpu ${webgpu}`);
+    assert.ok(whole < 110_000 && small < 45_500 && files < 453_500 && textures < 65_800 && webgpu < 13_000);
   });
 
   it("has modules that people can read: the sources", () => {
@@ -78,7 +78,7 @@ describe("the archive", { skip: !archive && "run scripts/js" }, () => {
   });
 
   it("has types that fit its modules", async () => {
-    for (const entry of ["index", "mikktspace", "normals", "pack", "textures", "gltf", "compat"]) {
+    for (const entry of ["index", "mikktspace", "normals", "pack", "textures", "gltf", "compat", "webgpu"]) {
       const declared = readFileSync(join(installed, `${entry}.d.ts`), "utf8") + readFileSync(join(installed, "types.d.ts"), "utf8");
       for (const name of Object.keys(await import(join(installed, `${entry}.js`))))
         assert.match(declared, new RegExp(`(function|const|class) ${name}\\b`), `${entry}: ${name}`);
@@ -91,11 +91,14 @@ describe("the archive", { skip: !archive && "run scripts/js" }, () => {
       writeFileSync(join(project, name), code);
       execFileSync("node", [tsc, "--noEmit", "--strict", "--module", "nodenext", "--target", "es2022", "--lib", `es2022,${lib}`, "--skipLibCheck", "false", "--types", "", name], { cwd: project, stdio: "pipe" });
     };
-    const head = 'import { generateTangents, makeIndexedFrames, Plan, ready, TspaceError } from "tspace";\nimport * as small from "tspace/mikktspace";\nimport { check, decodeByCanvas, decodeImages, diff, generate, inspect } from "tspace/gltf";\nimport { compressMap, readTexture } from "tspace/textures";\nimport { MeshoptDecoder, MeshoptEncoder } from "meshoptimizer";\nawait ready;\nconst mesh = { positions: new Float32Array(9), indices: new Uint16Array(3) };\n';
+    const head = 'import { generateTangents, makeIndexedFrames, Plan, ready, TspaceError } from "tspace";\nimport * as small from "tspace/mikktspace";\nimport { check, decodeByCanvas, decodeImages, diff, generate, inspect } from "tspace/gltf";\nimport { compressMap, readTexture } from "tspace/textures";\nimport { GpuFrames } from "tspace/webgpu";\nimport { MeshoptDecoder, MeshoptEncoder } from "meshoptimizer";\nawait ready;\nconst mesh = { positions: new Float32Array(9), indices: new Uint16Array(3) };\n';
     check("right.ts", `${head}const t: Float32Array = generateTangents(mesh, { convention: "gltf", method: "best" });
 const frames = makeIndexedFrames(mesh, { convention: { vAxis: "up" }, normals: { weighting: "area" } });
 const plan = new Plan(mesh, { convention: "unreal" });
 try { plan.evaluate({ positions: t, normals: frames.normals }); } catch (e) { if (e instanceof TspaceError) e.code.length; }
+const onGpu = await GpuFrames.create({}, plan, { mesh, sourceCorners: frames.sourceCorners, normals: { weighting: "max" } });
+const gpuBuffer = { size: 48, usage: 128, destroy() {} };
+onGpu.encode({}, { positions: { buffer: gpuBuffer, format: "snorm16x3", scale: [1, 1, 2] }, normals: gpuBuffer, tangents: { buffer: gpuBuffer, format: "snorm8_pair" } });
 small.generateTangents(mesh, { convention: "gltf", pairing: "corrected" });
 const made = generate(new Uint8Array(9), { method: "best", name: "a.obj", signal: new AbortController().signal, onProgress: ({ what, done }) => what.length + done, resources: { "a.bin": t.buffer as ArrayBuffer } });
 generate(made.bytes, { meshopt: { decoder: MeshoptDecoder, encoder: MeshoptEncoder }, compress: "meshopt", flipGreen: true, encodeImage: ({ data }) => Uint8Array.from(data) });
@@ -113,7 +116,7 @@ generateTangents(mesh, { convention: "gltf", hasTangent: new Uint8Array(3) });\n
 postMessage(tangents, [normals.buffer, tangents.buffer, indices.buffer, generateTangents(mesh, { convention: "gltf" }).buffer]);
 new Blob([generate(new Uint8Array()).bytes, compressMap(new Uint8Array()).bytes]);
 await fetch("/upload", { method: "POST", body: generate(new Uint8Array()).bytes });\n`, "webworker");
-    for (const wrong of ["generateTangents(mesh, {});", 'generateTangents(mesh, { convention: "maya" });', 'small.generateTangents(mesh, { convention: "gltf", method: "best" });', "generateTangents({ positions: [0] }, { convention: 'gltf' });", 'check("model.glb");', 'inspect(new Uint8Array(9)).colour;', 'diff(new Uint8Array(9), new Uint8Array(9)).primitives[0].a.place;', 'check(new Uint8Array(9), { decodeImage: () => 5 });', 'check(new Uint8Array(9), { meshopt: { encoder: MeshoptEncoder } });', 'readTexture("a.ktx2");', 'compressMap(new Uint8Array(9), { format: "bc7" });'])
+    for (const wrong of ["generateTangents(mesh, {});", 'generateTangents(mesh, { convention: "maya" });', 'small.generateTangents(mesh, { convention: "gltf", method: "best" });', "generateTangents({ positions: [0] }, { convention: 'gltf' });", 'check("model.glb");', 'inspect(new Uint8Array(9)).colour;', 'diff(new Uint8Array(9), new Uint8Array(9)).primitives[0].a.place;', 'check(new Uint8Array(9), { decodeImage: () => 5 });', 'check(new Uint8Array(9), { meshopt: { encoder: MeshoptEncoder } });', 'readTexture("a.ktx2");', 'compressMap(new Uint8Array(9), { format: "bc7" });', "(await GpuFrames.create({}, new Plan(mesh, { convention: 'gltf' }))).encode({}, {});"])
       assert.throws(() => check("wrong.ts", head + wrong), /./, wrong);
   });
 });

@@ -1,19 +1,8 @@
 // SPDX-License-Identifier: MIT
 // three.js's WebGPURenderer and TSL with tangents of tspace/three, bundled by Vite, in headless Chromium.
 import assert from "node:assert/strict";
-import { createServer } from "node:http";
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { extname, join } from "node:path";
-import { fileURLToPath } from "node:url";
 import { it } from "node:test";
-
-const project = fileURLToPath(new URL("..", import.meta.url));
-const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
-const [vite, playwright, three] = await Promise.all(["vite", "playwright-core", "three"].map((name) => import(name).catch(() => null)));
-const missing =
-  (!chromium && "no Chromium here: scripts/js --all") ||
-  (!(vite && playwright && three) && "Vite, playwright-core or three.js is not installed, or this node is too old for them");
+import { missing, runPage } from "./browser.mjs";
 
 /** A square before the camera, whose texture is mirrored where `mirrored`: its colour is (tangent.x, bitangent.y, sign). */
 const page = `
@@ -78,45 +67,13 @@ try {
 `;
 
 it("three.js's WebGPURenderer draws with tangents of tspace/three", { skip: missing }, async (t) => {
-  const folder = mkdtempSync(join(tmpdir(), "tspace-webgpu-"));
-  let server, browser;
-  try {
-    const source = mkdtempSync(join(project, "webgpu-"));
-    try {
-      writeFileSync(join(source, "index.html"), '<!doctype html><script type="module" src="./page.js"></script>');
-      writeFileSync(join(source, "page.js"), page);
-      await vite.build({ root: source, configFile: false, logLevel: "error", build: { outDir: folder, target: "esnext", emptyOutDir: true } });
-    } finally {
-      rmSync(source, { recursive: true });
-    }
-    const types = { ".html": "text/html", ".js": "text/javascript", ".wasm": "application/wasm" };
-    server = createServer((request, answer) => {
-      const path = join(folder, request.url === "/" ? "index.html" : new URL(request.url, "http://localhost").pathname);
-      if (!existsSync(path)) return answer.writeHead(404).end();
-      answer.writeHead(200, { "Content-Type": types[extname(path)] ?? "application/octet-stream" }).end(readFileSync(path));
-    });
-    await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
-    browser = await playwright.chromium.launch({
-      executablePath: chromium,
-      args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan"],
-      env: { ...process.env, HOME: folder },
-    });
-    const tab = await browser.newPage();
-    await tab.goto(`http://127.0.0.1:${server.address().port}/`);
-    await tab.waitForFunction(() => window.result, null, { timeout: 120_000 });
-    const result = await tab.evaluate(() => window.result);
-    assert.equal(result.error, undefined);
-    assert.ok(result.webgl || result.webgpu);
-    t.diagnostic(`drawn by ${Object.keys(result).join(" and ")}`);
-    for (const [name, of] of Object.entries(result)) {
-      assert.deepEqual(of.false.colour, [255, 255, 255], `${name}: T along +x, B along +y, sign +1`);
-      assert.deepEqual(of.true.colour, [0, 255, 0], `${name}: T along -x, B along +y, sign -1`);
-      const [[right, left], [mirroredRight, mirroredLeft]] = [of.false.lit, of.true.lit];
-      assert.ok(right > left + 50 && mirroredLeft > mirroredRight + 50, `${name}: texels lean along u: ${right} ${left}, ${mirroredRight} ${mirroredLeft}`);
-    }
-  } finally {
-    await browser?.close();
-    server?.close();
-    rmSync(folder, { recursive: true });
+  const result = await runPage({ page });
+  assert.ok(result.webgl || result.webgpu);
+  t.diagnostic(`drawn by ${Object.keys(result).join(" and ")}`);
+  for (const [name, of] of Object.entries(result)) {
+    assert.deepEqual(of.false.colour, [255, 255, 255], `${name}: T along +x, B along +y, sign +1`);
+    assert.deepEqual(of.true.colour, [0, 255, 0], `${name}: T along -x, B along +y, sign -1`);
+    const [[right, left], [mirroredRight, mirroredLeft]] = [of.false.lit, of.true.lit];
+    assert.ok(right > left + 50 && mirroredLeft > mirroredRight + 50, `${name}: texels lean along u: ${right} ${left}, ${mirroredRight} ${mirroredLeft}`);
   }
 });

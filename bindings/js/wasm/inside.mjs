@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Puts each WebAssembly module of a folder into a module of JavaScript too: node inside.mjs FOLDER
+// Puts each WebAssembly module of a folder, and the compute shader of "tspace/webgpu", into a module of JavaScript too: node
+// inside.mjs FOLDER
 import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { gzipSync } from "node:zlib";
@@ -10,3 +11,6 @@ for (const name of readdirSync(folder).filter((file) => file.endsWith(".wasm")))
   writeFileSync(join(folder, name.replace(".wasm", "-inside.js")),
     `// SPDX-License-Identifier: MIT\nimport { unpacked } from "./inside.js";\n\nexport const source = () => unpacked("${text}");\n`);
 }
+
+const text = readFileSync(new URL("../../../shaders/tspace_evaluate.wgsl", import.meta.url), "utf8").replace(/[`\\$]/g, "\\$&");
+writeFileSync(join(folder, "evaluate_shader.js"), `// SPDX-License-Identifier: MIT\nexport const shader = \`${text}\`;\n`);

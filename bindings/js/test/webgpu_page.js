@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// The page of webgpu.test.mjs: poses of models, by WebGPU and by the module, and how far the two are apart.
+import { generateNormals, makeIndexedFrames, Plan, planBuffers, ready } from "tspace";
+import { GpuFrames } from "tspace/webgpu";
+
+const round = Math.fround;
+const gather = (array, size, sources) => {
+  const made = new array.constructor(sources.length * size);
+  sources.forEach((source, i) => made.set(array.subarray(size * source, size * source + size), size * i));
+  return made;
+};
+
+/** The positions of a pose, computed as the shader does: morphed by `weights`, then skinned by `matrices`. */
+function posed({ positions, targets, joints, jointWeights }, weights, matrices) {
+  const moved = positions.slice();
+  weights.forEach((weight, t) => moved.forEach((x, i) => (moved[i] = x + round(weight * targets[t][i]))));
+  if (!matrices) return moved;
+  for (let v = 0; v < positions.length / 3; ++v) {
+    const [x, y, z] = moved.subarray(3 * v, 3 * v + 3), sum = [0, 0, 0];
+    for (let i = 0; i < 4; ++i) {
+      const row = 12 * joints[4 * v + i], weight = jointWeights[4 * v + i];
+      for (let k = 0; k < 3; ++k) {
+        const [a, b, c, d] = matrices.subarray(row + 4 * k, row + 4 * k + 4);
+        sum[k] = round(sum[k] + round(weight * round(round(round(a * x) + round(b * y)) + round(round(c * z) + d))));
+      }
+    }
+    moved.set(sum, 3 * v);
+  }
+  return moved;
+}
+
+/** A turn about y that grows with x. */
+function bent(positions) {
+  const made = positions.slice();
+  const xs = positions.filter((_, i) => i % 3 === 0), low = Math.min(...xs.slice(0, 60000)), size = Math.max(...xs.slice(0, 60000)) - low;
+  for (let i = 0; i < made.length; i += 3) {
+    const angle = (0.7 * (positions[i] - low)) / size, [c, s] = [Math.cos(angle), Math.sin(angle)];
+    made.set([c * positions[i] - s * positions[i + 2], positions[i + 1], s * positions[i] + c * positions[i + 2]], i);
+  }
+  return made;
+}
+
+/** Rotations about the z axis by small angles, one for each joint: three rows of four numbers. */
+const matricesOf = (count) =>
+  Float32Array.from({ length: count }, (_, joint) => joint).reduce((made, joint) => {
+    const angle = 0.15 * Math.sin(3 * joint), [c, s] = [Math.cos(angle), Math.sin(angle)];
+    made.set([c, -s, 0, 0.01 * (joint % 5), s, c, 0, 0, 0, 0, 1, 0], 12 * joint);
+    return made;
+  }, new Float32Array(12 * count));
+
+/** The mesh with a vertex for each result, and its plan. */
+function prepared(mesh, method) {
+  const { positions, uvs, indices } = mesh;
+  const made = makeIndexedFrames({ positions, uvs, indices }, { convention: "gltf", method });
+  const take = (array, size) => array && gather(array, size, made.sourceVertices);
+  const vertices = {
+    positions: take(positions, 3), uvs: take(uvs, 2), normals: made.normals, indices: made.indices,
+    targets: (mesh.targets ?? []).map((target) => take(target, 3)), joints: take(mesh.joints, 4), jointWeights: take(mesh.jointWeights, 4),
+  };
+  const { targets, joints, jointWeights, ...plain } = vertices;
+  const plan = new Plan(plain, { convention: "gltf", method });
+  return { vertices, plain, plan, buffers: planBuffers(plan, { sourceCorners: made.sourceCorners, mesh: plain }), sourceCorners: made.sourceCorners };
+}
+
+/** Normals and tangents of each result by the module. */
+function expected({ plain, plan, sourceCorners }, positions) {
+  const corners = generateNormals({ positions, indices: plain.indices });
+  const normals = plain.normals.slice();
+  plain.indices.forEach((vertex, corner) => normals.set(corners.subarray(3 * corner, 3 * corner + 3), 3 * vertex));
+  const used = sourceCorners.map((corner) => (corner === 0xffffffff ? 0 : corner));
+  return { normals, tangents: gather(plan.evaluate({ positions, normals }), 4, used) };
+}
+
+const STORAGE = 0x80, COPY = 0x0c;
+const bufferOf = (device, data, size = data.byteLength) => {
+  const buffer = device.createBuffer({ size: Math.max(16, Math.ceil(size / 4) * 4), usage: STORAGE | COPY });
+  if (data) device.queue.writeBuffer(buffer, 0, data);
+  return buffer;
+};
+
+async function readBack(device, buffer) {
+  const copy = device.createBuffer({ size: buffer.size, usage: GPUBufferUsage.COPY_DST | GPUBufferUsage.MAP_READ });
+  const encoder = device.createCommandEncoder();
+  encoder.copyBufferToBuffer(buffer, 0, copy, 0, buffer.size);
+  device.queue.submit([encoder.finish()]);
+  await copy.mapAsync(GPUMapMode.READ);
+  const bytes = copy.getMappedRange().slice(0);
+  copy.destroy();
+  return bytes;
+}
+
+/** What deforms a mesh, as one buffer and the places in it. */
+function deformOf(device, { targets, joints, jointWeights }, weights, matrices) {
+  if (weights.length === 0 && !matrices) return undefined;
+  const parts = [Float32Array.from(weights), ...targets.slice(0, weights.length)];
+  if (matrices) parts.push(Uint32Array.from(joints), jointWeights, matrices);
+  const places = parts.map(((at) => (part) => (at += part.byteLength) - part.byteLength)(0));
+  const all = new Uint8Array(parts.reduce((sum, part) => sum + part.byteLength, 0));
+  parts.forEach((part, i) => all.set(new Uint8Array(part.buffer, part.byteOffset, part.byteLength), places[i]));
+  const [first, second, third] = places.slice(-3);
+  return {
+    buffer: bufferOf(device, all), morph: weights.length ? { count: weights.length, weights: 0, deltas: places[1] } : undefined,
+    skin: matrices && { joints: first, weights: second, matrices: third },
+  };
+}
+
+const degrees = (a, b, at, to) => {
+  const [x, y, z] = a.subarray(at, at + 3), [u, v, w] = b.subarray(to, to + 3);
+  const cross = Math.hypot(y * w - z * v, z * u - x * w, x * v - y * u);
+  return (Math.atan2(cross, x * u + y * v + z * w) * 180) / Math.PI;
+};
+
+/** Differences in degrees: that which 99 % do not exceed, and the largest. */
+function compare(wanted, found) {
+  const outcome = { results: wanted.normals.length / 3, wrongSigns: 0 };
+  for (const [name, size] of [["tangents", 4], ["normals", 3]]) {
+    const a = wanted[name], b = found[name], list = [];
+    for (let at = 0; at < a.length; at += size) {
+      list.push(degrees(a, b, at, at));
+      if (size === 4 && a[at + 3] !== b[at + 3]) ++outcome.wrongSigns;
+    }
+    list.sort((x, y) => x - y);
+    outcome[name] = { most: list[Math.ceil(0.99 * list.length) - 1], worst: list.at(-1) };
+  }
+  return outcome;
+}
+
+async function comparePose(device, mesh, method) {
+  const made = prepared(mesh, method), { vertices, buffers } = made;
+  const weights = vertices.targets.map((_, t) => 0.3 + 0.2 * (t % 3)), matrices = vertices.joints && matricesOf(1 + Math.max(...vertices.joints));
+  const isPlain = weights.length === 0 && !matrices;
+  const given = isPlain ? bent(vertices.positions) : vertices.positions;
+  const positions = isPlain ? given : posed(vertices, weights, matrices);
+  const wanted = expected(made, positions);
+  const frames = await GpuFrames.create(device, buffers);
+  const count = frames.resultCount;
+  const arrays = { positions: bufferOf(device, given), normals: bufferOf(device, null, 12 * count), tangents: bufferOf(device, null, 16 * count), deform: deformOf(device, vertices, weights, matrices) };
+  device.pushErrorScope("validation");
+  const encoder = device.createCommandEncoder();
+  frames.encode(encoder, arrays);
+  device.queue.submit([encoder.finish()]);
+  const wrong = await device.popErrorScope();
+  if (wrong) throw new Error(wrong.message);
+  const [normals, tangents] = [await readBack(device, arrays.normals), await readBack(device, arrays.tangents)].map((bytes) => new Float32Array(bytes));
+  const outcome = { name: mesh.name, method, isSkinned: matrices !== undefined, triangles: made.plain.indices.length / 3, ...compare(wanted, { normals, tangents }) };
+  frames.destroy();
+  made.plan.destroy();
+  return outcome;
+}
+
+/** Meshes of the test, as one buffer of arrays and a list that says what they are. */
+async function loadMeshes() {
+  const list = await (await fetch("/meshes.json")).json(), bytes = await (await fetch("/meshes.bin")).arrayBuffer();
+  const types = { Float32Array, Uint32Array };
+  const view = ({ type, offset, length }) => new types[type](bytes, offset, length);
+  return list.map(({ name, targets, ...arrays }) => ({
+    name, targets: targets.map(view), ...Object.fromEntries(Object.entries(arrays).map(([key, place]) => [key, view(place)])),
+  }));
+}
+
+async function newDevice(mutate = (code) => code) {
+  const device = await (await navigator.gpu.requestAdapter()).requestDevice();
+  const original = device.createShaderModule.bind(device);
+  device.createShaderModule = ({ code, ...rest }) => original({ ...rest, code: mutate(code) });
+  return device;
+}
+
+export async function main() {
+  if (!(await navigator.gpu?.requestAdapter())) return { noAdapter: true };
+  await ready;
+  const meshes = await loadMeshes(), device = await newDevice(), outcomes = [];
+  for (const mesh of meshes) for (const method of ["mikktspace", "uniform", "lengyel"]) outcomes.push(await comparePose(device, mesh, method));
+  // A shader that adds the second edge must be far off.
+  const mutant = await newDevice((code) => code.replace("a * corner.e1 - b * corner.e2", "a * corner.e1 + b * corner.e2"));
+  const spoiled = await comparePose(mutant, meshes[0], "mikktspace");
+  return { outcomes, spoiled };
+}
+
+main().then((result) => (window.result = result), (error) => (window.result = { error: String(error.stack) }));
