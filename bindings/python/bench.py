@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the Python package costs over the C call: on a cube, and on a million triangles.
+"""Measures the overhead of the Python package over the C call: for a cube, and for a million triangles.
 
 Run it where tspace is installed: build/python/venv/bin/python bindings/python/bench.py
 """
@@ -23,7 +23,7 @@ OPTIONS = ("mikktspace", "gltf", 180.0, "reference", "triangulate", "corner", "g
 
 
 def c_call(shape):
-    """A function that does nothing but the C call, and the array that it writes."""
+    """Returns a function that makes only the C call, and the array that it writes."""
     mesh, options, error = Mesh(*shape, None), tangent_options(*OPTIONS), _abi.Error()
     out = numpy.zeros((mesh.corner_count, 4), numpy.float32)
     output = _abi.TangentOutput(ctypes.sizeof(_abi.TangentOutput), 0, _abi.Span(out.ctypes.data, mesh.corner_count, 16))
@@ -38,7 +38,8 @@ def c_call(shape):
 
 
 def seconds(functions, rounds, calls):
-    """The least time of one call of each function; they take turns, so that all see the same machine."""
+    """Returns the least time of one call of each function. Calls alternate, so that all functions see the same machine
+    load."""
     best = [float("inf")] * len(functions)
     for _ in range(rounds):
         for number, function in enumerate(functions):

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Compiles the shared libraries with CMake and puts them into the package. All else stands in pyproject.toml.
+"""Compiles the shared libraries with CMake and adds them to the package. Other settings are in pyproject.toml.
 
-In the repository the C++ sources are two folders up; a source distribution has them in cpp/. TSPACE_CMAKE_FOLDER names the
-folder that CMake builds in, so that a second build compiles what changed; TSPACE_LIBRARIES names one that has the libraries,
-and then nothing is compiled.
+In the repository the C++ sources are two folders up; a source distribution has them in cpp/. TSPACE_CMAKE_FOLDER is the
+build folder of CMake, for incremental builds; TSPACE_LIBRARIES is a folder with built libraries, so that nothing is
+compiled.
 """
 
 import os
@@ -25,12 +25,12 @@ HERE = Path(__file__).resolve().parent
 IN_REPOSITORY = not (HERE / "cpp").exists()
 SOURCES = HERE.parent.parent if IN_REPOSITORY else HERE / "cpp"
 WORK = SOURCES / "build" / "python" if IN_REPOSITORY else HERE / "build"
-# What CMake needs for the libraries alone.
+# Sources that CMake needs for the libraries.
 SOURCE_NAMES = ["CMakeLists.txt", "LICENSE", "cmake", "include", "src"]
 LIBRARIES = {"tspace_shared": "libtspace.so.0", "tspace_files_shared": "libtspace-files.so.0"}
-# Linked into ours: headers, and static libraries.
+# Packages linked into the libraries: headers and static libraries.
 LINKED_PACKAGES = ["libdraco-dev", "nlohmann-json3-dev", "libtinyobjloader-dev", "libxxhash-dev"]
-# What every system that runs Python has; libraries beside these go into the wheel.
+# Libraries of every system with Python; all others are added to the wheel.
 SYSTEM = re.compile(r"(ld-linux.*|lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+))\.so\.[0-9]+$")
 
 
@@ -40,19 +40,19 @@ def version():
 
 
 def project_urls():
-    """Those of the repository, where TSPACE_URL names it: https://github.com/OWNER/tspace."""
+    """Returns the URLs of the repository that TSPACE_URL names: https://github.com/OWNER/tspace."""
     url = os.environ.get("TSPACE_URL")
     pages = {"Homepage": "", "Documentation": "/tree/main/docs", "Changes": "/blob/main/CHANGELOG.md", "Issues": "/issues"}
     return {name: url + path for name, path in pages.items()} if url else {}
 
 
 def compile_libraries(folder):
-    """Returns the files of the shared libraries."""
+    """Returns the paths of the shared libraries."""
     generator = ["-G", "Ninja"] if shutil.which("ninja") else []
     parts = [f"-DTSPACE_BUILD_{part}=OFF" for part in ("TOOL", "TESTS", "EXAMPLES")]
     configure = ["cmake", "-S", SOURCES, "-B", folder, *generator, *parts]
     configure += ["-DCMAKE_BUILD_TYPE=Release", "-DTSPACE_BUILD_SHARED=ON", "-DTSPACE_BATCHES=ON"]
-    # RPATH, not RUNPATH: it serves libraries that libraries need, too.
+    # RPATH instead of RUNPATH, because it also applies to indirect dependencies.
     flags = "-static-libstdc++ -static-libgcc -Wl,--strip-debug -Wl,--disable-new-dtags"
     configure += [f"-DCMAKE_SHARED_LINKER_FLAGS={flags}", "-DCMAKE_INSTALL_RPATH=$ORIGIN"]
     configure += ["-DCMAKE_BUILD_WITH_INSTALL_RPATH=ON"]
@@ -63,17 +63,17 @@ def compile_libraries(folder):
 
 
 def bundled(library):
-    """The libraries beside the system's that this one needs, and what they need."""
+    """Returns the non-system libraries that this library needs, including indirect ones."""
     printed = subprocess.run(["ldd", library], check=True, capture_output=True, text=True).stdout
     found = re.findall(r"^\s*(\S+) => (/\S+)", printed, re.M)
     return [Path(path) for name, path in found if not SYSTEM.match(name) and name not in LIBRARIES.values()]
 
 
 def copy_notices(libraries, folder):
-    """The licences of what is inside, as Debian's packages have them. Elsewhere there are none to copy."""
+    """Copies the licenses of the linked libraries from Debian's packages. On other systems nothing is copied."""
     if not shutil.which("dpkg-query"):
         return
-    # Old packages say /lib for what lies in /usr/lib.
+    # Old packages list files in /usr/lib under /lib.
     names = [str(library) for library in libraries] + [str(library).replace("/usr", "", 1) for library in libraries]
     owners = subprocess.run(["dpkg-query", "-S", *names], capture_output=True, text=True).stdout
     packages = set(re.findall(r"^([^:\s]+):", owners, re.M)) | set(LINKED_PACKAGES)
@@ -99,13 +99,13 @@ class BuildWithLibraries(build_py):
             shutil.copyfile(path, target / name)
         copy_notices(list(others.values()), target / "notices")
         shutil.copyfile(SOURCES / "LICENSE", package / "LICENSE")
-        # The wheel keeps the rights of files, which in the sources are what somebody's umask left.
+        # The wheel stores file permissions, which in the sources depend on the developer's umask.
         for path in [package, *package.rglob("*")]:
             path.chmod(0o755 if path.is_dir() else 0o644)
 
 
 class WheelForAllPythons(bdist_wheel):
-    """No Python API is used: one wheel for all versions of Python 3."""
+    """Tags the wheel for all versions of Python 3, because it does not use the Python C API."""
 
     def get_tag(self):
         return "py3", "none", super().get_tag()[2]
@@ -129,7 +129,7 @@ class Compiled(Distribution):
 
 
 WORK.mkdir(parents=True, exist_ok=True)
-shutil.rmtree(WORK / "setuptools", ignore_errors=True)  # it would keep files that are gone
+shutil.rmtree(WORK / "setuptools", ignore_errors=True)  # setuptools would keep deleted files
 setup(
     version=version(),
     project_urls=project_urls(),

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Blender: tangents of the active mesh, beside those of calc_tangents, and the angle between them as a colour.
+"""Blender: compares tangents of the active mesh with those of calc_tangents, and shows the angle as a color.
 
     blender FILE.blend --python blender_compare.py
     blender --background --python blender_compare.py -- --torus --packages FOLDER
 
---torus adds a torus and takes that; --packages names the folder where tspace is installed, if Blender's Python does not find
-it. The colour attribute "tspace angle" is white where both agree and red from 1 degree on.
+--torus adds a torus and uses it; --packages specifies the folder where tspace is installed, if Blender's Python does
+not find it. The color attribute "tspace angle" is white where both agree, and red from 1 degree on.
 """
 
 import argparse
@@ -16,14 +16,14 @@ import numpy
 
 
 def gathered(items, name, components, kind=numpy.float32):
-    """A property of all items of a Blender collection, as an array."""
+    """Returns a property of all items of a Blender collection, as an array."""
     values = numpy.empty(len(items) * components, kind)
     items.foreach_get(name, values)
     return values.reshape(-1, components) if components > 1 else values
 
 
 def tangents_of(mesh, tspace):
-    """(loops, 4), as Blender's own: per loop, on its polygons."""
+    """Returns tangents per loop for the original polygons, shape (loops, 4), like Blender's own."""
     mesh.calc_normals_split()
     return tspace.tangents(
         gathered(mesh.vertices, "co", 3),
@@ -38,13 +38,13 @@ def tangents_of(mesh, tspace):
 
 
 def blender_tangents(mesh):
-    mesh.calc_tangents(uvmap=mesh.uv_layers.active.name)  # refuses polygons with more than 4 corners
+    mesh.calc_tangents(uvmap=mesh.uv_layers.active.name)  # fails for polygons with more than 4 corners
     signs = gathered(mesh.loops, "bitangent_sign", 1)
     return numpy.column_stack([gathered(mesh.loops, "tangent", 3), signs])
 
 
 def show(mesh, angles):
-    """The angles as a colour attribute per loop."""
+    """Shows the angles as a color attribute per loop."""
     name = "tspace angle"
     if name in mesh.color_attributes:
         mesh.color_attributes.remove(mesh.color_attributes[name])
@@ -71,7 +71,7 @@ def main():
     if thing is None or thing.type != "MESH" or not thing.data.uv_layers:
         raise SystemExit("the active object is no mesh with UVs")
     ours, theirs = tangents_of(thing.data, tspace), blender_tangents(thing.data)
-    # By the chord: a cosine near 1 has no digits left.
+    # Computed from the chord: a cosine near 1 has no digits left.
     chord = numpy.linalg.norm(ours[:, :3].astype(float) - theirs[:, :3], axis=1)
     angles = numpy.degrees(2 * numpy.arcsin(numpy.clip(chord / 2, 0, 1)))
     signs = int((ours[:, 3] != theirs[:, 3]).sum())

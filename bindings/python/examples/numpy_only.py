@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""A vase by numpy alone: indexed frames, what the split did, and the normal that a texel of a normal map stands for."""
+"""A vase with numpy only: indexed frames, how the split changed vertices, and the normal of a texel of a normal map."""
 
 import numpy
 import tspace
 
 
 def vase(rows, columns):
-    """A surface of revolution as quads. The texture is mirrored on its second half, so the seam needs two tangents."""
+    """Returns a surface of revolution as quads. The texture is mirrored on the second half, so the seam needs two
+    tangents."""
     v, u = numpy.mgrid[0 : rows + 1, 0:columns] / [[[rows]], [[columns]]]
     radius = 1 + 0.4 * numpy.sin(2 * numpy.pi * v)
     positions = numpy.stack([radius * numpy.cos(2 * numpy.pi * u), radius * numpy.sin(2 * numpy.pi * u), 3 * v], -1)
@@ -22,11 +23,11 @@ def main():
     mesh = tspace.make_indexed_frames(positions, None, uvs, quads, convention="opengl", method="best")
     print(f"{len(positions)} vertices became {len(mesh.source_vertices)}: the rest copies those at the seam")
 
-    # Everything else that hangs on vertices is gathered in the same way.
+    # All other vertex attributes are gathered in the same way.
     new_positions, new_uvs = positions[mesh.source_vertices], uvs[mesh.source_vertices]
     assert len(new_positions) == len(new_uvs) == len(mesh.normals) == len(mesh.tangents)
 
-    # What a shader does: a texel (red, green, blue) leans along T, B and N.
+    # Like in a shader: a texel (red, green, blue) is a linear combination of T, B and N.
     tangent, sign = mesh.tangents[:, :3], mesh.tangents[:, 3:]
     bitangent = sign * numpy.cross(mesh.normals, tangent)
     red, green, blue = 2 * numpy.array([0.6, 0.5, 0.95]) - 1

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Open3D: it keeps UVs per corner, so a list of indices for positions and one row of UVs per corner go in."""
+"""Open3D stores UVs per corner, so the call takes an index list for positions and one row of UVs per corner."""
 
 import numpy
 import open3d
@@ -7,9 +7,10 @@ import tspace
 
 
 def with_frames(mesh, convention="opengl"):
-    """An open3d.t.geometry.TriangleMesh with normals, UVs and tangents per vertex, of a legacy mesh with triangle_uvs."""
+    """Returns an open3d.t.geometry.TriangleMesh with normals, UVs and tangents per vertex, from a legacy mesh with
+    triangle_uvs."""
     positions = numpy.asarray(mesh.vertices)  # float64: tspace converts it
-    triangles = numpy.asarray(mesh.triangles)  # int32, read where it lies
+    triangles = numpy.asarray(mesh.triangles)  # int32, used without a copy
     uvs = numpy.asarray(mesh.triangle_uvs)
     normals = numpy.asarray(mesh.vertex_normals) if mesh.has_vertex_normals() else None
     made = tspace.make_indexed_frames(positions, normals, uvs, triangles, uv_indices="corners", convention=convention)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""How far tangents are from exact ones, plotted. A page in cells, for editors that know them; or run it:
+"""Plots the error of tangents. Divided into cells for editors that support them; or run it:
 
     python3 plot_errors.py errors.png
 """
 
-# %% A torus has a formula for its tangents.
+# %% The tangents of a torus are known exactly.
 import sys
 
 import matplotlib
@@ -16,7 +16,7 @@ import tspace  # noqa: E402
 
 
 def torus(rows, columns, large=2.0, small=0.7):
-    """Positions, normals, UVs and triangles; the UVs are sheared, so that tangents are not trivial."""
+    """Returns positions, normals, UVs and triangles; the UVs are sheared, so that tangents are not trivial."""
     i, j = numpy.meshgrid(numpy.arange(rows + 1), numpy.arange(columns + 1), indexing="ij")
     a, b = 2 * numpy.pi * i / rows, 2 * numpy.pi * j / columns
     normals = numpy.stack([numpy.cos(a) * numpy.cos(b), numpy.sin(a) * numpy.cos(b), numpy.sin(b)], -1)
@@ -28,27 +28,27 @@ def torus(rows, columns, large=2.0, small=0.7):
 
 
 def exact(positions):
-    """dP/du, where v stays: the circles around the axis."""
+    """Returns dP/du for constant v: the direction of the circles around the axis."""
     along = numpy.stack([-positions[:, 1], positions[:, 0], 0 * positions[:, 0]], -1)
     return along / numpy.linalg.norm(along, axis=1, keepdims=True)
 
 
 def errors(method, rows):
-    """Angles in degrees, per corner."""
+    """Returns the error angles in degrees, one per corner."""
     positions, normals, uvs, triangles = torus(rows, rows)
     tangents = tspace.tangents(positions, normals, uvs, triangles, method=method, convention="opengl")
     chord = numpy.linalg.norm(tangents[:, :3] - exact(positions)[triangles], axis=1)
     return numpy.degrees(2 * numpy.arcsin(numpy.clip(chord / 2, 0, 1)))
 
 
-# %% Root mean square over all corners, by the number of quads around.
+# %% RMS error over all corners, by the number of quads around the torus.
 METHODS = ("mikktspace", "angle", "area", "fast", "best")
 ROWS = (8, 16, 32, 64)
 table = {method: [numpy.sqrt((errors(method, rows) ** 2).mean()) for rows in ROWS] for method in METHODS}
 for method, row in table.items():
     print(f"{method:12}" + "".join(f"{error:10.4f}" for error in row))
 
-# %% Finer meshes are better, and `best` gains most.
+# %% The error decreases on finer meshes, most of all for `best`.
 figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4))
 for method, row in table.items():
     left.loglog(ROWS, row, marker="o", label=method)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""trimesh: vertices with UVs in, vertices with tangents out; and a GLB that has them."""
+"""trimesh: input vertices with UVs, output vertices with tangents, and a GLB that contains them."""
 
 import numpy
 import trimesh
@@ -7,7 +7,8 @@ import tspace
 
 
 def with_frames(mesh, convention="opengl"):
-    """A trimesh.Trimesh whose vertex_attributes has "tangent", of one with UVs. trimesh's V points up: "opengl"."""
+    """Returns a trimesh.Trimesh with vertex_attributes["tangent"], from one with UVs. V points up in trimesh: "opengl".
+    """
     uvs = mesh.visual.uv
     made = tspace.make_indexed_frames(mesh.vertices, mesh.vertex_normals, uvs, mesh.faces, convention=convention)
     result = trimesh.Trimesh(
@@ -15,16 +16,16 @@ def with_frames(mesh, convention="opengl"):
         faces=made.indices.reshape(-1, 3),
         vertex_normals=made.normals,
         visual=trimesh.visual.TextureVisuals(uv=uvs[made.source_vertices], material=mesh.visual.material),
-        process=False,  # it would merge the vertices that were split
+        process=False,  # would merge the split vertices again
     )
     result.vertex_attributes["tangent"] = made.tangents
     return result
 
 
 def to_glb(mesh):
-    """Bytes of a GLB with TANGENT. trimesh's exporter would call the attribute "_tangent", which no renderer reads."""
+    """Returns a GLB with TANGENT. trimesh's exporter would name the attribute "_tangent", which no renderer reads."""
     plain = mesh.export(file_type="glb", include_normals=True)
-    return tspace.generate_bytes(plain, all=True)  # all: also where the material has no normal map
+    return tspace.generate_bytes(plain, all=True)  # all: also if the material has no normal map
 
 
 def main():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Small GLB files, made in memory."""
+"""Small GLB files, created in memory."""
 
 import json
 import struct
@@ -8,7 +8,8 @@ import numpy
 
 
 def make_glb(shape, tangents=None, uri=None):
-    """A GLB of one mesh whose material has a normal map. With `uri`: a glTF and the bytes of its buffer, apart."""
+    """Returns a GLB with one mesh whose material has a normal map. With `uri`: a glTF and separately the bytes of its
+    buffer."""
     arrays = [
         ("POSITION", "VEC3", shape.positions),
         ("NORMAL", "VEC3", shape.normals),
@@ -60,7 +61,7 @@ def make_glb(shape, tangents=None, uri=None):
 
 
 def read_glb(data):
-    """The JSON of a GLB, and a function that gives an accessor's numbers."""
+    """Returns the JSON of a GLB, and a function that returns the numbers of an accessor."""
     length = struct.unpack_from("<I", data, 12)[0]
     gltf = json.loads(data[20 : 20 + length])
     binary = data[28 + length :]

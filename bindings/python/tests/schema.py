@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Reports against docs/schema: each that a test gets is looked at, where jsonschema is installed."""
+"""Validates all reports that tests receive against docs/schema, if jsonschema is installed."""
 
 import json
 import warnings
@@ -10,7 +10,7 @@ from tspace import _files
 FOLDER = Path(__file__).resolve().parents[3] / "docs" / "schema"
 try:
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DeprecationWarning)  # of RefResolver, in versions newer than Debian's
+        warnings.simplefilter("ignore", DeprecationWarning)  # caused by RefResolver, in versions newer than Debian's
         from jsonschema import Draft202012Validator, RefResolver, ValidationError
 except ImportError:
     Draft202012Validator = None
@@ -19,12 +19,12 @@ _schemas = {path.name: json.loads(path.read_text()) for path in FOLDER.glob("*.j
 
 
 def schemas():
-    """All schemas by the names of their files."""
+    """Returns all schemas, keyed by file name."""
     return _schemas
 
 
 def expect_valid(document):
-    """Raises ValidationError where a document is not as the schema that it names."""
+    """Raises ValidationError if a document does not match the schema that it names."""
     schema = _schemas[document["schema"].replace("/", ".") + ".json"]
     Draft202012Validator(schema, resolver=RefResolver("", schema, store=_schemas)).validate(document)
 

@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: MIT
-"""Meshes and data that several tests use."""
+"""Meshes and data shared by several tests."""
 
 import os
 import unittest
 from pathlib import Path
 
 import numpy
-import schema  # pylint: disable=unused-import  # looks at all reports
+import schema  # pylint: disable=unused-import  # validates all reports
 
-# What the repository's tests call TSPACE_SHARED_DIR.
+# Same folder as TSPACE_SHARED_DIR of the repository's tests.
 SHARED = Path(os.environ.get("TSPACE_SHARED_DIR") or Path(__file__).resolve().parents[4] / "shared")
 
 
 def needs_shared(path):
-    """The folder or file of the test data; skips the test where it is absent."""
+    """Returns a folder or file of the test data; skips the test if it does not exist."""
     found = SHARED / path
     if not found.exists():
         raise unittest.SkipTest(f"{found} is not there: name the folder of test data with TSPACE_SHARED_DIR")
@@ -21,7 +21,7 @@ def needs_shared(path):
 
 
 class Shape:
-    """Arrays of a mesh, as the functions take them."""
+    """Arrays of a mesh, in the order of the functions' arguments."""
 
     def __init__(self, positions, normals, uvs, indices):
         self.positions = numpy.asarray(positions, numpy.float32)
@@ -34,7 +34,7 @@ class Shape:
 
 
 def cube():
-    """24 vertices, 12 triangles."""
+    """Returns a cube with 24 vertices and 12 triangles."""
     sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     points = numpy.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], numpy.float32)
     normals = [[-1, 0, 0], [1, 0, 0], [0, -1, 0], [0, 1, 0], [0, 0, -1], [0, 0, 1]]
@@ -47,7 +47,7 @@ def cube():
 
 
 def torus(rows, columns):
-    """A closed surface of 2 * rows * columns triangles, with UV seams of vertices of their own."""
+    """Returns a closed surface of 2 * rows * columns triangles, with duplicated vertices at UV seams."""
     i, j = numpy.meshgrid(numpy.arange(rows + 1), numpy.arange(columns + 1), indexing="ij")
     a, b = 2 * numpy.pi * (i % rows) / rows, 2 * numpy.pi * (j % columns) / columns
     normal = numpy.stack([numpy.cos(a) * numpy.cos(b), numpy.sin(a) * numpy.cos(b), numpy.sin(b)], -1)
@@ -63,7 +63,7 @@ def torus(rows, columns):
 
 
 def same_bits(a, b):
-    """Equal words; any NaN equals any NaN."""
+    """Returns whether all words are equal; any NaN equals any NaN."""
     a, b = numpy.ascontiguousarray(a, numpy.float32), numpy.ascontiguousarray(b, numpy.float32)
     if a.shape != b.shape:
         return False

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Bad input is an exception that says what and where; nothing leaks and the process lives."""
+"""Bad input raises an exception with a precise message; nothing leaks, and the process survives."""
 
 import gc
 import unittest
@@ -24,12 +24,12 @@ class BadInput(unittest.TestCase):
             call(*arguments, **options)
         for word in [words] if isinstance(words, str) else words:
             self.assertIn(word, str(caught.exception))
-        # The next call works.
+        # A later call still works.
         self.assertEqual(tspace.tangents(*self.shape, convention="gltf").shape, (36, 4))
         return caught.exception
 
     def refuses_tangents(self, kind, words, **changed):
-        """By both ways of computing tangents."""
+        """Checks both ways of computing tangents."""
         self.refuses(kind, words, tspace.Plan, **self.arguments(**changed))
         return self.refuses(kind, words, tspace.tangents, **self.arguments(**changed))
 
@@ -101,7 +101,7 @@ class BadInput(unittest.TestCase):
         self.refuses_tangents(ValueError, "face_sizes is 9999999999", face_sizes=9999999999)
 
     def test_counts_that_are_too_large(self):
-        # Broadcast arrays: no memory stands behind them, and none may be asked for.
+        # Broadcast arrays need no memory, and none may be allocated for them.
         many = numpy.broadcast_to(numpy.float32(0), (2**31, 3))
         error = self.refuses_tangents(ValueError, ["positions", "2147483648"], positions=many)
         self.assertEqual(error.code, "tooLarge")
@@ -251,7 +251,7 @@ class BadInput(unittest.TestCase):
 
         work()
         before = work()
-        # A lost plan or split would be some 0.3 MB, 60 times.
+        # A leaked plan or split would take about 0.3 MB, 60 times.
         self.assertLess(work() - before, 4e6)
 
 

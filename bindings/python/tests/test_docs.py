@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The Python of the documentation runs, page by page."""
+"""Runs the Python code blocks of each documentation page."""
 
 import contextlib
 import io
@@ -21,7 +21,7 @@ class Docs(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             self.addCleanup(os.chdir, os.getcwd())
             os.chdir(folder)
-            # The model that the pages name.
+            # The model that the pages use.
             Path("chair.glb").write_bytes(make_glb(torus(6, 8)))
             for page in (ROOT / "docs/start/first-program.md", ROOT / "docs/reference/python.md", ROOT / "bindings/python/README.md"):
                 names = {}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The examples run, each in a Python of its own; what they need and is not there skips them."""
+"""Runs each example in a separate Python process; examples with missing dependencies are skipped."""
 
 import importlib.util
 import os
@@ -32,7 +32,7 @@ class Examples(unittest.TestCase):
             cwd=self.folder,
             env={**os.environ, "HOME": str(self.folder), "XDG_RUNTIME_DIR": str(self.folder), **environment},
             stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,  # where libraries say that they are slow today
+            stderr=subprocess.PIPE,  # libraries print performance warnings there
             text=True,
             timeout=280,
         )
@@ -40,7 +40,7 @@ class Examples(unittest.TestCase):
         return done.stdout
 
     def run_example(self, name, *arguments):
-        # -B: nothing is written beside the example.
+        # -B: writes no bytecode next to the example.
         return self.run_program(sys.executable, "-B", EXAMPLES / name, *arguments)
 
     def test_numpy_alone(self):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Model files, on disk and in memory: results, reports as objects, and what is refused."""
+"""Model files, on disk and in memory: results, reports as objects, and rejected input."""
 
 import errno
 import gc
@@ -146,7 +146,7 @@ class Generate(Files):
 
 
 def sheet(cells, bump, with_uvs):
-    """An OBJ of cells x cells quads over the unit square, lifted by bumps."""
+    """Returns an OBJ of cells x cells quads over the unit square, with a wavy height."""
     at = [(x / cells, y / cells) for y in range(cells + 1) for x in range(cells + 1)]
     lines = ["s 1"] + [f"v {x} {y} {bump * math.sin(12 * x) * math.sin(9 * y)}" for x, y in at]
     lines += [f"vt {x} {y}" for x, y in at] if with_uvs else []
@@ -164,7 +164,7 @@ class Bakes(Files):
         self.high.write_text(sheet(40, 0.02, False))
 
     def need_rays(self):
-        """Skips where Embree is not there."""
+        """Skips the test if Embree is not installed."""
         try:
             tspace.bake_file(self.low, self.high, self.folder / "small.png", size=8)
         except tspace.FileError as error:
@@ -259,7 +259,7 @@ class Failures(Files):
         with self.assertRaises(tspace.ReadWriteError) as caught:
             tspace.check(str(self.folder))
         self.assertEqual((caught.exception.errno, caught.exception.filename), (errno.EISDIR, str(self.folder)))
-        if os.geteuid() != 0:  # whom nothing is forbidden
+        if os.geteuid() != 0:  # the superuser may read every file
             secret = self.folder / "secret.glb"
             secret.write_bytes(self.framed)
             secret.chmod(0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the functions compute: properties of their results."""
+"""Properties of the computed results."""
 
 import copy
 import threading
@@ -122,7 +122,7 @@ class Tangents(unittest.TestCase):
         self.assertTrue((vertex["p"] == arrays[0]).all() and (vertex["x"] == 7).all())
 
     def test_memory_is_not_used_again_while_a_view_of_a_result_lives(self):
-        shape = torus(300, 300)  # its results are large enough to be used again
+        shape = torus(300, 300)  # its results are large enough for their memory to be reused
         want = tspace.tangents(*shape, convention="gltf").copy()
         view = tspace.tangents(*shape, convention="gltf")[::2, 3]
         part = tspace.tangents(*shape, convention="opengl")[5:].reshape(-1)
@@ -318,7 +318,7 @@ class After(unittest.TestCase):
             self.assertEqual(report.mended_count, 0)
             n, t = tspace.unpack_frames(packed, name)
             for got, want in ((n, normals), (t[:, :3], tangents[:, :3])):
-                # Chords: an angle from a cosine would have the error of its rounding.
+                # Uses chords, because an angle from a cosine would have its rounding error.
                 chord = lengths(got.astype(numpy.float64) - want)
                 self.assertLess(numpy.degrees(2 * numpy.arcsin(chord / 2)).max(), bound, name)
             self.assertTrue((t[:, 3] == tangents[:, 3]).all())

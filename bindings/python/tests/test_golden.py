@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Every word of the MikkTSpace reference, through numpy."""
+"""Compares every word of the MikkTSpace reference results, through numpy."""
 
 import unittest
 
@@ -7,12 +7,12 @@ import numpy
 import tspace
 from support import needs_shared, same_bits
 
-# docs/concepts/methods/mikktspace.md promises no bits for values that are not finite or of 1.6e38 and more.
+# docs/concepts/methods/mikktspace.md does not promise identical bits for values that are not finite or at least 1.6e38.
 LIMIT = numpy.float32(1.6e38)
 
 
 class Golden:
-    """A mesh, and what the reference made of it."""
+    """A mesh with the results of the reference."""
 
     def __init__(self, path):
         words = numpy.fromfile(path, numpy.uint32)
@@ -20,7 +20,7 @@ class Golden:
         self.threshold = float(words[3:4].view(numpy.float32)[0])
         self.face_sizes = words[5 : 5 + faces]
         inputs = words[5 + faces : 5 + faces + 8 * corners].view(numpy.float32).reshape(corners, 8)
-        # Views of interleaved vertices: they are read where they lie.
+        # Views of interleaved vertices, which are used without a copy.
         self.arrays = inputs[:, 0:3], inputs[:, 3:6], inputs[:, 6:8]
         self.results = words[5 + faces + 8 * corners :].view(numpy.float32).reshape(corners, 10)
         self.is_promised = bool((numpy.abs(inputs) < LIMIT).all())

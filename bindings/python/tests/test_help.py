@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What help() shows: its examples run, all arguments are explained, all have types."""
+"""Checks help(): its examples run, and all arguments are documented and typed."""
 
 import doctest
 import inspect
@@ -12,7 +12,7 @@ import tspace
 
 
 def functions():
-    """Public functions and methods by their names."""
+    """Yields public functions and methods with their names."""
     for name in tspace.__all__:
         value = getattr(tspace, name)
         if inspect.isfunction(value):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Indexed frames in one call, and meshes with an index list for each attribute."""
+"""Indexed frames in one call, and meshes with a separate index list per attribute."""
 
 import unittest
 
@@ -9,7 +9,7 @@ from support import cube, same_bits, torus
 
 
 def mirrored_strip():
-    """Two quads side by side; the texture is mirrored on the second, so that two vertices need two tangents."""
+    """Returns two adjacent quads; the texture is mirrored on the second one, so that two vertices need two tangents."""
     positions = numpy.float32([[x, y, 0] for y in (0, 1) for x in (0, 1, 2)])
     uvs = numpy.float32([[u, y] for y in (0, 1) for u in (0, 1, 0)])
     normals = numpy.float32([[0, 0, 1]] * 6)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Calls in an interpreter with little address space: they succeed or raise MemoryError."""
+"""Calls in an interpreter with little address space succeed or raise MemoryError."""
 
 import os
 import subprocess
@@ -29,10 +29,10 @@ except (MemoryError, SystemError):  # the latter from CPython's own compiler of 
 
 @unittest.skipUnless(resource and sys.platform == "linux", "limits of address space are Linux's")
 class Memory(unittest.TestCase):
-    """RLIMIT_AS from where the interpreter starts."""
+    """Limits RLIMIT_AS, starting with the interpreter's own use."""
 
     def test_scarce_addresses_are_memory_errors(self):
-        """Neither a signal nor a library that is said to be missing."""
+        """The process must not be killed by a signal, nor report a library as missing."""
         with tempfile.TemporaryDirectory() as folder:
             import numpy  # pylint: disable=import-outside-toplevel
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A plan as arrays for compute shaders: evaluated with NumPy, it gives what the library gives."""
+"""A plan as arrays for compute shaders: evaluation with NumPy gives the same result as the library."""
 
 import unittest
 
@@ -15,7 +15,7 @@ def units(vectors):
 
 
 def evaluated(buffers, positions, normals=None):
-    """Normals and tangents of each result, for the method and the weighting "uniform"."""
+    """Returns normals and tangents of each result, for the method and the weighting "uniform"."""
     corners = buffers.triangles[:, :3]
     a, b = buffers.triangles[:, 3:].view(numpy.float32).T[:, :, None].astype(float)
     points = positions[corners].astype(float)
@@ -42,7 +42,7 @@ class PlanBuffers(unittest.TestCase):
         posed = shape.positions * numpy.float32([1, 2, 0.5])
         _, found = evaluated(buffers, posed, shape.normals)
         self.assertLess(abs(found - plan.evaluate(posed, shape.normals)).max(), 2e-6)
-        # Another plan has other tangents: the comparison can fail.
+        # A different plan gives different tangents, so the comparison can fail.
         other = tspace.Plan(shape.positions, shape.normals, shape.uvs[:, ::-1], shape.indices, method="uniform", convention="gltf")
         self.assertGreater(abs(found - other.evaluate(posed, shape.normals)).max(), 0.5)
 

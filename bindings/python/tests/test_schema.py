@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Reports are what docs/schema says. All other tests look at that too, through support."""
+"""Reports conform to docs/schema. All other tests check this too, through support."""
 
 import copy
 import unittest

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Arrays in another shape than the one that is asked for: read as what they are, or refused by name; never a result of zeros."""
+"""Arrays of unexpected shapes are either interpreted correctly or rejected by name; a result is never all zeros."""
 
 import unittest
 
@@ -9,14 +9,14 @@ from support import cube, same_bits
 
 
 def bits(result):
-    """Everything in a result that is an array, as one list of arrays."""
+    """Returns all arrays of a result as a list."""
     if isinstance(result, numpy.ndarray):
         return [result]
     return [array for part in result if isinstance(part, (numpy.ndarray, tuple)) for array in bits(part)]
 
 
 def calls():
-    """Name and function; arrays that it needs, and further ones that it takes, each of which is tried with those alone."""
+    """Yields name and function, the required arrays, and optional arrays, each of which is tried separately."""
     positions, normals, uvs, indices = cube()
     mesh = dict(positions=positions, normals=normals, uvs=uvs, indices=indices)
     surface = dict(positions=positions, indices=indices)
@@ -61,7 +61,7 @@ def calls():
     ]
 
 
-# What messages call the arrays that the functions above take in a list.
+# Names in messages for arrays that the functions above take in a list.
 LISTED = {"attribute": "attributes[0]", "keep": "keep_apart[0]"}
 
 
@@ -111,7 +111,7 @@ class Shapes(unittest.TestCase):
 
 
 class Names(unittest.TestCase):
-    """What is refused is named as the caller wrote it."""
+    """Messages use the caller's name for a rejected argument."""
 
     def test_errors_begin_with_the_name_of_the_argument(self):
         positions, normals, uvs, indices = shape = cube()

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What type checkers are told. Run where mypy (Debian: mypy) and pyright (npm: scripts/setup python-all) are installed."""
+"""Tests of the type annotations. Run if mypy (Debian: mypy) and pyright (npm: scripts/setup python-all) are installed.
+"""
 
 import json
 import shutil
@@ -49,7 +50,7 @@ tspace.generate_file("a.glb", "b.glb", metod="best")
 tspace.bake_file("a.glb", "b.glb", "c.png", maps=["light"])
 tspace.finish_file("a.glb", "b.glb", high="c.glb")
 """
-# As numpy 1 and 2 have them, whose names for bits differ.
+# Formatted as by numpy 1 and 2, whose names for bit widths differ.
 FLOATS = "numpy.ndarray[Any, numpy.dtype[numpy.floating[numpy._typing._32Bit]]]"
 NUMBERS = "numpy.ndarray[Any, numpy.dtype[numpy.unsignedinteger[numpy._typing._{}Bit]]]"
 REVEALED = [

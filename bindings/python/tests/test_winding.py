@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""mend_winding: indices of every shape, and what normals say."""
+"""mend_winding: indices of every shape, and the influence of normals."""
 
 import unittest
 
@@ -18,7 +18,7 @@ class MendWinding(unittest.TestCase):
     def setUp(self):
         self.positions, self.normals, _, indices = cube()
         self.sound = numpy.array(indices, numpy.uint32).reshape(-1, 3)
-        # The faces of that cube may be wound either way: what the volume says is right.
+        # The faces of the cube may have either winding, so the expected winding is the one chosen by volume.
         self.sound = tspace.mend_winding(self.positions, self.sound).indices
 
     def test_turns_what_was_turned(self):
@@ -35,7 +35,7 @@ class MendWinding(unittest.TestCase):
         self.assertEqual(result.indices.shape, flat.shape)
         self.assertEqual(result.indices.dtype, numpy.uint8)
         self.assertTrue((result.indices == self.sound.ravel()).all())
-        self.assertTrue((flat != self.sound.ravel()).any())  # the caller's array stays as it is
+        self.assertTrue((flat != self.sound.ravel()).any())  # the caller's array is not changed
 
     def test_makes_indices_where_there_are_none(self):
         soup = self.positions[damaged(self.sound, [5]).ravel()]

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Normals and tangent frames for meshes: the (T, B, N) and the sign that normal maps need.
+"""Normals and tangent frames for meshes: T, B, N and the sign that normal maps need.
 
-A *corner* is one (face, local vertex) pair; corners are numbered face after face. A *vertex* is one entry of the arrays. One
-vertex can need several tangents (at UV seams, where the UV map is mirrored), so results come per corner. The *sign* is the
-fourth number of a tangent: B = sign * cross(N, T). A *convention* says what a format means by it, so it must be named.
+A *corner* is a pair of a face and one of its vertices; corners are numbered face by face. A *vertex* is one entry of the
+arrays. One vertex can need several tangents (at UV seams, and where the UV map is mirrored), so results are per corner.
+The *sign* is the fourth number of a tangent: B = sign * cross(N, T). Its meaning depends on the format, so every call
+needs a *convention*.
 
 An indexed mesh with tangents, in one call:
 
@@ -16,7 +17,7 @@ An indexed mesh with tangents, in one call:
 ([0, 1, 2, 0, 2, 3], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 1.0])
 >>> new_positions, new_uvs = positions[mesh.source_vertices], uvs[mesh.source_vertices]
 
-The same in steps: tangents per corner, mended, then split:
+The same in separate steps: compute tangents per corner, repair them, then split vertices:
 
 >>> normals = numpy.broadcast_to(numpy.float32([0, 0, 1]), positions.shape)
 >>> tangents = tspace.tangents(positions, normals, uvs, indices, convention="gltf")
@@ -34,49 +35,49 @@ A mesh that deforms:
 True
 
 Functions
-    make_indexed_frames   normals where missing, tangents, mended and split: an indexed mesh
-    tangents        one tangent per corner, by nine methods; "mikktspace" gives every bit of the reference
-    tangents_of_meshes   the same for many meshes (MeshJob) in one call
-    normals         one normal per corner; crease angles, smoothing groups
-    Plan            groups once, tangents for every pose
-    plan_buffers    a plan as arrays, for compute shaders
-    mend_winding    turns faces that are wound the wrong way
-    sanitize        mends broken tangents, leaves every other bit alone
-    split           from corners back to an indexed mesh
-    triangulate     quads and n-gons into triangles
+    make_indexed_frames   computes missing normals and tangents, repairs and splits them: an indexed mesh
+    tangents        computes one tangent per corner, with nine methods; "mikktspace" is bit-identical to the reference
+    tangents_of_meshes   computes tangents of many meshes (MeshJob) in one call
+    normals         computes one normal per corner, with crease angles and smoothing groups
+    Plan            groups corners once, then computes tangents for every pose
+    plan_buffers    exports a plan as arrays for compute shaders
+    mend_winding    flips faces with inconsistent winding
+    sanitize        repairs invalid tangents, and keeps all others bit for bit
+    split           converts results per corner to an indexed mesh
+    triangulate     splits quads and n-gons into triangles
     pack_frames, unpack_frames   N, T and the sign in 4 to 16 bytes
 
 Model files (glTF, GLB, OBJ), on disk or in memory
     generate_file, generate_bytes   adds normals and tangents where materials need them
-    check           what is wrong with a model's frames, as findings
-    remedy_text     how to mend one of them, with calls of this module
-    identify        which method made its tangents
-    diff            the angles between the frames of two models
-    inspect         what is in a file
+    check           finds faults in the frames of a model
+    remedy_text     describes the remedy of a finding, with calls of this module
+    identify        identifies the method that computed a model's tangents
+    diff            measures the angles between the frames of two models
+    inspect         describes the contents of a file
     flip_green_file, flip_green_bytes   inverts the green channel of a normal map
     convert_map_file                    converts a normal map for other tangents, another space or another program
-    height_to_normal_file               makes a normal map of a height map
-    compress_map_file, compress_map_bytes   packs a normal map as a texture for engines
+    height_to_normal_file               converts a height map to a normal map
+    compress_map_file, compress_map_bytes   compresses a normal map to a texture for engines
     bake_file       bakes the maps of a low poly from a high poly
-    finish_file     makes a mesh of a generator or a scanner ready, with all maps
+    finish_file     prepares a generated or scanned mesh for use, with all maps
 
 Arrays
-    Positions and normals have shape (vertices, 3), UVs (vertices, 2), indices (corners,) or (faces, k); units are yours, angles
-    are degrees. Arrays of float32 are read where they lie, with any stride, and so are indices of uint8, uint16, uint32 and
-    int32. Other real numbers (float64, float16, integers, lists) are converted into a new array of float32, other integers
-    into uint32; so are layouts such as reversed or broadcast arrays. Numbers that do not fit, and all other types (complex,
-    bool, text), are an error.
+    Positions and normals have shape (vertices, 3), UVs (vertices, 2), indices (corners,) or (faces, k); lengths may
+    have any unit, angles are in degrees. float32 arrays are used without a copy, with any stride, and so are indices of
+    type uint8, uint16, uint32 and int32. Other real numbers (float64, float16, integers, lists) are converted to a new
+    float32 array, other integers to uint32; so are layouts such as reversed or broadcast arrays. Numbers out of range, and
+    all other types (complex, bool, text), raise an error.
 
 Errors
-    TypeError for what is no array of numbers, InputError (a ValueError) for wrong shapes and options, IndexRangeError (an
-    IndexError too) for indices: they say which argument, and where. FileError for broken models, ReadWriteError (an OSError) for
-    files that cannot be read or written. An option that does not exist is a TypeError that lists those that do
-    (UnknownOptionError, for models). Broken geometry is no error: it is counted in the reports
-    that `full=True` gives.
+    TypeError for arguments that are not arrays of numbers, InputError (a ValueError) for invalid shapes and options,
+    IndexRangeError (also an IndexError) for indices; messages contain the argument and the position. FileError for corrupt
+    models, ReadWriteError (an OSError) for files that cannot be read or written. An unknown option raises a TypeError that
+    lists the valid ones (UnknownOptionError, for models). Invalid geometry raises no error: it is counted in the reports
+    that `full=True` returns.
 
 Threads
-    The interpreter's lock is free during each call. Do not write to arrays while another thread's call reads them. A call
-    uses one thread unless `threads` says more; the bits are the same for any number.
+    The interpreter lock is released during each call. Do not write to arrays while a call of another thread reads them. A
+    call uses one thread unless `threads` is larger; results have the same bits for any number of threads.
 """
 
 from typing import TYPE_CHECKING
@@ -111,7 +112,8 @@ from ._split import Split, Triangles, split, triangulate
 from ._tangents import MeshJob, Plan, TangentResult, tangents, tangents_of_meshes
 from ._winding import WindingResult, mend_winding
 
-# Type checkers see each option of the functions of files; at run time an unknown one is an error that lists them.
+# Type checkers see each option of the file functions; at run time an unknown option raises an error that lists the
+# valid ones.
 if TYPE_CHECKING:
     from ._file_calls import (
         bake_file,

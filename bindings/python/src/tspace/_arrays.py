@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """numpy arrays as the spans of the C API.
 
-Arrays that have the right type and a layout that the C API takes are used where they lie. All others are converted into new
-arrays; what has no sensible conversion is refused.
+Arrays with a type and a layout that the C API supports are used without a copy. Others are converted to new arrays;
+values that cannot be converted raise an error.
 """
 
 import ctypes
@@ -18,8 +18,8 @@ from ._memory import new_array
 FLOAT32 = numpy.dtype(numpy.float32)
 UINT32 = numpy.dtype(numpy.uint32)
 INT32 = numpy.dtype(numpy.int32)
-# The type of the C API, for indices that are used where they lie. Negative ones of int32 become far too large, which the
-# library refuses.
+# Index types of the C API that are used without conversion. Negative int32 indices become very large, so the library
+# rejects them.
 _INDEX_TYPES = {
     numpy.dtype(numpy.uint8): 1,
     numpy.dtype(numpy.uint16): 2,
@@ -59,7 +59,7 @@ def _converted_to_float32(name: str, value: numpy.ndarray) -> numpy.ndarray:
 
 
 def float_array(name: str, value: Any, components: int) -> numpy.ndarray:
-    """An array of shape (n, components) of real numbers; its type and layout may be any."""
+    """Returns an array of shape (n, components) with real numbers of any type and layout."""
     array = value if type(value) is numpy.ndarray else _as_array(name, value)
     if array.dtype is not FLOAT32 and array.dtype.kind not in "fiu":
         raise TypeError(f"{name} must be an array of float32, not of {array.dtype}")
@@ -73,7 +73,7 @@ def float_array(name: str, value: Any, components: int) -> numpy.ndarray:
 
 
 def read_span(name: str, array: numpy.ndarray) -> Tuple[_abi.Span, numpy.ndarray]:
-    """A span over the result of float_array, or over a copy, and the array that has to live as long."""
+    """Returns a span over the result of float_array or over a copy, and the array that must outlive it."""
     if array.dtype is not FLOAT32:
         array = _converted_to_float32(name, array)
     address, stride = array.ctypes.data, array.strides[0]
@@ -84,7 +84,7 @@ def read_span(name: str, array: numpy.ndarray) -> Tuple[_abi.Span, numpy.ndarray
 
 
 def output_array(out: Optional[numpy.ndarray], count: int, components: int) -> numpy.ndarray:
-    """The caller's array for results, checked, or a new one. 0 components: of shape (count,)."""
+    """Returns the caller's array for results, after checks, or a new one. components == 0: of shape (count,)."""
     shape = (count, components) if components else (count,)
     if out is None:
         return new_array(shape)
@@ -101,12 +101,12 @@ def output_array(out: Optional[numpy.ndarray], count: int, components: int) -> n
 
 
 def write_span(array: numpy.ndarray) -> _abi.Span:
-    """A span over an array of output_array."""
+    """Returns a span over an array of output_array."""
     return _abi.Span(array.ctypes.data, len(array), array.strides[0])
 
 
 def check_apart(out: Optional[numpy.ndarray], inputs: Sequence[numpy.ndarray]) -> None:
-    """Refuses an array for results that shares memory with inputs, which are read while it is written."""
+    """Raises an error if the array for results shares memory with inputs, which are read while it is written."""
     if out is None:
         return
     for array in inputs:
@@ -117,12 +117,12 @@ def check_apart(out: Optional[numpy.ndarray], inputs: Sequence[numpy.ndarray]) -
 def _overlap(a: numpy.ndarray, b: numpy.ndarray) -> bool:
     try:
         return numpy.shares_memory(a, b, max_work=10000)
-    except Exception:  # too hard to tell
+    except Exception:  # too expensive to determine
         return True
 
 
 def index_array(name: str, value: Any) -> numpy.ndarray:
-    """An array of integers, not yet converted."""
+    """Returns an array of integers, not yet converted."""
     array = value if type(value) is numpy.ndarray else _as_array(name, value)
     if array.dtype.kind not in "iu":
         if array.size or type(value) is numpy.ndarray:
@@ -134,7 +134,7 @@ def index_array(name: str, value: Any) -> numpy.ndarray:
 
 
 def uint32_array(name: str, value: Any) -> numpy.ndarray:
-    """One-dimensional (or a column), dense, of uint32; a copy where it is not."""
+    """Returns a contiguous one-dimensional (or single-column) uint32 array; a copy if necessary."""
     array = index_array(name, value)
     if array.ndim == 2 and array.shape[1] == 1:
         array = array[:, 0]
@@ -148,7 +148,7 @@ def uint32_array(name: str, value: Any) -> numpy.ndarray:
 
 
 def _first_outside(array: numpy.ndarray, end: int) -> Optional[int]:
-    """The place of the first number that is not in [0, end)."""
+    """Returns the position of the first number outside [0, end), or None."""
     if array.size == 0 or (int(array.min()) >= 0 and int(array.max()) < end):
         return None
     flat = array.ravel()
@@ -156,13 +156,13 @@ def _first_outside(array: numpy.ndarray, end: int) -> Optional[int]:
 
 
 def index_error(name: str, array: numpy.ndarray, place: int, entry_count: int) -> IndexRangeError:
-    """An index out of range, as the caller wrote it."""
+    """Returns the error for an index out of range, with the caller's original value."""
     text = f"{name}[{place}] is {array.flat[place]}; it must be 0 or more and less than {entry_count}"
     return IndexRangeError(text, "indexOutOfRange", place)
 
 
 def fail_at_index(error: _abi.Error, name: str, array: Optional[numpy.ndarray], entry_count: int) -> None:
-    """Raises what the C API said, with a negative index of this list as the caller wrote it."""
+    """Raises the C API's error; for a negative index of this list, with the caller's original value."""
     if error.code == _INDEX_OUT_OF_RANGE and array is not None and array.dtype == INT32:
         if error.element < array.size and array.flat[error.element] < 0:
             raise index_error(name, array, error.element, entry_count)
@@ -170,8 +170,8 @@ def fail_at_index(error: _abi.Error, name: str, array: Optional[numpy.ndarray], 
 
 
 def read_indices(name: str, array: numpy.ndarray, entry_count: int) -> Tuple[_abi.Indices, numpy.ndarray]:
-    """Indices over the result of index_array, or over a copy, and the array that has to live as long.
-    entry_count: of the attribute that the indices name."""
+    """Returns indices over the result of index_array or over a copy, and the array that must outlive them. entry_count:
+    number of entries that the indices refer to."""
     kind = _INDEX_TYPES.get(array.dtype)
     if kind is None:
         bad = _first_outside(array, entry_count)
@@ -184,7 +184,7 @@ def read_indices(name: str, array: numpy.ndarray, entry_count: int) -> Tuple[_ab
 
 
 def copied(address: Optional[int], shape: Tuple[int, ...], dtype: numpy.dtype) -> numpy.ndarray:
-    """Numbers of 4 bytes that the library will free, as an array."""
+    """Returns a copy of 4-byte numbers that the library will free, as an array."""
     size = 4 * math.prod(shape)
     if size == 0 or address is None:
         return numpy.empty(shape, dtype)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Exceptions, and turning the errors of the C API into them."""
+"""Exceptions, and conversion of C API errors."""
 
 import errno
 import os
@@ -14,10 +14,10 @@ _READ_WRITE_CODES = (103, 104)
 
 
 class Error(Exception):
-    """What tspace refused. `str(error)` says what is wrong and where.
+    """Base class of tspace's errors. `str(error)` describes the fault and its location.
 
-    code:    a stable name, such as "indexOutOfRange"
-    element: the number of the element that is wrong, or None
+    code:    stable name, such as "indexOutOfRange"
+    element: index of the invalid element, or None
     """
 
     code: str
@@ -30,34 +30,34 @@ class Error(Exception):
 
 
 class InputError(Error, ValueError):
-    """An argument with the right type and a wrong value: shape, count, range, name of an option."""
+    """An argument with a valid type and an invalid value: shape, count, range, or option name."""
 
 
 class UnknownOptionError(InputError, TypeError):
-    """An option that a function of files does not have."""
+    """An unknown option of a file function."""
 
 
 class IndexRangeError(InputError, IndexError):
-    """An index that names no vertex."""
+    """An index that refers to no vertex."""
 
 
 class FileError(Error):
-    """A model file that is broken, or has what tspace does not read."""
+    """A model file that is corrupt or uses unsupported features."""
 
 
 class ReadWriteError(FileError, OSError):
-    """A file that cannot be read or written. `errno` and `filename` say why and which, where that is known."""
+    """A file that cannot be read or written. `errno` and `filename` are set if they are known."""
 
     def __str__(self) -> str:
-        return str(self.args[0])  # not as OSError has it, which would leave the message out
+        return str(self.args[0])  # OSError.__str__ would omit the message
 
 
 class MissingFileError(ReadWriteError, FileNotFoundError):
-    """A file, or the folder of an output, that is not there."""
+    """A file, or the folder of an output, that does not exist."""
 
 
 class ForbiddenFileError(ReadWriteError, PermissionError):
-    """A file that may not be read or written."""
+    """A file for which the permission to read or write is missing."""
 
 
 _OF_ERRNO = {errno.ENOENT: MissingFileError, errno.ENOTDIR: MissingFileError, errno.EACCES: ForbiddenFileError}
@@ -65,7 +65,7 @@ _OF_ERRNO[errno.EPERM] = ForbiddenFileError
 
 
 def _failure_of(path: bytes, is_output: bool) -> Optional[OSError]:
-    """Why the system would refuse a path. Nothing is changed to find out."""
+    """Returns the error that the system would report for a path, without changing anything."""
     try:
         if not is_output:
             if os.path.isdir(path):
@@ -80,7 +80,7 @@ def _failure_of(path: bytes, is_output: bool) -> Optional[OSError]:
 
 
 def read_write_error(message: str, code: str, paths: Sequence[bytes], outputs: Sequence[bytes]) -> ReadWriteError:
-    """The error of a call with these paths: of the first one that the system refuses."""
+    """Returns the error of a call with these paths, for the first path that the system rejects."""
     for path, is_output in [*((path, False) for path in paths), *((path, True) for path in outputs)]:
         failure = _failure_of(path, is_output)
         if failure is not None and failure.errno is not None:
@@ -91,12 +91,12 @@ def read_write_error(message: str, code: str, paths: Sequence[bytes], outputs: S
 
 
 def shown(value: Any) -> str:
-    """A value as messages show it: what is long by its type."""
+    """Formats a value for messages; long values are replaced by their type."""
     text = repr(value)
     return text if len(text) <= 60 and "\n" not in text else f"an object of type {type(value).__name__}"
 
 
-# How messages of the C API begin, and how they begin with the name of the argument here.
+# Prefixes of C API messages, and the same prefixes with Python's argument names.
 _IN_PYTHON = (
     (r"^crease_angle_deg ", "crease_angle "),
     (r"\b(crease|denoise)_auto\b", '"auto"'),
@@ -113,11 +113,11 @@ _IN_PYTHON = (
 
 
 def raise_error(error: _abi.Error, paths: Sequence[bytes] = (), outputs: Sequence[bytes] = ()) -> None:
-    """Raises what the C API said. paths, outputs: the files that the call was to read and to write."""
+    """Raises the C API's error. paths, outputs: files that the call read and wrote."""
     message = error.message.decode("utf-8", "replace")
     for pattern, words in _IN_PYTHON:
         message = re.sub(pattern, words, message)
-    # Options of files have the tool's names.
+    # Options of file functions have the names of the command-line tool's options.
     message = re.sub(r"^--([a-z]+(?:-[a-z]+)*)", lambda found: found[1].replace("-", "_"), message)
     if error.code == _OUT_OF_MEMORY:
         raise MemoryError(message)

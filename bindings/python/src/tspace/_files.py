@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Model files: generate, check, identify, diff, inspect, finish, and normal maps. Each is one function of the C API."""
+"""Functions for model files and normal maps: generate, check, identify, diff, inspect, finish etc. Each calls one C API
+function."""
 
 import ctypes
 import json
@@ -36,29 +37,29 @@ _NAME_IT = b'. An OBJ is told by its name: name="model.obj"'
 
 
 class IdentifyReport(_file_reports.IdentifyReport):
-    """What `identify` found."""
+    """Report of `identify`."""
 
     @property
     def method(self) -> Optional[str]:
-        """The name of the method that explains the tangents best; None: there are none to explain."""
+        """Name of the method that explains the tangents best; None if there are no tangents."""
         return self.explanations[0].method if self.explanations else None
 
 
 class Generated(bytes, Generic[AnyReport]):
-    """A file in memory: bytes, with a report of what was done."""
+    """A file in memory: bytes with a report."""
 
     report: AnyReport
 
     @classmethod
     def of(cls, content: bytes, report: AnyReport) -> "Generated[AnyReport]":
-        """The bytes of a file with its report."""
+        """Creates the bytes of a file with its report."""
         made: "Generated[AnyReport]" = cls(content)
         made.report = report
         return made
 
 
 class _Call:
-    """One call: keeps what it points to, and takes what comes back."""
+    """One C API call: keeps its arguments alive, and converts its results."""
 
     def __init__(self) -> None:
         self.library = _files_abi.library()
@@ -79,11 +80,11 @@ class _Call:
         return path
 
     def buffer(self, name: str, value: Any) -> numpy.ndarray:
-        """Bytes where they lie: a bytearray cannot be resized meanwhile."""
+        """Returns a view of the bytes without a copy; a bytearray cannot be resized while it exists."""
         try:
             view = numpy.frombuffer(value, numpy.uint8)
         except (TypeError, ValueError, AttributeError, BufferError) as error:
-            # numpy has no array over nothing.
+            # numpy cannot create an array over an empty buffer.
             if isinstance(value, (bytes, bytearray, memoryview)) and len(value) == 0:
                 return numpy.empty(0, numpy.uint8)
             raise TypeError(f"{name} must be bytes, not {type(value).__name__}: {error}") from None
@@ -104,11 +105,11 @@ class _Call:
         )
 
     def hint(self, code: int) -> bytes:
-        """What to do about bytes that are no glTF, but look like an OBJ, which is told by its name."""
+        """Returns a hint for bytes that are not glTF but look like an OBJ, which is recognized by its name only."""
         return _NAME_IT if code == _INVALID_FILE and self.looks_like_obj else b""
 
     def callback(self, find_file: FindFile) -> Any:
-        """The C function that asks `find_file`. What it raises is raised when the call is over."""
+        """Returns the C callback that calls `find_file`. An exception that it raises is raised again after the call."""
         find = find_file.get if isinstance(find_file, Mapping) else find_file
         if not callable(find):
             raise TypeError(f"find_file must be a function or a dict, not {type(find_file).__name__}")
@@ -130,7 +131,7 @@ class _Call:
         return _abi.FindFile(found)
 
     def run(self, function: str, *arguments: Any, options: Mapping[str, Any], has_output: bool = False) -> Any:
-        """The document of the report, and the output where there is one."""
+        """Runs a function; returns the report as a dict, and the output if there is one."""
         _check_names(function, options)
         text = json.dumps({name.rstrip("_").replace("_", "-"): value for name, value in options.items()}, default=_plain)
         backs = [_abi.Bytes() for _ in range(2 if has_output else 1)]
@@ -146,7 +147,7 @@ class _Call:
         finally:
             for back in backs:
                 self.library.tspace_destroyBytes(byref(back))
-            self.keep.clear()  # the callback refers to this object: without it, buffers stay locked
+            self.keep.clear()  # the callback refers to this object: without clear(), buffers would stay locked
         document = json.loads(values[-1])
         return (values[0], document) if has_output else document
 
@@ -174,7 +175,7 @@ def _is_path(value: Any) -> bool:
 def _ask(
     verb: str, model: Any, name: Optional[str], find_file: Optional[FindFile], options: Mapping[str, Any]
 ) -> Dict[str, Any]:
-    """The report about one model, a path or bytes."""
+    """Calls a report function for one model, given as path or bytes."""
     call = _Call()
     if _is_path(model):
         if find_file is not None or name is not None:
@@ -187,7 +188,7 @@ def _ask(
 
 
 def _of_file(document: Dict[str, Any]) -> Dict[str, Any]:
-    """The entry of the one file, with the run's exit code."""
+    """Returns the entry of the only file, with the exit code of the run."""
     return {**document["files"][0], "exitCode": document["exitCode"]}
 
 
@@ -195,13 +196,13 @@ def generate_file(input: PathLike, output: PathLike, **options: Any) -> Generate
     """Adds normals and tangents to a model where its materials need them, and writes a .glb or .gltf.
 
     input:   path of a GLB, glTF or OBJ
-    output:  path of the result; may be the input. It appears at once or not at all
-    options: those of `tspace generate` (docs/reference/tool.md), with underscores: method="best", crease=60, all=True, overwrite=True,
-             only_missing=True, repair=True, no_sanitize=True, dry_run=True, pack="frame32", threads=4 (1 unless said)
+    output:  path of the result; may equal the input. It is written atomically
+    options: options of `tspace generate` (docs/reference/tool.md), with underscores: method="best", crease=60, all=True,
+             overwrite=True, only_missing=True, repair=True, no_sanitize=True, dry_run=True, pack="frame32", threads=4
+             (default: 1)
 
-    Everything else in the file stays as it was. Returns what was done, primitive by primitive (docs/reference/json.md).
-    Raises FileError for a broken model; ReadWriteError, which is an OSError too, where a file cannot be read or written;
-    InputError for options.
+    Everything else in the file is preserved. Returns a report per primitive (docs/reference/json.md). Raises FileError for a
+    corrupt model; ReadWriteError (an OSError) if a file cannot be read or written; InputError for invalid options.
     """
     call = _Call()
     paths = call.path("input", input), call.path("output", output)
@@ -211,15 +212,15 @@ def generate_file(input: PathLike, output: PathLike, **options: Any) -> Generate
 def generate_bytes(
     data: BytesLike, *, name: Optional[str] = None, find_file: Optional[FindFile] = None, **options: Any
 ) -> Generated[GenerateReport]:
-    """The same as `generate_file` in memory: bytes of a model in, bytes of a GLB out, with everything in it.
+    """Like `generate_file`, in memory: takes the bytes of a model, and returns the bytes of a GLB with all data embedded.
 
-    What comes back are bytes that have a `report` of what was done.
+    The result is a `bytes` object with the attribute `report`.
 
     data:      bytes of a GLB, glTF or OBJ
-    name:      what reports call it; an OBJ is told by its ending: name="chair.obj"
-    find_file: gives the files that the model names: a dict from path to bytes, or a function from a path to bytes or None.
-               Paths are relative to the model; such that lead out of its folder are never asked for
-    options:   as for `generate_file`
+    name:      name in reports; an OBJ is recognized by its extension: name="chair.obj"
+    find_file: provides files that the model references: a dict from path to bytes, or a function that maps a path to
+               bytes or None. Paths are relative to the model; paths that leave its folder are never requested
+    options:   see `generate_file`
     """
     call = _Call()
     struct = call.model("data", data, name, find_file)
@@ -234,11 +235,12 @@ def check(
     find_file: Optional[FindFile] = None,
     **options: Any,
 ) -> CheckReport:
-    """Says what is wrong with the frames of a model: inverted signs, averaged seams, the wrong UV set, and more.
+    """Finds faults in the frames of a model: inverted signs, averaged seams, a wrong UV set, and more.
 
     model:     a path, or bytes of a GLB, glTF or OBJ
-    name, find_file: for bytes, as for `generate_bytes`
-    options:   those of `tspace check` (docs/reference/check.md), with underscores: fail_on="error", ignore=["tangentsUnused"]
+    name, find_file: for bytes, see `generate_bytes`
+    options:   options of `tspace check` (docs/reference/check.md), with underscores: fail_on="error",
+               ignore=["tangentsUnused"]
 
     >>> for finding in tspace.check("chair.glb"):
     ...     print(finding.severity, finding.code, finding.place, finding.message, tspace.remedy_text(finding))
@@ -253,13 +255,13 @@ def identify(
     find_file: Optional[FindFile] = None,
     **options: Any,
 ) -> IdentifyReport:
-    """Says which method and convention made the tangents of a model.
+    """Identifies the method and convention that computed the tangents of a model.
 
     model:     a path, or bytes of a GLB, glTF or OBJ
-    name, find_file: for bytes, as for `generate_bytes`
-    options:   those of `tspace identify` (docs/reference/identify.md), with underscores
+    name, find_file: for bytes, see `generate_bytes`
+    options:   options of `tspace identify` (docs/reference/identify.md), with underscores
 
-    `verdict` is a sentence or two; `method` the method that fits best, `explanations` all of them.
+    `verdict` is one or two sentences; `method` is the best matching method, `explanations` lists all methods.
     """
     return IdentifyReport(_ask("identify", model, name, find_file, options))
 
@@ -271,11 +273,11 @@ def inspect(
     find_file: Optional[FindFile] = None,
     **options: Any,
 ) -> InspectReport:
-    """Says what is in a model: meshes, attributes, materials that need tangents.
+    """Describes the contents of a model: meshes, attributes, materials that need tangents.
 
     model:     a path, or bytes of a GLB, glTF or OBJ
-    name, find_file: for bytes, as for `generate_bytes`
-    options:   those of `tspace inspect`, with underscores
+    name, find_file: for bytes, see `generate_bytes`
+    options:   options of `tspace inspect`, with underscores
     """
     return InspectReport(_ask("inspect", model, name, find_file, options))
 
@@ -290,10 +292,10 @@ def diff(
     """Compares the frames of two models that show the same surface.
 
     a, b:      two paths, or bytes of two models (GLB or glTF)
-    find_file: for bytes, as for `generate_bytes`
-    options:   those of `tspace diff` (docs/reference/diff.md), with underscores: tolerance=0.1
+    find_file: for bytes, see `generate_bytes`
+    options:   options of `tspace diff` (docs/reference/diff.md), with underscores: tolerance=0.1
 
-    `tangents.max_deg` is the largest angle, `sign_changes` counts signs, `is_within_tolerance` says the rest.
+    `tangents.max_deg` is the largest angle, `sign_changes` the number of different signs, `is_within_tolerance` the verdict.
     """
     call = _Call()
     if _is_path(a) != _is_path(b):
@@ -309,8 +311,8 @@ def diff(
 def flip_green_file(input: PathLike, output: PathLike, **options: Any) -> FlipGreenReport:
     """Inverts the green channel of a normal map: PNG, JPEG or WebP.
 
-    input, output: paths, which may be the same; the ending of `output` says its format
-    options: those of `tspace flip-green` (docs/guides/flip-green.md), with underscores
+    input, output: paths, which may be equal; the extension of `output` selects its format
+    options: options of `tspace flip-green` (docs/guides/flip-green.md), with underscores
     """
     call = _Call()
     paths = call.path("input", input), call.path("output", output)
@@ -321,8 +323,8 @@ def convert_map_file(input: PathLike, output: PathLike, **options: Any) -> Conve
     """Converts a normal map for other tangents, another space or another program.
 
     input:   path of the map: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA
-    output:  path of the new one, .png or .exr
-    options: those of `tspace convert-map` (docs/guides/convert-map.md), with underscores:
+    output:  path of the converted map, .png or .exr
+    options: options of `tspace convert-map` (docs/guides/convert-map.md), with underscores:
              mesh="chair.glb", to_mesh="mended.glb", from_="object", to_convention="directx"
     """
     call = _Call()
@@ -331,11 +333,11 @@ def convert_map_file(input: PathLike, output: PathLike, **options: Any) -> Conve
 
 
 def height_to_normal_file(input: PathLike, output: PathLike, **options: Any) -> HeightToNormalReport:
-    """Makes a normal map of a height map.
+    """Converts a height map to a normal map.
 
     input:   path of the height map: PNG, JPEG, WebP or EXR; white is high
     output:  path of the normal map, .png
-    options: those of `tspace height-to-normal` (docs/guides/height-to-normal.md), with underscores:
+    options: options of `tspace height-to-normal` (docs/guides/height-to-normal.md), with underscores:
              strength=0.02, mesh="wall.glb", convention="directx"
     """
     call = _Call()
@@ -344,10 +346,10 @@ def height_to_normal_file(input: PathLike, output: PathLike, **options: Any) -> 
 
 
 def flip_green_bytes(data: BytesLike, **options: Any) -> Generated[FlipGreenReport]:
-    """The same as `flip_green_file` in memory.
+    """Like `flip_green_file`, in memory.
 
     data:    bytes of a PNG, JPEG or WebP; the result has the same format
-    options: as for `flip_green_file`
+    options: see `flip_green_file`
     """
     call = _Call()
     view = call.buffer("data", data)
@@ -356,14 +358,14 @@ def flip_green_bytes(data: BytesLike, **options: Any) -> Generated[FlipGreenRepo
 
 
 def compress_map_file(input: PathLike, output: PathLike, **options: Any) -> CompressMapReport:
-    """Packs a normal map as a texture for engines: BC5, EAC RG11, ASTC or RG8, with all levels.
+    """Compresses a normal map to a texture for engines: BC5, EAC RG11, ASTC or RG8, with all mip levels.
 
-    input:   path of a normal map in tangent space: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA; 16 bits give more than 8
-    output:  path of the texture, .ktx2 or .dds; or a folder for PNGs, which ends in /
-    options: those of `tspace compress-map` (docs/guides/compress-map.md), with underscores:
+    input:   path of a normal map in tangent space: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA; 16 bits give better results than 8
+    output:  path of the texture, .ktx2 or .dds; or a folder for PNGs, with / at its end
+    options: options of `tspace compress-map` (docs/guides/compress-map.md), with underscores:
              format="eac-rg11", quality="best", roughness="orm.png", roughness_output="orm.ktx2"
 
-    `mean_error_deg` and `p99_error_deg` of the report say how far the texture is off, as it is filtered.
+    `mean_error_deg` and `p99_error_deg` of the report are the errors of the filtered texture.
     """
     call = _Call()
     paths = call.path("input", input), call.path("output", output)
@@ -371,10 +373,10 @@ def compress_map_file(input: PathLike, output: PathLike, **options: Any) -> Comp
 
 
 def compress_map_bytes(data: BytesLike, **options: Any) -> Generated[CompressMapReport]:
-    """The same as `compress_map_file` in memory: bytes of an image in, bytes of a KTX2 out.
+    """Like `compress_map_file`, in memory: takes the bytes of an image, and returns the bytes of a KTX2.
 
     data:    bytes of a normal map
-    options: as for `compress_map_file`, but for those on roughness
+    options: see `compress_map_file`, except the roughness options
     """
     call = _Call()
     view = call.buffer("data", data)
@@ -385,14 +387,14 @@ def compress_map_bytes(data: BytesLike, **options: Any) -> Generated[CompressMap
 def bake_file(low: PathLike, high: PathLike, output: PathLike, **options: Any) -> BakeReport:
     """Bakes the normal map of a low poly from a high poly, and other maps with it.
 
-    low:     path of the model that the map is for; it needs UVs
-    high:    path of the model with the detail, in the same place
-    output:  path of the normal map, .png; other maps stand beside it
-    options: those of `tspace bake` (docs/guides/bake.md), with underscores:
+    low:     path of the model that will use the map; it must have UVs
+    high:    path of the model with the detail, at the same position
+    output:  path of the normal map, .png; other maps are written next to it
+    options: options of `tspace bake` (docs/guides/bake.md), with underscores:
              size=2048, maps=["normal", "ao"], samples=256, convention="unreal", out_mesh="low_with_maps.glb"
 
-    `files` of the report says of each map how far it is off, in degrees. A bake whose rays meet nothing writes nothing and is
-    no error: `findings` says why, and `exit_code` is 1.
+    `files` of the report contains the error of each map in degrees. A bake without any hit writes nothing and raises no
+    error: `findings` contains the reason, and `exit_code` is 1.
     """
     call = _Call()
     paths = call.path("low", low), call.path("high", high), call.path("output", output)
@@ -400,15 +402,15 @@ def bake_file(low: PathLike, high: PathLike, output: PathLike, **options: Any) -
 
 
 def finish_file(input: PathLike, output: PathLike, **options: Any) -> FinishReport:
-    """Makes a mesh of a generator or a scanner ready: winding, normals, tangents, and with a low poly all maps.
+    """Prepares a generated or scanned mesh for use: winding, normals, tangents, and with a low poly all maps.
 
     input:   path of a GLB, glTF or OBJ
-    output:  path of the result, .glb, which may not be the input
-    options: those of `tspace finish` (docs/guides/finish.md), with underscores:
+    output:  path of the result, .glb; must differ from the input
+    options: options of `tspace finish` (docs/guides/finish.md), with underscores:
              low="retopo.glb", size=2048, normals="all", html="page.html"
 
-    `check` of the report is what `tspace.check` finds in the output, `models[0].before` what it finds in the input, and
-    `remarks` says what could not be done.
+    `check` of the report contains the findings of `tspace.check` in the output, `models[0].before` those in the input, and
+    `remarks` lists steps that were not possible.
     """
     call = _Call()
     paths = call.path("input", input), call.path("output", output)
@@ -416,7 +418,7 @@ def finish_file(input: PathLike, output: PathLike, **options: Any) -> FinishRepo
 
 
 def _with_exit_codes(document: Dict[str, Any]) -> Dict[str, Any]:
-    """What finish says of single steps, with the exit codes that calls of their own would give."""
+    """Adds the exit codes that separate calls would return to the reports of the steps of finish."""
 
     def checked(report: Optional[Dict[str, Any]]) -> Optional[Dict[str, Any]]:
         return report and {**report, "exitCode": 1 if report["counts"]["error"] else 0}

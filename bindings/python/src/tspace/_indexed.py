@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The usual case in one call: an indexed mesh with normals and tangents."""
+"""The common case in one call: an indexed mesh with normals and tangents."""
 
 import ctypes
 from ctypes import POINTER, byref, pointer
@@ -35,7 +35,7 @@ _library = _abi.library
 
 
 class IndexedFramesReport(NamedTuple):
-    """What each step met; None: the step was left out."""
+    """Reports of the steps; None if a step was skipped."""
 
     normals: Optional[NormalReport]
     tangents: TangentReport
@@ -43,13 +43,13 @@ class IndexedFramesReport(NamedTuple):
 
 
 class IndexedFrames(NamedTuple):
-    """A mesh with the faces of the given one, whose corners share a vertex only where they agree."""
+    """Indexed mesh with the same faces as the input. Corners share a vertex only if all their values are equal."""
 
     indices: IndexArray  #: (corners,) uint32: the new vertex of each corner
-    source_vertices: IndexArray  #: (new vertices,) uint32: the row of positions that each copies
-    source_corners: IndexArray  #: (new vertices,) uint32: the first corner that uses each; 0xffffffff: none does
-    normals: FloatArray  #: (new vertices, 3) float32: those of the mesh, bit for bit, or the ones made
-    tangents: FloatArray  #: (new vertices, 4) float32: unit tangent, and the sign
+    source_vertices: IndexArray  #: (new vertices,) uint32: the old vertex that each new one copies
+    source_corners: IndexArray  #: (new vertices,) uint32: first corner that uses each vertex; 0xffffffff: unused
+    normals: FloatArray  #: (new vertices, 3) float32: the mesh's normals, bit for bit, or generated ones
+    tangents: FloatArray  #: (new vertices, 4) float32: unit tangent and sign
     report: IndexedFramesReport
 
 
@@ -83,30 +83,30 @@ def make_indexed_frames(
     keep_apart: Sequence[Rows] = (),
     threads: Threads = 1,
 ) -> IndexedFrames:
-    """Makes an indexed mesh with normals and tangents: the usual case in one call.
+    """Creates an indexed mesh with normals and tangents: the common case in one call.
 
-    Normals are made where they are missing, then tangents, those that are broken are mended, and vertices whose corners
-    disagree are split. Gather what hangs on vertices (UVs, skin weights, morph targets) by `source_vertices`, and what has an
-    index list of its own by the corner: `uvs[uv_indices[source_corners]]`.
+    Computes missing normals, then tangents, repairs invalid ones, and splits vertices whose corners have different values.
+    Gather other vertex attributes (UVs, skin weights, morph targets) by `source_vertices`, and attributes with a separate
+    index list by corner: `uvs[uv_indices[source_corners]]`.
 
     positions:  (vertices, 3)
-    normals:    (vertices, 3), unit; None: they are made
+    normals:    (vertices, 3), unit; None: computed
     uvs:        (vertices, 2); None for method="basis"
     indices:    (corners,), or (faces, k) for faces of k corners; None: corner c is vertex c
-    face_sizes, normal_indices, uv_indices, method, convention, threshold, pairing, ngons, frame: as for `tangents`
-    refine:     steps that "best" takes after its fit, for tangents and normals: 0, 1 or 2;
+    face_sizes, normal_indices, uv_indices, method, convention, threshold, pairing, ngons, frame: see `tangents`
+    refine:     refinement steps of "best", for tangents and normals: 0, 1 or 2;
                 None: 1 for tangents and 2 for normals
-    make_normals: True: normals are made although there are some
-    weighting, crease_angle, denoise, smoothing_groups, smoothing_groups_are_masks, weld_positions, weld_distance: how normals
-                are made, as for `normals`
-    normalize_normals: as for `tangents`; the result then has the normals of length 1
-    sanitize:   False: broken tangents stay
-    orthogonalize_all: True: also makes sound tangents unit and orthogonal to N
-    keep_apart: arrays of shape (corners, k), without indices only: what else must not be shared, colours for instance
-    threads:    1, another number, or "all". The bits are the same for any
+    make_normals: True: existing normals are recomputed
+    weighting, crease_angle, denoise, smoothing_groups, smoothing_groups_are_masks, weld_positions, weld_distance: options of
+                the computed normals, see `normals`
+    normalize_normals: see `tangents`; the result then contains the normalized normals
+    sanitize:   False: invalid tangents are kept
+    orthogonalize_all: True: also makes valid tangents unit and orthogonal to N
+    keep_apart: arrays of shape (corners, k), only without indices: further values that must not be merged, such as colors
+    threads:    number of threads, or "all". The results have the same bits for any number
 
-    A mesh with one index list keeps its vertices in their places, and copies come behind them; others get new vertices in
-    the order of their corners, one for all corners with the same bits.
+    In a mesh with one index list vertices keep their positions, and copies follow; otherwise new vertices are in the
+    order of their corners, one for all corners with the same bits.
     """
     run = execution(threads)
     steps = 1 if refine is None else refine

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How the shared libraries are found and loaded."""
+"""Finds and loads the shared libraries."""
 
 import ctypes
 import sys
@@ -7,27 +7,27 @@ from pathlib import Path
 
 
 def file_name(name):
-    """The file of a library on this system."""
+    """Returns the file name of a library on this system."""
     if sys.platform == "win32":
         return f"{name}.dll"
     return f"lib{name}.dylib" if sys.platform == "darwin" else f"lib{name}.so.0"
 
 
 def load(name):
-    """The shared library of this name: the one in the package, or else the system's."""
+    """Loads the shared library with this name: from the package, otherwise from the system."""
     name = file_name(name)
     bundled = Path(__file__).parent / "_lib" / name
     try:
         return ctypes.CDLL(str(bundled) if bundled.exists() else name)
     except OSError as error:
-        # The loader's words for a library that is there, and for which there is no memory.
+        # Messages of the loader if the library exists but memory does not suffice.
         if any(words in str(error) for words in ("failed to map segment", "annot allocate", "cannot map")):
             raise MemoryError(str(error)) from error
         raise
 
 
 def declare(library, signatures):
-    """Says what functions take and give: {name: (result, argument...)}."""
+    """Declares argument and result types of functions: {name: (result, argument...)}."""
     for name, (result, *arguments) in signatures.items():
         function = getattr(library, name)
         function.restype = result

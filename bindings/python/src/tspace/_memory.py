@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Arrays for results. The memory of a large one is kept for the next when nobody uses it any more: to get fresh pages from
-the system takes a fifth as long as to compute tangents."""
+"""Arrays for results. The memory of a large array is reused after its last use: getting fresh pages from the system
+takes a fifth of the time of computing tangents."""
 
 import math
 from collections import deque
@@ -8,12 +8,12 @@ from typing import Deque, Tuple
 
 import numpy
 
-_LARGE_BYTES = 1 << 20  # the C library keeps smaller ones itself
+_LARGE_BYTES = 1 << 20  # the C library reuses smaller blocks itself
 _spare: Deque[numpy.ndarray] = deque(maxlen=1)
 
 
 class _Block:
-    """Owns the memory of one result: arrays over it, and views of these, keep it alive."""
+    """Owns the memory of one result: arrays over it, and their views, keep it alive."""
 
     def __init__(self, memory: numpy.ndarray, shape: Tuple[int, ...]):
         self.memory = memory
@@ -24,13 +24,13 @@ class _Block:
             "version": 3,
         }
 
-    # The default holds the list also while the interpreter ends.
+    # The default argument keeps the list alive during interpreter shutdown.
     def __del__(self, spare: Deque[numpy.ndarray] = _spare) -> None:
         spare.append(self.memory)
 
 
 def new_array(shape: Tuple[int, ...]) -> numpy.ndarray:
-    """An array of float32 with any content."""
+    """Returns an uninitialized float32 array."""
     size = 4 * math.prod(shape)
     if size < _LARGE_BYTES:
         return numpy.empty(shape, numpy.float32)
@@ -38,7 +38,7 @@ def new_array(shape: Tuple[int, ...]) -> numpy.ndarray:
         memory = _spare.pop()
     except IndexError:
         memory = None
-    # At most twice as much as needed, so that a small result does not hold a large one's memory.
+    # At most twice as large as needed, so that a small result does not occupy a large result's memory.
     if memory is None or not size <= memory.nbytes <= 2 * size:
         memory = numpy.empty(size, numpy.uint8)
     return numpy.asarray(_Block(memory, shape))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A mesh of numpy arrays as the struct of the C API."""
+"""Conversion of a mesh of numpy arrays to the struct of the C API."""
 
 import ctypes
 import numbers
@@ -21,18 +21,18 @@ from ._arrays import (
 )
 from ._errors import InputError, raise_error
 
-# How messages of the C API about an index begin.
+# Prefixes of C API messages about an index.
 _INDEX_WORDS = {"indices": b"index ", "normal_indices": b"normal_indices ", "uv_indices": b"uv_indices "}
 _SIZE = ctypes.sizeof(_abi.Mesh)
 
 
 class Mesh:
-    """The struct, with the arrays that it points into.
+    """The C struct, and the arrays that it refers to.
 
     positions  (vertices, 3); normals (vertices, 3) or None; uvs (vertices, 2) or None
     indices    None: corner c is vertex c. (corners,), also as a column (corners, 1), or (faces, k): faces of k corners
-    face_sizes None: triangles, or what the shape of `indices` says. A number: corners of every face. (faces,): of each
-    normal_indices, uv_indices  None: normals, uvs have one entry per vertex. "corners": one per corner. Else as `indices`
+    face_sizes None: triangles, or the shape of `indices`. A number: corners of every face. (faces,): corners of each face
+    normal_indices, uv_indices  None: one entry per vertex. "corners": one per corner. Otherwise an array like `indices`
     """
 
     __slots__ = ("_list_shape", "_lists", "arrays", "corner_count", "struct", "vertex_count")
@@ -47,7 +47,7 @@ class Mesh:
         normal_indices: Any = None,
         uv_indices: Any = None,
     ):
-        # All shapes first, so that nothing large is copied for a call that fails.
+        # Checks all shapes first, so that nothing large is copied for a call that fails.
         positions = float_array("positions", positions, 3)
         if normals is not None:
             normals = float_array("normals", normals, 3)
@@ -89,7 +89,7 @@ class Mesh:
             raise InputError(f"{name} has {len(array)} entries, {what} {count}", "countMismatch")
 
     def fail(self, error: _abi.Error) -> None:
-        """Raises what the C API said, with a negative index as the caller wrote it."""
+        """Raises the C API's error; for a negative index, with the caller's original value."""
         for name, array, count in self._lists:
             if error.message.startswith(_INDEX_WORDS[name]):
                 fail_at_index(error, name, array, count)
@@ -130,8 +130,9 @@ class Mesh:
 
 
 def _face_indices(indices: numpy.ndarray) -> numpy.ndarray:
-    """The indices without the second dimension of a column, as numpy reads an accessor of scalars. A shape by which
-    hardly anybody means faces is refused: faces of two corners would give zeros, and one large face a wrong result."""
+    """Returns the indices without the second dimension of a column, which is how numpy reads an accessor of scalars.
+    Shapes that are probably a mistake are rejected: faces of two corners would give zeros, and one large face a wrong
+    result."""
     if indices.ndim != 2 or indices.shape[1] == 0:
         return indices
     rows, columns = indices.shape
@@ -153,7 +154,7 @@ def _face_indices(indices: numpy.ndarray) -> numpy.ndarray:
 
 
 def _face_size(indices: Optional[numpy.ndarray], face_sizes: Any) -> Optional[int]:
-    """Corners of every face; None where `face_sizes` is an array."""
+    """Returns the number of corners of every face; None if `face_sizes` is an array."""
     if indices is not None and indices.ndim == 2:
         if face_sizes is not None:
             raise InputError("indices of shape (faces, k) say how many corners faces have: leave face_sizes out")

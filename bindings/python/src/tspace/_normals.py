@@ -16,7 +16,7 @@ from ._types import DegreesOrAuto, FaceSizes, FloatArray, Numbers, Rows, Threads
 
 
 class NormalResult(NamedTuple):
-    """Normals, and what was met."""
+    """Normals with a report."""
 
     normals: FloatArray  #: (corners, 3) float32
     report: NormalReport
@@ -33,8 +33,8 @@ def normal_options(
     denoise: Any,
     weld_distance: Any,
 ) -> _abi.NormalOptions:
-    """The struct of the C API, which points into `groups`."""
-    # The C API refuses all of 0 as forgotten; flat, which is 0, looks at none of the others.
+    """Returns the struct of the C API, which refers to `groups`."""
+    # The C API rejects all-zero options as uninitialized; flat, which is 0, uses none of the other options.
     if refine == 0 and weighting == "flat":
         refine = 1
     return _abi.NormalOptions(
@@ -117,30 +117,28 @@ def normals(
 ) -> Union[FloatArray, NormalResult]:
     """Computes one unit normal per corner: (corners, 3) float32.
 
-    Without hard edges all corners of a vertex get one normal, so that
+    Without hard edges all corners of a vertex get the same normal, so that
     `vertex_normals = numpy.empty_like(positions); vertex_normals[indices] = normals` gives normals per vertex. With hard
-    edges they differ: `make_indexed_frames` or `split` make the vertices for them.
+    edges they differ: `make_indexed_frames` or `split` create the required vertices.
 
     positions:        (vertices, 3)
     indices:          (corners,), or (faces, k) for faces of k corners; None: corner c is vertex c
     face_sizes:       None: triangles. A number: corners of every face. (faces,): corners of each face
-    weighting:        how much a face counts: "angle", "area", "angle_area", "uniform", "max", "best"; "flat": no averaging
-    crease_angle:     degrees, 180: no edge is hard. Two faces are smoothed over their edge only when their normals differ
-                      by no more than this. "auto": an angle by the mesh, which the report says
-    smoothing_groups: (faces,), a number per face: faces smooth together only when theirs are equal and not 0
-    smoothing_groups_are_masks: True: faces smooth together whose numbers have a bit in common
-    weld_positions:   True: vertices at the same position are one point, so that UV seams stay smooth; False: only equal
-                      indices are
-    convention:       its handedness and winding say which side is out; None: right-handed, counter-clockwise
-    refine:           steps that "best" takes after its fit: 0, 1 or 2
-    denoise:          for "best" on noisy positions, such as scans: normals by more of the surface around. "auto": as much as
-                      is measured, and nothing where that is shape; 0 to 4: so many times the noise that is measured, also
-                      where it looks like shape
-    weld_distance:    with weld_positions: positions that differ by no more than this in each coordinate are one. "auto":
+    weighting:        weight of a face: "angle", "area", "angle_area", "uniform", "max", "best"; "flat": no averaging
+    crease_angle:     degrees; edges where face normals differ by more are hard. 180: no edge is hard. "auto": an angle
+                      derived from the mesh, stated in the report
+    smoothing_groups: (faces,), a number per face: two faces are smoothed only if their numbers are equal and not 0
+    smoothing_groups_are_masks: True: two faces are smoothed if their numbers share a bit
+    weld_positions:   True: vertices at the same position are welded, so that UV seams stay smooth; False: only by index
+    convention:       its handedness and winding define the outside; None: right-handed, counter-clockwise
+    refine:           refinement steps of "best": 0, 1 or 2
+    denoise:          for "best" on noisy positions, such as scans: uses a larger neighborhood. "auto": the measured noise,
+                      or 0 if it is detected as shape; 0 to 4: multiple of the measured noise, even if it looks like shape
+    weld_distance:    with weld_positions: positions that differ by at most this in each coordinate are welded. "auto":
                       twice the spacing of floats at the largest coordinate
-    threads:          1, another number, or "all". The bits are the same for any
-    out:              an array of float32 that takes the result and is returned
-    full:             True: returns a NormalResult, which has a report too
+    threads:          number of threads, or "all". The results have the same bits for any number
+    out:              float32 array that receives the result and is returned
+    full:             True: returns a NormalResult, which includes a report
     """
     mesh = Mesh(positions, None, None, indices, face_sizes)
     groups = None if smoothing_groups is None else uint32_array("smoothing_groups", smoothing_groups)
@@ -164,7 +162,7 @@ def position_noise(
 ) -> PositionNoise:
     """Measures the noise in the positions of a mesh: `noise` is what `normals(..., denoise="auto")` removes.
 
-    positions, indices, face_sizes, threads: as for `normals`
+    positions, indices, face_sizes, threads: see `normals`
     """
     mesh = Mesh(positions, None, None, indices, face_sizes)
     run = execution(threads)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Options by their names, and conventions."""
+"""Named options, and conventions."""
 
 import ctypes
 import functools
@@ -15,7 +15,7 @@ from ._types import PresetName, Threads
 
 
 def named(option: str, name: Any, table: Dict[str, int]) -> int:
-    """The number of a name."""
+    """Returns the number for a name."""
     number = table.get(name) if isinstance(name, str) else None
     if number is None:
         known = ", ".join(repr(known) for known in table)
@@ -27,12 +27,13 @@ def named(option: str, name: Any, table: Dict[str, int]) -> int:
 
 @dataclass(frozen=True)
 class Convention:
-    """What a format or engine means by its numbers: it decides the sign of tangents, and which side of a face is out.
+    """Convention of a format or engine: determines the sign of tangents, and which side of a face is outside.
 
-    Functions take one of these, or the name of a preset: "gltf", "opengl", "directx", "unreal", "unity", "blender", "godot".
+    Functions accept a Convention or the name of a preset: "gltf", "opengl", "directx", "unreal", "unity", "blender",
+    "godot".
 
     v_axis:      "up" (v = 0 is the bottom row of the image) or "down" (the top row, as in glTF); has no default
-    green:       what large green means: "up" (towards the top row, "OpenGL") or "down" ("DirectX")
+    green:       direction of large green values: "up" (toward the top row, "OpenGL") or "down" ("DirectX")
     stored_sign: "as_is" (B = sign * cross(N, T)) or "negated"
     handedness:  of the coordinate system, "right" or "left"
     winding:     of a face seen from outside, "counter_clockwise" or "clockwise"
@@ -46,7 +47,7 @@ class Convention:
 
     @staticmethod
     def preset(name: PresetName) -> "Convention":
-        """The preset of this name."""
+        """Returns the preset with this name."""
         found = convention_struct(name)
         values = []
         for table, number in zip(_CONVENTION_TABLES, (getattr(found, field) for field, _ in found._fields_)):
@@ -75,14 +76,14 @@ def _convention_struct(convention: Any) -> _abi.Convention:
 
 
 def convention_struct(convention: Any) -> _abi.Convention:
-    """The struct of the C API; it is shared, so nobody may write it."""
+    """Returns the struct of the C API; it is shared, so it must not be modified."""
     if not isinstance(convention, (str, Convention)):
         raise TypeError(f"convention must be a tspace.Convention or one of {_PRESETS}, not {shown(convention)}")
     return _convention_struct(convention)
 
 
 def thread_count(threads: Threads) -> int:
-    """The number of the C API: `threads` is a number from 1 on, or "all"."""
+    """Returns the thread count for the C API: `threads` is a number of at least 1, or "all"."""
     if type(threads) is int and threads == 1:
         return 1
     if isinstance(threads, str) and threads == "all":
@@ -98,7 +99,7 @@ def execution(threads: Threads) -> _abi.Execution:
 
 
 def real(option: str, value: Any) -> float:
-    """A real number; the library says which range it needs."""
+    """Checks a real number; the library checks its range."""
     if not isinstance(value, numbers.Real) or isinstance(value, bool):
         raise TypeError(f"{option} must be a real number, not {shown(value)}")
     if math.isnan(value):
@@ -107,12 +108,12 @@ def real(option: str, value: Any) -> float:
 
 
 def real_or_auto(option: str, value: Any) -> float:
-    """A real number, or "auto", which is -1 in the library."""
+    """Checks a real number, or "auto", which is -1 in the library."""
     return -1.0 if isinstance(value, str) and value == "auto" else real(option, value)
 
 
 def small_number(option: str, value: Any) -> int:
-    """A whole number that a uint32 holds; the library says which it takes."""
+    """Checks an integer that fits a uint32; the library checks its range."""
     if not isinstance(value, numbers.Integral) or isinstance(value, bool):
         raise TypeError(f"{option} must be a whole number, not {shown(value)}")
     number = int(value)

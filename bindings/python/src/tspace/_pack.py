@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Whole frames in a few bytes."""
+"""Packing of complete frames into a few bytes."""
 
 import ctypes
 from ctypes import byref
@@ -18,7 +18,7 @@ _library = _abi.library
 
 
 class PackResult(NamedTuple):
-    """Packed frames, and what was mended before."""
+    """Packed frames, and a report on repairs."""
 
     frames: ByteArray  #: (frames, bytes) uint8
     report: PackReport
@@ -37,16 +37,16 @@ def pack_frames(normals: Rows, tangents: Rows, format: FrameFormatName = ..., *,
 def pack_frames(
     normals: Rows, tangents: Rows, format: FrameFormatName = "frame32", *, full: bool = False
 ) -> Union[ByteArray, PackResult]:
-    """Packs whole frames (N, T and the sign) into 4 to 16 bytes each: (frames, bytes) uint8.
+    """Packs complete frames (N, T and the sign) into 4 to 16 bytes each: (frames, bytes) uint8.
 
     normals:  (frames, 3), unit
-    tangents: (frames, 4), unit and orthogonal to N; the fourth is the sign. Row i belongs to row i of normals, so both are
-              per vertex of a split mesh, or both per corner
+    tangents: (frames, 4), unit and orthogonal to N; the fourth is the sign. Rows of both arrays
+              correspond: both per vertex of a split mesh, or both per corner
     format:   "frame32" (4 bytes; within 0.135 degrees), "frame48" (6; 0.0042), "frame64" (8; 0.00015), "oct32" (4; 0.165),
               "qtangent64" (8; 0.004), "snorm8_pair" (8), "snorm16_pair" (16), "gltf_snorm8" (7), "gltf_snorm16" (14)
-    full:     True: returns a PackResult, which has a report too
+    full:     True: returns a PackResult, which includes a report
 
-    Any input is packed: what is broken is mended and counted.
+    Accepts any input: invalid frames are repaired and counted.
     """
     number = named("format", format, _abi.FRAME_FORMATS)
     normals = float_array("normals", normals, 3)
@@ -70,10 +70,10 @@ def unpack_frames(
 ) -> Tuple[FloatArray, FloatArray]:
     """Unpacks frames: normals (frames, 3) and tangents (frames, 4), float32.
 
-    frames: bytes, or an array of uint8 of any shape that holds whole frames
-    format: as for `pack_frames`
+    frames: bytes, or a uint8 array of any shape that contains complete frames
+    format: see `pack_frames`
 
-    Any bytes are frames: N and T are finite and unit, the sign is +1 or -1.
+    All bytes are valid frames: N and T are finite and unit, the sign is +1 or -1.
     """
     number = named("format", format, _abi.FRAME_FORMATS)
     size = _library.tspace_frameBytes(number)

@@ -18,7 +18,7 @@ from ._types import Numbers, Threads
 
 
 class PlanBuffers:
-    """The words of a plan, for `shaders/tspace_evaluate.*`: upload `words`, and dispatch a thread for each result.
+    """Buffers of a plan for `shaders/tspace_evaluate.*`: upload `words`, and dispatch a thread per result.
 
     The other arrays are views of `words`. docs/guides/gpu.md describes them.
     """
@@ -29,7 +29,7 @@ class PlanBuffers:
     triangles: numpy.ndarray  #: (triangles, 5) uint32: three vertices, and UV coefficients as bits of float32; lengyel: 7
 
     def __init__(self, words: numpy.ndarray):
-        """Wraps words that `plan_buffers` made, for example after they were stored in a file."""
+        """Wraps words returned by `plan_buffers`, for example after they were stored in a file."""
         if not isinstance(words, numpy.ndarray) or words.dtype != UINT32 or words.ndim != 1 or len(words) < 12:
             raise TypeError("words must be an array of uint32 that plan_buffers made")
         results, entries, triangles, width = (int(words[i]) for i in (4, 5, 6, 7))
@@ -84,16 +84,16 @@ def plan_buffers(
     normals: Optional[Dict[str, Any]] = None,
     threads: Threads = 1,
 ) -> PlanBuffers:
-    """Writes a plan as arrays, from which a compute shader evaluates each pose on a GPU.
+    """Exports a plan as arrays, with which a compute shader evaluates each pose on a GPU.
 
     plan:           a tspace.Plan: mikktspace, uniform, angle, area, lengyel or fast
-    indices:        the vertex of each corner in the arrays of a pose, as `make_indexed_frames(...).indices`; None: those of
-                    the plan's mesh
-    source_corners: the corner of each result, as `make_indexed_frames(...).source_corners`; None: one result per corner
-    mesh:           the plan's mesh as a dict of arguments of Plan (positions, indices, face_sizes): the shader then computes
-                    normals too. None: a pose brings its normals
-    normals:        a dict of options of `tspace.normals`, for `mesh`: every weighting but "best"
-    threads:        1, another number, or "all". The bits are the same for any
+    indices:        vertex of each corner in the arrays of a pose, such as `make_indexed_frames(...).indices`; None: those
+                    of the plan's mesh
+    source_corners: corner of each result, such as `make_indexed_frames(...).source_corners`; None: one result per corner
+    mesh:           the plan's mesh as a dict of arguments of Plan (positions, indices, face_sizes): the shader then also
+                    computes normals. None: normals are an input of each pose
+    normals:        dict of options of `tspace.normals`, for `mesh`: any weighting except "best"
+    threads:        number of threads, or "all". The results have the same bits for any number
 
     >>> buffers = tspace.plan_buffers(plan, mesh=dict(positions=positions, indices=indices))
     >>> len(buffers.results), buffers.triangles.shape, buffers.makes_normals

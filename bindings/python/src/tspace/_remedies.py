@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Remedies of findings as calls of this module."""
+"""Remedies of findings as Python calls."""
 
 from ._file_reports import Finding, RemedyCommand
 
@@ -13,12 +13,12 @@ _FUNCTIONS = {
 
 
 def remedy_text(finding: Finding) -> str:
-    """The remedy of a finding with calls of this module in place of command lines.
+    """Returns the remedy of a finding, with calls of this module instead of command lines.
 
-    finding: one of those of `tspace.check`
+    finding: a finding of `tspace.check`
 
-    A command without a function here, such as `tspace map-error`, stays a command line. Words in capitals, such as "HIGH",
-    are those that you replace.
+    Commands without a Python function, such as `tspace map-error`, remain command lines. Replace words in capitals, such
+    as "HIGH".
 
     >>> for finding in tspace.check("chair.glb"):
     ...     print(finding.message, tspace.remedy_text(finding))
@@ -39,7 +39,7 @@ def _call(command: RemedyCommand) -> str:
         return command.line
     options = {option.name: option.value for option in command.options}
     paths = [repr(path) for path in command.inputs] or ["model"]
-    # What the command line has as options are paths here.
+    # Options of the command line that are positional arguments here.
     if command.verb == "bake":
         paths.append(repr(options.pop("high")))
     paths.append(repr(options.pop("o")) if "o" in options else "output")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What is common to all reports on files: JSON objects of the tool, with their members as attributes."""
+"""Base of all file reports: JSON objects of the tool, with their members as attributes."""
 
 import keyword
 import re
@@ -12,9 +12,9 @@ if TYPE_CHECKING:
 
 
 class Report:
-    """A JSON object of the tool (docs/reference/json.md says what is in it): its members are attributes, in snake_case.
+    """JSON object of the tool (see docs/reference/json.md); its members are attributes, in snake_case.
 
-    json: the object as a dict, with the names of the JSON
+    json: the object as a dict, with the original member names
     """
 
     def __init__(self, data: Dict[str, Any]):
@@ -35,13 +35,14 @@ class Report:
         return isinstance(other, Report) and self.json == other.json
 
     def __repr__(self) -> str:
-        """One line: what is long, lists and objects, by how much there is of it."""
+        """Returns one line; long values, lists and objects are replaced by their size."""
         shown = ", ".join(f"{_snake_case(name)}={_brief(value)}" for name, value in self.json.items())
         return f"{type(self).__name__}({shown})"
 
 
 class Findings(Report):
-    """What `check` found: `for finding in tspace.check(path): ...`; `len` counts findings, so none is False."""
+    """Report of `check`. Iterable: `for finding in tspace.check(path): ...`; `len` is the number of findings, so a
+    report without findings is false."""
 
     def __iter__(self) -> Iterator["Finding"]:
         return iter(self.findings)
@@ -60,14 +61,14 @@ def _brief(value: Any) -> str:
 
 
 def _snake_case(member: str) -> str:
-    """A keyword of Python gets a line behind it: from_."""
+    """Appends an underscore to Python keywords: from_."""
     name = re.sub("([A-Z])", lambda match: "_" + match[1].lower(), member)
     return name + "_" if keyword.iskeyword(name) else name
 
 
 @lru_cache(maxsize=None)
 def _kinds(report: Type[Any]) -> Dict[str, Type[Any]]:
-    """Of each attribute the class of the objects that it holds, be it in a list or None."""
+    """Returns, for each attribute, the class of the objects that it contains, in a list or optional."""
     kinds = {}
     for name, hint in get_type_hints(report).items():
         while get_args(hint):
@@ -84,13 +85,13 @@ def _wrapped(value: Any, kind: Type[Any]) -> Any:
         return value
     if not is_dataclass(kind):
         return kind(value)
-    # A newer library may say more.
+    # A newer library may have additional members.
     members = {_snake_case(name): entry for name, entry in value.items()}
     return kind(**{name: _frozen(entry, kind, name) for name, entry in members.items() if name in kind.__dataclass_fields__})
 
 
 def _frozen(value: Any, kind: Type[Any], name: str) -> Any:
-    """A member of a dataclass, with a tuple in place of a list."""
+    """Returns a member of a dataclass, with a tuple instead of a list."""
     if not isinstance(value, list):
         return value
     owner: Any = kind

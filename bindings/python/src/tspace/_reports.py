@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What functions met on their way, as named tuples."""
+"""Reports of functions, as named tuples."""
 
 from typing import Any, NamedTuple, Type, TypeVar
 
@@ -7,89 +7,90 @@ T = TypeVar("T")
 
 
 class TangentReport(NamedTuple):
-    """What was met while tangents were computed. Broken input is counted and never an error."""
+    """Report of the tangent computation. Invalid geometry is counted, and never an error."""
 
-    reference_order_abandoned: bool  #: the reference would take quadratic time, so its last step was left out
-    triangle_count: int  #: triangles computed with, after cutting quads and n-gons
+    #: the last step of the reference was skipped, because it would have taken quadratic time
+    reference_order_abandoned: bool
+    triangle_count: int  #: triangles after triangulation of quads and n-gons
     degenerate_triangle_count: int  #: two corners at the same position
-    degenerate_uv_count: int  #: triangles without UV area: they take their neighbours' frame
-    mirrored_count: int  #: triangles that show the image mirrored, in the convention
+    degenerate_uv_count: int  #: triangles without UV area; they use the frame of their neighbors
+    mirrored_count: int  #: triangles whose texture is mirrored, according to the convention
     skipped_face_count: int  #: faces for which nothing was computed
     group_count: int  #: sets of corners that share one tangent
-    default_corner_count: int  #: outputs that no face gives a tangent: they hold the method's default
-    not_finite_count: int  #: outputs whose tangent has a NaN or infinity
+    default_corner_count: int  #: outputs to which no face contributes; they hold the method's default
+    not_finite_count: int  #: outputs whose tangent contains NaN or infinity
 
 
 class NormalReport(NamedTuple):
-    """What was met while normals were computed."""
+    """Report of the normal computation."""
 
     face_count: int  #: faces with at least 3 corners
-    degenerate_face_count: int  #: faces without a normal (zero area or not finite)
-    fallback_corner_count: int  #: corners whose mean vanished and that got a substitute
-    noise: float  #: noise of positions that `denoise` removed: standard deviation in mean edge lengths; 0: none
-    crease_angle_deg: float  #: the angle that edges were held against: as given, or what "auto" found
+    degenerate_face_count: int  #: faces without a normal (zero area, or not finite)
+    fallback_corner_count: int  #: corners whose weighted mean is zero and that got a fallback
+    noise: float  #: position noise that `denoise` removed: standard deviation in mean edge lengths; 0: none
+    crease_angle_deg: float  #: crease angle used: the given one, or the one that "auto" determined
 
 
 class PositionNoise(NamedTuple):
-    """How noisy positions are. Lengths are parts of `mean_edge`."""
+    """Measured noise of positions. Lengths are relative to `mean_edge`."""
 
-    sigma: float  #: how far positions lie from a smooth surface through their neighbours: standard deviation
-    kink_share: float  #: of how normals differ along an edge, the part that no smooth surface has: the median, 0 to 1
-    noise: float  #: what of `sigma` is noise; 0: they are not noisy
-    mean_edge: float  #: of a sample, in the unit of positions
+    sigma: float  #: distance of positions from a smooth surface through their neighbors: standard deviation
+    kink_share: float  #: median part of the normal difference along an edge that no smooth surface has, 0 to 1
+    noise: float  #: the part of `sigma` that is noise; 0: not noisy
+    mean_edge: float  #: mean length of sampled edges, in the unit of positions
 
 
 class WindingReport(NamedTuple):
-    """What was found and done. A component is what hangs together over pairs of faces at edges."""
+    """Report of the winding repair. A component consists of faces connected by edges."""
 
     face_count: int  #: faces with at least 3 corners
-    turned_count: int  #: faces that were turned
-    conflict_count_before: int  #: pairs of faces that run through their edge in the same direction
+    turned_count: int  #: flipped faces
+    conflict_count_before: int  #: pairs of faces that traverse their common edge in the same direction
     conflict_count_after: int
     component_count: int
-    turned_component_count: int  #: of which more than half of the faces were turned
-    by_normals_count: int  #: components decided by normals of the mesh
-    by_volume_count: int  #: closed: by the volume
-    by_nesting_count: int  #: closed, and lying in another one
-    by_winding_number_count: int  #: open, but with an inside
-    by_majority_count: int  #: as most of the area was wound
-    small_count: int  #: fewer than 4 faces: nothing was turned
-    one_sided_count: int  #: as a Moebius band: nothing was turned
+    turned_component_count: int  #: components with more than half of their faces flipped
+    by_normals_count: int  #: components oriented by the normals of the mesh
+    by_volume_count: int  #: closed components, oriented by their signed volume
+    by_nesting_count: int  #: closed components inside another component
+    by_winding_number_count: int  #: open components that enclose a volume
+    by_majority_count: int  #: components oriented by the majority of their area
+    small_count: int  #: components with fewer than 4 faces: not changed
+    one_sided_count: int  #: one-sided components, such as a Moebius strip: not changed
 
 
 class SanitizeReport(NamedTuple):
-    """Corners mended, by cause (the first that applies) and by cure."""
+    """Repaired corners, by cause (the first that applies) and by kind of repair."""
 
-    not_finite_count: int  #: NaN or infinity in the tangent
-    zero_count: int  #: length 0
+    not_finite_count: int  #: tangent contains NaN or infinity
+    zero_count: int  #: tangent has length 0
     not_unit_count: int  #: length off by more than 5e-4
     parallel_count: int  #: within 1 degree of +N or -N
     bad_sign_count: int  #: sign not exactly +1 or -1
-    mixed_sign_count: int  #: sign changed because the face's corners disagreed
-    orthogonalized_count: int  #: sound ones changed by orthogonalize_all
-    normalized_count: int  #: cure: own direction, made unit and orthogonal to N
-    from_neighbor_count: int  #: cure: direction of a sound corner of the same face or position
-    from_basis_count: int  #: cure: basis from N alone
+    mixed_sign_count: int  #: sign changed because the corners of the face have different signs
+    orthogonalized_count: int  #: valid tangents changed by orthogonalize_all
+    normalized_count: int  #: repair: original direction, normalized and made orthogonal to N
+    from_neighbor_count: int  #: repair: direction of a valid corner of the same face or position
+    from_basis_count: int  #: repair: tangent computed from N only
     bad_normal_count: int  #: corners whose N is zero or not finite
-    mended_count: int  #: all corners that were written
-    placeholder_count: int  #: cause: exactly (1, 0, 0), and not in the plane across N
+    mended_count: int  #: all repaired corners
+    placeholder_count: int  #: cause: exactly (1, 0, 0), and not perpendicular to N
 
 
 class PackReport(NamedTuple):
-    """Frames mended before they were packed, each counted once."""
+    """Frames repaired before packing, each counted once."""
 
-    bad_normal_count: int  #: N zero or not finite: (0, 0, 1) took its place
-    not_finite_count: int  #: NaN or infinity in the tangent: a basis from N took its place
-    zero_count: int  #: tangent of length 0: a basis from N
-    parallel_count: int  #: tangent within 1 degree of +N or -N: a basis from N
-    not_unit_count: int  #: length of N or T off by more than 5e-4: made unit
+    bad_normal_count: int  #: N is zero or not finite: replaced by (0, 0, 1)
+    not_finite_count: int  #: tangent contains NaN or infinity: replaced by a tangent computed from N
+    zero_count: int  #: tangent has length 0: replaced by a tangent computed from N
+    parallel_count: int  #: tangent within 1 degree of +N or -N: replaced by a tangent computed from N
+    not_unit_count: int  #: length of N or T off by more than 5e-4: normalized
     not_orthogonal_count: int  #: T was made orthogonal to N
     bad_sign_count: int  #: sign not exactly +1 or -1
-    mended_count: int  #: the sum of them
+    mended_count: int  #: sum of the counts above
 
 
 def report(kind: Type[T], struct: Any) -> T:
-    """The named tuple of a struct of the C API that has the same fields."""
+    """Returns the named tuple for a C API struct with the same fields."""
     values = (getattr(struct, field) for field in kind._fields)  # type: ignore[attr-defined]
     kinds = kind.__annotations__.values()
     return kind(*(bool(value) if kind is bool else value for kind, value in zip(kinds, values)))

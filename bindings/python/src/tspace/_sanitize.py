@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Mending tangents."""
+"""Repair of tangents."""
 
 import ctypes
 from ctypes import byref
@@ -19,7 +19,7 @@ _library = _abi.library
 
 
 class SanitizeResult(NamedTuple):
-    """Mended tangents, and what was mended."""
+    """Repaired tangents with a report."""
 
     tangents: FloatArray  #: (corners, 4) float32
     report: SanitizeReport
@@ -72,18 +72,18 @@ def sanitize(
     out: Optional[numpy.ndarray] = None,
     full: bool = False,
 ) -> Union[FloatArray, SanitizeResult]:
-    """Mends tangents that are not finite, zero, not unit, parallel to N, or of mixed sign in a face: (corners, 4) float32.
+    """Repairs tangents that are not finite, zero, not unit, parallel to N, or have mixed signs within a face.
 
-    Sound tangents keep every bit. What is written is unit and orthogonal to the corner's N.
+    Returns (corners, 4) float32. Valid tangents keep all bits. Repaired ones are unit and orthogonal to the corner's N.
 
-    tangents:   (corners, 4), as `tangents` gives them; not changed, unless out=tangents
+    tangents:   (corners, 4), as returned by `tangents`; not changed, unless out=tangents
     positions:  (vertices, 3)
     normals:    (vertices, 3)
-    indices, face_sizes, normal_indices: as for `tangents`
-    orthogonalize_all: True: also makes sound tangents unit and orthogonal to N; they then no longer match a bake
-    threads:    1, another number, or "all"
-    out:        an array of float32 that takes the result; the same array as `tangents` mends in place
-    full:       True: returns a SanitizeResult, which has a report too
+    indices, face_sizes, normal_indices: see `tangents`
+    orthogonalize_all: True: also makes valid tangents unit and orthogonal to N; they then no longer match a bake
+    threads:    number of threads, or "all"
+    out:        float32 array that receives the result; pass `tangents` to repair in place
+    full:       True: returns a SanitizeResult, which includes a report
     """
     source = float_array("tangents", tangents, 4)
     mesh = Mesh(positions, normals, None, indices, face_sizes, normal_indices)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""From corners to an indexed mesh, and from polygons to triangles."""
+"""Conversion of corners to an indexed mesh, and of polygons to triangles."""
 
 import ctypes
 import math
@@ -32,7 +32,7 @@ _MOST_COLUMNS = 16
 def corner_attributes(
     name: str, attributes: Sequence[Any], corner_count: int, tolerance: Any
 ) -> Tuple[Any, List[numpy.ndarray]]:
-    """The array of structs for arrays of shape (corners, k), and the arrays that have to live as long."""
+    """Returns the C structs for arrays of shape (corners, k), and the arrays that must outlive them."""
     if isinstance(attributes, (numpy.ndarray, str, bytes)) or not isinstance(attributes, Iterable):
         raise TypeError(f"{name} must be a list of arrays: [tangents], not tangents")
     tolerance = real("tolerance", tolerance)
@@ -56,11 +56,13 @@ def corner_attributes(
 
 
 class Split(NamedTuple):
-    """A new index list, and where each new vertex comes from. Old vertices keep their place, copies are appended."""
+    """New index list, and the source of each new vertex. Old vertices keep their positions, copies are appended."""
 
     indices: IndexArray  #: (corners,) uint32: the new vertex of each corner
-    source_vertices: IndexArray  #: (new vertices,) uint32: the old vertex that each copies. Gather by it
-    source_corners: IndexArray  #: (new vertices,) uint32: a corner whose values each has; 0xffffffff: no corner uses it
+    #: (new vertices,) uint32: the old vertex that each one copies; use it to gather vertex attributes
+    source_vertices: IndexArray
+    #: (new vertices,) uint32: a corner whose values each vertex has; 0xffffffff: no corner uses it
+    source_corners: IndexArray
 
 
 def split(
@@ -71,13 +73,13 @@ def split(
     tolerance: float = 0.0,
     threads: Threads = 1,
 ) -> Split:
-    """Splits vertices whose corners disagree in any attribute, which makes an indexed mesh of results per corner.
+    """Splits vertices whose corners differ in any attribute: converts results per corner to an indexed mesh.
 
     indices:      (corners,) or (faces, k), the old vertex of each corner; None: corner c is vertex c
     vertex_count: number of old vertices
-    attributes:   arrays of shape (corners, k), k from 1 to 16: those of `tangents` and `normals`, for instance
-    tolerance:    0: corners are equal when all bits are; above: when every number differs by at most this
-    threads:      1, another number, or "all"
+    attributes:   arrays of shape (corners, k), k from 1 to 16, such as results of `tangents` and `normals`
+    tolerance:    0: corners are equal if all bits are equal; otherwise: if every number differs by at most this
+    threads:      number of threads, or "all"
 
     >>> s = tspace.split(indices, len(positions), [tangents])
     >>> new_positions, new_tangents = positions[s.source_vertices], tangents[s.source_corners]
@@ -124,17 +126,17 @@ def split(
 class Triangles(NamedTuple):
     """Triangles of a polygon mesh."""
 
-    corners: IndexArray  #: (triangles, 3) uint32: corners of the mesh (not vertices), winding kept
-    faces: IndexArray  #: (triangles,) uint32: the face that each was cut from
+    corners: IndexArray  #: (triangles, 3) uint32: corners of the mesh (not vertices), with the original winding
+    faces: IndexArray  #: (triangles,) uint32: the original face of each triangle
 
 
 def triangulate(
     positions: Rows, indices: Optional[Numbers] = None, *, face_sizes: FaceSizes = None, uvs: Optional[Rows] = None
 ) -> Triangles:
-    """Cuts faces of 4 and more corners into triangles.
+    """Splits faces with 4 or more corners into triangles.
 
-    Quads are cut along the diagonal that MikkTSpace takes, for which it looks at `uvs` too, where they are given; n-gons by
-    clipping ears. Faces of fewer than 3 corners give nothing.
+    Quads are split along the diagonal that MikkTSpace chooses, which also depends on `uvs` if given; n-gons by ear
+    clipping. Faces with fewer than 3 corners are skipped.
 
     positions:  (vertices, 3)
     indices:    (corners,), or (faces, k) for faces of k corners; None: corner c is vertex c

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tangents per corner, in one call or by a plan."""
+"""Tangents per corner, computed in one call or with a plan."""
 
 import ctypes
 import functools
@@ -36,13 +36,13 @@ _METHOD_NAMES = {number: name for name, number in _abi.METHODS.items()}
 
 
 class TangentResult(NamedTuple):
-    """All outputs of a method, one entry per corner (or per vertex: domain="vertex")."""
+    """All outputs of a method, one entry per corner (or per vertex for domain="vertex")."""
 
-    tangents: FloatArray  #: (n, 4) float32: unit tangent, and the sign
-    bitangents: FloatArray  #: (n, 3) float32: unit direction of dP/dv; in general not cross(N, T)
-    magnitudes_s: FloatArray  #: (n,) float32: mean length of dP/du; 1 for methods without
-    magnitudes_t: FloatArray  #: (n,) float32: mean length of dP/dv; 1 for methods without
-    #: (n,) bool: False where no face gives the entry a tangent: the method's default was written, or the row is zero
+    tangents: FloatArray  #: (n, 4) float32: unit tangent and sign
+    bitangents: FloatArray  #: (n, 3) float32: unit direction of dP/dv; in general different from cross(N, T)
+    magnitudes_s: FloatArray  #: (n,) float32: mean length of dP/du; 1 for methods that do not compute it
+    magnitudes_t: FloatArray  #: (n,) float32: mean length of dP/dv; 1 for methods that do not compute it
+    #: (n,) bool: False if no face contributes to the entry: the method's default was written, or the row is zero
     #: (corners of skipped faces, unused vertices)
     has_tangent: BoolArray
     report: TangentReport
@@ -59,11 +59,11 @@ def tangent_options(
     refine: Any,
     normalize_normals: Any,
 ) -> _abi.TangentOptions:
-    """The struct of the C API. It is shared, so nobody may write it."""
+    """Returns the struct of the C API. It is shared, so it must not be modified."""
     key = (method, convention, threshold, pairing, ngons, domain, frame, refine, normalize_normals)
     try:
         hash(key)
-    except TypeError:  # wrong types, as the function will say
+    except TypeError:  # wrong types; the function below reports them
         return _tangent_options.__wrapped__(*key)
     return _tangent_options(*key)
 
@@ -81,7 +81,7 @@ def _tangent_options(
     normalize_normals: Any,
 ) -> _abi.TangentOptions:
     degrees, steps = real("threshold", threshold), small_number("refine", refine)
-    # The C API refuses both of 0 as forgotten; no method looks at both.
+    # The C API rejects zero for both as uninitialized; no method uses both.
     if degrees == 0 and steps == 0:
         degrees, steps = (180.0, 0) if method == "best" else (0.0, 1)
     return _abi.TangentOptions(
@@ -101,7 +101,7 @@ def _tangent_options(
 def _output(
     count: int, out: Optional[numpy.ndarray], full: bool
 ) -> Tuple[_abi.TangentOutput, Tuple[numpy.ndarray, ...]]:
-    """The struct, and the arrays that it points into: of tangents alone, or all five."""
+    """Returns the struct and the arrays that it refers to: tangents only, or all five."""
     tangents = output_array(out, count, 4)
     if not full:
         spans = (write_span(tangents), EMPTY_SPAN, EMPTY_SPAN, EMPTY_SPAN, EMPTY_SPAN)
@@ -111,7 +111,7 @@ def _output(
         output_array(None, count, 3),
         output_array(None, count, 0),
         output_array(None, count, 0),
-        numpy.empty(count, numpy.bool_),  # the library writes bytes of 0 and 1
+        numpy.empty(count, numpy.bool_),  # the library writes bytes with 0 or 1
     )
     return _abi.TangentOutput(_OUTPUT_SIZE, 0, *(write_span(array) for array in arrays)), arrays
 
@@ -202,36 +202,37 @@ def tangents(
     """Computes one tangent per corner, with its sign: (corners, 4) float32.
 
     The first three numbers of a row are the unit tangent T, the fourth is the sign (+1 or -1): B = sign * cross(N, T). One
-    vertex can need several tangents, so never write rows through the old index list: `make_indexed_frames` or `split` make
-    the new one.
+    vertex can need several tangents, so never write rows through the old index list: `make_indexed_frames` or `split`
+    create a new one.
 
     positions:  (vertices, 3)
-    normals:    (vertices, 3), unit; used as given (see normalize_normals). `tspace.normals` makes them
-    uvs:        (vertices, 2); None for method="basis", which needs none
+    normals:    (vertices, 3), unit; used as given (see normalize_normals). `tspace.normals` computes them
+    uvs:        (vertices, 2); None for method="basis", which needs no UVs
     indices:    (corners,), the vertex of each corner, also as a column (corners, 1), or (faces, k) for faces of k corners;
                 None: corner c is vertex c
     face_sizes: None: triangles. A number: corners of every face. (faces,): corners of each face
-    normal_indices, uv_indices: None: normals and uvs have one row per vertex. An index list of their own, shaped as `indices`
-                or (corners,): they have any number of rows. "corners": they have one row per corner
-    method:     "mikktspace" (every bit of the MikkTSpace reference), "fast", "best", "lengyel", "uniform", "angle", "area",
+    normal_indices, uv_indices: None: normals and uvs have one row per vertex. A separate index list, shaped like `indices` or
+                (corners,): any number of rows. "corners": one row per corner
+    method:     "mikktspace" (bit-identical to the MikkTSpace reference), "fast", "best", "lengyel", "uniform", "angle", "area",
                 "flat", or "basis"
-    convention: decides the sign, so it has no default: "gltf", "opengl", "directx", "unreal", "unity", "blender", "godot",
+    convention: determines the sign, so it has no default: "gltf", "opengl", "directx", "unreal", "unity", "blender", "godot",
                 or a tspace.Convention
-    threshold:  degrees, 180 as in the reference; mikktspace only: faces whose tangents differ by this or more are not averaged
-    pairing:    mikktspace only: "reference", or "corrected", without the defect of its last bucket of edges
-    ngons:      faces of more than 4 corners: "triangulate", or "skip": their rows are zero, as the reference leaves them
+    threshold:  degrees, default 180 as in the reference; mikktspace only: tangents that differ by this or more are not
+                averaged
+    pairing:    mikktspace only: "reference", or "corrected" without the reference's defect in its last bucket of edges
+    ngons:      faces with more than 4 corners: "triangulate", or "skip": their rows are zero, as in the reference
     domain:     "corner"; or "vertex", for "lengyel" and "basis" only: one row per vertex
     frame:      "gram_schmidt"; or "symmetric": T is the bisector of dP/du and the direction across dP/dv
-    refine:     steps that "best" takes after its fit: 0, 1 or 2
-    normalize_normals: True: normals whose length is further from 1 than 0.00674 are scaled to length 1 first; False: they are
-                used as given, and tangents are then not perpendicular to them, as the reference has it
-    threads:    1, another number, or "all". The bits are the same for any
-    out:        an array of float32 that takes the result and is returned; it may be a field of interleaved vertices
-    full:       True: returns a TangentResult, which has bitangents, magnitudes, a report and a mask of the rows that a face
-                gives a tangent too
+    refine:     refinement steps of "best": 0, 1 or 2
+    normalize_normals: True: normals whose length differs from 1 by more than 0.00674 are normalized first; False: they are
+                used as given, and tangents are then not perpendicular to them, as in the reference
+    threads:    number of threads, or "all". The results have the same bits for any number
+    out:        float32 array that receives the result and is returned; may be a field of interleaved vertices
+    full:       True: returns a TangentResult, which also includes bitangents, magnitudes, a report, and a mask of the rows
+                to which a face contributes
 
-    Broken geometry (NaN, faces without area) is no error: it is counted in the report, and `sanitize` mends the result.
-    Raises TypeError, or InputError (a ValueError) that says which argument is wrong, and where; MemoryError.
+    Invalid geometry (NaN, faces without area) raises no error: it is counted in the report, and `sanitize` repairs the
+    result. Raises TypeError, InputError (a ValueError) with the invalid argument and position, or MemoryError.
     """
     options = tangent_options(
         method, convention, threshold, pairing, ngons, domain, frame, refine, normalize_normals
@@ -257,9 +258,9 @@ def tangents(
 
 
 class MeshJob:
-    """One mesh for `tangents_of_meshes`. It takes what `tangents` takes, except `threads`, and keeps the arrays.
+    """One mesh for `tangents_of_meshes`. Takes the arguments of `tangents`, except `threads`, and keeps the arrays alive.
 
-    Raises what `tangents` raises for wrong types, shapes and options.
+    Raises the same errors as `tangents` for invalid types, shapes and options.
     """
 
     def __init__(
@@ -284,7 +285,7 @@ class MeshJob:
         out: Optional[numpy.ndarray] = None,
         full: bool = False,
     ):
-        """Checks the arguments; nothing is computed yet."""
+        """Checks the arguments without computing anything."""
         self._options = tangent_options(
             method, convention, threshold, pairing, ngons, domain, frame, refine, normalize_normals
         )
@@ -308,14 +309,14 @@ class MeshJob:
 def tangents_of_meshes(
     jobs: Iterable[MeshJob], *, threads: Threads = 1
 ) -> List[Union[FloatArray, TangentResult, InputError, MemoryError]]:
-    """Computes the tangents of many meshes in one call, whole meshes on each thread. Use it for models of many small meshes.
+    """Computes the tangents of many meshes in one call, in parallel by mesh. Use it for models with many small meshes.
 
-    Returns one entry per job, in their order: what `tangents` returns for this mesh alone, with the same bits; or, where
-    `tangents` would raise an InputError or MemoryError, this exception. A job that fails does not affect the others. Outputs
-    of two jobs must not overlap.
+    Returns one entry per job, in order: the result of `tangents` for this mesh, with the same bits; or the exception
+    (InputError or MemoryError) that `tangents` would raise. A failed job does not affect the others. Outputs of different
+    jobs must not overlap.
 
-    jobs:    a MeshJob per mesh, any number of them
-    threads: 1, another number, or "all"
+    jobs:    a MeshJob per mesh, any number
+    threads: number of threads, or "all"
 
     >>> job = tspace.MeshJob(positions, normals, uvs, indices, convention="gltf")
     >>> results = tspace.tangents_of_meshes([job, job], threads="all")
@@ -345,10 +346,10 @@ def tangents_of_meshes(
 
 
 class Plan:
-    """Everything about a mesh that does not change while it deforms: neighbours, groups, splits, UVs.
+    """Data of a mesh that does not change while it deforms: adjacency, groups, splits, UVs.
 
-    Takes what `tangents` takes. `evaluate` then gives the tangents of a pose, in a fraction of the time. Immutable, so
-    that many threads may evaluate one plan at the same time; keeps no array alive.
+    Takes the arguments of `tangents`. `evaluate` then computes the tangents of a pose in a fraction of the time.
+    Immutable, so that many threads may evaluate one plan concurrently; keeps no array alive.
 
     >>> plan = tspace.Plan(positions, normals, uvs, indices, convention="gltf")
     >>> tangents = plan.evaluate(posed_positions, posed_normals)
@@ -375,7 +376,7 @@ class Plan:
         normalize_normals: bool = False,
         threads: Threads = 1,
     ):
-        """Makes a plan; arguments as those of `tangents`."""
+        """Creates a plan; the arguments are those of `tangents`."""
         options = tangent_options(
             method, convention, threshold, pairing, ngons, domain, frame, refine, normalize_normals
         )
@@ -427,13 +428,13 @@ class Plan:
         out: Optional[numpy.ndarray] = None,
         full: bool = False,
     ) -> Union[FloatArray, TangentResult]:
-        """The tangents of a pose, with the plan's groups and splits: (corners, 4) float32.
+        """Computes the tangents of a pose with the plan's groups and splits: (corners, 4) float32.
 
-        On the pose that the plan was made from, the result is bit for bit that of `tangents`.
+        For the pose from which the plan was created, the result equals that of `tangents` bit for bit.
 
-        positions: (vertices, 3), as many as the plan's
-        normals:   unit, of this pose; as many as the plan's
-        threads, out, full: as for `tangents`
+        positions: (vertices, 3), as many as in the plan
+        normals:   unit normals of this pose, as many as in the plan
+        threads, out, full: see `tangents`
         """
         positions = float_array("positions", positions, 3)
         normals = float_array("normals", normals, 3)
@@ -461,22 +462,22 @@ class Plan:
 
     @property
     def method(self) -> str:
-        """The name of the method."""
+        """Name of the method."""
         return _METHOD_NAMES[self._info.method]
 
     @property
     def vertex_count(self) -> int:
-        """Vertices of the mesh."""
+        """Number of vertices of the mesh."""
         return self._info.vertex_count
 
     @property
     def corner_count(self) -> int:
-        """Corners of the mesh."""
+        """Number of corners of the mesh."""
         return self._info.corner_count
 
     @property
     def memory_bytes(self) -> int:
-        """Bytes that the plan holds."""
+        """Memory of the plan in bytes."""
         return self._info.memory_bytes
 
     def __reduce__(self) -> Any:

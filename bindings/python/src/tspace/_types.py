@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What type checkers are told: names of options, and arrays."""
+"""Types for type checkers: option names and arrays."""
 
 from typing import TYPE_CHECKING, Any, Sequence, Union
 
@@ -26,13 +26,13 @@ DegreesOrAuto = Union[float, Literal["auto"]]
 
 
 class HasArray(Protocol):
-    """What numpy makes an array of: arrays of other libraries."""
+    """Types that numpy can convert to an array, such as arrays of other libraries."""
 
     def __array__(self, *arguments: Any, **options: Any) -> Any:
-        """As numpy asks."""
+        """Array interface of numpy."""
 
 
-# What is no array of numbers, such as text, is found before the program runs.
+# Type checkers report arguments that are not arrays of numbers, such as text.
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 

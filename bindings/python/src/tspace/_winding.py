@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The winding of faces."""
+"""Repair of the winding of faces."""
 
 import ctypes
 from ctypes import byref
@@ -15,11 +15,11 @@ from ._types import DegreesOrAuto, FaceSizes, IndexArray, Numbers, Rows, Threads
 
 
 class WindingResult(NamedTuple):
-    """Indices with the right winding, and what was done."""
+    """Indices with consistent winding, and the flipped faces."""
 
-    indices: IndexArray  #: as they were given, but for the order of corners in faces that were turned
+    indices: IndexArray  #: same shape as the input; corners of flipped faces are reordered
     report: WindingReport
-    turned: numpy.ndarray  #: (faces,) bool: the faces that were turned
+    turned: numpy.ndarray  #: (faces,) bool: the flipped faces
 
 
 def _face_sizes(mesh: Mesh, face_sizes: Any) -> numpy.ndarray:
@@ -40,20 +40,20 @@ def mend_winding(
     convention: Optional[ConventionLike] = None,
     threads: Threads = 1,
 ) -> WindingResult:
-    """Turns faces that are wound against their neighbours, and whole parts that are inside out.
+    """Flips faces whose winding differs from their neighbors, and components that are inside out.
 
-    Which side of a part is out is decided by its volume where it is closed, by its inside where it is open, else by most of
-    its faces. Parts of fewer than 4 faces are left alone.
+    The outside of a component is determined by its signed volume if it is closed, by the volume that it encloses if it is
+    open, otherwise by the majority of its faces. Components with fewer than 4 faces are not changed.
 
     positions:      (vertices, 3)
     indices:        (corners,), or (faces, k) for faces of k corners; None: corner c is vertex c
     face_sizes:     None: triangles. A number: corners of every face. (faces,): corners of each face
-    normals:        (vertices, 3): they say which side is out, where they agree among themselves; None: nothing does
-    weld_positions: True: vertices at the same position are one point; False: only equal indices are
-    weld_distance:  with weld_positions: positions that differ by no more than this in each coordinate are one. "auto": twice
-                    the spacing of floats at the largest coordinate
-    convention:     its handedness and winding say which order is right; None: right-handed, counter-clockwise
-    threads:        1, another number, or "all". The bits are the same for any
+    normals:        (vertices, 3): they define the outside where they are consistent; None: not used
+    weld_positions: True: vertices at the same position are welded; False: only by index
+    weld_distance:  with weld_positions: positions that differ by at most this in each coordinate are welded. "auto":
+                    twice the spacing of floats at the largest coordinate
+    convention:     its handedness and winding define the correct order; None: right-handed, counter-clockwise
+    threads:        number of threads, or "all". The results have the same bits for any number
     """
     mesh = Mesh(positions, normals, None, indices, face_sizes)
     run = execution(threads)
