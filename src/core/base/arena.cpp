@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An arena is one reserved piece of address space. Memory is put behind it from its begin, as it is needed, and cut into
-// blocks. What has no room there comes from operator new.
+// An arena is a reserved range of address space. Memory is committed from its start as needed, and divided into blocks.
+// Allocations that do not fit come from operator new.
 #include "tspace/execution.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 #include "core/base/memory.h"
 
 #ifdef _WIN32
-// Declared here: the system's header defines small words as macros, and the core may be compiled as one file.
+// Declared here: the system header defines common words as macros, and the core may be compiled as one file.
 extern "C" __declspec(dllimport) void* __stdcall VirtualAlloc(void*, std::size_t, unsigned long, unsigned long);
 extern "C" __declspec(dllimport) int __stdcall VirtualFree(void*, std::size_t, unsigned long);
 #endif
@@ -25,14 +25,14 @@ namespace tspace {
 
 namespace {
 
-/// Sizes are multiples of this, so that every place is aligned.
+/// Sizes are multiples of this, so that every block is aligned.
 constexpr std::size_t kUnit = kMemoryAlignment;
-/// Memory is put behind the space in steps of this.
+/// Memory is committed in steps of this.
 constexpr std::size_t kStep = kHugePage;
-/// More than the largest mesh needs, and nothing compared with the addresses that a process has.
+/// More than the largest mesh needs, and little compared with the address space of a process.
 constexpr std::size_t kReserved = sizeof(void*) < 8 ? std::size_t{1} << 28 : std::size_t{1} << 36;
 
-/// A smaller reservation may have no aligned step: everything comes from operator new then.
+/// A smaller reservation may contain no aligned step: everything then comes from operator new.
 constexpr std::size_t kLeastReserved = 2 * kStep;
 
 std::size_t roundUp(std::size_t value, std::size_t unit) { return (value + unit - 1) / unit * unit; }
@@ -61,13 +61,14 @@ bool putMemoryBehind(std::byte* begin, std::size_t bytes) {
     askForPages(begin, bytes);
     return true;
 }
-/// The address space stays reserved. A new mapping over it also gives its share of the system's limit back.
+/// Decommits memory; the address space stays reserved. A new mapping also releases its share of the system's commit
+/// limit.
 bool takeMemoryAway(std::byte* begin, std::size_t bytes) {
     return mmap(begin, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0) != MAP_FAILED;
 }
 void endSpace(std::byte* space, std::size_t bytes) { munmap(space, bytes); }
 
-#else  // all comes from operator new
+#else  // all memory comes from operator new
 
 std::byte* reserveSpace(std::size_t) { return nullptr; }
 bool putMemoryBehind(std::byte*, std::size_t) { return false; }
@@ -93,7 +94,7 @@ class Arena::Impl {
         if (space == nullptr) return;
         space_ = space;
         space_bytes_ = bytes;
-        // Huge pages lie at multiples of their size.
+        // Huge pages are aligned to their size.
         const std::size_t skipped = -reinterpret_cast<std::uintptr_t>(space) % kStep;
         begin_ = space + skipped;
         room_ = (bytes - skipped) / kStep * kStep;
@@ -141,8 +142,8 @@ class Arena::Impl {
         bool is_free;
     };
 
-    /// The smallest free block that fits, the first one of several, else the place behind all. So the same calls on an empty
-    /// arena end in the same places. Null where there is no room.
+    /// Returns the first of the smallest free blocks that fit, otherwise the space after all blocks: the same calls on
+    /// an empty arena return the same addresses. Null if there is no room.
     void* takeBlock(std::size_t bytes) noexcept {
         return withMemory([&]() -> std::byte* {
             auto best = blocks_.end();
@@ -178,7 +179,7 @@ class Arena::Impl {
         blocks_.erase(block + 1);
     }
 
-    /// Address just past the last block in use.
+    /// Offset just past the last block in use.
     [[nodiscard]] std::size_t end() const { return blocks_.empty() ? 0 : blocks_.back().begin + blocks_.back().bytes; }
 
     bool holdUpTo(std::size_t begin, std::size_t bytes) {
@@ -191,9 +192,9 @@ class Arena::Impl {
     }
 
     std::byte *space_ = nullptr, *begin_ = nullptr;
-    std::size_t space_bytes_ = 0, room_ = 0;  ///< reserved, and what can be used of it
+    std::size_t space_bytes_ = 0, room_ = 0;  ///< reserved bytes, and usable bytes of these
     std::size_t held_ = 0, elsewhere_ = 0, used_ = 0;
-    std::vector<Block> blocks_;  ///< all up to the last one in use, one behind the other; no two free ones touch
+    std::vector<Block> blocks_;  ///< consecutive blocks up to the last one in use; free blocks are never adjacent
 };
 
 Arena::Arena()

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Letters of file formats, the same in every locale.
+// ASCII letters of file formats, independent of the locale.
 #pragma once
 
 #include <string>
 
 namespace tspace {
 
-/// The text with the ASCII letters A to Z in lower case; all other bytes stay.
+/// Returns the text with the ASCII letters A to Z in lower case; all other bytes are unchanged.
 inline std::string lowerAscii(std::string text) {
     for (char& c : text) {
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The border of the library: errors and their names, and validation of meshes and spans.
+// API boundary of the library: errors and their names, and validation of meshes and spans.
 #include "tspace/result.h"
 
 #include <algorithm>
@@ -64,7 +64,7 @@ void append(std::string& text, std::size_t number) {
 
 }  // namespace
 
-// The C library's printf would be 20 KB of a static program, and 4 of a compressed WebAssembly module.
+// Avoids the C library's printf, which takes 20 KB of a static program, and 4 KB of a compressed WebAssembly module.
 Error makeError(ErrorCode code, std::uint64_t element, const char* format, ...) {
     Error error{code, {}, element};
     std::va_list arguments;
@@ -90,7 +90,7 @@ Error makeError(ErrorCode code, std::uint64_t element, const char* format, ...) 
 void throwOutOfMemory() { throw OutOfMemory{}; }
 
 Error caughtError() {
-    // Strings of up to 15 characters take no memory.
+    // Strings of up to 15 characters need no allocation.
     try {
         throw;
     } catch (const OutOfMemory&) {
@@ -100,7 +100,7 @@ Error caughtError() {
     } catch (const Cancelled&) {
         return {ErrorCode::cancelled, "stopped before it was done"};
     } catch (...) {
-        // A message of this length takes memory.
+        // A message of this length is allocated.
         try {
             return {ErrorCode::internal, "internal error: an exception reached the library's border"};
         } catch (...) {
@@ -111,13 +111,13 @@ Error caughtError() {
 
 #else
 
-// Defined by the program: bindings without exceptions end the call from here.
+// Defined by the program: bindings without exceptions abort the call there.
 extern "C" [[noreturn]] void tspace_endCallOutOfMemory(void);
 void throwOutOfMemory() { tspace_endCallOutOfMemory(); }
 
 #endif
 
-// Validation of meshes and spans at the border.
+// Validation of meshes and spans at the API boundary.
 
 namespace {
 
@@ -150,8 +150,8 @@ Error checkFaces(const MeshView& mesh) {
     return fine();
 }
 
-/// Without a branch, so that compilers take several at a time. For i < 2^31 and limit <= 2^31, i - limit has its highest bit set
-/// exactly when i < limit.
+/// Returns whether all indices are below `limit`, without branches, so that compilers vectorize it. For i < 2^31 and
+/// limit <= 2^31, i - limit has its highest bit set exactly if i < limit.
 bool allBelow(const std::uint32_t* indices, std::size_t count, std::uint32_t limit) {
     std::uint32_t all = ~std::uint32_t{0};
     for (std::size_t c = 0; c < count; ++c) all &= (indices[c] - limit) & ~indices[c];
@@ -200,7 +200,7 @@ Error checkIndexSpan(const IndexView& indices, const char* name) {
     return checkSpan(indices.data, indices.count, bytes, bytes, kAnyCount, name);
 }
 
-/// One attribute, of bytes: one entry per vertex, or any number with indices of its own.
+/// Checks one attribute, as bytes: one entry per vertex, or any number with its own indices.
 Error checkAttribute(const StridedSpan<const std::byte>& span, std::size_t element_bytes, const IndexView& indices,
                      const MeshView& mesh, const char* name, const char* indices_name) {
     const std::size_t corner_count = mesh.cornerCount();
@@ -237,7 +237,7 @@ Error checkSpan(const void* data, std::size_t count, std::size_t stride_bytes, s
         return makeError(ErrorCode::strideTooSmall, kNoElement,
                          "%s has a stride of %zu bytes, but its elements take %zu", name, stride_bytes, element_bytes);
     }
-    const std::size_t alignment = element_bytes % 4 == 0 ? 4 : element_bytes;  // floats, u32; or u16, u8 indices
+    const std::size_t alignment = element_bytes % 4 == 0 ? 4 : element_bytes;  // floats and u32; or u16 and u8 indices
     if (reinterpret_cast<std::uintptr_t>(data) % alignment != 0 || (count > 1 && stride_bytes % alignment != 0)) {
         return makeError(ErrorCode::misaligned, kNoElement, "%s is not aligned to %zu bytes", name, alignment);
     }

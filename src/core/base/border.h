@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The border of the library: checks of the caller's spans, and no exception gets out.
+// API boundary of the library: checks of the caller's spans, and conversion of exceptions to errors.
 #pragma once
 
 #include <new>
@@ -15,14 +15,14 @@ namespace tspace {
 
 class Parallel;
 
-/// An error with a message as printf makes it, of %s, %u and %zu. In one place: strings that are put together take 2 KB of
-/// code each.
+/// Returns an error with a message in printf format (%s, %u and %zu only). Shared, because concatenating strings takes
+/// 2 KB of code each time.
 [[gnu::format(printf, 3, 4)]] Error makeError(ErrorCode code, std::uint64_t element, const char* format, ...);
 
-/// The Error for the exception that is being handled. Throws nothing, even without free memory.
+/// Returns the Error for the exception that is being handled. Never throws, even without free memory.
 Error caughtError();
 
-/// Runs `body`, which returns a Result, and turns running out of memory (and any defect of our own) into an Error.
+/// Calls `body`, which returns a Result, and converts out-of-memory exceptions (and internal defects) to an Error.
 template <class Body>
 auto atBorder(Body&& body) -> std::invoke_result_t<Body> {
 #ifdef __cpp_exceptions
@@ -36,8 +36,8 @@ auto atBorder(Body&& body) -> std::invoke_result_t<Body> {
 #endif
 }
 
-/// Returns the result of `body`, or 0 or null if it runs out of memory. Other exceptions pass through. Without exceptions the
-/// program terminates there.
+/// Returns the result of `body`, or 0 or null if it runs out of memory. Other exceptions propagate. Without exceptions
+/// the program terminates there.
 template <class Body>
 auto withMemory(Body&& body) -> std::invoke_result_t<Body> {
 #ifdef __cpp_exceptions
@@ -55,11 +55,11 @@ auto withMemory(Body&& body) -> std::invoke_result_t<Body> {
 #endif
 }
 
-/// For checkSpan: any length is right.
+/// Value for checkSpan: any length is valid.
 inline constexpr std::size_t kAnyCount = ~std::size_t{0};
 
-/// Checks pointer, stride, alignment and length of one span. `name` is how messages call it. Returns an Error with code
-/// ok when all is well.
+/// Checks pointer, stride, alignment and length of a span. `name` identifies it in messages. Returns an Error with code
+/// ok if the span is valid.
 Error checkSpan(const void* data, std::size_t count, std::size_t stride_bytes, std::size_t element_bytes,
                 std::size_t expected_count, const char* name);
 
@@ -68,14 +68,13 @@ Error checkSpan(const StridedSpan<T>& span, std::size_t expected_count, const ch
     return checkSpan(span.data, span.count, span.stride_bytes, sizeof(T), expected_count, name);
 }
 
-/// The checks of validate(). With `parallel`, all threads check indices.
+/// Performs the checks of validate(). With `parallel`, all threads check indices.
 Error checkMesh(const MeshView& mesh, Parallel* parallel = nullptr);
 
-/// Checks that there are indices and that each is below `vertex_count`, with `parallel` by all threads. Error as
-/// checkSpan.
+/// Checks that indices exist and that each is below `vertex_count`, with `parallel` on all threads. Error as checkSpan.
 Error checkIndices(const IndexView& indices, std::size_t vertex_count, Parallel* parallel = nullptr);
 
-/// The options of a call, and what it runs on: below the border both go the same ways.
+/// Options and execution of a call, which are passed together below the API boundary.
 template <class Options>
 struct Call : Options {
     Execution execution = {};

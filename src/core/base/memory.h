@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scratch memory from the caller's allocator. Running out is the one failure inside the core: it is thrown as
-// OutOfMemory and turned into an Error by atBorder (border.h), so no exception leaves the library.
+// Scratch memory from the caller's allocator. Running out of memory is the only failure inside the core: it is thrown
+// as OutOfMemory and converted to an Error by atBorder (border.h), so no exception leaves the library.
 #pragma once
 
 #include <algorithm>
@@ -26,10 +26,10 @@ namespace tspace {
 
 struct OutOfMemory {};
 
-/// Throws OutOfMemory. Where exceptions are compiled out it calls a function of the program, which must end the call.
+/// Throws OutOfMemory. Without exceptions, calls a function of the program that must abort the call.
 [[noreturn]] void throwOutOfMemory();
 
-inline constexpr std::size_t kMemoryAlignment = 64;  // a cache line, and the widest SIMD register
+inline constexpr std::size_t kMemoryAlignment = 64;  // cache line size, and size of the widest SIMD register
 
 inline constexpr std::size_t kHugePage = std::size_t{2} << 20;
 inline std::size_t defaultAlignment([[maybe_unused]] std::size_t bytes) {
@@ -39,15 +39,15 @@ inline std::size_t defaultAlignment([[maybe_unused]] std::size_t bytes) {
     return kMemoryAlignment;
 }
 
-/// A hint only.
+/// Requests huge pages. Only a hint.
 inline void askForHugePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
     if (bytes >= kHugePage) madvise(memory, bytes, MADV_HUGEPAGE);
 #endif
 }
 
-/// Page faults of fresh memory can cost as much as all the computing on it (0.5 us and more for each 4 KB on a virtual
-/// machine). So a large block is populated at once, with huge pages. Hints only: they may fail.
+/// Populates a large block at once, with huge pages: page faults of fresh memory can cost as much as all computations
+/// on it (0.5 us and more for each 4 KB on a virtual machine). Only a hint, which may fail.
 inline void askForPages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__) && defined(MADV_POPULATE_WRITE)
     constexpr std::size_t kPage = 4096, kWorthACall = 32 * kPage;
@@ -58,7 +58,7 @@ inline void askForPages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
 #endif
 }
 
-/// Never inlined, as releaseBytes: each use would take some hundred bytes of a program.
+/// Never inlined, like releaseBytes: each use would add some hundred bytes of code.
 [[gnu::noinline]] inline void* allocateArray(const Allocator* allocator, std::size_t count, std::size_t element_bytes) {
     std::size_t bytes;
     if (__builtin_mul_overflow(count, element_bytes, &bytes)) throwOutOfMemory();
@@ -83,8 +83,8 @@ inline void askForPages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
     }
 }
 
-/// An array of plain values of fixed size, uninitialised unless a value is given. Move-only. The allocator must outlive
-/// it.
+/// Array of trivial values with a fixed size, uninitialized unless a value is given. Move-only. The allocator must
+/// outlive it.
 template <class T>
 class Buffer {
     static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
@@ -126,16 +126,16 @@ class Buffer {
     std::size_t count_ = 0;
 };
 
-// One block of memory for the many small buffers of a short call, or for scratch memory that borrows an output.
-// Requests that do not fit go to the caller's allocator.
+// Block of memory for the many small buffers of a short call, or for scratch memory that borrows an output. Requests
+// that do not fit are passed to the caller's allocator.
 
-/// An allocator for the duration of one call: gives out a block from its start to its end. Memory is used
-/// again when the last buffer that was given out goes first. For the calling thread only, as every allocator.
+/// Allocator for the duration of a call: allocates from a block in order. Memory is reused if the most recent buffer is
+/// released first. For the calling thread only, like every allocator.
 class ScratchBlock {
   public:
     ScratchBlock(const Allocator* parent, std::size_t bytes)
         : parent_(parent), own_(parent, bytes), block_(own_.data()), size_(bytes) {}
-    /// Gives out memory that the caller owns.
+    /// Allocates from memory that the caller owns.
     ScratchBlock(const Allocator* parent, std::span<std::byte> memory) : parent_(parent) {
         const std::size_t skip = -reinterpret_cast<std::uintptr_t>(memory.data()) % kMemoryAlignment;
         if (memory.size() <= skip) return;
@@ -146,7 +146,7 @@ class ScratchBlock {
     ScratchBlock& operator=(const ScratchBlock&) = delete;
 
     [[nodiscard]] const Allocator* allocator() const { return &allocator_; }
-    /// Whether so many bytes would come from the block.
+    /// Returns whether an allocation of this size would come from the block.
     [[nodiscard]] bool has(std::size_t bytes) const { return bytes <= size_ - used_; }
 
   private:
@@ -164,7 +164,7 @@ class ScratchBlock {
 
     static void release(void* user, void* memory, std::size_t bytes, std::size_t) {
         auto& self = *static_cast<ScratchBlock*>(user);
-        // Compared as numbers: comparing pointers into different arrays is undefined.
+        // Compared as integers: comparing pointers into different arrays is undefined.
         const std::size_t offset =
             reinterpret_cast<std::uintptr_t>(memory) - reinterpret_cast<std::uintptr_t>(self.block_);
         if (offset >= self.size_) {
@@ -181,11 +181,11 @@ class ScratchBlock {
     Allocator allocator_{allocate, release, this};
 };
 
-// Prefetching of cache lines, and streaming stores for large outputs: such outputs leave the caches before they are
-// read, and an ordinary store reads each line first.
+// Prefetching of cache lines, and streaming stores for large outputs: such outputs are evicted from the caches before
+// they are read, and an ordinary store first reads each cache line.
 
-/// Prefetches the lines of `bytes` bytes that lie `ahead` bytes after `place`, to read or to write them. Hardware
-/// prefetchers do not cross pages. The addresses need not exist.
+/// Prefetches `bytes` bytes that start `ahead` bytes after `place`, for reading or writing. Hardware prefetchers do not
+/// cross pages. The addresses need not be valid.
 template <bool kToWrite = false>
 inline void prefetchLines(const void* place, std::size_t bytes, std::size_t ahead = 4096) {
     constexpr std::size_t kLine = 64;
@@ -194,7 +194,7 @@ inline void prefetchLines(const void* place, std::size_t bytes, std::size_t ahea
         __builtin_prefetch(reinterpret_cast<const void*>(first + i), kToWrite ? 1 : 0);
 }
 
-/// Whether rows at `to`, so many bytes in all, should be streamed. They must lie one behind the other.
+/// Returns whether rows at `to`, `bytes` bytes in total, should be streamed. The rows must be contiguous.
 inline bool areStreamed([[maybe_unused]] const void* to, [[maybe_unused]] std::size_t bytes) {
 #if defined(TSPACE_SIMD_X86)
     constexpr std::size_t kLarge = std::size_t{32} << 20;  // typical size of the last-level cache
@@ -204,7 +204,8 @@ inline bool areStreamed([[maybe_unused]] const void* to, [[maybe_unused]] std::s
 #endif
 }
 
-/// to[0..3] = row[0..3]; both aligned to 16 bytes. No thread may read it before this one has called endOfRows.
+/// Performs to[0..3] = row[0..3]; both aligned to 16 bytes. No thread may read the result before this one calls
+/// endOfRows.
 inline void streamRow(float* to, const float* row) {
 #if defined(TSPACE_SIMD_X86)
     _mm_stream_ps(to, _mm_load_ps(row));

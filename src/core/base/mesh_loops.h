@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Loops over all faces, over all indices, whose type is dispatched once per loop, not per corner, and over all edges.
+// Loops over all faces, over all indices (whose type is dispatched once per loop, not per corner), and over all edges.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +12,10 @@
 
 namespace tspace {
 
-/// body(vertexOf), where vertexOf(c) is view[c]. Compiled for the usual type and for any.
+/// Calls body(vertexOf), where vertexOf(c) is view[c]. Specialized for 32-bit indices.
 template <class Body>
 decltype(auto) withIndices(const IndexView& view, Body&& body) {
-#ifdef TSPACE_SMALL  // which has no others
+#ifdef TSPACE_SMALL  // where other types do not exist
     const auto* data = view.type == IndexType::none ? nullptr : static_cast<const std::uint32_t*>(view.data);
     return body([data](std::size_t c) { return data == nullptr ? static_cast<std::uint32_t>(c) : data[c]; });
 #endif
@@ -24,10 +24,10 @@ decltype(auto) withIndices(const IndexView& view, Body&& body) {
     return body([view](std::size_t c) { return view[c]; });
 }
 
-/// Writes the indices [first, first + count), of another type than 32-bit numbers, to `buffer` and returns it.
+/// Converts the indices [first, first + count) of a type other than 32-bit to `buffer`, and returns it.
 const std::uint32_t* widenIndices(const IndexView& view, std::size_t first, std::size_t count, std::uint32_t* buffer);
 
-/// The indices [first, first + count) as 32-bit numbers: where they lie, or in `buffer`.
+/// Returns the indices [first, first + count) as 32-bit integers: in place, or in `buffer`.
 inline const std::uint32_t* readIndices(const IndexView& view, std::size_t first, std::size_t count,
                                         std::uint32_t* buffer) {
     if (view.type == IndexType::u32) return static_cast<const std::uint32_t*>(view.data) + first;
@@ -38,7 +38,7 @@ inline std::uint32_t faceSize(const MeshView& mesh, std::size_t face) {
     return mesh.face_sizes.empty() ? mesh.face_size : mesh.face_sizes[face];
 }
 
-/// body(face, first_corner, corner_count) for each face in order.
+/// Calls body(face, first_corner, corner_count) for each face in order.
 template <class Body>
 void forEachFace(const MeshView& mesh, Body&& body) {
     const std::size_t faces = mesh.faceCount();
@@ -54,22 +54,22 @@ void forEachFace(const MeshView& mesh, Body&& body) {
     }
 }
 
-// Half-edges, an edge at a time: listed by their lower point, so that all halves of an edge lie together in a short list.
+// Half-edges grouped by edge: listed by their lower point, so that all halves of an edge are in one short list.
 
-/// The higher point of an edge, and the corner of the face at which this half of it begins.
+/// Higher point of an edge, and the corner of the face at which the half-edge starts.
 using HalfEdge = std::uint64_t;
 inline std::uint32_t cornerOf(HalfEdge half) { return static_cast<std::uint32_t>(half); }
 
-/// body(low, high, halves) for each edge between two points below `point_count`, in ascending order, with its halves by
-/// their corners. forHalves(add) calls add(low, high, corner) for all halves, and is called twice. Takes 8 bytes for each half
-/// and 4 for each point. O(n log n) for points with many edges, else linear.
+/// Calls body(low, high, halves) for each edge between two points below `point_count`, in ascending order; its halves
+/// are sorted by corner. forHalves(add) calls add(low, high, corner) for all halves, and is called twice. Uses 8 bytes
+/// per half and 4 per point. O(n log n) for points with many edges, otherwise linear.
 template <class ForHalves, class Body>
 void forEachEdge(std::size_t point_count, const Allocator* allocator, const ForHalves& forHalves, const Body& body) {
     Buffer<std::uint32_t> ends(allocator, point_count + 1, 0);
     forHalves([&](std::uint32_t low, std::uint32_t, std::uint32_t) { ++ends[low + 1]; });
     for (std::size_t p = 0; p < point_count; ++p) ends[p + 1] += ends[p];
     Buffer<HalfEdge> halves(allocator, ends[point_count]);
-    // Afterwards ends[p] is where the list of p ends.
+    // Afterwards ends[p] is the end of the list of p.
     forHalves([&](std::uint32_t low, std::uint32_t high, std::uint32_t corner) {
         halves[ends[low]++] = std::uint64_t{high} << 32 | corner;
     });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A grid of cells, four times as wide as the distance, in a hash table: a position looks at the cells that it is within the
-// distance of, mostly one. Only positions that others may join are in the table, so that rows of near positions do not
-// become one, and a cell has few.
+// Hash grid with cells of four times the weld distance: a position is compared with the cells within the distance, in
+// most cases one. The table only contains positions that others may join, so that chains of close positions are not all
+// welded, and cells have few entries.
 #include "core/base/near_positions.h"
 
 #include <algorithm>
@@ -20,8 +20,8 @@ namespace tspace {
 namespace {
 
 constexpr std::uint32_t kNoVertexNear = 0xffffffffu;
-/// weld_auto: so many spacings of floats are the distance, and so many distances long is an edge where it holds. A mesh so
-/// far from the origin that its edges are shorter keeps the shape that its floats still have.
+/// weld_auto: the distance, in float spacings, and the minimum edge length, in distances. Meshes so far from the origin
+/// that their edges are shorter are not welded, to keep the remaining shape.
 constexpr double kSpacings = 2, kLeastEdge = 32;
 constexpr double kCellWidth = 4;
 
@@ -34,13 +34,13 @@ bool areNear(const Vec3& a, const Vec3& b, double distance) {
            std::fabs(double{a.z} - b.z) <= distance;
 }
 
-/// Between the float of this size, which is not negative, and the next larger one.
+/// Returns the distance between a nonnegative float and the next larger one.
 double spacingAt(float value) {
     const auto next = std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) + 1);
     return std::isfinite(next) ? double{next} - value : 0;
 }
 
-/// Positions that have been added, by their cells.
+/// Positions that were added, by cell.
 class PositionCells {
   public:
     PositionCells(const StridedSpan<const Vec3>& positions, double distance, std::size_t most,
@@ -60,7 +60,7 @@ class PositionCells {
         slots_[at] = {hash, vertex};
     }
 
-    /// The lowest vertex within the distance, or kNoVertexNear.
+    /// Returns the lowest vertex within the distance, or kNoVertexNear.
     [[nodiscard]] std::uint32_t lowestNear(const Vec3& p) const {
         const std::array<double, 2> x = cellsNear(p.x), y = cellsNear(p.y), z = cellsNear(p.z);
         std::uint32_t lowest = kNoVertexNear;
@@ -82,7 +82,7 @@ class PositionCells {
         return {cellOf(coordinate - distance_), cellOf(coordinate + distance_)};
     }
     static std::uint32_t hashOf(const std::array<double, 3>& cell) {
-        // With +0 added both zeros are one value.
+        // Adding +0 makes both zeros equal.
         const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value + 0.0); };
         return static_cast<std::uint32_t>(mixBits(mixBits(mixBits(bits(cell[0])) ^ bits(cell[1])) ^ bits(cell[2])) >>
                                           32);
@@ -104,7 +104,7 @@ class PositionCells {
     Buffer<Slot> slots_;
 };
 
-/// The longest edge at each vertex, by its longest coordinate; 0 at vertices that no face uses.
+/// Returns the longest edge at each vertex, in the maximum norm; 0 at unused vertices.
 Buffer<float> longestEdges(const MeshView& mesh, const Buffer<std::uint32_t>& equal, const Allocator* allocator) {
     Buffer<float> longest(allocator, mesh.vertexCount(), 0.0f);
     withIndices(mesh.indices, [&](auto vertexOf) {

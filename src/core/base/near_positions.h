@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Positions that are equal but for rounding, as one: NormalOptions::weld_distance.
+// Welding of positions that are equal except for rounding: NormalOptions::weld_distance.
 #pragma once
 
 #include <cstdint>
@@ -10,19 +10,19 @@
 
 namespace tspace {
 
-/// Positions that are not equal but count as one, by the rule of NormalOptions::weld_distance (0: there are none, negative:
-/// weld_auto). Vertices at equal positions stay at equal positions. Whoever welds by equal positions afterwards, and takes
-/// triangles with two equal corners for degenerate, follows the rule without knowing it.
+/// Pairs of different positions that are welded by the rule of NormalOptions::weld_distance (0: none, negative:
+/// weld_auto). Vertices at equal positions remain at equal positions. After replacing the positions, code that welds
+/// equal positions and treats triangles with two equal corners as degenerate follows the rule automatically.
 class NearPositions {
   public:
-    /// Expected linear time; a distance much longer than the edges takes up to 125 comparisons per vertex. 24 bytes per
-    /// vertex for a while and 4 that stay, and nothing where no two are near. Throws OutOfMemory.
+    /// Expected linear time; a distance much longer than the edges costs up to 125 comparisons per vertex. Memory: 24
+    /// bytes per vertex temporarily, 4 permanently; none if no two positions are close. Throws OutOfMemory.
     NearPositions(const MeshView& mesh, float distance, const Allocator* allocator, Parallel& parallel);
 
-    /// Whether all positions stay as they are.
+    /// Returns whether no positions are welded.
     [[nodiscard]] bool empty() const { return roots_.empty(); }
-    /// The positions of the mesh, or of a pose of it, each that of the vertex it counts as one with. In a pose that holds
-    /// where the two are near as well.
+    /// Returns the positions of the mesh, or of a pose of it, each replaced by the position of the vertex it is welded
+    /// to. In a pose this only applies to vertices that are also close there.
     [[nodiscard]] Buffer<Vec3> moved(StridedSpan<const Vec3> positions) const;
 
   private:
@@ -31,10 +31,10 @@ class NearPositions {
     Buffer<std::uint32_t> roots_;
 };
 
-/// An Error with code ok for a valid weld_distance: a length, or NormalOptions::weld_auto.
+/// Returns an Error, with code ok for a valid weld_distance: a nonnegative length, or NormalOptions::weld_auto.
 Error checkWeldDistance(float distance);
 
-/// A mesh whose positions are those of NearPositions. `mesh` must outlive it.
+/// View of a mesh with the positions of NearPositions. `mesh` must outlive it.
 class NearMesh {
   public:
     NearMesh(const MeshView& mesh, float distance, const Allocator* allocator, Parallel& parallel)

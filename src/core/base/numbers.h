@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers in bytes and in sentences, the same on every machine and in every locale.
+// Numbers as bytes and as text, independent of machine and locale.
 #pragma once
 
 #include <algorithm>
@@ -13,9 +13,9 @@
 
 namespace tspace {
 
-// Numbers in bytes with the low one first, as glTF has them, on machines of either order.
+// Little-endian numbers, as in glTF, on machines of either byte order.
 
-/// Turns each number of `number_bytes` between this machine's order and that of files.
+/// Converts each number of `number_bytes` between native and little-endian byte order.
 inline void turnLittleEndian(std::span<std::uint8_t> bytes, std::size_t number_bytes) {
     if constexpr (std::endian::native == std::endian::little) return;
     for (std::size_t at = 0; at + number_bytes <= bytes.size(); at += number_bytes)
@@ -36,9 +36,10 @@ void storeLittleEndian(Number number, std::uint8_t* to) {
     turnLittleEndian({to, sizeof number}, sizeof number);
 }
 
-// Numbers in sentences, with a point in every locale. (Not std::to_chars: emscripten's library has none for floats.)
+// Numbers in messages, with a decimal point in every locale. (Not std::to_chars: emscripten's library lacks it for
+// floats.)
 
-/// Three digits that count, without zeros behind: "0.125", "17", "1.2e+30".
+/// Formats with three significant digits, without trailing zeros: "0.125", "17", "1.2e+30".
 inline std::string shortNumber(double value) {
     if (!std::isfinite(value)) return std::isnan(value) ? "nan" : value < 0 ? "-inf" : "inf";
     if (value == 0) return "0";
@@ -50,7 +51,7 @@ inline std::string shortNumber(double value) {
         ++exponent;
     }
     const bool is_far = exponent < -kMostZeros || exponent >= kMostDigits;
-    const int point = is_far ? 1 : exponent + 1;  // digits before it
+    const int point = is_far ? 1 : exponent + 1;  // digits before the point
     std::string text = std::to_string(digits);
     if (point <= 0) text.insert(0, static_cast<std::size_t>(1 - point), '0');
     if (point > kDigits) text.append(static_cast<std::size_t>(point - kDigits), '0');

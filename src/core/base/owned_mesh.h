@@ -12,23 +12,23 @@
 
 namespace tspace {
 
-/// The arrays that a MeshView shows, and tangents. Whatever holds a mesh of its own holds one of these.
+/// Arrays of a mesh, with tangents; used by all classes that own a mesh.
 struct OwnedMesh {
     std::vector<Vec3> positions = {};
-    std::vector<Vec3> normals = {};  ///< one per vertex, or empty, as the next two
+    std::vector<Vec3> normals = {};  ///< one per vertex, or empty (also tangents and uvs)
     std::vector<Vec4> tangents = {};
     std::vector<Vec2> uvs = {};
     std::vector<std::uint32_t> indices = {};     ///< one per corner; empty: every corner has its own vertex
     std::vector<std::uint32_t> face_sizes = {};  ///< empty: triangles
 
-    /// Valid while the arrays stay as they are.
+    /// Returns a view that is valid until the arrays change.
     [[nodiscard]] MeshView view() const {
         MeshView mesh{.positions = positions, .normals = normals, .uvs = uvs, .face_sizes = face_sizes};
         if (!indices.empty()) mesh.indices = std::span<const std::uint32_t>(indices);
         return mesh;
     }
 
-    /// Appends vertices of another mesh, `count` from `first` on, in the arrays that it has.
+    /// Appends `count` vertices of another mesh, starting at `first`, to the arrays that this mesh has.
     void addVertices(const OwnedMesh& from, std::size_t first, std::size_t count) {
         const auto add = [&](const auto& values, auto& to) {
             if (values.empty()) return;

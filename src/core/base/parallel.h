@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The one place that knows about threads. Work is cut into tasks whose results do not depend on who runs them, so
-// every caller gets the same bits for any thread count.
+// The only module that uses threads. Work is divided into tasks whose results do not depend on the executing thread, so
+// results have the same bits for any thread count.
 #pragma once
 
 #include <algorithm>
@@ -13,19 +13,19 @@
 
 namespace tspace {
 
-/// Runs loops for the duration of one public call. Threads are started by the first loop of several tasks, never more
-/// than a loop has tasks, and joined when this object goes. Starting and joining one takes about 20 us, so a task
-/// should take longer. Not thread-safe itself: one owner, loops one after the other.
+/// Runs loops during one public call. Threads are started by the first loop with several tasks, at most one per task,
+/// and joined by the destructor. Starting and joining a thread takes about 20 us, so a task should take longer. Not
+/// thread-safe itself: one owner, loops one after the other.
 class Parallel {
   public:
-    /// Items of a loop that a task has at least, where nothing says otherwise.
+    /// Default minimum number of items per task.
     static constexpr std::size_t kGrain = 4096;
 
-    /// `corners`: how large the work is, in corners of usual cost (about 20 ns); those of a method that takes n times as
-    /// long count n times. A thread that has less than its share of them costs more than it brings, and is not started.
-    /// An executor's threads are there already: work of any size is cut for them.
+    /// `corners`: amount of work, in corners of usual cost (about 20 ns); corners of a method that takes n times as
+    /// long count n times. A thread with less than its share would cost more than it gains, and is not started. An
+    /// executor's threads already exist: work of any size is divided for them.
     ///
-    /// With TSPACE_SERIAL there are no threads at all, and loops are compiled for one: a third less code.
+    /// With TSPACE_SERIAL there are no threads, and loops are compiled for one thread: a third less code.
 #ifdef TSPACE_SERIAL
     explicit Parallel(const Execution&, std::uint64_t = 0) {}
 #else
@@ -42,7 +42,7 @@ class Parallel {
     [[nodiscard]] unsigned width() const { return width_; }
 #endif
 
-    /// body(begin, end) over disjoint ranges that cover [0, count). Ranges hold at least `grain` items (but for the
+    /// Calls body(begin, end) for disjoint ranges that cover [0, count). Ranges have at least `grain` items (except the
     /// last), so that small loops stay on the calling thread. A body may throw, as with forTasks.
     template <class Body>
     void forRanges(std::size_t count, std::size_t grain, Body&& body) {
@@ -52,8 +52,8 @@ class Parallel {
         forTasks(tasks, [&](std::size_t task) { body(count * task / tasks, count * (task + 1) / tasks); });
     }
 
-    /// body(task) once for each task in [0, count). Where bodies throw, one of the exceptions comes out of this call once
-    /// no task runs any more; tasks that had not begun are left out.
+    /// Calls body(task) once for each task in [0, count). If bodies throw, this call throws one of the exceptions after
+    /// all running tasks have ended; tasks that had not started are skipped.
     template <class Body>
     void forTasks(std::size_t count, Body&& body) {
 #ifdef TSPACE_SERIAL
@@ -69,7 +69,7 @@ class Parallel {
 #ifndef TSPACE_SERIAL
   private:
     class Pool;
-    /// Never inlined, so that bodies are compiled once, not for one thread and for several.
+    /// Never inlined, so that bodies are compiled once, not separately for one and several threads.
     template <class Body>
     [[gnu::noinline]] static void call(void* context, std::size_t task) {
         (*static_cast<Body*>(context))(task);
@@ -83,8 +83,8 @@ class Parallel {
 #endif
 };
 
-/// The sum of body(begin, end) over the ranges of Parallel::forRanges. Whole numbers only, so their order
-/// cannot change the result.
+/// Returns the sum of body(begin, end) over the ranges of Parallel::forRanges. Integers only, so their order cannot
+/// change the result.
 template <class Body>
 std::uint64_t sumRanges(Parallel& parallel, std::size_t count, std::size_t grain, Body&& body) {
     std::atomic<std::uint64_t> total{0};

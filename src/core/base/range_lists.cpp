@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lists of ranges, rounds of sums over them, and the scale of their input.
+// Lists of ranges, rounds of sums over them, and input scaling.
 #include "core/base/range_lists.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kBlocksPerTask = 256;
 constexpr std::uint32_t kNoRange = 0xffffffffu, kSeveral = 0xfffffffeu;
 
-/// Reads blocks and finds the ranges that their triangles add to.
+/// Reads blocks of triangles and finds the ranges to which their triangles contribute.
 class Walk {
   public:
     Walk(const TriangleGroups& triangles, std::size_t block_size, std::size_t group_count, std::size_t range_size)
@@ -36,7 +36,7 @@ class Walk {
         groups_ = own_groups_;
     }
 
-    /// The range of the block that was read, or kNoRange, or kSeveral.
+    /// Returns the range of the current block, kNoRange, or kSeveral.
     [[nodiscard]] std::uint32_t range() const {
         const std::uint32_t *const groups = groups_, *const end = groups + 3 * size_;
         std::uint32_t any = 0, all = ~std::uint32_t{0};
@@ -56,7 +56,7 @@ class Walk {
         return only;
     }
 
-    /// enter(range, triangle) for each range of each triangle of that block.
+    /// Calls enter(range, triangle) for each range of each triangle of the current block.
     template <class Enter>
     void forTriangles(const Enter& enter) const {
         for (std::size_t t = 0; t < size_; ++t) {
@@ -93,7 +93,7 @@ RangeLists::RangeLists(const TriangleGroups& triangles, std::size_t block_size, 
     if (count_ <= 1) return;
     const std::size_t blocks = blockCount(triangles.count);
     const std::size_t tasks = std::clamp<std::size_t>(blocks / kBlocksPerTask, 1, parallel.width());
-    // Counts of entries per task and range first, then positions: task after task within a range.
+    // First the number of entries per task and range, then positions: task after task within a range.
     Buffer<std::size_t> places(allocator, tasks * count_, std::size_t{0});
     Buffer<std::uint32_t> range_of(allocator, blocks);
     const auto forEntries = [&](bool is_known, const auto& body) {
@@ -187,7 +187,7 @@ bool RangeLists::Batches::next(TriangleBatch& batch, bool wants_vertices) {
 
 namespace {
 
-// Size of the sums of a range: half of a typical second-level cache.
+// Size of the sums of a range: half of a typical L2 cache.
 constexpr std::size_t kRangeBytes = std::size_t{512} << 10;
 constexpr std::size_t kTasksPerThread = 4;
 constexpr std::size_t kMostRows = 8;
@@ -196,7 +196,7 @@ std::size_t wholeLanes(std::size_t groups) {
     return (groups + SumRound::kGroups - 1) / SumRound::kGroups * SumRound::kGroups;
 }
 
-/// The ranges of one task, in one round: zero the sums, add the triangles, finish.
+/// Processes the ranges of a task in one round: clears the sums, adds the triangles, finishes.
 class RangeOfRound {
   public:
     RangeOfRound(std::size_t corner_step, const SumRound& round, float* sums, std::uint32_t* vertices)
@@ -290,7 +290,7 @@ constexpr std::size_t kMostSamples = 1024;
 float largestOf(const Vec3& p) { return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}); }
 float largestOf(const Vec2& p) { return std::max(std::fabs(p.x), std::fabs(p.y)); }
 
-/// The mean size of some numbers, by their exponents: so one wild vertex hardly moves it.
+/// Mean magnitude of numbers, from their exponents: a single outlier has little influence.
 class MeanSize {
   public:
     void count(float size) {
@@ -299,8 +299,8 @@ class MeanSize {
         ++count_;
     }
 
-    /// The factor that brings the mean size near 1. Its exponent is even, so that its square root is a power of two as
-    /// well.
+    /// Returns the factor that brings the mean magnitude close to 1. Its exponent is even, so its square root is also a
+    /// power of two.
     [[nodiscard]] float scale() const {
         return count_ == 0 ? 1.0f : std::ldexp(1.0f, std::clamp(-exponents_ / count_, -126, 126) / 2 * 2);
     }
@@ -319,7 +319,7 @@ InputScale inputScale(const TriangleGroups& triangles, const StridedSpan<const V
         std::uint32_t vertices[3], groups[3];
         triangles.read(triangles.count * i / samples, 1, vertices, groups);
         const Vec3 &a = positions[vertices[0]], &b = positions[vertices[1]], &c = positions[vertices[2]];
-        if (a == b || b == c || c == a) continue;  // plans leave them out
+        if (a == b || b == c || c == a) continue;  // such triangles are excluded from plans
         for (const std::uint32_t v : vertices) {
             of_positions.count(largestOf(positions[v]));
             if (!uvs.empty()) of_uvs.count(largestOf(uvs[v]));

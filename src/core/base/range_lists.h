@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Owner computes: which triangles have corners in which range of groups (vertices, points, groups of corners). The data
-// of all groups do not fit into a cache, and each group has one writer only; so ranges are worked on one after the
-// other, or by different threads, each with the triangles that are listed for it, in their order. Results have equal
-// bits for any number of ranges and threads.
+// Owner-computes rule: lists of the triangles that have corners in each range of groups (vertices, points, groups of
+// corners). The data of all groups do not fit into a cache, and each group has a single writer; so ranges are processed
+// one after the other, or by different threads, each with its listed triangles, in order. Results have equal bits for
+// any number of ranges and threads.
 #pragma once
 
 #include <algorithm>
@@ -15,24 +15,25 @@
 
 namespace tspace {
 
-/// The triangles of a call, in order, and the group that each corner adds to.
+/// Triangles of a call, in order, and the group to which each corner contributes.
 class TriangleGroups {
   public:
     explicit TriangleGroups(std::size_t triangle_count) : count(triangle_count) {}
     TriangleGroups(const TriangleGroups&) = delete;
     TriangleGroups& operator=(const TriangleGroups&) = delete;
 
-    /// Writes three numbers per triangle to both; `vertices` may be null. A number that is no group (2^31 or
-    /// more, and above all groups) means that nothing is added.
+    /// Writes three numbers per triangle to both arrays; `vertices` may be null. A number that is not a group (2^31 or
+    /// more, and above all groups) means no contribution.
     virtual void read(std::size_t first, std::size_t triangles, std::uint32_t* vertices,
                       std::uint32_t* groups) const = 0;
-    /// read() for any list of triangles.
+    /// Like read(), for any list of triangles.
     virtual void readSome(const std::uint32_t* numbers, std::size_t size, std::uint32_t* vertices,
                           std::uint32_t* groups) const {
         for (std::size_t i = 0; i < size; ++i)
             read(numbers[i], 1, vertices == nullptr ? nullptr : vertices + 3 * i, groups + 3 * i);
     }
-    /// Pointer to the groups of these triangles, where they lie in memory and equal the vertices; else null.
+    /// Returns a pointer to the groups of these triangles if they exist in memory and equal the vertices; otherwise
+    /// null.
     [[nodiscard]] virtual const std::uint32_t* inPlace(std::size_t, std::size_t) const { return nullptr; }
 
     const std::size_t count;
@@ -41,8 +42,8 @@ class TriangleGroups {
     ~TriangleGroups() = default;
 };
 
-/// Kernels read whole groups of triangles: fills the last group with a valid vertex. Returns `vertices` where that is
-/// not needed, else `buffer`, which may be the same.
+/// Kernels read whole groups of triangles: fills the last group with a valid vertex. Returns `vertices` if that is not
+/// necessary, otherwise `buffer`, which may be the same array.
 inline const std::uint32_t* fillGroup(const std::uint32_t* vertices, std::size_t count, std::size_t group,
                                       std::uint32_t* buffer) {
     const std::size_t end = (count + group - 1) / group * group;
@@ -52,22 +53,23 @@ inline const std::uint32_t* fillGroup(const std::uint32_t* vertices, std::size_t
     return buffer;
 }
 
-/// Triangles that a kernel works on together. Beyond `count` the own arrays have stale entries.
+/// Triangles that a kernel processes together. Entries of the own arrays beyond `count` are stale.
 struct TriangleBatch {
     static constexpr std::size_t kMost = 64;
 
     std::size_t count = 0;
-    bool is_block = false;  ///< the triangles follow one another
-    bool is_whole = false;  ///< they follow one another, and all their groups are in the range (or there are no groups)
+    bool is_block = false;  ///< the triangles are consecutive
+    /// the triangles are consecutive, and all their groups are in the range (or there are no groups)
+    bool is_whole = false;
     const std::uint32_t *vertices = own_vertices, *groups = own_groups;
-    std::uint32_t numbers[kMost];  ///< triangle numbers; of a block only the first one
+    std::uint32_t numbers[kMost];  ///< triangle numbers; for a block only the first one
     std::uint32_t own_vertices[3 * kMost], own_groups[3 * kMost];
 
     [[nodiscard]] std::uint32_t number(std::size_t t) const {
         return is_block ? numbers[0] + static_cast<std::uint32_t>(t) : numbers[t];
     }
 
-    TriangleBatch() {}  // NOLINT: without zeros
+    TriangleBatch() {}  // without zero initialization
     TriangleBatch(const TriangleBatch&) = delete;
     TriangleBatch& operator=(const TriangleBatch&) = delete;
 };
@@ -81,20 +83,21 @@ struct GroupRange {
 
 class RangeLists {
   public:
-    /// Ranges of `range_size` groups, a power of two; blocks of `block_size` triangles, at most TriangleBatch::kMost. Lists
-    /// nothing: each range has all triangles, which suits one range, and few where triangles are in no order.
+    /// Ranges of `range_size` groups, a power of two; blocks of `block_size` triangles, at most TriangleBatch::kMost.
+    /// Creates no lists: each range visits all triangles, which suits a single range, or a few ranges for triangles in
+    /// random order.
     RangeLists(std::size_t block_size, std::size_t group_count, std::size_t range_size)
         : block_size_(block_size),
           group_count_(group_count),
           range_size_(range_size),
           count_((group_count + range_size - 1) / range_size) {}
 
-    /// Lists the triangles of each range, if there are several. Takes 4 bytes per triangle at the border of two ranges, or up
-    /// to 12 where triangles are in no order. Linear. Throws OutOfMemory.
+    /// Lists the triangles of each range, if there are several. Uses 4 bytes per triangle at the border of two ranges,
+    /// or up to 12 for triangles in random order. Linear. Throws OutOfMemory.
     RangeLists(const TriangleGroups& triangles, std::size_t block_size, std::size_t group_count, std::size_t range_size,
                const Allocator* allocator, Parallel& parallel);
 
-    /// Whether most blocks add to one range only, by a sample of 64 blocks.
+    /// Returns whether most blocks contribute to a single range, from a sample of 64 blocks.
     static bool areCompact(const TriangleGroups& triangles, std::size_t block_size, std::size_t group_count,
                            std::size_t range_size);
 
@@ -103,33 +106,33 @@ class RangeLists {
         const std::size_t end = std::min((index + 1) * range_size_, group_count_);
         return {static_cast<std::uint32_t>(index * range_size_), static_cast<std::uint32_t>(end)};
     }
-    /// Maximum number of triangles of a range.
+    /// Returns the maximum number of triangles of a range.
     [[nodiscard]] std::size_t mostTriangles(std::size_t all) const;
 
     [[nodiscard]] std::size_t blockCount(std::size_t triangle_count) const {
         return (triangle_count + block_size_ - 1) / block_size_;
     }
 
-    /// The triangles of a range, ascending, batch after batch.
+    /// Iterator over the triangles of a range, in ascending order, in batches.
     class Batches {
       public:
         Batches(const TriangleGroups& triangles, const RangeLists& lists, std::size_t range);
-        /// All triangles of some blocks, whatever their groups.
+        /// Iterates over all triangles of some blocks, whatever their groups.
         Batches(const TriangleGroups& triangles, std::size_t block_size, std::size_t begin, std::size_t end)
             : triangles_(triangles), block_size_(block_size), next_(begin), end_(end) {}
-        /// False when there are no more. `wants_vertices`: or groups alone.
+        /// Returns false at the end. `wants_vertices`: otherwise only groups are read.
         bool next(TriangleBatch& batch, bool wants_vertices = true);
 
       private:
         const TriangleGroups& triangles_;
         std::size_t block_size_;
         const std::uint32_t* entries_ = nullptr;  ///< null: all blocks
-        bool are_whole_ = true;                   ///< the blocks
+        bool are_whole_ = true;                   ///< whether the blocks are whole
         std::size_t next_, end_;                  ///< positions in entries or blocks
     };
 
-    /// The list of a range, ascending: blocks that add to this range alone, with kBlock; single triangles of other
-    /// blocks.
+    /// Returns the list of a range, ascending: blocks that contribute only to this range, with kBlock; single triangles
+    /// of other blocks.
     static constexpr std::uint32_t kBlock = 0x80000000u;
     [[nodiscard]] std::span<const std::uint32_t> entries(std::size_t range) const {
         return {entries_.data() + begin_[range], begin_[range + 1] - begin_[range]};
@@ -137,33 +140,34 @@ class RangeLists {
 
   private:
     std::size_t block_size_, group_count_, range_size_, count_;
-    Buffer<std::size_t> begin_;  ///< empty: nothing is listed
+    Buffer<std::size_t> begin_;  ///< empty: no lists
     Buffer<std::uint32_t> entries_;
 };
 
-// Rows of numbers, added up at groups of corners over all triangles of a call, and this again with other rows: rounds.
-// Range by range of groups, so that their sums stay in the cache, and by all threads. Sums are made in the order of
-// triangles: the same bits for any number of ranges and threads.
+// Sums of rows of numbers at groups of corners over all triangles of a call, in several rounds with different rows.
+// Ranges of groups are processed one by one, so that their sums stay in the cache, and by all threads. Sums are
+// computed in the order of triangles: the same bits for any number of ranges and threads.
 
-/// One round: rows that triangles add to groups, and what a group makes of its sums. Works on blocks, for kernels.
+/// A round: the rows that triangles add to groups, and the processing of the sums of a group. Works on blocks, for
+/// kernels.
 class SumRound {
   public:
-    static constexpr std::size_t kTriangles = 32;  ///< triangles per block; their rows fit in the first-level cache
-    static constexpr std::size_t kGroups = 16;     ///< the most lanes; kernels work on whole groups of so many
+    static constexpr std::size_t kTriangles = 32;  ///< triangles per block; their rows fit into the L1 cache
+    static constexpr std::size_t kGroups = 16;     ///< maximum number of lanes; kernels process whole multiples of it
     static constexpr std::uint32_t kNoVertex = 0xffffffffu;
 
-    /// `rows`: of four floats, per group; 1, 2, 4 or 7, or 8 with `has_maxima`: the last one has maxima in
-    /// the place of sums.
+    /// `rows`: number of rows of four floats per group: 1, 2, 4 or 7, or 8 with `has_maxima`: the last one contains
+    /// maxima instead of sums.
     explicit SumRound(std::size_t rows, bool has_maxima = false) : row_count(rows), ends_in_maxima(has_maxima) {}
     SumRound(const SumRound&) = delete;
     SumRound& operator=(const SumRound&) = delete;
 
     /// Writes the rows of corner k of triangle t to rows + 4 * row_count * (3 * t + k). Vertices and groups: three per
-    /// triangle, and some that were there before up to the end of the block.
+    /// triangle, followed by stale values up to the end of the block.
     virtual void add(const std::uint32_t* vertices, const std::uint32_t* groups, std::size_t count,
                      float* rows) const = 0;
-    /// Takes the sums of the groups from `first` on, in which it may write. There are kGroups of them; the last ones,
-    /// from `count` on, mean nothing. vertices: of each group any corner's, or kNoVertex.
+    /// Processes, in place, the sums of the groups from `first` on. There are kGroups of them; those from `count` on
+    /// are undefined. vertices: the vertex of any corner of each group, or kNoVertex.
     virtual void finish(float* sums, const std::uint32_t* vertices, std::size_t first, std::size_t count) const = 0;
 
     const std::size_t row_count;
@@ -175,8 +179,8 @@ class SumRound {
 
 class SumRounds {
   public:
-    /// `most_rows`: of any round. `adding_corners`: 3, or 1 where only the first corner of each triangle adds something.
-    /// Takes up to 1 MB per task and range_lists.h. Throws OutOfMemory.
+    /// `most_rows`: maximum over all rounds. `adding_corners`: 3, or 1 if only the first corner of each triangle
+    /// contributes. Uses up to 1 MB per task and range_lists.h. Throws OutOfMemory.
     SumRounds(const TriangleGroups& triangles, std::size_t adding_corners, std::size_t group_count,
               std::size_t most_rows, const Allocator* allocator, Parallel& parallel);
 
@@ -192,21 +196,21 @@ class SumRounds {
     Buffer<std::uint32_t> vertices_;  ///< vertices of each group of the range
 };
 
-// Powers of four that bring coordinates near 1, so that fourth powers of small UVs do not vanish. Multiplying
-// with them changes no bit of a mantissa, and none of a square root's. So it does not matter to results which
-// one is chosen, nor whether all positions, or all UVs, are four times as large.
+// Powers of four that bring coordinates close to 1, so that fourth powers of small UVs do not underflow. Multiplying by
+// them changes no bit of a mantissa, or of the mantissa of a square root. Results therefore do not depend on the chosen
+// factor, nor on scaling all positions or all UVs by four.
 
 struct InputScale {
     float positions = 1, uvs = 1;
 
-    /// The factor for lengths of dP/du in scaled units.
+    /// Returns the factor for lengths of dP/du in scaled units.
     [[nodiscard]] float lengthFactor() const {
         return static_cast<float>(std::clamp(static_cast<double>(uvs) / positions, double{FLT_MIN}, double{FLT_MAX}));
     }
 };
 
-/// From a sample of at most 1024 triangles, so that it does not matter which corners share a vertex, nor what vertices
-/// no triangle names. Zeros, what is not finite, and degenerate triangles do not count. `uvs` may be empty.
+/// Computes the scale from a sample of at most 1024 triangles, so that it does not depend on shared vertices, nor on
+/// unused vertices. Zeros, values that are not finite, and degenerate triangles are ignored. `uvs` may be empty.
 InputScale inputScale(const TriangleGroups& triangles, const StridedSpan<const Vec3>& positions,
                       const StridedSpan<const Vec2>& uvs);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sorting, in little code where code must be small (TSPACE_SMALL).
+// Sorting, with small code size if required (TSPACE_SMALL).
 #pragma once
 
 #include <algorithm>
@@ -14,10 +14,10 @@
 
 namespace tspace {
 
-/// Whether row `a` stands before row `b`; `less` is what the caller gave.
+/// Returns whether row `a` is ordered before row `b`; `less` is the caller's comparison.
 using RowIsLess = bool (*)(const void* less, const void* a, const void* b);
 
-/// Merge sort for rows of any kind, which are moved as bytes: stable, in O(n log n), with scratch memory for as many rows.
+/// Merge sort for rows of any type, moved as bytes: stable, O(n log n), with scratch memory for as many rows.
 /// `row_bytes` is a multiple of 4.
 /// Runs of 1, 2, 4, ... rows are merged from one half of the memory into the other.
 inline void sortRows(void* rows, std::size_t count, std::size_t row_bytes, RowIsLess isLess, const void* less) {
@@ -36,7 +36,7 @@ inline void sortRows(void* rows, std::size_t count, std::size_t row_bytes, RowIs
             const unsigned char* b = from + middle * row_bytes;
             const unsigned char* const a_end = b;
             const unsigned char* const b_end = from + end * row_bytes;
-            // Runs that are in order already, as in most lists of a mesh, take one comparison.
+            // Runs that are already in order, as in most lists of a mesh, cost one comparison.
             if (b != b_end && isLess(less, b, b - row_bytes)) {
                 while (a != a_end && b != b_end) copy(target, isLess(less, b, a) ? b : a, words);
             }
@@ -48,8 +48,7 @@ inline void sortRows(void* rows, std::size_t count, std::size_t row_bytes, RowIs
     if (from != rows) std::memcpy(rows, from, count * row_bytes);
 }
 
-/// Equal elements keep their order. One function for all kinds of elements, in place of the kilobyte or two that the
-/// standard library takes for each.
+/// Stable sort. One function for all element types, instead of the 1 to 2 KB of code per type in the standard library.
 template <class Iterator, class Less>
 void sortInLittleCode(Iterator begin, Iterator end, const Less& less) {
     using Element = std::remove_cvref_t<decltype(*begin)>;
@@ -71,7 +70,7 @@ void sortInLittleCode(Iterator begin, Iterator end, const Less& less) {
     }
 }
 
-/// For lists in which no two elements are equal, or where it does not matter which of them is first.
+/// Sorts lists without equal elements, or in which the order of equal elements is irrelevant.
 template <class Iterator, class Less = std::less<>>
 void sortList(Iterator begin, Iterator end, const Less& less = {}) {
 #ifdef TSPACE_SMALL
@@ -81,7 +80,7 @@ void sortList(Iterator begin, Iterator end, const Less& less = {}) {
 #endif
 }
 
-/// Equal elements keep their order.
+/// Stable sort.
 template <class Iterator, class Less>
 void sortStably(Iterator begin, Iterator end, const Less& less) {
 #ifdef TSPACE_SMALL

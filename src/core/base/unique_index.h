@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hashing for tables that are looked up and never walked, so that their order can decide nothing.
-// Based on: Steele, Lea & Flood, "Fast splittable pseudorandom number generators", 2014 (the mixing step).
+// Hashing for tables that are never iterated, so that their internal order cannot affect results.
 #pragma once
 
 #include <bit>
@@ -13,32 +12,31 @@
 
 namespace tspace {
 
-/// Spreads every bit of the input over all bits of the result.
+/// Mixes every bit of the input into all bits of the result.
 inline std::uint64_t mixBits(std::uint64_t x) {
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
     x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
     return x ^ (x >> 31);
 }
 
-/// The hash of a sequence: start with any number and fold in one value after the other.
+/// Adds a value to the hash of a sequence; the initial hash is arbitrary.
 inline std::uint64_t foldHash(std::uint64_t hash, std::uint64_t value) {
     return mixBits((hash + 0x9e3779b97f4a7c15u) ^ value);
 }
 
-/// Equal for positions that compare equal: -0 and +0 are one number.
+/// Returns equal hashes for positions that compare equal: -0 and +0 are the same number.
 inline std::uint64_t hashPosition(const Vec3& p) {
     const auto bits = [](float f) { return std::uint64_t{std::bit_cast<std::uint32_t>(f == 0.0f ? 0.0f : f)}; };
     return foldHash(mixBits(bits(p.x) | bits(p.y) << 32), bits(p.z));
 }
 
-// Numbers values in the order in which they are first seen: the way vertices, edges and materials are told
-// apart.
+// Numbers values in order of first occurrence, to find equal vertices, edges and materials.
 
-/// Bits of a float in which both zeros are one value, so that -0 and 0 weld.
+/// Returns the bits of a float, with both zeros equal, so that -0 and 0 are welded.
 inline std::uint32_t weldBits(float value) { return std::bit_cast<std::uint32_t>(value == 0.0f ? 0.0f : value); }
 
-/// A hash table with open addressing that is never iterated. Keys are compared by their bits, so they must
-/// have no padding; they are made of whole 32-bit words. Expected constant time per key.
+/// Hash table with open addressing that is never iterated. Keys are compared by their bits, so they must not have
+/// padding; they consist of whole 32-bit words. Expected constant time per key.
 template <class Key>
 class UniqueIndex {
     static_assert(std::is_trivially_copyable_v<Key> && sizeof(Key) % 4 == 0);
@@ -49,7 +47,7 @@ class UniqueIndex {
         slots_.assign(std::bit_ceil(expected_count * 2 + 16), kEmpty);
     }
 
-    /// The number of this key: a new one, equal to the old size(), when it was not seen before.
+    /// Returns the number of a key: the old size() if the key is new.
     std::uint32_t indexOf(const Key& key) {
         if ((keys_.size() + 1) * 2 > slots_.size()) grow();
         std::uint32_t& slot = slots_[findSlot(key)];
@@ -60,7 +58,7 @@ class UniqueIndex {
         return slot;
     }
 
-    /// The index of a key, or 0xffffffff when it was not seen.
+    /// Returns the number of a key, or 0xffffffff if it is unknown.
     [[nodiscard]] std::uint32_t find(const Key& key) const { return slots_[findSlot(key)]; }
 
     [[nodiscard]] std::size_t size() const { return keys_.size(); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// TangentOptions::normalize_normals: the normals of a call with length 1.
+// TangentOptions::normalize_normals: the normals of a call, normalized.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace tspace {
 
-/// withUnitLength of each. Shows the given normals where all of them are unit, or `is_wanted` is false; else a copy. Throws
-/// OutOfMemory.
+/// withUnitLength of each normal. A view of the input if all normals are unit, or `is_wanted` is false; otherwise a
+/// copy. Throws OutOfMemory.
 class UnitNormals {
   public:
     UnitNormals(StridedSpan<const Vec3> normals, bool is_wanted, const Allocator* allocator, Parallel& parallel)

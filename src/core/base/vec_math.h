@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Vector arithmetic of the core: floats, doubles, directions, the frame of a triangle's UVs, angles, four floats at a time. Every operation rounds once, in the order written (the build forbids contraction),
-// because the bit-exact methods depend on it: dot is (x*x + y*y) + z*z.
+// Vector arithmetic of the core: floats, doubles, directions, the frame of a triangle's UVs, angles, vectors of four
+// floats. Every operation rounds once, in the order written (the build forbids contraction), because the bit-exact
+// methods depend on it: dot is (x*x + y*y) + z*z.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +34,7 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
 inline float length(const Vec3& v) { return std::sqrt(dot(v, v)); }
 inline bool isFinite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-/// Double-precision companion, for results that should be right for any float input (no overflow, no underflow).
+/// Double-precision counterpart, for results that must be correct for any float input (no overflow, no underflow).
 struct DVec3 {
     double x = 0, y = 0, z = 0;
 };
@@ -50,14 +51,13 @@ inline DVec3 cross(const DVec3& a, const DVec3& b) {
 }
 inline double length(const DVec3& v) { return std::sqrt(dot(v, v)); }
 
-// Tests whether a vector has a direction, scaling to length 1 that works for every finite vector, and a basis around a unit
-// vector.
+// Directions: tests, normalization that works for every finite vector, and a basis around a unit vector.
 
 inline bool isZero(const Vec3& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 inline bool isDirection(const Vec3& v) { return isFinite(v) && !isZero(v); }
 
-/// Scales v to length 1; false, and v unchanged, when it is zero or not finite. The largest component is
-/// brought to 1 first: squares of small products of floats would vanish even in double.
+/// Normalizes v; returns false, and leaves v unchanged, if it is zero or not finite. First scales the largest component
+/// to 1: squares of products of small floats would underflow even in double precision.
 inline bool normalize(DVec3& v) {
     if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) return false;
     const double largest = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
@@ -67,7 +67,7 @@ inline bool normalize(DVec3& v) {
     return true;
 }
 
-/// Like normalize up to rounding, but with one division instead of four if the squared length is a normal number.
+/// Like normalize except for rounding, but with one division instead of four if the squared length is a normal number.
 inline bool normalizeOrdinary(DVec3& v) {
     const double squared = dot(v, v);
     if (!(squared > 1e-280 && squared < 1e280)) return normalize(v);
@@ -75,13 +75,13 @@ inline bool normalizeOrdinary(DVec3& v) {
     return true;
 }
 
-/// Lengths of normals and tangents below cannot be told from zero.
+/// Lengths of normals and tangents below this are treated as zero.
 inline constexpr double kLeastLength = 1e-6;
-/// Maximum deviation of a unit vector's length from 1: rounding to 8 bits explains it, and the glTF validator allows it.
+/// Maximum deviation of a unit vector's length from 1: explained by 8-bit rounding, and allowed by the glTF validator.
 inline constexpr double kMostFromUnit = 0.00674;
 
-/// The factor that gives a normal the length 1. It is 1 for normals within kMostFromUnit of that length, and for those
-/// that have no direction.
+/// Returns the factor that normalizes a normal: 1 for lengths within kMostFromUnit of 1, and for normals without a
+/// direction.
 inline double unitScale(const Vec3& normal) {
     const double squared = dot(toDouble(normal), toDouble(normal));
     if (std::fabs(squared - 1) <= 0.0134) return 1;  // the length is then within kMostFromUnit
@@ -89,20 +89,19 @@ inline double unitScale(const Vec3& normal) {
     if (!(size >= kLeastLength && std::isfinite(size)) || std::fabs(size - 1) <= kMostFromUnit) return 1;
     return 1 / size;
 }
-/// The normal times its unitScale; its own bits where that is 1.
+/// Returns the normal times its unitScale, with unchanged bits if that is 1.
 inline Vec3 withUnitLength(const Vec3& normal) {
     const double scale = unitScale(normal);
     return scale == 1 ? normal : toFloat(scale * toDouble(normal));
 }
 
-/// Two axes that make a right-handed orthonormal basis (x, y, n) with a unit vector. Exact when n lies along an axis.
-/// Based on: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
+/// Two axes that form a right-handed orthonormal basis (x, y, n) with a unit vector. Exact if n is parallel to an axis.
 struct PlaneAxes {
     DVec3 x, y;
 };
 
 inline PlaneAxes planeAxes(const DVec3& n) {
-    const double s = n.z < 0 ? -1.0 : 1.0;  // -0 as +0, so that equal normals have equal bases
+    const double s = n.z < 0 ? -1.0 : 1.0;  // treats -0 as +0, so that equal normals have equal bases
     const double a = -1 / (s + n.z);
     const double b = n.x * n.y * a;
     return {{1 + s * n.x * n.x * a, s * b, -s * n.x}, {b, s + n.y * n.y * a, -n.y}};
@@ -111,8 +110,8 @@ inline PlaneAxes planeAxes(const DVec3& n) {
 // dP/du and dP/dv of a triangle before the division by its UV determinant.
 // Based on: Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", 2001.
 
-/// `tangent / determinant` is dP/du, `bitangent / determinant` is dP/dv. The sum over a fan of triangles does
-/// not depend on how a polygon is cut: by Green's theorem it is the integral of P dv (and of -P du) along the
+/// `tangent / determinant` is dP/du, `bitangent / determinant` is dP/dv. The sum over a fan of triangles does not
+/// depend on the triangulation of a polygon: by Green's theorem it is the integral of P dv (and of -P du) along the
 /// border.
 struct UvFrame {
     DVec3 tangent;           ///< t2 E1 - t1 E2
@@ -120,28 +119,28 @@ struct UvFrame {
     double determinant = 0;  ///< s1 t2 - s2 t1
 };
 
-/// From two edges and their UV differences: (s1, t1) belongs to e1, (s2, t2) to e2.
+/// Computes the frame from two edges and their UV differences: (s1, t1) belongs to e1, (s2, t2) to e2.
 inline UvFrame uvFrame(const DVec3& e1, const DVec3& e2, double s1, double t1, double s2, double t2) {
     return {t2 * e1 - t1 * e2, s1 * e2 - s2 * e1, s1 * t2 - s2 * t1};
 }
 
-/// From the edges P1-P0 and P2-P0. Differences of floats in double are exact or nearly so, and their products
-/// do not overflow, so collinear UVs of ordinary size give exactly zero.
+/// Computes the frame from the edges P1-P0 and P2-P0. Differences of floats in double precision are exact or nearly so,
+/// and their products do not overflow, so collinear UVs of usual size give exactly zero.
 inline UvFrame uvFrame(const Vec3& p0, const Vec3& p1, const Vec3& p2, const Vec2& uv0, const Vec2& uv1,
                        const Vec2& uv2) {
     return uvFrame(toDouble(p1) - toDouble(p0), toDouble(p2) - toDouble(p0), double{uv1.x} - double{uv0.x},
                    double{uv1.y} - double{uv0.y}, double{uv2.x} - double{uv0.x}, double{uv2.y} - double{uv0.y});
 }
 
-/// True when the determinant can be divided by.
+/// Returns whether dividing by the determinant is allowed.
 inline bool hasUvArea(double determinant) { return determinant != 0 && std::isfinite(determinant); }
 
 // Angles in double precision without libm, whose last bits differ between platforms: only + - * / and sqrt.
 
 inline constexpr double kPi = 3.14159265358979323846;
 
-/// The angle of the direction (x, y) against the x axis, for y >= 0: in [0, pi], as atan2(y, x). 0 for (0,
-/// 0). Both finite and below 1e300. Absolute error below 1e-15 (tested against libm).
+/// Returns atan2(y, x) for y >= 0, in [0, pi]; 0 for (0, 0). Both must be finite and below 1e300. Absolute error below
+/// 1e-15 (tested against libm).
 inline double polarAngle(double x, double y) {
     const double width = x < 0 ? -x : x;
     const double small = width < y ? width : y;
@@ -154,7 +153,7 @@ inline double polarAngle(double x, double y) {
     const int quarter = static_cast<int>(small / large * 4 + 0.5);
     const double c = 0.25 * quarter;
     const double t = (small - c * large) / (large + c * small);
-    // Nine terms of the series of atan: the first one left out is below (1/8)^19 / 19 = 4e-19.
+    // Nine terms of the series of atan: the first omitted term is below (1/8)^19 / 19 = 4e-19.
     const double q = t * t;
     double sum = 1.0 / 17;
     for (int odd = 15; odd >= 1; odd -= 2) sum = 1.0 / odd - q * sum;
@@ -168,17 +167,17 @@ struct SineCosine {
     double sine = 0, cosine = 1;
 };
 
-/// Sine and cosine of an angle in radians; absolute error below 1e-15 for |angle| <= 100, and growing with the angle
-/// beyond (tested against libm). (0, 1) where the angle is not finite.
+/// Returns sine and cosine of an angle in radians; absolute error below 1e-15 for |angle| <= 100, increasing with the
+/// angle beyond (tested against libm). (0, 1) if the angle is not finite.
 inline SineCosine sineCosine(double angle) {
     if (!std::isfinite(angle)) return {};
-    // pi / 2 in two parts: the first has few bits, so that its small multiples are exact.
+    // pi / 2 as two summands: the first has few bits, so that its small multiples are exact.
     constexpr double kHalfPiHigh = 1.57079632673412561417e+00;
     constexpr double kHalfPiLow = 6.07710050650619224932e-11;
-    const double rest = std::fmod(angle, 2 * kPi * (1 << 20));  // exact, and leaves angles of ordinary size alone
+    const double rest = std::fmod(angle, 2 * kPi * (1 << 20));  // exact; usual angles are unchanged
     const double quarters = std::floor(rest / (0.5 * kPi) + 0.5);
     const double x = (rest - quarters * kHalfPiHigh) - quarters * kHalfPiLow;
-    // |x| <= pi / 4: the first terms left out are below 0.79^19 / 19! = 1e-19 and 0.79^18 / 18! = 2e-18.
+    // x| <= pi / 4: the first omitted terms are below 0.79^19 / 19! = 1e-19 and 0.79^18 / 18! = 2e-18.
     const double q = x * x;
     double sine = 1, cosine = 1;
     for (int n = 17; n >= 3; n -= 2) sine = 1 - q / (n * (n - 1)) * sine;
@@ -189,19 +188,19 @@ inline SineCosine sineCosine(double angle) {
     return quarter < 2 ? half : SineCosine{-half.sine, -half.cosine};
 }
 
-/// The angle between two vectors, in [0, pi]; accurate also near 0 and pi, where acos of the dot product is
-/// not. 0 when either is zero.
+/// Returns the angle between two vectors, in [0, pi]; accurate also near 0 and pi, where acos of the dot product is
+/// not. 0 if either vector is zero.
 inline double angleBetween(const DVec3& a, const DVec3& b) { return polarAngle(dot(a, b), length(cross(a, b))); }
 
-// Four floats at a time, by the vector types of GCC and Clang: SSE2 on x86-64, NEON on 64-bit ARM, other
-// units or scalar code elsewhere. Every lane rounds as the scalar operation does, so the bits are the same
-// everywhere.
+// Vectors of four floats, by the vector extensions of GCC and Clang: SSE2 on x86-64, NEON on 64-bit ARM, other units or
+// scalar code elsewhere. Every lane rounds like the scalar operation, so the bits are equal everywhere.
 
 using Float4 = float __attribute__((vector_size(16)));
-using Mask4 = std::int32_t __attribute__((vector_size(16)));  ///< per lane all bits or none, from a comparison
-using Double2 = double __attribute__((vector_size(16)));      ///< here a carrier of two pairs of floats
+/// result of a comparison: all bits of a lane are set, or none
+using Mask4 = std::int32_t __attribute__((vector_size(16)));
+using Double2 = double __attribute__((vector_size(16)));  ///< used to carry two pairs of floats
 
-// Float4 at any multiple of 4 bytes, aliasing any type. Clang ignores `aligned` after the equals sign.
+// Unaligned Float4 (any multiple of 4 bytes) that may alias any type. Clang ignores `aligned` after the equals sign.
 using Float4InMemory __attribute__((aligned(4), may_alias)) = Float4;
 
 inline Float4 splat(float f) { return Float4{f, f, f, f}; }
@@ -210,7 +209,7 @@ inline Float4 or4(Float4 a, Float4 b) {
     return std::bit_cast<Float4>(std::bit_cast<Mask4>(a) | std::bit_cast<Mask4>(b));
 }
 
-/// Bit i is set when lane i is true (its highest bit, that is).
+/// Returns the lanes as bits: bit i is the highest bit of lane i.
 inline unsigned laneBits(Mask4 mask) {
 #if defined(__SSE2__)
     return static_cast<unsigned>(_mm_movemask_ps(std::bit_cast<__m128>(mask)));
@@ -226,7 +225,7 @@ inline unsigned laneBits(Mask4 mask) {
 #endif
 }
 
-/// Per lane a where the mask is set, else b.
+/// Returns, per lane, a where the mask is set, otherwise b.
 inline Float4 select4(Mask4 mask, Float4 a, Float4 b) {
     return std::bit_cast<Float4>((mask & std::bit_cast<Mask4>(a)) | (~mask & std::bit_cast<Mask4>(b)));
 }
@@ -244,7 +243,7 @@ inline Float4 sqrt4(Float4 v) {
 inline Float4 loadFloat4(const float* p) { return *reinterpret_cast<const Float4InMemory*>(p); }
 inline void storeFloat4(float* p, Float4 v) { *reinterpret_cast<Float4InMemory*>(p) = v; }
 
-/// Two floats in the lower half, zero in the upper one; and back.
+/// Returns two floats in the lower half, with zeros in the upper half.
 inline double pairBits(const float* p) {
     double bits;
     std::memcpy(&bits, p, sizeof bits);
@@ -259,13 +258,13 @@ inline Float4 joinPairs(const float* low, const float* high) {
     return std::bit_cast<Float4>(Double2{pairBits(low), pairBits(high)});
 }
 
-/// The first three lanes.
+/// Stores the first three lanes.
 inline void storeVec3(Vec3& to, Float4 v) {
     storePair(&to.x, v);
     to.z = v[2];
 }
 
-/// One array per component, four vectors.
+/// Four vectors, with one array per component.
 struct Vec3x4 {
     Float4 x, y, z;
 };
@@ -278,7 +277,7 @@ inline Vec3x4 cross(const Vec3x4& a, const Vec3x4& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Rows become columns.
+/// Transposes a matrix given by rows.
 inline void transpose4(Float4& a, Float4& b, Float4& c, Float4& d) {
     const Float4 ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
     const Float4 ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
@@ -290,7 +289,7 @@ inline void transpose4(Float4& a, Float4& b, Float4& c, Float4& d) {
     d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
 }
 
-/// From four vectors in memory. Two loads for each, which stay inside its 12 bytes: x y and y z.
+/// Loads four vectors from memory, with two loads each that stay inside its 12 bytes: x y and y z.
 inline Vec3x4 gatherVec3(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     Float4 x = joinPairs(&a.x, &a.y), y = joinPairs(&b.x, &b.y), y_again = joinPairs(&c.x, &c.y),
            z = joinPairs(&d.x, &d.y);
@@ -298,15 +297,15 @@ inline Vec3x4 gatherVec3(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3
     return {x, y, z};
 }
 
-// The additions that all sums are made of.
+// Additions used by all sums.
 
-/// to[0..3] += row[0..3]; both aligned to 16 bytes.
+/// Performs to[0..3] += row[0..3]; both aligned to 16 bytes.
 inline void addRow(float* to, const float* row) {
     using Row __attribute__((may_alias)) = Float4;
     *reinterpret_cast<Row*>(to) += *reinterpret_cast<const Row*>(row);
 }
 
-/// to[0..2] += row[0..2], where `row` has four numbers.
+/// Performs to[0..2] += row[0..2], where `row` has four numbers.
 inline void addVector(float* to, const float* row) {
     const Float4 sum = __builtin_shufflevector(loadPair(to), Float4{to[2], 0, 0, 0}, 0, 1, 4, 5) + loadFloat4(row);
     storePair(to, sum);

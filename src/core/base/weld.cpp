@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Welding by hashes, in three steps. Most vertices of an indexed mesh are equal to no other: so each hash counts in a small
-// table, by its upper bits, up to two, and only vertices whose place in it counts two are looked up; where most vertices
-// are equal to others, all are. Then each finds the first vertex with its hash. Then the data of each and of that one are
-// compared, in order, which reads memory as it lies; the few that differ are sorted by their data.
+// Welding by hashes, in three steps. Most vertices of an indexed mesh equal no other vertex. Step 1 counts hashes in a
+// small table by their upper bits (0, 1, or more); only vertices whose counter is 2 are looked up, or all vertices if
+// most have duplicates. Step 2 finds the first vertex with the same hash for each. Step 3 compares the data of both, in
+// memory order; the few that differ are sorted by their data.
 //
-// Threads share nothing: each counts its own vertices, and looks up the vertices of its own range of hashes.
+// Threads share no data: each counts its own vertices, and looks up the vertices of its own range of hashes.
 #include "core/base/weld.h"
 
 #include <algorithm>
@@ -19,12 +19,12 @@ namespace tspace {
 
 namespace {
 
-constexpr std::size_t kPrefetchAhead = 32;  // lookups; all that they touch has to stay in the first cache
+constexpr std::size_t kPrefetchAhead = 32;  // lookups in flight; their data must fit into the L1 cache
 
-constexpr std::size_t kGrain = 16384;  // vertices per task: below, starting threads costs more than it saves
+constexpr std::size_t kGrain = 16384;  // vertices per task: with fewer, starting threads costs more than it saves
 
-/// Finds the few vertices that can be equal to others, without a look at most of them: how often each value of the
-/// hashes' upper bits occurs, never, once, or more often. Two bits a place: bit 0 says at least once, bit 1 more often.
+/// Finds the few vertices that may have duplicates, without accessing most vertices: counts the occurrences of the
+/// hashes' upper bits as 0, 1, or more. Two bits per counter: bit 0 means at least once, bit 1 more than once.
 class RepeatedHashes {
   public:
     static constexpr unsigned kMostRanges = 4;  ///< vertex ranges counted at the same time, each in its own table
@@ -42,7 +42,7 @@ class RepeatedHashes {
 
     void add(std::size_t range, const std::uint32_t* hashes, std::size_t count) {
         auto* table = reinterpret_cast<std::uint8_t*>(table_.data() + range * words_);
-        const unsigned shift = 32 - log2_;  // a copy: bytes that are written might be the member's
+        const unsigned shift = 32 - log2_;  // a copy: written bytes might alias the member
         for (std::size_t i = 0; i < count; ++i) {
             const std::uint32_t place = hashes[i] >> shift;
             std::uint8_t& byte = table[place / kPlacesPerByte];
@@ -51,7 +51,7 @@ class RepeatedHashes {
         }
     }
 
-    /// Adds all ranges up in the first one. Returns how many places are taken.
+    /// Sums all ranges into the first one. Returns the number of counters in use.
     std::size_t sum(Parallel& parallel) {
         return sumRanges(parallel, words_, kGrain, [&](std::size_t begin, std::size_t end) {
             constexpr std::uint64_t kOnce = 0x5555555555555555u;
@@ -67,8 +67,8 @@ class RepeatedHashes {
         });
     }
 
-    /// Writes the vertices of [0, count) whose hash another one may have to `list`, ascending, and returns how many
-    /// they are. `list` has room for all.
+    /// Writes the vertices in [0, count) whose hash may occur twice to `list`, ascending, and returns their number.
+    /// `list` has room for all.
     std::size_t collect(const std::uint32_t* hashes, std::size_t count, std::uint32_t* list, Parallel& parallel) const {
         const auto* table = reinterpret_cast<const std::uint8_t*>(table_.data());
         std::size_t found[kMostRanges] = {};
@@ -76,7 +76,7 @@ class RepeatedHashes {
             const std::size_t begin = count * range / ranges_, end = count * (range + 1) / ranges_;
             const unsigned shift = 32 - log2_;
             std::uint32_t* const mine = list + begin;
-            std::size_t n = 0;  // mine[n] is written in any case, and stays when the next one is written behind it
+            std::size_t n = 0;  // mine[n] is always written, but only kept if n is incremented
             for (std::size_t v = begin; v < end; ++v) {
                 const std::uint32_t place = hashes[v] >> shift;
                 mine[n] = static_cast<std::uint32_t>(v);
@@ -93,12 +93,12 @@ class RepeatedHashes {
     }
 
   private:
-    /// With n places per vertex 1 vertex of n + 1 is found although it is like no other, or fewer. Four leave 1 of 5 to be
-    /// looked up, in a table that stays in the cache.
+    /// With n counters per vertex, at most 1 of n + 1 vertices is found without having a duplicate. With four, 1 of 5
+    /// vertices is looked up, in a table that stays in the cache.
     static constexpr std::size_t kPlacesPerVertex = 4;
     static constexpr std::size_t kPlacesPerByte = 4, kPlacesPerWord = 32;
 
-    /// Counts the set bits among the bits 0, 2, 4, ... (std::popcount is a call on plain x86-64.)
+    /// Counts the set bits among the bits 0, 2, 4, ... (std::popcount is a function call on baseline x86-64.)
     static std::uint64_t pairsSet(std::uint64_t x) {
         x = (x & 0x3333333333333333u) + (x >> 2 & 0x3333333333333333u);
         x = (x + (x >> 4)) & 0x0f0f0f0f0f0f0f0fu;
@@ -141,7 +141,7 @@ class Welder {
     }
 
   private:
-    static constexpr std::size_t kFew = 4096;  // vertices; so few are all looked up
+    static constexpr std::size_t kFew = 4096;  // vertices; up to this number, all are looked up
 
     struct Slot {
         std::uint32_t hash = 0, vertex = Weldable::kNoRoot;
@@ -155,8 +155,8 @@ class Welder {
         return list_.empty() ? static_cast<std::uint32_t>(i) : list_[i];
     }
 
-    /// Lists vertices that may be equal to others, unless these are most. Returns how many are listed, or about how
-    /// many different vertices there are.
+    /// Lists vertices that may have duplicates, unless most do. Returns the number of listed vertices, or an estimate
+    /// of the number of different vertices.
     std::size_t listCandidates() {
         const std::size_t ranges = RepeatedHashes::rangesFor(count_, parallel_);
         RepeatedHashes counting(transient_, count_, ranges);
@@ -170,7 +170,8 @@ class Welder {
         return counting.collect(hashes_.data(), count_, list_.data(), parallel_);
     }
 
-    /// Counts a sample of the hashes, chosen by their value, so that equal vertices are in it together or not at all.
+    /// Estimates the number of different vertices from a sample of the hashes, selected by value, so that equal
+    /// vertices are either all in it or none.
     std::size_t guessDistinct() {
         constexpr std::uint32_t kShare = 32;
         RepeatedHashes counting(transient_, count_ / kShare, 1);
@@ -180,7 +181,7 @@ class Welder {
         return std::min(count_, kShare * counting.sum(parallel_));
     }
 
-    /// Finds roots of few vertices, by hashes alone: the table stays in the first cache.
+    /// Finds the roots of few vertices, by hashes only: the table fits into the L1 cache.
     bool matchFew() {
         Buffer<std::uint32_t> table(transient_, std::bit_ceil(2 * count_), Weldable::kNoRoot);
         for (std::uint32_t v = 0, mask = static_cast<std::uint32_t>(table.size() - 1); v < count_; ++v) {
@@ -192,14 +193,14 @@ class Welder {
         return true;
     }
 
-    /// Finds roots of many vertices, by hashes alone: each task has the vertices of one range of hashes and a part of
-    /// the table. Returns false where hashes collide more than chance explains.
+    /// Finds the roots of many vertices, by hashes only: each task has the vertices of one range of hashes and a part
+    /// of the table. Returns false if hashes collide more often than by chance.
     bool matchHashes(std::size_t distinct) {
         const std::size_t tasks =
             entry_count_ < 2 * kGrain
                 ? 1
                 : std::min<std::size_t>(parallel_.width(), std::size_t{2} * RepeatedHashes::kMostRanges);
-        // The table grows where `distinct`, an estimate, was too low.
+        // The table grows if the estimate `distinct` was too low.
         for (std::size_t slots = std::bit_ceil(2 * distinct / tasks + 2 * kPrefetchAhead);; slots *= 4) {
             Buffer<Slot> table(transient_, tasks * slots);
             std::atomic<std::size_t> done{0};
@@ -213,7 +214,7 @@ class Welder {
         }
     }
 
-    /// Finds roots of one range of hashes. Returns false when the table is too small, or its probe sequences are too
+    /// Finds the roots of one range of hashes. Returns false if the table is too small, or its probe sequences are too
     /// long.
     bool matchRange(std::size_t task, std::size_t tasks, Slot* table, std::size_t slots) {
         const std::size_t mask = slots - 1;
@@ -245,7 +246,8 @@ class Welder {
         return true;
     }
 
-    /// Finds roots of vertices whose hash another vertex has, by sorting. A NaN equals no neighbour in the order.
+    /// Finds the roots of vertices that share their hash with different vertices, by sorting. A NaN never equals its
+    /// neighbor in the order.
     [[gnu::cold]] void matchBySorting() {
         std::uint32_t* const roots = roots_.data();
         Buffer<std::uint32_t> rest(
@@ -274,28 +276,28 @@ class Welder {
         return root_of;
     }
 
-    /// Never inlined: a sort has it in nine places.
+    /// Never inlined: a sort calls it in nine places.
     [[nodiscard, gnu::noinline]] bool isBefore(std::uint32_t a, std::uint32_t b) const {
         const int order = vertices_.order(vertexOf(a), vertexOf(b));
         return order != 0 ? order < 0 : a < b;
     }
 
     Weldable& vertices_;
-    std::size_t count_, entry_count_ = 0;  // vertices, and those that are looked up
+    std::size_t count_, entry_count_ = 0;  // number of vertices, and of vertices that are looked up
     const Allocator *allocator_, *transient_;
     Parallel& parallel_;
     Buffer<std::uint32_t> hashes_;
-    Buffer<std::uint32_t> list_;   // the vertices to weld, ascending; empty: all
+    Buffer<std::uint32_t> list_;   // vertices to weld, ascending; empty: all
     Buffer<std::uint32_t> roots_;  // roots of these vertices
 };
 
-std::uint32_t bitsOf(float f) { return std::bit_cast<std::uint32_t>(f + 0.0f); }  // -0 as +0
+std::uint32_t bitsOf(float f) { return std::bit_cast<std::uint32_t>(f + 0.0f); }  // treats -0 as +0
 
 class Positions final : public Weldable {
   public:
     explicit Positions(StridedSpan<const Vec3> positions) : positions_(positions) {}
 
-    /// Every bit of the position reaches the high bits.
+    /// Hashes positions so that every bit affects the high bits.
     void hash(std::size_t begin, std::size_t end, std::uint32_t* hashes) override {
         for (std::size_t v = begin; v < end; ++v) {
             const Vec3& p = positions_[v];

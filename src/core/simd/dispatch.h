@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which instructions this CPU has, and the functions that are compiled for them. A kernel is written once,
-// NAME_kernel.h; cmake/tspace_simd.cmake makes a source of all of them for each target.
+// Detection of the CPU's instruction sets, and selection of the functions compiled for them. A kernel is written once,
+// as NAME_kernel.h; cmake/tspace_simd.cmake creates a source file of all kernels for each target.
 #pragma once
 
 #include <cstddef>
@@ -8,14 +8,14 @@
 
 #include "tspace/execution.h"
 
-// Plain C++ is for CPUs without lanes here. Elsewhere only tests need it, to compare with: programs that do not link
-// tspace_scalar_kernels are a sixteenth smaller.
+// The scalar target is for CPUs without other lanes. Elsewhere only tests need it, for comparison: programs that do not
+// link tspace_scalar_kernels are a sixteenth smaller.
 #if !defined(TSPACE_SIMD_X86) && !defined(TSPACE_SIMD_ARM64)
 #define TSPACE_SCALAR_LINKAGE
 #elif defined(__ELF__)
 #define TSPACE_SCALAR_LINKAGE [[gnu::weak]]
 #define TSPACE_SCALAR_OR_NULL(function, other) scalar::function
-#else  // where a function that is not linked would be an error
+#else  // platforms on which a function that is not linked would be an error
 #define TSPACE_SCALAR_LINKAGE
 #define TSPACE_SCALAR_OR_NULL(function, other) static_cast<decltype(&other::function)>(nullptr)
 #endif
@@ -33,7 +33,7 @@
     TSPACE_IN_NAMESPACE(neon, __VA_ARGS__)                         \
     TSPACE_IN_NAMESPACE(wasm, __VA_ARGS__)
 
-/// The table of a kernel's functions in this build, for simd::choose. NOT_AVX512: AVX2 is as fast there.
+/// Table of a kernel's functions in this build, for simd::choose. NOT_AVX512: AVX2 is equally fast.
 #if defined(TSPACE_SIMD_X86)
 #define TSPACE_KERNEL_TABLE(function) \
     { TSPACE_SCALAR_OR_NULL(function, sse2), sse2::function, avx2::function, avx512::function }
@@ -55,11 +55,12 @@
 
 namespace tspace::simd {
 
-/// The target that runs for a wish: `best`, and the best one of a lower number for those that this CPU or
-/// this build lacks. Never returns `best`. Thread-safe.
+/// Returns the target to run for a requested one: `best`, or a target that this CPU or build does not support, is
+/// replaced by the best available one with a lower number. Never returns `best`. Thread-safe.
 SimdTarget resolve(SimdTarget wish);
 
-/// The function that runs for a wish; without tspace_scalar_kernels that of the least lanes for `scalar`.
+/// Returns the function for a requested target; for `scalar` without tspace_scalar_kernels, the one with the fewest
+/// lanes.
 template <class Function, std::size_t kTargets>
 Function* choose(SimdTarget wish, Function* const (&table)[kTargets]) {
     if constexpr (kTargets == 1) return table[0];
@@ -72,18 +73,18 @@ Function* choose(SimdTarget wish, Function* const (&table)[kTargets]) {
 
 namespace tspace {
 
-// The vertex data of one call, as kernels read it.
+// Vertex data of a call, as read by kernels.
 
 struct VertexArrays {
     const std::byte* positions = nullptr;
     const std::byte* normals = nullptr;
     const std::byte* uvs = nullptr;
     std::size_t position_stride = 0, normal_stride = 0, uv_stride = 0;
-    /// Right after this one's position and normal nothing may be read; all bits set: there is no such vertex.
+    /// The memory directly after this vertex's position and normal must not be read; all bits set: no such vertex.
     std::uint32_t last_vertex = 0;
 };
 
-/// From spans of one entry per vertex, of which there is at least one.
+/// Creates the arrays from nonempty spans with one entry per vertex.
 template <class Pose, class Uvs>
 VertexArrays vertexArrays(const Pose& pose, const Uvs& uvs) {
     return {reinterpret_cast<const std::byte*>(pose.positions.data),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Arithmetic, bits and masks in the compiler's own vector types, from which it makes code as good as from intrinsics.
-// Included inside the namespace of each lanes_*.h of more than one lane, after its kWidth, so that each CPU has
-// functions of its own: see the rules in lanes.h. For this reason it has no include guard.
+// Arithmetic, bits and masks in the compiler's vector types, which compile to code as good as intrinsics. Included
+// inside the namespace of each lanes_*.h with more than one lane, after its kWidth, so that each instruction set has
+// its own functions: see the rules in lanes.h. It therefore has no include guard.
 
 using FloatVector = float __attribute__((vector_size(4 * kWidth)));
 using WordVector = std::uint32_t __attribute__((vector_size(4 * kWidth)));
@@ -23,7 +23,7 @@ inline Floats operator/(Floats a, Floats b) { return {a.v / b.v}; }
 inline void store(float* to, Floats a) { *reinterpret_cast<FloatsInMemory*>(to) = a.v; }
 inline Floats load(const float* p) { return {*reinterpret_cast<const FloatsInMemory*>(p)}; }
 
-/// Whole numbers, for flags and words.
+/// Integers, for flags and words.
 struct Bits {
     WordVector v;
 };
@@ -41,18 +41,18 @@ template <int kBy>
 inline Bits shiftRight(Bits a) {
     return {a.v >> kBy};
 }
-/// Operands must be below 2^31.
+/// Returns the minimum. Operands must be below 2^31.
 inline Bits smaller(Bits a, Bits b) {
     return {reinterpret_cast<WholeVector>(a.v) < reinterpret_cast<WholeVector>(b.v) ? a.v : b.v};
 }
-/// The lower half of the product.
+/// Returns the lower half of the product.
 inline Bits product(Bits a, std::uint32_t k) { return {a.v * k}; }
-/// Division by a constant, of numbers below 2^31. Compilers multiply; for even numbers the factor fits into 32 bits.
+/// Divides numbers below 2^31 by a constant. Compilers multiply instead; for even numbers the factor fits into 32 bits.
 template <std::uint32_t kBy>
 inline Bits quotient(Bits a) {
     return {(a.v << 1) / (2 * kBy)};
 }
-/// Numbers below 2^31, rounded to the nearest float.
+/// Converts numbers below 2^31 to the nearest float.
 inline Floats toFloats(Bits a) { return {__builtin_convertvector(reinterpret_cast<WholeVector>(a.v), FloatVector)}; }
 inline Floats asFloats(Bits b) { return {reinterpret_cast<FloatVector>(b.v)}; }
 inline Bits asBits(Floats f) { return {reinterpret_cast<WordVector>(f.v)}; }
@@ -60,7 +60,7 @@ inline Floats absolute(Floats a) { return asFloats({asBits(a).v & 0x7fffffffu});
 inline void store(std::uint32_t* to, Bits b) { *reinterpret_cast<WordsInMemory*>(to) = b.v; }
 inline Bits load(const std::uint32_t* p) { return {*reinterpret_cast<const WordsInMemory*>(p)}; }
 
-/// From a comparison: all bits of a lane or none. Compilers keep it in registers for masks where a CPU has them.
+/// Result of a comparison: all bits of a lane are set, or none. Compilers keep it in mask registers if available.
 struct Mask {
     WholeVector v;
 };
@@ -71,17 +71,17 @@ inline Mask operator!(Mask a) { return {~a.v}; }
 inline Mask operator>(Floats a, Floats b) { return {a.v > b.v}; }
 inline Mask operator<(Floats a, Floats b) { return {a.v < b.v}; }
 inline Mask operator==(Floats a, Floats b) { return {a.v == b.v}; }
-/// Bit i: lane i.
+/// Returns the lanes as bits: bit i is lane i.
 inline unsigned bitsOf(Mask m);
 inline bool all(Mask m) { return bitsOf(m) == (1u << kWidth) - 1; }
 inline Floats select(Mask m, Floats yes, Floats no) { return {m.v ? yes.v : no.v}; }
-/// a | bit where the mask is set, else a.
+/// Returns a | bit where the mask is set, otherwise a.
 inline Bits orWhere(Bits a, Mask m, std::uint32_t bit) { return {a.v | (reinterpret_cast<WordVector>(m.v) & bit)}; }
 inline Bits keepWhere(Bits a, Mask m) { return {a.v & reinterpret_cast<WordVector>(m.v)}; }
-/// a shifted left, with the mask as its lowest bit.
+/// Returns a shifted left by one, with the mask as its lowest bit.
 inline Bits appendBit(Bits a, Mask m) { return {a.v + a.v - reinterpret_cast<WordVector>(m.v)}; }
 
-/// Half of the lanes as doubles.
+/// Half of the lanes, as doubles.
 struct Doubles {
     DoubleVector v;
 };
@@ -97,7 +97,7 @@ inline Doubles operator*(Doubles a, Doubles b) { return {a.v * b.v}; }
 inline Doubles operator/(Doubles a, Doubles b) { return {a.v / b.v}; }
 inline Doubles smaller(Doubles a, Doubles b) { return {a.v < b.v ? a.v : b.v}; }
 inline Doubles absolute(Doubles a) { return doublesOf(longsOf(a) & ~kSignBit); }
-/// a with its sign turned over where b is negative (-0 counts), else a.
+/// Returns a, with inverted sign where b is negative (including -0).
 inline Doubles withSignOf(Doubles a, Doubles b) { return doublesOf(longsOf(a) ^ (longsOf(b) & kSignBit)); }
 inline void storeDoubles(double* to, Doubles a) { *reinterpret_cast<DoublesInMemory*>(to) = a.v; }
 struct DoubleMask {
@@ -105,22 +105,22 @@ struct DoubleMask {
 };
 inline DoubleMask operator&(DoubleMask a, DoubleMask b) { return {a.v & b.v}; }
 inline Doubles select(DoubleMask m, Doubles yes, Doubles no) { return {m.v ? yes.v : no.v}; }
-/// a where the mask is set, else +0.
+/// Returns a where the mask is set, otherwise +0.
 inline Doubles keepWhere(DoubleMask m, Doubles a) { return doublesOf(m.v & longsOf(a)); }
-/// a where the mask is set, else -a.
+/// Returns a where the mask is set, otherwise -a.
 inline Doubles negateUnless(DoubleMask m, Doubles a) { return doublesOf(longsOf(a) ^ (~m.v & kSignBit)); }
 
-// Four floats at any address, whatever the number of lanes.
+// Four floats at any address, independent of the number of lanes.
 
 using Quad = float __attribute__((vector_size(16)));
 using TwoDoubles = double __attribute__((vector_size(16)));
-// Clang overlooks `aligned` behind the equals sign.
+// Clang ignores `aligned` after the equals sign.
 using QuadInMemory __attribute__((aligned(4), may_alias)) = Quad;
 using AlignedQuad = float __attribute__((vector_size(16), may_alias));
 inline Quad loadQuad(const void* p) { return *static_cast<const QuadInMemory*>(p); }
 inline void storeQuad(void* to, Quad quad) { *static_cast<QuadInMemory*>(to) = quad; }
 
-/// Two floats as one double.
+/// Loads two floats as one double.
 inline double loadTwo(const void* p) {
     double d;
     std::memcpy(&d, p, sizeof d);
@@ -130,7 +130,7 @@ inline void storeTwo(void* to, double two) { std::memcpy(to, &two, sizeof two); 
 inline Quad twoPairs(const void* a, const void* b) {
     return reinterpret_cast<Quad>(TwoDoubles{loadTwo(a), loadTwo(b)});
 }
-/// Three floats. `exact` reads no more; otherwise the four bytes after them are read too.
+/// Loads three floats. `exact` reads no more; otherwise the following four bytes are also read.
 inline Quad loadVector(const std::byte* p, bool exact) {
     if (!exact) return loadQuad(p);
     float z;
@@ -138,18 +138,18 @@ inline Quad loadVector(const std::byte* p, bool exact) {
     return __builtin_shufflevector(reinterpret_cast<Quad>(TwoDoubles{loadTwo(p), 0}), Quad{z, 0, 0, 0}, 0, 1, 4, 5);
 }
 
-/// Four doubles, whatever the number of lanes.
+/// Four doubles, independent of the number of lanes.
 struct DoubleRow {
     double __attribute__((vector_size(32))) v;
 };
 using DoubleRowInMemory __attribute__((aligned(16), may_alias)) = decltype(DoubleRow::v);
 inline DoubleRow loadDoubleRow(const double* p) { return {*reinterpret_cast<const DoubleRowInMemory*>(p)}; }
-/// to[0 .. 4) += k * row
+/// Performs to[0 .. 4) += k * row.
 inline void addDoubleRow(double* to, double k, const DoubleRow& row) {
     *reinterpret_cast<DoubleRowInMemory*>(to) += k * row.v;
 }
 
-// A vector of lanes is 1, 2 or 4 quads.
+// A vector of lanes consists of 1, 2 or 4 quads.
 
 inline constexpr std::make_index_sequence<kWidth / 4> kQuads;
 template <std::size_t kWhich>
@@ -158,7 +158,7 @@ inline Quad quad(FloatVector v) {
 }
 inline Quad joinQuads(Quad a) { return a; }
 
-/// Shuffles within each quad: kFrom and kLane pick from the quad of x (0 to 3) and the quad of y (4 to 7).
+/// Shuffles within each quad: kFrom and kLane select from the quad of x (0 to 3) and the quad of y (4 to 7).
 template <std::size_t... kFrom, std::size_t... kLane>
 inline FloatVector inFours(FloatVector x, FloatVector y, std::index_sequence<kFrom...>, std::index_sequence<kLane...>) {
     constexpr std::size_t kPlaces[] = {(kFrom < 4 ? kFrom : kFrom - 4 + kWidth)...};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Eight lanes: AVX2. See lanes_scalar.h for what each function means.
+// Eight lanes: AVX2. lanes_scalar.h documents each function.
 #pragma once
 
 #include <immintrin.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sixteen lanes: AVX-512 F and DQ. See lanes_scalar.h for what each function means.
+// Sixteen lanes: AVX-512 F and DQ. lanes_scalar.h documents each function.
 #pragma once
 
 #include <immintrin.h>

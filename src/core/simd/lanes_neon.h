@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Four lanes: Advanced SIMD (NEON), which every 64-bit ARM CPU has. See lanes_scalar.h for what each function
-// means.
+// Four lanes: Advanced SIMD (NEON), supported by every 64-bit ARM CPU. lanes_scalar.h documents each function.
 //
-// Compilers may fuse * and +: only -ffp-contract=off keeps them apart. vminq and vmaxq give NaN when either number is
-// NaN, so comparisons choose here.
+// Compilers may fuse * and + unless -ffp-contract=off is set. vminq and vmaxq return NaN if either operand is NaN, so
+// comparisons are used here.
 #pragma once
 
 #include <arm_neon.h>

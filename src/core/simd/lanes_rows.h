@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Rows of four numbers to and from lanes. Included as lanes_arithmetic.h, behind all but what begins with "operator".
-// TSPACE_ROWS: what the compiler is told about these functions. Quad q has the rows from 4 * q on.
+// Conversion between rows of four numbers and lanes. Included like lanes_arithmetic.h, after all definitions except
+// operators. TSPACE_ROWS: attributes of these functions. Quad q contains the rows from 4 * q on.
 
 #ifndef TSPACE_ROWS
 #define TSPACE_ROWS
 #endif
 
-/// The vectors with the quads at(i), at(4 + i), ...: row i of each quad.
+/// Returns the vectors with the quads at(i), at(4 + i), ...: row i of each quad.
 template <class At, std::size_t... kQuad>
 inline FloatVector quadsAt(const At& at, std::size_t i, std::index_sequence<kQuad...>) {
     return joinQuads(at(4 * kQuad + i)...);
@@ -16,7 +16,7 @@ inline FloatVector highPairs(FloatVector a, FloatVector b) { return inFours<2, 3
 inline FloatVector mixLow(FloatVector a, FloatVector b) { return inFours<0, 4, 1, 5>(a, b); }
 inline FloatVector mixHigh(FloatVector a, FloatVector b) { return inFours<2, 6, 3, 7>(a, b); }
 
-/// Rows become columns, in each quad.
+/// Transposes each quad.
 inline void transpose(FloatVector (&r)[4]) {
     const FloatVector ab_low = mixLow(r[0], r[1]), ab_high = mixHigh(r[0], r[1]);
     const FloatVector cd_low = mixLow(r[2], r[3]), cd_high = mixHigh(r[2], r[3]);
@@ -25,7 +25,7 @@ inline void transpose(FloatVector (&r)[4]) {
     r[2] = lowPairs(ab_high, cd_high);
     r[3] = highPairs(ab_high, cd_high);
 }
-/// The columns of the rows at(0), at(1), ...
+/// Returns the columns of the rows at(0), at(1), ...
 template <class At>
 inline void columnsAt(const At& at, Floats& x, Floats& y, Floats& z, Floats& w) {
     FloatVector r[4];
@@ -36,7 +36,7 @@ inline void columnsAt(const At& at, Floats& x, Floats& y, Floats& z, Floats& w) 
     z = {r[2]};
     w = {r[3]};
 }
-/// The first and the second floats of pairs, of which each of at(0), at(2), ... has two.
+/// Returns the first and the second floats of pairs; each of at(0), at(2), ... has two pairs.
 template <class At>
 inline void splitPairsAt(const At& at, Floats& x, Floats& y) {
     const FloatVector ab = quadsAt(at, 0, kQuads), cd = quadsAt(at, 2, kQuads);
@@ -63,8 +63,8 @@ inline void storeQuadPairs(float* rows, FloatVector low, FloatVector high, std::
      ...);
 }
 
-/// Reads the elements numbered index[0], index[3], index[6], ... (one corner of consecutive triangles) of an
-/// array of vectors. `exact` reads their 12 bytes and no more; otherwise the 4 bytes after them are read too.
+/// Reads the elements with the numbers index[0], index[3], index[6], ... (one corner of consecutive triangles) of an
+/// array of vectors. `exact` reads only their 12 bytes; otherwise the following 4 bytes are also read.
 TSPACE_ROWS inline void gather3(const std::byte* base, std::size_t stride, const std::uint32_t* index, bool exact,
                                 Floats& x, Floats& y, Floats& z) {
     Floats none;
@@ -77,25 +77,25 @@ TSPACE_ROWS inline void gather2(const std::byte* base, std::size_t stride, const
     };
     splitPairsAt(two, x, y);
 }
-/// Reads kWidth pairs of floats that lie side by side.
+/// Reads kWidth contiguous pairs of floats.
 TSPACE_ROWS inline void loadPairs(const float* pairs, Floats& x, Floats& y) {
     splitPairsAt([&](std::size_t i) { return loadQuad(pairs + 2 * i); }, x, y);
 }
-/// Writes lane i's four values to rows[kStep * i ...], by default row 3 * i of an array of rows of four floats. At any
-/// address that floats may have. Rows are written one after the other: with a step of 3, all but the last row hold three
-/// values, and one more is written after them.
+/// Writes lane i's four values to rows[kStep * i ...], by default row 3 * i of an array of rows of four floats. Any
+/// address that is valid for floats. Rows are written in order: with a step of 3, all but the last row hold three
+/// values, and one more value is written after them.
 template <std::size_t kStep = 12>
 TSPACE_ROWS inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
     FloatVector r[4] = {x.v, y.v, z.v, w.v};
     transpose(r);
     storeQuads<kStep>(rows, r, kQuads);
 }
-/// The opposite of storeRows.
+/// Inverse of storeRows.
 template <std::size_t kStep>
 TSPACE_ROWS inline void loadRows(const float* rows, Floats& x, Floats& y, Floats& z, Floats& w) {
     columnsAt([&](std::size_t i) { return loadQuad(rows + kStep * i); }, x, y, z, w);
 }
-/// storeRows for rows of two values.
+/// Like storeRows, for rows of two values.
 template <std::size_t kStep>
 TSPACE_ROWS inline void storePairs(float* rows, Floats x, Floats y) {
     storeQuadPairs<kStep>(rows, mixLow(x.v, y.v), mixHigh(x.v, y.v), kQuads);
@@ -107,7 +107,7 @@ inline void storeDoubleRows(double* rows, Doubles x, Doubles y, Doubles z, Doubl
                               highPairs(pairsOf(x), pairsOf(y)), highPairs(pairsOf(z), pairsOf(w))};
     storeQuads<4>(reinterpret_cast<float*>(rows), r, kQuads);
 }
-/// The opposite of storeDoubleRows.
+/// Inverse of storeDoubleRows.
 inline void loadDoubleRows(const double* rows, Doubles& x, Doubles& y, Doubles& z, Doubles& w) {
     const auto at = [&](std::size_t i) { return reinterpret_cast<const AlignedQuad*>(rows)[i]; };
     FloatVector r[4];

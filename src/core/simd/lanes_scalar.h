@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Four lanes without instructions for them: plain C++, and vector types that compilers take apart where a CPU has none.
-// For every CPU without a file of its own here. All lanes_*.h define the same names, each in a namespace of its own, and
-// every operation is the IEEE one, rounded once; so a kernel gives the same bits on all of them. What each function means
-// stands here and in the files that are included here.
+// Four lanes without SIMD instructions: plain C++ and vector types, which compilers split if a CPU has no vectors. For
+// CPUs without their own lanes_*.h. All lanes_*.h define the same names, each in its own namespace, and every operation
+// is the IEEE operation, rounded once; so a kernel has the same bits on all of them. This file and the files it
+// includes document each function.
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,7 @@ inline unsigned bitsOf(Mask m) {
     for (std::size_t i = 0; i < kWidth; ++i) bits |= m.v[i] != 0 ? 1u << i : 0;
     return bits;
 }
-/// The second one when either is NaN.
+/// Return the second operand if either is NaN.
 inline Floats smaller(Floats a, Floats b) { return {a.v < b.v ? a.v : b.v}; }
 inline Floats larger(Floats a, Floats b) { return {a.v > b.v ? a.v : b.v}; }
 inline Floats squareRoot(Floats a) {
@@ -33,7 +33,7 @@ inline Floats squareRoot(Floats a) {
 inline DoubleMask operator>(Doubles a, Doubles b) { return {a.v > b.v}; }
 inline unsigned bitsOf(DoubleMask m) { return (m.v[0] != 0 ? 1u : 0u) | (m.v[1] != 0 ? 2u : 0u); }
 inline Doubles squareRoot(Doubles a) { return {DoubleVector{std::sqrt(a.v[0]), std::sqrt(a.v[1])}}; }
-/// Between floats in memory and doubles: half of the lanes. All addresses are multiples of the vector's size.
+/// Convert between floats in memory and doubles: half of the lanes. All addresses are aligned to the vector's size.
 inline Doubles loadAsDoubles(const float* p) { return {DoubleVector{p[0], p[1]}}; }
 inline void storeAsFloats(float* to, Doubles a) {
     for (std::size_t i = 0; i < 2; ++i) to[i] = static_cast<float>(a.v[i]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Four lanes: SSE2, which every x86-64 CPU has. See lanes_scalar.h for what each function means.
+// Four lanes: SSE2, supported by every x86-64 CPU. lanes_scalar.h documents each function.
 #pragma once
 
 #include <emmintrin.h>

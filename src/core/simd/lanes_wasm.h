@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Four lanes: the SIMD of WebAssembly, which every engine has. Nothing of relaxed SIMD: what it computes depends on the
-// machine. See lanes_scalar.h for what each function means.
+// Four lanes: WebAssembly SIMD, supported by every engine. Relaxed SIMD is not used: its results depend on the machine.
+// lanes_scalar.h documents each function.
 //
-// f32x4.min and max give NaN when either number is NaN, so pmin and pmax are used, whose second operand is the one that
-// stays.
+// f32x4.min and max return NaN if either operand is NaN, so pmin and pmax are used; they return the second operand
+// then.
 #pragma once
 
 #include <wasm_simd128.h>
 
 #include "core/simd/lanes.h"
 
-// Programs are compiled for size, and then Clang calls functions of one instruction. What moves rows has many long ones:
-// it is called, but for the kernels that are compiled for speed.
+// Programs are compiled for size, and Clang then calls even functions of one instruction. Functions that move rows have
+// many long instructions: they are not inlined, except in kernels that are compiled for speed.
 #ifdef TSPACE_FAST_KERNELS
 #define TSPACE_ROWS [[gnu::always_inline]]
 #else

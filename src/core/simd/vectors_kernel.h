@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Vectors of three on lanes and how they are read, directions and planes, the arc cosine. Included after lanes_*.h, with
-// TSPACE_LANES set to its namespace.
+// Three-component vectors on lanes and their loading, directions and planes, the arc cosine. Included after lanes_*.h,
+// with TSPACE_LANES set to its namespace.
 #pragma once
 
 namespace tspace::simd::TSPACE_LANES {
@@ -19,7 +19,7 @@ inline Vectors cross(Vectors a, Vectors b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Whether nothing may be read behind an array. With TSPACE_SMALL arrays are copies, with room behind them.
+/// Whether reading past the end of an array is forbidden. With TSPACE_SMALL arrays are copies, with padding.
 #ifdef TSPACE_SMALL
 inline constexpr bool kEndsMatter = false;
 #else
@@ -33,7 +33,7 @@ inline constexpr bool kEndsMatter = true;
     return v;
 }
 
-/// `exact`: no byte after a vector may be read.
+/// `exact`: bytes after a vector must not be read.
 [[gnu::always_inline]] inline Vectors gatherVectors(const std::byte* base, std::size_t stride,
                                                     const std::uint32_t* index, bool exact) {
     if (kEndsMatter && exact) [[unlikely]]
@@ -47,7 +47,7 @@ inline constexpr bool kEndsMatter = true;
     return v;
 }
 
-/// Whether any vertex is the last one, which has nothing after it to be read along.
+/// Returns whether any vertex is the last one, after which no memory may be read.
 inline bool namesLast(const std::uint32_t* vertices, std::uint32_t last) {
     if (!kEndsMatter) return false;
     std::uint32_t named = 0;
@@ -60,7 +60,7 @@ inline bool namesLast(const std::uint32_t* vertices, std::uint32_t last) {
 inline Mask isFinite(Floats a) { return absolute(a) < broadcast(__builtin_huge_valf()); }
 inline Floats keep(Mask m, Floats a) { return select(m, a, zero()); }
 inline Vectors keep(Mask m, Vectors v) { return {keep(m, v.x), keep(m, v.y), keep(m, v.z)}; }
-/// a / b, and 0 where b is not above zero or the quotient is not finite.
+/// Returns a / b, or 0 if b is not positive or the quotient is not finite.
 inline Floats quotient(Floats a, Floats b) {
     const Floats q = a / b;
     return keep((b > zero()) & isFinite(q), q);
@@ -77,21 +77,21 @@ inline Floats dot(Flat a, Flat b) { return a.x * b.x + a.y * b.y; }
 
 inline Flat keep(Mask m, Flat a) { return {keep(m, a.x), keep(m, a.y)}; }
 
-/// Zero where a vector has no direction.
+/// Returns the unit vectors; zero where a vector has no direction.
 template <class Vector>
 inline Vector unit(Vector v) {
     const Floats square = dot(v, v), scale = broadcast(1.0f) / squareRoot(square);
     return keep((square > zero()) & isFinite(square) & isFinite(scale), scale * v);
 }
 
-/// The unit normal, with -0 as +0; the z axis where a normal has no direction.
+/// Returns the unit normal, with -0 replaced by +0; the z axis if a normal has no direction.
 inline Vectors unitNormal(Vectors n) {
     const Vectors u = unit(n);
     const Mask none = !(dot(u, u) > zero());
     return {u.x + zero(), u.y + zero(), select(none, broadcast(1.0f), u.z) + zero()};
 }
 
-/// A normal with two axes in the plane across it.
+/// A normal with two axes in the plane perpendicular to it.
 /// Based on: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
 struct Plane {
     Vectors n, x, y;
@@ -106,8 +106,8 @@ struct Plane {
     [[nodiscard]] Vectors raise(Flat f) const { return f.x * x + f.y * y; }
 };
 
-/// Solves three equations by Cholesky's way (L D L^T). m: 00 01 02 11 12 22, to whose diagonal `ridge`, twice that, and
-/// `ridge` are added: this keeps the pivots positive, but for rounding.
+/// Solves three equations by LDL^T decomposition. m: 00 01 02 11 12 22; `ridge`, twice that, and `ridge` are added to
+/// its diagonal, which keeps the pivots positive, except for rounding.
 template <class Right>
 inline void solveRidged(const Floats (&m)[6], Floats ridge, const Right (&p)[3], Right (&q)[3]) {
     const Floats one = broadcast(1.0f), least = broadcast(0.5f) * ridge, two = ridge + ridge;
@@ -122,13 +122,13 @@ inline void solveRidged(const Floats (&m)[6], Floats ridge, const Right (&p)[3],
     q[0] = i0 * p[0] - l1 * q[1] - l2 * q[2];
 }
 
-// The arc cosine on lanes. Included after lanes_*.h, with TSPACE_LANES set to its namespace.
+// Arc cosine on lanes. Included after lanes_*.h, with TSPACE_LANES set to its namespace.
 
-/// acos of three cosines, rounded to float: the bits of the C library's double acos rounded to float (compared
-/// for every float). Three at a time, step by step, because each step waits for the one before it.
+/// Computes acos of three cosines, rounded to float: the bits of the C library's double acos rounded to float (compared
+/// for every float). Three at a time, interleaved, because each step depends on the previous one.
 ///
-/// y = min(c^2, (1 - |c|) / 2), which is at most 1/4, and s = sqrt(y) is |c| or, from 1/2 on, the sine of
-/// half the angle. asin(s) = s + s y P(y). Then acos(c) is pi/2 -+ asin(s), or 2 asin(s), or pi - 2 asin(s).
+/// y = min(c^2, (1 - |c|) / 2), which is at most 1/4, and s = sqrt(y) is |c| or, from 1/2 on, the sine of half the
+/// angle. asin(s) = s + s y P(y). Then acos(c) is pi/2 -+ asin(s), or 2 asin(s), or pi - 2 asin(s).
 inline void arcCosines(const Floats (&cosines)[3], Floats (&angles)[3]) {
     // Minimax, of degree 11: the error of y P(y) is below 2^-55.
     constexpr double kHighest = 0x1.030c9deb668f4p-5;

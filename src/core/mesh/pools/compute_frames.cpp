@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Normals, tangents, sanitize and split for all primitives of one vertex pool.
+// Normals, tangents, sanitizing and splitting for all primitives of one vertex pool.
 #include <algorithm>
 #include <cstring>
 #include <numeric>
@@ -24,8 +24,8 @@ namespace tspace {
 
 namespace {
 
-/// A convention may be chosen by an engine's name, but the geometry stays the file's: right-handed, faces
-/// counter-clockwise, in every format that is read.
+/// Keeps the file's coordinate system: a convention may be an engine's preset, but the geometry is right-handed with
+/// counter-clockwise faces, in every supported format.
 FramesOptions inFileCoordinates(FramesOptions options) {
     for (Convention* convention : {&options.tangents.convention, &options.normals.convention}) {
         convention->handedness = Handedness::right;
@@ -34,7 +34,7 @@ FramesOptions inFileCoordinates(FramesOptions options) {
     return options;
 }
 
-/// The number of corners after polygons are cut.
+/// Returns the number of corners after triangulation.
 std::size_t cornersOfTriangles(const PrimitiveGeometry& primitive) {
     if (primitive.face_sizes.empty()) return primitive.indices.size();
     std::size_t triangle_count = 0;
@@ -42,7 +42,7 @@ std::size_t cornersOfTriangles(const PrimitiveGeometry& primitive) {
     return 3 * triangle_count;
 }
 
-/// So that the caller can end a long call between its steps.
+/// Lets the caller cancel a long call between its steps.
 void callProgress(const FramesOptions& options) {
     if (options.progress) options.progress("computing tangents", 0, 0);
 }
@@ -83,8 +83,9 @@ class FrameComputer {
     }
 
   private:
-    /// Frames of one primitive, appended to what the split works on. Polygons are cut after the normals, which want
-    /// whole faces, and before the tangents: whoever reads the result sees triangles, and would compute with these.
+    /// Computes the frames of one primitive and appends them for the split. Polygons are triangulated after the
+    /// normals, which need whole faces, and before the tangents: readers of the result see triangles, and would compute
+    /// with these.
     Result<Done> computePrimitive(const PrimitiveGeometry& primitive, FramesReport& report) {
         if (primitive.indices.empty()) {
             corner_counts_.push_back(0);
@@ -124,8 +125,8 @@ class FrameComputer {
         return Done{};
     }
 
-    /// Normals per corner, and in the mesh one per vertex: vertices with several normals are split first, so
-    /// that a method that works per vertex sees the mesh that will be written.
+    /// Computes normals per corner, and one per vertex of the mesh: vertices with several normals are split first, so
+    /// that a per-vertex method uses the mesh that will be written.
     Result<Done> computeNormals(const PrimitiveGeometry& primitive, LocalMesh& mesh, std::vector<Vec3>& normals,
                                 FramesReport& report) const {
         NormalOptions options = options_.normals;
@@ -153,8 +154,8 @@ class FrameComputer {
 
     [[nodiscard]] bool takesQuads() const { return options_.tangents.method == Method::mikktspace; }
 
-    /// Turns triangles into quads where the options choose that and there are any; `polygons` are the file's own. What
-    /// morph targets add to tangents that stay is computed on the faces that these tangents were made on.
+    /// Converts triangles to quads if requested and possible; `polygons` are the file's own. Morph deltas of kept
+    /// tangents are computed on the faces that these tangents were computed on.
     Result<Done> chooseQuads(QuadFaces&& polygons, LocalMesh& mesh, FramesReport& report) const {
         if (!takesQuads()) return Done{};
         QuadFaces faces = std::move(polygons);
@@ -222,7 +223,7 @@ class FrameComputer {
         return Done{};
     }
 
-    /// Mends the tangents of the mesh just computed, which is appended next.
+    /// Repairs the tangents of the mesh that was just computed, which is appended next.
     void mendTangents(std::span<const std::uint32_t> vertices, const Mends& mends) {
         const std::span<Vec4> tangents = this->tangents().subspan(corners_.size(), vertices.size());
         const std::vector<Vec4> computed(tangents.begin(), tangents.end());
@@ -237,7 +238,7 @@ class FrameComputer {
         }
     }
 
-    /// `vertices`: of the primitive's corners. Those of a single primitive are not copied.
+    /// `vertices`: vertices of the primitive's corners. For a single primitive they are not copied.
     void append(std::span<const std::uint32_t> vertices, bool is_cut, std::vector<Vec3>&& normals) {
         if (primitives_.size() == 1 && !is_cut) {
             corners_ = vertices;
@@ -269,7 +270,7 @@ class FrameComputer {
         return frames;
     }
 
-    /// Keeps all vertices and only compares the tangents of the base.
+    /// Keeps all vertices, and only compares the tangents of the base.
     Result<PoolFrames> keepPool() {
         PoolFrames frames;
         frames.differing_count = countDiffering(tangents(), pool_.kept_tangents, corners_);
@@ -314,7 +315,7 @@ class FrameComputer {
         frames.source_vertices = std::move(split.source_vertices);
     }
 
-    /// Cuts the indices of all primitives into those of each.
+    /// Splits the indices of all primitives into one list per primitive.
     void cutIndices(std::vector<std::uint32_t>&& indices, PoolFrames& frames) const {
         if (corner_counts_.size() == 1) {
             frames.indices.push_back(std::move(indices));
@@ -328,7 +329,7 @@ class FrameComputer {
         }
     }
 
-    /// Counts the vertices to be mended that got another tangent, or other offsets of targets.
+    /// Counts repaired vertices whose tangent or morph offsets changed.
     void countMended(const SplitResult& split, std::span<const Vec4> tangents) {
         std::vector<bool> changed(pool_.positions.count, false);
         for (std::size_t v = 0; v < split.vertexCount(); ++v) {
@@ -348,7 +349,7 @@ class FrameComputer {
     }
 
     void writeTangents(const SplitResult& split, PoolFrames& frames) const {
-        // Reserved first: growing would touch fresh pages one by one.
+        // Reserves first: growing would touch fresh pages one by one.
         frames.tangents.reserve(split.vertexCount());
         askForPages(frames.tangents.data(), split.vertexCount() * sizeof(Vec4));
         if (generates_bitangents_) frames.bitangents.reserve(split.vertexCount());
@@ -370,7 +371,7 @@ class FrameComputer {
         }
     }
 
-    /// The frame of a vertex that no corner uses: any that is orthonormal.
+    /// Writes the frame of an unused vertex: an arbitrary orthonormal frame.
     void writeUnused(std::uint32_t vertex, PoolFrames& frames) const {
         const Vec3 normal = generates_normals_ ? Vec3{0, 0, 1} : pool_.normals[vertex];
         frames.tangents.push_back(tangentFromNormal(normal, signFactor(options_.tangents.convention)));
@@ -398,7 +399,8 @@ class FrameComputer {
     Buffer<Vec4> tangents_;
     Buffer<Vec3> bitangents_;
     std::vector<std::size_t> corner_counts_;
-    // With mended tangents: whether what targets add is new, per corner, and what computing would change.
+    // For repaired tangents: whether morph offsets are new, per corner, and the number of tangents that differ from
+    // computed ones.
     std::vector<bool> has_new_offsets_;
     std::uint64_t differing_count_ = 0;
 };
@@ -423,7 +425,7 @@ Error checkPool(const PoolView& pool, std::span<const PrimitiveGeometry> primiti
     return {ErrorCode::ok, {}};
 }
 
-/// Normals first, as a pool of its own, so that tangents of every target see the vertices that will be written.
+/// Computes normals first, as a separate pool, so that tangents of every target use the vertices that will be written.
 Result<PoolFrames> computeWithMorphedNormals(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
                                              const FramesOptions& options, std::span<FramesReport> reports) {
     PoolWithNormals made;
@@ -445,7 +447,7 @@ Result<PoolFrames> computeWithMorphedNormals(const PoolView& pool, std::span<con
     return frames;
 }
 
-/// Vertices that a split adds, from which on it is worth to look for what made it: one in so many.
+/// If a split adds at least one in this many vertices, its causes are counted.
 constexpr std::size_t kManySplit = 20;
 
 void countFaults(const PoolView& pool, const PoolFrames& frames, float weld_distance, std::span<FramesReport> reports) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A primitive takes out of its pool what it uses. With its surroundings, the mesh and the triangles around it become one mesh
-// for the call.
+// A primitive copies the parts of its pool that it uses. The mesh and the triangles around it become one mesh for the
+// call.
 #include "core/mesh/pools/local_mesh.h"
 
 #include <algorithm>
@@ -56,7 +56,7 @@ LocalMesh LocalMeshes::make(const PrimitiveGeometry& primitive) {
     return mesh;
 }
 
-/// The used part of the pool, vertices in order of first use.
+/// Copies the used part of the pool, with vertices in order of first use.
 void LocalMeshes::takeUsedPart(const PrimitiveGeometry& primitive, LocalMesh& mesh) {
     local_of_vertex_.resize(pool_.positions.count, kNoSlot);
     std::vector<std::uint32_t>& sources = mesh.sources;
@@ -89,8 +89,8 @@ std::vector<Vec3> gatherNormals(const std::vector<Vec3>& normals, const std::vec
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
-/// A stored normal that was made on its own side alone differs from the common one by half of the bend at the border;
-/// one that differs by more is meant as a hard edge.
+/// A stored normal computed on its own side only differs from the common one by half of the bend at the border; a
+/// normal that differs by more is an intended hard edge.
 constexpr double kMostTakenDeg = 30;
 
 }  // namespace
@@ -114,7 +114,7 @@ BorderedNormals::BorderedNormals(const LocalMesh& mesh, const Surroundings* arou
 
 Result<NormalReport> BorderedNormals::base(StridedSpan<Vec3> out) {
     if (around_ == nullptr) return generateNormals(mesh_.view(), options_, out, execution_);
-    // Triangles of the surroundings are left out of counts.
+    // Triangles of the surroundings are excluded from counts.
     const MeshView others = around_->mesh.view();
     std::vector<Vec3> normals(others.cornerCount());
     NormalOptions flat = options_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One primitive as a mesh of its own, alone or with the triangles around it.
+// One primitive as a separate mesh, alone or with the triangles around it.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,10 @@
 
 namespace tspace {
 
-// One primitive as a mesh of its own. A pool is often shared by many primitives that each use a small part of it, and
-// what the methods do per vertex should cost in proportion to that part.
+// One primitive as a separate mesh. A pool is often shared by many primitives that each use a small part of it, and the
+// cost of per-vertex operations should be proportional to that part.
 
-/// A view of arrays of the pool, or of its own. Moving it leaves the views valid.
+/// View of arrays of the pool, or of its own arrays. Moving it keeps the views valid.
 struct LocalMesh {
     StridedSpan<const Vec3> positions, normals;
     StridedSpan<const Vec2> uvs;
@@ -26,9 +26,9 @@ struct LocalMesh {
     std::span<const std::uint32_t> face_sizes;
 
     OwnedMesh own;  ///< arrays that are not borrowed from the pool
-    /// The vertex of the pool that each vertex was when the mesh was made; empty: the same.
+    /// Pool vertex of each vertex at creation; empty: identity.
     std::vector<std::uint32_t> sources;
-    /// For quads that were paired from triangles: the face corner of each corner of the triangles. Empty: faces are the
+    /// For quads that were paired from triangles: the face corner of each triangle corner. Empty: the faces are the
     /// triangles.
     std::vector<std::uint32_t> face_corners;
 
@@ -43,7 +43,7 @@ struct LocalMesh {
         uvs = own.uvs;
     }
 
-    /// Corners of its triangles.
+    /// Returns the number of corners of its triangles.
     [[nodiscard]] std::size_t triangleCornerCount() const {
         return face_corners.empty() ? indices.size() : face_corners.size();
     }
@@ -59,22 +59,22 @@ struct LocalMesh {
     }
 };
 
-/// Turns a mesh of triangles into one of these faces over them.
+/// Converts a triangle mesh to a mesh of these faces over the triangles.
 void takeFaces(QuadFaces&& faces, LocalMesh& mesh);
 
-/// values[face corner] for each corner of the mesh's triangles.
+/// Sets of_triangles[c] to the value of the face corner of each triangle corner c.
 template <class T>
 void toTriangles(const LocalMesh& mesh, std::span<const T> values, std::span<T> of_triangles) {
     for (std::size_t c = 0; c < of_triangles.size(); ++c) of_triangles[c] = values[mesh.face_corners[c]];
 }
 
-/// The whole pool with the corners of one primitive.
+/// Returns a view of the whole pool with the corners of one primitive.
 MeshView viewInPool(const PoolView& pool, const PrimitiveGeometry& primitive);
 
-/// Makes the meshes of a pool's primitives, which must be valid.
+/// Creates the meshes of a pool's primitives, which must be valid.
 class LocalMeshes {
   public:
-    /// The pool must outlive this.
+    /// The pool must outlive the object.
     LocalMeshes(const PoolView& pool, std::size_t primitive_count) : pool_(pool), primitive_count_(primitive_count) {}
 
     LocalMesh make(const PrimitiveGeometry& primitive);
@@ -89,7 +89,7 @@ class LocalMeshes {
 
 inline std::span<const std::uint32_t> spanOf(const std::vector<std::uint32_t>& values) { return values; }
 
-/// values[source] for each source; nothing where there are no values.
+/// Returns values[source] for each source; empty if there are no values.
 template <class T>
 std::vector<T> gather(StridedSpan<const T> values, const std::vector<std::uint32_t>& sources) {
     std::vector<T> result;
@@ -104,32 +104,34 @@ std::vector<T> gather(std::span<const T> values, const std::vector<std::uint32_t
     return gather(StridedSpan<const T>(values), sources);
 }
 
-/// One normal per vertex, from any of its corners; unused vertices get an arbitrary one.
+/// Returns one normal per vertex, from any of its corners; unused vertices get an arbitrary one.
 std::vector<Vec3> gatherNormals(const std::vector<Vec3>& normals, const std::vector<std::uint32_t>& corners);
 
-// Normals of a primitive that is one surface with others: their triangles at the border count too.
+// Normals of a primitive that forms one surface with others: triangles of the others at the border also contribute.
 
-/// Triangles of other primitives around one. They get no normals here.
+/// Triangles of other primitives around a primitive. Their normals are not computed here.
 struct Surroundings {
-    OwnedMesh mesh = {};  ///< its normals are those that stay, zero where there is none; it may have none at all
+    OwnedMesh mesh = {};               ///< normals that are kept, zero if none; may have no normals
     std::size_t triangles_before = 0;  ///< triangles of primitives that precede this one in the file
     std::uint64_t point_count = 0;     ///< positions that the primitive shares with the others
-    /// Like MorphTargets::read, for these vertices; no function if targets do not move them.
+    /// Like MorphTargets::read, for these vertices; empty if targets do not move them.
     std::function<Result<MorphOffsets>(std::size_t)> read = {};
 };
 
-/// The normals of one primitive, on the base and in poses, one after the other.
+/// Normals of one primitive, on the base and in poses, one after the other.
 class BorderedNormals {
   public:
-    /// `around`: null where nothing is around the mesh, which has polygons only then. All must outlive this.
+    /// `around`: null if no triangles surround the mesh; required for meshes with polygons. All arguments must outlive
+    /// the object.
     BorderedNormals(const LocalMesh& mesh, const Surroundings* around, const NormalOptions& options,
                     const Execution& execution);
 
-    /// generateNormals of the mesh, one per corner of it. Where a vertex around the mesh has a normal that stays, and that is
-    /// within 30 degrees (and within the crease angle) of the one that would be made at the same position, it is taken.
-    /// Sums are in the order of the file, so that both sides of a border get the same bits.
+    /// Computes generateNormals of the mesh, one per corner. If a surrounding vertex at the same position has a normal
+    /// that is kept, within 30 degrees (and within the crease angle) of the computed one, that normal is used. Sums are
+    /// in file order, so that both sides of a border get the same bits.
     Result<NormalReport> base(StridedSpan<Vec3> out);
-    /// generatePoseNormals, after base(); `positions` are those of the mesh as target `target` moves it.
+    /// Computes generatePoseNormals; call after base(). `positions` are the positions of the mesh moved by target
+    /// `target`.
     Result<NormalReport> pose(const StridedSpan<const Vec3>& positions, std::size_t target, StridedSpan<Vec3> out);
 
   private:
@@ -140,9 +142,9 @@ class BorderedNormals {
     const Surroundings* around_;
     const NormalOptions& options_;
     const Execution& execution_;
-    OwnedMesh whole_ = {};          ///< the vertices of the mesh, then those around it; empty: nothing is around it
-    std::size_t first_corner_ = 0;  ///< number of the first corner in the mesh
-    std::vector<std::uint32_t> stays_ = {};  ///< per corner of the mesh: the vertex around it whose normal it takes
+    OwnedMesh whole_ = {};                   ///< vertices of the mesh, then surrounding ones; empty: none surround it
+    std::size_t first_corner_ = 0;           ///< number of the first corner in the mesh
+    std::vector<std::uint32_t> stays_ = {};  ///< per corner of the mesh: the surrounding vertex whose normal it uses
     std::uint64_t degenerate_around_ = 0;
 };
 

@@ -14,7 +14,7 @@ namespace tspace {
 
 namespace {
 
-/// The cosine of 10 degrees, by which `check` lets a direction be off.
+/// cosine of 10 degrees, the direction tolerance of `check`
 constexpr double kSameTangent = 0.98480775301220802;
 
 bool isNear(const Vec4& a, const Vec4& b) {
@@ -22,7 +22,7 @@ bool isNear(const Vec4& a, const Vec4& b) {
     return normalize(ta) && normalize(tb) && dot(ta, tb) >= kSameTangent;
 }
 
-/// Whether the triangle of a corner says which sign is right there.
+/// Returns whether the triangle of a corner determines the correct sign.
 bool hasSide(const PoolView& pool, std::span<const std::uint32_t> corners, std::size_t corner) {
     const std::uint32_t* const v = corners.data() + corner / 3 * 3;
     const std::array<Vec2, 3> uvs{pool.uvs[v[0]], pool.uvs[v[1]], pool.uvs[v[2]]};
@@ -41,7 +41,7 @@ Vec4 withDirection(const DVec3& direction, float sign) {
     return {t.x, t.y, t.z, sign};
 }
 
-/// Perpendicular to N. A tangent without a part in that plane stays as it is.
+/// Returns the tangent made perpendicular to N; unchanged if it is parallel to N.
 Vec4 straightened(const Vec4& tangent, const Vec3& normal) {
     DVec3 n = toDouble(normal), t = toDouble(xyz(tangent));
     if (!normalize(n)) return tangent;
@@ -49,7 +49,7 @@ Vec4 straightened(const Vec4& tangent, const Vec3& normal) {
     return normalize(t) ? withDirection(t, tangent.w) : tangent;
 }
 
-/// The kept tangent, mended without a look at the triangles around it.
+/// Returns the kept tangent, repaired independently of the triangles around it.
 Vec4 mendedAlone(const Vec4& kept, const Vec4& computed, const Vec3& normal, std::uint8_t parts) {
     Vec4 tangent = withSoundValues(kept, computed, normal);
     if ((parts & mend::kStraighten) != 0) tangent = straightened(tangent, normal);
@@ -58,9 +58,9 @@ Vec4 mendedAlone(const Vec4& kept, const Vec4& computed, const Vec3& normal, std
 }
 
 constexpr double kUnitTolerance = 5e-4;  // same tolerance as in sanitize
-constexpr double kOffPlane = 0.05;       // sine; normals of few bits are not unit, and tangents lean by a degree there
+constexpr double kOffPlane = 0.05;  // sine; normals with few bits are not unit, and tangents deviate by a degree there
 constexpr double kSameDirection = 0.99;  // cosine of 8 degrees
-// Least triple product: UVs that are sheared by 89.9 degrees have 0.0017.
+// Minimum triple product: UVs sheared by 89.9 degrees have 0.0017.
 constexpr double kSide = 1e-4;
 
 /// Returns the unit vector, or zero if v has no direction.
@@ -69,7 +69,7 @@ DVec3 unitOrZero(const DVec3& v) {
     return size > 0 && std::isfinite(size) ? (1 / size) * v : DVec3{};
 }
 
-// Written so that NaN is not sound.
+// Formulated so that NaN is invalid.
 bool isSound(const DVec3& b, const DVec3& n, const Vec4& computed, const Vec4& mended) {
     const DVec3 t = toDouble(xyz(mended));
     if (!(std::fabs(length(b) - 1) <= kUnitTolerance)) return false;
@@ -104,7 +104,7 @@ Result<Done> mendValues(const TangentView& mesh, bool along_normals, std::span<V
         is_broken[v] = !hasDirection(tangents[v], judgedBy(v));
         if (!is_broken[v]) tangents[v] = withSoundValues(tangents[v], {}, judgedBy(v));
     }
-    // Broken ones get what their triangles have elsewhere, and without that a basis from N.
+    // Invalid tangents get the tangent of other corners of their triangles, or else a basis from N.
     std::vector<Vec4> of_corners;
     for (const std::uint32_t v : mesh.corners) of_corners.push_back(is_broken[v] ? Vec4{} : tangents[v]);
     if (!mesh.normals.empty() && !mesh.corners.empty()) {
@@ -136,7 +136,7 @@ std::vector<bool> mendCorners(const PoolView& pool, std::span<const std::uint32_
         if ((parts & mend::kSides) != 0 && hasSide(pool, corners, c)) {
             is_new = is_new || (stays.w > 0) != (computed.w > 0) || !isNear(stays, computed);
         }
-        // Deltas belong to the direction that they were made for.
+        // Deltas are only valid for the direction that they were computed for.
         is_new = is_new || (wants_deltas && !isNear(stays, computed));
         tangents[c] = is_new ? computed : stays;
         has_new_deltas[c] = is_new || wants_deltas;

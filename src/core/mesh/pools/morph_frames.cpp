@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Each target is evaluated on the plan of the base, mended as the base was, and compared with the base corner by
-// corner. Where nothing near a corner moves the evaluation has the base's bits, so the offset is exactly zero. Where a
-// target makes faces collapse (an eye that closes), the corner has no tangent of its own and keeps that of the base.
+// Each target is evaluated on the plan of the base, repaired like the base, and compared with the base corner by
+// corner. If nothing near a corner moves, the evaluation has the bits of the base, so the offset is exactly zero. If a
+// target makes faces collapse (an eye that closes), the corner has no tangent of its own and keeps the tangent of the
+// base.
 //
-// A group of the base goes on over equal vertices. Where a target gives those different normals, as flat shading does
-// where it bends a plane, one tangent for all would lean out of every face; so there the moved shape is grouped anew.
+// A group of the base extends over equal vertices. If a target gives these different normals, as flat shading does when
+// a plane bends, a common tangent would point out of every face; the moved shape is then regrouped.
 #include "core/mesh/pools/morph_frames.h"
 
 #include <algorithm>
@@ -25,11 +26,11 @@ namespace tspace {
 namespace {
 
 constexpr double kCosineOfFiveDegrees = 0.99619469809174555;
-constexpr double kTenthOfADegree = 0.0017453283658983088;  // its sine
+constexpr double kTenthOfADegree = 0.0017453283658983088;  // as a sine
 
 Vec3 sum(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 
-/// The moved normal as viewers compute it. A sum without direction stays as it is, and is mended later.
+/// Returns the moved normal as viewers compute it. A sum without direction is returned unchanged, and repaired later.
 Vec3 unitSum(const Vec3& normal, const Vec3& offset) {
     const Vec3 moved = sum(normal, offset);
     const DVec3 wide = toDouble(moved);
@@ -41,21 +42,21 @@ bool hasDirection(const Vec4& tangent) {
     return isFinite(xyz(tangent)) && length(toDouble(xyz(tangent))) >= double{FLT_MIN};
 }
 
-/// Whether the tangent has a direction, within a tenth of a degree of the plane.
+/// Returns whether the tangent has a direction, within a tenth of a degree of the plane perpendicular to N.
 bool liesAcross(const Vec4& tangent, const Vec3& normal) {
     const DVec3 t = toDouble(xyz(tangent)), n = toDouble(normal);
     return hasDirection(tangent) && std::fabs(dot(t, n)) <= kTenthOfADegree * length(t) * length(n);
 }
 
-/// Whether it points out of the plane of a unit normal. No sum of what lies in the plane does, unless it
-/// cancels out and leaves its rounding.
+/// Returns whether it points out of the plane of a unit normal. Sums of vectors in the plane do not, unless they cancel
+/// out and only rounding errors are left.
 bool leansOut(const Vec4& tangent, const Vec3& normal) {
     constexpr double kAboutUnit = 1e-3, kSineOfFiveDegrees = 0.08715574274765817;
     const DVec3 t = toDouble(xyz(tangent)), n = toDouble(normal);
     return std::fabs(dot(n, n) - 1) < kAboutUnit && std::fabs(dot(t, n)) > kSineOfFiveDegrees * length(t);
 }
 
-/// The tangent of the base, made orthogonal to another normal that has a direction.
+/// Returns the tangent of the base, made orthogonal to another normal that has a direction.
 Vec4 carried(const Vec4& tangent, const Vec3& from, const Vec3& to) {
     if (from == to || !isFinite(to) || isZero(to)) return tangent;
     const Vec3 t = orthonormalize({.tangent = xyz(tangent), .bitangent = {}, .normal = to}).tangent;
@@ -64,7 +65,8 @@ Vec4 carried(const Vec4& tangent, const Vec3& from, const Vec3& to) {
 
 unsigned stepsOf(const TangentOptions& options) { return options.method == Method::best ? options.refine : 0; }
 
-/// values + offsets, vertex by vertex; a vertex with the offset zero keeps its bits. Returns whether one has another.
+/// Computes values + offsets, per vertex; a vertex with a zero offset keeps its bits. Returns whether any vertex
+/// changed.
 template <class Add>
 bool move(const StridedSpan<const Vec3>& values, const LocalMesh& mesh, const std::vector<Vec3>& offsets, Add&& add,
           std::vector<Vec3>& out) {
@@ -81,7 +83,7 @@ bool move(const StridedSpan<const Vec3>& values, const LocalMesh& mesh, const st
     return moves;
 }
 
-/// Compares bit by bit, so that a NaN equals itself; both zeros are equal.
+/// Compares bits, so that NaN equals itself; both zeros are equal.
 bool areOne(const Vec3& a, const Vec3& b) {
     return weldBits(a.x) == weldBits(b.x) && weldBits(a.y) == weldBits(b.y) && weldBits(a.z) == weldBits(b.z);
 }
@@ -136,7 +138,7 @@ bool MorphPose::take(const LocalMesh& mesh, const MorphOffsets& offsets) {
 }
 
 Vec3 offsetBetween(const Vec3& from, const Vec3& to) {
-    // A sum with +0 is never -0.
+    // Adding +0 removes the sign of -0.
     const Vec3 offset{to.x - from.x + 0.0f, to.y - from.y + 0.0f, to.z - from.z + 0.0f};
     return isFinite(offset) ? offset : Vec3{};
 }
@@ -180,7 +182,7 @@ Result<Done> MorphTangents::compute(std::span<const Vec4> tangents, MorphSplit& 
     return Done{};
 }
 
-/// `base` and `offsets` are of the corners of triangles.
+/// `base` and `offsets` are per triangle corner.
 Result<Done> MorphTangents::evaluateFaces(const Piece& piece, std::span<const Vec4> base, std::span<Vec3> offsets) {
     const std::vector<std::uint32_t>& face_corners = piece.mesh.face_corners;
     if (face_corners.empty()) return evaluate(piece, base, offsets);
@@ -201,13 +203,13 @@ Result<Done> MorphTangents::evaluate(const Piece& piece, std::span<const Vec4> b
         evaluateTangents(piece.plan, {posed.positions, posed.normals}, {.tangents = tangents_}, options_.execution);
     if (!made) return made.error();
     if (piece.classes.findApart(piece.mesh.indices, pose_.positions(), pose_.normals(), apart_)) {
-        // A step reads the results of neighbours.
+        // A refinement step reads the results of neighbors.
         piece.classes.spread(piece.mesh, stepsOf(options_.tangents), apart_);
         if (Result<Done> done = regroup(piece, posed); !done) return done;
     }
     stays_.assign(base.size(), false);
     if (options_.sanitize) {
-        // Sanitize reads other corners at a position: moves elsewhere must not change corners that stay.
+        // Sanitizing reads other corners at a position: movement elsewhere must not change corners that do not move.
         for (std::size_t c = 0; c < base.size(); ++c) stays_[c] = staysAt(piece, c);
         carryOver(piece, base);
         const Result<SanitizeReport> mended =
@@ -223,9 +225,9 @@ Result<Done> MorphTangents::evaluate(const Piece& piece, std::span<const Vec4> b
     return Done{};
 }
 
-/// Groups the moved shape anew where equal vertices came apart. Where the corner's own triangles give no tangent (a
-/// default leans out of the plane), or the other sign, which no target can cause, the tangent of the base's group is
-/// laid into the plane.
+/// Regroups the moved shape where equal vertices have moved apart. If the corner's own triangles give no tangent (a
+/// default points out of the plane), or the opposite sign, which a target cannot represent, the tangent of the base's
+/// group is projected into the plane.
 Result<Done> MorphTangents::regroup(const Piece& piece, const MeshView& posed) {
     regrouped_.resize(tangents_.size());
     const Result<TangentReport> made =
@@ -244,7 +246,7 @@ Result<Done> MorphTangents::regroup(const Piece& piece, const MeshView& posed) {
     return Done{};
 }
 
-/// Whether the corner has the bits of the base, before anything was mended.
+/// Returns whether the corner has the bits of the base, before any repair.
 bool MorphTangents::staysAt(const Piece& piece, std::size_t corner) const {
     const std::uint32_t v = piece.mesh.indices[corner];
     return std::memcmp(&tangents_[corner], &piece.unmended[corner], sizeof(Vec4)) == 0 &&
@@ -282,8 +284,8 @@ std::uint64_t countDiffering(std::span<const Vec4> computed, std::span<const Vec
     return count;
 }
 
-// Targets come one after the other. Each may split the vertices that there are; a vertex that a later target splits
-// passes on what it has from earlier ones.
+// Targets are processed one after the other. Each may split existing vertices; the new vertices inherit the offsets
+// from earlier targets.
 
 namespace {
 
@@ -354,7 +356,7 @@ std::vector<VertexOffsets> MorphSplit::finish() {
 VertexOffsets spread(const VertexOffsets& offsets, std::span<const std::uint32_t> sources, std::size_t old_count) {
     VertexOffsets result = offsets;
     if (offsets.vertices.empty() || old_count == sources.size()) return result;
-    std::vector<std::uint32_t> places(sources.size(), 0);  // place of each vertex, counted from 1; 0: none
+    std::vector<std::uint32_t> places(sources.size(), 0);  // 1-based position of each vertex; 0: none
     for (std::size_t i = 0; i < offsets.vertices.size(); ++i) {
         places[offsets.vertices[i]] = static_cast<std::uint32_t>(i + 1);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Morph targets: one split for a mesh and all its targets, and what targets add to tangents and normals.
+// Morph targets: one split for a mesh and all its targets, and their offsets for tangents and normals.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,22 @@
 
 namespace tspace {
 
-// One split for a mesh and all its morph targets: a vertex whose corners one target moves apart is split for all.
+// Common split for a mesh and all its morph targets: a vertex whose corners differ in any target is split for all.
 
-/// Offsets after a further split: each vertex from `old_count` on has those of its source, which is an earlier vertex.
+/// Returns offsets after a further split: each vertex from `old_count` on has the offset of its source, an earlier
+/// vertex.
 VertexOffsets spread(const VertexOffsets& offsets, std::span<const std::uint32_t> sources, std::size_t old_count);
 
 class MorphSplit {
   public:
-    /// Goes on from `split`. `may_split` false: where corners of a vertex differ, the first one counts.
+    /// Continues from `split`. If `may_split` is false, the first corner of a vertex determines its offset.
     MorphSplit(SplitResult&& split, bool may_split);
 
-    /// The next target, by an offset per corner, which must be finite. Corners whose offsets differ by no more than
-    /// `tolerance` from the first corner of their vertex share that one's.
+    /// Adds the next target, with one finite offset per corner. Corners whose offsets differ by at most `tolerance`
+    /// from the first corner of their vertex share its offset.
     Result<Done> add(std::span<const Vec3> offsets, float tolerance, const Execution& execution);
 
-    /// Offsets of each target for the vertices there are now.
+    /// Returns the offsets of each target for the final vertices.
     [[nodiscard]] std::vector<VertexOffsets> finish();
 
     [[nodiscard]] SplitResult& split() { return split_; }
@@ -43,15 +44,14 @@ class MorphSplit {
     Result<Done> refine(std::span<const Vec3> offsets, float tolerance, const Execution& execution);
     SplitResult split_;
     bool may_split_;
-    std::vector<std::uint32_t> parents_;  ///< the vertex that each was split from by a target, or itself
+    std::vector<std::uint32_t> parents_;  ///< the vertex that each was split from by a target, or the vertex itself
     std::vector<Target> targets_ = {};
 };
 
-// Offsets that morph targets add to the tangents of a pool: tangents of the moved shape with the groups of the base,
-// minus those of the base. Where a target takes vertices apart that are equal on the base, the moved shape is grouped
-// anew.
+// Offsets of morph targets for the tangents of a pool: tangents of the moved shape with the groups of the base, minus
+// those of the base. If a target separates vertices that are equal on the base, the moved shape is regrouped.
 
-/// Vertices with equal position, normal and UV, over which the grouping methods go on.
+/// Classes of vertices with equal position, normal and UV, across which groups extend.
 class WeldClasses {
   public:
     /// Expected linear time; keeps 4 bytes per vertex.
@@ -59,25 +59,25 @@ class WeldClasses {
 
     [[nodiscard]] std::uint32_t of(std::uint32_t vertex) const { return classes_.class_of[vertex]; }
 
-    /// Marks the classes whose vertices, those that `corners` name, have different positions or normals in a pose.
-    /// Returns whether there is one. Linear.
+    /// Marks the classes whose vertices, among those used by `corners`, have different positions or normals in a pose.
+    /// Returns whether there is any. Linear.
     bool findApart(std::span<const std::uint32_t> corners, std::span<const Vec3> positions,
                    std::span<const Vec3> normals, std::vector<bool>& apart) const;
 
-    /// Marks all classes of a triangle that has a marked one, `rounds` times. Linear in each.
+    /// Marks all classes of a triangle that has a marked one, `rounds` times. Linear in each round.
     void spread(const LocalMesh& mesh, unsigned rounds, std::vector<bool>& apart) const;
 
   private:
     EqualVertices classes_;
 };
 
-/// Target `i` of a pool. Fails with countMismatch where its counts are not those of the pool.
+/// Reads target `i` of a pool. Fails with countMismatch if its counts differ from those of the pool.
 Result<MorphOffsets> readTarget(const PoolView& pool, std::size_t i);
 
-/// A mesh moved by a target. Its arrays are used again for the next one.
+/// A mesh moved by a target. Its arrays are reused for the next target.
 class MorphPose {
   public:
-    /// Returns false, and has no pose, when no vertex of the mesh moves.
+    /// Returns false, without a pose, if no vertex of the mesh moves.
     bool take(const LocalMesh& mesh, const MorphOffsets& offsets);
 
     [[nodiscard]] std::span<const Vec3> positions() const { return positions_; }
@@ -87,10 +87,10 @@ class MorphPose {
     std::vector<Vec3> positions_, normals_;
 };
 
-/// to - from, without signed zeros; zero where it is not finite.
+/// Returns to - from, without negative zeros; zero if it is not finite.
 Vec3 offsetBetween(const Vec3& from, const Vec3& to);
 
-/// For repair: corners whose offsets stay those of the file, in targets that have offsets.
+/// For repair: corners whose offsets from the file are kept, in targets that have offsets.
 struct KeptOffsets {
     std::span<const std::uint32_t> vertices = {};  ///< vertex of the pool for each corner
     const std::vector<bool>& is_new;               ///< one per corner
@@ -100,11 +100,11 @@ class MorphTangents {
   public:
     MorphTangents(const PoolView& pool, const FramesOptions& options) : pool_(pool), options_(options) {}
 
-    /// The next primitive as it was computed: triangles or quads, with normals. `report` gets its counts later.
+    /// Adds the next primitive as computed: triangles or quads, with normals. `report` receives its counts later.
     Result<Done> add(LocalMesh&& mesh, FramesReport& report);
 
-    /// One target after the other. `tangents`: of the base, one per corner of all primitives. Goes on with the split.
-    /// `kept`: null, or where offsets of the file stay.
+    /// Processes all targets. `tangents`: tangents of the base, one per corner of all primitives. Continues the split.
+    /// `kept`: null, or the corners that keep the offsets of the file.
     Result<Done> compute(std::span<const Vec4> tangents, MorphSplit& split, const KeptOffsets* kept);
 
   private:
@@ -112,7 +112,7 @@ class MorphTangents {
         LocalMesh mesh;
         TangentPlan plan;
         WeldClasses classes;
-        std::vector<Vec4> unmended;  ///< of the base, one per corner
+        std::vector<Vec4> unmended;  ///< tangents of the base before repair, one per corner
         FramesReport* report = nullptr;
     };
     Result<Done> evaluateFaces(const Piece& piece, std::span<const Vec4> base, std::span<Vec3> offsets);
@@ -129,40 +129,40 @@ class MorphTangents {
     std::vector<bool> apart_ = {}, stays_ = {};
 };
 
-/// Corners whose tangent differs from that of their vertex by sign, or in direction by more than 5 degrees. `computed`
-/// is unit.
+/// Counts corners whose tangent differs from their vertex's tangent by sign, or in direction by more than 5 degrees.
+/// `computed` is unit.
 std::uint64_t countDiffering(std::span<const Vec4> computed, std::span<const Vec4> of_vertices,
                              std::span<const std::uint32_t> vertices);
 
-/// Corners where the two differ in direction by more than 5 degrees.
+/// Counts corners where the two differ in direction by more than 5 degrees.
 std::uint64_t countDiffering(std::span<const Vec4> computed, std::span<const Vec4> written);
 
-// Normals for a pool that has none, and for its morph targets.
+// Normals for a pool without normals, and for its morph targets.
 
-/// The pool after its normals: with them, and split where corners have different ones, on the base or in a target.
+/// The pool with computed normals, split where corners differ, on the base or in a target.
 struct PoolWithNormals {
     OwnedMesh vertices = {};
-    MorphTargets targets = {};  ///< they read those of the pool it was made from, which must outlive it
+    MorphTargets targets = {};                        ///< read from the original pool, which must outlive it
     std::vector<PrimitiveGeometry> primitives = {};   ///< primitives with the same corners
     std::vector<std::uint32_t> source_vertices = {};  ///< new vertex -> old vertex, identity first
-    std::vector<VertexOffsets> offsets = {};  ///< one per target: what it adds to the normals of the new vertices
+    std::vector<VertexOffsets> offsets = {};  ///< one per target: its offsets for the normals of the new vertices
 };
 
-/// Normals by options.normals. Which edges are hard is the base's matter; what a target adds makes the normals of the
-/// moved shape. Fills the normals of the reports. The result must stay where it is: its targets point into it.
+/// Computes normals with options.normals. The base determines hard edges; the offsets of a target give the normals of
+/// the moved shape. Fills the normals of the reports. The result must not be moved: its targets point into it.
 Result<Done> generatePoolNormals(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
                                  const FramesOptions& options, std::span<FramesReport> reports,
                                  PoolWithNormals& result);
 
-// Offsets that morph targets should add to normals that stay.
+// Morph offsets for normals that are kept.
 
 class TurnedNormals {
   public:
-    /// The pool has normals.
+    /// Requires a pool with normals.
     TurnedNormals(const PoolView& pool, std::span<const PrimitiveGeometry> primitives);
 
-    /// Per vertex the offset that turns its normal as the surface around it turns, when a target adds `positions` (one
-    /// per vertex, or none). Zero where nothing turns, and where triangles vanish.
+    /// Returns, per vertex, the offset that rotates its normal like the surface around it if a target adds `positions`
+    /// (one per vertex, or none). Zero where nothing rotates, and where triangles collapse.
     [[nodiscard]] std::vector<Vec3> offsets(std::span<const Vec3> positions) const;
 
   private:
@@ -170,7 +170,7 @@ class TurnedNormals {
     std::vector<std::uint32_t> corners_ = {};
 };
 
-/// The vertices whose offset is not zero.
+/// Returns the vertices whose offset is not zero.
 VertexOffsets sparse(std::span<const Vec3> offsets);
 
 }  // namespace tspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Normals of the base split the vertices first; then each target in turn, where it bends faces that lie in one plane on
-// the base and are not smooth.
+// Normals of the base split the vertices first; then each target does, where it bends faces that are coplanar on the
+// base and not smooth.
 #include "core/mesh/pools/morph_frames.h"
 
 #include <utility>
@@ -13,7 +13,7 @@ namespace tspace {
 
 namespace {
 
-/// Corners whose normals a target turns alike, but for rounding, stay together. Of unit vectors; 0.0006 degrees.
+/// Tolerance for corners whose normals a target rotates equally, except for rounding. For unit vectors; 0.0006 degrees.
 constexpr float kTolerance = 1e-5f;
 
 class PoolNormals {
@@ -76,7 +76,7 @@ class PoolNormals {
         std::vector<Vec3> offsets(normals_.size());
         std::size_t first = 0;
         for (std::size_t p = 0; p < meshes_.size(); first += primitives_[p++].indices.size()) {
-            // The surroundings of a primitive may move although it does not.
+            // The surroundings of a primitive may move even if it does not.
             if (!pose_.take(meshes_[p], *moved) && !primitives_[p].around) continue;
             const std::span<Vec3> own = std::span(offsets).subspan(first, primitives_[p].indices.size());
             const Result<NormalReport> made = makers_[p].pose(StridedSpan<const Vec3>(pose_.positions()), target, own);
@@ -104,7 +104,7 @@ class PoolNormals {
         result.targets.read = [&old = pool_, &result](std::size_t target) { return readSplit(old, result, target); };
     }
 
-    /// A target of the old pool, for the new vertices, with the normals that were computed.
+    /// Returns a target of the old pool, for the new vertices, with the computed normals.
     static Result<MorphOffsets> readSplit(const PoolView& old, const PoolWithNormals& result, std::size_t target) {
         Result<MorphOffsets> offsets = readTarget(old, target);
         if (!offsets) return offsets;
@@ -138,7 +138,7 @@ Result<Done> generatePoolNormals(const PoolView& pool, std::span<const Primitive
     return PoolNormals(pool, primitives, options, reports).compute(result);
 }
 
-// Base normals that an artist has chosen (of bevels, of foliage) turn with the surface; they are not computed from it.
+// Base normals chosen by an artist (of bevels, of foliage) rotate with the surface; they are not computed from it.
 
 TurnedNormals::TurnedNormals(const PoolView& pool, std::span<const PrimitiveGeometry> primitives) {
     for (std::size_t v = 0; v < pool.positions.count; ++v) {

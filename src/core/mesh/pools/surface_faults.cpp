@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Faults of triangles. Those that are wound against their neighbours are found by union-find: each triangle stores
-// whether it is wound as the root of its set.
+// Detection of triangle faults. Triangles wound against their neighbors are found by union-find: each triangle stores
+// whether its winding equals that of the root of its set.
 #include "core/mesh/pools/primitive.h"
 
 #include <algorithm>
@@ -25,11 +25,11 @@ namespace tspace {
 namespace {
 
 struct WindingCounts {
-    /// Triangles are connected over edges that exactly two share; of those that are connected, the fewer that are wound one
-    /// way. A whole part that is inside out has none.
+    /// Triangles connected over edges that exactly two share: in each component, the minority winding. A whole
+    /// component that is inside out has none.
     std::uint64_t turned_count = 0;
-    /// Triangles of sheets with two sides: another triangle, or two of a flat quad, have the same positions and are wound the
-    /// other way.
+    /// Triangles of two-sided sheets: another triangle, or two of a flat quad, have the same positions and the opposite
+    /// winding.
     std::uint64_t two_sided_count = 0;
 };
 
@@ -39,7 +39,7 @@ class WoundSets {
         for (std::uint32_t i = 0; i < count; ++i) parents_[i] = i;
     }
 
-    /// The root, and whether the triangle is wound the other way.
+    /// Returns the root, and whether the triangle is wound opposite to it.
     std::pair<std::uint32_t, bool> find(std::uint32_t triangle) {
         bool turned = false;
         std::uint32_t root = triangle;
@@ -53,7 +53,7 @@ class WoundSets {
         }
         return {root, turned};
     }
-    /// Joins the sets of two triangles that are wound alike, or not.
+    /// Joins the sets of two triangles with equal or opposite winding.
     void join(std::uint32_t a, std::uint32_t b, bool alike) {
         const auto [root_a, turned_a] = find(a);
         const auto [root_b, turned_b] = find(b);
@@ -72,12 +72,12 @@ struct EdgeUse {
     bool is_forward;
 };
 
-/// A piece of surface by its points, in an order that both sides share.
+/// A face (triangle or quad) with its points in a canonical order, equal for both windings.
 template <std::size_t count>
 struct Side {
     std::array<std::uint32_t, count> points = {};
     std::array<std::uint32_t, 2> triangles = {};
-    bool is_even = false;  ///< the order is a rotation of that of the surface, and not of its reverse
+    bool is_even = false;  ///< the order is a rotation of the face's own, not of its reverse
 
     Side(std::array<std::uint32_t, count> p, std::array<std::uint32_t, 2> of) : points(p), triangles(of) {
         std::rotate(points.begin(), std::min_element(points.begin(), points.end()), points.end());
@@ -86,7 +86,7 @@ struct Side {
     }
 };
 
-/// Marks the triangles of those that are there both ways.
+/// Marks the triangles of faces that exist in both windings.
 template <std::size_t count>
 void markTwoSided(std::vector<Side<count>>& sides, std::vector<bool>& marked) {
     sortList(sides.begin(), sides.end(),
@@ -101,7 +101,7 @@ void markTwoSided(std::vector<Side<count>>& sides, std::vector<bool>& marked) {
     }
 }
 
-/// Both sides of a sheet: triangle by triangle, or quad by quad, of which each side may be cut along another diagonal.
+/// Two-sided sheets: triangle by triangle, or quad by quad, whose sides may have different diagonals.
 class Sheets {
   public:
     Sheets(const StridedSpan<const Vec3>& positions, std::span<const std::uint32_t> corners,
@@ -131,7 +131,7 @@ class Sheets {
     [[nodiscard]] std::uint32_t at(std::uint32_t triangle, std::size_t k) const {
         return points_[3 * std::size_t{triangle} + k];
     }
-    /// The corner across an edge.
+    /// Returns the corner opposite to an edge.
     [[nodiscard]] std::size_t across(const EdgeUse& edge) const {
         std::size_t c = 3 * std::size_t{edge.triangle};
         while (points_[c] == edge.low || points_[c] == edge.high) ++c;
@@ -160,8 +160,8 @@ class Sheets {
     std::span<const std::uint32_t> corners_, points_;
 };
 
-/// `corners`: three per triangle. Positions are compared exactly, but -0 equals 0. O(n log n); 200 bytes per triangle and 20 per
-/// vertex for a while.
+/// Counts winding faults. `corners`: three per triangle. Positions are compared exactly, but -0 equals 0. O(n log n);
+/// 200 bytes per triangle and 20 per vertex temporarily.
 WindingCounts countWinding(const StridedSpan<const Vec3>& positions, std::span<const std::uint32_t> corners) {
     UniqueIndex<std::array<std::uint32_t, 3>> places(positions.count);
     std::vector<std::uint32_t> points(corners.size());
@@ -201,7 +201,7 @@ WindingCounts countWinding(const StridedSpan<const Vec3>& positions, std::span<c
 
 namespace {
 
-/// `positions`: those of NearMesh, since neighbors are found by equal positions.
+/// `positions`: from NearMesh, since neighbors are found by equal positions.
 void countFaultsOf(const StridedSpan<const Vec3>& positions, std::span<const Vec3> normals,
                    std::span<const std::uint32_t> corners, FramesReport& report) {
     for (std::size_t c = 0; !normals.empty() && c + 2 < corners.size(); c += 3) {
@@ -221,7 +221,7 @@ void countFaultsOf(const StridedSpan<const Vec3>& positions, std::span<const Vec
 void countFaults(std::span<const Vec3> positions, std::span<const Vec3> normals,
                  std::span<const std::vector<std::uint32_t>> corner_lists, float weld_distance,
                  std::span<FramesReport> reports) {
-    // Near positions are found once for all primitives, since each may use a small part of the vertices.
+    // Close positions are found once for all primitives, since each may use a small part of the vertices.
     std::vector<std::uint32_t> corners;
     for (const std::vector<std::uint32_t>& list : corner_lists) corners.insert(corners.end(), list.begin(), list.end());
     Parallel parallel(Execution{}, corners.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Choosing among the eight corners of a lattice cell.
+// Selection among the eight corners of a lattice cell.
 #include "core/mesh/pools/unit_lattice.h"
 
 #include <algorithm>
@@ -20,11 +20,12 @@ std::int32_t clampedRound(double value, std::int32_t steps) {
     return static_cast<std::int32_t>(std::lround(std::clamp(value, -1.0, 1.0) * steps));
 }
 
-/// Number `corner` of the cell: each of its three bits chooses the lower or the upper bound of a component.
+/// Returns corner number `corner` of the cell: each of its three bits selects the lower or the upper bound of a
+/// component.
 LatticePoint cornerOf(const Vec3& vector, std::int32_t steps, unsigned corner) {
     const auto component = [&](float value, unsigned bit) {
         const double at = static_cast<double>(value) * steps;
-        // A number within rounding of a lattice point has that point as its only bound.
+        // A value within rounding of a lattice point has that point as its only bound.
         const double nearest = std::round(at);
         const double bound = std::abs(at - nearest) < 1e-3 ? nearest
                              : (corner & bit) != 0         ? std::ceil(at)

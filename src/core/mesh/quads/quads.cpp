@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pairs of triangles, quads by evidence, and the choice of faces, in this order.
+// Pairs of triangles, selection of quads by evidence, and the choice of faces, in this order.
 #include "core/mesh/quads/quads.h"
 
 #include <algorithm>
@@ -14,13 +14,13 @@
 
 namespace tspace {
 
-// Candidates are found triangle by triangle; which of them become quads is a choice of most gain along each run.
+// Candidates are found triangle by triangle; quads are selected along each run to maximize the gain.
 
 namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
 
-/// Vertices that are one corner of a quad.
+/// Tests whether two vertices are the same corner of a quad.
 class SameVertex {
   public:
     SameVertex(const MeshView& mesh, std::span<const Vec4> tangents) : mesh_(mesh), tangents_(tangents) {}
@@ -41,7 +41,7 @@ Corners verticesOf(const MeshView& mesh, std::size_t triangle) {
     return {mesh.indices[3 * triangle], mesh.indices[3 * triangle + 1], mesh.indices[3 * triangle + 2]};
 }
 
-/// Unit, or zero where the triangle has no area.
+/// Returns the unit normal, or zero if the triangle has no area.
 DVec3 normalOf(const MeshView& mesh, const Corners& v) {
     const DVec3 a = toDouble(mesh.positions[v[0]]);
     DVec3 normal = cross(toDouble(mesh.positions[v[1]]) - a, toDouble(mesh.positions[v[2]]) - a);
@@ -58,11 +58,11 @@ std::uint8_t seamOf(const MeshView& mesh, const SameVertex& same, const Corners&
         }
     }
     if (seam == 0) return 0;
-    // Triangles without area fold nowhere.
+    // Triangles without area cannot fold back.
     return dot(normalOf(mesh, a), normalOf(mesh, b)) < 0 ? std::uint8_t{0} : seam;
 }
 
-/// 1 for a rectangle, 0 where all corners are straight or gone.
+/// Returns 1 for a rectangle, 0 if all corners are straight or collapsed.
 double squareness(const MeshView& mesh, const std::uint32_t quad[4]) {
     std::array<DVec3, 4> edges;
     for (unsigned k = 0; k < 4; ++k) {
@@ -98,7 +98,8 @@ QuadPairs choosePairs(const QuadCandidates& candidates, std::span<const float> g
     const std::size_t count = candidates.triangleCount();
     QuadPairs pairs(count, PairKind::none);
     if (count < 2) return pairs;
-    // From the end, so that of equal sums the earlier pair is taken: most[t] is what triangles t and later can gain.
+    // From the end, so that among equal sums the earlier pair wins: most[t] is the maximum gain of triangles t and
+    // later.
     std::vector<double> most(count + 1, 0);
     for (std::size_t t = count - 1; t-- > 0;) {
         most[t] = most[t + 1];
@@ -161,7 +162,7 @@ QuadFaces facesOfPairs(const QuadCandidates& candidates, const QuadPairs& pairs)
         std::array<std::uint32_t, 4> quad;
         candidates.cornersOf(t, pairs[t] == PairKind::turned, quad.data());
         for (const std::uint32_t corner : quad) add(corner);
-        // The other triangle's ends of the diagonal.
+        // The ends of the diagonal in the other triangle.
         const std::size_t i = candidates.patternOf(t) / 3, k = candidates.patternOf(t) % 3, second = 3 * (t + 1);
         faces.face_corners[second + k] = faces.face_corners[3 * t + (i + 1) % 3];
         faces.face_corners[second + (k + 1) % 3] = faces.face_corners[3 * t + i];
@@ -172,21 +173,21 @@ QuadFaces facesOfPairs(const QuadCandidates& candidates, const QuadPairs& pairs)
     return faces;
 }
 
-// Pairs are chosen by evidence: what each would explain, seen in meshes where it is a pair and where it is not.
+// Selection by evidence: compares what each pair explains in a mesh with the pair and in a mesh without it.
 
 namespace {
 
-/// The part of the corners left unexplained by triangles that quads must explain to win. Chosen pairs explain up to 6 %
-/// of them in meshes of other makers, and over 70 % where the quads are the real ones.
+/// Share of the corners unexplained by triangles that quads must explain. Selected pairs explain up to 6 % of them in
+/// meshes of other programs, and over 70 % if the quads are the original ones.
 constexpr double kExplainedPart = 0.4;
 /// Minimum share of all corners.
 constexpr double kExplainedShare = 0.01;
-/// Faces that explain less than half of the corners are not those that the tangents were made on.
+/// Faces that explain less than half of the corners are not the faces that the tangents were computed on.
 constexpr double kMakerShare = 0.5;
 /// If the first two pairings explain less than this share, no other pairing will explain half.
 constexpr double kHopelessShare = 0.25;
 
-/// The corners that a pair explains depend on its neighbours, so pairs are chosen again while that explains more.
+/// The corners that a pair explains depend on its neighbors, so pairs are selected again while that explains more.
 constexpr int kRounds = 4;
 
 double shareOf(std::uint64_t count, std::uint64_t total) {
@@ -231,7 +232,7 @@ class Fitter {
 
     [[nodiscard]] bool isHopeless() const { return shareOf(fit_.near_on_quads, fit_.corner_count) < kHopelessShare; }
 
-    /// Computes with these pairs, remembers what each explains, and keeps the best faces.
+    /// Computes tangents with these pairs, records what each pair explains, and keeps the best faces.
     Result<Done> tryPairs(const QuadPairs& pairs) {
         QuadFaces faces = facesOfPairs(candidates_, pairs);
         Result<std::vector<Vec4>> tangents = tangentsOnFaces(triangles_, faces, execution_);
@@ -255,7 +256,8 @@ class Fitter {
         return Done{};
     }
 
-    /// The pairs that explain most by what is known. A pair that changes nothing is taken: quads are what is looked for.
+    /// Returns the pairs that explain most according to the recorded results. A pair without influence is accepted,
+    /// since quads are being searched.
     [[nodiscard]] QuadPairs bestPairs() const {
         constexpr float kTie = 1e-3F;
         std::vector<float> gains(paired_.size(), 0);
@@ -272,7 +274,7 @@ class Fitter {
     QuadFit& fit() { return fit_; }
 
   private:
-    /// How well the triangle's corners are explained: most for equal tangents, at least half for near ones.
+    /// Returns how well the triangle's corners are explained: highest for equal tangents, at least half for near ones.
     [[nodiscard]] float fitOf(const std::vector<float>& degrees, std::size_t t) const {
         if (votes_[t] == 0) return 0;
         float sum = 0;
@@ -301,12 +303,12 @@ class Fitter {
     const Execution& execution_;
     std::vector<std::uint8_t> votes_;
     std::vector<float> alone_,
-        paired_;            ///< corners explained, in the last computation, by a triangle alone and by a pair
-    QuadPairs best_kinds_;  ///< how the pair was begun when it explained more
+        paired_;            ///< explained corners, in the last computation, by single triangles and by pairs
+    QuadPairs best_kinds_;  ///< kind of the pair when it explained most
     QuadFit fit_ = {};
 };
 
-/// Some pairs of which none is one of these.
+/// Returns pairs that are disjoint from the given ones.
 QuadPairs otherPairs(const QuadCandidates& candidates, const QuadPairs& pairs) {
     std::vector<float> gains(pairs.size());
     for (std::size_t t = 0; t < pairs.size(); ++t) gains[t] = pairs[t] == PairKind::none ? 1.0F : 0.0F;
@@ -376,12 +378,11 @@ Result<QuadFit> fitQuads(const MeshView& triangles, std::span<const Vec4> stored
 
 namespace {
 
-/// In a mesh of quads as Blender writes it nearly all triangles meet in one of its two ways; in one of triangles few
-/// do.
+/// In a quad mesh from Blender nearly all triangles have one of its two edge patterns; in a triangle mesh few do.
 constexpr double kMostTriangles = 0.6;
 
-/// Blender cuts a quad along its first and third corner, one that this would turn over along the others, and writes the
-/// corners of both triangles in the order of the quad's.
+/// Blender cuts a quad along its first and third corner (or, if this would flip a triangle, along the others), and
+/// writes the corners of both triangles in the order of the quad.
 bool isBlendersCut(unsigned pattern) {
     constexpr unsigned kFan = 3 * 2 + 0, kOther = 3 * 1 + 2;
     return pattern == kFan || pattern == kOther;

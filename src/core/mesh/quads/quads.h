@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Quads out of a list of triangles: which pairs can be quads, which were, by the tangents, and which faces are taken.
+// Reconstruction of quads from a list of triangles: candidates, selection by tangents or shape, and the faces to use.
 #pragma once
 
 #include <cstdint>
@@ -12,27 +12,27 @@
 
 namespace tspace {
 
-// Quads out of a list of triangles. Exporters cut a polygon into triangles that follow each other in the list, so a
-// quad can only be triangle t with triangle t + 1, across an edge that both have. Knows topology and shape, no tangents.
+// Exporters cut a polygon into triangles that are consecutive in the list, so a quad can only consist of triangles t
+// and t + 1, across a shared edge. Candidates depend on topology and shape, not on tangents.
 
-/// Finds triangles that can form a quad with the next one. Linear in the triangles; one byte per triangle.
+/// Finds triangles that can form a quad with the next triangle. Linear in the triangles; one byte per triangle.
 class QuadCandidates {
   public:
-    /// Triangles t and t + 1 can be a quad when they share one edge, in opposite directions, and do not fold back on
-    /// each other. An edge is shared when its ends are the same vertices, or equal in position, normal, UV and (where
-    /// there are any) tangent: a corner of a quad has one of each.
+    /// Triangles t and t + 1 can form a quad if they share one edge, in opposite directions, and do not fold back on
+    /// each other. An edge is shared if its ends are the same vertices, or equal in position, normal, UV and (if there
+    /// are any) tangent: a corner of a quad has one of each.
     ///
-    /// triangles   valid; three corners a face
+    /// triangles   valid; three corners per face
     /// tangents    one per vertex, or empty
     explicit QuadCandidates(const MeshView& triangles, std::span<const Vec4> tangents = {});
 
     [[nodiscard]] std::size_t triangleCount() const { return seams_.size(); }
     [[nodiscard]] std::size_t count() const { return count_; }
     [[nodiscard]] bool has(std::size_t t) const { return seams_[t] != 0; }
-    /// The quad of triangles t and t + 1: four corners of the triangle list, in the triangles' winding. The first and
-    /// the third are the ends of the edge between the two; turned: the second and the fourth.
+    /// Returns the quad of triangles t and t + 1: four corners of the triangle list, in the winding of the triangles.
+    /// The first and the third corner are the ends of the shared edge; if turned, the second and the fourth.
     void cornersOf(std::size_t t, bool is_turned, std::uint32_t quad[4]) const;
-    /// Pattern of the shared edge: combination of an edge of t and an edge of t + 1, 0 to 8.
+    /// Returns the pattern of the shared edge: combination of an edge of t and an edge of t + 1, 0 to 8.
     [[nodiscard]] unsigned patternOf(std::size_t t) const { return seams_[t] - 1u; }
 
   private:
@@ -40,91 +40,92 @@ class QuadCandidates {
     std::size_t count_ = 0;
 };
 
-/// The part of a quad that triangle t is. Where both diagonals of a quad are equally long MikkTSpace cuts it between
-/// its first and third corner, so there its first corner matters: an end of the triangles' common edge, as Blender
-/// writes them since 2.80, or another corner.
+/// Role of triangle t in a quad. If both diagonals of a quad are equally long, MikkTSpace cuts it between its first and
+/// third corner, so the first corner matters: an end of the shared edge, as Blender writes since 2.80, or another
+/// corner.
 enum class PairKind : std::uint8_t {
-    none = 0,    ///< a triangle, or the second of a quad
-    quad = 1,    ///< one quad with triangle t + 1
-    turned = 2,  ///< one quad with triangle t + 1, starting one corner later
+    none = 0,    ///< a triangle, or the second triangle of a quad
+    quad = 1,    ///< forms a quad with triangle t + 1
+    turned = 2,  ///< forms a quad with triangle t + 1, starting one corner later
 };
 using QuadPairs = std::vector<PairKind>;
 
-/// Quads and triangles over the corners of a list of triangles, in its order.
+/// Quads and triangles over the corners of a triangle list, in its order.
 struct QuadFaces {
     std::vector<std::uint32_t> sizes = {};    ///< 3 or 4 per face
-    std::vector<std::uint32_t> corners = {};  ///< per corner of a face: the corner of the list that it is
-    /// Per corner of the list: the corner of a face that it is. The ends of a quad's diagonal are two corners of the
-    /// list each.
+    std::vector<std::uint32_t> corners = {};  ///< for each corner of a face: its corner in the list
+    /// For each corner of the list: its corner of a face. Each end of a quad's diagonal is two corners of the list.
     std::vector<std::uint32_t> face_corners = {};
     std::size_t quad_count = 0;
 };
 
-/// The pairs of which no two share a triangle and whose gains add up to most. `gains`: one per triangle t, for making
-/// one quad of t and t + 1; 0 or less: not. Of equal sums the one with the earlier pairs. None is turned. Linear.
+/// Selects disjoint pairs with the largest sum of gains. `gains`: one per triangle t, for forming a quad of t and t +
+/// 1; 0 or less: never. Among equal sums earlier pairs win. Returns no turned pairs. Linear.
 QuadPairs choosePairs(const QuadCandidates& candidates, std::span<const float> gains);
 
-/// The pairs that look most like quads of a modeller: as many as there can be, and among these choices the one whose
-/// triangles meet as most in this list do, and whose corners are nearest to square.
+/// Selects the pairs that look most like modeled quads: the maximum number of pairs, and among these selections the one
+/// whose shared edges have the most frequent pattern of the list, and whose corners are closest to right angles.
 QuadPairs pairsByShape(const MeshView& triangles, const QuadCandidates& candidates);
 
-/// Whether MikkTSpace cuts one of these quads otherwise when it is turned.
+/// Returns whether turning any of these quads changes the diagonal that MikkTSpace cuts.
 bool hasTies(const MeshView& triangles, const QuadCandidates& candidates, const QuadPairs& pairs);
 
-/// `pairs`: one per triangle.
+/// Builds the faces. `pairs`: one per triangle.
 QuadFaces facesOfPairs(const QuadCandidates& candidates, const QuadPairs& pairs);
 
-// Whether tangents were made by MikkTSpace on quads that were cut into triangles later, as Blender does, and which
-// pairs of triangles those quads were.
+// Detection of tangents that MikkTSpace computed on quads that were triangulated later, as in Blender, and of the pairs
+// of triangles that were these quads.
 
-/// Whether quads explain clearly more corners than triangles do. Pairs are chosen by the corners that they explain,
-/// which explains a few more of any mesh; so quads must explain a part of the unexplained corners, and a least number.
+/// Returns whether quads explain clearly more corners than triangles. Pairs are selected by the corners that they
+/// explain, which explains a few more corners of any mesh; so quads must explain a minimum share of the unexplained
+/// corners, and of all corners.
 bool quadsWin(std::uint64_t corner_count, std::uint64_t near_on_triangles, std::uint64_t near_on_quads);
 
 struct QuadFit {
     QuadFaces faces = {};
     std::vector<Vec4> tangents = {};  ///< mikktspace tangents on the faces, one per corner of the triangle list
-    std::uint64_t corner_count = 0;   ///< corners that vote
+    std::uint64_t corner_count = 0;   ///< number of corners that are compared
     std::uint64_t near_on_triangles = 0, near_on_quads = 0;  ///< corners whose tangent is explained
 
     [[nodiscard]] bool wins() const { return quadsWin(corner_count, near_on_triangles, near_on_quads); }
 };
 
-/// Finds the pairs of triangles that explain most. The first choice is that by shape; then each pair is weighed by how
-/// near the stored tangents of its six corners are to those of mikktspace with the pair and without, which is known
-/// after the pairs by shape, these turned, and those they exclude were computed once each; then again with the better
-/// neighbours, as long as that explains more.
+/// Finds the pairs of triangles that explain most corners. Starts with the pairs by shape; then weighs each pair by the
+/// distance of the stored tangents of its six corners from the mikktspace results with and without the pair. These come
+/// from the pairs by shape, the same pairs turned, and the pairs they exclude, computed once each; then repeats with
+/// the improved neighbors, as long as that explains more.
 ///
-/// triangles      valid; three corners a face; with normals and UVs. Those whose UVs say nothing (uvVotes) fit nowhere
+/// triangles      valid; three corners per face; with normals and UVs. Triangles whose UVs determine no direction
+///                (uvVotes) are ignored
 /// stored         one tangent per vertex
-/// tolerance_deg  tangents nearer than this are the same
-/// on_triangles   what mikktspace gives on the triangles as they are, one per corner; empty: it is computed here
+/// tolerance_deg  maximum angle between equal tangents
+/// on_triangles   mikktspace results on the unpaired triangles, one per corner; empty: computed here
 ///
-/// Eight runs of mikktspace at most, and none where there are no two consecutive triangles with a common edge, or the
-/// triangles leave too little unexplained for quads to win: then no face is a quad. Otherwise linear, with about 60
-/// bytes per corner. Fails where generateTangents does.
+/// At most eight runs of mikktspace, and none if no consecutive triangles share an edge, or if the triangles leave too
+/// few corners unexplained: then no face is a quad. Otherwise linear, with about 60 bytes per corner. Errors: those of
+/// generateTangents.
 Result<QuadFit> fitQuads(const MeshView& triangles, std::span<const Vec4> stored, const Execution& execution,
                          double tolerance_deg = 1, std::span<const Vec4> on_triangles = {});
 
-/// mikktspace on these faces, one tangent per corner of the triangle list, with the raw sign.
+/// Computes mikktspace on these faces: one tangent per corner of the triangle list, with the raw sign.
 Result<std::vector<Vec4>> tangentsOnFaces(const MeshView& triangles, const QuadFaces& faces,
                                           const Execution& execution);
 
-// The faces that tangents are computed on or compared with: triangles, or quads that these were cut from.
+// Faces for computing or comparing tangents: triangles, or their original quads.
 
-/// The quads that are meant by `faces`; none (quad_count 0): the triangles. Where tangents are there and fit clearly
-/// better to quads, those that they fit; else `quads` takes the pairs by shape, and so does `automatic` where Blender
-/// wrote a mesh without tangents most of whose triangles meet as those do that it cuts quads into.
+/// Returns the quads for the option `faces`; none (quad_count 0) means triangles. If tangents exist and fit clearly
+/// better to quads, returns these quads. Otherwise `quads` uses the pairs by shape, and so does `automatic` for a mesh
+/// without tangents that Blender wrote and most of whose triangles have the edge pattern of Blender's quads.
 ///
-/// triangles    as fitQuads wants them
+/// triangles    as required by fitQuads
 /// stored       one tangent per vertex, or empty
-/// is_blenders  Blender wrote the file
+/// is_blenders  whether Blender wrote the file
 ///
 /// Cost and errors: those of fitQuads.
 Result<QuadFaces> chooseFaces(const MeshView& triangles, std::span<const Vec4> stored, bool is_blenders, Faces faces,
                               const Execution& execution);
 
-/// Polygons as faces over their own triangles. Those with fewer than three corners are left out.
+/// Returns polygons as faces over their own triangles. Polygons with fewer than three corners are omitted.
 QuadFaces facesOfPolygons(std::span<const std::uint32_t> face_sizes, const Triangulation& triangles);
 
 }  // namespace tspace

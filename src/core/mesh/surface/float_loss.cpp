@@ -15,12 +15,12 @@ Coordinates coordinatesOf(const DVec3& p) { return {p.x, p.y, p.z}; }
 bool isFinite(const DVec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 double rounded(double value) { return static_cast<double>(static_cast<float>(value)); }
 
-/// The middle of the corners along one axis.
+/// Extent of the middle part of the corners along an axis.
 struct Middle {
     double low = 0, high = 0;
 };
 
-/// The middle along an axis, without the first and the last of `parts` equal parts of the sorted corners.
+/// Returns the extent along an axis, without the first and the last of `parts` equal parts of the sorted corners.
 Middle middleOf(const VisitEdges& edges, std::size_t axis, std::size_t parts) {
     std::vector<double> values;
     edges([&](const DVec3& from, const DVec3&) {
@@ -36,8 +36,8 @@ Middle middleOf(const VisitEdges& edges, std::size_t axis, std::size_t parts) {
     return {at(last / parts), at(last - last / parts)};
 }
 
-/// To a multiple of the largest power of ten that is at most `size`. Without a call of libm that rounds differently on
-/// other systems.
+/// Rounds to a multiple of the largest power of ten that is at most `size`, without libm functions that round
+/// differently on other systems.
 double roundedBySize(double value, double size) {
     if (!(size > 0)) size = 1;
     double power = 1, divisor = 1;
@@ -76,7 +76,7 @@ DVec3 roundMiddle(const VisitEdges& edges, std::size_t parts) {
         size = std::max(size, middles[k].high - middles[k].low);
     }
     const auto middle = [&](std::size_t k) {
-        // x + 0.0: a zero without a sign.
+        // x + 0.0 removes the sign of a zero.
         return roundedBySize(middles[k].low + (middles[k].high - middles[k].low) / 2, size) + 0.0;
     };
     return {middle(0), middle(1), middle(2)};
@@ -86,7 +86,7 @@ DVec3 offsetForFloats(const VisitEdges& edges) {
     const FloatLoss before = floatLoss(edges, {});
     if (!before.isNoticeable()) return {};
     const auto isLost = [&](std::size_t k) { return before.isNoticeable(before.changed_along[k]); };
-    // A stray face decides nothing; nor does a part that lies elsewhere, where most faces are together.
+    // Robust against stray faces, and against a part that is far away from most faces.
     for (const std::size_t parts : {20, 4}) {
         const DVec3 middle = roundMiddle(edges, parts);
         const DVec3 offset{isLost(0) ? middle.x : 0, isLost(1) ? middle.y : 0, isLost(2) ? middle.z : 0};

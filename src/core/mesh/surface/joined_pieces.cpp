@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Points first, then what pairs of pieces say of one another at edges and triangles that both have, then groups.
+// Finds points, then votes of pairs of pieces from their shared edges and triangles, then groups.
 #include "core/mesh/surface/surface.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace tspace {
 namespace {
 
 constexpr std::uint32_t kNoPiece = 0xffffffffu;
-/// One triangle in so many of the smaller piece: the pieces lie on one another.
+/// If one in this many triangles of the smaller piece coincides, the pieces coincide.
 constexpr std::size_t kOverlap = 10;
 
 }  // namespace
@@ -83,7 +83,7 @@ std::vector<JoinedPieces::EdgeUse> JoinedPieces::sharedEdges() const {
     return edges;
 }
 
-/// Edges of more than two triangles have no vote: which of these are neighbours is ambiguous.
+/// Counts votes by edges. Edges of more than two triangles are ignored: their neighbors are ambiguous.
 void JoinedPieces::voteByEdges(const std::vector<EdgeUse>& edges, std::map<Pair, Votes>& votes) {
     for (std::size_t i = 0, past = 0; i < edges.size(); i = past) {
         while (past < edges.size() && edges[past].low == edges[i].low && edges[past].high == edges[i].high) ++past;

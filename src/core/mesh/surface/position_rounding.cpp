@@ -19,18 +19,18 @@ namespace tspace {
 
 namespace {
 
-// -- the lattice that positions were rounded to before they became floats --
+// -- lattice that positions were rounded to before conversion to float --
 
 double valueAt(const Vec3& p, std::size_t axis) { return static_cast<double>(axis == 0 ? p.x : axis == 1 ? p.y : p.z); }
 
-/// The greatest common divisor of distances that are off by `slack` each; 0: there is none to speak of. They are sorted, so
-/// that each longer one makes the step more exact before it has to count more of them.
+/// Returns the greatest common divisor of distances with an error of `slack` each; 0: none. They are sorted, so that
+/// each longer one refines the step before larger multiples of it occur.
 double commonStep(std::vector<double>& distances, double slack, double least) {
     std::sort(distances.begin(), distances.end());
     double step = 0;
     for (const double distance : distances) {
         if (distance <= slack) continue;
-        // Euclid, where what is left over by rounding alone is 0.
+        // Euclidean algorithm, where a remainder within rounding is 0.
         double a = distance, b = step;
         while (b != 0) {
             const double left = std::fabs(a - std::round(a / b) * b);
@@ -43,8 +43,9 @@ double commonStep(std::vector<double>& distances, double slack, double least) {
     return step;
 }
 
-/// The step that all values of an axis are whole multiples of, from one of them on, but for the rounding of floats; 0 where
-/// there is none, or it is next to that rounding. `axis`: 0 to 2. far: the largest size of a value. Linear.
+/// Returns the step of which all values of an axis are integer multiples, relative to one of them, except for float
+/// rounding; 0 if there is none, or if it is close to that rounding. `axis`: 0 to 2. far: the largest magnitude of a
+/// value. Linear.
 double latticeStep(StridedSpan<const Vec3> positions, std::size_t axis, double far) {
     constexpr std::size_t kFew = 256, kMostTries = 16;
     constexpr double kSlack = 4, kLeast = 32;  // in float spacings
@@ -69,11 +70,11 @@ double latticeStep(StridedSpan<const Vec3> positions, std::size_t axis, double f
     return 0;
 }
 
-/// dP/du of a triangle, and the sine by which rounding turns it in the mean square.
+/// dP/du of a triangle, and the sine of its rotation by rounding (root mean square).
 struct TurnedDirection {
-    DVec3 direction = {};  ///< unit; zero where rounding left none
+    DVec3 direction = {};  ///< unit; zero if it was lost in rounding
     double size = 0;
-    double sine = 0;  ///< 0: the triangle says nothing
+    double sine = 0;  ///< 0: the triangle is not usable
 };
 
 TurnedDirection directionOf(StridedSpan<const Vec3> positions, StridedSpan<const Vec2> uvs, const std::uint32_t* v,
@@ -82,8 +83,8 @@ TurnedDirection directionOf(StridedSpan<const Vec3> positions, StridedSpan<const
     const UvFrame frame = uvFrame(positions[v[0]], positions[v[1]], positions[v[2]], a, b, c);
     const double area = std::fabs(frame.determinant), length_of_tangent = length(frame.tangent);
     if (!(area > 0) || !std::isfinite(length_of_tangent)) return {};
-    // t2 (P1 - P0) - t1 (P2 - P0) is linear in the corners, and across it two of three coordinates of each turn it. In the
-    // mean a square is a third of half a step's, and that a third of the square of `error`.
+    // t2 (P1 - P0) - t1 (P2 - P0) is linear in the corners, and the two coordinates of each corner perpendicular to it
+    // rotate it. The mean square is a third of the square of half a step, and that is a third of the square of `error`.
     const double t1 = double{b.y} - a.y, t2 = double{c.y} - a.y;
     const double off = std::sqrt(2.0 / 9 * (t1 * t1 + t2 * t2 + (t2 - t1) * (t2 - t1))) * error;
     TurnedDirection result{.size = length_of_tangent / area,
@@ -92,15 +93,15 @@ TurnedDirection directionOf(StridedSpan<const Vec3> positions, StridedSpan<const
     return result;
 }
 
-/// Whether triangles lie as rounding leaves them: where steps can turn dP/du by over 10 degrees, it differs between
-/// neighbours by about as much, in direction and in length. Models that were built on a grid have steps too, and UVs that go
-/// with them, and so does terrain along the axes of its raster: `may_be_raster` says along which all edges are as long.
-/// `error`: as in PositionRounding. False where too few triangles say anything. O(n log n).
-/// What it makes for a while is the allocator's: among results that stay, vectors that grow left holes of as much again.
+/// Returns whether triangles scatter as after rounding: if steps can rotate dP/du by over 10 degrees, it differs
+/// between neighbors by about as much, in direction and length. Models that were built on a grid also have steps, but
+/// matching UVs; and so does terrain along its raster axes: `may_be_raster` marks axes along which all edges have equal
+/// length. `error`: as in PositionRounding. Returns false if too few triangles are usable. O(n log n).
+/// Temporary memory comes from the allocator: growing vectors among long-lived results left holes of their own size.
 bool scattersByRounding(StridedSpan<const Vec3> positions, StridedSpan<const Vec2> uvs,
                         std::span<const std::span<const std::uint32_t>> corner_lists, double error,
                         const std::array<bool, 3>& may_be_raster, const Allocator* allocator) {
-    // Parts of what is wanted. Lengths change less where edges are all about as many steps long.
+    // Fractions of the expected values. Lengths change less if all edges are about the same number of steps long.
     constexpr double kLeastSine = 0.17, kLeastTurn = 0.25, kLeastStretch = 0.07;
     constexpr std::size_t kLeastCount = 32;
     std::size_t most = 0, told = 0;
@@ -152,7 +153,7 @@ bool scattersByRounding(StridedSpan<const Vec3> positions, StridedSpan<const Vec
 
 // -- steps of floats --
 
-/// The power of two that a float is a whole multiple of.
+/// Returns the exponent of the largest power of two that divides a float.
 int lowestBit(float value) {
     const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
     const int exponent = static_cast<int>(bits >> 23 & 0xff);
@@ -165,11 +166,11 @@ struct Axis {
     float low = std::numeric_limits<float>::max(), high = -std::numeric_limits<float>::max();
     int lowest_bit = 128;
     bool is_finite = true, is_fine = false;
-    double spacing = 0;  // the one distance that edges have along it, but for 0
+    double spacing = 0;  // the only nonzero distance along it between ends of an edge
     bool is_even = true;
     std::uint64_t triangles = 0, flat = 0;
 
-    /// False: no other triangle changes what isRaster() says.
+    /// Returns false if no further triangle can change the result of isRaster().
     bool addTriangle(float a, float b, float c) {
         if (!is_even) return false;
         ++triangles;
@@ -181,8 +182,9 @@ struct Axis {
         }
         return is_even;
     }
-    /// Terrain in steps of a metre, say: all its triangles but walls are as wide along the axis. Where a gentle slope was
-    /// rounded edges are as long too, but many triangles are flat.
+    /// Returns whether the axis is a raster axis: all triangles of terrain in steps of, for example, a meter have the
+    /// same extent along it, except walls. Rounded gentle slopes also have edges of equal length, but many of their
+    /// triangles are flat.
     [[nodiscard]] bool isRaster() const { return is_even && spacing > 0 && 10 * flat <= triangles; }
     void add(float value) {
         is_finite = is_finite && std::isfinite(value);
@@ -191,11 +193,12 @@ struct Axis {
         high = std::max(high, value);
         if (!is_fine && value != 0) lowest_bit = std::min(lowest_bit, lowestBit(value));
     }
-    /// Whether values have all bits of floats as large as those so far: then step() does not depend on other lowest bits.
+    /// Determines whether the values so far use all bits of floats of their size: step() then does not depend on
+    /// further lowest bits.
     void lookAtBits() { is_fine = high >= low && far() > 0 && lowest_bit <= std::ilogb(far()) - 23; }
     [[nodiscard]] double far() const { return std::max(std::fabs(double{low}), std::fabs(double{high})); }
     [[nodiscard]] double step() const {
-        // Models near the origin may lie on a grid on purpose. So many bits of an offset do not.
+        // Models near the origin may be on a grid by design. Offsets with this many bits are not.
         constexpr double kFar = 1 << 18;
         if (!(high >= low) || far() == 0 || isRaster()) return 0;
         const double finest = std::ldexp(1.0, std::ilogb(far()) - 23), common = std::ldexp(1.0, lowest_bit);
@@ -268,8 +271,8 @@ TurnedTriangles turnedBy(const PositionRounding& rounding, StridedSpan<const Vec
         if (!(size > 0) || !std::isfinite(size)) continue;
         ++turned.total;
         whole += size;
-        // A corner moves along N by a third of the largest error in the mean square, and the plane turns by that over the
-        // height of the triangle; two corners move.
+        // A corner moves along N by a third of the maximum error (root mean square), and the plane rotates by that over
+        // the height of the triangle; two corners move.
         const double longest = std::max({length(e), length(f), length(f - e)});
         const double sine = std::sqrt(2.0) / 3 * rounding.error * longest / size;
         const double deg = sine >= 1 ? 90 : polarAngle(std::sqrt(1 - sine * sine), sine) * 180 / kPi;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Properties of single triangles, votes of UVs, equal vertices, and how a moved surface turns. position_rounding.cpp and
-// joined_pieces.cpp have the rest of surface.h.
+// Properties of single triangles, votes of UVs, equal vertices, and rotation of a moved surface. position_rounding.cpp
+// and joined_pieces.cpp implement the rest of surface.h.
 // Based on: Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", 2001 (dP/du of a triangle).
 #include "core/mesh/surface/surface.h"
 
@@ -15,11 +15,11 @@ namespace tspace {
 
 namespace {
 
-/// The reference takes smaller determinants for zero.
+/// The reference treats smaller determinants as zero.
 constexpr double kSmallestDeterminant = 1.17549435e-38;
 
-/// Whether the sign of the determinant survives rounding: of the UVs when they were stored as floats, and of a reader's
-/// float arithmetic. 2^-23 is the largest relative error of a difference of floats.
+/// Returns whether the sign of the determinant survives rounding: of the UVs when stored as floats, and of a reader's
+/// float arithmetic. 2^-23 is the maximum relative error of a difference of floats.
 bool isReliable(double determinant, const Vec2& a, const Vec2& b, const Vec2& c) {
     constexpr double kStep = 1.0 / (1 << 23);
     const double s1 = std::fabs(double{b.x} - double{a.x}), t1 = std::fabs(double{b.y} - double{a.y});
@@ -130,12 +130,12 @@ EqualVertices findEqualVertices(const TangentView& mesh, bool with_uvs) {
 
 namespace {
 
-/// A mean below this part of its weights has no direction: the triangles cancel out.
+/// A mean below this fraction of its weights has no direction: the triangles cancel out.
 constexpr double kVanished = 1e-3;
 /// Ratio of areas below which a triangle has collapsed: a hundredth of each side.
 constexpr double kCollapsed = 1e-4;
-/// Cosine of 150 degrees. A triangle that turns further nearly collapses on the way there, since vertices move along lines,
-/// and may have been flipped: then no sum of a base and an offset is its normal at all weights.
+/// Cosine of 150 degrees. A triangle that rotates further nearly collapses on the way, since vertices move along lines,
+/// and may have been flipped: then no sum of base and offset is its normal at all weights.
 constexpr double kFlipped = -0.86602540378443865;
 /// Area / longest edge^2 below which the area is rounding noise.
 constexpr double kThin = 1e-6;
@@ -165,7 +165,7 @@ struct Triangle {
     }
 };
 
-/// A normal of zero is near everything.
+/// Returns whether a normal is near the mean; a zero normal always is.
 bool isNear(const Vec3& normal, const DVec3& mean) {
     constexpr double kCosineOf40Degrees = 0.76604444311897801;
     return isZero(normal) || dot(toDouble(normal), mean) >= kCosineOf40Degrees * length(mean);
@@ -183,7 +183,7 @@ void add(const Triangle& triangle, std::size_t k, DVec3& sum, double& weight) {
 Vec3 VertexTurn::apply(const Vec3& normal) const {
     const DVec3 a = toDouble(from), b = toDouble(to), n = toDouble(normal), v = cross(a, b);
     const double c = dot(a, b);
-    constexpr double kOpposite = 1e-6;  // any axis would do
+    constexpr double kOpposite = 1e-6;  // no unique rotation axis
     if (!isKnown() || from == to || 1 + c < kOpposite) return normal;
     return toFloat(c * n + cross(v, n) + (dot(v, n) / (1 + c)) * v);
 }
@@ -214,7 +214,7 @@ std::vector<VertexTurn> SurfaceTurns::under(std::span<const Vec3> offsets) const
             Fan& fan = fans[fan_of[corners_[c + k]]];
             add(from, k, fan.from, fan.from_weight);
             add(to, k, fan.to, fan.to_weight);
-            // A triangle that is thin before and after does not make the turn uncertain.
+            // A triangle that is thin before and after does not make the rotation uncertain.
             fan.is_certain = fan.is_certain && (is_certain || (from.is_thin && to.is_thin));
         }
     }
