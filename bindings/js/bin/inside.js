@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Which files may be touched, where only those in some folders may: all of `tspace mcp`, and the programs that it starts.
+// Restricts file access to certain folders, for `tspace mcp` and the programs that it starts.
 import { lstatSync, realpathSync } from "node:fs";
 import { basename, dirname, isAbsolute, join, parse, relative, resolve, sep } from "node:path";
 
-/** The name of the variable that gives these folders to a program, as JSON; without it every file may be touched. */
+/**
+ * Name of the environment variable that passes these folders to a program, as JSON; without it every file may be
+ * accessed.
+ */
 export const onlyInside = "TSPACE_ONLY_INSIDE";
 
 /**
- * Where a path leads once links are followed. What is not there yet has its real folder and its own name. Throws for links that lead
- * nowhere, and for `..`: behind a link the system means the parent of what it points at.
+ * Resolves links in a path. A file that does not exist yet is resolved by its real folder and its own name. Throws for
+ * links with a missing target, and for `..`: after a link the system resolves it relative to the link's target.
  */
 export function realPlace(path) {
   if (path.split(/[\\/]/).includes("..") || path.includes("\0")) throw new Error("a path with ..");
@@ -24,7 +27,7 @@ export function realPlace(path) {
   }
 }
 
-/** Whether a real path is a folder, or lies in it. */
+/** Returns whether a real path is a folder, or inside it. */
 export function isIn(folder, path) {
   const way = relative(folder, path);
   return way !== ".." && !way.startsWith(`..${sep}`) && !isAbsolute(way);
@@ -33,16 +36,16 @@ export function isIn(folder, path) {
 const folders = JSON.parse(process.env[onlyInside] ?? "null");
 const devices = ["/dev/null", "/proc/sys/vm/overcommit_memory"];
 
-/** The path as it was given (bytes, or text), where it may be opened, made or removed. */
+/** Returns the given path (bytes or text) if it may be opened, created or removed; otherwise throws. */
 export function allowed(path) {
   if (!folders) return path;
   const text = path.toString();
   if (devices.includes(text)) return path;
   try {
-    // Bytes that are no text would be looked up under another name.
+    // Bytes that are not valid text would be looked up under a different name.
     if ((typeof path === "string" || Buffer.from(text).equals(path)) && folders.some((folder) => isIn(folder, realPlace(text)))) return path;
   } catch {
-    // It cannot be followed.
+    // The path cannot be resolved.
   }
   throw Object.assign(new Error(`${text} is outside`), { code: "EACCES" });
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// `tspace mcp FOLDER`: a server of the Model Context Protocol on stdin and stdout. Each call of a tool runs this package's program in
-// a process of its own, which can touch nothing but that folder (inside.js): files that are links in a folder of models too. What
-// models name out of their folder, by links as well, the tool itself refuses, and so the native one that bakes.
+// `tspace mcp FOLDER`: a server of the Model Context Protocol on stdin and stdout. Each tool call runs this package's
+// program in a separate process that can access only this folder (inside.js), even if a folder of models contains
+// links. References of models to files outside their folder, including links, are rejected by the tool itself, and also
+// by the native tool, which bakes.
 import { spawn } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, readdirSync, realpathSync, rmSync, statSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -25,7 +26,7 @@ npx -y -p tspace -p @modelcontextprotocol/sdk tspace mcp FOLDER
 `;
 
 const program = fileURLToPath(new URL("tspace.js", import.meta.url));
-/** Of one call: its time, characters of a report, pictures. */
+/** Limits of one call: time, characters of a report, pictures. */
 const limits = { milliseconds: 600_000, characters: 100_000, pictures: 8 };
 
 const text = (description) => ({ type: "string", description });
@@ -33,7 +34,10 @@ const flag = (description) => ({ type: "boolean", description });
 const model = text("A model (.glb, .vrm, .gltf, .obj) in the folder, or a folder of models");
 const replace = flag("Write over files that are there; false unless given");
 
-/** What a client sees of each tool, and words(arguments, place): the command line. `place` checks paths of inputs and outputs. */
+/**
+ * Descriptions of each tool for clients, and words(arguments, place): its command line. `place` checks paths of inputs
+ * and outputs.
+ */
 const tools = {
   inspect: {
     description: "What is in a model file: primitives, attributes, materials, and which parts need tangents. Changes nothing.",
@@ -87,10 +91,10 @@ const tools = {
   },
 };
 
-/** What a call is refused for; its text is for the client. */
+/** Error for a rejected call; its message is sent to the client. */
 class Refusal extends Error {}
 
-/** Paths of calls, relative to the folder or absolute, as real ones in it. */
+/** Returns functions that convert paths of calls (relative to the folder or absolute) to real paths inside it. */
 export function placesIn(root) {
   const real = (path) => {
     let place;
@@ -111,7 +115,7 @@ export function placesIn(root) {
     output(path, ending, mayReplace) {
       if (!path.toLowerCase().endsWith(ending)) throw new Refusal(`${path}: the output must end in ${ending}`);
       const place = real(path);
-      // A map of several materials is several files with one beginning.
+      // A map of several materials is written to several files with a common prefix.
       const begin = basename(place).slice(0, -ending.length);
       const taken = existsSync(dirname(place)) && readdirSync(dirname(place)).find((name) => name === basename(place) || (ending === ".png" && name.startsWith(begin) && name.toLowerCase().endsWith(ending)));
       if (taken && !mayReplace) throw new Refusal(`${join(dirname(path), taken)}: is there already (replace: true writes over it)`);
@@ -120,7 +124,7 @@ export function placesIn(root) {
   };
 }
 
-/** Arguments are what the tool's schema says. */
+/** Checks the arguments against the tool's schema. */
 function checked(given, { properties, required }) {
   for (const [name, value] of Object.entries(given)) {
     const rule = Object.hasOwn(properties, name) && properties[name];
@@ -134,10 +138,12 @@ function checked(given, { properties, required }) {
   return given;
 }
 
-/** What to do where this process ends before a call does: its program is ended, its folder removed. */
+/**
+ * Cleanup functions for calls that are unfinished when this process ends: they end the program and remove its folder.
+ */
 const unfinished = new Set();
 
-/** What a program prints, up to a limit, and its exit code. */
+/** Runs a program; returns its output, up to a limit, and its exit code. */
 function ended(command, words, cwd, folders, signal) {
   return new Promise((done, failed) => {
     const env = { ...process.env, [onlyInside]: JSON.stringify(folders) };
@@ -161,7 +167,7 @@ function ended(command, words, cwd, folders, signal) {
   });
 }
 
-/** Pictures of a page of `check`, with a line for each finding before its own. */
+/** Returns the pictures of a page of `check`, each preceded by a line that describes its finding. */
 function picturesOf(page) {
   const content = [];
   let left = limits.pictures, dropped = 0;
@@ -220,7 +226,7 @@ function readWords(words) {
   }
 }
 
-/** Serves until the client closes stdin. */
+/** Serves requests until the client closes stdin. */
 export async function serve(words) {
   const { root, native, fail } = readWords(words);
   const sdk = "@modelcontextprotocol/sdk";
@@ -238,7 +244,7 @@ export async function serve(words) {
       annotations: { readOnlyHint: !properties.output, openWorldHint: false },
     })),
   }));
-  let last = Promise.resolve(); // one call at a time: each may take all cores
+  let last = Promise.resolve(); // one call at a time, because each may use all cores
   server.setRequestHandler(CallToolRequestSchema, ({ params }, { signal }) => {
     const answer = last.then(() => call(params.name, params.arguments ?? {}, { root, native, signal }))
       .catch((error) => ({ content: [{ type: "text", text: error instanceof Refusal ? error.message : `${params.name} could not be run: ${error.message}` }], isError: true }));

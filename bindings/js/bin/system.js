@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the tool's C library asks the system for, by node's functions. Each thread has its own; numbers of files are those of the
-// system, so that threads share them. Errors are negative numbers, as in WASI.
+// System calls of the tool's C library, implemented with node's functions. Each thread has its own instance; file
+// descriptors are those of the system, so that threads share them. Errors are negative numbers, as in WASI.
 import * as fs from "node:fs";
 import { createRequire } from "node:module";
 import * as os from "node:os";
@@ -8,7 +8,7 @@ import { isatty } from "node:tty";
 import { allowed } from "./inside.js";
 import { systemPath, toolPath } from "./paths.js";
 
-/** Loaded when it is needed: that takes 10 ms. */
+/** Loaded on first use, because loading takes 10 ms. */
 const randomBytes = (count) => createRequire(import.meta.url)("node:crypto").randomBytes(count);
 const onWindows = process.platform === "win32";
 const errors = new Map(
@@ -23,7 +23,7 @@ const failure = (name) => -errors.get(name);
 const pause = new Int32Array(new SharedArrayBuffer(4));
 export const sleep = (milliseconds) => Atomics.wait(pause, 0, 0, milliseconds);
 
-/** Calls a function of node again where a pipe has nothing, or no room, at the moment. */
+/** Repeats a node function while a pipe is empty or full. */
 function patiently(work) {
   for (;;) {
     try {
@@ -35,27 +35,26 @@ function patiently(work) {
   }
 }
 
-// Flags of open() in the C library, and node's.
+// Flags of open() in the C library, and the corresponding flags of node.
 const { constants } = fs;
 const openFlags = [[1, constants.O_WRONLY], [2, constants.O_RDWR], [64, constants.O_CREAT], [128, constants.O_EXCL], [512, constants.O_TRUNC],
   [1024, constants.O_APPEND], [2048, constants.O_NONBLOCK], [131072, constants.O_NOFOLLOW]];
 const directoryFlag = 65536;
 const kinds = [["isFile", 8], ["isDirectory", 4], ["isSymbolicLink", 10], ["isFIFO", 1], ["isCharacterDevice", 2], ["isBlockDevice", 6], ["isSocket", 12]];
-/** The last page of 4 GB stays out of use, so that no end is 2^32. */
+/** Maximum number of pages; the last page of 4 GB is unused, so that no end address is 2^32. */
 export const mostPages = 65535;
 const pageBytes = 65536;
-/** Of one call of node. */
+/** Limit per call of node. */
 const mostBytes = 2 ** 30;
 const atCurrent = -100, noFollow = 0x100, removesFolder = 0x200;
 
 /**
- * The imports of one thread.
- * memory: that of the program; exports(): functions of this thread's instance; program: the path that stands for the tool's own;
- * signal 13 is raised where nobody reads the output.
+ * Returns the imports of one thread. memory: memory of the program; exports(): functions of this thread's instance;
+ * program: path of the tool itself. Raises signal 13 if nobody reads the output.
  */
 export function systemOf({ memory, exports, program }) {
   let bytes = new Uint8Array(memory.buffer), data = new DataView(memory.buffer);
-  /** Views that reach to `end`: memory may have grown in another thread. */
+  /** Updates the views so that they reach `end`: memory may have grown in another thread. */
   function see(end = 0) {
     if (end > bytes.length) memory.grow(0);
     if (bytes.buffer === memory.buffer) return;
@@ -78,10 +77,13 @@ export function systemOf({ memory, exports, program }) {
     see(at + 1);
     return Buffer.from(bytes.slice(at, bytes.indexOf(0, at)));
   }
-  /** As fs takes it: bytes where names are bytes. To look at; pathTo is for all else. */
+  /**
+   * Returns a path in the form that fs needs: bytes if names are bytes. pathAt is for queries only; all other functions
+   * use pathTo, which checks access.
+   */
   const pathAt = (at) => (onWindows ? systemPath(textBytes(at >>> 0).toString()) : textBytes(at >>> 0));
   const pathTo = (at) => allowed(pathAt(at));
-  /** Writes what fits; the number of bytes. */
+  /** Writes as much as fits; returns the number of bytes. */
   function give(at, size, text) {
     see(at + size);
     const part = text.subarray(0, size);
@@ -89,7 +91,7 @@ export function systemOf({ memory, exports, program }) {
     return part.length;
   }
 
-  /** Open files whose position this thread knows, and open folders. */
+  /** Open files whose position this thread tracks, and open folders. */
   const files = new Map(), folders = new Map();
   let nextFolder = 1 << 20;
   const tried = (work) => (...values) => {
@@ -108,7 +110,7 @@ export function systemOf({ memory, exports, program }) {
     const path = pathTo(at);
     if (flags & directoryFlag) {
       if (!fs.statSync(path).isDirectory()) return failure("ENOTDIR");
-      // Windows opens no folders.
+      // Windows cannot open folders.
       const number = onWindows ? nextFolder++ : fs.openSync(path, constants.O_RDONLY | constants.O_DIRECTORY);
       folders.set(number, { path });
       return number;
@@ -127,7 +129,7 @@ export function systemOf({ memory, exports, program }) {
     if (!(folder && onWindows)) fs.closeSync(number);
   }
 
-  /** Calls transfer(place, count, position) for each part, until one is not whole; writes the number of bytes. */
+  /** Calls transfer(place, count, position) for each part, until one is incomplete; writes the number of bytes. */
   function transferAll(number, parts, count, result, transfer) {
     const file = files.get(number);
     let total = 0;
@@ -175,7 +177,7 @@ export function systemOf({ memory, exports, program }) {
     set32(result >>> 0, total);
   }
 
-  /** Only files that this thread opened have a position to move. */
+  /** Only files that this thread opened have a tracked position. */
   function seek(number, offset, whence, result) {
     const file = files.get(number);
     if (!file) return failure("ESPIPE");
@@ -219,7 +221,7 @@ export function systemOf({ memory, exports, program }) {
     return onWindows ? `${from.path}\\${path}` : Buffer.concat([Buffer.from(from.path), Buffer.from("/"), path]);
   }
 
-  /** Names in an open folder, as many as there is room for. */
+  /** Lists names in an open folder, as many as fit. */
   function list(number, to, size) {
     const folder = folders.get(number), entryBytes = 280, longest = 255;
     if (!folder) return failure("ENOTDIR");
@@ -232,7 +234,7 @@ export function systemOf({ memory, exports, program }) {
       const entry = folder.entries[folder.at];
       const name = Buffer.from(entry.name ?? entry);
       bytes.fill(0, at, at + entryBytes);
-      set64(at, 1n); // 0 would be a removed file
+      set64(at, 1n); // 0 would denote a removed file
       set64(at + 8, BigInt(folder.at + 1));
       data.setUint16(at + 16, entryBytes, true);
       bytes[at + 18] = entry.name === undefined ? 4 : kinds.find(([is]) => entry[is]())?.[1] ?? 0;
@@ -241,7 +243,7 @@ export function systemOf({ memory, exports, program }) {
     return at - (to >>> 0);
   }
 
-  /** The C library asks this of each part of a path: what is no link is no reason to make an exception. */
+  /** The C library calls this for each path component, so a component that is not a link must not throw. */
   function readLink(at, to, size) {
     const path = pathAt(at);
     if (path.toString() === "/proc/self/exe") return give(to >>> 0, size, Buffer.from(onWindows ? toolPath(program) : program));
@@ -325,7 +327,7 @@ export function systemOf({ memory, exports, program }) {
     __syscall_ftruncate64: tried((number, low, high) => fs.ftruncateSync(number, (low >>> 0) + 2 ** 32 * (high >>> 0))),
     __syscall_truncate64: tried((at, low, high) => fs.truncateSync(pathTo(at), (low >>> 0) + 2 ** 32 * (high >>> 0))),
     makeLink: tried((from, to) => fs.linkSync(pathTo(from), pathTo(to))),
-    // 2: F_SETFD, 4: F_SETFL, which need nothing; 1: F_GETFD, 3: F_GETFL.
+    // F_SETFD (2) and F_SETFL (4) need no action; 1: F_GETFD, 3: F_GETFL.
     __syscall_fcntl64: tried((number, command) => {
       if (command < 1 || command > 4) return failure("ENOSYS");
       if (!folders.has(number)) fs.fstatSync(number);
@@ -337,7 +339,7 @@ export function systemOf({ memory, exports, program }) {
       return 0;
     },
     __syscall_chown32: tried((at, user, group) => fs.chownSync(pathTo(at), user, group)),
-    // No processes are started, and no files are mapped.
+    // Starting processes and mapping files are not supported.
     __syscall_pipe: () => failure("ENOSYS"),
     __syscall_wait4: () => failure("ECHILD"),
     __syscall_mprotect: () => failure("ENOSYS"),
@@ -346,7 +348,7 @@ export function systemOf({ memory, exports, program }) {
     posix_spawn: () => errors.get("ENOSYS"),
   };
 
-  let second = 0; // the second number that longjmp passes on
+  let second = 0; // the second value that longjmp passes on
   const others = {
     setTempRet0: (number) => (second = number),
     getTempRet0: () => second,
@@ -361,7 +363,7 @@ export function systemOf({ memory, exports, program }) {
     emscripten_get_heap_max: () => mostPages * pageBytes,
     emscripten_resize_heap: (size) => {
       const missing = Math.ceil(((size >>> 0) - memory.buffer.byteLength) / pageBytes), step = 256;
-      // In steps of 16 MB: each makes all threads look anew.
+      // Grows in steps of 16 MB, because each step makes all threads update their views.
       return missing <= 0 || grow(Math.ceil(missing / step) * step) || grow(missing) ? 1 : 0;
     },
     emscripten_num_logical_cores: () => os.availableParallelism?.() ?? os.cpus().length,

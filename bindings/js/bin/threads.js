@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Threads of the tool as workers of node, which share its memory. A worker whose thread has ended waits for the next one, since a
-// new worker takes 10 to 20 ms; whoever wants a thread finds it in a table that all share.
+// Threads of the tool as node workers with shared memory. A worker whose thread has ended waits for the next thread,
+// because starting a worker takes 10 to 20 ms; idle workers are listed in a shared table.
 import { writeSync } from "node:fs";
 import { Worker } from "node:worker_threads";
 import { systemOf } from "./system.js";
 
 const ended = 0, code = 1, workerCount = 2, firstWorker = 4, wordsOfWorker = 8, mostWorkers = 1024;
-/** Of a worker; 0 until its first thread. */
+/** State of a worker; 0 until its first thread. */
 const idle = 1, taken = 2, ready = 3;
 
 export const newTable = () => new Int32Array(new SharedArrayBuffer(4 * (firstWorker + wordsOfWorker * mostWorkers)));
 
-/** Ends the program, from any thread. */
+/** Ends the program from any thread. */
 export function endProgram(table, exitCode) {
   if (Atomics.compareExchange(table, ended, 0, 1) === 0) {
     Atomics.store(table, code, exitCode);
@@ -21,19 +21,19 @@ export function endProgram(table, exitCode) {
   for (;;) Atomics.wait(table, firstWorker - 1, 0);
 }
 
-/** Resolves with the exit code. */
+/** Resolves with the exit code when the program has ended. */
 export async function programEnd(table) {
   for (let seen; (seen = Atomics.load(table, ended)) !== 2; ) await Atomics.waitAsync(table, ended, seen).value;
   return Atomics.load(table, code);
 }
 
-/** What a thread that ends in an exception of the engine says: too deep a recursion, or a defect. */
+/** Reports a thread that ended with an engine exception: excessive recursion, or a defect. */
 export function giveUp(table, error) {
   writeSync(2, `tspace: internal error: ${error?.message ?? error}\n`);
   endProgram(table, 5);
 }
 
-/** An instance of the module for this thread. */
+/** Creates an instance of the module for this thread. */
 export function instanceOf({ module, memory, table, program, end }) {
   let instance;
   const imports = systemOf({ memory, program, exports: () => instance.exports });
@@ -65,7 +65,7 @@ export function instanceOf({ module, memory, table, program, end }) {
     startThread,
     endProgram: end ?? ((exitCode) => endProgram(table, exitCode)),
     exit: end ?? ((exitCode) => endProgram(table, exitCode)),
-    // The first thread takes signals; it is one that may wait.
+    // The first thread handles signals, and may block.
     __emscripten_init_main_thread_js: (thread) => {
       instance.exports._emscripten_thread_init(thread, 0, 0, 1, 0);
       instance.exports.emscripten_tls_init?.();

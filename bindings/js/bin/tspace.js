@@ -1,7 +1,7 @@
 #!/usr/bin/env node
 // SPDX-License-Identifier: MIT
-// The command line of tspace: the native tool's sources, compiled to WebAssembly. This thread takes signals; main() runs in
-// another one.
+// Command line of tspace: the native tool's sources, compiled to WebAssembly. This thread handles signals; main() runs
+// in another thread.
 import { readFileSync } from "node:fs";
 import { constants } from "node:os";
 import { fileURLToPath } from "node:url";
@@ -10,14 +10,15 @@ import { toolWord } from "./paths.js";
 import { mostPages } from "./system.js";
 import { instanceOf, newTable, programEnd } from "./threads.js";
 
-// A server that runs this program for each call, and ends the process.
+// The server runs this program for each call, and ends the process.
 if (process.argv[2] === "mcp") await (await import("./mcp.js")).serve(process.argv.slice(3));
 
-// A command calls few of the functions: they are looked at and compiled when they are called.
+// A command calls few of the functions, so they are validated and compiled on first use.
 setFlagsFromString("--wasm-lazy-compilation");
 setFlagsFromString("--wasm-lazy-validation");
-// And again, to be faster, once they have run for long (10 ms or so): in node 20 they are after a tenth of that, which costs more
-// than it gains for models of less than millions of triangles. Node 22 has 13,000,000 of its own.
+// Recompile functions with optimization only after about 10 ms of run time. Node 20 does this after a tenth of that
+// time, which costs more than it gains for models with less than millions of triangles. The default of node 22 is
+// 13,000,000.
 setFlagsFromString("--wasm-tiering-budget=20000000");
 const here = (name) => fileURLToPath(new URL(name, import.meta.url));
 const module = new WebAssembly.Module(readFileSync(here("tspace.wasm")));
@@ -28,13 +29,13 @@ function newMemory() {
   try {
     return new WebAssembly.Memory({ initial: 256, maximum: mostPages, shared: true });
   } catch (error) {
-    // The engine reserves more than 4 GB of address space, which ulimit -v may forbid.
+    // The engine reserves more than 4 GB of address space, which ulimit -v may prevent.
     process.stderr.write(`tspace: ${error.message}\n`);
     process.exit(5);
   }
 }
 
-/** Ends the process with a code, or as the signal that it stands for. */
+/** Ends the process with an exit code, or with the signal that the code represents. */
 function leave(code) {
   const signal = Object.entries(constants.signals).find(([, number]) => number + 128 === code)?.[0];
   if (signal) {
@@ -44,7 +45,7 @@ function leave(code) {
   process.exit(code);
 }
 
-/** Signals that whoever started this program asked to be ignored (nohup). */
+/** Returns the signals that the parent process has set to be ignored (nohup). */
 function ignoredSignals() {
   try {
     return BigInt(`0x${readFileSync("/proc/self/status", "latin1").match(/^SigIgn:\s*([0-9a-f]+)/m)[1]}`);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The calls that both entries have, for the module that they load.
+// Calls shared by the entries, parameterized by the loaded module.
 import { boolean, choice, count, fail, failType, floats, integers, isMissing, number, numberWithin, object, optionsOf, output } from "./check.js";
 import { conventionBits } from "./convention.js";
 import { frameShapeNames, pairingNames, sanitizeReportNames, tangentReportNames } from "./names.js";
 
 const meshMembers = ["positions", "normals", "uvs", "indices", "faceSizes", "normalIndices", "uvIndices"];
-/** The mesh (or pose) of a caller: an object that has no member but those of meshes. */
+/** Checks a caller's mesh (or pose): an object whose members are all valid mesh members. */
 export const givenMesh = (mesh, name = "mesh") => object(mesh, name, meshMembers);
 
-/** The mesh of a call, checked. */
+/** Returns the checked mesh of a call. */
 export function meshOf(mesh, needsNormals = false) {
   givenMesh(mesh);
   const positions = floats(mesh.positions, "positions", 3, true);
@@ -40,10 +40,10 @@ export function setMesh(call, { positions, normals, uvs, ...lists }) {
   call.wasm.setMesh(...arrays);
 }
 
-/** Names of options of tangents. */
+/** Names of tangent options. */
 export const mikktspaceOptions = ["method", "threshold", "pairing", "ngons", "convention", "normalizeNormals"];
 
-/** What the module takes for options of tangents. */
+/** Returns the tangent options in the form that the module expects. */
 export function tangentArguments(options, { methods, ngons }) {
   return [
     choice(options.method ?? "mikktspace", "method", methods),
@@ -57,26 +57,29 @@ export function tangentArguments(options, { methods, ngons }) {
   ];
 }
 
-/** The methods that read an option; all methods read the others. */
+/** Methods that use an option; options not listed are used by all methods. */
 const readers = { threshold: "mikktspace", pairing: "mikktspace", refine: "best" };
 
-/** Names of the options that were given and that the method does not read. */
+/** Returns the names of given options that the method does not use. */
 export const ignoredOptions = ({ method = "mikktspace", ...options }) =>
   Object.keys(readers).filter((name) => !isMissing(options[name]) && readers[name] !== method);
 
-/** The report, with the names of options that had no effect, where there are any. */
+/** Adds the names of ignored options to the report, if there are any. */
 export function withIgnored(report, names) {
   if (names.length !== 0) report.ignoredOptions = names;
   else delete report.ignoredOptions;
   return report;
 }
 
-/** Fills in options.report, where there is one. */
+/** Fills in options.report if it exists. */
 export function keepReport(call, { report }, names, ignored) {
   if (report) withIgnored(call.report(names, report), ignored);
 }
 
-/** Runs compute(exports, tangents, mask), which writes four floats and, unless the place is 0, a byte for each output. */
+/**
+ * Runs compute(exports, tangents, mask), which writes four floats per output and, unless the mask address is 0, a byte
+ * per output.
+ */
 export function writeTangents(wasm, mesh, outputCount, options, compute) {
   const hasTangent = output(options.hasTangent, "hasTangent", outputCount);
   return wasm.run((call) => {
@@ -102,7 +105,7 @@ function attributeOf(attribute, i, cornerCount) {
   return { data, size, tolerance: number(tolerance, `tolerance of ${name}`) };
 }
 
-/** The module's table of attributes, and after it room for six words. */
+/** Writes the module's table of attributes, followed by space for six words. */
 function putAttributes(call, list) {
   const places = list.map(({ data }) => call.put(data));
   const table = call.allocate(12 * list.length + 24);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What callers hand over is looked at before anything is copied. The module checks counts and indices, not types.
+// Checks of arguments before anything is copied. The module checks counts and indices, but not types.
 import { TspaceError, typeError } from "./error.js";
 
 export const isMissing = (value) => value === undefined || value === null;
@@ -8,7 +8,7 @@ export const fail = (code, message, element) => {
   throw code === "wrongType" ? typeError(code, message) : new TspaceError(code, message, element);
 };
 
-/** A value as messages call it. */
+/** Describes a value for messages. */
 function describe(value) {
   const type = typeof value;
   if (type === "string") return JSON.stringify(value.length > 40 ? `${value.slice(0, 40)}...` : value);
@@ -19,19 +19,22 @@ function describe(value) {
 
 export const failType = (value, name, needed) => fail("wrongType", `${name} must be ${needed}, not ${describe(value)}`);
 
-/** The array as a view of its own: it stays as long as it is now, whatever buffers and getters do. Arrays of other windows are taken. */
+/**
+ * Returns a new view of the array, whose length stays constant regardless of buffers and getters. Accepts arrays of
+ * other windows.
+ */
 function viewOf(array, name, types, needed) {
   const Type = ArrayBuffer.isView(array) && types.find((type) => type.name === array[Symbol.toStringTag]);
   if (!Type) failType(array, name, needed);
   try {
-    array.indexOf(0, array.length); // throws where the buffer is gone or too short
+    array.indexOf(0, array.length); // throws if the buffer is detached or too short
     return new Type(array.buffer, array.byteOffset, array.length);
   } catch {
     return fail("detached", `${name} cannot be read: its buffer was detached or resized`);
   }
 }
 
-/** A Float32Array, or undefined. `size`: numbers of an element. */
+/** Checks a Float32Array, or undefined. `size`: number of components per element. */
 export function floats(array, name, size, isRequired = false) {
   if (isMissing(array)) {
     if (isRequired) fail("missingAttribute", `${name} is missing: a Float32Array, ${size} numbers for each element`);
@@ -43,14 +46,14 @@ export function floats(array, name, size, isRequired = false) {
   return numbers;
 }
 
-/** Bytes as a Uint8Array. */
+/** Returns bytes as a Uint8Array. */
 export function bytes(value, name) {
   const isBuffer = /ArrayBuffer$/.test(value?.[Symbol.toStringTag]);
-  if (isBuffer && value.byteLength === 0) return new Uint8Array(0); // detached, or nothing in it
+  if (isBuffer && value.byteLength === 0) return new Uint8Array(0); // detached, or empty
   return viewOf(isBuffer ? new Uint8Array(value) : value, name, [Uint8Array], "a Uint8Array or an ArrayBuffer");
 }
 
-/** An array of unsigned integers, or undefined. */
+/** Checks an array of unsigned integers, or undefined. */
 export function integers(array, name) {
   if (isMissing(array)) return undefined;
   return viewOf(array, name, [Uint32Array, Uint16Array, Uint8Array], "a Uint32Array, Uint16Array or Uint8Array");
@@ -66,14 +69,14 @@ export function number(value, name) {
   return typeof value === "number" && value === value ? value : failType(value, name, "a number");
 }
 
-/** A number of a range, both ends included. */
+/** Checks a number within an inclusive range. */
 export function numberWithin(value, name, least, most, unit) {
   if (number(value, name) < least || value > most)
     fail("invalidOption", `${name} must be a number from ${least} to ${most}${unit}, not ${value}`);
   return value;
 }
 
-/** A Uint8Array of the caller, to be written, or undefined. */
+/** Checks a Uint8Array of the caller that receives output, or undefined. */
 export function output(array, name, count) {
   if (isMissing(array)) return undefined;
   const given = viewOf(array, name, [Uint8Array], "a Uint8Array");
@@ -85,14 +88,14 @@ export function boolean(value, name) {
   return typeof value === "boolean" ? value : failType(value, name, "true or false");
 }
 
-/** The place of a name in a list. */
+/** Returns the index of a name in a list. */
 export function choice(value, name, list) {
   const place = list.indexOf(value);
   if (place < 0) fail("invalidOption", `${name} must be one of ${list.join(", ")}, not ${describe(value)}`);
   return place;
 }
 
-/** An object; where all of its members are known, one that has no other. */
+/** Checks an object; if `known` is given, it must not have other members. */
 export function object(value, name, known) {
   if (typeof value !== "object" || value === null) failType(value, name, "an object");
   const strange = known && Object.keys(value).find((member) => !known.includes(member));

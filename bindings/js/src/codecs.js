@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// What callers of "tspace/gltf" may hand in beside the model: codecs from npm, and what decodes images. The module asks for
-// them while a call runs.
+// Codecs from npm and image decoders that callers of "tspace/gltf" pass in with a model. The module calls them during a
+// call.
 import { fail, failType, isMissing, object } from "./check.js";
 import { decodeDraco, encodeDraco } from "./draco.js";
 
-/** In the order of the module's numbers (wasm/codecs.h). */
+/** In the order of the module's enumeration (wasm/codecs.h). */
 const codecs = ["meshoptDecoder", "meshoptEncoder", "dracoDecoder", "dracoEncoder", "decodeImage", "encodeImage"];
 
 /** In the order of tspace's enumerations. */
 const modes = ["ATTRIBUTES", "TRIANGLES", "INDICES"];
 const filters = ["NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"];
 
-/** Codecs by the names above, out of an option { decoder, encoder }. */
+/** Returns the codecs with the names above, from an option { decoder, encoder }. */
 function pairOf(option, value, { decoder: decoding, encoder: encoding }, from) {
   if (isMissing(value)) return {};
   const { decoder, encoder } = object(value, option, ["decoder", "encoder"]);
@@ -27,7 +27,7 @@ function functionOf(option, value) {
   return { [option]: value };
 }
 
-/** Checks these options. */
+/** Checks the codec options. */
 export const codecsOf = ({ meshopt, draco, decodeImage, encodeImage }) => ({
   ...pairOf("meshopt", meshopt, { decoder: "decodeGltfBuffer", encoder: "encodeGltfBuffer" }, "that of npm's meshoptimizer"),
   ...pairOf("draco", draco, { decoder: "Decoder", encoder: "ExpertEncoder" }, "a module of npm's draco3d, made by its create...Module()"),
@@ -35,7 +35,7 @@ export const codecsOf = ({ meshopt, draco, decodeImage, encodeImage }) => ({
   ...functionOf("encodeImage", encodeImage),
 });
 
-/** Why the pixels that the caller gave cannot be taken; undefined where they can. */
+/** Returns why the caller's pixels are invalid, or undefined if they are valid. */
 function faultOfPixels(image, width, height, sampleBytes) {
   if (typeof image?.then === "function")
     fail("wrongType", "decodeImage gave a Promise; decodeImages(model, decode, options) waits for those before the call");
@@ -51,7 +51,7 @@ function faultOfPixels(image, width, height, sampleBytes) {
   return undefined;
 }
 
-/** The imports of the module, for one call. Views are made anew each time, since memory moves when it grows. */
+/** Imports of the module for one call. Views are created on each access, because memory moves when it grows. */
 export class Codecs {
   constructor(call, given) {
     this.call = call;
@@ -63,7 +63,7 @@ export class Codecs {
     return new Type(this.call.wasm.memory.buffer, place >>> 0, count);
   }
 
-  /** A copy in the module's memory, which the module releases. `size`: where its number of bytes goes. */
+  /** Copies bytes to the module's memory, which the module frees. `size`: address that receives their number. */
   #give(bytes, size) {
     const place = this.call.wasm.allocate(bytes.byteLength + 1) >>> 0;
     if (place === 0) fail("outOfMemory", "out of memory");
@@ -87,7 +87,7 @@ export class Codecs {
       this.given.meshoptDecoder.decodeGltfBuffer(rows, count, stride, this.#view(Uint8Array, data, bytes), modes[mode], filters[filter]);
     } catch (error) {
       if (error instanceof TypeError) fail("notReady", `meshopt.decoder is not ready: ${error.message}`);
-      return 0; // it throws for data that are broken
+      return 0; // the codec throws for corrupt data
     }
     this.#view(Uint8Array, to, rows.length).set(rows);
     return 1;
@@ -98,7 +98,7 @@ export class Codecs {
     return this.#give(this.given.meshoptEncoder.encodeGltfBuffer(source, count, stride, modes[mode], isKhr), size);
   }
 
-  /** A mesh, as the structs of wasm/codecs.cpp say. */
+  /** Reads a mesh in the struct layout of wasm/codecs.cpp. */
   #readMesh(place) {
     const [corners, cornerCount, pointCount, count, first] = this.#view(Uint32Array, place, 5);
     const attributes = Array.from({ length: count }, (_, i) => {
@@ -139,7 +139,7 @@ export class Codecs {
     return this.#give(encoded.data, size);
   }
 
-  /** Pixels of so many channels, of 8 bits, or of 16. */
+  /** Decodes pixels with the given number of channels, of 8 or 16 bits. */
   decodeImage(data, bytes, mimeType, width, height, channels, sampleBytes, to) {
     const file = this.#view(Uint8Array, data, bytes).slice();
     let image;

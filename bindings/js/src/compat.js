@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The entry "tspace/compat": the call of npm's mikktspace, which glTF-Transform and three.js make.
+// The entry "tspace/compat": the function of npm's mikktspace that glTF-Transform and three.js call.
 import { generateTangents as generate, ready, release } from "./mikktspace.js";
 
 export { ready, release };
 
-/** What three.js asks before it calls. */
+/** Checked by three.js before it calls. */
 export let isReady = false;
 ready.then(() => (isReady = true), () => {});
 
-/** npm's mikktspace takes arrays of any numbers. */
+/** npm's mikktspace accepts arrays of any number type. */
 const floats = (array) => (Array.isArray(array) || ArrayBuffer.isView(array) ? Float32Array.from(array) : array);
 
 export const generateTangents = (positions, normals, uvs) =>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What the sign of a tangent means, as the modules take it: bits.
+// Meaning of the tangent sign, encoded in bits for the modules.
 import { choice, fail, object } from "./check.js";
 
 const directx = { vAxis: "down", green: "down", handedness: "left", winding: "clockwise" };
 
-/** Presets by the name of a format or an engine. */
+/** Presets, keyed by the name of a format or an engine. */
 export const conventions = Object.freeze({
   gltf: { vAxis: "down" },
   opengl: { vAxis: "up" },
@@ -19,7 +19,7 @@ const names = Object.keys(conventions);
 const parts = ["vAxis", "green", "storedSign", "handedness", "winding"];
 const bit = (value, name, list) => (value === undefined ? 0 : choice(value, `convention.${name}`, list));
 
-/** Bits of a preset's name, or of an object that says each part. */
+/** Returns the bits for a preset name, or for an object that specifies each part. */
 export function conventionBits(value) {
   if (value === undefined || value === null)
     fail("invalidOption", `convention is missing: say what the tangents are for, "gltf" or one of ${names.slice(1).join(", ")}`);

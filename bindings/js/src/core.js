@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The whole core, for the entries that load its module.
+// The whole core, shared by the entries that load its module.
 import { givenMesh, ignoredOptions, makeCalls, meshOf, mikktspaceOptions, setMesh, tangentArguments, withIgnored, writeTangents } from "./calls.js";
 import { boolean, fail, failType, floats, integers, isMissing, object, optionsOf } from "./check.js";
 import { TspaceError } from "./error.js";
@@ -8,7 +8,7 @@ import { ignoredNormalOptions, normalArguments, normalOptions, normalsOf } from 
 import { Wasm } from "./wasm.js";
 
 const wasm = new Wasm();
-/** Loads the module, once, from where `source` says. */
+/** Loads the module once, from `source`. */
 export const start = (source) => wasm.start(source);
 
 const tangentOptions = [...mikktspaceOptions, "frame", "refine"];
@@ -47,7 +47,7 @@ export function triangulate(mesh) {
   });
 }
 
-/** Names of the options of makeIndexedFrames that were given and have no effect. */
+/** Returns the names of given options of makeIndexedFrames that have no effect. */
 function ignoredFrameOptions(options, makesNormals) {
   const normals = options.normals ?? {};
   const ofNormals = makesNormals ? ignoredNormalOptions(normals) : Object.keys(normals).filter((name) => !isMissing(normals[name]));
@@ -87,7 +87,7 @@ export function makeIndexedFrames(mesh, options = {}) {
 
 const forgotten = new FinalizationRegistry((end) => end());
 
-/** A plan as words, and views of its arrays. */
+/** Words of a plan, with views of its arrays. */
 class PlanBuffers {
   constructor(words) {
     const array = (first, count) => words.subarray(words[first], words[first] + count);
@@ -101,7 +101,7 @@ class PlanBuffers {
   }
 }
 
-/** Set by the class, which alone knows where a plan lies. */
+/** Set by the class, which keeps the address of a plan private. */
 export let planBuffers;
 
 export class Plan {
@@ -146,7 +146,7 @@ export class Plan {
     forgotten.register(this, this.#end, this);
   }
 
-  /** The module that holds the plan. */
+  /** Returns the module that holds the plan. */
   #held() {
     if (this.#place === 0) fail("planMismatch", "this plan was destroyed");
     const module = this.#instance.exports;
@@ -168,7 +168,7 @@ export class Plan {
       module.evaluatePlan(this.#place, ...places));
   }
 
-  /** How "tspace/webgpu", which does not load this module, writes a plan. */
+  /** Called by "tspace/webgpu", which does not load this module, to export a plan. */
   [Symbol.for("tspace.planBuffers")](options) {
     return planBuffers(this, options);
   }
@@ -181,8 +181,11 @@ export class Plan {
   }
 }
 
-/** Memory of the module: it grows to what the largest call and all plans need, and is 0 after release(). */
+/**
+ * Returns the memory of the module: it grows to the size that the largest call and all plans need, and is 0 after
+ * release().
+ */
 export const memoryBytes = () => wasm.memoryBytes();
 
-/** Gives the module's memory back, and ends all plans. The next call starts with little memory. */
+/** Releases the module's memory, and invalidates all plans. The next call starts with little memory. */
 export const release = () => wasm.release();

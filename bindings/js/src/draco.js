@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draco by the modules of npm's draco3d. Their objects live in a memory of their own, and are ended one by one.
+// Draco with the modules of npm's draco3d. Their objects use separate memory, and must be destroyed individually.
 
 const headBytes = 11;
 const hasMetadata = 0x8000;
@@ -17,7 +17,7 @@ const components = new Map([
 /** In the order of tspace's enumeration. */
 const kinds = ["POSITION", "NORMAL", "COLOR", "TEX_COORD", "GENERIC"];
 
-/** Runs body(own), and ends all objects that went through own(). */
+/** Runs body(own), and destroys all objects that were passed to own(). */
 function owning(module, body) {
   const owned = [];
   const own = (object) => {
@@ -31,7 +31,7 @@ function owning(module, body) {
   }
 }
 
-/** What the data claim before they are decoded; undefined where metadata stand before it. */
+/** Returns the counts that the data declares, before decoding; undefined if metadata precedes them. */
 function claimsOf(data, isEdgebreaker) {
   if ((data[headBytes - 2] | (data[headBytes - 1] << 8)) & hasMetadata) return undefined;
   let at = headBytes + (isEdgebreaker ? 1 : 0);
@@ -47,7 +47,7 @@ function claimsOf(data, isEdgebreaker) {
   return isEdgebreaker ? { points: first, faces: second } : { points: second, faces: first };
 }
 
-/** read(place) of `bytes` bytes in the module's memory. */
+/** Calls read(place) with `bytes` bytes of the module's memory. */
 function withMemory(module, bytes, read) {
   const place = module._malloc(bytes);
   try {
@@ -59,7 +59,7 @@ function withMemory(module, bytes, read) {
 
 const copyOf = (module, Type, place, count) => new Type(module.HEAPF32.buffer, place, count).slice();
 
-/** Whole numbers of a lattice stand for the values of an attribute: which one. */
+/** Returns the quantization of an attribute whose values are stored as integers. */
 function roundingOf(module, attribute) {
   return owning(module, (own) => {
     const box = own(new module.AttributeQuantizationTransform());
@@ -74,7 +74,7 @@ function roundingOf(module, attribute) {
   });
 }
 
-/** Calls read(decoder, mesh) on the data. `skips`: whole numbers of lattices stay what they are. */
+/** Calls read(decoder, mesh) on the data. `skips`: keeps quantized values as integers. */
 function withMesh(module, data, skips, read) {
   return owning(module, (own) => {
     const buffer = own(new module.DecoderBuffer());
@@ -120,8 +120,8 @@ function readMesh(module, decoder, mesh, limits, wanted) {
 }
 
 /**
- * Corners, and values of the attributes that are wanted; or { fault }, what is wrong with the data. `keepsLattices`: also those of
- * the attributes, which takes decoding a second time.
+ * Decodes corners and the requested attributes; returns { fault } for invalid data. `keepsLattices`: also returns the
+ * quantization of the attributes, which requires a second decoding.
  */
 export function decodeDraco(module, data, isEdgebreaker, limits, wanted, keepsLattices) {
   const claims = claimsOf(data, isEdgebreaker);
@@ -136,12 +136,12 @@ export function decodeDraco(module, data, isEdgebreaker, limits, wanted, keepsLa
       return mesh;
     });
   } catch (error) {
-    // The module gave up, for it has no memory left or met what it did not expect.
+    // The module aborted because it ran out of memory or found unexpected data.
     return { fault: `the Draco data are broken: ${error.message ?? error}`.replace(/\s+/g, " ") };
   }
 }
 
-/** { data, ids }; undefined where the module cannot do it. Points and triangles keep their order. */
+/** Returns { data, ids }, or undefined if the module cannot encode the mesh. Points and triangles keep their order. */
 export function encodeDraco(module, { pointCount, corners, attributes }) {
   return owning(module, (own) => {
     const builder = own(new module.MeshBuilder()), mesh = own(new module.Mesh());

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 
-/** Why a call failed: `code` is stable, `message` is for people, `element` is the index of what is wrong, where there is one. */
+/**
+ * Error of a failed call: `code` is stable, `message` is human-readable, `element` is the index of the invalid element,
+ * if any.
+ */
 export class TspaceError extends Error {
   constructor(code, message, element) {
     super(message);
@@ -17,21 +20,24 @@ export class TspaceError extends Error {
 
 const errors = new WeakSet();
 
-/** What JavaScript itself calls wrong types and unknown names, as one of the errors of tspace. */
+/** Creates a TypeError (used by JavaScript for wrong types and unknown names) that is also a tspace error. */
 export function typeError(code, message) {
   const error = Object.assign(new TypeError(message), { code });
   errors.add(error);
   return error;
 }
 
-/** Names of the numbers in tspace/result.h. */
+/** Names of the error numbers in tspace/result.h. */
 const codes = {
   1: "nullData", 2: "countMismatch", 3: "indexOutOfRange", 4: "strideTooSmall", 5: "misaligned", 6: "tooLarge",
   7: "missingAttribute", 8: "invalidOption", 9: "outOfMemory", 10: "planMismatch", 11: "internal", 12: "cancelled",
   100: "invalidFile", 101: "unsupportedFile", 102: "forbiddenPath", 103: "cannotRead", 104: "cannotWrite",
 };
 
-/** A sentence of the core with the names that callers know: normalIndices for normal_indices, creaseAngle for crease_angle_deg. */
+/**
+ * Replaces names in a message of the core by JavaScript names: normalIndices for normal_indices, creaseAngle for
+ * crease_angle_deg.
+ */
 export const inJavaScriptNames = (text) =>
   text
     .replace(/\b(crease|denoise)_auto\b/g, '"auto"')

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-/** The elements of `array`, `size` numbers each, that `sources` names; an array of the same type. */
+/** Returns the elements of `array` (`size` numbers each) with the indices `sources`, as an array of the same type. */
 export function gather(array, size, sources) {
   const result = new array.constructor(sources.length * size);
   for (let i = 0; i < sources.length; ++i)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The entry "tspace/gltf-transform": a transform that indexes, computes tangents, splits vertices, and gives morph targets
-// tangents of their own.
+// The entry "tspace/gltf-transform": a transform that creates indices, computes tangents, splits vertices, and adds
+// tangents to morph targets.
 import { object } from "./check.js";
 import { gather } from "./gather.js";
 import { makeIndexedFrames, Plan, ready, sanitizeTangents, splitVertices } from "./index.js";
@@ -25,12 +25,12 @@ function uvsOf(primitive) {
   return primitive.getAttribute(`TEXCOORD_${texture?.getTexCoord() ?? 0}`) ?? primitive.getAttribute("TEXCOORD_0");
 }
 
-/** All accessors with an entry per vertex: [owner, semantic, accessor]. */
+/** Returns all accessors with an entry per vertex: [owner, semantic, accessor]. */
 const vertexData = (primitive) =>
   [primitive, ...primitive.listTargets()].flatMap((owner) =>
     owner.listSemantics().map((name) => [owner, name, owner.getAttribute(name)]));
 
-/** Indices for a primitive without: one vertex for all corners that agree in everything. */
+/** Creates indices for a primitive without them: one vertex for all corners whose attributes are all equal. */
 function indexPrimitive(document, primitive) {
   const count = primitive.getAttribute("POSITION").getCount();
   const attributes = vertexData(primitive).map(([, , accessor]) => ({ data: readFloats(accessor), size: accessor.getElementSize() }));
@@ -38,7 +38,9 @@ function indexPrimitive(document, primitive) {
   rewrite(document, primitive, split.indices, split.sourceCorners);
 }
 
-/** Gives every accessor of vertices the entries that `sources` names. Accessors may be shared: new ones take their place. */
+/**
+ * Replaces every vertex accessor by one with the entries `sources`. Accessors may be shared, so new ones are created.
+ */
 function rewrite(document, primitive, indices, sources) {
   for (const [owner, name, accessor] of vertexData(primitive)) {
     const own = gather(accessor.getArray(), accessor.getElementSize(), sources);
@@ -49,7 +51,7 @@ function rewrite(document, primitive, indices, sources) {
   primitive.setIndices(document.createAccessor().setType("SCALAR").setArray(list).setBuffer(buffer));
 }
 
-/** Tangents per corner of each morph target's pose, with the groups of the base. */
+/** Computes tangents per corner for the pose of each morph target, with the groups of the base. */
 function targetTangents(primitive, mesh, { makeNormals, normals, sanitize, orthogonalizeAll, report, ...options }) {
   const targets = primitive.listTargets().filter((t) => t.getAttribute("POSITION") || t.getAttribute("NORMAL"));
   if (targets.length === 0) return [];
@@ -79,7 +81,7 @@ function addTangents(document, primitive, options) {
   };
   const frames = makeIndexedFrames(mesh, { ...options, convention: "gltf" });
   if (!normal) {
-    // Made per corner: from here on the vertices are those of the result.
+    // Computed per corner; from here on the vertices are those of the result.
     rewrite(document, primitive, frames.indices, frames.sourceVertices);
     const buffer = primitive.getAttribute("POSITION").getBuffer();
     primitive.setAttribute("NORMAL", document.createAccessor().setType("VEC3").setArray(frames.normals).setBuffer(buffer));

@@ -10,7 +10,7 @@ import { textAt, Wasm } from "./wasm.js";
 export { TspaceError };
 export { remedyText } from "./remedies.js";
 
-/** The call that runs: where each of its models gets the files that it names, and its codecs. */
+/** The current call: file sources of its models, and its codecs. */
 let current;
 
 const wasm = new Wasm({
@@ -48,7 +48,7 @@ const cannotRead = 103;
 const utf8 = new TextEncoder();
 const textDecoder = new TextDecoder();
 
-/** What a model gets its files from, as a function from a path to bytes, or undefined. */
+/** Returns the file source of a model as a function from a path to bytes, or undefined. */
 function finderOf(resources) {
   if (resources === undefined || resources === null) return undefined;
   if (typeof resources === "function") return resources;
@@ -57,10 +57,10 @@ function finderOf(resources) {
   return (path) => (Object.hasOwn(resources, path) ? resources[path] : undefined);
 }
 
-/** memoryLimit: as the tool calls it, "memory-limit". */
+/** Converts an option name to the tool's: memoryLimit -> "memory-limit". */
 const toolName = (name) => name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
 
-/** Checks options, and makes the text of them that the module reads. */
+/** Checks options, and formats them as the text that the module parses. */
 function textOfOptions(options) {
   const given = {};
   for (const [name, value] of Object.entries(options)) {
@@ -96,7 +96,7 @@ class Files {
   }
 }
 
-/** Progress, and the end of a call that its caller no longer wants. */
+/** Reports progress, and stops a call that its caller has aborted. */
 class Watch {
   constructor(onProgress, signal) {
     if (onProgress !== undefined && onProgress !== null && typeof onProgress !== "function") failType(onProgress, "onProgress", "a function");
@@ -116,7 +116,7 @@ class Watch {
   }
 }
 
-/** body(call, places of models, place of the options) of a call, and its codecs. */
+/** Runs body(call, addresses of models, address of the options) with the codecs of a call. */
 function run(models, { resources, meshopt, draco, decodeImage, encodeImage, onProgress, signal, ...options }, body) {
   const text = textOfOptions(options);
   const finder = finderOf(resources);
@@ -139,7 +139,7 @@ function run(models, { resources, meshopt, draco, decodeImage, encodeImage, onPr
   });
 }
 
-/** Output and report of a function of the C API. */
+/** Returns output and report of a function of the C API. */
 function callFiles(verb, models, options) {
   return run(models, options, (call, table, given) => {
     const results = call.put(new Uint32Array(4));
@@ -156,7 +156,7 @@ function modelOf(data, name, what = "the model") {
   return { data: bytes(data, what), name: name ?? "" };
 }
 
-/** Of the one file, with the exit code of the run. */
+/** Returns the entry of the only file, with the exit code of the run. */
 const ofFile = ({ files, exitCode }) => ({ ...files[0], exitCode });
 
 function ask(verb, data, options) {
@@ -174,7 +174,7 @@ export const diff = (a, b, options = {}) =>
 
 const isSame = (a, b) => a.length === b.length && a.every((byte, i) => byte === b[i]);
 
-/** An option decodeImage for this model, of a decode(bytes, mimeType) that may give promises. */
+/** Returns the option decodeImage for this model, from decode(bytes, mimeType), which may return promises. */
 export async function decodeImages(data, decode, options = {}) {
   if (typeof decode !== "function") failType(decode, "decode", "a function");
   const { resources, meshopt, draco, memoryLimit, allowExternal, signal, name } = object(options, "options");
@@ -196,7 +196,10 @@ export async function decodeImages(data, decode, options = {}) {
   };
 }
 
-/** A decode function by what browsers and their workers have. Of 16 bits it gives 8, and colours that are transparent are not exact. */
+/**
+ * A decode function based on browser features. It returns 8 bits for 16-bit images, and transparent colors are not
+ * exact.
+ */
 export async function decodeByCanvas(file, mimeType) {
   const bitmap = await createImageBitmap(new Blob([file], { type: mimeType }), { colorSpaceConversion: "none", premultiplyAlpha: "none" });
   const { width, height } = bitmap;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The entry "tspace": the whole core.
+// The entry "tspace": the complete core.
 import { source } from "#core";
 import { start } from "./core.js";
 

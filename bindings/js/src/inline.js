@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The entry "tspace/inline": the whole core with its module inside, wherever it runs.
+// The entry "tspace/inline": the complete core with its module embedded, for any environment.
 import { source } from "./core-inside.js";
 import { start } from "./core.js";
 

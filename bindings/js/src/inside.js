@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Modules that lie in JavaScript, as text of what gzip makes of them.
+// Modules embedded in JavaScript, as gzip-compressed text.
 
 export function unpacked(text) {
   const packed = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));

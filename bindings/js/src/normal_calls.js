@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Normals, for the entries that make them.
+// Computation of normals, for the entries that support it.
 import { givenMesh, keepReport, meshOf, setMesh } from "./calls.js";
 import { boolean, choice, count, fail, integers, isMissing, number, optionsOf } from "./check.js";
 import { conventionBits } from "./convention.js";
@@ -30,7 +30,7 @@ export function normalArguments(options, isWhole) {
   const after = [
     boolean(options.smoothingGroupsAreMasks ?? false, "smoothingGroupsAreMasks"),
     boolean(options.weldPositions ?? true, "weldPositions"),
-    conventionBits(options.convention ?? "gltf"), // of which handedness and winding count here
+    conventionBits(options.convention ?? "gltf"), // only handedness and winding are used
     count(options.refine ?? 2, "refine"),
     numberOrAuto(options.denoise ?? 0, "denoise"),
     numberOrAuto(options.weldDistance ?? 0, "weldDistance"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The entry "tspace/normals": what scans, meshes of AI tools and CAD need before tangents.
+// The entry "tspace/normals": preparation of scans, AI-generated meshes and CAD data before tangents.
 import { source } from "#normals";
 import { givenMesh, meshOf, setMesh } from "./calls.js";
 import { boolean, optionsOf } from "./check.js";
@@ -45,7 +45,7 @@ export function mendWinding(mesh, options = {}) {
   const given = [
     boolean(options.useNormals ?? true, "useNormals"),
     boolean(options.weldPositions ?? true, "weldPositions"),
-    conventionBits(options.convention ?? "gltf"), // of which handedness and winding count here
+    conventionBits(options.convention ?? "gltf"), // only handedness and winding are used
     numberOrAuto(options.weldDistance ?? 0, "weldDistance"),
   ];
   const { positions, normals, indices, faceSizes, normalIndices } = givenMesh(mesh);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The entry "tspace/pack": whole frames in 4 to 16 bytes.
+// The entry "tspace/pack": complete frames in 4 to 16 bytes.
 import { source } from "#pack";
 import { bytes as bytesOf, choice, fail, floats, optionsOf } from "./check.js";
 import { frameFormatNames, packReportNames } from "./names.js";

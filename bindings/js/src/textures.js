@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The entry "tspace/textures": KTX2 and DDS as pixels, and normal maps as such files.
+// The entry "tspace/textures": decodes KTX2 and DDS to pixels, and encodes normal maps as KTX2 and DDS.
 import { source } from "#textures";
 import { boolean, bytes as bytesOf, choice, count, fail, failType, isMissing, number, object } from "./check.js";
 import { textAt, Wasm } from "./wasm.js";
@@ -17,7 +17,7 @@ const wasm = new Wasm({
     try {
       unpacked = unpackers[name](new Uint8Array(wasm.exports.memory.buffer, from >>> 0, size).slice(), wanted);
     } catch {
-      return 0; // it throws for data that are broken
+      return 0; // the codec throws for corrupt data
     }
     if (!(unpacked instanceof Uint8Array)) failType(unpacked, `what ${name} gives`, "a Uint8Array");
     if (unpacked.length !== wanted) return 0;

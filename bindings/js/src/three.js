@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The entry "tspace/three": tangents for a BufferGeometry, which comes back indexed.
+// The entry "tspace/three": tangents for a BufferGeometry; the result is indexed.
 import { BufferAttribute, BufferGeometry, InstancedBufferGeometry } from "three";
 import { typeError } from "./error.js";
 import { gather } from "./gather.js";
@@ -86,7 +86,7 @@ export function computeTangents(given, options = {}) {
       uvs: uv && readFloats(uv, 2),
       indices: geometry.index && Uint32Array.from(geometry.index.array),
     },
-    isMikktspace ? { pairing: "corrected", ...options } : options, // as three.js's own module
+    isMikktspace ? { pairing: "corrected", ...options } : options, // same default as three.js's own module
   );
   const result = emptyLike(geometry), sources = made.sourceVertices, shared = {};
   for (const [name, attribute] of Object.entries(geometry.attributes)) result.setAttribute(name, gathered(attribute, sources, shared));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A WebAssembly module, its instance, and arrays on the way in and out. The modules import one function, or more where they
-// ask for files, which ends a call, as one that runs out of memory: it throws through the module's frames. What such a call
-// leaves behind is unknown, so the next one gets a new instance.
+// A WebAssembly module, its instance, and the transfer of arrays. The modules import one function (file modules import
+// several), which ends a call when memory runs out by throwing through the module's frames. The state after such a call
+// is undefined, so the next call gets a new instance.
 import { TspaceError, codeName, inJavaScriptNames } from "./error.js";
 
 /** A code that the module returned; its text is still there. */
@@ -38,7 +38,7 @@ export class Wasm {
     this.#ready = (source instanceof URL ? fetched(source) : source()).then(WebAssembly.compile).then((module) => {
       this.#module = module;
     });
-    this.#ready.catch(() => {}); // who awaits `ready` hears of it, and who calls without does below
+    this.#ready.catch(() => {}); // callers that await `ready` get the error; other calls report it below
     return this.#ready;
   }
 
@@ -108,7 +108,8 @@ export class Wasm {
         const [code, text, element] = errorOf(call.wasm, error.number);
         throw new TspaceError(code, this.#translated(text), element);
       }
-      this.#isWorn ||= error instanceof WebAssembly.RuntimeError || error instanceof RangeError; // a full stack is one
+      // a stack overflow is a RangeError
+      this.#isWorn ||= error instanceof WebAssembly.RuntimeError || error instanceof RangeError;
       if (error instanceof WebAssembly.RuntimeError)
         throw new TspaceError("internal", `internal error of tspace: ${error.message}`);
       throw error;
@@ -159,7 +160,8 @@ class Call {
 
   /** A copy of what lies at a place. */
   get(Type, place, count) {
-    return new Type(new Type(this.wasm.memory.buffer, place >>> 0, count)); // slice() fills it with zeros first
+    // slice() would fill the array with zeros first
+    return new Type(new Type(this.wasm.memory.buffer, place >>> 0, count));
   }
 
   /** The same for an array that the module allocated for its caller. */

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The entry "tspace/webgpu": normals and tangents of each pose, computed by WebGPU from a plan. Buffers stay the caller's, and
-// nothing is read back.
+// The entry "tspace/webgpu": normals and tangents of each pose, computed by WebGPU from a plan. Buffers belong to the
+// caller, and nothing is read back.
 import { count, fail, failType, isMissing, number, object } from "./check.js";
 import { shader } from "./evaluate_shader.js";
 
 export { TspaceError } from "./error.js";
 
-const STORAGE = 0x80, COPY_DST = 0x08; // GPUBufferUsage, which node does not have
+const STORAGE = 0x80, COPY_DST = 0x08; // GPUBufferUsage, which does not exist in node
 const THREADS = 64, MOST_GROUPS = 65535, SETTINGS = 32, RANGE_ALIGNMENT = 256;
 
 /** Formats by their number in the settings, and bytes of an element. */
@@ -115,7 +115,7 @@ export class GpuFrames {
     this.vertexCount = vertexCountOf(words);
     this.resultCount = words[4];
     this.makesNormals = (words[2] & 1) !== 0;
-    // Normals of a pose are read at vertices.
+    // Normals of a pose are read per vertex.
     this.normalCount = this.makesNormals ? this.resultCount : this.vertexCount;
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The adapters beside the packages that they take the place of, or work for.
+// Compares the adapters with the packages that they replace or support.
 import assert from "node:assert/strict";
 import { existsSync, readdirSync, readFileSync } from "node:fs";
 import { describe, it } from "node:test";
@@ -32,7 +32,7 @@ describe("the call of npm's mikktspace", () => {
       try {
         wanted = ofNpm(...arrays);
       } catch (error) {
-        assert.ok(error instanceof WebAssembly.RuntimeError); // the package crashes where all triangles are degenerate
+        assert.ok(error instanceof WebAssembly.RuntimeError); // the package crashes if all triangles are degenerate
         continue;
       }
       assert.equal(differences(tangents, wanted), 0, name);
@@ -65,7 +65,7 @@ describe("the call of npm's mikktspace", () => {
     assert.deepEqual(primitive.getAttribute("TANGENT").getArray(), wanted);
   });
 
-  // three.js leaves out the reference's defect in the last bucket of its edge list, so meshes where that shows differ from it.
+  // three.js fixes the reference's defect in the last bucket of its edge list, so meshes affected by it differ.
   it("gives the bits of the reference on golden meshes of triangles, and pairing corrected those of three.js", { skip: absent(threeMikktspace, "three") }, async (t) => {
     await threeMikktspace.ready;
     const folder = process.env.TSPACE_GOLDEN;
@@ -235,14 +235,15 @@ describe("computeTangents for three.js", { skip: absent(three, "three") }, () =>
     box.setAttribute("tint", new three.Uint8ClampedBufferAttribute(new Uint8ClampedArray(96).fill(200), 4, true));
     box.morphAttributes.position = [half("position")];
     box.computeBoundingSphere();
-    box.boundingSphere.radius = 9; // for vertices that a shader moves
+    box.boundingSphere.radius = 9; // for vertices that a shader displaces
     const made = computeTangents(box, { convention: "opengl" });
     for (const [name, attribute] of Object.entries(box.attributes)) {
       const kept = made.attributes[name];
       for (const member of ["constructor", "name", "usage", "gpuType", "normalized", "itemSize"]) assert.equal(kept[member], attribute[member], `${name}.${member}`);
       assert.equal(kept.array.constructor, attribute.array.constructor);
     }
-    assert.deepEqual(made.attributes.tangent.array, plain.tangent.array); // the numbers of a box are exact as half floats
+    // the coordinates of a box are exact as half floats
+    assert.deepEqual(made.attributes.tangent.array, plain.tangent.array);
     assert.equal(made.attributes.uv.getX(1), fromHalfFloat(box.attributes.uv.array[2]));
     assert.ok(made.morphAttributes.position[0].isFloat16BufferAttribute);
     assert.equal(made.boundingSphere.radius, 9);

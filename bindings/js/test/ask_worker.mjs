@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The other side of worker.mjs.
+// Counterpart of worker.mjs in the main thread.
 
 /** What the worker makes of a message { mesh, options } or { call, model, options }. */
 export function askWorker(worker, message, { signal, onProgress } = {}) {
-  const flag = new Int32Array(new SharedArrayBuffer(4)); // in a browser: for pages that are cross-origin isolated
+  const flag = new Int32Array(new SharedArrayBuffer(4)); // in a browser: requires cross-origin isolated pages
   const stop = () => Atomics.store(flag, 0, 1);
   if (signal?.aborted) stop();
   signal?.addEventListener("abort", stop);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each mistake is an exception that says what and where, and the module works afterwards.
+// Each invalid argument raises a precise exception, and the module still works afterwards.
 import assert from "node:assert/strict";
 import { after, describe, it } from "node:test";
 import { runInNewContext } from "node:vm";
@@ -239,12 +239,12 @@ describe("taken as it is", () => {
 describe("running out of memory", () => {
   it("is an error, after which the module works", () => {
     const plan = new Plan(mesh, options);
-    // What the caller does wrong ends no plan.
+    // An invalid argument does not invalidate plans.
     assert.throws(() => generateTangents(mesh, { ...options, report: 5 }), TypeError);
     assert.throws(() => generateTangents(mesh, { ...options, report: Object.freeze({}) }), TypeError);
     assert.throws(() => generateTangents({ ...mesh, indices: new Uint8Array(2 ** 31) }, options), { code: "outOfMemory" });
     assert.deepEqual(plan.evaluate(mesh), good);
-    const vertexCount = 2 ** 31 - 1; // 8 GB of numbers for the new vertices alone
+    const vertexCount = 2 ** 31 - 1; // 8 GB for the new vertices alone
     refuses("outOfMemory", [/memory/], () => splitVertices({ indices: Uint32Array.of(0), vertexCount }, [{ data: new Float32Array(1), size: 1 }]));
     assert.throws(() => plan.evaluate(mesh), { code: "planMismatch" });
     plan.destroy();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Times of tspace beside other packages in one process: node test/bench.mjs in build/js/project, after scripts/js.
+// Compares run times of tspace and other packages in one process: node test/bench.mjs in build/js/project, after
+// scripts/js.
 import { MeshoptTangents } from "meshoptimizer";
 import * as three from "three/examples/jsm/libs/mikktspace.module.js";
 import { generateTangents, ready } from "tspace";

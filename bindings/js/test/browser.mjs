@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A page of one module, bundled by Vite, in headless Chromium with WebGPU on SwiftShader.
+// Opens a page with one module, bundled by Vite, in headless Chromium with WebGPU on SwiftShader.
 import assert from "node:assert/strict";
 import { createServer } from "node:http";
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The package bundled by Vite, in headless Chromium: golden meshes, pictures, and a mistake.
+// Tests the package bundled by Vite, in headless Chromium: golden meshes, images, and invalid input.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { createServer } from "node:http";
@@ -120,7 +120,8 @@ it("gives the same bits in Chromium, bundled by Vite", { skip: missing, timeout:
     await tab.goto(`http://127.0.0.1:${server.address().port}/`);
     await tab.waitForFunction("window.result", undefined, { timeout: 120_000 }).catch((error) => assert.fail([...messages, error].join("\n")));
     const { pictures, images, compared, wrong, code, refused, glb, found } = await tab.evaluate("window.result");
-    assert.deepEqual(images, [true, false, true]); // the note is gone once pixels are there, and they are the right ones
+    // the note disappears once pixels are available, and the pixels are correct
+    assert.deepEqual(images, [true, false, true]);
     if (tool && pngjs) {
       const steps = pictures.map((picture) => [picture.name, stepsFromTool(picture, folder)]);
       assert.ok(steps.every(([, most]) => most <= 1), JSON.stringify(steps));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bundles for servers, which are copied to where no other file of the package is.
+// Bundles for servers, copied to a folder without any other file of the package.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { copyFileSync, existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rollup, Bun and Next, with the package installed beside them: scripts/js --all installs them into build/js/bundlers.
+// Tests Rollup, Bun and Next with the installed package: scripts/js --all installs them into build/js/bundlers.
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
 import { copyFileSync, cpSync, existsSync, mkdirSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from "node:fs";
@@ -96,7 +96,7 @@ export default async function Page() {
 `;
   for (const bundler of ["turbopack", "webpack"])
     it(`answers with what server components compute, by ${bundler}, from its standalone folder`, { timeout: 400_000 }, () => inProject(async (folder) => {
-      // A project of its own: Next takes the folder that has the packages for its root.
+      // A separate project, because Next uses the folder with the packages as its root.
       cpSync(join(installed, "package.json"), join(folder, "package.json"));
       writeFileSync(join(folder, "next.config.mjs"), `const root = ${JSON.stringify(installed)};
 export default { output: "standalone", outputFileTracingRoot: root, turbopack: { root }, typescript: { ignoreBuildErrors: true } };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Models compressed by meshopt and Draco, and normal maps, with what npm has for them.
+// Models compressed with meshopt and Draco, and normal maps, with codecs from npm.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
 import { tmpdir } from "node:os";

@@ -97,7 +97,7 @@ describe("calls", () => {
   });
 
   it("cut polygons into triangles: quads by MikkTSpace's rule, others by ears", () => {
-    // Three quads and a triangle that share vertices: longer along 0-2, along 1-3, and of equal diagonals.
+    // Three quads and a triangle that share vertices: the longer diagonal is 0-2, then 1-3; then both are equal.
     const quads = {
       positions: Float32Array.of(0, 0, 0, 2, 0, 0, 3, 1, 0, 0, 1, 0, 5, 0, 0, 9, 0, 0, 9, 1, 0, 4, 1, 0),
       indices: Uint16Array.of(0, 1, 2, 3, 0, 1, 2, 4, 5, 6, 7),
@@ -105,10 +105,10 @@ describe("calls", () => {
     };
     assert.deepEqual(Object.values(whole.triangulate(quads)).map((list) => [...list]), [[0, 1, 3, 1, 2, 3, 4, 5, 6, 7, 8, 9, 7, 9, 10], [0, 0, 1, 2, 2]]);
     const uvs = new Float32Array(16);
-    uvs.set([0, 0, 4, 0, 1, 1, 0, 1]); // there 0-2 is the shorter one
+    uvs.set([0, 0, 4, 0, 1, 1, 0, 1]); // in UVs 0-2 is the shorter diagonal
     assert.deepEqual([...whole.triangulate({ ...quads, uvs }).corners.subarray(0, 6)], [0, 1, 2, 0, 2, 3]);
 
-    // The letter L, without indices, and a face of two corners behind it, which gives nothing.
+    // The letter L without indices, followed by a face of two corners, which produces no triangle.
     const letter = [0, 0, 3, 0, 3, 1, 1, 1, 1, 3, 0, 3];
     const positions = Float32Array.from([...letter, 5, 5, 6, 6].flatMap((x, i) => (i % 2 ? [x, 0] : [x])));
     const { corners, faces } = whole.triangulate({ positions, faceSizes: Uint32Array.of(6, 2) });

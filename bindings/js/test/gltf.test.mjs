@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The entry "tspace/gltf": on models that are made here, on those of ../shared beside the tool, and on broken ones.
+// The entry "tspace/gltf": generated models, models of ../shared compared with the tool, and corrupt models.
 import assert from "node:assert/strict";
 import { existsSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -124,7 +124,7 @@ describe("models in memory", () => {
         assert.deepEqual(error.message.split("known are ")[1].split(", ").sort(), wanted, name);
         return true;
       });
-      for (const option of wanted) // a wrong value is refused by the module, if it is, and never as a name
+      for (const option of wanted) // a wrong value is rejected by the module, if at all, and never as an unknown name
         try {
           call(model, { [option]: "?" });
         } catch (error) {

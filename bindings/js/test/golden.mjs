@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The golden meshes of the MikkTSpace reference (the layout is described beside the files), for node and browsers.
+// Golden meshes of the MikkTSpace reference (their layout is described next to the files), for node and browsers.
 
 /** A mesh and the tangents that it must get; null for what is not a complete file. */
 export function readGolden(buffer) {

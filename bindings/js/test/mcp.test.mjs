@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `tspace mcp` asked by the client of the protocol's own package, over stdin and stdout.
+// Tests `tspace mcp` with the protocol's official client, over stdin and stdout.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, realpathSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
@@ -30,12 +30,12 @@ symlinkSync(join(outside, "grid.gltf"), join(root, "link.gltf"));
 symlinkSync(join(outside, "new.glb"), join(root, "nowhere.glb"));
 symlinkSync(join(root, "deep"), join(root, "within"));
 symlinkSync(root, join(home, "alias"));
-// Models whose buffer is a link to the outside, or one by name.
+// Models whose buffer is a link to the outside, or is named outside the folder.
 mkdirSync(join(root, "linked"));
 writeFileSync(join(root, "linked/grid.gltf"), model);
 symlinkSync(join(outside, "grid.bin"), join(root, "linked/grid.bin"));
 writeFileSync(join(root, "named.gltf"), model.toString().replace("grid.bin", "../outside/grid.bin"));
-// An OBJ whose materials are a link to the outside.
+// An OBJ whose material library is a link to the outside.
 writeFileSync(join(root, "cut.obj"), "mtllib cut.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl secret\nf 1/1 2/2 3/3\n");
 writeFileSync(join(outside, "cut.mtl"), "newmtl secret\nmap_Bump secret.png\n");
 symlinkSync(join(outside, "cut.mtl"), join(root, "cut.mtl"));
@@ -79,8 +79,8 @@ describe("tspace mcp", { skip: missing }, () => {
     assert.equal(readFileSync(join(root, "deep/out.glb")).subarray(0, 4).toString(), "glTF");
     const { files: [identified] } = JSON.parse(textOf(await good("identify", { file: join(root, "deep/out.glb") })));
     assert.match(JSON.stringify(identified), /best/);
-    await good("inspect", { file: "within/grid.gltf" }); // a link that stays in the folder
-    await good("inspect", { file: join(home, "alias/grid.gltf") }); // the folder by another name
+    await good("inspect", { file: "within/grid.gltf" }); // a link inside the folder
+    await good("inspect", { file: join(home, "alias/grid.gltf") }); // the folder under another name
     await refused("generate", { file: "grid.gltf", output: "deep/out.glb", all: true }, /there already/);
     await good("generate", { file: "grid.gltf", output: "deep/out.glb", all: true, replace: true });
     rmSync(join(root, "deep/out.glb"));
@@ -114,12 +114,14 @@ describe("tspace mcp", { skip: missing }, () => {
     for (const file of ["../outside/grid.gltf", "deep/../../outside/grid.gltf", join(outside, "grid.gltf"), "way/grid.gltf", "link.gltf", "/etc/passwd", `${root}x/grid.gltf`, ".."])
       await refused("inspect", { file }, /outside of the folder|cannot be followed/);
     await refused("inspect", { file: "nothing.gltf" }, /is not there/);
-    await refused("inspect", { file: "way/../outside/grid.gltf" }, /is not there/); // .. is taken back before links are followed
+    // .. is resolved before links are followed
+    await refused("inspect", { file: "way/../outside/grid.gltf" }, /is not there/);
     await refused("inspect", { file: "nowhere.glb" }, /cannot be followed|outside/);
     await refused("inspect", { file: "grid.gltf\0.png" }, /cannot be followed/);
-    await refused("inspect", { file: "linked/grid.gltf" }, /leads out of the model's folder/); // its buffer is a link
+    await refused("inspect", { file: "linked/grid.gltf" }, /leads out of the model's folder/); // the buffer is a link
     await refused("inspect", { file: "named.gltf" }, /outside|\.\./);
-    const { files } = JSON.parse((await call("check", { file: root, pictures: false })).content[0].text); // links in a folder of models
+    // links in a folder of models
+    const { files } = JSON.parse((await call("check", { file: root, pictures: false })).content[0].text);
     assert.deepEqual(files.filter(({ input, ok }) => ok === /link|named|nowhere/.test(input)).map(({ input }) => input), []);
     assert.ok(!textOf(await call("check", { file: "cut.obj", pictures: false })).includes("secret.png"));
   });
@@ -165,7 +167,7 @@ describe("tspace mcp", { skip: missing }, () => {
     const own = () => readdirSync(tmpdir()).filter((name) => /^tspace-mcp-(?!test)/.test(name));
     const before = own();
     const other = await connected([root]);
-    // A model that takes long: a grid of 250,000 faces.
+    // A slow model: a grid of 250,000 faces.
     const size = 500, lines = [];
     for (let y = 0; y <= size; ++y) for (let x = 0; x <= size; ++x) lines.push(`v ${x} ${y} ${Math.sin(x * y)}`, `vt ${x} ${y}`);
     for (let y = 0; y < size; ++y) for (let x = 0; x < size; ++x) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The package beside the tool on files with random changes, of small models of ../shared/models and ../shared/bad: the same verdicts,
-// codes of errors, findings and outputs; no trap, and no call that leaves the next one broken. The same files every time, but
-// for TSPACE_SEED; TSPACE_CHANGED is how many.
+// Compares the package with the tool on small models of ../shared/models and ../shared/bad with random changes:
+// verdicts, error codes, findings and outputs must be equal; no trap occurs, and no call breaks the next one. The files
+// are the same in each run, unless TSPACE_SEED is set; TSPACE_CHANGED is their number.
 import assert from "node:assert/strict";
 import { cpSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -66,7 +66,7 @@ describe("files with random changes", { skip: skip || (!hasModels && "no ../shar
     }
   });
   after(() => {
-    // What failed is kept.
+    // Keeps files that failed.
     if (failed) cpSync(folder, "changed", { recursive: true });
     rmSync(folder, { recursive: true });
   });
@@ -105,7 +105,7 @@ describe("files with random changes", { skip: skip || (!hasModels && "no ../shar
       assert.equal(report.ok, file.ok, `${path}: ${JSON.stringify(file.error ?? report)}`);
       if (!file.ok) return assert.equal(report.code, file.error.code, path);
       assert.deepEqual(report.primitives, file.primitives, path);
-      // The tool copies files that lie beside a model.
+      // The tool copies files next to a model.
       if (report.warnings?.length === file.warnings?.length && report.normalMaps?.length === file.normalMaps?.length)
         assert.ok(Buffer.compare(made.bytes, readFileSync(file.output)) === 0, path);
     });

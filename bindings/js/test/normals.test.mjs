@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The entry "tspace/normals": noise, hard edges by the mesh, winding.
+// The entry "tspace/normals": noise, automatic hard edges, winding.
 import assert from "node:assert/strict";
 import { describe, it } from "node:test";
 import * as plain from "tspace";
@@ -76,7 +76,7 @@ describe("mendWinding", () => {
     assert.equal(mended.report.turnedCount, 1);
     assert.equal(mended.report.conflictCountBefore, 3);
     assert.equal(mended.report.byVolumeCount, 1);
-    assert.equal(indices[4], 3); // those of the caller stay as they are
+    assert.equal(indices[4], 3); // the caller's indices are not changed
   });
   it("follows normals, unless it is not to", () => {
     const normals = positions.map((x) => 0.2 - x);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Numbers and texts of files that a module with addresses of 32 bits could take for others: what the tool refuses, which counts in
-// 64 bits, is refused here, and what it reads is read.
+// Numbers and texts in files that a module with 32-bit addresses could misread: the module must reject what the tool,
+// which counts in 64 bits, rejects, and read what it reads.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -68,7 +68,7 @@ function verdict(call) {
 }
 
 describe("numbers beyond 32 bits", () => {
-  // What frames do not depend on is no reason to refuse a file: textures, images, scenes.
+  // Data that does not affect frames is not validated: textures, images, scenes.
   const refused = numbersIn(fullModel()).filter((path) => !/normalTexture\/index|textures|mappings|\/scene|\/nodes/.test(path));
 
   it("are not read as the numbers that their last 32 bits are", () => {
@@ -121,7 +121,7 @@ describe("numbers beyond 32 bits", () => {
   });
 
   it("do not make large compressed data too small", { skip: !codecs && "npm's codecs are not installed" }, () => {
-    // 4 MiB of data for KHR_meshopt_compression and a little: 1024 times as much is 2^32 and a little.
+    // Slightly more than 4 MiB of data for KHR_meshopt_compression: 1024 times as much is slightly more than 2^32.
     const noise = new Uint8Array(12 * 400_000);
     for (let i = 0, state = 1; i < noise.length; ++i) noise[i] = (state = (Math.imul(state, 1664525) + 1013904223) >>> 0) >>> 24;
     const encoded = (rows) => codecs.meshopt.encoder.encodeGltfBuffer(rows, rows.length / 12, 12, "ATTRIBUTES", 1);

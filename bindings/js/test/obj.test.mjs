@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// OBJ in "tspace/gltf": its materials from the caller, and the tool's bytes and reports.
+// OBJ in "tspace/gltf": materials provided by the caller; bytes and reports equal to the tool's.
 import assert from "node:assert/strict";
 import { existsSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
 import { tmpdir } from "node:os";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The archive as users get it: installed into an empty project, where the README's lines run; its size and its types.
+// Tests the published archive: installed in an empty project, where the README's code runs; its size and its types.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
@@ -35,7 +35,8 @@ describe("the archive", { skip: !archive && "run scripts/js" }, () => {
       writeFileSync(join(folder, "chair.gltf"), model);
       writeFileSync(join(folder, "chair.bin"), buffer);
       blocks.forEach((code, i) => {
-        if (/from "(three|@gltf)/.test(code)) return; // those run in adapters.test.mjs, where the packages are
+        // those run in adapters.test.mjs, where the packages are installed
+        if (/from "(three|@gltf)/.test(code)) return;
         writeFileSync(join(folder, `readme${i}.mjs`), code);
         assert.match(execFileSync("node", [`readme${i}.mjs`], { cwd: folder, encoding: "utf8" }), /Uint32Array|Float32Array|Uint8Array/);
       });
@@ -111,7 +112,7 @@ const texture = compressMap({ width: 1, height: 1, rgba: new Float32Array(4) }, 
 const z: "red" | "green" | "blue" | "alpha" | null | undefined = readTexture(texture.bytes, { level: 0, numbers: "float", unzstd: (data, size) => data.subarray(size) }).layout?.z;
 texture.report.meanErrorDeg.toFixed(z?.length);
 generateTangents(mesh, { convention: "gltf", hasTangent: new Uint8Array(3) });\n`);
-    // Results can be handed over without a copy, and made into files.
+    // Results can be transferred without a copy, and written to files.
     check("transfer.ts", `${head}const { normals, tangents, indices } = makeIndexedFrames(mesh, { convention: "gltf" });
 postMessage(tangents, [normals.buffer, tangents.buffer, indices.buffer, generateTangents(mesh, { convention: "gltf" }).buffer]);
 new Blob([generate(new Uint8Array()).bytes, compressMap(new Uint8Array()).bytes]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A plan as arrays for compute shaders: evaluated in JavaScript, it gives what the module gives.
+// A plan as arrays for compute shaders: evaluation in JavaScript gives the same result as the module.
 import assert from "node:assert/strict";
 import { describe, it } from "node:test";
 import { makeIndexedFrames, Plan, planBuffers, ready, release } from "tspace";
@@ -57,7 +57,7 @@ describe("planBuffers", () => {
     const pose = { positions: mesh.positions.map((x, i) => x * [1, 2, 0.5][i % 3]), normals: mesh.normals };
     const { tangents } = evaluated(buffers, pose.positions, pose.normals);
     assert.ok(difference(tangents, plan.evaluate(pose)) < 2e-6);
-    assert.ok(difference(tangents, plan.evaluate(mesh)) > 0.1); // of another pose: the comparison can fail
+    assert.ok(difference(tangents, plan.evaluate(mesh)) > 0.1); // a different pose, so that the comparison can fail
     plan.destroy();
     assert.throws(() => planBuffers(plan), /destroyed/);
   });

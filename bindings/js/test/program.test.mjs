@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The package's program beside the native tool: the same files, reports, words and exit codes over the models of ../shared.
+// Compares the package's program with the native tool: equal files, reports, messages and exit codes for the models of
+// ../shared.
 import assert from "node:assert/strict";
 import { spawn, spawnSync } from "node:child_process";
 import { chmodSync, copyFileSync, existsSync, linkSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync, symlinkSync, writeFileSync } from "node:fs";
@@ -23,7 +24,7 @@ function newFolder() {
   return folder;
 }
 
-// Alone in a folder, the native tool has no importer beside it, as the program has none.
+// Copied to a separate folder, so that the native tool has no importer, like the package's program.
 const native = join(home, "tspace");
 if (!skip) copyFileSync(tool, native);
 
@@ -162,7 +163,7 @@ describe("the program", { skip: missing }, () => {
       setTimeout(() => child.kill(signal), 400);
       const ended = await new Promise((resolve) => child.on("exit", (code, by) => resolve(by ?? code)));
       const left = existsSync(join(cwd, "out")) ? readdirSync(join(cwd, "out")) : [];
-      // A fast machine may be done before.
+      // A fast machine may finish before the signal.
       if (ended !== 0) assert.equal(ended, signal);
       assert.deepEqual(left.filter((name) => name !== "a.glb"), []);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Paths of Windows in the package's program, whose C library knows those of POSIX alone. They are functions of texts, so every
-// system tests them.
+// Windows paths in the package's program, whose C library supports only POSIX paths. The functions work on text, so
+// they are tested on every system.
 import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
 import { posix } from "node:path";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The package beside the tool on every file of ../shared/bad, ../shared/reports and (small ones) ../shared/models: the same
-// verdicts, codes of errors, findings with their counts, and outputs.
+// Compares the package with the tool for every file of ../shared/bad, ../shared/reports and small files of
+// ../shared/models: equal verdicts, error codes, findings with counts, and outputs.
 import assert from "node:assert/strict";
 import { existsSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -12,7 +12,7 @@ import { besideOf, filesIn, npmCodecs, ofTool, plain, shared, skip } from "./too
 await ready;
 const codecs = await npmCodecs();
 
-// What differs for a reason:
+// Intended differences:
 /** The tool has tspace-import read other formats, and the package refuses them. */
 const isOther = /\.(off|ply|dae)$/;
 /** Models that are compressed, or have a part that is: npm's encoders are of other versions than the tool's, so the bytes of
@@ -76,7 +76,7 @@ describe("beside the tool", { skip }, () => {
             return made.report;
           }, name);
           const wanted = ofFile(file);
-          // No images are decoded here: green is not seen, and heights of OBJ make no normal map.
+          // No images are decoded here: green is not checked, and OBJ height maps are not converted to normal maps.
           if (report.ok) report.warnings = report.warnings.filter((text) => !text.includes("it is unknown whether green"));
           for (const side of [report, wanted]) if (side.ok) side.warnings = side.warnings.filter((text) => !isLeftOut(text));
           const makesMaps = wanted.ok && wanted.normalMaps.length !== report.normalMaps?.length;

@@ -7,7 +7,7 @@ import Ajv from "ajv/dist/2020.js";
 
 const folder = process.env.TSPACE_SCHEMA;
 export const hasSchemas = Boolean(folder) && existsSync(folder);
-// Types stand in "properties", which ajv would have again beside "if".
+// Types are declared in "properties"; in strict mode ajv would require them again next to "if".
 const ajv = new Ajv({ allErrors: true, strictTypes: false });
 if (hasSchemas) for (const name of readdirSync(folder)) ajv.addSchema(JSON.parse(readFileSync(join(folder, name))));
 

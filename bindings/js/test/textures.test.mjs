@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// "tspace/textures" beside the tool: the same pixels, the same bytes, the same verdicts.
+// Compares "tspace/textures" with the tool: equal pixels, bytes and verdicts.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -122,7 +122,7 @@ describe("compressMap", () => {
   it("takes files: textures, and others by decodeImage; and floats", () => {
     const image = waves(32, 32), fine = waves(32, 32, 65535);
     const { bytes } = compressMap(image, { format: "rg8", noLevels: true });
-    assert.equal(compressMap(bytes).report.warnings.length, 1); // says what was read, and how
+    assert.equal(compressMap(bytes).report.warnings.length, 1); // states what was read, and how
     const png = Uint8Array.from([0x89, 0x50, 0x4e, 0x47]);
     const types = [];
     assert.deepEqual(compressMap(png, { decodeImage: (file, type) => (types.push(type), image) }).bytes, compressMap(image).bytes);
@@ -163,7 +163,8 @@ describe("readTexture", () => {
     for (const name of names) {
       const wanted = byTool(name), read = readTexture(readFileSync(name));
       assert.deepEqual([read.width, read.height, read.numbers], [wanted.width, wanted.height, wanted.most === 255 ? "uint8" : "uint16"], name);
-      // BC4 and the like are numbers between: the PNG is rounded after green was turned, one step at most.
+      // BC4 and similar formats have intermediate values: the PNG is rounded after green was inverted, so values may
+      // differ by one step.
       read.rgba.forEach((c, i) => assert.ok(Math.abs(c - wanted.rgba[i]) <= (i % 4 === 1 ? 1 : 0), `${name} ${i}: ${c} ${wanted.rgba[i]}`));
     }
   });
@@ -251,7 +252,7 @@ describe("readTexture", () => {
       writeFileSync(at("broken"), file);
       const wanted = ofTool("compress-map", at("broken"), "-o", at("o.ktx2"), "--dry-run", "--quality", "quick");
       const own = verdict(() => compressMap(file, { quality: "quick" }));
-      // The tool looks at a head of TGA too, and says unsupportedFile of what is no image.
+      // The tool also checks for a TGA header, and reports unsupportedFile for data that is not an image.
       assert.equal(own, wanted.ok ? "ok" : wanted.error.code, JSON.stringify(wanted));
       assert.equal(verdict(() => readTexture(file)), own);
       refused += own === "ok" ? 0 : 1;

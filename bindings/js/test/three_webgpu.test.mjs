@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// three.js's WebGPURenderer and TSL with tangents of tspace/three, bundled by Vite, in headless Chromium.
+// Tests three.js's WebGPURenderer and TSL with tangents of tspace/three, bundled by Vite, in headless Chromium.
 import assert from "node:assert/strict";
 import { it } from "node:test";
 import { missing, runPage } from "./browser.mjs";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Models of ../shared, and what the tool says about them.
+// Models of ../shared, and the tool's reports about them.
 import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync, readdirSync, statSync } from "node:fs";
 import { dirname, join } from "node:path";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// "tspace/webgpu" in Chromium, with WebGPU on SwiftShader: poses of models of ../shared against the module, and calls without a GPU.
+// Tests "tspace/webgpu" in Chromium with WebGPU on SwiftShader: compares poses of models of ../shared with the module,
+// and makes calls without a GPU.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -53,7 +54,7 @@ describe("GpuFrames in Chromium", { skip: missing || (!hasModels && "no ../share
     if (noAdapter) return t.skip("this Chromium has no WebGPU adapter");
     for (const one of outcomes) t.diagnostic(JSON.stringify(one));
     assert.ok(outcomes.length >= 30);
-    // Skinned positions may differ in their last bits: compilers fuse products and sums.
+    // Skinned positions may differ in their last bits, because compilers fuse multiplications and additions.
     for (const { name, method, isSkinned, wrongSigns, tangents, normals } of outcomes)
       for (const { most, worst } of [tangents, normals])
         assert.ok(wrongSigns === 0 && most < (isSkinned ? 0.002 : 0.0005) && worst < (isSkinned ? 0.1 : 0.01), `${name} ${method}: ${most}, ${worst} degrees, ${wrongSigns} signs`);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page of webgpu.test.mjs: poses of models, by WebGPU and by the module, and how far the two are apart.
+// Page of webgpu.test.mjs: computes poses of models with WebGPU and with the module, and compares the results.
 import { generateNormals, makeIndexedFrames, Plan, planBuffers, ready } from "tspace";
 import { GpuFrames } from "tspace/webgpu";
 
@@ -170,7 +170,7 @@ export async function main() {
   await ready;
   const meshes = await loadMeshes(), device = await newDevice(), outcomes = [];
   for (const mesh of meshes) for (const method of ["mikktspace", "uniform", "lengyel"]) outcomes.push(await comparePose(device, mesh, method));
-  // A shader that adds the second edge must be far off.
+  // A shader that adds the second edge must have a large error.
   const mutant = await newDevice((code) => code.replace("a * corner.e1 - b * corner.e2", "a * corner.e1 + b * corner.e2"));
   const spoiled = await comparePose(mutant, meshes[0], "mikktspace");
   return { outcomes, spoiled };

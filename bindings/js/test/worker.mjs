@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A worker that computes: progress on the way, and a flag in shared memory that stops it.
+// A worker that computes tangents: it reports progress, and stops when a flag in shared memory is set.
 import { parentPort } from "node:worker_threads";
 import { generateTangents, ready } from "tspace";
 import * as files from "tspace/gltf";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// <charconv> for the C++ library of emscripten 3.1, which prints no floats. It is installed as "charconv", before the library's.
+// <charconv> for the C++ library of emscripten 3.1, which cannot format floats. Installed as "charconv", with priority
+// over the library's header.
 #pragma once
 #pragma GCC system_header
 
@@ -9,7 +10,8 @@
 
 namespace std {
 
-/// Digits of floats with a precision, which the standard defines as printf's in the C locale; the tool has no other.
+/// Formats floats with a precision, which the standard defines like printf in the C locale; the tool uses no other
+/// locale.
 inline to_chars_result to_chars(char* first, char* last, double value, chars_format format, int precision) {
     char text[512];
     const char* how = format == chars_format::fixed ? "%.*f" : format == chars_format::scientific ? "%.*e" : "%.*g";

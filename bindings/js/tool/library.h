@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// What emscripten 3.1.6 with Debian's Clang 14 lacks. Included before everything else.
+// Features missing in emscripten 3.1.6 with Debian's Clang 14. Included before everything else.
 #pragma once
 
 #include "../wasm/bit_cast.h"
 
 extern "C" {
 
-/// Where a landing pad tells the runtime which one it is, and is told what was caught. Clang 14 writes it as one variable for all
-/// threads, and the runtime as one for each; where it is defined as that before, Clang's code follows. That takes exactly the type
-/// { i32, i8*, i32 } without a name: of the union's members, the initial value chooses.
+/// Variable through which a landing pad passes its number to the runtime, and receives the caught type. Clang 14
+/// defines it as one variable for all threads, the runtime as one per thread; if it is defined as thread-local first,
+/// Clang's code uses that definition. This requires exactly the unnamed type { i32, i8*, i32 }: the initial value
+/// selects the member of the union that has it.
 struct TspaceLandingPad {
     int number;
     union {

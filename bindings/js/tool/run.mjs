@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs a program of this build, which makes files of it: node run.mjs PROGRAM.wasm WORD... (CMake's CMAKE_CROSSCOMPILING_EMULATOR).
+// Runs a program of this build that generates source files: node run.mjs PROGRAM.wasm WORD... (CMake's
+// CMAKE_CROSSCOMPILING_EMULATOR).
 import { spawnSync } from "node:child_process";
 import { copyFileSync, cpSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What emscripten's C library fakes, by functions of JavaScript (bindings/js/bin/system.js), and the start of the program: main()
-// runs in a thread of its own, so that the first one is there for signals.
+// Replaces functions that emscripten's C library only emulates by JavaScript (bindings/js/bin/system.js), and starts
+// the program: main() runs in a separate thread, so that the first thread can handle signals.
 #include <dirent.h>
 #include <fcntl.h>
 #include <pthread.h>
@@ -32,19 +32,19 @@ static_assert(O_CREAT == 64 && O_EXCL == 128 && O_TRUNC == 512 && O_APPEND == 10
 
 extern "C" {
 
-/// main(), which C++ may not call by its name.
+/// main(), which C++ code must not call by this name.
 int tspace_main(int argc, char** argv) __asm__("main");
 
-/// 0, or an error number below zero.
+/// Returns 0, or a negative error number.
 TSPACE_HOST(makeLink) int tspace_makeLink(const char* from, const char* to);
 TSPACE_HOST(sendSignal) int tspace_sendSignal(int process, int signal);
 TSPACE_HOST(processNumber) int tspace_processNumber();
 TSPACE_HOST(userNumber) unsigned tspace_userNumber();
-/// Fills what is a text of at most `size` bytes with its end.
+/// Fills a text of at most `size` bytes, including its terminator.
 TSPACE_HOST(hostName) void tspace_hostName(char* name, std::size_t size);
-/// Bytes that nobody can predict.
+/// Fills memory with unpredictable bytes.
 TSPACE_HOST(fillRandom) void tspace_fillRandom(void* to, std::size_t size);
-/// Runs start(argument) in a thread that `thread` stands for; 0, or an error number.
+/// Runs start(argument) in a thread identified by `thread`; returns 0, or an error number.
 TSPACE_HOST(startThread)
 int tspace_startThread(pthread_t thread, void* stack_end, void* (*start)(void*), void* argument);
 TSPACE_HOST(endProgram) __attribute__((noreturn)) void tspace_endProgram(int code);
@@ -70,21 +70,22 @@ long __syscall_getpid() { return tspace_processNumber(); }
 void __call_sighandler(void (*handler)(int), int signal) { handler(signal); }
 void _exit(int code) { tspace_endProgram(code); }
 
-/// There is no address space to reserve: the C library would make memory of it. Arenas then take their blocks from the heap.
+/// Always fails, because address space cannot be reserved: the C library would allocate memory instead. Arenas then
+/// take their blocks from the heap.
 void* mmap(void*, std::size_t, int, int, int, off_t) {
     errno = ENOMEM;
     return MAP_FAILED;
 }
 int munmap(void*, std::size_t) { return 0; }
 
-/// There is no timer that raises a signal; the tool then ends at the first signal.
+/// Always fails, because no timer can raise a signal; the tool then ends at the first signal.
 int setitimer(int, const struct itimerval*, struct itimerval*) {
     errno = ENOSYS;
     return -1;
 }
 
-/// The date in UTC by the days since 1970, with years that begin in March (Howard Hinnant, "chrono-compatible low-level date
-/// algorithms", 2021).
+/// Computes the UTC date from the days since 1970, with years that start in March (Howard Hinnant, "chrono-compatible
+/// low-level date algorithms", 2021).
 struct tm* gmtime_r(const time_t* time, struct tm* utc) {
     constexpr long kDay = 86400, kDaysOf400Years = 146097;
     long days = *time / kDay, rest = *time % kDay;
@@ -108,7 +109,7 @@ struct tm* gmtime_r(const time_t* time, struct tm* utc) {
     return utc;
 }
 
-/// Supports what the tool prints: years, months, days, hours, minutes and seconds in digits.
+/// Supports only the formats that the tool prints: years, months, days, hours, minutes and seconds as digits.
 std::size_t strftime(char* to, std::size_t size, const char* format, const struct tm* time) {
     std::size_t count = 0;
     const auto put = [&](char c) {
@@ -149,7 +150,7 @@ std::size_t strftime(char* to, std::size_t size, const char* format, const struc
     put('\0');
     return count <= size ? count - 1 : 0;
 }
-/// Of the C++ library's locales, which print no time here.
+/// Used by the C++ library's locales, which format no times here.
 std::size_t strftime_l(char* to, std::size_t size, const char* format, const struct tm* time, locale_t) {
     return strftime(to, size, format, time);
 }
@@ -166,7 +167,7 @@ static void* runMain(void* words) {
     tspace_endProgram(code);
 }
 
-/// Starts main(); false where there is no thread for it.
+/// Starts main(). Returns false if no thread can be created.
 TSPACE_EXPORT(startMain) bool tspace_startMain(int count, char** words) {
     static Arguments arguments;
     arguments = {count, words};
@@ -174,7 +175,7 @@ TSPACE_EXPORT(startMain) bool tspace_startMain(int count, char** words) {
     return pthread_create(&thread, nullptr, runMain, &arguments) == 0;
 }
 
-/// Called by pthread_create(), which has made the thread's stack.
+/// Called by pthread_create(), which has allocated the thread's stack.
 int __pthread_create_js(pthread_t thread, const pthread_attr_t*, void* (*start)(void*), void* argument) {
     pthread_attr_t made;
     void* stack = nullptr;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Compiles the core, and the file layer on bytes, into WebAssembly modules: node build.mjs OUT. emscripten gives the compiler
-// and the C++ library; its JavaScript is not used, since the modules need nothing of it: no files, no threads, no exceptions,
-// and one import, or those few of the file layer.
+// Compiles the core, and the file layer for models in memory, to WebAssembly modules: node build.mjs OUT. emscripten
+// provides the compiler and the C++ library; its JavaScript is not used, because the modules need no files, threads or
+// exceptions, and only one import, or the few of the file layer.
 import { execFile } from "node:child_process";
 import { existsSync, mkdirSync, readdirSync, readFileSync, statSync, symlinkSync, writeFileSync } from "node:fs";
 import { availableParallelism, cpus } from "node:os";
@@ -15,9 +15,9 @@ const here = dirname(fileURLToPath(import.meta.url));
 const root = resolve(here, "../../..");
 const out = resolve(process.argv[2] ?? join(root, "build/js/wasm"));
 
-/// Rooms of src/ and their files; loops over meshes that are worth more code than -Oz gives.
+/// Folders of src/ to compile; and files with mesh loops for which larger code than that of -Oz is worthwhile.
 const rooms = ["base", "frames", "normals", "tangents", "tangents/mikktspace", "tangents/estimators", "indexed"].map((room) => `core/${room}`);
-/// What plain_normals.cpp stands for.
+/// Files that plain_normals.cpp replaces.
 const notPlain = ["crease_auto", "denoise", "noise_screen", "normal_groups"].map((name) => `core/normals/${name}.cpp`);
 const fileRooms = [
   ...["surface", "quads", "pools"].map((room) => `core/mesh/${room}`), "images",
@@ -26,9 +26,10 @@ const fileRooms = [
   ...["shared", "bake", "check", "convert_map", "diff", "flip_green", "generate", "height_to_normal", "identify", "inspect", "render"]
     .map((room) => `commands/${room}`), "api",
 ];
-/// Threads, memory of an operating system, the disk, and readers of other formats; only_memory.cpp is in the place of some.
+/// Files that need threads, system memory, the disk, or readers of other formats; only_memory.cpp replaces some of
+/// them.
 const notHere = new Set([
-  "core/tangents/mikktspace/plain.cpp", // written to be read, and for tests
+  "core/tangents/mikktspace/plain.cpp", // a readable version, for tests
   "core/base/parallel.cpp", "core/base/arena.cpp", "core/tangents/many_meshes.cpp", "model/io/atomic_output_disk.cpp", "model/io/bytes.cpp", "model/io/file_io.cpp", "model/io/recorded_files.cpp",
   "model/obj/tiny_obj_loader.cpp", "model/gltf/codecs/draco_library.cpp", "model/gltf/codecs/meshopt_library.cpp",
   ...["astc", "basis_lz", "bc7", "dds", "ktx2", "texel_format", "texture", "uastc", "unpack_level", "write_texture"].map((name) => `images/${name}.cpp`),
@@ -40,11 +41,11 @@ const notHere = new Set([
     .map((name) => `commands/${name}.cpp`),
   ...["posix", "windows"].map((system) => `model/io/system_files_${system}.cpp`),
 ]);
-/// Reports as text and SARIF, which the tool alone prints.
+/// Reports as text and SARIF, which only the tool prints.
 const isForPeople = (file) => /^commands\/(.*_text|shared\/text)\.cpp$/.test(file);
-/// Functions that are called once stay functions: inlined, they make large ones with hundreds of locals, which take more
-/// bytes and compress worse. What is smaller than its call is inlined. Loops are compiled without that limit, and the hottest
-/// ones for speed: the linker inlines next to nothing, so that theirs are inlined before.
+/// Functions with a single call are not inlined: large functions with hundreds of locals take more bytes and compress
+/// worse. Functions smaller than their call are inlined. Loops are compiled without that limit, and the hottest ones
+/// for speed, with inlining in the compiler: the linker inlines almost nothing.
 const inlined = (threshold) => ["-mllvm", `-inline-threshold=${threshold}`];
 const copiesLess = ["-mllvm", "-enable-pre=false", "-mllvm", "-jump-threading-threshold=0"];
 const smallFlags = ["-fno-slp-vectorize", ...copiesLess, ...inlined(-15)];
@@ -80,7 +81,7 @@ const modules = {
   },
 };
 
-// -finline-functions: emscripten forbids inlining with -Oz, which makes more code, not less.
+// -finline-functions: emscripten disables inlining with -Oz, which increases the code size.
 const flags = [
   "-std=c++20", "-Oz", "-flto", "-finline-functions", "-msimd128", "-mbulk-memory", "-msign-ext", "-mnontrapping-fptoint",
   "-ffp-contract=off", "-fno-fast-math", "-fno-math-errno", "-fno-trapping-math",
@@ -94,7 +95,8 @@ function write(path, text) {
   return path;
 }
 
-/// The kernels of a room for the one CPU there is, as CMake makes them: the hot one alone, with other flags.
+/// Returns the kernels of a folder for the only CPU variant, like CMake; the hot kernel is compiled separately, with
+/// other flags.
 function kernelSources(room, isFast) {
   const text = readFileSync(join(root, "src/core/CMakeLists.txt"), "utf8");
   const kernels = [...text.matchAll(/tspace_simd_kernel\((\S+?)[ )]/g)].map(([, name]) => name)
@@ -108,8 +110,8 @@ function kernelSources(room, isFast) {
   return sources;
 }
 
-/// Twelve files of a library as one, which takes a third of the time; hot ones alone. Names are unique within a library: the
-/// core, the file layer, and the C API over it.
+/// Compiles twelve files of a library as one, which takes a third of the time; hot files are compiled separately. Names
+/// are unique within a library: the core, the file layer, and the C API on top of it.
 function inBatches(name, rooms, isFast, more = [], without = []) {
   const all = rooms.flatMap((room) => readdirSync(join(root, "src", room)).sort().map((file) => `${room}/${file}`))
     .filter((file) => file.endsWith(".cpp") && !notHere.has(file) && !without.includes(file) && !isForPeople(file)).concat(more);
@@ -132,7 +134,7 @@ function sourcesOf(name, module) {
     inBatches(`${name}_${library}`, list, module.isFast, library === "api" ? module.more : [], module.without));
   for (const room of module.kernels) sources.push(...kernelSources(room, module.isFast));
   for (const file of module.files ?? []) sources.push({ path: join(root, "src", file), flags: module.hot?.test(file) ? fastFlags : undefined });
-  // The parser of OBJ lets exponents of numbers overflow.
+  // The OBJ parser relies on wrapping overflow of exponents.
   for (const file of ["new.cpp", "state.cpp", ...module.sources])
     sources.push({ path: join(here, file), flags: file === "obj_parser.cpp" ? ["-fwrapv", ...smallFlags] : undefined });
   return sources;
@@ -149,7 +151,8 @@ async function compile(source, folder, module) {
   const stem = source.path.replace(`${root}/`, "").replaceAll("/", "_");
   const object = join(folder, `${stem}.o`);
   if (isCurrent(object, `${object}.d`)) return object;
-  // Without -fexceptions, emscripten lets code throw, but nothing catches. What was thrown is asked for its type.
+  // Without -fexceptions, emscripten allows throwing, but nothing is caught. Only throw.cpp needs type information of
+  // exceptions.
   const asksForTypes = source.path.endsWith("throw.cpp");
   const throwing = [...(module.throws ? [] : ["-fno-exceptions"]), ...(asksForTypes ? [] : ["-fno-rtti"])];
   await run("em++", [...flags, ...throwing, ...module.defines.map((d) => `-D${d}`), ...(source.flags ?? smallFlags), "-MMD", "-MF", `${object}.d`,
@@ -160,7 +163,7 @@ async function compile(source, folder, module) {
   return object;
 }
 
-/// At most as many at a time as there are cores.
+/// Runs jobs in parallel, at most one per core.
 async function inParallel(jobs) {
   const results = [];
   let next = 0;
@@ -171,7 +174,7 @@ async function inParallel(jobs) {
   return results;
 }
 
-/// Whether no object is newer than the linked module, and none is another one than those that it was linked from.
+/// Returns whether the linked module is up to date: no object is newer, and the list of objects is unchanged.
 function isLinked(wasm, list, objects) {
   if (!existsSync(wasm) || !existsSync(list) || readFileSync(list, "utf8") !== objects.join("\n")) return false;
   const made = statSync(wasm).mtimeMs;
@@ -188,7 +191,8 @@ async function link(name, module, objects) {
     `--initial-memory=${module.throws ? 2097152 : 1048576}`, "--max-memory=4294967296", "--lto-O2", "-mllvm", "-disable-lsr", ...copiesLess, ...inlined(-14000), ...objects,
     `-L${folder}/lto`, `-L${folder}`, ...(module.throws ? ["-ldlmalloc", "--export=stackSave", "--export=stackRestore", "--export-table"] : []),
     "-lc-optz", "-lc++-noexcept", "-lc++abi-noexcept", "-lcompiler_rt", "--export=__wasm_call_ctors", "--allow-undefined", "-o", raw]);
-  // Low memory: the first KB is the end of the stack, where no offset below 1024 can lead by going round 2^32.
+  // Low memory is unused: the first KB is the end of the stack, which no offset below 1024 can reach by wrapping around
+  // 2^32.
   await run("wasm-opt", ["--enable-simd", "--enable-bulk-memory", "--enable-sign-ext", "--enable-mutable-globals",
     "--enable-nontrapping-float-to-int", module.isFast ? "-Os" : "-Oz", "--converge", "--low-memory-unused", "-ocimfs=12", "-aimfs=5", raw, "-o", wasm]);
   const bytes = readFileSync(wasm);
@@ -199,7 +203,7 @@ async function link(name, module, objects) {
   console.log(`${name}.wasm: ${bytes.length} bytes, ${gzipSync(bytes, { level: 9 }).length} gzipped`);
 }
 
-// The system's own folder of headers would hide those of emscripten.
+// The system's header folder would hide the headers of emscripten.
 mkdirSync(join(out, "include"), { recursive: true });
 for (const name of ["nlohmann", "tiny_obj_loader.h"])
   if (!existsSync(join(out, "include", name))) symlinkSync(join("/usr/include", name), join(out, "include", name));

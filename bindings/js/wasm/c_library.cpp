@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Functions of the C library in small: JavaScript does the work, or no module needs the result. The library's own take
-// 30 KB.
+// Minimal versions of C library functions: JavaScript does the work, or no module needs the result. The library's
+// functions take 30 KB.
 #include <cstdarg>
 #include <cstddef>
 #include <ctime>
 
 extern "C" {
 
-/// Parses a number of JSON whose syntax was checked before.
+/// Parses a JSON number whose syntax was checked before.
 __attribute__((import_module("env"), import_name("parseNumber"))) double tspace_js_parseNumber(const char* text);
 /// Repeated from exports.h, whose includes declare some functions below differently.
 __attribute__((import_module("env"), import_name("endCall"), noreturn)) void tspace_js_endCall(int code);
-/// Milliseconds from some start.
+/// Milliseconds since an arbitrary start.
 __attribute__((import_module("env"), import_name("now"))) double tspace_js_now();
 
-/// Called by the JSON library alone, which has checked every character.
+/// Called only by the JSON library, which has checked every character.
 double strtod(const char* text, char** end) {
     if (end != nullptr) {
         *end = const_cast<char*>(text);
@@ -22,14 +22,14 @@ double strtod(const char* text, char** end) {
     }
     return tspace_js_parseNumber(text);
 }
-// Never called. Defined because the linker would take the C library's file for them, which defines the above again.
+// Never called. Defined because otherwise the linker would use the C library's file, which defines strtod again.
 float strtof(const char* text, char** end) { return static_cast<float>(strtod(text, end)); }
 long double strtold(const char* text, char** end) { return strtod(text, end); }
 double strtod_l(const char* text, char** end, void*) { return strtod(text, end); }
 float strtof_l(const char* text, char** end, void*) { return strtof(text, end); }
 long double strtold_l(const char* text, char** end, void*) { return strtold(text, end); }
 
-/// Supports what the JSON library prints: numbers of four hexadecimal digits, by "%04x" or "%.4X".
+/// Supports only the formats of the JSON library: four hexadecimal digits, "%04x" or "%.4X".
 int snprintf(char* to, std::size_t size, const char* format, ...) {
     std::va_list numbers;
     va_start(numbers, format);
@@ -53,7 +53,7 @@ int snprintf(char* to, std::size_t size, const char* format, ...) {
     return static_cast<int>(count);
 }
 
-/// There is no environment.
+/// There are no environment variables.
 char* getenv(const char*) { return nullptr; }
 
 int clock_gettime(clockid_t, std::timespec* time) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Codecs of compressed geometry, by JavaScript packages that the caller passes in.
+// Codecs for compressed geometry, implemented by JavaScript packages that the caller passes in.
 #include "codecs.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace tspace::js {
 namespace {
 
-/// Shared with JavaScript. The caller releases arrays that JavaScript returns.
+/// Layout shared with JavaScript. The caller frees arrays that JavaScript returns.
 struct DracoAttributeWords {
     std::uint32_t id, kind, component, component_count, is_normalized;
     std::uint8_t* values;
@@ -36,19 +36,19 @@ using namespace tspace::js;
 
 extern "C" {
 
-/// 0 where the data are broken.
+/// Returns 0 if the data is corrupt.
 TSPACE_JS_IMPORT(decodeMeshopt)
 int tspace_js_decodeMeshopt(const std::uint8_t* data, std::size_t bytes, std::uint8_t* to, std::size_t count,
                             std::size_t stride, std::uint32_t mode, std::uint32_t filter);
-/// The bytes that rows become, to be released; sets their number.
+/// Returns the encoded rows, which the caller frees; sets their size.
 TSPACE_JS_IMPORT(encodeMeshopt)
 std::uint8_t* tspace_js_encodeMeshopt(const std::uint8_t* rows, std::size_t count, std::size_t stride,
                                       std::uint32_t mode, int is_khr, std::size_t* bytes);
-/// Null, or a text to be released: what is wrong with the data.
+/// Returns null, or a text that describes the fault of the data, which the caller frees.
 TSPACE_JS_IMPORT(decodeDraco)
 char* tspace_js_decodeDraco(const std::uint8_t* data, std::size_t bytes, int is_edgebreaker, std::size_t most_corners,
                             std::size_t most_points, DracoMeshWords* mesh);
-/// As encodeMeshopt; null where the library cannot do it. Fills the ids.
+/// Returns the encoded mesh like encodeMeshopt, or null if the library cannot encode it. Sets the attribute IDs.
 TSPACE_JS_IMPORT(encodeDraco) std::uint8_t* tspace_js_encodeDraco(const DracoMeshWords* mesh, std::size_t* bytes);
 
 }  // extern "C"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Functions of JavaScript that the caller may pass in beside the model: codecs from npm.
+// JavaScript functions that the caller may pass in with the model: codecs from npm.
 #pragma once
 
 #define TSPACE_JS_IMPORT(name) __attribute__((import_module("env"), import_name(#name)))
 
 namespace tspace::js {
 
-/// The same numbers are in src/codecs.js.
+/// The numbers must match src/codecs.js.
 enum class Codec { meshoptDecoder, meshoptEncoder, dracoDecoder, dracoEncoder, imageDecoder, imageEncoder };
 
 }  // namespace tspace::js

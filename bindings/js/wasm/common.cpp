@@ -21,7 +21,7 @@ Convention conventionOf(std::uint32_t bits) {
 }
 
 void keep(const TangentReport& r) {
-    // Its counts in their order, then the flag.
+    // The counts in their order, then the flag.
     struct Words {
         std::uint64_t counts[8], flag;
     };
@@ -45,7 +45,7 @@ using namespace tspace::js;
 
 extern "C" {
 
-/// Arrays in this module's memory, null where there are none; counts of vertices, corners and faces.
+/// Sets arrays in this module's memory (null if absent) and the counts of vertices, corners and faces.
 TSPACE_JS_EXPORT(setMesh)
 void setMesh(const float* positions, std::size_t position_count, const float* normals, std::size_t normal_count,
              const float* uvs, std::size_t uv_count, const std::uint32_t* indices, std::size_t index_count,
@@ -70,8 +70,8 @@ TSPACE_JS_EXPORT(sanitizeTangents) std::uint32_t sanitize(float* tangents, std::
     return codeOf(result);
 }
 
-/// `attributes`: attribute_count times a pointer, a number of components and a tolerance. `result`: gets six words, a
-/// pointer and a count for indices, source vertices and source corners, to be released one by one.
+/// `attributes`: for each attribute a pointer, a number of components and a tolerance. `result`: receives six words, a
+/// pointer and a count for indices, source vertices and source corners, to be freed individually.
 TSPACE_JS_EXPORT(splitVertices)
 std::uint32_t split(const std::uint32_t* indices, std::size_t vertex_count, std::size_t corner_count,
                     const AttributeWords* attributes, std::size_t attribute_count, std::uint32_t* result) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shared by the modules: the mesh of a call, and how results are returned.
+// Shared by the modules: the mesh of a call, and the return of results.
 #pragma once
 
 #include <cstring>
@@ -12,30 +12,32 @@
 
 namespace tspace::js {
 
-/// The mesh that setMesh() received.
+/// Returns the mesh that setMesh() received.
 const MeshView& mesh();
 
-/// v axis in the lowest two bits, then a bit each for green, stored sign, handedness and winding.
+/// Decodes a convention: v axis in the lowest two bits, then one bit each for green, stored sign, handedness and
+/// winding.
 Convention conventionOf(std::uint32_t bits);
 
-/// The outputs of a call: four floats for each of `count` entries, and a byte for each unless `has_tangent` is null.
+/// Returns the outputs of a call: four floats per entry for `count` entries, and a byte per entry unless `has_tangent`
+/// is null.
 inline TangentOutput outputOf(float* tangents, std::uint8_t* has_tangent, std::size_t count) {
     return {.tangents = vec4Span(tangents, count), .has_tangent = {has_tangent, has_tangent == nullptr ? 0 : count}};
 }
 
 void keep(const TangentReport& r);
 
-/// From the number `first` of the report on; 13 numbers.
+/// Stores the 13 numbers of `r` in the report, starting at index `first`.
 void keep(const SanitizeReport& r, std::size_t first = 0);
 
-/// As JavaScript lays it out.
+/// Layout shared with JavaScript.
 struct AttributeWords {
     const float* data;
     std::uint32_t component_count;
     float tolerance;
 };
 
-/// A copy that JavaScript releases: its place and the number of its elements.
+/// Returns a copy that JavaScript frees: its address and the number of its elements.
 template <class T>
 void giveArray(const std::vector<T>& from, std::uint32_t* to) {
     void* memory = ::operator new(from.size() * sizeof(T));

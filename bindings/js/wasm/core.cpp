@@ -29,7 +29,7 @@ TangentOptions tangentOptions(std::uint32_t method, float threshold_deg, std::ui
 
 extern "C" {
 
-/// `out`: four floats per corner; `has_tangent`: a byte per corner, or null.
+/// `out`: receives four floats per corner; `has_tangent`: receives a byte per corner, or null.
 TSPACE_JS_EXPORT(generateTangents)
 std::uint32_t generate(std::uint32_t method, float threshold_deg, std::uint32_t pairing, std::uint32_t ngons,
                        std::uint32_t convention, std::uint32_t frame, std::uint32_t refine,
@@ -41,7 +41,7 @@ std::uint32_t generate(std::uint32_t method, float threshold_deg, std::uint32_t 
     return codeOf(result);
 }
 
-/// `plan`: gets the plan, to be ended by destroyPlan.
+/// `plan`: receives the plan, to be destroyed with destroyPlan.
 TSPACE_JS_EXPORT(makePlan)
 std::uint32_t makePlan(std::uint32_t method, float threshold_deg, std::uint32_t pairing, std::uint32_t ngons,
                        std::uint32_t convention, std::uint32_t frame, std::uint32_t refine,
@@ -53,7 +53,7 @@ std::uint32_t makePlan(std::uint32_t method, float threshold_deg, std::uint32_t 
     return codeOf(result);
 }
 
-/// With the positions and normals that setMesh was given.
+/// Evaluates a plan with the positions and normals passed to setMesh.
 TSPACE_JS_EXPORT(evaluatePlan) std::uint32_t evaluate(const TangentPlan* plan, float* out, std::uint8_t* has_tangent) {
     const Pose pose{mesh().positions, mesh().normals};
     auto result = evaluateTangents(*plan, pose, outputOf(out, has_tangent, plan->outputCount()));
@@ -64,7 +64,8 @@ TSPACE_JS_EXPORT(evaluatePlan) std::uint32_t evaluate(const TangentPlan* plan, f
 TSPACE_JS_EXPORT(planBytes) std::size_t planBytes(const TangentPlan* plan) { return plan->memoryBytes(); }
 TSPACE_JS_EXPORT(destroyPlan) void destroyPlan(TangentPlan* plan) { delete plan; }
 
-/// `makes_normals`: for the mesh that setMesh was given. `result`: gets a pointer and the count of words, to be released.
+/// `makes_normals`: the shader computes normals of the mesh passed to setMesh. `result`: receives a pointer and the
+/// number of words, to be freed.
 TSPACE_JS_EXPORT(planBuffers)
 std::uint32_t buffers(const TangentPlan* plan, const std::uint32_t* indices, std::size_t index_count,
                       const std::uint32_t* source_corners, std::size_t source_corner_count, bool makes_normals,
@@ -81,8 +82,9 @@ std::uint32_t buffers(const TangentPlan* plan, const std::uint32_t* indices, std
     return 0;
 }
 
-/// `result`: gets ten words, a pointer and a count for indices, source vertices, source corners, normals and tangents, to be
-/// released one by one. The report has the 9 numbers of tangents, then the 13 of sanitize and the 5 of normals.
+/// `result`: receives ten words, a pointer and a count for indices, source vertices, source corners, normals and
+/// tangents, to be freed individually. The report contains the 9 numbers of tangents, then the 13 of sanitize and the 5
+/// of normals.
 TSPACE_JS_EXPORT(makeIndexedFrames)
 std::uint32_t frames(std::uint32_t method, float threshold_deg, std::uint32_t pairing, std::uint32_t ngons,
                      std::uint32_t convention, std::uint32_t frame, std::uint32_t refine, bool normalize_normals,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Common to the WebAssembly modules: exported names, and the state of one call. There is one thread, so calls never overlap.
+// Shared by the WebAssembly modules: exported names, and the state of one call. There is only one thread, so calls
+// never overlap.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +12,8 @@
 #define TSPACE_JS_EXPORT(name) __attribute__((export_name(#name)))
 
 extern "C" {
-/// JavaScript throws: an error of this code (9 out of memory, 11 internal) ends the call, and the instance with it.
+/// Makes JavaScript throw: an error with this code (9 out of memory, 11 internal) ends the call and discards the
+/// instance.
 __attribute__((import_module("env"), import_name("endCall"), noreturn)) void tspace_js_endCall(int code);
 __attribute__((noreturn)) void tspace_endCallOutOfMemory();
 
@@ -21,19 +23,20 @@ TSPACE_JS_EXPORT(release) void tspace_js_release(void* memory);
 
 namespace tspace::js {
 
-/// Of the last call that failed.
+/// Error of the last call that failed.
 extern Error& error;
 
-/// Numbers of the last call's report, in the order of its struct's fields; one report after the other where a call has several.
+/// Numbers of the last call's report, in the order of the struct's fields; a call with several reports stores them one
+/// after the other.
 inline constexpr std::size_t kReportNumbers = 32;
 extern double report[kReportNumbers];
 
-/// `first`: where they begin in the report.
+/// Stores counts in the report, starting at index `first`.
 inline void keepCounts(std::span<const std::uint64_t> counts, std::size_t first = 0) {
     for (std::size_t i = 0; i < counts.size(); ++i) report[first + i] = static_cast<double>(counts[i]);
 }
 
-/// The result's error code, 0 for success; keeps the error.
+/// Returns the result's error code, 0 for success; keeps the error.
 template <class T>
 std::uint32_t codeOf(Result<T>& result) {
     if (result) return 0;

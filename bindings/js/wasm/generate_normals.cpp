@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The export of the entries "tspace" and "tspace/normals" that makes normals.
+// Export that generates normals, for the entries "tspace" and "tspace/normals".
 #include "normal_options.h"
 
 using namespace tspace;
@@ -7,7 +7,7 @@ using namespace tspace::js;
 
 extern "C" {
 
-/// `out`: three floats per corner.
+/// `out`: receives three floats per corner.
 TSPACE_JS_EXPORT(generateNormals)
 std::uint32_t normals(std::uint32_t weighting, float crease_angle_deg, const std::uint32_t* groups,
                       std::size_t group_count, bool groups_are_masks, bool weld_positions, std::uint32_t convention,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The module of the entry "tspace/gltf": the C API of files, on bytes, behind one function.
+// The module of the entry "tspace/gltf": the C file API for models in memory, behind a single function.
 #include <cstdlib>
 
 #include "model/read/read_scene.h"
@@ -14,13 +14,13 @@ using namespace tspace;
 using namespace tspace::js;
 
 extern "C" {
-/// Asks JavaScript for a file that a model names: fills in two words, place and size of bytes that stay until the call is
-/// over. Returns an error code. It may throw, which ends the call, and the instance with it.
+/// Requests a file that a model references from JavaScript: sets the address and size of bytes that are valid until the
+/// end of the call. Returns an error code. May throw, which ends the call and discards the instance.
 TSPACE_JS_IMPORT(findFile)
 tspace_ErrorCode tspace_js_findFile(std::size_t model, const char* path, const std::uint8_t** data, std::size_t* size);
-/// Tells how far the call is. It may throw.
+/// Reports the progress of the call. May throw.
 TSPACE_JS_IMPORT(tell) void tspace_js_tell(const char* what, double done, double total);
-/// Takes a copy of an image file.
+/// Passes a copy of an image file to JavaScript.
 TSPACE_JS_IMPORT(takeImage)
 void tspace_js_takeImage(const std::uint8_t* data, std::size_t bytes, const char* mime_type);
 }
@@ -33,7 +33,7 @@ void tell(const char* what, std::uint64_t done, std::uint64_t total) {
 
 enum class Verb : std::uint32_t { generate, check, inspect, identify, diff };
 
-/// As JavaScript lays it out.
+/// Layout shared with JavaScript.
 struct ModelWords {
     const std::uint8_t* data;
     std::size_t size;
@@ -62,7 +62,8 @@ extern "C" {
 /// Whether the next call can be stopped.
 TSPACE_JS_EXPORT(setCanStop) void setCanStop(bool can_stop) { tspace_js_can_stop = can_stop; }
 
-/// `models`: one, or two for diff. `results`: gets four words, place and size of output and report, to be released.
+/// `models`: one model, or two for diff. `results`: receives four words, address and size of output and report, to be
+/// freed.
 TSPACE_JS_EXPORT(callFiles)
 std::uint32_t callFiles(std::uint32_t verb, const ModelWords* models, const char* options, tspace_Bytes* results) {
     const bool is_diff = static_cast<Verb>(verb) == Verb::diff;
@@ -92,7 +93,7 @@ std::uint32_t callFiles(std::uint32_t verb, const ModelWords* models, const char
     return code;
 }
 
-/// Calls takeImage for each normal map of a model. What is wrong with it ends the call.
+/// Calls takeImage for each normal map of a model. An error in the model ends the call.
 TSPACE_JS_EXPORT(findImages) void findImages(const ModelWords* model, const char* text) {
     FileOptions options;
     const tspace_Model given = modelOf(*model, 0);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Memory for the module that allocates many small blocks: the C library's allocator, over the memory of the instance.
+// Allocator for the module that allocates many small blocks: the C library's allocator, on the memory of the instance.
 #include <cstdint>
 #include <cstdlib>
 
 #include "codecs.h"
 #include "exports.h"
 
-extern "C" unsigned char __heap_base;  // from the linker: the first free byte
+extern "C" unsigned char __heap_base;  // set by the linker: the first free byte
 
 namespace {
 
@@ -17,14 +17,14 @@ std::uintptr_t heap_end = 0;
 
 extern "C" {
 
-/// Called by malloc for more memory.
+/// Called by malloc to grow the heap.
 void* sbrk(std::intptr_t more) {
     void* const none = reinterpret_cast<void*>(-1);
     if (heap_end == 0) heap_end = (reinterpret_cast<std::uintptr_t>(&__heap_base) + kUnit - 1) / kUnit * kUnit;
     if (more < 0) return none;
     const std::uintptr_t begin = heap_end, end = begin + static_cast<std::uintptr_t>(more);
     const std::size_t have = __builtin_wasm_memory_size(0);
-    // The last page stays out of use, so that no end is 2^32.
+    // The last page is unused, so that no end address is 2^32.
     if (end < begin || end > UINTPTR_MAX - kPage) return none;
     const std::size_t pages = (end + kPage - 1) / kPage;
     if (pages > have && __builtin_wasm_memory_grow(0, pages - have) == SIZE_MAX) return none;
@@ -33,10 +33,10 @@ void* sbrk(std::intptr_t more) {
 }
 
 bool tspace_js_can_stop = false;
-/// Throws where the caller wants the call to stop.
+/// Throws if the caller wants to stop the call.
 TSPACE_JS_IMPORT(goOn) void tspace_js_goOn();
 
-/// Asks the caller whether to go on: all work allocates now and then.
+/// Checks whether the call should be stopped before allocating, because all work allocates at intervals.
 void* tspace_js_allocate(std::size_t bytes) {
     constexpr std::size_t kLarge = 4096;
     constexpr unsigned kSmallOnes = 64;

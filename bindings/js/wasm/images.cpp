@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pixels of images, decoded and encoded by functions that the caller passes in. The claims of files are checked here first.
+// Image pixels, decoded and encoded by functions that the caller passes in. The declared sizes of files are checked
+// here first.
 #include <cstdlib>
 #include <memory>
 #include <string_view>
@@ -15,11 +16,12 @@ using namespace tspace::js;
 
 extern "C" {
 
-/// Pixels of so many channels with samples of so many bytes. Null, or a text to be released: why there are none.
+/// Decodes pixels with the given number of channels and bytes per sample. Returns null, or a text with the reason of a
+/// failure, which the caller frees.
 TSPACE_JS_IMPORT(decodeImage)
 char* tspace_js_decodeImage(const std::uint8_t* data, std::size_t bytes, const char* mime_type, std::uint32_t width,
                             std::uint32_t height, std::uint32_t channels, std::uint32_t sample_bytes, void* to);
-/// The file that they become, to be released; sets its size.
+/// Returns the encoded file, which the caller frees; sets its size.
 TSPACE_JS_IMPORT(encodeImage)
 std::uint8_t* tspace_js_encodeImage(const void* pixels, const char* mime_type, std::uint32_t width,
                                     std::uint32_t height, std::uint32_t channels, std::uint32_t sample_bytes,
@@ -31,7 +33,7 @@ namespace tspace {
 
 namespace {
 
-/// Why there are no pixels; else empty.
+/// Returns why decoding failed, or an empty string.
 std::string decodeInto(ByteSpan bytes, ImageSize size, std::uint32_t channels, std::uint32_t sample_bytes, void* to) {
     const char* type = mimeType(imageFormat(bytes));
     const std::unique_ptr<char, decltype(&std::free)> why(
@@ -55,7 +57,7 @@ Result<std::vector<std::uint8_t>> encode(const void* pixels, ImageFormat format,
     return bytes;
 }
 
-/// Empty, or why nothing is decoded.
+/// Returns why the image cannot be decoded, or an empty string.
 std::string faultOf(ByteSpan bytes, ImageSize size, std::uint64_t most_pixels) {
     std::string why;
     if (tspace_js_hasCodec(Codec::imageDecoder) == 0) return "the option decodeImage was not given";
@@ -88,7 +90,7 @@ Result<ChannelImage> decodeChannels(ByteSpan bytes, unsigned channels) {
     return image;
 }
 
-/// The first chunk of a WebP: what it is, how large, and whether it has alpha or moves.
+/// First chunk of a WebP: its type, its size, and whether it has alpha or is animated.
 struct WebpHead {
     ImageSize size = {};
     bool is_lossless = false, has_alpha = false, is_animated = false;
@@ -160,7 +162,7 @@ Result<std::vector<std::uint8_t>> packInverted(ByteSpan bytes, const PngHeader& 
     invertGreenSamples(pixels, channels * sample_bytes, sample_bytes);
     Result<std::vector<std::uint8_t>> packed =
         encode(pixels.data(), ImageFormat::png, size, channels, static_cast<std::uint32_t>(sample_bytes), 100);
-    constexpr std::size_t kHeaderAt = 16, kSame = 10;  // width, height, bits and colour type
+    constexpr std::size_t kHeaderAt = 16, kSame = 10;  // width, height, bits and color type
     if (!packed) return packed;
     const bool is_same = packed->size() > kHeaderAt + kSame &&
                          std::equal(packed->begin() + kHeaderAt, packed->begin() + kHeaderAt + kSame,
@@ -198,7 +200,7 @@ Result<std::vector<std::uint8_t>> writeWebp(const ChannelImage& image) {
     return encode(image.pixels.data(), ImageFormat::webp, {image.width, image.height}, image.channels, 1, 100);
 }
 
-// Decoders of texture files are not in the module: callers give decoders of other images alone.
+// The module has no decoders of texture files: callers provide decoders only for other images.
 namespace {
 
 std::string whyNoTexture(ByteSpan bytes) { return std::string("it is ") + formatName(imageFormat(bytes)) + ", which is not read"; }

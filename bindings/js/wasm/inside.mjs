@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Puts each WebAssembly module of a folder, and the compute shader of "tspace/webgpu", into a module of JavaScript too: node
+// Embeds each WebAssembly module of a folder, and the compute shader of "tspace/webgpu", in a JavaScript module: node
 // inside.mjs FOLDER
 import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";

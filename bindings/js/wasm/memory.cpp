@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-// A small allocator for modules that allocate a few large arrays, in one thread and without an operating system.
+// A small allocator for modules that allocate few large arrays, in one thread and without an operating system.
 #include <cstddef>
 #include <cstdint>
 
 #include "exports.h"
 
-extern "C" unsigned char __heap_base;  // from the linker: the first free byte
+extern "C" unsigned char __heap_base;  // set by the linker: the first free byte
 
 namespace {
 
-/// The alignment that the core needs. Blocks are multiples of it, less the head in front.
+/// Alignment that the core needs. Block sizes are multiples of it, minus the header.
 constexpr std::size_t kUnit = 64, kHead = 16, kPage = 65536;
 
-/// A list of free blocks in the order of addresses; adjacent ones are joined.
+/// Free block in a list sorted by address; adjacent blocks are merged.
 struct Block {
     std::size_t bytes;  // with this head
-    Block* next;        // only while it is free
+    Block* next;        // only while the block is free
 };
 Block* first_free = nullptr;
 std::uintptr_t heap_end = 0;
@@ -41,7 +41,7 @@ void giveBack(Block* block) {
     }
 }
 
-/// First fit: large blocks that one call frees are found again by the next.
+/// First fit: large blocks that one call frees are reused by the next.
 Block* take(std::size_t bytes) {
     for (Block** at = &first_free; *at != nullptr; at = &(*at)->next) {
         Block* block = *at;
@@ -66,12 +66,12 @@ bool growBy(std::size_t bytes) {
     }
     const std::uintptr_t have = __builtin_wasm_memory_size(0) * kPage;
     const std::uintptr_t left = have > heap_end ? have - heap_end : 0;
-    // A unit more: memory ends at a multiple of kUnit, and blocks end kHead before one.
+    // One additional unit: memory ends at a multiple of kUnit, and blocks end kHead bytes before one.
     const std::size_t missing = bytes + kUnit > left ? bytes + kUnit - left : 0;
     if (missing != 0 && __builtin_wasm_memory_grow(0, (missing + kPage - 1) / kPage) == SIZE_MAX) return false;
     const std::uintptr_t end = __builtin_wasm_memory_size(0) * kPage;
     auto* block = reinterpret_cast<Block*>(heap_end);
-    // The very last byte of 4 GB has no number.
+    // The end address of 4 GB cannot be represented.
     block->bytes = ((end == 0 ? std::uintptr_t{0} - kUnit : end) - heap_end) / kUnit * kUnit;
     heap_end += block->bytes;
     giveBack(block);

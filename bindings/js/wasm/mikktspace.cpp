@@ -7,7 +7,7 @@ using namespace tspace::js;
 
 extern "C" {
 
-/// `out`: four floats per corner; `has_tangent`: a byte per corner, or null.
+/// `out`: receives four floats per corner; `has_tangent`: receives a byte per corner, or null.
 TSPACE_JS_EXPORT(generateTangents)
 std::uint32_t generate(std::uint32_t, float threshold_deg, std::uint32_t pairing, std::uint32_t,
                        std::uint32_t convention, std::uint32_t, std::uint32_t, bool normalize_normals, float* out,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// operator new. When memory runs out it calls JavaScript, which throws: the call ends, and the instance is thrown away.
+// operator new. If memory runs out, it calls JavaScript, which throws: the call ends, and the instance is discarded.
 #include <cstddef>
 #include <new>
 
@@ -8,7 +8,7 @@
 extern "C" {
 
 void tspace_endCallOutOfMemory() { tspace_js_endCall(9); }
-/// Called by the C++ library for lists longer than the address space.
+/// Called by the C++ library for lists that exceed the address space.
 void abort() { tspace_js_endCall(9); }
 
 }  // extern "C"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Options and reports of normals, for the modules that make them.
+// Options and reports of normals, for the modules that compute them.
 #pragma once
 
 #include "common.h"
@@ -23,7 +23,7 @@ inline NormalOptions normalOptions(std::uint32_t weighting, float crease_angle_d
     return options;
 }
 
-/// From the number `first` of the report on; five numbers.
+/// Stores five numbers in the report, starting at index `first`.
 inline void keep(const NormalReport& report, std::size_t first = 0) {
     const std::uint64_t counts[] = {report.face_count, report.degenerate_face_count, report.fallback_corner_count};
     keepCounts(counts, first);

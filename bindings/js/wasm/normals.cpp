@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The module of the entry "tspace/normals": normals of meshes with noise, hard edges by the mesh, and winding.
+// The module of the entry "tspace/normals": normals of noisy meshes, automatic hard edges, and winding.
 #include "common.h"
 #include "tspace/normals.h"
 #include "tspace/winding.h"
@@ -9,7 +9,7 @@ using namespace tspace::js;
 
 extern "C" {
 
-/// The report: sigma, the share of kinks, noise, and the mean edge.
+/// The report contains sigma, kink share, noise, and mean edge length.
 TSPACE_JS_EXPORT(measurePositionNoise) std::uint32_t measureNoise() {
     auto result = measurePositionNoise(mesh());
     if (!result) return codeOf(result);
@@ -20,7 +20,7 @@ TSPACE_JS_EXPORT(measurePositionNoise) std::uint32_t measureNoise() {
     return 0;
 }
 
-/// `turned`: one byte per face.
+/// `turned`: receives one byte per face.
 TSPACE_JS_EXPORT(mendWinding)
 std::uint32_t mend(bool use_normals, bool weld_positions, std::uint32_t convention, float weld_distance,
                    std::uint8_t* turned) {

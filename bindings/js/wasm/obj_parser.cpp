@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The parser of OBJ files with minimal streams. The C++ library's streams, with their locales, would be a sixth of the
-// module.
+// The OBJ parser with minimal streams. The C++ library's streams with their locales would be a sixth of the module.
 #include <algorithm>
 #include <cassert>
 #include <cctype>
@@ -19,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-// In std, for that is where the parser looks.
+// In namespace std, because the parser uses std:: names.
 namespace std::tspace_js {
 
 /// Reads text in memory.
@@ -61,14 +60,14 @@ class Input {
     Buffer* buffer_ = nullptr;
 };
 
-/// There is no disk.
+/// File input, which is always empty: there is no disk.
 class File : public Input {
   public:
     template <class Name>
     explicit File(const Name&) {}
 };
 
-/// Appends texts, and drops numbers: the parser writes those into warnings alone, which tspace does not show.
+/// Appends text, and drops numbers: the parser writes them only to warnings, which tspace does not show.
 class Text : public Input {
   public:
     Text() = default;
@@ -98,5 +97,5 @@ inline bool getline(const Input&, std::string&, char) { return false; }
 #define istringstream tspace_js::Text
 #pragma clang diagnostic ignored "-Wall"
 #pragma clang diagnostic ignored "-Wextra"
-// What follows includes no header of the C++ library that is not above.
+// The following file must not include a C++ header that is not included above.
 #include "model/obj/tiny_obj_loader.cpp"

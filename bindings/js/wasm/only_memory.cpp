@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Replaces the functions of the file layer that use a disk or other programs. Models are bytes in memory here: everything
-// else fails, and the linker drops the code that only those functions reach.
+// Replaces the functions of the file layer that use a disk or other programs. Models are always in memory: all other
+// calls fail, and the linker removes the code that only those functions use.
 #include <cerrno>
 #include <new>
 
@@ -71,7 +71,7 @@ gltf::MapConversion::MapConversion(gltf::Model& model, const GenerateOptions& op
 }
 std::vector<ConvertedMapReport> gltf::MapConversion::run(gltf::Editor&, const gltf::OutputTarget&,
                                                          std::span<const PrimitiveReport>) {
-    static_cast<void>(model_);  // Clang asks for a use of what only the real one uses
+    static_cast<void>(model_);  // avoids Clang's warning about a member that only the real version uses
     static_cast<void>(options_);
     return {};
 }

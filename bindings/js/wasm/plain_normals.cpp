@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the module of the entry "tspace" has in the place of denoise and crease_auto, which that of "tspace/normals" has: 16 KB
-// less. The calls of JavaScript refuse these options before they come here.
+// Replaces denoise and crease_auto in the module of the entry "tspace", which saves 16 KB; the module of
+// "tspace/normals" contains them. The JavaScript functions reject these options before the call.
 #include "core/normals/denoise.h"
 #include "core/normals/normals_call.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The module of the entry "tspace/textures": texture files (KTX2, DDS) as pixels, and normal maps as such files. What KTX2 is packed with
-// once more is unpacked by functions of the caller.
+// The module of the entry "tspace/textures": decodes texture files (KTX2, DDS) to pixels, and encodes normal maps as
+// texture files. Functions of the caller decompress supercompressed KTX2.
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -19,9 +19,9 @@ using namespace tspace::js;
 
 extern "C" {
 
-/// Whether the caller gave what unpacks Zstandard (0) or zlib (1).
+/// Returns whether the caller provided a decompressor for Zstandard (0) or zlib (1).
 __attribute__((import_module("env"), import_name("canUnpack"))) int tspace_js_canUnpack(int zlib);
-/// Unpacks into exactly `size` bytes; else returns 0.
+/// Decompresses to exactly `size` bytes; otherwise returns 0.
 __attribute__((import_module("env"), import_name("unpack"))) int tspace_js_unpack(int zlib, const std::uint8_t* packed,
                                                                                  std::size_t bytes, std::uint8_t* to,
                                                                                  std::size_t size);
@@ -47,11 +47,11 @@ namespace {
 
 constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 28;  // as the tool's
 
-/// What the last call made. JavaScript copies it.
+/// Results of the last call, which JavaScript copies.
 std::string text, format_name, container_name;
 std::vector<std::uint8_t> made, made_roughness;
 
-/// Of readTexture, as JavaScript reads it.
+/// Result of readTexture in the layout that JavaScript reads.
 struct TextureWords {
     std::uint32_t width, height, level_count, channels, bits, is_float, is_srgb, is_guessed, x, y, z;
     const char *format, *container, *how_read;
@@ -60,7 +60,8 @@ struct TextureWords {
 };
 TextureWords words;
 
-/// Of an image, as JavaScript lays it out: `bits` 8, 16 or 32 (floats) of red, green, blue and alpha; 0: a texture file of `size` bytes.
+/// Image in the layout that JavaScript writes: `bits` 8, 16 or 32 (floats) of red, green, blue and alpha; 0: a texture
+/// file of `size` bytes.
 struct ImageWords {
     const std::uint8_t* data;
     std::size_t size;
@@ -77,7 +78,7 @@ bool isTextureFile(ByteSpan file) {
     return format == ImageFormat::ktx2 || format == ImageFormat::dds;
 }
 
-/// "BC5 in a DDS" as its two parts.
+/// Splits "BC5 in a DDS" into its two parts.
 void splitName(const std::string& name) {
     constexpr std::string_view kBetween = " in a ";
     const std::size_t at = name.rfind(kBetween);
@@ -93,7 +94,7 @@ void putNumbers(const FloatImage& image, Number most) {
         if constexpr (std::is_same_v<Number, float>) {
             *to++ = part;
         } else {
-            const double scaled = static_cast<double>(part) * most + 0.5;  // as a PNG is rounded
+            const double scaled = static_cast<double>(part) * most + 0.5;  // rounded like a PNG
             *to++ = part > 0 ? static_cast<Number>(std::min<double>(scaled, most)) : Number{0};
         }
     };
@@ -140,7 +141,7 @@ std::vector<std::uint8_t> fileOf(const Texture& texture, bool is_dds, DdsHeader 
     return is_dds ? ddsFileOf(texture, header) : *writeKtx2(texture);
 }
 
-/// The report in the order of textures.js; warnings one a line.
+/// Stores the report in the order of textures.js, with one warning per line.
 void keepReport(const CompressMapFileReport& made_report) {
     const double numbers[] = {static_cast<double>(made_report.width),
                               static_cast<double>(made_report.height),
@@ -167,8 +168,8 @@ void keepReport(const CompressMapFileReport& made_report) {
 
 extern "C" {
 
-/// A level of a texture file. `number_kind`: 0, 1 or 2 for 8 bits, 16 bits or floats; else what the format resolves. `makes_vectors`: as
-/// commands on normal maps read it.
+/// Decodes a level of a texture file. `number_kind`: 0, 1 or 2 for 8 bits, 16 bits or floats; otherwise the precision
+/// of the format. `makes_vectors`: decodes like commands for normal maps.
 TSPACE_JS_EXPORT(readTexture)
 std::uint32_t readTexture(const std::uint8_t* data, std::size_t size, std::size_t level, std::uint32_t number_kind,
                           bool makes_vectors) {
@@ -197,7 +198,7 @@ std::uint32_t readTexture(const std::uint8_t* data, std::size_t size, std::size_
     text.clear();
     if (makes_vectors) text = readTextureVectors(*image);
     words.how_read = text.c_str();
-    // Of 8 bits too a z that is made has more.
+    // A reconstructed z has more than 8 bits, even in 8-bit formats.
     const bool is_byte = head.format.bits == 8 && text.empty();
     if (number_kind > 2) number_kind = head.format.is_float ? 2 : is_byte ? 0 : 1;
     if (number_kind == 0) putNumbers<std::uint8_t>(*image, 255);
@@ -209,7 +210,7 @@ std::uint32_t readTexture(const std::uint8_t* data, std::size_t size, std::size_
 }
 TSPACE_JS_EXPORT(textureWords) const TextureWords* textureWords() { return &words; }
 
-/// `roughness`: null, or the image whose levels are made too. `format` and `quality`: as the enumerations number them.
+/// `roughness`: null, or the image whose levels are also computed. `format` and `quality`: numbers of the enumerations.
 TSPACE_JS_EXPORT(compressMap)
 std::uint32_t compressMap(const ImageWords* given, const ImageWords* roughness, std::uint32_t format,
                           std::uint32_t quality, bool is_signed, bool levels, double roughness_factor, bool is_dds,

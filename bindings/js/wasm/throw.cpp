@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Exceptions end the call and its instance, as running out of memory does: no module catches any. Code for unwinding would
-// be a tenth of the module, and an instance that is thrown away needs no clean-up.
+// Exceptions end the call and its instance, like running out of memory: no module catches them. Code for unwinding
+// would be a tenth of the module, and a discarded instance needs no cleanup.
 #include <cstdlib>
 #include <new>
 #include <stdexcept>
@@ -27,7 +27,7 @@ namespace {
 
 extern "C" {
 
-/// Calls function(context) and returns 0; 1 where that ended in an error of the file layer.
+/// Calls function(context) and returns 0; returns 1 if it ended with an error of the file layer.
 __attribute__((import_module("env"), import_name("attempt"))) int tspace_js_attempt(void (*function)(void*),
                                                                                     void* context);
 

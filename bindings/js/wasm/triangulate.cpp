@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The export of the entry "tspace" that cuts faces into triangles.
+// Export of the entry "tspace" that triangulates faces.
 #include "core/frames/triangulate.h"
 
 #include "common.h"
@@ -10,8 +10,8 @@ using namespace tspace::js;
 
 extern "C" {
 
-/// `corners`: three for each triangle. As triangulate() does, which would bring more of the library with it; the mesh has no lists
-/// of normals and UVs.
+/// `corners`: receives three corners per triangle. Same result as triangulate(), which would link more of the library;
+/// the mesh has no index lists for normals and UVs.
 TSPACE_JS_EXPORT(triangulate) std::uint32_t triangulateFaces(std::uint32_t* corners) {
     if (Result<Done> valid = validate(mesh()); !valid) return codeOf(valid);
     FaceCutter cutter(mesh());
