@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //! Compiles the core library, which is one C++ file, and links it.
 //!
-//! The file is `native/tspace.cpp` in a package. In the repository `scripts/amalgamate` makes it here. The compiler is that
-//! of `CXX_<target>` or `CXX`, else `c++` (cross: `<prefix>-g++`); GCC 12 or Clang 14, or newer.
+//! The file is `native/tspace.cpp` in a package. In the repository `scripts/amalgamate` generates it here. The compiler
+//! is given by `CXX_<target>` or `CXX`; default: `c++` (cross: `<prefix>-g++`). Requires GCC 12 or Clang 14, or newer.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -26,7 +26,7 @@ fn var(name: &str) -> Option<String> {
     env::var(name).ok().filter(|value| !value.is_empty())
 }
 
-/// `NAME_x86_64-unknown-linux-gnu`, `NAME_x86_64_unknown_linux_gnu` or `NAME`, as the crate cc reads them.
+/// Returns the variable `NAME_x86_64-unknown-linux-gnu`, `NAME_x86_64_unknown_linux_gnu` or `NAME`, like the crate cc.
 fn for_target(name: &str, target: &str) -> Option<String> {
     var(&format!("{name}_{target}"))
         .or_else(|| var(&format!("{name}_{}", target.replace('-', "_"))))
@@ -53,7 +53,7 @@ fn sources(out: &Path) -> PathBuf {
     made
 }
 
-/// Programs for another target are made by the cross compiler of GNU's names, where there is no CXX.
+/// Returns the default compiler and archiver. Without CXX, the GNU cross compiler is used for other targets.
 fn default_tools(target: &str, host: &str) -> (String, String) {
     if target == host {
         return ("c++".into(), "ar".into());
@@ -74,7 +74,7 @@ fn main() {
         fail("MSVC does not compile tspace.cpp; take the target x86_64-pc-windows-gnu");
     }
     if env::var("DOCS_RS").is_ok() {
-        return; // documentation needs no library
+        return; // building documentation needs no library
     }
     let (compiler, archiver) = default_tools(&target, &host);
     let compiler = for_target("CXX", &target).unwrap_or(compiler);
@@ -83,7 +83,7 @@ fn main() {
     let object = out.join("tspace.o");
     let library = out.join("libtspace_core.a");
 
-    // "ccache c++" is a program and its argument.
+    // "ccache c++" is a program with an argument.
     let mut words = compiler.split_whitespace();
     let mut compile = Command::new(words.next().unwrap_or("c++"));
     compile.args(words).args(["-c", "-O2", "-std=c++20", "-w"]);

@@ -4,7 +4,8 @@ using System.Runtime.InteropServices;
 
 namespace Tspace
 {
-    /// <summary>Counts of triangles, groups and defects of the input. Broken input is no error.</summary>
+    /// <summary>Counts of triangles, groups and defects of the input. Invalid geometry is counted, and is not an
+    /// error.</summary>
     public readonly struct TangentReport
     {
         public readonly long TriangleCount, DegenerateTriangleCount, DegenerateUvCount, MirroredCount, SkippedFaceCount,
@@ -23,32 +24,33 @@ namespace Tspace
         }
     }
 
-    /// <summary>A mesh with the faces of the given one, and vertices that corners can share.</summary>
+    /// <summary>Indexed mesh with the same faces as the input, whose vertices can be shared by corners.</summary>
     public sealed class IndexedFrames
     {
         /// <summary>The new vertex of each corner.</summary>
         public uint[] Indices { get; internal set; }
-        /// <summary>The old vertex that each new one copies: gather every other attribute through it.</summary>
+        /// <summary>The old vertex that each new one copies: use it to gather other vertex attributes.</summary>
         public uint[] SourceVertices { get; internal set; }
         /// <summary>3 floats per new vertex.</summary>
         public float[] Normals { get; internal set; }
         /// <summary>4 floats per new vertex: unit tangent and sign.</summary>
         public float[] Tangents { get; internal set; }
-        /// <summary>How many new vertices there are.</summary>
+        /// <summary>Number of new vertices.</summary>
         public int VertexCount => SourceVertices.Length;
         public TangentReport Report { get; internal set; }
-        /// <summary>Tangents that were mended.</summary>
+        /// <summary>Number of repaired tangents.</summary>
         public long MendedCount { get; internal set; }
     }
 
-    /// <summary>Normals and tangents for meshes. Results are per corner: one vertex can need several tangents, so never write
-    /// them through the old index list. MakeIndexedFrames makes the new one.</summary>
+    /// <summary>Normals and tangents for meshes. Results are per corner: one vertex can need several tangents, so never
+    /// write them through the old index list. MakeIndexedFrames creates a new one.</summary>
     public static unsafe class Frames
     {
         /// <summary>Version of the library: 10000 * major + 100 * minor + patch.</summary>
         public static int Version => (int)Native.tspace_version();
 
-        /// <summary>Corners of a mesh, which is checked first: 4 floats each are what Tangents needs.</summary>
+        /// <summary>Returns the number of corners of a mesh, after checking it. Tangents writes 4 floats per
+        /// corner.</summary>
         public static int CornerCount(in Mesh mesh)
         {
             int count = 0;
@@ -61,8 +63,8 @@ namespace Tspace
             return count;
         }
 
-        /// <summary>4 floats per corner: unit tangent T and the sign, B = sign * cross(N, T). The mesh needs normals, and
-        /// UVs for all methods but Basis.</summary>
+        /// <summary>Returns 4 floats per corner: unit tangent T and the sign, B = sign * cross(N, T). The mesh needs
+        /// normals, and UVs for all methods except Basis.</summary>
         public static float[] Tangents(in Mesh mesh, TangentOptions options)
         {
             float[] made = new float[4 * CornerCount(mesh)];
@@ -70,8 +72,9 @@ namespace Tspace
             return made;
         }
 
-        /// <summary>The same into the caller's memory, with counts; bitangents (3 floats), magnitudes (1) and hasTangent (false
-        /// at corners with a default or no tangent) where they are not empty.</summary>
+        /// <summary>Like the overload above, into the caller's memory, with counts. Writes bitangents (3 floats),
+        /// magnitudes (1) and hasTangent (false for corners with a default or no tangent) unless they are
+        /// empty.</summary>
         public static TangentReport Tangents(in Mesh mesh, TangentOptions options, Span<float> tangents,
                                              Span<float> bitangents = default, Span<float> magnitudesS = default,
                                              Span<float> magnitudesT = default, Span<bool> hasTangent = default)
@@ -89,7 +92,7 @@ namespace Tspace
                 made.MagnitudesS = new Native.Span(u, magnitudesS.Length, 0);
                 made.MagnitudesT = new Native.Span(v, magnitudesT.Length, 0);
                 made.HasTangent = new Native.ByteSpan { Data = (byte*)mask, Count = (UIntPtr)(uint)hasTangent.Length };
-                // Lambdas hold no pointers to locals that are fixed, but may hold their addresses as numbers.
+                // Lambdas must not capture pointers to fixed locals, but may capture their addresses as numbers.
                 IntPtr output = (IntPtr)(&made), counts = (IntPtr)(&report), choices = (IntPtr)(&how), run = (IntPtr)(&execution);
                 Pinned.Use(mesh, raw =>
                 {
@@ -103,7 +106,8 @@ namespace Tspace
             return new TangentReport(report);
         }
 
-        /// <summary>3 floats per corner: unit normals. Needs positions, and indices where there are some.</summary>
+        /// <summary>Returns 3 floats per corner: unit normals. Needs positions, and indices if the mesh has
+        /// them.</summary>
         public static float[] Normals(in Mesh mesh, NormalOptions options)
         {
             if (options == null) throw new ArgumentNullException(nameof(options));
@@ -125,8 +129,8 @@ namespace Tspace
             return made;
         }
 
-        /// <summary>Mends tangents per corner in place: not finite, zero, not unit, parallel to N, or of mixed sign in a face.
-        /// Returns how many were written; sound ones keep every bit.</summary>
+        /// <summary>Repairs tangents per corner in place: not finite, zero, not unit, parallel to N, or of mixed sign
+        /// within a face. Returns the number of repaired tangents; valid ones keep all bits.</summary>
         public static long Sanitize(in Mesh mesh, Span<float> tangents, bool orthogonalizeAll = false, int threads = 1)
         {
             Native.SanitizeOptions how;
@@ -151,8 +155,9 @@ namespace Tspace
             return (long)report.MendedCount;
         }
 
-        /// <summary>Normals where the mesh has none (or makeNormals), tangents, mended (unless sanitize is false), and vertices
-        /// split where their corners disagree. normals: how normals are made; null: the defaults.</summary>
+        /// <summary>Computes missing normals (all normals with makeNormals) and tangents, repairs tangents (unless
+        /// sanitize is false), and splits vertices whose corners differ. normals: options of the normals; null: the
+        /// defaults.</summary>
         public static IndexedFrames MakeIndexedFrames(in Mesh mesh, TangentOptions options, NormalOptions normals = null,
                                                       bool makeNormals = false, bool sanitize = true)
         {
@@ -214,13 +219,14 @@ namespace Tspace
         }
     }
 
-    /// <summary>Everything about a mesh that does not change while it deforms. Immutable: many threads may evaluate it.</summary>
+    /// <summary>Data of a mesh that does not change while it deforms. Immutable: many threads may evaluate
+    /// it.</summary>
     public sealed unsafe class Plan : SafeHandle
     {
         /// <summary>Entries of results.</summary>
         public int OutputCount { get; }
 
-        /// <summary>Inputs and errors as Frames.Tangents; keeps no reference to the mesh.</summary>
+        /// <summary>Creates a plan; inputs and errors like Frames.Tangents. Keeps no reference to the mesh.</summary>
         public Plan(in Mesh mesh, TangentOptions options) : base(IntPtr.Zero, true)
         {
             if (options == null) throw new ArgumentNullException(nameof(options));
@@ -250,7 +256,8 @@ namespace Tspace
             return true;
         }
 
-        /// <summary>Tangents for a pose: positions and normals, as many as the mesh had; 4 floats for each of OutputCount.</summary>
+        /// <summary>Computes tangents for a pose: as many positions and normals as in the mesh; writes 4 floats for
+        /// each of OutputCount.</summary>
         public void Evaluate(Points positions, Points normals, Span<float> tangents, int threads = 1)
         {
             Native.Execution execution = TangentOptions.Execution(threads);

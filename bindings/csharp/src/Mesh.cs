@@ -4,7 +4,7 @@ using System.Runtime.InteropServices;
 
 namespace Tspace
 {
-    /// <summary>Points of 2, 3 or 4 floats, side by side or in vertices of other data too. Borrows memory.</summary>
+    /// <summary>Points of 2, 3 or 4 floats, contiguous or interleaved with other vertex data. Borrows memory.</summary>
     public readonly ref struct Points
     {
         internal readonly ReadOnlySpan<float> Floats;
@@ -16,19 +16,19 @@ namespace Tspace
             StrideFloats = strideFloats;
         }
 
-        /// <summary>Floats side by side.</summary>
+        /// <summary>Creates points from contiguous floats.</summary>
         public static Points Of(ReadOnlySpan<float> floats) { return new Points(floats, 0); }
 
-        /// <summary>Structs of floats, such as Vector3 of Unity or of System.Numerics.</summary>
+        /// <summary>Creates points from structs of floats, such as Vector3 of Unity or of System.Numerics.</summary>
         public static Points Of<T>(ReadOnlySpan<T> vectors) where T : struct
         {
             return new Points(MemoryMarshal.Cast<T, float>(vectors), 0);
         }
 
-        /// <summary>Structs of floats in an array.</summary>
+        /// <summary>Creates points from an array of structs of floats.</summary>
         public static Points Of<T>(T[] vectors) where T : struct { return Of<T>(new ReadOnlySpan<T>(vectors)); }
 
-        /// <summary>The points at first, first + stride, ... of floats, as interleaved vertices have them.</summary>
+        /// <summary>Creates points from the floats at first, first + stride, ..., as in interleaved vertices.</summary>
         public static Points Interleaved(ReadOnlySpan<float> floats, int first, int stride)
         {
             if (stride < 1) throw new ArgumentOutOfRangeException(nameof(stride));
@@ -56,7 +56,7 @@ namespace Tspace
         }
     }
 
-    /// <summary>The vertex of each corner, of 16 or 32 bits.</summary>
+    /// <summary>The vertex of each corner, with 16 or 32 bits.</summary>
     public readonly ref struct Indices
     {
         internal readonly ReadOnlySpan<byte> Bytes;
@@ -70,7 +70,7 @@ namespace Tspace
 
         public static Indices Of(ReadOnlySpan<uint> list) { return new Indices(MemoryMarshal.AsBytes(list), 4); }
         public static Indices Of(ReadOnlySpan<ushort> list) { return new Indices(MemoryMarshal.AsBytes(list), 2); }
-        /// <summary>As Unity has them; negative ones are out of range.</summary>
+        /// <summary>Creates indices from signed integers, as used by Unity; negative ones are out of range.</summary>
         public static Indices Of(ReadOnlySpan<int> list) { return new Indices(MemoryMarshal.AsBytes(list), 4); }
         public static Indices Of(uint[] list) { return Of(new ReadOnlySpan<uint>(list)); }
         public static Indices Of(ushort[] list) { return Of(new ReadOnlySpan<ushort>(list)); }
@@ -79,7 +79,8 @@ namespace Tspace
         internal int Count => Type == 0 ? 0 : Bytes.Length / (int)Type;
     }
 
-    /// <summary>A mesh that borrows its arrays. Only positions are always needed; each function says what else it uses.</summary>
+    /// <summary>Mesh that borrows its arrays. Positions are always required; each function documents what else it
+    /// needs.</summary>
     public ref struct Mesh
     {
         /// <summary>3 floats per vertex.</summary>
@@ -88,15 +89,15 @@ namespace Tspace
         public Points Normals;
         /// <summary>2 floats per vertex.</summary>
         public Points Uvs;
-        /// <summary>The vertex of each corner; without them corner c is vertex c.</summary>
+        /// <summary>The vertex of each corner. Default: corner c is vertex c.</summary>
         public Indices Indices;
         /// <summary>Corners of every face; 0 means 3.</summary>
         public int FaceSize;
-        /// <summary>Corners of each face, where faces differ.</summary>
+        /// <summary>Number of corners of each face, if faces have different sizes.</summary>
         public ReadOnlySpan<uint> FaceSizes;
     }
 
-    /// <summary>A mesh whose arrays stay where they are while `call` runs.</summary>
+    /// <summary>Receives a mesh whose arrays are pinned while `call` runs.</summary>
     internal unsafe delegate void WithMesh(Native.Mesh* mesh);
 
     internal static unsafe class Pinned

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What calls of the C API share.
+// Helpers shared by all calls of the C API.
 using System;
 using System.Text;
 

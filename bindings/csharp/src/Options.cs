@@ -4,19 +4,19 @@ using System.Text;
 
 namespace Tspace
 {
-    /// <summary>Why a call failed. The numbers are those of the C API, and never reused.</summary>
+    /// <summary>Reason for the failure of a call. The numbers are those of the C API, and are never reused.</summary>
     public enum ErrorCode
     {
         NullData = 1, CountMismatch = 2, IndexOutOfRange = 3, StrideTooSmall = 4, Misaligned = 5, TooLarge = 6,
         MissingAttribute = 7, InvalidOption = 8, OutOfMemory = 9, PlanMismatch = 10, Internal = 11
     }
 
-    /// <summary>What went wrong, in words for the person who has to mend it, and where.</summary>
+    /// <summary>Error of a failed call, with a human-readable message and the location of the fault.</summary>
     public sealed class TspaceException : Exception
     {
         /// <summary>The kind of error.</summary>
         public ErrorCode Code { get; }
-        /// <summary>Index of the offending element, where there is one.</summary>
+        /// <summary>Index of the invalid element, if any.</summary>
         public long? Element { get; }
 
         internal TspaceException(string message, ErrorCode code, long? element = null) : base(message)
@@ -26,15 +26,15 @@ namespace Tspace
         }
     }
 
-    /// <summary>What a format or engine means by its numbers: it decides the sign of tangents, and which side of a face is
-    /// out. There is no default.</summary>
+    /// <summary>Convention of a format or engine: determines the sign of tangents, and which side of a face is outside.
+    /// There is no default.</summary>
     public readonly struct Convention
     {
         internal readonly Native.Convention Raw;
 
         private Convention(Native.Convention raw) { Raw = raw; }
 
-        /// <summary>"gltf", "opengl", "directx", "unreal", "unity", "blender" or "godot".</summary>
+        /// <summary>Returns a preset: "gltf", "opengl", "directx", "unreal", "unity", "blender" or "godot".</summary>
         public static unsafe Convention Preset(string name)
         {
             if (name == null) throw new ArgumentNullException(nameof(name));
@@ -45,7 +45,8 @@ namespace Tspace
             return new Convention(raw);
         }
 
-        /// <summary>The mathematical reading: B along growing v, sign of the MikkTSpace reference.</summary>
+        /// <summary>The mathematical convention: B points along increasing v, with the sign of the MikkTSpace
+        /// reference.</summary>
         public static Convention OpenGL => Preset("opengl");
         /// <summary>glTF.</summary>
         public static Convention Gltf => Preset("gltf");
@@ -53,22 +54,23 @@ namespace Tspace
         public static Convention Unity => Preset("unity");
     }
 
-    /// <summary>How tangents are computed. A new one has every default.</summary>
+    /// <summary>Options for tangents. A new instance holds the defaults.</summary>
     public sealed class TangentOptions
     {
-        /// <summary>Decides the stored sign.</summary>
+        /// <summary>Determines the stored sign.</summary>
         public Convention Convention { get; set; }
         public Method Method { get; set; }
         public Ngons Ngons { get; set; }
         public FrameShape Frame { get; set; }
-        /// <summary>Degrees; Mikktspace alone. Faces whose tangents differ by this or more are not averaged.</summary>
+        /// <summary>Degrees; only for Mikktspace. Tangents of faces that differ by this or more are not
+        /// averaged.</summary>
         public float AngularThresholdDeg { get; set; }
         public Pairing Pairing { get; set; }
-        /// <summary>Steps that Best takes after its fit: 0, 1 or 2.</summary>
+        /// <summary>Number of refinement steps of Best after its fit: 0, 1 or 2.</summary>
         public int Refine { get; set; }
-        /// <summary>Normals whose length is further from 1 than 0.00674 are scaled to length 1 first.</summary>
+        /// <summary>Normalizes normals whose length differs from 1 by more than 0.00674.</summary>
         public bool NormalizeNormals { get; set; }
-        /// <summary>1, another number, or int.MaxValue for as many as there are cores. The bits are the same for any.</summary>
+        /// <summary>Number of threads; int.MaxValue: one per core. Results have the same bits for any number.</summary>
         public int Threads { get; set; } = 1;
 
         public TangentOptions(Convention convention)
@@ -102,7 +104,7 @@ namespace Tspace
             raw.Pairing = (uint)Pairing;
             raw.Refine = (uint)Refine;
             raw.NormalizeNormals = NormalizeNormals ? 1u : 0u;
-            // The C API refuses both of 0 as forgotten; no method looks at both.
+            // The C API rejects zero for both as uninitialized; no method uses both.
             if (AngularThresholdDeg == 0 && Refine == 0)
             {
                 if (Method == Method.Best) raw.AngularThresholdDeg = 180;
@@ -122,23 +124,25 @@ namespace Tspace
         }
     }
 
-    /// <summary>How normals are computed. A new one has every default.</summary>
+    /// <summary>Options for normals. A new instance holds the defaults.</summary>
     public sealed class NormalOptions
     {
-        /// <summary>Its handedness and winding say which side is out.</summary>
+        /// <summary>Its handedness and winding define the outside.</summary>
         public Convention Convention { get; set; }
         public NormalWeighting Weighting { get; set; }
-        /// <summary>Degrees, 0..180: faces are smoothed over an edge when their normals differ by no more. 180: never hard.
-        /// -1: found by the mesh.</summary>
+        /// <summary>Degrees, 0..180: edges where face normals differ by more are hard. 180: no hard edges. -1: derived
+        /// from the mesh.</summary>
         public float CreaseAngleDeg { get; set; }
-        /// <summary>Vertices at the same position are one point.</summary>
+        /// <summary>Welds vertices at the same position.</summary>
         public bool WeldPositions { get; set; }
-        /// <summary>With WeldPositions: positions that differ by no more than this in each coordinate are one point. 0: only
-        /// equal positions are. -1: twice the spacing of floats at the largest coordinate, where edges are 32 times that.</summary>
+        /// <summary>With WeldPositions: positions that differ by at most this in each coordinate are welded. 0: only
+        /// equal positions. -1: twice the spacing of floats at the largest coordinate, if edges are at least 32 times
+        /// as long.</summary>
         public float WeldDistance { get; set; }
-        /// <summary>Steps that Best takes after its fit: 0, 1 or 2.</summary>
+        /// <summary>Number of refinement steps of Best after its fit: 0, 1 or 2.</summary>
         public int Refine { get; set; }
-        /// <summary>For noisy positions: 0 is off, -1 by the measured noise, up to 4 so many times that.</summary>
+        /// <summary>For noisy positions: 0: off; -1: the measured noise; up to 4: multiple of the measured
+        /// noise.</summary>
         public float Denoise { get; set; }
         public int Threads { get; set; } = 1;
 
@@ -170,7 +174,7 @@ namespace Tspace
             raw.CreaseAngleDeg = CreaseAngleDeg;
             raw.WeldPositions = WeldPositions ? 1u : 0u;
             raw.WeldDistance = WeldDistance;
-            // The C API refuses all of 0 as forgotten; Flat, which is 0, does not look at this.
+            // The C API rejects all-zero options as uninitialized; Flat, which is 0, does not use this option.
             raw.Refine = Weighting == NormalWeighting.Flat && Refine == 0 ? 1u : (uint)Refine;
             raw.Denoise = Denoise;
             return raw;

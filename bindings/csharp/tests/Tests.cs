@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests of the C# binding: each function Test... is one, and its name what it shows. The only argument is the folder of test
-// data; without it the golden meshes are skipped, and said so.
+// Tests of the C# binding: each function Test... is one test, named after the tested property. The only argument is the
+// folder of test data; without it the golden meshes are skipped with a message.
 using System;
 using System.Collections.Generic;
 using System.IO;
@@ -34,7 +34,7 @@ internal sealed class Golden
         };
     }
 
-    // docs/concepts/methods/mikktspace.md promises no bits for others.
+    // docs/concepts/methods/mikktspace.md does not promise identical bits for other values.
     internal bool IsPromised => Inputs.All(value => Math.Abs(value) < 1.6e38f);
 
     internal Mesh Mesh()
@@ -209,8 +209,8 @@ internal static class Tests
 
     public static void TestUnitysConventionTurnsNormalsOfItsFacesOutward()
     {
-        // Unity's faces are clockwise in a left-handed system: the same numbers as counter-clockwise in a right-handed one
-        // point the other way.
+        // In Unity faces are clockwise in a left-handed system: with the same coordinates, normals point opposite to
+        // those of counter-clockwise faces in a right-handed system.
         float right = Frames.Normals(Square(), new NormalOptions(Convention.Gltf))[2];
         float unity = Frames.Normals(Square(), new NormalOptions(Convention.Unity))[2];
         Check(right == 1 && unity == 1, "clockwise and left-handed cancel");
@@ -234,7 +234,7 @@ internal static class Tests
 
     public static void TestPositionsWithinTheWeldDistanceAreOnePoint()
     {
-        // Two squares at a right angle; their corners on the common edge differ by rounding.
+        // Two squares at a right angle; their corners at the common edge differ by rounding.
         Vector3[] positions =
         {
             new Vector3(0, 0, 0), new Vector3(1, 0, 0), new Vector3(1, 1, 0), new Vector3(0, 1, 0),

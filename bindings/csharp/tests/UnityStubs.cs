@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What unity/TspaceImporter.cs takes from Unity, with just enough behind it to run the importer on a mesh.
+// Stubs of the Unity types that unity/TspaceImporter.cs uses, sufficient to run the importer on a mesh.
 using System;
 using System.Collections.Generic;
 using System.Linq;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The importer for Unity on a mesh whose texture is mirrored: see UnityStubs.cs for what stands in Unity's place.
+// Tests the importer for Unity on a mesh whose texture is mirrored; UnityStubs.cs replaces Unity.
 using System;
 using System.Linq;
 using UnityEngine;
@@ -26,11 +26,11 @@ internal static class UnityTests
         foreach (int[] part in mesh.parts)
         {
             float x = mesh.tangents[part[0]].x, w = mesh.tangents[part[0]].w;
-            // T runs along growing u, and both halves have their own sign.
+            // T points along increasing u, and both halves have different signs.
             isRight &= part.All(v => mesh.tangents[v].x == x && mesh.tangents[v].w == w) && x == (part == mesh.parts[0] ? 1 : -1);
         }
         isRight &= mesh.tangents[mesh.parts[0][0]].w == -mesh.tangents[mesh.parts[1][0]].w;
-        // B = cross(N, T) * w points along growing v.
+        // B = cross(N, T) * w points along increasing v.
         isRight &= -mesh.tangents[0].x * mesh.tangents[0].w == 1;
         Console.WriteLine(isRight ? "ok: the importer for Unity splits mirrored vertices with all that hangs on them" : "FAILED: the importer for Unity");
         return isRight ? 0 : 1;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Tangents by tspace for every model that Unity imports: copy this file into Assets/Editor, src/*.cs into Assets/Tspace, and
-// libtspace.so, tspace.dll or libtspace.dylib into Assets/Plugins.
+// Computes tangents with tspace for every model that Unity imports: copy this file into Assets/Editor, src/*.cs into
+// Assets/Tspace, and libtspace.so, tspace.dll or libtspace.dylib into Assets/Plugins.
 //
-// Unity's importer keeps one tangent per vertex that it made; where corners of a vertex need different ones (a UV map that is
-// mirrored along an edge), this splits the vertex, with all that hangs on it.
+// Unity's importer keeps one tangent for each vertex that it creates. If corners of a vertex need different tangents (a
+// UV map mirrored along an edge), this importer splits the vertex, with all of its attributes.
 using System.Collections.Generic;
 using System.Linq;
 using Tspace;
@@ -13,7 +13,7 @@ using UnityEngine.Rendering;
 
 public sealed class TspaceImporter : AssetPostprocessor
 {
-    // Models whose name ends so; null: all of them.
+    // File name ending of the models to process; null: all models.
     private const string Suffix = null;
 
     private bool IsWanted => Suffix == null || System.IO.Path.GetFileNameWithoutExtension(assetPath).EndsWith(Suffix);
@@ -86,7 +86,7 @@ public sealed class TspaceImporter : AssetPostprocessor
         return all.Count == 0 ? new T[0] : sources.Select(source => all[source]).ToArray();
     }
 
-    // Old vertices keep their place, so that index lists stay right until they are replaced.
+    // Old vertices keep their positions, so that index lists remain valid until they are replaced.
     private static void Gather(UnityEngine.Mesh mesh, int[] sources)
     {
         if (sources.Length > 65535) mesh.indexFormat = IndexFormat.UInt32;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-//! A mesh for Bevy: the call of `bevy_mikktspace`, and the one that needs no trait and splits vertices.
+//! A mesh for Bevy: the call of `bevy_mikktspace`, and the call that needs no trait and splits vertices.
 //!
-//! Bevy keeps the attributes as vectors like these (`Mesh::ATTRIBUTE_POSITION` and so on), and takes tangents as `[f32; 4]`.
+//! Bevy stores attributes in vectors like these (`Mesh::ATTRIBUTE_POSITION` etc.), and tangents as `[f32; 4]`.
 
 use tspace::mikktspace::{generate_tangents, Geometry};
 use tspace::{Convention, IndexedFramesOptions, Mesh};
@@ -20,8 +20,8 @@ impl Bevy {
     }
 }
 
-// As it stands for bevy_mikktspace. The last function is the defect: corners of a vertex overwrite each other, so a mirrored
-// UV map gets a wrong sign on one side.
+// Written as for bevy_mikktspace. The last function has a defect: corners of a vertex overwrite each other, so a
+// mirrored UV map gets a wrong sign on one side.
 impl Geometry for Bevy {
     fn num_faces(&self) -> usize {
         self.indices.len() / 3
@@ -45,7 +45,7 @@ impl Geometry for Bevy {
 }
 
 fn main() -> Result<(), tspace::Error> {
-    // Two squares; the texture is mirrored on the second, so the two vertices between them need two tangents each.
+    // Two squares; the texture is mirrored on the second one, so the two shared vertices need two tangents each.
     let positions = (0..6).map(|v| [(v % 3) as f32, (v / 3) as f32, 0.0]).collect();
     let uvs = (0..6).map(|v| [if v % 3 == 1 { 1.0 } else { 0.0 }, (v / 3) as f32]).collect();
     let indices = vec![0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4];

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-//! For code that calls the crate `bevy_mikktspace` 0.17 or 1.0: the trait, types and functions of these
-//! versions, with the bits of the MikkTSpace reference in C. (The crate's own differ from these at 1 % of the corners of 4,000
-//! random meshes over few points, where many triangles are doubled or degenerate.) Replace `bevy_mikktspace::` by `tspace::bevy_mikktspace::`. The trait of `mikktspace` 0.3 and
-//! of `bevy_mikktspace` up to 0.16 is in [`mikktspace`](crate::mikktspace).
+//! For code that calls the crate `bevy_mikktspace` 0.17 or 1.0: the trait, types and functions of these versions, with the
+//! bits of the MikkTSpace reference in C. (Results of the crate differ from them at 1 % of the corners of 4,000 random meshes
+//! over few points, where many triangles are duplicated or degenerate.) Replace `bevy_mikktspace::` by
+//! `tspace::bevy_mikktspace::`. The trait of `mikktspace` 0.3 and of `bevy_mikktspace` up to 0.16 is in
+//! [`mikktspace`](crate::mikktspace).
 //!
-//! Only [`Geometry`]'s parameter `Ops` is missing, which `no_std` programs need for their own square roots.
+//! Only the parameter `Ops` of [`Geometry`] is missing, which `no_std` programs need for their own square roots.
 //!
 //! ```
 //! use tspace::bevy_mikktspace::{generate_tangents, GenerateTangentSpaceError, Geometry, TangentSpace};
@@ -34,11 +35,11 @@
 use crate::callbacks::{generate, Reader};
 use crate::Error;
 
-/// Reads a mesh, and takes its tangents.
+/// Callbacks that read a mesh and receive its tangents.
 pub trait Geometry {
     /// Number of faces.
     fn num_faces(&self) -> usize;
-    /// Number of corners of a face. Faces of other than 3 and 4 corners are ignored.
+    /// Number of corners of a face. Faces with fewer than 3 or more than 4 corners are ignored.
     fn num_vertices_of_face(&self, face: usize) -> usize;
     /// Position of a corner.
     fn position(&self, face: usize, vert: usize) -> [f32; 3];
@@ -46,11 +47,11 @@ pub trait Geometry {
     fn normal(&self, face: usize, vert: usize) -> [f32; 3];
     /// UV of a corner.
     fn tex_coord(&self, face: usize, vert: usize) -> [f32; 2];
-    /// Takes the result of a corner; `None` where no face gives it a tangent.
+    /// Receives the result of a corner; `None` if no face contributes to it.
     fn set_tangent(&mut self, tangent_space: Option<TangentSpace>, face: usize, vert: usize);
 }
 
-/// The result of a corner. The default is the one of the reference for corners that no face gives a tangent.
+/// The result of a corner. The default is the reference's value for corners to which no face contributes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TangentSpace {
     tangent: [f32; 3],
@@ -76,7 +77,7 @@ impl TangentSpace {
         self.tangent
     }
 
-    /// Unit bitangent: the direction of dP/dv, in general not cross(N, T).
+    /// Unit bitangent: the direction of dP/dv, in general different from cross(N, T).
     pub const fn bi_tangent(&self) -> [f32; 3] {
         self.bi_tangent
     }
@@ -91,19 +92,19 @@ impl TangentSpace {
         self.magnitudes[1]
     }
 
-    /// False where the UVs are mirrored.
+    /// False if the UVs are mirrored.
     pub const fn is_orientation_preserving(&self) -> bool {
         self.is_orientation_preserving
     }
 
-    /// Unit tangent, and the sign of `B = sign * cross(N, T)`.
+    /// Unit tangent and the sign of `B = sign * cross(N, T)`.
     pub const fn tangent_encoded(&self) -> [f32; 4] {
         let sign = if self.is_orientation_preserving { 1.0 } else { -1.0 };
         [self.tangent[0], self.tangent[1], self.tangent[2], sign]
     }
 }
 
-/// Why there are no tangents.
+/// Reason why there are no tangents.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum GenerateTangentSpaceError {
@@ -134,14 +135,15 @@ impl<G: Geometry + ?Sized> Reader for Reading<'_, G> {
     }
 }
 
-/// Tangents as the MikkTSpace reference makes them. A mesh without triangles and quads gets none, which is no error.
+/// Computes tangents like the MikkTSpace reference. A mesh without triangles and quads gets none, which is not an
+/// error.
 pub fn generate_tangents<G: Geometry + ?Sized>(geometry: &mut G) -> Result<(), GenerateTangentSpaceError> {
     generate_with_degrees(geometry, 180.0)
 }
 
-/// [`generate_tangents`] with a threshold from -1 (off) to 1: faces are averaged where the cosine of the angle between their tangents
-/// is above it. The library takes the angle in degrees, so the cosine that it compares with may differ from `threshold` by 2e-7;
-/// -1 is exact.
+/// [`generate_tangents`] with a threshold from -1 (off) to 1: faces are averaged if the cosine of the angle between
+/// their tangents is larger. The library takes the angle in degrees, so the cosine that it compares with may differ
+/// from `threshold` by 2e-7; -1 is exact.
 pub fn generate_tangents_with_threshold<G: Geometry + ?Sized>(
     geometry: &mut G,
     threshold: f32,

@@ -10,21 +10,21 @@ pub(crate) trait Reader {
     fn corner(&self, face: usize, vert: usize) -> ([f32; 3], [f32; 3], [f32; 2]);
 }
 
-/// Tangents of the corners of triangles and quads.
+/// Tangents for the corners of triangles and quads.
 pub(crate) struct Made {
     face_sizes: Vec<u32>,
     pub(crate) tangents: Tangents,
 }
 
 impl Made {
-    /// Face and corner of each result.
+    /// Iterates over the face and corner of each result.
     pub(crate) fn corners(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let corners_of = |(face, &size): (usize, &u32)| (0..size as usize).map(move |vert| (face, vert));
         self.face_sizes.iter().enumerate().flat_map(corners_of)
     }
 }
 
-/// Reads every corner once, before anything is computed. Faces of other than 3 and 4 corners are ignored.
+/// Reads every corner once before anything is computed. Faces with fewer than 3 or more than 4 corners are ignored.
 pub(crate) fn generate(reader: &impl Reader, angular_threshold_deg: f32) -> Result<Made, Error> {
     let (mut positions, mut normals, mut uvs) = (Vec::new(), Vec::new(), Vec::new());
     let face_sizes: Vec<u32> = (0..reader.num_faces())

@@ -3,13 +3,13 @@ use crate::sys;
 use std::ffi::CStr;
 use std::fmt;
 
-/// Why a call failed. The numbers are those of the C API, and never reused.
+/// Reason for the failure of a call. The numbers are those of the C API, and are never reused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ErrorCode {
-    /// An array is empty although it is needed.
+    /// A required array is empty.
     NullData,
-    /// Two arrays that must have the same length do not.
+    /// Two arrays that must have the same length have different lengths.
     CountMismatch,
     /// An index is not smaller than the number of vertices; [`Error::element`] is its position.
     IndexOutOfRange,
@@ -17,7 +17,7 @@ pub enum ErrorCode {
     StrideTooSmall,
     /// A pointer or stride is not a multiple of 4 bytes.
     Misaligned,
-    /// A size does not fit: more than 2,147,483,647 corners.
+    /// A size exceeds the limit: more than 2,147,483,647 corners.
     TooLarge,
     /// The method needs an attribute (normals, UVs) that the mesh does not have.
     MissingAttribute,
@@ -25,11 +25,11 @@ pub enum ErrorCode {
     InvalidOption,
     /// There is not enough memory.
     OutOfMemory,
-    /// Arrays do not fit the plan that they are evaluated with.
+    /// Arrays do not match the plan that they are evaluated with.
     PlanMismatch,
     /// A defect of tspace.
     Internal,
-    /// A number that this crate does not know.
+    /// An error number that this crate does not know.
     Other(u32),
 }
 
@@ -52,12 +52,12 @@ impl ErrorCode {
     }
 }
 
-/// What went wrong, in words for the person who has to mend it, and where.
+/// Error of a failed call, with a human-readable message and the location of the fault.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Error {
     /// The kind of error.
     pub code: ErrorCode,
-    /// Index of the offending element, where there is one.
+    /// Index of the invalid element, if any.
     pub element: Option<u64>,
     /// One sentence.
     pub message: String,
@@ -75,14 +75,14 @@ pub(crate) fn mismatch(message: String) -> Error {
     Error { code: ErrorCode::CountMismatch, element: None, message }
 }
 
-/// Calls a function of the C API with an error to fill.
+/// Calls a function of the C API, and converts its error.
 pub(crate) fn checked(call: impl FnOnce(*mut sys::Error) -> u32) -> Result<(), Error> {
     let mut error = sys::Error { code: 0, reserved: 0, element: 0, message: [0; 240] };
     let code = call(&mut error);
     if code == sys::OK {
         return Ok(());
     }
-    // SAFETY: the library ends the message by 0.
+    // SAFETY: the library terminates the message with 0.
     let message = unsafe { CStr::from_ptr(error.message.as_ptr()) };
     let message = message.to_string_lossy().into_owned();
     let element = if error.element == sys::NO_ELEMENT { None } else { Some(error.element) };

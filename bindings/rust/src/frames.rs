@@ -7,35 +7,35 @@ use crate::sys;
 use crate::tangents::{new_report, span, TangentOptions, TangentReport};
 use std::ptr::{null, null_mut};
 
-/// Tangents that were mended, by cause and by cure.
+/// Repaired tangents, by cause and by kind of repair.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct SanitizeReport {
-    /// NaN or infinity in the tangent.
+    /// Cause: the tangent contains NaN or infinity.
     pub not_finite_count: u64,
     /// Length 0.
     pub zero_count: u64,
-    /// Length off by more than 5e-4.
+    /// Cause: length off by more than 5e-4.
     pub not_unit_count: u64,
-    /// Within 1 degree of N or -N.
+    /// Cause: within 1 degree of N or -N.
     pub parallel_count: u64,
-    /// (1, 0, 0), and not in the plane across N.
+    /// Cause: (1, 0, 0), and not perpendicular to N.
     pub placeholder_count: u64,
-    /// Sign neither +1 nor -1.
+    /// Cause: sign neither +1 nor -1.
     pub bad_sign_count: u64,
-    /// Sign changed because the face's corners disagreed.
+    /// Cause: the corners of the face have different signs.
     pub mixed_sign_count: u64,
-    /// Sound ones changed, since that was asked.
+    /// Valid tangents that were changed because of `orthogonalize_all`.
     pub orthogonalized_count: u64,
-    /// Cure: its own direction, made unit and orthogonal to N.
+    /// Repair: original direction, normalized and made orthogonal to N.
     pub normalized_count: u64,
-    /// Cure: the direction of a sound corner of the same face or position.
+    /// Repair: direction of a valid corner of the same face or position.
     pub from_neighbor_count: u64,
-    /// Cure: a basis from N alone.
+    /// Repair: tangent computed from N only.
     pub from_basis_count: u64,
     /// Corners whose N is zero or not finite.
     pub bad_normal_count: u64,
-    /// All that were written.
+    /// Number of all repaired corners.
     pub mended_count: u64,
 }
 
@@ -59,8 +59,8 @@ impl SanitizeReport {
     }
 }
 
-/// Mends tangents in place: those that are not finite, zero, not unit, parallel to N, or whose signs differ in a face.
-/// Sound ones keep every bit, unless `orthogonalize_all`. The mesh needs normals.
+/// Repairs tangents in place that are not finite, zero, not unit, parallel to N, or whose signs differ within a face.
+/// Valid tangents keep all bits, unless `orthogonalize_all`. The mesh needs normals.
 pub fn sanitize(
     mesh: &Mesh<'_>,
     tangents: &mut [[f32; 4]],
@@ -70,14 +70,14 @@ pub fn sanitize(
     let mut options = prepared(sys::tspace_initSanitizeOptions);
     options.orthogonalize_all = orthogonalize_all.into();
     let mut report = new_report(|report: &mut sys::SanitizeReport, size| report.struct_size = size);
-    // SAFETY: all pointers are to slices that outlive the call, with their lengths.
+    // SAFETY: all pointers refer to slices that outlive the call, with their lengths.
     checked(|error| unsafe {
         sys::tspace_sanitizeTangents(&mesh.raw(), &options, span(tangents), &execution.raw(), &mut report, error)
     })?;
     Ok(SanitizeReport::of(&report))
 }
 
-/// Values per corner by which [`split`] tells vertices apart: `N` floats each.
+/// Values per corner, `N` floats each, by which [`split`] distinguishes vertices.
 #[derive(Clone, Copy, Debug)]
 pub struct Attribute<'a> {
     floats: &'a [f32],
@@ -86,14 +86,14 @@ pub struct Attribute<'a> {
 }
 
 impl<'a> Attribute<'a> {
-    /// Corners are equal when all bits are.
+    /// Corners are equal if all bits are equal.
     pub fn new<const N: usize>(values: &'a [[f32; N]]) -> Self {
-        // SAFETY: arrays of arrays of floats are floats side by side.
+        // SAFETY: arrays of arrays of floats are contiguous floats.
         let floats = unsafe { std::slice::from_raw_parts(values.as_ptr().cast::<f32>(), values.len() * N) };
         Attribute { floats, components: N, tolerance: 0.0 }
     }
 
-    /// Corners are equal when every component differs by at most this.
+    /// Corners are equal if every component differs by at most this.
     pub fn tolerance(mut self, tolerance: f32) -> Self {
         self.tolerance = tolerance;
         self
@@ -113,14 +113,14 @@ impl<'a> Attribute<'a> {
     }
 }
 
-/// The new index buffer and where each new vertex comes from.
+/// The new index buffer, and the source of each new vertex.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Split {
     /// The new vertex of each corner.
     pub indices: Vec<u32>,
-    /// The old vertex that each new one copies. Gather every vertex attribute through it.
+    /// The old vertex that each new one copies; use it to gather vertex attributes.
     pub source_vertices: Vec<u32>,
-    /// The corner whose values belong to each new vertex; `None` where no corner uses it.
+    /// A corner whose values each new vertex has; `None` if no corner uses it.
     pub source_corners: Vec<Option<u32>>,
 }
 
@@ -140,7 +140,7 @@ fn corners(list: Vec<u32>) -> Vec<Option<u32>> {
     list.into_iter().map(|corner| if corner == u32::MAX { None } else { Some(corner) }).collect()
 }
 
-/// Splits vertices whose corners disagree in any attribute. Old vertices keep their place, copies come behind.
+/// Splits vertices whose corners differ in any attribute. Old vertices keep their positions, copies are appended.
 pub fn split<'a>(
     indices: impl Into<Indices<'a>>,
     vertex_count: usize,
@@ -155,7 +155,7 @@ pub fn split<'a>(
     }
     let raw: Vec<_> = attributes.iter().map(Attribute::raw).collect();
     let mut made = null_mut();
-    // SAFETY: all pointers are to slices that outlive the call; what the library made is copied, then freed.
+    // SAFETY: all pointers refer to slices that outlive the call; the library's result is copied, then freed.
     unsafe {
         checked(|error| {
             sys::tspace_splitVertices(
@@ -182,16 +182,16 @@ pub fn split<'a>(
 /// Triangles of a polygon mesh.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Triangles {
-    /// Three corners of the mesh per triangle, winding kept.
+    /// Three corners of the mesh per triangle, with the original winding.
     pub corners: Vec<u32>,
-    /// The face that each triangle was cut from.
+    /// The original face of each triangle.
     pub faces: Vec<u32>,
 }
 
-/// Cuts every face with 4 or more corners; quads as MikkTSpace does.
+/// Triangulates every face with 4 or more corners; quads like MikkTSpace.
 pub fn triangulate(mesh: &Mesh<'_>) -> Result<Triangles, Error> {
     let mut made = null_mut();
-    // SAFETY: as in `split`.
+    // SAFETY: all pointers refer to slices that outlive the call; the library's result is copied, then freed.
     unsafe {
         checked(|error| sys::tspace_triangulate(&mesh.raw(), &mut made, error))?;
         let triangles = Triangles {
@@ -203,20 +203,20 @@ pub fn triangulate(mesh: &Mesh<'_>) -> Result<Triangles, Error> {
     }
 }
 
-/// How [`make_indexed_frames`] works. [`IndexedFramesOptions::new`] has every default.
+/// Options for [`make_indexed_frames`]. [`IndexedFramesOptions::new`] sets the defaults.
 #[derive(Clone, Copy, Debug)]
 pub struct IndexedFramesOptions<'a> {
-    /// Tangents; its execution is that of all steps.
+    /// Options for tangents; its execution applies to all steps.
     pub tangents: TangentOptions,
-    /// Where normals are made. Its convention is not looked at: that of `tangents` counts.
+    /// Options for computed normals. Its convention is ignored: that of `tangents` is used.
     pub normals: NormalOptions<'a>,
-    /// Also where the mesh has normals; they are made anyway where it has none.
+    /// Recompute normals even if the mesh has them; missing normals are always computed.
     pub make_normals: bool,
-    /// Mend broken tangents. Default: true.
+    /// Repair invalid tangents. Default: true.
     pub sanitize: bool,
-    /// Also make every sound tangent unit and orthogonal to N.
+    /// Also make every valid tangent unit and orthogonal to N.
     pub orthogonalize_all: bool,
-    /// Further attributes per corner that must not be shared.
+    /// Further attributes per corner that must not be merged.
     pub keep_apart: &'a [Attribute<'a>],
 }
 
@@ -235,20 +235,20 @@ impl IndexedFramesOptions<'_> {
     }
 }
 
-/// A mesh with the faces of the given one.
+/// Indexed mesh with the same faces as the input.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IndexedFrames {
     /// The new vertex of each corner.
     pub indices: Vec<u32>,
-    /// The entry of positions that each new vertex copies.
+    /// The old vertex that each new vertex copies.
     pub source_vertices: Vec<u32>,
-    /// The first corner that uses each new vertex; `None` where none does.
+    /// The first corner that uses each new vertex; `None` if no corner does.
     pub source_corners: Vec<Option<u32>>,
-    /// One per new vertex.
+    /// One normal per new vertex.
     pub normals: Vec<[f32; 3]>,
     /// One per new vertex: unit tangent and sign.
     pub tangents: Vec<[f32; 4]>,
-    /// Where normals were made.
+    /// Set if normals were computed.
     pub normal_report: Option<NormalReport>,
     /// Counts of tangents.
     pub tangent_report: TangentReport,
@@ -256,7 +256,7 @@ pub struct IndexedFrames {
     pub sanitize_report: SanitizeReport,
 }
 
-/// Makes normals where they are missing, tangents, mends those that are broken, and splits vertices whose corners disagree.
+/// Computes missing normals and tangents, repairs invalid tangents, and splits vertices whose corners differ.
 pub fn make_indexed_frames(mesh: &Mesh<'_>, options: &IndexedFramesOptions<'_>) -> Result<IndexedFrames, Error> {
     let corner_count = mesh.corner_count();
     if let Some(wrong) = options.keep_apart.iter().find(|attribute| attribute.corner_count() != corner_count) {
@@ -275,7 +275,7 @@ pub fn make_indexed_frames(mesh: &Mesh<'_>, options: &IndexedFramesOptions<'_>) 
     raw.keep_apart_count = keep_apart.len();
     let execution = options.tangents.execution.raw();
     let mut made = null_mut();
-    // SAFETY: as in `split`.
+    // SAFETY: all pointers refer to slices that outlive the call; the library's result is copied, then freed.
     unsafe {
         checked(|error| sys::tspace_makeIndexedFrames(&mesh.raw(), &raw, &execution, &mut made, error))?;
         let frames = &*made;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-//! Normals and tangent frames for meshes: the (T, B, N) and the sign that normal maps need.
+//! Normals and tangent frames for meshes: T, B, N and the sign that normal maps need.
 //!
-//! A *corner* is one (face, local vertex) pair; corners are numbered face after face. A *vertex* is one entry of the vertex
-//! arrays. One vertex can need several tangents (at UV seams, where the UV map is mirrored), so results come per corner; the
-//! *sign* is the fourth number of a tangent: `B = sign * cross(N, T)`. A *convention* says what a format means by it, so it
-//! must be named.
+//! A *corner* is a pair of a face and one of its vertices; corners are numbered face by face. A *vertex* is one entry of
+//! the vertex arrays. One vertex can need several tangents (at UV seams, and where the UV map is mirrored), so results are
+//! per corner. The *sign* is the fourth number of a tangent: `B = sign * cross(N, T)`. Its meaning depends on the format, so
+//! every call needs a *convention*.
 //!
 //! An indexed mesh with tangents, in one call:
 //!
@@ -24,12 +24,13 @@
 //! # }
 //! ```
 //!
-//! The same in steps: [`tangents`] per corner, mended by [`sanitize`], then [`split`]. A mesh that deforms takes a [`Plan`].
-//! Code that calls `bevy_mikktspace` finds its trait in [`mikktspace`] (versions up to 0.16) or [`bevy_mikktspace`] (0.17 and 1.0).
+//! The same in separate steps: [`tangents`] per corner, repaired by [`sanitize`], then [`split`]. For a mesh that deforms, use a
+//! [`Plan`]. For code that calls `bevy_mikktspace`, its trait is in [`mikktspace`] (versions up to 0.16) or
+//! [`bevy_mikktspace`] (0.17 and 1.0).
 //!
-//! - Slices are read where they lie, interleaved ones too ([`Points::interleaved`]). Nothing is kept after a call.
-//! - Results have the same bits on every CPU, for any number of threads, and in every language that tspace has.
-//! - Broken geometry (NaN, faces without area) is no error: reports count it, and [`sanitize`] mends the result.
+//! - Slices are used without a copy, including interleaved ones ([`Points::interleaved`]). Nothing is kept after a call.
+//! - Results have the same bits on every CPU, for any number of threads, and in every language binding of tspace.
+//! - Invalid geometry (NaN, faces without area) is not an error: reports count it, and [`sanitize`] repairs the result.
 //! - Nothing is printed. A panic is a defect of this crate.
 
 pub mod bevy_mikktspace;

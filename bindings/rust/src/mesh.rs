@@ -6,7 +6,8 @@ use std::mem::size_of;
 use std::os::raw::c_void;
 use std::ptr::null;
 
-/// Points of `N` floats, side by side or in vertices of other data too. Borrowed; made of `&[[f32; N]]` by `into()`.
+/// Points of `N` floats, contiguous or interleaved with other vertex data. Borrowed; created from `&[[f32; N]]` by
+/// `into()`.
 #[derive(Clone, Copy, Debug)]
 pub struct Points<'a, const N: usize> {
     data: *const f32,
@@ -15,15 +16,16 @@ pub struct Points<'a, const N: usize> {
     borrowed: PhantomData<&'a [f32]>,
 }
 
-// SAFETY: it is a shared slice of floats.
+// SAFETY: the struct is a shared slice of floats.
 unsafe impl<const N: usize> Send for Points<'_, N> {}
 // SAFETY: as above.
 unsafe impl<const N: usize> Sync for Points<'_, N> {}
 
 impl<'a, const N: usize> Points<'a, N> {
-    /// The points at `first`, `first + stride`, ... of `floats`, as interleaved vertices have them; as many as are whole.
+    /// Points at `first`, `first + stride`, ... of `floats`, as in interleaved vertices; incomplete points at the end
+    /// are ignored.
     ///
-    /// Errors: `StrideTooSmall` where `stride` is less than `N`, `CountMismatch` where `first` lies behind the end.
+    /// Errors: `StrideTooSmall` if `stride` is less than `N`, `CountMismatch` if `first` is beyond the end.
     pub fn interleaved(floats: &'a [f32], first: usize, stride: usize) -> Result<Self, Error> {
         if stride < N {
             let message = format!("stride is {stride} floats, less than the {N} of a point");
@@ -37,12 +39,12 @@ impl<'a, const N: usize> Points<'a, N> {
         Ok(Points { data: rest.as_ptr(), count, stride_bytes: stride * size_of::<f32>(), borrowed: PhantomData })
     }
 
-    /// How many points there are.
+    /// Number of points.
     pub fn len(&self) -> usize {
         self.count
     }
 
-    /// Whether there are none.
+    /// Returns whether there are no points.
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }
@@ -75,16 +77,16 @@ impl<'a, const N: usize, const M: usize> From<&'a [[f32; N]; M]> for Points<'a, 
     }
 }
 
-/// The vertex of each corner. Made of `&[u32]` and `&[u16]` by `into()`.
+/// The vertex of each corner. Created from `&[u32]` and `&[u16]` by `into()`.
 #[derive(Clone, Copy, Debug)]
 pub enum Indices<'a> {
-    /// Corner c uses vertex c; for lists of normals and UVs: they follow the mesh's indices.
+    /// Corner c uses vertex c. For lists of normals and UVs: use the mesh's indices.
     None,
     /// 16 bit each.
     U16(&'a [u16]),
     /// 32 bit each.
     U32(&'a [u32]),
-    /// For lists of normals and UVs alone: they have one entry per corner.
+    /// Only for lists of normals and UVs: one entry per corner.
     Corners,
 }
 
@@ -124,7 +126,7 @@ macro_rules! indices_from {
 indices_from!(u16, U16);
 indices_from!(u32, U32);
 
-/// A mesh that borrows its arrays. Only positions are always needed; each function says what else it uses.
+/// Mesh that borrows its arrays. Positions are always required; each function documents what else it needs.
 ///
 /// ```
 /// # let (positions, normals, uvs) = ([[0.0f32; 3]; 4], [[0.0f32, 0.0, 1.0]; 4], [[0.0f32; 2]; 4]);
@@ -144,7 +146,7 @@ pub struct Mesh<'a> {
 }
 
 impl<'a> Mesh<'a> {
-    /// Triangles without indices: corner c is vertex c.
+    /// Creates a mesh of triangles without indices: corner c is vertex c.
     pub fn new(positions: impl Into<Points<'a, 3>>) -> Self {
         Mesh {
             positions: positions.into(),
@@ -158,7 +160,7 @@ impl<'a> Mesh<'a> {
         }
     }
 
-    /// One per vertex, used as given (never normalised).
+    /// Sets one normal per vertex, used as given (never normalized).
     pub fn normals(mut self, normals: impl Into<Points<'a, 3>>) -> Self {
         self.normals = normals.into();
         self
@@ -170,49 +172,50 @@ impl<'a> Mesh<'a> {
         self
     }
 
-    /// The vertex of each corner.
+    /// Sets the vertex of each corner.
     pub fn indices(mut self, indices: impl Into<Indices<'a>>) -> Self {
         self.indices = indices.into();
         self
     }
 
-    /// The entry of `normals` of each corner, which then may be any number: FBX, USD and OBJ keep them so.
+    /// Sets the entry of `normals` for each corner. `normals` may then have any length, as in FBX, USD and OBJ.
     pub fn normal_indices(mut self, indices: impl Into<Indices<'a>>) -> Self {
         self.normal_indices = indices.into();
         self
     }
 
-    /// The entry of `uvs` of each corner.
+    /// Sets the entry of `uvs` for each corner.
     pub fn uv_indices(mut self, indices: impl Into<Indices<'a>>) -> Self {
         self.uv_indices = indices.into();
         self
     }
 
-    /// Corners of every face, 3 unless said.
+    /// Sets the number of corners of every face. Default: 3.
     pub fn face_size(mut self, corners: u32) -> Self {
         self.face_size = corners;
         self
     }
 
-    /// Corners of each face, where faces differ. Faces of fewer than 3 are allowed and ignored.
+    /// Sets the number of corners of each face, if faces have different sizes. Faces with fewer than 3 corners are
+    /// ignored.
     pub fn face_sizes(mut self, corners: &'a [u32]) -> Self {
         self.face_sizes = corners;
         self
     }
 
-    /// Corners of the mesh: the length of results.
+    /// Returns the number of corners of the mesh, which is the length of results.
     pub fn corner_count(&self) -> usize {
-        // SAFETY: raw() describes slices that live as long as self.
+        // SAFETY: raw() refers to slices that live as long as self.
         unsafe { sys::tspace_cornerCount(&self.raw()) }
     }
 
-    /// Faces of the mesh.
+    /// Returns the number of faces of the mesh.
     pub fn face_count(&self) -> usize {
         // SAFETY: as above.
         unsafe { sys::tspace_faceCount(&self.raw()) }
     }
 
-    /// Checks lengths and every index. Every function that takes a mesh does so first.
+    /// Checks lengths and all indices. Every function that takes a mesh calls this first.
     pub fn validate(&self) -> Result<(), Error> {
         // SAFETY: as above.
         checked(|error| unsafe { sys::tspace_validate(&self.raw(), error) })

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-//! For code that calls the crate `mikktspace` 0.3, or `bevy_mikktspace` up to 0.16: their trait, and their function, which gives
-//! the same bits. Versions 0.17 and 1.0 of `bevy_mikktspace` have another trait, in [`bevy_mikktspace`](crate::bevy_mikktspace).
+//! For code that calls the crate `mikktspace` 0.3, or `bevy_mikktspace` up to 0.16: their trait, and their function, with the
+//! same bits. The trait of versions 0.17 and 1.0 of `bevy_mikktspace` is in [`bevy_mikktspace`](crate::bevy_mikktspace).
 //!
 //! ```
 //! use tspace::mikktspace::{generate_tangents, Geometry};
@@ -24,11 +24,11 @@
 
 use crate::callbacks::{generate, Reader};
 
-/// What the reference's callbacks are.
+/// Callbacks of the reference.
 pub trait Geometry {
-    /// Faces of the mesh.
+    /// Number of faces of the mesh.
     fn num_faces(&self) -> usize;
-    /// Corners of a face. Of those with other than 3 and 4 nothing is computed.
+    /// Number of corners of a face. Faces with fewer than 3 or more than 4 corners are ignored.
     fn num_vertices_of_face(&self, face: usize) -> usize;
     /// Position of a corner.
     fn position(&self, face: usize, vert: usize) -> [f32; 3];
@@ -37,7 +37,7 @@ pub trait Geometry {
     /// UV of a corner.
     fn tex_coord(&self, face: usize, vert: usize) -> [f32; 2];
 
-    /// Takes the result of a corner: all of it. Calls [`Geometry::set_tangent_encoded`] unless it is replaced.
+    /// Receives the complete result of a corner. The default implementation calls [`Geometry::set_tangent_encoded`].
     #[allow(clippy::too_many_arguments)]
     fn set_tangent(
         &mut self,
@@ -53,7 +53,7 @@ pub trait Geometry {
         self.set_tangent_encoded([tangent[0], tangent[1], tangent[2], sign], face, vert);
     }
 
-    /// Takes the result of a corner: the tangent, and the sign of `B = sign * cross(N, T)`.
+    /// Receives the result of a corner: the tangent, and the sign of `B = sign * cross(N, T)`.
     fn set_tangent_encoded(&mut self, _tangent: [f32; 4], _face: usize, _vert: usize) {}
 }
 
@@ -71,9 +71,10 @@ impl<G: Geometry + ?Sized> Reader for Reading<'_, G> {
     }
 }
 
-/// Tangents as the MikkTSpace reference makes them. False where there is nothing that it takes, and nothing is set then.
+/// Computes tangents like the MikkTSpace reference. Returns false, without setting anything, if the mesh has no
+/// triangles or quads.
 ///
-/// Beside the reference this reads all corners first, so that a callback is asked for each of them once.
+/// Unlike the reference, it reads all corners first, so that callbacks are called once per corner.
 pub fn generate_tangents<G: Geometry + ?Sized>(geometry: &mut G) -> bool {
     let made = match generate(&Reading(geometry), 180.0) {
         Ok(made) if !made.tangents.tangents.is_empty() => made,

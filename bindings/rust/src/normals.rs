@@ -6,28 +6,28 @@ use crate::options::{prepared, Convention, Execution};
 use crate::sys;
 use crate::tangents::{new_report, span};
 
-/// How normals are computed. [`NormalOptions::new`] has every default.
+/// Options for normals. [`NormalOptions::new`] sets the defaults.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormalOptions<'a> {
-    /// Its handedness and winding say which side is out.
+    /// Its handedness and winding define the outside.
     pub convention: Convention,
     /// Default: [`NormalWeighting::Angle`].
     pub weighting: NormalWeighting,
-    /// Degrees, 0..180: faces are smoothed over an edge when their normals differ by no more. -1: found by the mesh.
-    /// Default: 180, never hard.
+    /// Degrees, 0..180: edges where face normals differ by more are hard. -1: derived from the mesh. Default: 180, no
+    /// hard edges.
     pub crease_angle_deg: f32,
-    /// One number per face, or empty. Faces smooth together when their numbers are equal and not 0.
+    /// One number per face, or empty. Two faces are smoothed if their numbers are equal and not 0.
     pub smoothing_groups: &'a [u32],
-    /// Faces smooth together when their numbers have a bit in common (3ds Max).
+    /// Two faces are smoothed if their numbers share a bit (3ds Max).
     pub smoothing_groups_are_masks: bool,
-    /// Vertices at the same position are one point. Default: true.
+    /// Weld vertices at the same position. Default: true.
     pub weld_positions: bool,
-    /// Steps that [`NormalWeighting::Best`] takes after its fit: 0, 1 or 2. Default: 2.
+    /// Number of refinement steps of [`NormalWeighting::Best`]: 0, 1 or 2. Default: 2.
     pub refine: u32,
-    /// For noisy positions: 0 (the default) is off, -1 by the measured noise, up to 4 so many times that.
+    /// For noisy positions: 0 (the default): off; -1: the measured noise; up to 4: multiple of the measured noise.
     pub denoise: f32,
-    /// With `weld_positions`: positions that differ by no more in each coordinate are one. -1: twice the spacing of floats.
-    /// Default: 0, only equal ones are.
+    /// With `weld_positions`: positions that differ by at most this in each coordinate are welded. -1: twice the
+    /// spacing of floats. Default: 0, only equal positions.
     pub weld_distance: f32,
     /// Default: the calling thread.
     pub execution: Execution,
@@ -64,7 +64,7 @@ impl NormalOptions<'_> {
         raw.smoothing_groups_are_masks = self.smoothing_groups_are_masks.into();
         raw.weld_positions = self.weld_positions.into();
         raw.refine = self.refine;
-        // The C API refuses all of 0 as forgotten; flat, which is 0, looks at none of the others.
+        // The C API rejects all-zero options as uninitialized; flat, which is 0, uses none of the other options.
         if self.weighting == NormalWeighting::Flat && self.refine == 0 {
             raw.refine = 1;
         }
@@ -82,11 +82,11 @@ pub struct NormalReport {
     pub face_count: u64,
     /// Faces without a normal.
     pub degenerate_face_count: u64,
-    /// Corners whose mean vanished: they got a substitute.
+    /// Corners whose weighted mean is zero and that got a fallback.
     pub fallback_corner_count: u64,
-    /// What `denoise` removed, in mean edge lengths.
+    /// Noise that `denoise` removed, in mean edge lengths.
     pub noise: f32,
-    /// The angle that edges were held against.
+    /// The crease angle that was used.
     pub crease_angle_deg: f32,
 }
 
@@ -102,7 +102,7 @@ impl NormalReport {
     }
 }
 
-/// One unit normal per corner.
+/// Computes one unit normal per corner.
 pub fn normals(mesh: &Mesh<'_>, options: &NormalOptions<'_>) -> Result<Vec<[f32; 3]>, Error> {
     mesh.validate()?;
     let mut made = vec![[0.0; 3]; mesh.corner_count()];
@@ -110,7 +110,7 @@ pub fn normals(mesh: &Mesh<'_>, options: &NormalOptions<'_>) -> Result<Vec<[f32;
     Ok(made)
 }
 
-/// [`normals`] into the caller's slice, with counts.
+/// Like [`normals`], into the caller's slice, with counts.
 pub fn normals_into(
     mesh: &Mesh<'_>,
     options: &NormalOptions<'_>,
@@ -118,7 +118,7 @@ pub fn normals_into(
 ) -> Result<NormalReport, Error> {
     let mut report = new_report(|report: &mut sys::NormalReport, size| report.struct_size = size);
     let execution = options.execution.raw();
-    // SAFETY: all pointers are to slices that outlive the call, with their lengths.
+    // SAFETY: all pointers refer to slices that outlive the call, with their lengths.
     checked(|error| unsafe {
         sys::tspace_generateNormals(&mesh.raw(), &options.raw(), span(out), &execution, &mut report, error)
     })?;

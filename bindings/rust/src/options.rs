@@ -5,28 +5,28 @@ use crate::sys;
 use std::ffi::CString;
 use std::mem::{size_of, MaybeUninit};
 
-/// What a format or engine means by its numbers: it decides the sign of tangents, and which side of a face is out. There is
-/// no default.
+/// Convention of a format or engine: determines the sign of tangents, and which side of a face is outside. There is no
+/// default.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Convention {
-    /// Where v = 0 lies.
+    /// Position of v = 0.
     pub v_axis: VAxis,
-    /// What large green means.
+    /// Direction of large green values.
     pub green: Green,
-    /// How the sign is stored.
+    /// Storage of the sign.
     pub stored_sign: StoredSign,
-    /// Of the coordinate system.
+    /// Handedness of the coordinate system.
     pub handedness: Handedness,
-    /// Of a face seen from outside.
+    /// Winding of a face seen from outside.
     pub winding: Winding,
 }
 
 impl Convention {
-    /// "gltf", "opengl", "directx", "unreal", "unity", "blender" or "godot"; `InvalidOption` for any other name.
+    /// Returns "gltf", "opengl", "directx", "unreal", "unity", "blender" or "godot"; `InvalidOption` for other names.
     pub fn preset(name: &str) -> Result<Convention, Error> {
         let mut raw = sys::Convention { v_axis: 0, green: 0, stored_sign: 0, handedness: 0, winding: 0 };
         let name = CString::new(name).unwrap_or_default();
-        // SAFETY: the name ends in 0, and `raw` is written on success alone.
+        // SAFETY: the name ends with 0, and `raw` is written only on success.
         checked(|error| unsafe { sys::tspace_findConvention(name.as_ptr(), &mut raw, error) })?;
         Ok(Convention {
             v_axis: if raw.v_axis == 1 { VAxis::Up } else { VAxis::Down },
@@ -48,15 +48,15 @@ impl Convention {
     }
 }
 
-/// Where work runs. No bit of a result depends on it.
+/// Threads that execute a call. No bit of a result depends on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Execution {
-    /// The calling thread alone.
+    /// Only the calling thread.
     #[default]
     OneThread,
-    /// So many threads, which are started and joined within the call.
+    /// A number of threads, which are started and joined within the call.
     Threads(u32),
-    /// As many as there are cores.
+    /// One thread per core.
     AllThreads,
 }
 
@@ -72,10 +72,10 @@ impl Execution {
     }
 }
 
-/// A struct with its size and defaults.
+/// Returns a struct with its size and defaults.
 pub(crate) fn prepared<Struct>(init: sys::Init<Struct>) -> Struct {
     let mut raw = MaybeUninit::<Struct>::zeroed();
-    // SAFETY: `init` writes a struct of this size, or fails; zeros are a value of each of these structs.
+    // SAFETY: `init` writes a struct of this size, or fails; zero is a valid value of each of these structs.
     unsafe {
         let done = checked(|error| init(raw.as_mut_ptr(), size_of::<Struct>() as u32, error));
         debug_assert_eq!(done, Ok(()));

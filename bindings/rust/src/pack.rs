@@ -7,14 +7,14 @@ use crate::tangents::span;
 use std::ptr::null_mut;
 
 impl FrameFormat {
-    /// Bytes of one frame.
+    /// Returns the bytes of one frame.
     pub fn bytes(self) -> usize {
         // SAFETY: no pointers.
         unsafe { sys::tspace_frameBytes(self as u32) }
     }
 }
 
-/// Packs frames, each by itself. What is broken is mended first.
+/// Packs frames independently of each other. Invalid frames are repaired first.
 pub fn pack_frames<'a>(
     normals: impl Into<Points<'a, 3>>,
     tangents: impl Into<Points<'a, 4>>,
@@ -22,7 +22,7 @@ pub fn pack_frames<'a>(
 ) -> Result<Vec<u8>, Error> {
     let (normals, tangents) = (normals.into(), tangents.into());
     let mut bytes = vec![0u8; normals.len() * format.bytes()];
-    // SAFETY: `bytes` has room for all frames, and lengths are checked.
+    // SAFETY: `bytes` has space for all frames, and lengths are checked.
     checked(|error| unsafe {
         sys::tspace_packFrames(
             normals.span(),
@@ -40,7 +40,7 @@ pub fn pack_frames<'a>(
 /// Unit normals and tangents with their sign.
 pub type Frames = (Vec<[f32; 3]>, Vec<[f32; 4]>);
 
-/// Unpacks frames. All bytes are frames.
+/// Unpacks frames. Every sequence of bytes is valid.
 pub fn unpack_frames(bytes: &[u8], format: FrameFormat) -> Result<Frames, Error> {
     if bytes.len() % format.bytes() != 0 {
         let message = format!("{} bytes are no whole frames of {}", bytes.len(), format.bytes());

@@ -7,10 +7,10 @@ use crate::sys;
 use std::mem::{size_of, MaybeUninit};
 use std::ptr::null_mut;
 
-/// How tangents are computed. [`TangentOptions::new`] has every default.
+/// Options for tangents. [`TangentOptions::new`] sets the defaults.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TangentOptions {
-    /// Decides the stored sign.
+    /// Determines the stored sign.
     pub convention: Convention,
     /// Default: [`Method::Mikktspace`].
     pub method: Method,
@@ -20,13 +20,13 @@ pub struct TangentOptions {
     pub domain: OutputDomain,
     /// Default: [`FrameShape::GramSchmidt`].
     pub frame: FrameShape,
-    /// Degrees; mikktspace alone. Faces whose tangents differ by this or more are not averaged. Default: 180.
+    /// Degrees; only for mikktspace. Tangents of faces that differ by this or more are not averaged. Default: 180.
     pub angular_threshold_deg: f32,
     /// Default: [`Pairing::Reference`].
     pub pairing: Pairing,
-    /// Steps that [`Method::Best`] takes after its fit: 0, 1 or 2. Default: 1.
+    /// Number of refinement steps of [`Method::Best`]: 0, 1 or 2. Default: 1.
     pub refine: u32,
-    /// Normals whose length is further from 1 than 0.00674 are scaled to length 1 first. Default: they are used as given.
+    /// Normalize normals whose length differs from 1 by more than 0.00674. Default: they are used as given.
     pub normalize_normals: bool,
     /// Default: the calling thread.
     pub execution: Execution,
@@ -61,7 +61,7 @@ impl TangentOptions {
         raw.pairing = self.pairing as u32;
         raw.refine = self.refine;
         raw.normalize_normals = self.normalize_normals.into();
-        // The C API refuses both of 0 as forgotten; no method looks at both.
+        // The C API rejects zero for both as uninitialized; no method uses both.
         if raw.angular_threshold_deg == 0.0 && raw.refine == 0 {
             if self.method == Method::Best {
                 raw.angular_threshold_deg = 180.0;
@@ -84,23 +84,23 @@ impl TangentOptions {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct TangentReport {
-    /// The input drives the reference itself into quadratic time, so its last step was left out.
+    /// The reference would take quadratic time for this input, so its last step was skipped.
     pub reference_order_abandoned: bool,
-    /// Triangles computed with, after cutting.
+    /// Triangles after triangulation.
     pub triangle_count: u64,
-    /// Of those, with two corners at the same position.
+    /// Triangles with two corners at the same position.
     pub degenerate_triangle_count: u64,
-    /// Of those, without UV area: they take their neighbours' frame.
+    /// Triangles without UV area: they use the frame of their neighbors.
     pub degenerate_uv_count: u64,
-    /// Of those, that show the image mirrored, in the convention.
+    /// Triangles whose texture is mirrored, according to the convention.
     pub mirrored_count: u64,
     /// Faces for which nothing was computed.
     pub skipped_face_count: u64,
     /// Sets of corners that share one tangent.
     pub group_count: u64,
-    /// Results that no face gives a tangent: the method's default.
+    /// Results to which no face contributes: the method's default.
     pub default_corner_count: u64,
-    /// Results that have a NaN or infinity.
+    /// Results that contain NaN or infinity.
     pub not_finite_count: u64,
 }
 
@@ -120,18 +120,18 @@ impl TangentReport {
     }
 }
 
-/// Everything that a method gives, one entry per corner (or vertex).
+/// All outputs of a method, one entry per corner (or vertex).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tangents {
     /// Unit tangent and sign.
     pub tangents: Vec<[f32; 4]>,
-    /// Unit direction of dP/dv; in general not cross(N, T).
+    /// Unit direction of dP/dv; in general different from cross(N, T).
     pub bitangents: Vec<[f32; 3]>,
-    /// Mean length of dP/du; 1 for methods without.
+    /// Mean length of dP/du; 1 for methods that do not compute it.
     pub magnitudes_s: Vec<f32>,
-    /// Mean length of dP/dv; 1 for methods without.
+    /// Mean length of dP/dv; 1 for methods that do not compute it.
     pub magnitudes_t: Vec<f32>,
-    /// False where no face gives the entry a tangent: the method's default was written, or the entry is zero (corners of
+    /// False if no face contributes to the entry: the method's default was written, or the entry is zero (corners of
     /// skipped faces, unused vertices).
     pub has_tangent: Vec<bool>,
     /// Counts.
@@ -151,7 +151,7 @@ impl Tangents {
     }
 
     fn output(&mut self) -> sys::TangentOutput {
-        // A bool is a byte of 0 or 1, and the library writes no other.
+        // A bool is a byte of 0 or 1, and the library writes only these values.
         let has_tangent = &mut self.has_tangent;
         sys::TangentOutput {
             bitangents: span(&mut self.bitangents),
@@ -187,9 +187,9 @@ fn tangents_only(tangents: &mut [[f32; 4]]) -> sys::TangentOutput {
     }
 }
 
-/// Zeros with the size, as reports are prepared.
+/// Returns a zeroed report with its size set.
 pub(crate) fn new_report<Report>(set_size: impl FnOnce(&mut Report, u32)) -> Report {
-    // SAFETY: reports are numbers.
+    // SAFETY: reports consist of numbers.
     let mut report = unsafe { MaybeUninit::<Report>::zeroed().assume_init() };
     set_size(&mut report, size_of::<Report>() as u32);
     report
@@ -202,18 +202,18 @@ fn tangent_report() -> sys::TangentReport {
 fn generate(mesh: &Mesh<'_>, options: &TangentOptions, out: &sys::TangentOutput) -> Result<TangentReport, Error> {
     let mut report = tangent_report();
     let execution = options.execution.raw();
-    // SAFETY: all pointers are to slices that outlive the call, with their lengths.
+    // SAFETY: all pointers refer to slices that outlive the call, with their lengths.
     checked(|error| unsafe {
         sys::tspace_generateTangents(&mesh.raw(), &options.raw(), out, &execution, &mut report, error)
     })?;
     Ok(TangentReport::of(&report))
 }
 
-/// One tangent per corner, with its sign: `[x, y, z, sign]`, `B = sign * cross(N, T)`.
+/// Computes one tangent per corner, with its sign: `[x, y, z, sign]`, `B = sign * cross(N, T)`.
 ///
-/// The mesh needs normals, and UVs for all methods but [`Method::Basis`]. Do not write results through the old index list,
-/// since corners of a vertex can differ: [`make_indexed_frames`](crate::make_indexed_frames) or [`split`](crate::split)
-/// make the new one.
+/// The mesh needs normals, and UVs for all methods except [`Method::Basis`]. Do not write results through the old index
+/// list, since corners of a vertex can differ: [`make_indexed_frames`](crate::make_indexed_frames) or
+/// [`split`](crate::split) create a new one.
 pub fn tangents(mesh: &Mesh<'_>, options: &TangentOptions) -> Result<Vec<[f32; 4]>, Error> {
     mesh.validate()?;
     let mut made = vec![[0.0; 4]; options.count(mesh)];
@@ -221,14 +221,14 @@ pub fn tangents(mesh: &Mesh<'_>, options: &TangentOptions) -> Result<Vec<[f32; 4
     Ok(made)
 }
 
-/// [`tangents`] into the caller's slice, with counts.
+/// Like [`tangents`], into the caller's slice, with counts.
 ///
-/// Errors also: `CountMismatch` where `out` has another length than there are corners.
+/// Additional error: `CountMismatch` if the length of `out` differs from the number of corners.
 pub fn tangents_into(mesh: &Mesh<'_>, options: &TangentOptions, out: &mut [[f32; 4]]) -> Result<TangentReport, Error> {
     generate(mesh, options, &tangents_only(out))
 }
 
-/// [`tangents`] with bitangents, magnitudes, counts, and which entries a face gives a tangent.
+/// Like [`tangents`], with bitangents, magnitudes, counts, and a mask of entries to which a face contributes.
 pub fn tangents_full(mesh: &Mesh<'_>, options: &TangentOptions) -> Result<Tangents, Error> {
     mesh.validate()?;
     let mut made = Tangents::empty(options.count(mesh));
@@ -236,8 +236,8 @@ pub fn tangents_full(mesh: &Mesh<'_>, options: &TangentOptions) -> Result<Tangen
     Ok(made)
 }
 
-/// Everything about a mesh that does not change while it deforms: neighbours, groups, splits, UVs. Keeps no borrow, and
-/// may be evaluated by many threads at once.
+/// Data of a mesh that does not change while it deforms: adjacency, groups, splits, UVs. Borrows nothing, and may be
+/// evaluated by many threads concurrently.
 ///
 /// ```
 /// # fn main() -> Result<(), tspace::Error> {
@@ -257,17 +257,17 @@ pub struct Plan {
     output_count: usize,
 }
 
-// SAFETY: a plan is immutable, and the library lets any thread evaluate and end it.
+// SAFETY: a plan is immutable, and the library allows any thread to evaluate and destroy it.
 unsafe impl Send for Plan {}
 // SAFETY: as above.
 unsafe impl Sync for Plan {}
 
 impl Plan {
-    /// Inputs and errors as [`tangents`].
+    /// Creates a plan; inputs and errors like [`tangents`].
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions) -> Result<Plan, Error> {
         let mut plan = Plan { raw: null_mut(), output_count: 0 };
         let execution = options.execution.raw();
-        // SAFETY: pointers are to slices that outlive the call; the plan is null after an error.
+        // SAFETY: pointers refer to slices that outlive the call; the plan is null after an error.
         checked(|error| unsafe {
             sys::tspace_planTangents(&mesh.raw(), &options.raw(), &execution, &mut plan.raw, error)
         })?;
@@ -280,12 +280,12 @@ impl Plan {
         self.output_count
     }
 
-    /// Bytes that the plan holds.
+    /// Returns the memory of the plan in bytes.
     pub fn memory_bytes(&self) -> usize {
         self.info().map_or(0, |info| info.memory_bytes)
     }
 
-    /// Tangents for a pose: positions and normals, as many as the mesh had.
+    /// Computes tangents for a pose: as many positions and normals as in the mesh.
     pub fn evaluate<'a>(
         &self,
         positions: impl Into<Points<'a, 3>>,
@@ -297,7 +297,7 @@ impl Plan {
         Ok(made)
     }
 
-    /// [`Plan::evaluate`] into the caller's slice of [`Plan::output_count`] entries.
+    /// Like [`Plan::evaluate`], into the caller's slice of [`Plan::output_count`] entries.
     pub fn evaluate_into<'a>(
         &self,
         positions: impl Into<Points<'a, 3>>,
@@ -325,7 +325,7 @@ impl Plan {
 
     fn info(&self) -> Result<sys::TangentPlanInfo, Error> {
         let mut info = new_report(|info: &mut sys::TangentPlanInfo, size| info.struct_size = size);
-        // SAFETY: the plan lives.
+        // SAFETY: the plan exists.
         checked(|error| unsafe { sys::tspace_describeTangentPlan(self.raw, &mut info, error) })?;
         Ok(info)
     }
@@ -333,7 +333,7 @@ impl Plan {
 
 impl Drop for Plan {
     fn drop(&mut self) {
-        // SAFETY: nobody uses it after this; null is allowed.
+        // SAFETY: the plan is not used after this; null is allowed.
         unsafe { sys::tspace_destroyTangentPlan(self.raw) }
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-//! Golden meshes are in the repository's test data: `TSPACE_SHARED_DIR`, or `shared` beside the repository.
+//! Golden meshes are in the repository's test data: `TSPACE_SHARED_DIR`, or `shared` next to the repository.
 
 use crate::*;
 use std::path::PathBuf;
@@ -11,7 +11,7 @@ fn shared() -> PathBuf {
     }
 }
 
-/// A mesh, and what the MikkTSpace reference made of it.
+/// A mesh with the results of the MikkTSpace reference.
 struct Golden {
     name: String,
     threshold: f32,
@@ -37,7 +37,7 @@ impl Golden {
         }
     }
 
-    /// docs/concepts/methods/mikktspace.md promises no bits for others.
+    /// Returns whether identical bits are promised (docs/concepts/methods/mikktspace.md).
     fn is_promised(&self) -> bool {
         self.inputs.iter().all(|value| value.abs() < 1.6e38)
     }
@@ -322,7 +322,7 @@ fn wrong_input_is_an_error_that_says_where() {
     let mesh = mesh.normals(&normals_of);
     let error = tangents_into(&mesh, &TangentOptions::new(gltf()), &mut [[0.0; 4]; 2]).unwrap_err();
     assert_eq!(error.code, ErrorCode::CountMismatch);
-    let huge = [u32::MAX; 4]; // no memory is taken for so many corners
+    let huge = [u32::MAX; 4]; // no memory is allocated for this many corners
     let mesh = Mesh::new(&positions).normals(&normals_of).uvs(&uvs).face_sizes(&huge);
     assert_eq!(tangents(&mesh, &TangentOptions::new(gltf())).unwrap_err().code, ErrorCode::CountMismatch);
     assert_eq!(Points::<3>::interleaved(&[0.0; 9], 0, 2).unwrap_err().code, ErrorCode::StrideTooSmall);

@@ -5,16 +5,17 @@ use crate::options::{prepared, Convention, Execution};
 use crate::sys;
 use std::ptr::null_mut;
 
-/// How [`mend_winding`] decides. [`WindingOptions::new`] has every default.
+/// Options for [`mend_winding`]. [`WindingOptions::new`] sets the defaults.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WindingOptions {
-    /// Its handedness and winding say which order of corners is right as seen from outside.
+    /// Its handedness and winding define the correct order of corners, seen from outside.
     pub convention: Convention,
-    /// The mesh's normals say which side is out, where it has some and they agree. Default: true.
+    /// The mesh's normals, if consistent, define the outside. Default: true.
     pub use_normals: bool,
-    /// Vertices at the same position are one point. Default: true.
+    /// Weld vertices at the same position. Default: true.
     pub weld_positions: bool,
-    /// With it: positions that differ by no more in each coordinate are one. -1: twice the spacing of floats. Default: 0.
+    /// With `weld_positions`: positions that differ by at most this in each coordinate are welded. -1: twice the
+    /// spacing of floats. Default: 0.
     pub weld_distance: f32,
     /// Default: the calling thread.
     pub execution: Execution,
@@ -34,8 +35,8 @@ impl WindingOptions {
     }
 }
 
-/// Says for each face whether to turn it (to reverse its corners), so that neighbours are wound alike and the outside is
-/// where the convention wants it.
+/// Returns, for each face, whether to flip it (reverse its corners), so that neighbors have consistent winding and the
+/// outside is where the convention requires it.
 pub fn mend_winding(mesh: &Mesh<'_>, options: &WindingOptions) -> Result<Vec<bool>, Error> {
     mesh.validate()?;
     let mut turned = vec![0u8; mesh.face_count()];
@@ -45,7 +46,7 @@ pub fn mend_winding(mesh: &Mesh<'_>, options: &WindingOptions) -> Result<Vec<boo
     raw.weld_positions = options.weld_positions.into();
     raw.weld_distance = options.weld_distance;
     let execution = options.execution.raw();
-    // SAFETY: all pointers are to slices that outlive the call, with their lengths.
+    // SAFETY: all pointers refer to slices that outlive the call, with their lengths.
     checked(|error| unsafe {
         sys::tspace_mendWinding(
             &mesh.raw(),
