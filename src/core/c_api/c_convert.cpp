@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Conversions between the structs of the C API and those of the C++ API, and the checks that only C callers
-// need.
+// Conversions between the structs of the C API and those of the C++ API, and checks that only C callers need.
 #include "core/c_api/c_convert.h"
 
 #include <algorithm>
@@ -14,7 +13,7 @@ void appendMessage(std::string_view text, tspace_Error& to) noexcept {
     const std::size_t used = std::strlen(to.message), room = sizeof(to.message) - 1 - used;
     std::size_t length = std::min(text.size(), room);
     if (length < text.size()) {
-        // Bytes 10xxxxxx continue a character.
+        // Bytes 10xxxxxx are continuation bytes of a character.
         while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0u) == 0x80u) --length;
     }
     std::memcpy(to.message + used, text.data(), length);
@@ -31,7 +30,7 @@ tspace_ErrorCode finish(const Error& error, tspace_Error* out) noexcept {
     return code;
 }
 
-// tspace_Convention stands in the middle of other structs, so no field can ever be added to it.
+// tspace_Convention is embedded in other structs, so fields can never be added to it.
 static_assert(sizeof(tspace_Convention) == 5 * sizeof(std::uint32_t));
 
 Error checkStructSize(std::uint32_t size, std::span<const std::size_t> known, const char* name) {
@@ -127,7 +126,7 @@ using namespace tspace::c_api;  // NOLINT: for the functions of the C API
 
 namespace {
 
-/// Prepares options for languages that have no macros: writes the defaults of the fields that the caller's struct has.
+/// Initializes options for languages without macros: writes the defaults of the fields that the caller's struct has.
 template <class Struct>
 tspace_ErrorCode init(Struct* options, std::uint32_t struct_size, const char* name, tspace_Error* error) noexcept {
     return atCBorder(error, [&]() -> tspace::Result<tspace::Done> {

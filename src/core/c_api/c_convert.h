@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shared by all functions of the C API: C structs become C++ ones, and Results become codes.
+// Shared code of the C API: conversion of C structs to C++ ones, and of Results to codes.
 #pragma once
 
 #include <algorithm>
@@ -23,27 +23,29 @@
 
 namespace tspace::c_api {
 
-/// Writes `error` to the caller's struct, which may be null, and returns its code. Takes no memory, as there may be none.
+/// Writes `error` to the caller's struct, which may be null, and returns its code. Allocates nothing, as memory may
+/// have run out.
 tspace_ErrorCode finish(const Error& error, tspace_Error* out) noexcept;
 
-/// Appends to the message as much as it has room for; no half of a UTF-8 character.
+/// Appends to the message as much as fits, without splitting a UTF-8 character.
 void appendMessage(std::string_view text, tspace_Error& to) noexcept;
 
-/// Writes the error of `result`, or that there is none, and returns its code.
+/// Writes the error of `result`, or code ok, and returns its code.
 template <class Value>
 tspace_ErrorCode finishResult(const Result<Value>& result, tspace_Error* out) noexcept {
     return result ? finish(Error{ErrorCode::ok}, out) : finish(result.error(), out);
 }
 
-/// Runs `body`, which returns a Result<Done>, at the C border.
+/// Calls `body`, which returns a Result<Done>, at the C API boundary.
 template <class Body>
 tspace_ErrorCode atCBorder(tspace_Error* out, Body&& body) noexcept {
     return finishResult<Done>(atBorder(body), out);
 }
 
-/// Every size that `Struct` had in a header, the last one now; a program may have been compiled with any of them. Whoever
-/// appends a field keeps the list, and appends the new size: an older one says which fields are there. A field that would lie
-/// in what was padding comes behind a `reserved` one, since its size would be that of the struct without it.
+/// All sizes that `Struct` has had in a header, the current one last; a program may have been compiled with any of
+/// them. When a field is appended, keep the list and append the new size: an older size tells which fields exist. A
+/// field that would use former padding must follow a `reserved` field, since the size of the struct would not change
+/// otherwise.
 template <class Struct>
 inline constexpr std::size_t kSizes[] = {sizeof(Struct)};
 template <>
@@ -67,7 +69,7 @@ template <>
 inline constexpr std::size_t kSizes<tspace_TangentOutput>[] = {offsetof(tspace_TangentOutput, has_tangent),
                                                                sizeof(tspace_TangentOutput)};
 
-/// An Error with code ok when `size` is one that the struct has or had. Null is a struct that was not given: fine here.
+/// Returns an Error with code ok if `size` is a current or former size of the struct. A null struct is valid.
 Error checkStructSize(std::uint32_t size, std::span<const std::size_t> known, const char* name);
 
 template <class Struct>
@@ -83,7 +85,7 @@ Error checkNeeded(const Struct* sized, const char* name) {
     return checkSized(sized, name);
 }
 
-/// The fields that the caller has given, and defaults for the others.
+/// Returns the fields that the caller has given, with defaults for the others.
 template <class Struct>
 Struct orDefault(const Struct* given) {
     Struct whole;
@@ -92,7 +94,7 @@ Struct orDefault(const Struct* given) {
     return whole;
 }
 
-/// Writes those fields of a report that its caller knows.
+/// Writes the fields of a report that the caller's struct has.
 template <class Struct>
 void give(Struct report, Struct* to) {
     if (to == nullptr) return;
@@ -100,15 +102,15 @@ void give(Struct report, Struct* to) {
     std::memcpy(to, &report, to->struct_size);
 }
 
-/// Checks that options were prepared. `has_defaults` is false where every field with a default other than 0 is 0, as in a
-/// struct of zeros from a language without TSPACE_INIT, whose tangents nothing would say to be other ones. `name` is that
-/// of tspace_init<name>, `fields` are these.
+/// Checks that options were initialized. `has_defaults` is false if every field with a nonzero default is 0, as in a
+/// zero-filled struct from a language without TSPACE_INIT: such options would silently change the results. `name` is
+/// the one in tspace_init<name>, `fields` lists these fields.
 Error checkPrepared(bool has_defaults, const char* name, const char* fields);
 
-/// Checks that a choice or flag is not above its largest value.
+/// Checks that an enumerator or flag does not exceed its largest value.
 Error checkChoice(std::uint32_t value, std::uint32_t largest, const char* name);
 
-/// The first of several checks that failed, or ok. Later ones are not looked at.
+/// Returns the first error among several checks, or ok. Later checks are skipped.
 template <class... Checks>
 Error firstError(Checks&&... checks) {
     Error error{ErrorCode::ok};
@@ -116,7 +118,7 @@ Error firstError(Checks&&... checks) {
     return error;
 }
 
-/// A C span of floats as a span of T (float, Vec2, Vec3, Vec4); stride 0 becomes tight.
+/// Converts a C span of floats to a span of T (float, Vec2, Vec3, Vec4); stride 0 means tightly packed.
 template <class T>
 StridedSpan<const T> toSpan(const tspace_ConstSpan& span) {
     return {reinterpret_cast<const T*>(span.data), span.count, span.stride_bytes == 0 ? sizeof(T) : span.stride_bytes};
@@ -128,20 +130,20 @@ StridedSpan<T> toSpan(const tspace_Span& span) {
 
 IndexView toIndices(const tspace_Indices& indices);
 
-/// The mesh without checks; only its struct size must be right.
+/// Converts a mesh without checks; only its struct size must be valid.
 MeshView toMesh(const tspace_Mesh& mesh);
 
-/// Null, struct size, and null arrays with a count that C++ types cannot express. Everything else is
-/// validate()'s.
+/// Checks for null, the struct size, and null arrays with a count that C++ types cannot represent. validate() checks
+/// the rest.
 Error checkMesh(const tspace_Mesh* mesh);
 
 Error checkConvention(const tspace_Convention& convention);
 Convention toConvention(const tspace_Convention& convention);
 
-/// Null: the default.
+/// Null is valid: the default.
 Error checkExecution(const tspace_Execution* execution);
 
-/// Null: defaults.
+/// Null is valid: the defaults.
 Error checkOptions(const tspace_NormalOptions* given);
 NormalOptions toOptions(const tspace_NormalOptions& options);
 Error checkOptions(const tspace_TangentOptions* given);
@@ -149,7 +151,8 @@ TangentOptions toOptions(const tspace_TangentOptions& options);
 Result<std::vector<CornerAttribute>> toAttributes(const tspace_CornerAttribute* attributes, std::size_t count,
                                                   const char* name);
 
-/// C++ copies of the caller's hooks. Must outlive the Execution it gives, so it neither moves nor is copied.
+/// C++ copies of the caller's callbacks. Must outlive the Execution that it returns, so it can be neither moved nor
+/// copied.
 class Hooks {
   public:
     /// Null: the default.

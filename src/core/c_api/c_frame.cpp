@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// C API: version, errors, conventions and arenas; the mathematics of one frame; packed frames.
+// C API: version, errors, conventions and arenas; operations on a single frame; packed frames.
 #include <bit>
 #include <memory>
 
@@ -76,9 +76,9 @@ namespace {
 
 // C API: version, errors, mesh validation and conventions.
 
-// C API: the mathematics of one frame.
+// C API: operations on a single frame.
 
-// C and C++ structs have the same members in the same order, so a value is passed on bit by bit.
+// C and C++ structs have the same members in the same order, so values are converted bitwise.
 tspace::Vec2 in(const tspace_Vec2& v) { return std::bit_cast<tspace::Vec2>(v); }
 tspace::Vec3 in(const tspace_Vec3& v) { return std::bit_cast<tspace::Vec3>(v); }
 tspace::Vec4 in(const tspace_Vec4& v) { return std::bit_cast<tspace::Vec4>(v); }
@@ -177,7 +177,7 @@ namespace {
 
 // C API: packed frames.
 
-/// A span can be made of these bytes: null has none.
+/// Checks that a span of these bytes is valid: null requires a count of 0.
 Error checkBytes(const void* bytes, std::size_t count) { return checkSpan(bytes, count, 1, 1, count, "bytes"); }
 
 }  // namespace

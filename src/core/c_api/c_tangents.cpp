@@ -16,7 +16,7 @@
 using namespace tspace;         // NOLINT: this file only forwards
 using namespace tspace::c_api;  // NOLINT
 
-/// A plan with the hooks it was made with: it releases its memory through them.
+/// A plan with the callbacks it was created with, through which it releases its memory.
 struct tspace_TangentPlan {
     explicit tspace_TangentPlan(const tspace_Execution* execution) : hooks(execution) {}
 
@@ -80,7 +80,7 @@ tspace_ErrorCode tspace_generateTangentsOfMeshes(const tspace_MeshJob* jobs, siz
     return atCBorder(error, [&]() -> Result<Done> {
         if (jobs == nullptr && job_count != 0) return Error{ErrorCode::nullData, "jobs is null"};
         if (Error e = checkExecution(execution); e.code != ErrorCode::ok) return e;
-        // A job that is no job in C++ becomes an empty one, and keeps the error of its checks.
+        // A job that cannot be converted becomes an empty one, and keeps the error of its checks.
         std::vector<MeshJob> converted(job_count);
         std::vector<Error> errors(job_count, Error{ErrorCode::ok});
         for (std::size_t i = 0; i < job_count; ++i) {
@@ -193,7 +193,7 @@ namespace {
 
 // C API: an indexed mesh with frames in one call.
 
-/// The struct of the C API, as the first base, and the memory that its pointers point into.
+/// The struct of the C API, as the first base, with the memory that its pointers refer to.
 struct OwnedFrames : tspace_IndexedFrames {
     explicit OwnedFrames(IndexedFrames&& made)
         : tspace_IndexedFrames(),
@@ -265,7 +265,7 @@ namespace {
 
 // C API: split and triangulate, whose results the library owns until the caller destroys them.
 
-/// The struct of the C API, as the first base, and the memory that its pointers point into.
+/// The struct of the C API, as the first base, with the memory that its pointers refer to.
 struct OwnedSplit : tspace_SplitResult {
     SplitResult result;
 };
@@ -350,12 +350,12 @@ namespace {
 
 // C API: a plan as words for compute shaders.
 
-/// The struct of the C API, as the first base, and the memory that its pointer points into.
+/// The struct of the C API, as the first base, with the memory that its pointer refers to.
 struct OwnedPlanBuffers : tspace_PlanBuffers {
     PlanBuffers buffers;
 };
 
-/// An array of the C API, which may be null without entries.
+/// Converts an array of the C API, which may be null if it has no entries.
 Result<std::span<const std::uint32_t>> toNumbers(const std::uint32_t* data, std::size_t count, const char* name) {
     if (data == nullptr && count != 0)
         return makeError(ErrorCode::nullData, kNoElement, "%s is null but its count is not 0", name);

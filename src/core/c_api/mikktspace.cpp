@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The MikkTSpace reference's interface: reads all corners through the callbacks, then calls generateTangents.
+// Interface of the MikkTSpace reference: reads all corners through the callbacks, then calls generateTangents.
 #include "tspace/compat/mikktspace.h"
 
 #include "core/base/border.h"
@@ -9,16 +9,16 @@
 
 namespace {
 
-/// The caller's faces as far as results depend on them.
+/// Faces of the caller, as far as they affect results.
 struct Corners {
     tspace::Buffer<tspace::Vec3> positions;
     tspace::Buffer<tspace::Vec3> normals;
     tspace::Buffer<tspace::Vec2> uvs;
     tspace::Buffer<std::uint32_t> face_sizes;
-    tspace::Buffer<int> face_numbers;  ///< the caller's number of each face
+    tspace::Buffer<int> face_numbers;  ///< the caller's index of each face
 };
 
-/// Views a buffer of results or inputs.
+/// Returns a view of a buffer of results or inputs.
 template <class T>
 tspace::StridedSpan<T> spanOf(tspace::Buffer<T>& buffer) {
     return {buffer.data(), buffer.size()};
@@ -31,10 +31,9 @@ bool hasGetters(const SMikkTSpaceInterface& calls) {
            calls.m_getTexCoord != nullptr;
 }
 
-/// Calls body(face, corners) for every face that results depend on. Those are the supported ones, with all
-/// their corners. The first corner of the whole mesh counts even when its face is not supported, as a face of
-/// one corner: the reference starts the bounding box of its welding grid there, which can show in the result.
-/// Stops when the body returns false.
+/// Calls body(face, corners) for every face that affects results: the supported ones, with all their corners. The first
+/// corner of the mesh is always included, as a face of one corner if its face is not supported: the reference starts
+/// the bounding box of its welding grid there, which can affect the result. Stops if the body returns false.
 template <class Body>
 void forUsedFaces(const SMikkTSpaceContext* context, int face_count, Body&& body) {
     bool first = true;
@@ -47,8 +46,8 @@ void forUsedFaces(const SMikkTSpaceContext* context, int face_count, Body&& body
     }
 }
 
-/// Lists the faces, and makes room for their corners; false when there is nothing to compute or too much. Counts first, so
-/// that absurd answers cost no memory.
+/// Lists the faces, and allocates memory for their corners; returns false if there is nothing to compute or too much.
+/// Counts first, so that absurd answers of callbacks allocate nothing.
 bool listFaces(const SMikkTSpaceContext* context, int face_count, const tspace::Allocator* allocator,
                Corners& corners) {
     std::size_t corner_count = 0;
@@ -112,7 +111,7 @@ void writeCorners(const SMikkTSpaceContext* context, const Corners& corners, con
     }
 }
 
-/// Reads, computes, then writes: no setter is called unless everything is there.
+/// Reads, computes, then writes: no setter is called if any step fails.
 bool generate(const SMikkTSpaceContext* context, float angular_threshold_deg, const tspace::Execution& execution) {
     const SMikkTSpaceInterface& calls = *context->m_pInterface;
     const int face_count = calls.m_getNumFaces(context);
@@ -143,7 +142,7 @@ bool generate(const SMikkTSpaceContext* context, float angular_threshold_deg, co
 
 }  // namespace
 
-// Exceptions of the caller's own callbacks, if it is C++, pass through; only running out of memory ends here.
+// Exceptions of the caller's own C++ callbacks propagate; only out-of-memory is handled here.
 tbool tspace_genTangSpace(const SMikkTSpaceContext* pContext, const float fAngularThreshold,
                           const tspace_Execution* execution) {
     if (pContext == nullptr || pContext->m_pInterface == nullptr || pContext->m_pInterface->m_getNumFaces == nullptr ||

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The mathematics of one frame. Worked in double precision, so that no float input overflows or loses its
-// direction. Based on: Lengyel, "Foundations of Game Engine Development 2", 2019, ch. 7; Duff et al.,
-// "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
+// Operations on a single frame, in double precision, so that no float input overflows or loses its direction. Based on:
+// Lengyel, "Foundations of Game Engine Development 2", 2019, ch. 7; Duff et al., "Building an Orthonormal Basis,
+// Revisited", JCGT 6(1), 2017.
 #include "tspace/frame.h"
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace tspace {
 
 namespace {
 
-// Below this sine the angle between two directions given in floats (relative error 6e-8) is rounding.
+// Below this sine the angle between two float directions (relative error 6e-8) is rounding noise.
 constexpr double kParallelSine = 1e-6;
 
 Vec3 unitOr(DVec3 v, const Vec3& substitute) { return normalize(v) ? toFloat(v) : substitute; }
@@ -25,7 +25,7 @@ DFrame toDouble(const Frame& f) { return {toDouble(f.tangent), toDouble(f.bitang
 
 double determinant(const DFrame& f) { return dot(cross(f.tangent, f.bitangent), f.normal); }
 
-/// v without its part along `unit`; false when what is left is too short to be a direction.
+/// Removes the component of v along `unit`; returns false if the rest is too short to be a direction.
 bool reject(DVec3& v, const DVec3& unit) {
     const double before = length(v);
     const DVec3 rest = v - dot(v, unit) * unit;
@@ -39,7 +39,7 @@ DFrame orthonormal(const Frame& frame) {
     DFrame f = toDouble(frame);
     if (!normalize(f.normal)) f.normal = {0, 0, 1};
     if (!reject(f.tangent, f.normal)) f.tangent = planeAxes(f.normal).x;
-    // In three dimensions only one direction is orthogonal to both; B decides which way along it.
+    // In three dimensions only one line is orthogonal to both; B determines the direction along it.
     const DVec3 side = cross(f.normal, f.tangent);
     const double along = dot(f.bitangent, side);
     const bool backwards = std::isfinite(along) && along < -kParallelSine * length(f.bitangent);
@@ -112,7 +112,7 @@ bool objectToTangent(const Frame& frame, Mat3& out) {
     const DFrame f = toDouble(frame);
     const double d = determinant(f);
     if (d == 0 || !std::isfinite(d)) return false;
-    // Cramer's rule: the rows of the inverse are the cross products of the other two columns.
+    // Cramer's rule: the rows of the inverse are cross products of the other two columns.
     const Mat3 inverse{{toFloat((1 / d) * cross(f.bitangent, f.normal)), toFloat((1 / d) * cross(f.normal, f.tangent)),
                         toFloat((1 / d) * cross(f.tangent, f.bitangent))}};
     for (const Vec3& row : inverse.rows) {

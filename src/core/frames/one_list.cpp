@@ -9,7 +9,7 @@ namespace tspace {
 
 namespace {
 
-/// For each vertex its entry of an attribute: that of its corner in the attribute's own list, or its own number.
+/// Returns, for each vertex, its entry of an attribute: from its corner in the attribute's own list, or its own index.
 std::vector<std::uint32_t> sourcesOf(const IndexView& list, const SplitResult& split) {
     if (list.type == IndexType::none) return split.source_vertices;
     std::vector<std::uint32_t> sources(split.vertexCount());
@@ -32,7 +32,7 @@ std::vector<T> gathered(const StridedSpan<const T>& values, const std::vector<st
 Result<Done> useOneList(const MeshView& mesh, const Execution& execution, OneListMesh& made,
                         std::span<const std::uint32_t> welded, std::span<const CornerAttribute> further) {
     const std::size_t corner_count = mesh.cornerCount();
-    // The attributes that tell corners apart: values, or index numbers as floats, whose bits the split compares.
+    // Attributes that distinguish corners: values, or indices as floats, whose bits the split compares.
     std::vector<CornerAttribute> attributes(further.begin(), further.end());
     std::vector<std::uint32_t> numbers[2];
     const auto add = [&](const auto& values, const IndexView& list, std::vector<std::uint32_t>& memory) {

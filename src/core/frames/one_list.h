@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A mesh whose normals or UVs have index lists of their own, as one with a single list.
+// Conversion of a mesh with separate index lists for normals or UVs to a mesh with a single list.
 #pragma once
 
 #include <cstdint>
@@ -14,20 +14,21 @@
 
 namespace tspace {
 
-/// A mesh with a vertex for each combination of position, normal and UV that corners name. Corners and faces are those of
-/// the given mesh, which must outlive it.
+/// A mesh with a vertex for each combination of position, normal and UV that corners use. Corners and faces are those
+/// of the input mesh, which must outlive it.
 struct OneListMesh {
     OwnedMesh own = {};                               ///< normals are zero where no corner uses the vertex
-    std::vector<std::uint32_t> source_vertices = {};  ///< one per vertex here: the given mesh's
+    std::vector<std::uint32_t> source_vertices = {};  ///< one per vertex: the vertex of the input mesh
     std::vector<std::uint32_t> source_normals = {};  ///< index of the source normal, or kNoCorner if no corner uses one
-    MeshView view = {};  ///< view of the arrays above, with the faces of the given mesh; the struct must not be moved
+    MeshView view = {};  ///< view of these arrays, with the faces of the input mesh; the struct must not be moved
 
     OneListMesh() = default;
     OneListMesh(const OneListMesh&) = delete;
     OneListMesh& operator=(const OneListMesh&) = delete;
 };
 
-/// Whether normals or UVs have an index list of their own; never with TSPACE_MIKKTSPACE_ONLY, whose caller refuses it.
+/// Returns whether normals or UVs have their own index list; always false with TSPACE_MIKKTSPACE_ONLY, whose caller
+/// rejects them.
 inline bool hasOwnLists([[maybe_unused]] const MeshView& mesh) {
 #ifdef TSPACE_MIKKTSPACE_ONLY
     return false;
@@ -36,20 +37,20 @@ inline bool hasOwnLists([[maybe_unused]] const MeshView& mesh) {
 #endif
 }
 
-/// to[i] = values[sources[i]]; zero where that is kNoCorner, of vertices that no corner uses.
+/// Sets to[i] = values[sources[i]]; zero for kNoCorner, that is, for vertices that no corner uses.
 template <class T>
 void gather(const StridedSpan<const T>& values, std::span<const std::uint32_t> sources, T* to) {
     for (std::size_t i = 0; i < sources.size(); ++i) to[i] = sources[i] == kNoCorner ? T{} : values[sources[i]];
 }
 
-/// Splits the vertices where the attributes' own lists tell corners apart, and where any of `further` does. The vertices
-/// of the mesh keep their places. `welded`: the vertices of a mesh without indices, of which some are one; then normals
-/// and UVs without a list tell corners apart as well. The mesh is a valid one. Errors: outOfMemory, and those of
-/// splitVertices for `further`. O(corners) expected.
+/// Splits vertices whose corners differ in any attribute index list or in `further`. Existing vertices keep their
+/// indices. `welded`: weld result of a non-indexed mesh; normals and UVs without a list then also cause splits.
+/// Requires a valid mesh. Errors: outOfMemory, and those of splitVertices for `further`. O(corners) expected.
 Result<Done> useOneList(const MeshView& mesh, const Execution& execution, OneListMesh& made,
                         std::span<const std::uint32_t> welded = {}, std::span<const CornerAttribute> further = {});
 
-/// body(view) of the mesh with one list. For functions that give one result per corner: these stay where they are.
+/// Returns body(view) for the mesh with a single list. For functions with one result per corner, which keep their
+/// order.
 template <class Body>
 auto withOneList(const MeshView& mesh, const Execution& execution, Body&& body) -> decltype(body(mesh)) {
     if (Result<Done> valid = validate(mesh); !valid) return std::move(valid).error();

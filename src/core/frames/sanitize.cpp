@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Mends broken tangents: a quick scan finds the blocks of faces where something may be wrong; in these it finds
-// the broken corners, looks for sound ones at their positions, then writes face by face.
-// Based on: Gram-Schmidt; Duff et al. 2017 where only the normal is left.
+// Repair of invalid tangents: a fast scan finds blocks of faces that may contain invalid tangents; in these blocks,
+// invalid corners are detected, valid ones at their positions are searched, and the repairs are written face by face.
+// Based on: Gram-Schmidt; Duff et al. 2017 if only the normal is usable.
 #include "tspace/tangents.h"
 
 #include <algorithm>
@@ -24,19 +24,19 @@ namespace tspace {
 
 namespace {
 
-/// The glTF validator's tolerance for the length of a tangent.
+/// Tolerance of the glTF validator for the length of a tangent.
 constexpr double kUnitTolerance = 5e-4;
 /// The sine of one degree.
 constexpr double kOneDegree = 0.017452406437283512;
-/// Sound tangents this close to unit and orthogonal are left alone by orthogonalize_all. Rounding to float
-/// leaves less than 1.5e-7, so what was written once is not written again.
+/// orthogonalize_all leaves valid tangents this close to unit and orthogonal unchanged. Rounding to float leaves less
+/// than 1.5e-7, so written tangents are not written again.
 constexpr double kOrthogonalTolerance = 5e-7;
 
-/// Triangles that the scan looks at together. More would draw more sound faces into the slow work.
+/// Triangles per block of the scan. More would move more valid faces to the slow path.
 constexpr std::size_t kFacesPerBlock = 4;
 constexpr std::size_t kScanGrain = 1024;
 
-/// Counters of the report: defects of tangents, the sources of their repair, and more.
+/// Counters of the report: defects of tangents, the sources of their repair, and others.
 enum class Counted : std::uint8_t {
     notFinite,
     zero,
@@ -64,7 +64,7 @@ struct Counts {
 
 bool isSign(float w) { return w == 1.0f || w == -1.0f; }
 
-/// N normalised; zero when it has no direction.
+/// Returns N normalized; zero if it has no direction.
 DVec3 unitNormal(const Vec3& normal) {
     if (!isFinite(normal)) return {};
     const DVec3 n = toDouble(normal);
@@ -74,7 +74,7 @@ DVec3 unitNormal(const Vec3& normal) {
 
 bool isZero(const DVec3& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 
-/// True when a tangent can be made from this direction at a corner with this unit normal (zero: none).
+/// Returns whether a tangent can be derived from this direction at a corner with this unit normal (zero: none).
 bool isUsable(const Vec3& direction, const DVec3& n) {
     if (!isFinite(direction)) return false;
     const DVec3 t = toDouble(direction);
@@ -82,7 +82,7 @@ bool isUsable(const Vec3& direction, const DVec3& n) {
     return size >= double{FLT_MIN} && length(cross(n, t)) >= (isZero(n) ? 0.0 : kOneDegree * size);
 }
 
-/// Whether the direction is a placeholder that some exporter wrote: see tangents.h.
+/// Returns whether the direction is a placeholder that an exporter wrote: see tangents.h.
 bool isPlaceholder(const Vec4& tangent, const DVec3& n) {
     return xyz(tangent) == Vec3{1, 0, 0} && std::abs(n.x) > kOrthogonalTolerance;
 }
@@ -97,8 +97,8 @@ Cause causeOf(const Vec4& tangent, const DVec3& n) {
     return isSign(tangent.w) ? Cause::sound : Cause::badSign;
 }
 
-/// The usable direction made unit and orthogonal to n. Orthogonalised twice: near n the first pass cancels
-/// digits.
+/// Returns the usable direction made unit and orthogonal to n. Orthogonalized twice: close to n the first pass loses
+/// digits by cancellation.
 Vec3 orthonormal(const Vec3& direction, const DVec3& n) {
     DVec3 t = toDouble(direction);
     for (int pass = 0; pass < 2; ++pass) {
@@ -113,15 +113,15 @@ bool isOrthonormal(const Vec3& tangent, const DVec3& n) {
     return std::abs(length(t) - 1) <= kOrthogonalTolerance && std::abs(dot(n, t)) <= kOrthogonalTolerance;
 }
 
-/// Set only for tangents that causeOf calls sound, with a normal that has a direction. Cheap; all limits lie inside of
-/// the exact ones by far more than floats round.
+/// Conservative fast test: true only for tangents that causeOf considers valid, with a normal that has a direction. All
+/// limits are stricter than the exact ones by far more than float rounding.
 struct SurelySound {
     static constexpr float kSquareTolerance = 9.9e-4f;      // below 2 * kUnitTolerance
     static constexpr float kSquareCosine = 0.99f;           // squared cosine of 5.7 degrees
     static constexpr float kSquareLean = 1e-13f;            // below kOrthogonalTolerance^2
-    static constexpr float kLeast = 1e-20f, kMost = 1e20f;  // squares of components neither vanish nor overflow
+    static constexpr float kLeast = 1e-20f, kMost = 1e20f;  // squares of components neither underflow nor overflow
 
-    /// Tests four tangents at once; `w` has their signs.
+    /// Tests four tangents at once; `w` contains their signs.
     static Mask4 of(const Vec3x4& t, Float4 w, const Vec3x4& n) {
         const Float4 nn = dot(n, n), nt = dot(n, t);
         const Float4 most = select4(or4(t.y, t.z) == splat(0), splat(kSquareLean), splat(kSquareCosine));
@@ -187,7 +187,7 @@ class Sanitizer {
         });
     }
 
-    /// body(first_corner, corner_count) for each face of the block with at least 3 corners.
+    /// Calls body(first_corner, corner_count) for each face of the block with at least 3 corners.
     template <class Body>
     void forEachFaceOf(std::size_t block, Body&& body) const {
         const std::size_t begin = block * kFacesPerBlock;
@@ -200,7 +200,7 @@ class Sanitizer {
         }
     }
 
-    /// Marks the blocks in which something may have to be counted or changed; false when there is none.
+    /// Marks blocks in which something may have to be counted or changed; returns false if there are none.
     bool scan() {
         return sumRanges(parallel_, candidates_.size(), kScanGrain, [this](std::size_t begin, std::size_t end) {
                    std::uint64_t count = 0;
@@ -227,7 +227,7 @@ class Sanitizer {
         });
     }
 
-    /// Scans the four triangles of a full block.
+    /// Tests the four triangles of a full block.
     template <class VertexOf>
     [[nodiscard]] bool areFine(std::size_t first, VertexOf vertexOf) const {
         static_assert(kFacesPerBlock == 4);
@@ -243,11 +243,11 @@ class Sanitizer {
             sound &= SurelySound::of({x, y, z}, w, gatherVec3(normal(0), normal(1), normal(2), normal(3)));
             signs |= laneBits(std::bit_cast<Mask4>(w)) << i;
         }
-        // A bit of `signs` is like the next one but at the end of a triangle.
+        // A bit of `signs` equals the next one, except at the end of a triangle.
         return laneBits(sound) == 0b1111 && ((signs ^ signs >> 1) & kFirstTwoOfThree) == 0;
     }
 
-    /// body(first_corner, corner_count, counts) for each face that scan() did not clear; faces are independent.
+    /// Calls body(first_corner, corner_count, counts) for each face that scan() did not exclude; faces are independent.
     template <class Body>
     void forEachCandidate(Body&& body) {
         parallel_.forRanges(candidates_.size(), kScanGrain, [&](std::size_t begin, std::size_t end) {
@@ -262,14 +262,14 @@ class Sanitizer {
 
     [[nodiscard]] DVec3 normalAt(std::size_t corner) const { return unitNormal(mesh_.normals[mesh_.indices[corner]]); }
 
-    /// The face's first sound corner, or `first + size`.
+    /// Returns the first valid corner of the face, or `first + size`.
     [[nodiscard]] std::size_t firstSound(std::size_t first, std::uint32_t size) const {
         std::size_t c = first;
         while (c < first + size && causes_[c] != Cause::sound) ++c;
         return c;
     }
 
-    /// Finds the defects of a face's corners, and marks corners that look for a sound tangent at their position.
+    /// Detects the defects of a face's corners, and marks corners that need a valid tangent at their position.
     void detect(std::size_t first, std::uint32_t size, Counts& counts) {
         bool all_sound = true;
         for (std::size_t c = first; c < first + size; ++c) {
@@ -292,7 +292,7 @@ class Sanitizer {
         }
     }
 
-    /// Finds the first sound tangent at each position.
+    /// Finds the first valid tangent at each position.
     void lookAtPositions() {
         points_ = weldPositions(mesh_, allocator_, parallel_);
         found_ = Buffer<Vec4>(allocator_, mesh_.vertexCount(), Vec4{});
@@ -310,7 +310,7 @@ class Sanitizer {
     [[nodiscard]] std::uint32_t pointOf(std::uint32_t vertex) const {
         return points_.empty() ? vertex : points_[vertex];
     }
-    /// The first sound tangent at a corner's position; null: there is none, or a corner like this one seeks none.
+    /// Returns the first valid tangent at a corner's position; null if there is none, or if no such corner needs one.
     [[nodiscard]] const Vec4* foundBy(std::size_t corner) const {
         const std::uint32_t vertex = mesh_.indices[corner];
         const Vec3& p = mesh_.positions[vertex];
@@ -319,9 +319,9 @@ class Sanitizer {
         return found.w != 0 ? &found : nullptr;
     }
 
-    /// The sign of a face's corners: of its sound corners, first those whose N has a direction (without one a sign
-    /// means nothing); else of broken corners that have a sign; else of the first sound corner at one of the face's
-    /// positions; else +1.
+    /// Returns the sign of a face's corners: of its valid corners, first those whose N has a direction (without one a
+    /// sign is meaningless); else of invalid corners that have a sign; else of the first valid corner at one of the
+    /// face's positions; else +1.
     [[nodiscard]] float signOf(std::size_t first, std::uint32_t size) const {
         const auto votes = [this](std::size_t c, int round) {
             if (round == 2) return isSign(tangents_[c].w);
@@ -363,8 +363,8 @@ class Sanitizer {
         }
     }
 
-    /// Where N has no direction, all corners at a position with the same sign share the first substituted tangent, so that no
-    /// vertex has to be split.
+    /// If N has no direction, all corners at a position with the same sign share the first substituted tangent, so that
+    /// no vertex has to be split.
     void alignWithoutNormals() {
         if (points_.empty()) points_ = weldPositions(mesh_, allocator_, parallel_);
         Buffer<Vec4> made(allocator_, 2 * mesh_.vertexCount(), Vec4{});
@@ -392,13 +392,13 @@ class Sanitizer {
     const Allocator* allocator_;
     Parallel parallel_;
     Buffer<std::uint8_t> candidates_;      ///< one per block
-    Buffer<std::uint32_t> block_corners_;  ///< each block's first corner; empty when all faces have one size
+    Buffer<std::uint32_t> block_corners_;  ///< first corner of each block; empty if all faces have the same size
     Buffer<Cause> causes_;
-    // Corners without a sound tangent look here: the point of each vertex (empty: its own number), and the first sound
+    // Lookup for corners without a valid tangent: the point of each vertex (empty: its own index), and the first valid
     // tangent at each point; a sign of 0 means none.
     Buffer<std::uint32_t> points_;
     Buffer<Vec4> found_;
-    /// Sums over all tasks; integer sums do not depend on their order.
+    /// Sums over all tasks; integer sums do not depend on the order.
     std::array<std::atomic<std::uint64_t>, kCounted> counts_{};
 };
 

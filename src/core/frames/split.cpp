@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Duplicates vertices whose corners disagree. Corner after corner, by one thread: that takes most of the time, and several
-// threads were slower.
+// Duplication of vertices whose corners differ. Processes corners sequentially on one thread: comparing takes most of
+// the time, and several threads were slower.
 #include "tspace/indexed_frames.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 
 using AttributeSpan = std::span<const CornerAttribute>;
 
-/// Corners that are compared before those that differ are looked at.
+/// Corners that are compared before the differing ones are processed.
 constexpr std::size_t kCompared = 64;
 
 const float* cornerValues(const CornerAttribute& attribute, std::uint32_t corner) {
@@ -31,7 +31,7 @@ const float* cornerValues(const CornerAttribute& attribute, std::uint32_t corner
                                           corner * attribute.stride_bytes);
 }
 
-/// The rule of CornerAttribute::tolerance, for all attributes together.
+/// Compares corners by the rule of CornerAttribute::tolerance, for all attributes.
 [[gnu::noinline]] bool equalCorners(AttributeSpan attributes, std::uint32_t corner, std::uint32_t other) {
     for (const CornerAttribute& attribute : attributes) {
         const float *a = cornerValues(attribute, corner), *b = cornerValues(attribute, other);
@@ -45,19 +45,20 @@ const float* cornerValues(const CornerAttribute& attribute, std::uint32_t corner
     return true;
 }
 
-/// A vertex's first variants are compared one by one; only later ones are worth an index.
+/// A vertex's first variants are compared one by one; only later ones justify an index.
 constexpr std::uint32_t kScannedVariants = 8;
 
-/// Cells are wider than the tolerance by more than the rounding of x / width, so that two values that are
-/// equal within the tolerance never lie two cells apart.
+/// Cells are wider than the tolerance by more than the rounding of x / width, so that two values that are equal within
+/// the tolerance are never two cells apart.
 constexpr double kCellMargin = 1.0 + 1.0 / (1 << 20);
 
 constexpr std::uint32_t kNoVariant = 0xffffffffu;  ///< larger than any node number
 
-/// Further than this many cells from 0, floats lie more than 100 tolerances apart: only equal values match.
+/// Beyond this many cells from 0, adjacent floats are more than 100 tolerances apart: only equal values match.
 constexpr double kMostCells = 4294967296.0;
 
-/// The cell of a component; equal components (within the tolerance) lie in one cell or in neighbouring ones.
+/// Returns the cell of a component; components that are equal within the tolerance are in the same or in adjacent
+/// cells.
 std::uint64_t cellOf(float value, float tolerance) {
     const double cells = double{value} / (double{tolerance} * kCellMargin);
     if (!(std::abs(cells) < kMostCells)) return 0x7ff8000000000000u | std::bit_cast<std::uint32_t>(value);
@@ -72,7 +73,7 @@ std::uint64_t cellOf(float value, float tolerance) {
     values.resize(count, value);
 }
 
-/// The variants of vertices: a vertex itself with its first corner, and the copies that later corners got.
+/// Variants of vertices: a vertex with its first corner, and the copies for later corners.
 class Variants {
   public:
     /// `result` must have a first corner in source_corners for each vertex that is looked up. Copies are appended to
@@ -80,8 +81,8 @@ class Variants {
     Variants(AttributeSpan attributes, SplitResult& result)
         : attributes_(attributes), corners_(result.source_corners), next_(result.source_vertices) {}
 
-    /// The new vertex for a corner of `vertex` that differs from its first corner: its earliest variant that equals
-    /// the corner, made if there is none.
+    /// Returns the new vertex for a corner of `vertex` that differs from its first corner: its earliest variant that
+    /// equals the corner, or a new one.
     std::uint32_t variantOf(std::uint32_t corner, std::uint32_t vertex) {
         if (next_.empty()) resizeAtOnce(next_, corners_.size(), corners_.capacity(), kNoVariant);
         std::uint32_t variant = vertex;
@@ -108,11 +109,11 @@ class Variants {
         return static_cast<std::uint32_t>(corners_.size() - 1);
     }
 
-    // The index of later variants is a tree of which each node is known by a hash. The first level is the old vertex with
-    // the bits of all exact attributes; then comes one level for each component of the others, by its cell on a line cut
-    // into cells as wide as the tolerance. A leaf is a list, linked by next_, of variants that nearly always has one entry. A
-    // look-up follows the three neighbouring cells on each level, as far as there are any; the number of variants that can lie
-    // around one point is bounded, so the cost per corner is too.
+    // The index of later variants is a tree whose nodes are identified by hashes. The first level is the old vertex
+    // with the bits of all exact attributes; then one level for each component of the others, by its cell on a line
+    // divided into cells as wide as the tolerance. A leaf is a list of variants, linked by next_, that nearly always
+    // has one entry. A lookup follows the three adjacent cells on each level, if they exist; the number of variants
+    // around a point is bounded, and therefore also the cost per corner.
 
     [[gnu::cold]] void findCells(std::uint32_t corner, std::uint32_t vertex) {
         root_ = mixBits(vertex);
@@ -165,26 +166,26 @@ class Variants {
 
     AttributeSpan attributes_;
     std::vector<std::uint32_t>& corners_;  ///< corners of each variant
-    /// The vertex's next variant among the scanned ones; the leaf's next one among the indexed ones.
+    /// Next variant of the vertex, for scanned ones; next variant of the leaf, for indexed ones.
     std::vector<std::uint32_t>& next_;
     UniqueIndex<std::uint64_t> nodes_;
     std::vector<std::uint32_t> firsts_;  ///< for each leaf node, the first variant of its list
-    std::uint64_t root_ = 0;             ///< root of the corner being looked up
+    std::uint64_t root_ = 0;             ///< root for the corner being looked up
     std::vector<std::uint64_t> cells_, reached_, further_;
 };
 
-/// Writes the corners of a range that do not equal the first corner of their vertex to `different`, and returns their
-/// count. First corners, `firsts` of all vertices, are found on the way. For exact attributes with these component
-/// counts, in this order; for any attributes where none are given.
+/// Writes the corners of a range that differ from the first corner of their vertex to `different`, and returns their
+/// number. Also sets first corners (`firsts`, for all vertices). For exact attributes with these component counts, in
+/// this order; for any attributes if none are given.
 template <std::uint32_t... Counts>
 std::size_t listDifferent(AttributeSpan attributes, std::uint32_t corner, std::size_t count,
                           const std::uint32_t* vertices, std::uint32_t* firsts, std::uint32_t* different) {
-    std::array<CornerAttribute, sizeof...(Counts)> exact;  // local copies, which no store can alias
+    std::array<CornerAttribute, sizeof...(Counts)> exact;  // local copies, which stores cannot alias
     std::copy_n(attributes.begin(), exact.size(), exact.begin());
     const auto at = [&](std::size_t i, std::uint32_t which) { return cornerValues(exact[i], which); };
     std::size_t different_count = 0;
     for (std::size_t k = 0; k < count; ++k) {
-        static_assert(kNoCorner == 0xffffffffu);  // above all corners
+        static_assert(kNoCorner == 0xffffffffu);  // greater than all corners
         const std::uint32_t here = corner + static_cast<std::uint32_t>(k);
         const std::uint32_t first = std::min(firsts[vertices[k]], here);
         firsts[vertices[k]] = first;
@@ -216,7 +217,7 @@ decltype(&listDifferent<>) listerFor([[maybe_unused]] AttributeSpan attributes) 
 SplitResult split(const IndexView& view, std::size_t vertex_count, std::size_t corner_count, AttributeSpan attributes) {
     SplitResult result;
     resizeAtOnce(result.indices, corner_count, corner_count, 0);
-    // Room for some copies costs nothing until it is used.
+    // Capacity for some copies costs nothing until it is used.
     resizeAtOnce(result.source_corners, vertex_count, vertex_count + vertex_count / 8, kNoCorner);
     Variants variants(attributes, result);
     const auto list = listerFor(attributes);

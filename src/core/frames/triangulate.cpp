@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Cuts one polygon into triangles by clipping ears, the one with the shortest diagonal first.
-// Based on: Meisters, "Polygons have ears", 1975 (ears); Newell's normal as in Sutherland, Sproull &
-// Schumacker, 1974; the quad rule is MikkTSpace's.
+// Triangulation of a polygon by ear clipping, shortest diagonal first.
+// Based on: Meisters, "Polygons have ears", 1975 (ears); Newell's normal as in Sutherland, Sproull & Schumacker, 1974;
+// the quad rule is from MikkTSpace.
 #include "core/frames/triangulate.h"
 
 #include <algorithm>
@@ -24,14 +24,14 @@ namespace {
 /// Above this many corners ears are not tested for emptiness, which would take quadratic time.
 constexpr std::uint32_t kMaxTestedCorners = 1024;
 
-constexpr std::uint64_t kTaken = ~std::uint64_t{0};  // above the order of any vertex that is left
+constexpr std::uint64_t kTaken = ~std::uint64_t{0};  // greater than the order of any remaining vertex
 
-/// Points closer to a line than this part of the polygon's extent count as on it. Coordinates in the plane
-/// carry rounding of about 1e-15 of the extent; floats, from which they come, are a million times coarser
-/// than this.
+/// Points closer to a line than this fraction of the polygon's extent are treated as on it. Coordinates in the plane
+/// have a rounding error of about 1e-15 of the extent; the original floats are a million times coarser than this
+/// tolerance.
 constexpr double kOnLine = 1e-12;
 
-/// Orders two corners by position and then UV. Every NaN comes last.
+/// Orders two corners by position and then UV. NaNs are last.
 [[gnu::noinline]] int compare(const PolygonVertex& v, const PolygonVertex& w) {
     for (std::size_t k = 0; k < 5; ++k) {
         const float a = v.values[k], b = w.values[k];
@@ -41,14 +41,14 @@ constexpr double kOnLine = 1e-12;
     return 0;
 }
 
-/// A NaN or infinite length is longer than any other.
+/// Treats a NaN or infinite length as longer than any other.
 double orderedLength(double length2) { return length2 < std::numeric_limits<double>::infinity() ? length2 : HUGE_VAL; }
 
 struct Line {
     Line(PlanePoint from, PlanePoint to, double slack)
         : a(from), x(to.x - from.x), y(to.y - from.y), margin(slack * std::sqrt(x * x + y * y)) {}
 
-    /// Distance of c, times the line's length; positive to its left. Not above the margin: on the line.
+    /// Returns the distance of c, times the line's length; positive to its left. Up to the margin, c is on the line.
     [[nodiscard]] double across(PlanePoint c) const { return x * (c.y - a.y) - y * (c.x - a.x); }
 
     PlanePoint a;
@@ -57,7 +57,7 @@ struct Line {
 
 class Cutter {
   public:
-    /// The scratch has the vertices with their values, corners and positions, from the canonical start on.
+    /// The scratch memory contains the vertices with their values, corners and positions, from the canonical start on.
     explicit Cutter(PolygonScratch& scratch)
         : count_(static_cast<std::uint32_t>(scratch.vertices.size())), vertices_(scratch.vertices.data()) {
         scratch.reflex.resize(count_);
@@ -66,8 +66,7 @@ class Cutter {
         tree_ = scratch.tree.data();
     }
 
-    /// The start of the lexicographically least rotation of the corners, by two candidates that overtake each other,
-    /// O(n).
+    /// Returns the start of the lexicographically smallest rotation of the corners, with two candidates, in O(n).
     static std::uint32_t canonicalStart(std::span<const PolygonVertex> vertices) {
         const std::size_t count = vertices.size();
         std::size_t i = 0, j = 1, same = 0;
@@ -111,12 +110,12 @@ class Cutter {
             renew(before, orderOf(before));
             renew(after, orderOf(after));
         }
-        // Three vertices are left: the triangle begins with the first in canonical order.
+        // Three vertices are left: the triangle starts with the first one in canonical order.
         writeEar(std::min({any_left, vertices_[any_left].previous, vertices_[any_left].next}));
     }
 
   private:
-    /// Newell's normal, unit; zero or not finite when the polygon has no plane.
+    /// Returns Newell's unit normal; zero or not finite if the polygon has no plane.
     [[nodiscard]] DVec3 unitNormal() const {
         const DVec3 origin = vertices_[0].position;
         DVec3 sum;
@@ -130,8 +129,8 @@ class Cutter {
         return size > 0 ? (1 / size) * sum : DVec3{};
     }
 
-    /// Coordinates in the plane of the normal, in which the polygon runs counter-clockwise. Without a normal
-    /// every coordinate is a zero or a NaN, and nothing is an ear.
+    /// Computes coordinates in the plane of the normal, in which the polygon is counter-clockwise. Without a normal
+    /// every coordinate is zero or NaN, and there are no ears.
     void projectToPlane() {
         const DVec3 n = unitNormal();
         const auto [x_axis, y_axis] = dot(n, n) > 0 ? planeAxes(n) : PlaneAxes{};
@@ -160,9 +159,8 @@ class Cutter {
         *std::find(reflex_, reflex_ + reflex_count_, v) = reflex_[reflex_count_];
     }
 
-    /// True when a vertex lies in or on the triangle that cutting v off would make. In a simple polygon it is
-    /// enough to look at those that are not convex. Vertices at the triangle's own points do not count
-    /// (bridges to holes).
+    /// Returns whether any vertex is in or on the ear at v. Testing reflex vertices suffices in a simple polygon.
+    /// Vertices coincident with the ear's corners (hole bridges) are ignored.
     [[nodiscard]] bool isOccupied(std::uint32_t v) const {
         if (reflex_count_ == 0) return false;
         const std::uint32_t before = vertices_[v].previous, after = vertices_[v].next;
@@ -178,7 +176,7 @@ class Cutter {
         });
     }
 
-    /// The squared length in UV space of the diagonal that cuts a vertex off.
+    /// Returns the squared UV length of the diagonal that cuts off a vertex.
     [[nodiscard]] double lengthInUv(std::uint32_t v) const {
         const float *from = vertices_[vertices_[v].previous].values, *to = vertices_[vertices_[v].next].values;
         const double du = double{to[3]} - double{from[3]}, dv = double{to[4]} - double{from[4]};
@@ -204,11 +202,11 @@ class Cutter {
         return v < w;
     }
 
-    // A tournament: leaf count_ + v is vertex v, the node above two vertices is the one of them that is cut off before the
-    // other, node 1 the first of all.
+    // Tournament tree: leaf count_ + v is vertex v, an inner node is the vertex of its two children that is cut off
+    // first, and node 1 is the first of all.
 
-    /// When a vertex is cut off: by the squared length of the diagonal in space, as the bits of a double, which sort as
-    /// lengths do. The highest bit: no ear, cut only when no ear is left.
+    /// Returns the sort key of a vertex: the squared length of its diagonal in space, as the bits of a double, which
+    /// sort like the lengths. The highest bit marks vertices that are not ears, which are cut only if no ear is left.
     [[nodiscard]] std::uint64_t orderOf(std::uint32_t v) const {
         const DVec3 diagonal = vertices_[vertices_[v].next].position - vertices_[vertices_[v].previous].position;
         const bool is_blocked = vertices_[v].is_reflex || isOccupied(v);
@@ -231,11 +229,11 @@ class Cutter {
         for (std::uint32_t node = (count_ + v) / 2; node > 0; node /= 2) play(node);
     }
 
-    /// Whether ears are tested for emptiness.
+    /// Returns whether ears are tested for emptiness.
     [[nodiscard]] bool isTested() const { return count_ <= kMaxTestedCorners; }
 
     std::uint32_t count_, reflex_count_ = 0;
-    double on_line_ = 0;  // from there on a point is not on a line
+    double on_line_ = 0;  // points farther than this are not on a line
     PolygonVertex* vertices_;
     std::uint32_t *reflex_, *tree_;
 };
@@ -247,7 +245,7 @@ void FaceCutter::cutOther(std::size_t first, std::uint32_t size, std::uint32_t* 
         for (std::size_t k = 0; k < 3; ++k) corners[k] = static_cast<std::uint32_t>(first + k);
         return;
     }
-#ifndef TSPACE_MIKKTSPACE_ONLY  // which skips n-gons
+#ifndef TSPACE_MIKKTSPACE_ONLY  // that build skips n-gons
     scratch_.vertices.resize(size);
     const auto gather = [&](std::uint32_t start) {
         for (std::uint32_t v = 0; v < size; ++v) {
@@ -261,13 +259,13 @@ void FaceCutter::cutOther(std::size_t first, std::uint32_t size, std::uint32_t* 
         }
     };
     gather(0);
-    // Every sum runs from there, so that its rounding does not depend on the caller's first corner.
+    // All sums start there, so that rounding does not depend on the caller's first corner.
     gather(Cutter::canonicalStart(scratch_.vertices));
     Cutter(scratch_).cut(corners);
 #endif
 }
 
-// Cuts the faces of a mesh into triangles of its corners.
+// Triangulation of the faces of a mesh.
 
 namespace {
 
@@ -295,7 +293,7 @@ Result<Triangulation> cutFaces(const MeshView& mesh) {
 
 Result<Triangulation> triangulate(const MeshView& mesh) {
     return atBorder([&] {
-        // Only the UVs of quads are read, and the normals never.
+        // Only the UVs of quads are read, and no normals.
         return mesh.hasOwnLists() ? withOneList(mesh, {}, cutFaces) : cutFaces(mesh);
     });
 }

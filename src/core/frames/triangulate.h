@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cutting one polygon into triangles: the rule that triangulate.h states, shared by every part that cuts
-// faces.
+// Triangulation of a single polygon by the rule of triangulate(), shared by all code that cuts faces.
 #pragma once
 
 #include <cstdint>
@@ -16,29 +15,30 @@ struct PlanePoint {
     double x = 0, y = 0;
 };
 
-/// A vertex of a polygon while it is cut. Numbered in canonical order: from a start that geometry alone decides.
+/// Vertex of a polygon during triangulation. Numbered in canonical order, whose start depends only on geometry.
 struct PolygonVertex {
-    float values[5];  ///< position and UV (zeros: there are none), by which corners are ordered
+    float values[5];  ///< position and UV (zeros if there is none), by which corners are ordered
     std::uint32_t corner;
     DVec3 position;
     PlanePoint point = {};
-    std::uint64_t order = 0;  ///< when it is cut off
+    std::uint64_t order = 0;  ///< sort key of the cutting order (orderOf in triangulate.cpp)
     std::uint32_t previous = 0, next = 0;
     bool is_reflex = false;
 };
 
-/// Memory that is used again from face to face.
+/// Memory that is reused between faces.
 struct PolygonScratch {
     std::vector<PolygonVertex> vertices;
-    std::vector<std::uint32_t> reflex;  ///< vertices that may lie in an ear: those that are not convex
-    std::vector<std::uint32_t> tree;    ///< a tournament of them
+    std::vector<std::uint32_t> reflex;  ///< vertices that may be inside an ear: those that are not convex
+    std::vector<std::uint32_t> tree;    ///< tournament tree
 };
 
-/// Cuts the faces of a mesh, one after the other, with the same memory.
+/// Triangulates the faces of a mesh one by one, with the same memory.
 class FaceCutter {
   public:
     explicit FaceCutter(const MeshView& mesh) : mesh_(mesh) {}
-    /// The face of `size` >= 3 corners from `first` on: writes 3 * (size - 2) corners of the mesh, winding kept.
+    /// Triangulates the face of `size` >= 3 corners starting at `first`: writes 3 * (size - 2) corners of the mesh,
+    /// with the same winding.
     void cut(std::size_t first, std::uint32_t size, std::uint32_t* corners) {
         if (size != 4) return cutOther(first, size, corners);
         const std::uint32_t b = quadIsCutAlong13(first) ? 1 : 0;  // (0,1,2),(0,2,3) or (0,1,3),(1,2,3)
@@ -47,8 +47,8 @@ class FaceCutter {
     }
 
   private:
-    /// MikkTSpace's rule: the shorter diagonal in UV space; if equal, 1-3 only when strictly shorter in space. False also
-    /// when a comparison meets a NaN.
+    /// Applies MikkTSpace's rule: the shorter diagonal in UV space; if equal, 1-3 only if it is strictly shorter in
+    /// space. Returns false also for comparisons with NaN.
     [[nodiscard]] bool quadIsCutAlong13(std::size_t first) const {
         std::uint32_t v[4];
         for (std::size_t k = 0; k < 4; ++k) v[k] = mesh_.indices[first + k];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Normals, tangents, sanitize and split, one after the other.
+// Normals, tangents, sanitizing and splitting, in this order.
 #include "tspace/indexed_frames.h"
 
 #include <utility>
@@ -58,7 +58,7 @@ class FramesMaker {
         return Done{};
     }
 
-    /// For a mesh without indices, the first vertex at the position of each vertex; else empty.
+    /// Returns, for a mesh without indices, the first vertex at the position of each vertex; otherwise empty.
     std::span<const std::uint32_t> weld() {
         if (mesh_.indices.type != IndexType::none) return {};
         Parallel parallel(execution_, mesh_.cornerCount());
@@ -92,7 +92,7 @@ class FramesMaker {
         return Done{};
     }
 
-    /// Vertices that no corner uses go.
+    /// Renumbers vertices by first use; removes unused ones.
     void numberByFirstUse() {
         std::vector<std::uint32_t> number(frames_.vertexCount(), kNoCorner), vertices, corners;
         for (std::uint32_t& vertex : frames_.indices) {
@@ -124,13 +124,13 @@ class FramesMaker {
         }
     }
 
-    /// Some orthonormal frame, for a vertex that no corner uses.
+    /// Returns an arbitrary orthonormal frame, for an unused vertex.
     [[nodiscard]] Vec4 anyTangent(const Vec3& normal) const {
         const Vec3 t = orthonormalize({.tangent = {}, .bitangent = {}, .normal = normal}).tangent;
         return {t.x, t.y, t.z, signFactor(options_.tangents.convention)};
     }
 
-    MeshView mesh_;  ///< the given mesh, later with generated normals, later with one index list
+    MeshView mesh_;  ///< the input mesh, later with generated normals, later with one index list
     const IndexedFramesOptions& options_;
     const Execution& execution_;
     std::vector<Vec3> corner_normals_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A plan as words. Corners take their tangents from sources (groups, members of groups that split, conflicts, vertices of
+// Plan as words. Corners take their tangents from sources (groups, members of groups that split, conflicts, vertices of
 // lengyel), each a list of half-edges, and their normals from components; a result lists the corners of both.
 #include "tspace/plan_buffers.h"
 
@@ -23,7 +23,7 @@ using mikk::kNone, mikk::kTopBit, mikk::kValue;
 
 constexpr std::uint64_t kMostTriangles = (1u << 28) - 1;
 
-/// Lists of numbers, one after the other.
+/// Concatenated lists of numbers.
 struct Lists {
     WordList begins{0}, items;
 
@@ -33,7 +33,7 @@ struct Lists {
     }
     void end() { begins.push_back(static_cast<std::uint32_t>(items.size())); }
 
-    /// The numbers below `count` by their keys, ascending; keys of `key_count` and above belong to no list.
+    /// Returns the numbers below `count` grouped by key, ascending; keys of `key_count` and above belong to no list.
     template <class KeyOf>
     static Lists sorted(std::size_t count, std::size_t key_count, const KeyOf& keyOf) {
         Lists lists;
@@ -51,7 +51,7 @@ struct Lists {
     }
 };
 
-/// Where corners take tangents from. `sources` lists parts of each source, and `parts` half-edges of each part.
+/// Sources of the corners' tangents. `sources` lists the parts of each source, and `parts` the half-edges of each part.
 struct TangentSources {
     Lists parts, sources;
     WordList of_corner;                                 ///< a source, or kNone
@@ -129,7 +129,7 @@ class GroupedSources {
                 if ((source & kTopBit) != 0) source = members_[source & kValue];
                 const std::uint32_t part = to_.sources.at(source)[0];
                 if (parts.size() != 1 || parts[0] != part)
-                    parts.push_back(part);  // the mean of equal results is the first
+                    parts.push_back(part);  // the mean of equal results is the first of them
             }
             to_.of_corner[corner] = parts.size() == 1 ? source : addSource(parts, to_.is_positive[source] != 0);
         }
@@ -145,10 +145,10 @@ class GroupedSources {
 
     const mikk::EvaluationPlan& plan_;
     TangentSources to_;
-    WordList members_;  // the source of each member of a group that splits
+    WordList members_;  // source of each member of a group that splits
 };
 
-/// lengyel: each vertex is a source.
+/// Returns the sources of lengyel: each vertex is a source.
 TangentSources indexedSources(const IndexedPlan& plan) {
     TangentSources to;
     const std::size_t half_edges = 3 * plan.triangleCount();
@@ -206,7 +206,8 @@ class BufferWriter {
   private:
     [[nodiscard]] Method method() const { return plan_.method(); }
 
-    /// UVs count relative to one another only: a usual one becomes about 1, which keeps products with edges in range.
+    /// Scales UVs, since only their ratios matter: typical values become about 1, which keeps products with edges in
+    /// range.
     void scaleUvs() {
         std::vector<float> sizes;
         for (float& value : in_.uvs) {
@@ -223,7 +224,7 @@ class BufferWriter {
         }
     }
 
-    /// The tangent's source and the normal's component of a result.
+    /// Tangent source and normal component of a result.
     struct Key {
         std::uint32_t source, component, result;
         [[nodiscard]] bool isLike(const Key& other) const {
@@ -244,7 +245,7 @@ class BufferWriter {
     void writeResults() {
         const std::size_t count = resultCount();
         WordList half_edges(plan_.cornerCount(),
-                            kNone);  // the first of each corner; the corner itself without polygons
+                            kNone);  // first half-edge of each corner; the corner itself without polygons
         for (std::uint32_t h = 0; h < in_.vertices.size(); ++h) {
             std::uint32_t& first = half_edges[in_.corners.empty() ? h : in_.corners[h]];
             first = std::min(first, h);
@@ -270,7 +271,7 @@ class BufferWriter {
         std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
             return std::tie(a.source, a.component, a.result) < std::tie(b.source, b.component, b.result);
         });
-        WordList first_like(count);  // the first result with the same entries
+        WordList first_like(count);  // first result with the same entries
         for (std::size_t i = 0, first = 0; i < count; ++i) {
             if (!keys[i].isLike(keys[first])) first = i;
             first_like[keys[i].result] = keys[first].result;
@@ -306,7 +307,7 @@ class BufferWriter {
         return false;
     }
 
-    /// The corners of the component and of the first part of the source, ascending; then the other parts.
+    /// Writes the corners of the component and of the first part of the source, ascending; then the other parts.
     void writeEntries(const Key& key) {
         std::span<const std::uint32_t> normal, parts;
         if (key.component != kNone) normal = components_.at(key.component);
@@ -367,7 +368,7 @@ class BufferWriter {
     bool is_lengyel_, normalizes_;
     Convention convention_;
     TangentSources in_;
-    float fold_;  ///< the sign of a positive orientation
+    float fold_;  ///< sign for a positive orientation
     WordList shared_;
     Lists components_;
     WordList results_, entries_;

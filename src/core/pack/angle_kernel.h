@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: MIT
-// The kernels of oct32, frame48 and frame64. Included once per CPU, after lanes_*.h and with TSPACE_LANES set to its
-// namespace. Each lane is one frame.
+// Kernels of oct32, frame48 and frame64. Included once per instruction set, after lanes_*.h and with TSPACE_LANES set
+// to its namespace. Each lane is one frame.
 #pragma once
 
 #include "core/pack/frame_kernel.h"
 
 namespace tspace::pack::TSPACE_LANES {
 
-// -- what a code means --
+// -- encoding --
 
-/// The grid of N is 2 * half + 1 wide, both ways; a quarter turn of T has `quarter` steps (a power of two).
+/// The grid of N is 2 * half + 1 wide in both directions; a quarter turn of T has `quarter` steps (a power of two).
 struct AngleGrid {
     std::int32_t half, quarter;
 };
 
 inline constexpr AngleGrid kOct32Grid{511, 512}, kFrame48Grid{23169, 16384}, kFrame64Grid{1048575, 524288};
 
-// Barycentric coordinates b on a face of the octahedron are spread as b (2.5 - b), which makes its cells more equal: at
-// the same grid the worst N falls from 0.159 to 0.134 degrees. x (2.75 - x) does so for the angle along the side of a
-// diamond, whose speed then varies by less than 1 %.
+// Warps barycentric coordinates b on a face of the octahedron as b (2.5 - b), which makes its cells more uniform: for
+// the same grid the maximum error of N decreases from 0.159 to 0.134 degrees. Similarly x (2.75 - x) for the angle
+// along the side of a diamond, whose speed then varies by less than 1 %.
 inline constexpr double kFaceWarp = 2.5, kAngleWarp = 2.75;
 
-/// N of a grid point, and the sign of its z as the whole numbers have it.
+/// N of a grid point, and the sign of its z from the integer coordinates.
 struct GridNormals {
     Vectors normal;
     Floats z_sign;
@@ -31,7 +31,7 @@ inline GridNormals gridNormals(const AngleGrid& grid, Floats i, Floats j) {
     const Floats half = broadcast(static_cast<float>(grid.half));
     const Floats whole = broadcast(static_cast<float>(kFaceWarp) * static_cast<float>(grid.half));
     const Floats from_i = absolute(i - half), from_j = absolute(j - half), rest = half - from_i - from_j;
-    const Floats fold = smaller(rest, zero());  // the lower half is folded over the edges of the diamond
+    const Floats fold = smaller(rest, zero());  // folds the lower half over the edges of the diamond
     const Floats a = from_i + fold, b = from_j + fold, c = absolute(rest);
     const Floats x = a * (whole - a), y = b * (whole - b), z = c * (whole - c);
     const Floats z_sign = select(rest < zero(), broadcast(-1.0f), broadcast(1.0f));
@@ -49,7 +49,7 @@ inline Bases basesOf(const GridNormals& g) {
     return {{one + s * n.x * n.x * h, s * d, minus(s) * n.x}, {d, s + n.y * n.y * h, minus(n.y)}};
 }
 
-/// T after so many quarters of a turn, in the lowest two bits, and `step` of the steps of a quarter.
+/// Returns T after a number of quarter turns (the lowest two bits) and `step` of the steps of a quarter.
 inline Vectors tangentsAt(const AngleGrid& grid, const Bases& basis, Bits quarters, Floats step) {
     const Floats whole = broadcast(static_cast<float>(kAngleWarp) * static_cast<float>(grid.quarter));
     const Floats x = step, y = broadcast(static_cast<float>(grid.quarter)) - step;
@@ -66,7 +66,7 @@ inline Vectors tangentsAt(const AngleGrid& grid, const Bases& basis, Bits quarte
 
 namespace {
 
-/// i and j in [0, 2 * half], k in [0, 4 * quarter). The sign is the lowest bit of word 0 in all three.
+/// i and j in [0, 2 * half], k in [0, 4 * quarter). The sign is the lowest bit of word 0 in all three formats.
 struct AngleFields {
     Bits i, j, k;
 };
@@ -86,7 +86,7 @@ struct Oct32 {
 struct Frame48 {
     static constexpr AngleGrid kGrid = kFrame48Grid;
     static constexpr std::uint32_t kColumns = 2 * kGrid.half + 1;
-    /// Words beyond the last grid point read as that.
+    /// Words beyond the last grid point are read as the last one.
     static AngleFields read(const WordBlock& words, std::size_t at) {
         const Bits low = load(words.word[0] + at), high = load(words.word[1] + at);
         const Bits ij = smaller(shiftLeft<15>(high) | shiftRight<17>(low), broadcastBits(kColumns * kColumns - 1));
@@ -113,10 +113,10 @@ struct Frame64 {
     }
 };
 
-/// The exponent of a power of two.
+/// Returns the exponent of a power of two.
 constexpr int exponentOf(std::int32_t power) { return power == 1 ? 0 : 1 + exponentOf(power / 2); }
 
-/// T at step k of a whole turn.
+/// Returns T at step k of a full turn.
 template <class Format>
 inline Vectors tangentsAt(const Bases& basis, Bits k) {
     constexpr AngleGrid kGrid = Format::kGrid;
@@ -130,28 +130,28 @@ void decodeAngles(const WordBlock& words, std::size_t count, const FrameRows& ro
     const Floats last = broadcast(static_cast<float>(2 * kGrid.half));
     for (std::size_t at = 0; at < count; at += kWidth) {
         const AngleFields fields = Format::read(words, at);
-        // The one value of i and j that the grid does not have reads as its neighbour.
+        // The only value of i and j that is not on the grid is read as its neighbor.
         const GridNormals g = gridNormals(kGrid, smaller(toFloats(fields.i), last), smaller(toFloats(fields.j), last));
         storeFrames(rows, at, {g.normal, tangentsAt<Format>(basesOf(g), fields.k)},
                     signFrom<0>(load(words.word[0] + at)));
     }
 }
 
-// ---- encoding: nearest N first, then the angle of T in the basis of the N that is decoded. So T's error is that of two
-// legs of a right-angled spherical triangle, N's error and half a step of the angle. Places are found in double, since
-// floats hardly hold the 21 bits of frame64; codes are compared as they decode.
+// ---- encoding: first the nearest N, then the angle of T in the basis of the decoded N. The error of T is therefore
+// the hypotenuse of a right-angled spherical triangle whose legs are the error of N and half a step of the angle.
+// Positions are computed in double precision, since floats hardly hold the 21 bits of frame64; codes are compared by
+// their decoded values.
 
-/// Intermediate results of a block, from step to step.
+/// Intermediate results of a block, between steps.
 struct AngleSteps {
-    alignas(64) float i[kBlockFrames], j[kBlockFrames];        ///< the cell that N lies in; then N's point
-    alignas(64) float p[3][kBlockFrames], q[3][kBlockFrames];  ///< the basis of that point
-    alignas(64) float k[kBlockFrames];                         ///< the step at or before T
+    alignas(64) float i[kBlockFrames], j[kBlockFrames];        ///< cell of N; later the grid point of N
+    alignas(64) float p[3][kBlockFrames], q[3][kBlockFrames];  ///< basis at that grid point
+    alignas(64) float k[kBlockFrames];                         ///< last step that is not after T
 };
 
-/// The position of a unit vector on the unfolded octahedron, [-1, 1] both ways: the b_i with b_i (2.5 - b_i) = L |n_i|
-/// whose
-/// sum is 1. Newton's method for b and L at once, from b_i proportional to |n_i|, which is off by at most 0.062: the
-/// three steps leave 9e-4, 3e-7 and 2e-14.
+/// Position of a unit vector on the unfolded octahedron, [-1, 1] in both directions: the b_i with b_i (2.5 - b_i) = L
+/// |n_i| and sum 1. Newton's method for b and L together, starting with b_i proportional to |n_i|, which has an error
+/// of at most 0.062: three steps leave 9e-4, 3e-7 and 2e-14.
 struct OctahedronPoints {
     Doubles x, y;
 
@@ -166,7 +166,7 @@ struct OctahedronPoints {
                 value[m] = b[m] * (warp - b[m]);
                 slope[m] = warp - (b[m] + b[m]);
             }
-            // Products of the other two slopes: reciprocals of the slopes, up to a factor common to all.
+            // Products of the other two slopes: reciprocals of the slopes, up to a common factor.
             const Doubles inverse[3] = {slope[1] * slope[2], slope[2] * slope[0], slope[0] * slope[1]};
             const Doubles factor = one / (slope[0] * inverse[0]);
             const Doubles length = (value[0] * inverse[0] + value[1] * inverse[1] + value[2] * inverse[2]) /
@@ -188,7 +188,7 @@ void findCells(const AngleGrid& grid, const FrameBlock& frames, std::size_t coun
     }
 }
 
-/// Finds for each frame the corner of its cell whose decoded N is nearest.
+/// Finds for each frame the corner of its cell whose decoded N is closest.
 void findNormals(const AngleGrid& grid, const FrameBlock& frames, std::size_t count, AngleSteps& steps) {
     const auto last = static_cast<float>(2 * grid.half - 1);
     for (std::size_t at = 0; at < count; at += kWidth) {
@@ -216,8 +216,8 @@ void findNormals(const AngleGrid& grid, const FrameBlock& frames, std::size_t co
     }
 }
 
-/// The step at or before this angle. Within a quarter s y (2.75 - y) = c x (2.75 - x) with y = 1 - x is a quadratic
-/// equation, solved here in the form that divides by no difference.
+/// Returns the last step that is not after this angle. Within a quarter, s y (2.75 - y) = c x (2.75 - x) with y = 1 - x
+/// is a quadratic equation, solved here in the form that does not divide by a difference.
 inline Doubles stepsBefore(Doubles c, Doubles s, std::int32_t quarter) {
     const auto number = [](double x) { return broadcastDouble(x); };
     const Doubles zero = number(0.0);

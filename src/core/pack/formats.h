@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The table of formats: bytes, bounds, kernel.
+// Table of formats: sizes, error bounds, kernels.
 #pragma once
 
 #include <cstddef>
@@ -13,15 +13,15 @@ struct Format {
     std::size_t bytes;  ///< bytes per frame
     FrameErrorBound bound;
     FrameKernel (*kernel)(SimdTarget wish);
-    /// Bytes of `count` frames to words, and back; count <= kBlockFrames.
+    /// Convert `count` frames from bytes to words, and back; count <= kBlockFrames.
     void (*read)(const std::byte* bytes, std::size_t count, WordBlock& words);
     void (*write)(const WordBlock& words, std::size_t count, std::byte* bytes);
 };
 
-/// Null for what is none of the enumerators.
+/// Returns null if it is not an enumerator.
 const Format* formatOf(FrameFormat format);
 
-/// packFrames and unpackFrames without checks, with the instructions of this target.
+/// packFrames and unpackFrames without checks, for a given SIMD target.
 PackReport pack(const Format& format, SimdTarget wish, const StridedSpan<const Vec3>& normals,
                 const StridedSpan<const Vec4>& tangents, std::byte* bytes);
 void unpack(const Format& format, SimdTarget wish, const std::byte* bytes, const StridedSpan<Vec3>& normals,

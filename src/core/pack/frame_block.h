@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Frames by blocks, as the kernels of this room take them. A kernel is written once (*_kernel.h), compiled for several
-// CPUs, same bits from all of them.
+// Blocks of frames, for the kernels of this folder. A kernel is written once (*_kernel.h), and compiled for several
+// CPUs, with equal bits.
 #pragma once
 
 #include <cstddef>
@@ -10,35 +10,34 @@
 
 namespace tspace::pack {
 
-inline constexpr std::size_t kBlockFrames = 64;  ///< a multiple of all widths; a block stays in the first cache
+inline constexpr std::size_t kBlockFrames = 64;  ///< a multiple of all vector widths; a block fits into the L1 cache
 
-/// The bytes of frames as little-endian words of 32 bits: word w of frame i is word[w][i].
+/// Bytes of frames as little-endian 32-bit words: word w of frame i is word[w][i].
 struct WordBlock {
     alignas(64) std::uint32_t word[4][kBlockFrames];
 };
 
-/// Frames to encode, component by component: N and T unit and orthogonal within 5e-7, also beyond those that count;
-/// `mirrored` is 1 where the sign is -1, else 0.
+/// Frames to encode, by component: N and T unit and orthogonal within 5e-7, also in unused entries; `mirrored` is 1 if
+/// the sign is -1, otherwise 0.
 struct FrameBlock {
     alignas(64) float normal[3][kBlockFrames], tangent[3][kBlockFrames];
     alignas(64) std::uint32_t mirrored[kBlockFrames];
 };
 
-/// Output of decoding: three numbers for each normal, and one more after the last; four for each tangent, the fourth of
-/// which is the sign.
+/// Output of decoding: three numbers per normal, and one more after the last; four per tangent, the fourth of which is
+/// the sign.
 struct FrameRows {
     float *normals, *tangents;
 };
 
-/// The functions of one format for one CPU. They read and write the first `count` frames, and may do so for all of the
-/// block.
+/// Functions of one format for one CPU. They process the first `count` frames, or all frames of the block.
 struct FrameKernel {
     void (*encode)(const FrameBlock& frames, std::size_t count, WordBlock& words) = nullptr;
     void (*decode)(const WordBlock& words, std::size_t count, const FrameRows& rows) = nullptr;
 };
 
-/// Frames this close to unit (their squares to twice as much) and orthogonal are encoded as they are, so that unpacked
-/// frames are found again exactly.
+/// Frames this close to unit (their squares within twice as much) and orthogonal are encoded unchanged, so that
+/// unpacked frames are reproduced exactly.
 inline constexpr double kSoundTolerance = 5e-7;
 TSPACE_DECLARE_KERNEL(std::uint64_t soundFrames(const FrameBlock& frames, std::size_t count))
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Frames on lanes, shared by the kernels of this room, and the kernel that finds sound frames. Included once per CPU,
-// after lanes_*.h and with TSPACE_LANES set to its namespace.
+// Frames on lanes, shared by the kernels of this folder, and the kernel that finds valid frames. Included once per
+// instruction set, after lanes_*.h and with TSPACE_LANES set to its namespace.
 #pragma once
 
 #include "core/pack/frame_block.h"
@@ -18,19 +18,19 @@ struct Frames {
     Vectors normal, tangent;
 };
 
-/// The sign bit of a float, set where bit kBit is.
+/// Returns the sign bit of a float, set where bit kBit is set.
 template <int kBit>
 inline Bits signFrom(Bits bits) {
     return shiftLeft<31 - kBit>(bits) & broadcastBits(0x80000000u);
 }
 inline Floats flipped(Floats a, Bits signs) { return asFloats(asBits(a) ^ signs); }
-/// Whether that bit is set.
+/// Returns whether bit kBit is set.
 template <int kBit>
 inline Mask isSet(Bits bits) {
     return toFloats(shiftRight<kBit>(bits) & broadcastBits(1)) > zero();
 }
 
-/// Whole numbers next to and below x, |x| < 2^22: sums with 1.5 2^23 are rounded to whole numbers.
+/// Return the nearest integer, and the next lower one, for |x| < 2^22: sums with 1.5 2^23 are rounded to integers.
 inline Floats nearestWhole(Floats x) { return (x + broadcast(12582912.0f)) - broadcast(12582912.0f); }
 inline Floats wholeBelow(Floats x) {
     const Floats near = nearestWhole(x);
@@ -40,7 +40,7 @@ inline Doubles wholeBelow(Doubles x) {
     const Doubles magic = broadcastDouble(6755399441055744.0), near = (x + magic) - magic;  // 1.5 2^52
     return near - keepWhere(near > x, broadcastDouble(1.0));
 }
-/// A whole number from 0 to before 2^23: those are the lower bits of its sum with 2^23.
+/// Converts an integral value in [0, 2^23): its bits are the lower bits of its sum with 2^23.
 inline Bits wholeBits(Floats x) { return asBits(x + broadcast(8388608.0f)) ^ asBits(broadcast(8388608.0f)); }
 inline Floats clamped(Floats x, float low, float high) { return smaller(larger(x, broadcast(low)), broadcast(high)); }
 
@@ -56,7 +56,7 @@ inline Vectors select(Mask m, Vectors yes, Vectors no) {
     return {select(m, yes.x, no.x), select(m, yes.y, no.y), select(m, yes.z, no.z)};
 }
 
-/// Half of the lanes in double.
+/// Half of the lanes, in double precision.
 inline constexpr std::size_t kPart = kWidth / kDoubleParts;
 struct DoubleVectors {
     Doubles x, y, z;
@@ -66,27 +66,27 @@ inline DoubleVectors loadAsDoubles(const float (&v)[3][kBlockFrames], std::size_
     return {loadAsDoubles(v[0] + at), loadAsDoubles(v[1] + at), loadAsDoubles(v[2] + at)};
 }
 
-/// Scaled to length 1; v must not be zero and its square must not overflow or vanish.
+/// Returns v normalized; v must not be zero, and its square must neither overflow nor underflow.
 inline Vectors ofUnitLength(Vectors v) { return (broadcast(1.0f) / squareRoot(dot(v, v))) * v; }
 
-/// N and T of a quaternion of any length but 0: the columns z and x of its matrix.
+/// Returns N and T of a quaternion of any nonzero length: the columns z and x of its matrix.
 inline Frames framesOf(Floats x, Floats y, Floats z, Floats w) {
     const Floats one = broadcast(1.0f), k = broadcast(2.0f) / (x * x + y * y + z * z + w * w);
     return {{k * (z * x + w * y), k * (y * z - w * x), one - k * (x * x + y * y)},
             {one - k * (y * y + z * z), k * (x * y + w * z), k * (z * x - w * y)}};
 }
 
-/// Squared distance that a small rotation about the frame's own axes moves N or T, whichever moves farther: x and y move N, y
-/// and z move T.
+/// Returns the squared distance by which a small rotation about the frame's own axes moves N or T, whichever is larger:
+/// x and y move N, y and z move T.
 inline Floats squaredReach(Vectors turn) { return turn.y * turn.y + larger(turn.x * turn.x, turn.z * turn.z); }
 
-/// `signs`: the sign bit set where the frame is mirrored.
+/// `signs`: the sign bit is set if the frame is mirrored.
 inline void storeFrames(const FrameRows& rows, std::size_t at, const Frames& f, Bits signs) {
     storeRows<3>(rows.normals + 3 * at, f.normal.x, f.normal.y, f.normal.z, zero());
     storeRows<4>(rows.tangents + 4 * at, f.tangent.x, f.tangent.y, f.tangent.z, flipped(broadcast(1.0f), signs));
 }
 
-/// Bit i: N and T of frame i are unit and orthogonal, to float rounding; what is not a number is not.
+/// Returns the valid frames as bits: N and T of frame i are unit and orthogonal, within float rounding; NaN is invalid.
 std::uint64_t soundFrames(const FrameBlock& frames, std::size_t count) {
     const Doubles one = broadcastDouble(1.0), tolerance = broadcastDouble(kSoundTolerance);
     const auto isUnit = [&](DoubleVectors v) { return tolerance + tolerance > absolute(dot(v, v) - one); };

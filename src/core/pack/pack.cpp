@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// packFrames and unpackFrames: the table of formats, checks, sanitizing, and frames block by block.
+// packFrames and unpackFrames: the table of formats, checks, repair, and processing in blocks.
 #include "tspace/pack.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ std::uint32_t readWord(const std::byte* in) {
     return word;
 }
 
-/// A word of which only `kBytes` are there.
+/// Writes the first `kBytes` bytes of a word.
 template <std::size_t kBytes>
 void writeWord(std::uint32_t word, std::byte* out) {
     if constexpr (std::endian::native == std::endian::little) {
@@ -42,8 +42,8 @@ void writeWord(std::uint32_t word, std::byte* out) {
 
 template <std::size_t kBytes>
 void readWords(const std::byte* in, std::size_t count, WordBlock& words) {
-    // Words that lie as they are needed are copied many at a time: single ones would have to reach the cache before
-    // vectors of them can be loaded.
+    // Words in native layout are copied in bulk: single ones would have to reach the cache before they can be loaded as
+    // vectors.
     if (kBytes == 4 && std::endian::native == std::endian::little) {
         std::memcpy(words.word[0], in, 4 * count);
         return;
@@ -93,12 +93,13 @@ const Format* formatOf(FrameFormat format) {
 
 namespace {
 
-/// The tolerances of sanitize: that of the glTF validator, and the sine within which T has no direction across N.
+/// Tolerances of sanitize: the tolerance of the glTF validator, and the sine below which T has no direction
+/// perpendicular to N.
 constexpr double kCountedTolerance = 5e-4, kOneDegree = 0.017452406437283512;
 
-// ---- frames on the way in
+// ---- repair of input frames
 
-/// Whether T can be used with this unit N; if not, why.
+/// Returns why T cannot be used with this unit N; null if it can.
 std::uint64_t PackReport::*causeAgainst(const Vec3& tangent, const DVec3& n) {
     if (!isFinite(tangent)) return &PackReport::not_finite_count;
     DVec3 t = toDouble(tangent);
@@ -108,7 +109,8 @@ std::uint64_t PackReport::*causeAgainst(const Vec3& tangent, const DVec3& n) {
 
 bool isCounted(double size) { return !(std::fabs(size - 1) <= kCountedTolerance); }
 
-/// T, which is not parallel to n, made unit and orthogonal to it; twice, since near n the first pass cancels digits.
+/// Returns T, which is not parallel to n, made unit and orthogonal to it; twice, since close to n the first pass loses
+/// digits by cancellation.
 DVec3 orthogonalized(DVec3 t, const DVec3& n) {
     for (int pass = 0; pass < 2; ++pass) {
         normalize(t);
@@ -118,7 +120,7 @@ DVec3 orthogonalized(DVec3 t, const DVec3& n) {
     return t;
 }
 
-/// Makes N and T unit and orthogonal. Returns the count that this belongs to, null for none.
+/// Makes N and T unit and orthogonal. Returns the counter of the cause, or null.
 std::uint64_t PackReport::*mend(Vec3& normal, Vec3& tangent) {
     std::uint64_t PackReport::*cause = nullptr;
     const auto because = [&](std::uint64_t PackReport::*next) {
@@ -153,7 +155,7 @@ void setVector(float (&to)[3][kBlockFrames], std::size_t i, const Vec3& v) {
 }
 Vec3 vectorAt(const float (&from)[3][kBlockFrames], std::size_t i) { return {from[0][i], from[1][i], from[2][i]}; }
 
-/// A block of frames along the axes: whatever is not set later is sound.
+/// Returns a block of axis-aligned frames, so that entries that are not set later are valid.
 FrameBlock soundBlock() {
     FrameBlock frames{};
     for (std::size_t i = 0; i < kBlockFrames; ++i) {
@@ -163,7 +165,7 @@ FrameBlock soundBlock() {
     return frames;
 }
 
-/// Reads frames from number `begin`, and mends them.
+/// Reads frames starting with number `begin`, and repairs them.
 void fill(FrameBlock& frames, const StridedSpan<const Vec3>& normals, const StridedSpan<const Vec4>& tangents,
           std::size_t begin, std::size_t count, SimdTarget wish, PackReport& report) {
     std::uint64_t odd_signs = 0;
@@ -190,7 +192,7 @@ void fill(FrameBlock& frames, const StridedSpan<const Vec3>& normals, const Stri
     }
 }
 
-// ---- the border
+// ---- API boundary
 
 template <class N, class T>
 Error check(FrameFormat format, const StridedSpan<N>& normals, const StridedSpan<T>& tangents, const void* bytes,

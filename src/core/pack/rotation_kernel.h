@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT
-// The kernel of frame32. Included once per CPU, after lanes_*.h and with TSPACE_LANES set to its namespace. Each lane is
-// one frame.
+// Kernel of frame32. Included once per instruction set, after lanes_*.h and with TSPACE_LANES set to its namespace.
+// Each lane is one frame.
 #pragma once
 
 #include "core/pack/frame_kernel.h"
 
 namespace tspace::pack::TSPACE_LANES {
 
-// -- what a code means --
+// -- encoding --
 
-// Steps along x and z (turns about T and N) run from -kSide to kSide; kRows along y (turns about B, which move N and T
-// both, so that these steps are the finer ones). Columns whose x + z is odd are shifted by half a step. 24 charts of
+// Steps along x and z (rotations about T and N) range from -kSide to kSide; there are kRows along y (rotations about B,
+// which move both N and T, so these steps are finer). Columns with odd x + z are shifted by half a step. 24 charts of
 // kColumns * kRows * kColumns codes: all but 176,672 of 2^31.
 inline constexpr std::int32_t kSide = 226, kColumns = 2 * kSide + 1, kRows = 436, kCharts = 24;
 inline constexpr std::uint32_t kCodes = static_cast<std::uint32_t>(kCharts) * kColumns * kRows * kColumns;
 static_assert(kCodes < 0x80000000u);
 
-// p = u (kLinear + kCubic u^2): at the faces of the cube tan(22.5 degrees), and there 1.13 as steep as a straight line,
-// in the middle 0.935, since rotations lie closer together far from the middle of a chart.
+// p = u (kLinear + kCubic u^2): tan(22.5 degrees) at the faces of the cube, where its slope is 1.13 times that of a
+// straight line; 0.935 times in the center, since rotations are denser far from the center of a chart.
 inline constexpr double kHalfEdge = 0.41421356237309503;
 inline constexpr double kWarp = 0.065;
 inline constexpr double kLinear = kHalfEdge * (1 - kWarp), kCubic = kHalfEdge * kWarp;
@@ -25,12 +25,13 @@ inline constexpr double kLinear = kHalfEdge * (1 - kWarp), kCubic = kHalfEdge * 
 inline Floats warped(Floats u) {
     return u * (broadcast(static_cast<float>(kLinear)) + broadcast(static_cast<float>(kCubic)) * (u * u));
 }
-/// p of a column x or z, and of a row: twice y, and 1 more in columns that are shifted.
+/// Return p of a column x or z, and of a row: twice y, plus 1 in shifted columns.
 inline Floats atColumn(Floats x) { return warped((x - broadcast(kSide)) * broadcast(1.0f / kSide)); }
 inline Floats atRow(Floats twice_y) { return warped((twice_y - broadcast(kRows)) * broadcast(1.0f / (kRows - 1))); }
 
-/// The rows of the small rotation in the order and with the signs of chart g = 4 * order + signs: first three turns of x,
-/// y, z, then the three swaps, which are turns of x, z, y. Two signs are free, the third keeps the determinant +1.
+/// Rows of the small rotation in the order and with the signs of chart g = 4 * order + signs: first three cyclic
+/// permutations of x, y, z, then the three swaps, which are cyclic permutations of x, z, y. Two signs are free, the
+/// third keeps the determinant at +1.
 struct Charts {
     Mask is_swap, is_turned_once, is_turned_twice;
     Bits signs[3];
@@ -64,7 +65,7 @@ inline Frames rotationFrames(const Charts& charts, Floats x, Floats twice_y, Flo
 
 namespace {
 
-/// Words that no chart needs read as the last one.
+/// Words that no chart uses are read as the last one.
 void decodeRotations(const WordBlock& words, std::size_t count, const FrameRows& rows) {
     for (std::size_t at = 0; at < count; at += kWidth) {
         const Bits word = load(words.word[0] + at), code = smaller(shiftRight<1>(word), broadcastBits(kCodes - 1));
@@ -77,10 +78,10 @@ void decodeRotations(const WordBlock& words, std::size_t count, const FrameRows&
     }
 }
 
-// ---- encoding: every chart that holds the rotation is searched, not just the one around the nearest of the 24: the
-// corners of a cube lie in other charts too, and each word must come back from what it decodes to.
+// ---- encoding: searches every chart that contains the rotation, not just the one around the nearest of the 24: the
+// corners of a cube are in other charts too, and each word must be reproduced from its decoded frame.
 
-/// The rotations T, N x T, N: rows and columns.
+/// Rotations T, N x T, N: rows and columns.
 struct Matrices {
     alignas(64) float at[3][3][kBlockFrames];
 };
@@ -97,7 +98,7 @@ void findMatrices(const FrameBlock& frames, std::size_t count, Matrices& rotatio
     }
 }
 
-/// Frames and charts that hold them.
+/// Frames, and the charts that contain them.
 struct Places {
     static constexpr std::size_t kMost = 4 * kBlockFrames;
     alignas(64) float p[3][kMost], scale[kMost];  ///< the Rodrigues vector is p / scale
@@ -105,15 +106,15 @@ struct Places {
     std::size_t count = 0;
 };
 
-/// The row of a chart's rotation that each row of the small rotation becomes: see Charts.
+/// Row of a chart's rotation for each row of the small rotation: see Charts.
 constexpr std::size_t kRowAt[6][3] = {{0, 1, 2}, {2, 0, 1}, {1, 2, 0}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
 
-/// Half a step beyond the cube: there a code of its face may be the nearest.
+/// Half a step beyond the cube: a code of its face may still be the nearest there.
 constexpr float kReach = static_cast<float>(kHalfEdge * (1 + 0.6 / kSide));
-/// Below the trace of all rotations within reach: it is 1.640 in the corners of the cube.
+/// Lower bound of the trace of all rotations within reach: it is 1.640 in the corners of the cube.
 constexpr float kLeastTrace = 1.63f;
 
-/// Adds those of the first `count` rotations that lie in chart g.
+/// Adds those of the first `count` rotations that are in chart g.
 void addPlaces(const Matrices& rotations, std::size_t count, std::uint32_t g, Places& places) {
     const bool minus_0 = (g & 1) != 0, minus_1 = (g >> 1 & 1) != 0, minus_2 = (minus_0 != minus_1) != (g >= 12);
     const Floats signs[3] = {broadcast(minus_0 ? -1.0f : 1.0f), broadcast(minus_1 ? -1.0f : 1.0f),
@@ -146,7 +147,7 @@ void addPlaces(const Matrices& rotations, std::size_t count, std::uint32_t g, Pl
     }
 }
 
-/// The u whose p this is: after a first guess two steps of Newton's method leave what floats round.
+/// Inverts the warp: after an initial guess, two steps of Newton's method reach float precision.
 inline Floats unwarped(Floats p) {
     const auto number = [](double x) { return broadcast(static_cast<float>(x)); };
     const Floats straight = p * number(1 / kHalfEdge), one = number(1);
@@ -155,17 +156,17 @@ inline Floats unwarped(Floats p) {
     return u;
 }
 
-/// The code next below x of those from 0 to last, and never the last, so that there is one above.
+/// Returns the largest code not above x, from 0 to last - 1, so that there is a code above it.
 inline Floats codeBelow(Floats x, std::int32_t last) { return clamped(wholeBelow(x), 0, static_cast<float>(last - 1)); }
 
-/// A code of a chart, and how far the frame is from it, squared.
+/// A code of a chart, and its squared distance from the frame.
 struct Cells {
     Floats error, x, twice_y, z;
 };
 
-/// The best of the codes around p: of the four columns around it the rows below and above.
-/// Between p and a code's p' lies the rotation with the Rodrigues vector (p' - p - p x p') / (1 + p.p'), in the axes of
-/// the frame. What divides differs by less than 2 in 1000 between these codes, and is left out.
+/// Returns the best code around p: the rows below and above it in the four columns around it.
+/// The rotation between p and a code's p' has the Rodrigues vector (p' - p - p x p') / (1 + p.p'), in the axes of the
+/// frame. The divisor differs by less than 2 in 1000 between these codes, and is omitted.
 inline Cells bestAround(Vectors p) {
     const Floats one = broadcast(1.0f), side = broadcast(kSide);
     const Floats x0 = codeBelow(unwarped(p.x) * side + side, kColumns - 1);
@@ -174,7 +175,7 @@ inline Cells bestAround(Vectors p) {
     const Floats x[2] = {x0, x0 + one}, z[2] = {z0, z0 + one};
     const Floats dx[2] = {atColumn(x[0]) - p.x, atColumn(x[1]) - p.x};
     const Floats dz[2] = {atColumn(z[0]) - p.z, atColumn(z[1]) - p.z};
-    // In columns x0, z0 and x1, z1, which may be shifted, and in the other two, which then are not.
+    // In columns x0, z0 and x1, z1, which may be shifted, and in the other two, which are not shifted then.
     const Floats half_sum = (x0 + z0) * half, is_odd = (half_sum - wholeBelow(half_sum)) * broadcast(2.0f);
     const Floats shift[2] = {is_odd, one - is_odd};
     Floats twice_y[2][2], dy[2][2];
@@ -196,11 +197,11 @@ inline Cells bestAround(Vectors p) {
     return best;
 }
 
-/// Below this, floats have rounded what is left: charts that meet share codes but for the last bits, and only decoding
-/// says which of them the frame came from.
+/// Below this, errors are rounding noise: adjacent charts share codes except for the last bits, and only decoding shows
+/// which one the frame came from.
 constexpr float kTwinError = 1e-11f;
 
-/// The errors of codes from frames, as they decode.
+/// Returns the errors of codes against frames, by decoding.
 inline Floats decodedErrors(const Cells& cells, const Places& places, std::size_t at, const FrameBlock& frames) {
     alignas(64) float normal[3][kBlockFrames], tangent[3][kBlockFrames];
     for (std::size_t i = 0; i < kWidth; ++i) {
@@ -214,13 +215,13 @@ inline Floats decodedErrors(const Cells& cells, const Places& places, std::size_
     return larger(dot(n, n), dot(t, t));
 }
 
-/// The best codes of a block's frames so far.
+/// Best codes found so far for the frames of a block.
 struct Codes {
     alignas(64) std::uint32_t code[kBlockFrames];
     float error[kBlockFrames];
 };
 
-/// Empties `places`.
+/// Searches and then clears `places`.
 void searchPlaces(Places& places, const FrameBlock& frames, Codes& best) {
     alignas(64) float errors[Places::kMost];
     alignas(64) std::uint32_t codes[Places::kMost];

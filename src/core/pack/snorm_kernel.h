@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kernels of the formats in signed normalised integers. Included once per CPU, after lanes_*.h and with TSPACE_LANES
-// set to its namespace. Each lane is one frame.
+// Kernels of the formats in signed normalized integers. Included once per instruction set, after lanes_*.h and with
+// TSPACE_LANES set to its namespace. Each lane is one frame.
 #pragma once
 
 #include "core/pack/frame_kernel.h"
@@ -9,7 +9,7 @@ namespace tspace::pack::TSPACE_LANES {
 
 namespace {
 
-/// Number `which` of a frame, each of kBits with a sign; the least one reads as the next.
+/// Returns signed kBits integer number `which` of a frame. The minimum value is clamped to its successor, as for SNORM.
 template <int kBits, int which>
 inline Floats numberAt(const WordBlock& words, std::size_t at) {
     constexpr int kPerWord = 32 / kBits, kUnused = (kPerWord - 1 - which % kPerWord) * kBits;
@@ -20,7 +20,7 @@ inline Floats numberAt(const WordBlock& words, std::size_t at) {
     return larger(with_sign, broadcast(1 - kRange / 2));
 }
 
-/// The other way: numbers, which all lie in the range, into words.
+/// Packs integers, which must be in range, into words.
 template <int kBits, std::size_t kCount>
 inline void storeNumbers(const Floats (&numbers)[kCount], WordBlock& words, std::size_t at) {
     constexpr std::size_t kPerWord = 32 / kBits;
@@ -36,7 +36,7 @@ inline void storeNumbers(const Floats (&numbers)[kCount], WordBlock& words, std:
     }
 }
 
-/// The sign bit of negative numbers.
+/// Returns the sign bit of negative numbers.
 inline Bits signOf(Floats number) { return orWhere(broadcastBits(0), number < zero(), 0x80000000u); }
 
 // ---- quaternions
@@ -48,8 +48,8 @@ inline Quaternions selectOf(Mask m, const Quaternions& yes, const Quaternions& n
     return {select(m, yes.x, no.x), select(m, yes.y, no.y), select(m, yes.z, no.z), select(m, yes.w, no.w)};
 }
 
-/// Quaternions of the rotations with columns T, N x T, N; w >= 0. The largest component comes from the diagonal and
-/// divides the others, so no digits cancel.
+/// Returns the quaternions of the rotations with columns T, N x T, N; w >= 0. The largest component comes from the
+/// diagonal and divides the others, which avoids cancellation.
 inline Quaternions quaternionsOf(Vectors t, Vectors n) {
     const Floats one = broadcast(1.0f);
     const Vectors b = cross(n, t);
@@ -69,8 +69,8 @@ inline Quaternions quaternionsOf(Vectors t, Vectors n) {
     return {scale * q.x, scale * q.y, scale * q.z, scale * q.w};
 }
 
-/// How far N or T is from that of the rotation q, whichever is farther, squared: the turn between them, in the frame's
-/// axes, is about the vector of conj(q) * code. In no unit, but for all codes in the same.
+/// Returns the squared distance of N or T, whichever is farther, from rotation q: the rotation between them, in the
+/// frame's axes, is about the vector of conj(q) * code. In arbitrary units that are equal for all codes.
 inline Floats errorOf(const Quaternions& code, const Quaternions& q) {
     const Vectors v{q.x, q.y, q.z}, c{code.x, code.y, code.z};
     return squaredReach(q.w * c - code.w * v - cross(v, c));
@@ -88,8 +88,9 @@ struct BestQuaternions {
     }
 };
 
-/// The code around q with the least error, not the one with the nearest components. Sixteen do; but w must not be 0, and
-/// where only 1 is left for it, further x, y and z make up for that: docs/concepts/pack.md has the bounds.
+/// Returns the code around q with the smallest error, not the one with the nearest components. Sixteen candidates
+/// suffice; but w must not be 0, and if it becomes 1, larger x, y and z compensate for it: docs/concepts/pack.md has
+/// the bounds.
 inline Quaternions bestCode(const Quaternions& q) {
     const Floats most = broadcast(32767.0f), one = broadcast(1.0f);
     const auto beside = [&](Floats below, unsigned up) {
@@ -126,7 +127,7 @@ void encodeQuaternions(const FrameBlock& frames, std::size_t count, WordBlock& w
     }
 }
 
-/// A quaternion x, y, z, w. No rotation (all zero) reads as that of the axes.
+/// Decodes quaternions x, y, z, w. An all-zero quaternion is read as the identity.
 void decodeQuaternions(const WordBlock& words, std::size_t count, const FrameRows& rows) {
     for (std::size_t at = 0; at < count; at += kWidth) {
         const Floats x = numberAt<16, 0>(words, at), y = numberAt<16, 1>(words, at), z = numberAt<16, 2>(words, at);
@@ -138,8 +139,8 @@ void decodeQuaternions(const WordBlock& words, std::size_t count, const FrameRow
 
 // ---- vectors
 
-/// T, then N from number 4; which number holds the sign. One that is left is the greatest; what lies beyond
-/// the bytes of a format is not written.
+/// Encodes T, then N from number 4 on; kSignAt is the number that holds the sign. Unused numbers are set to the
+/// maximum; numbers beyond the bytes of a format are not written.
 template <int kBits, int kSignAt>
 void encodeVectors(const FrameBlock& frames, std::size_t count, WordBlock& words) {
     const Floats most = broadcast((1 << (kBits - 1)) - 1);
@@ -152,7 +153,7 @@ void encodeVectors(const FrameBlock& frames, std::size_t count, WordBlock& words
     }
 }
 
-/// The first axis of planeAxes, in double as there.
+/// Computes the first axis of planeAxes, in double precision like the original.
 inline Vectors firstAxes(Vectors n) {
     Doubles axis[3][kDoubleParts];
     for (std::size_t i = 0; i < kDoubleParts; ++i) {
@@ -165,7 +166,8 @@ inline Vectors firstAxes(Vectors n) {
     return {join(axis[0]), join(axis[1]), join(axis[2])};
 }
 
-/// T, then N from number 4; which number holds the sign. A zero N reads as (0, 0, 1), a zero T as a basis from N.
+/// Decodes T, then N from number 4 on; kSignAt is the number that holds the sign. A zero N is read as (0, 0, 1), a zero
+/// T as a basis from N.
 template <int kBits, int kSignAt>
 void decodeVectors(const WordBlock& words, std::size_t count, const FrameRows& rows) {
     for (std::size_t at = 0; at < count; at += kWidth) {

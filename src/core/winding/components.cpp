@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pairs of faces at edges, then components: wound alike by walking over the pairs, and decided as a whole.
+// Pairing of faces at edges, and components: consistent winding by traversing the pairs, then a decision as a whole.
 #include "core/winding/components.h"
 
 #include <algorithm>
@@ -13,12 +13,12 @@ namespace tspace::winding {
 
 namespace {
 
-/// One face at an edge where more than two meet.
+/// A face at an edge where more than two faces meet.
 struct FaceAtEdge {
     std::uint32_t corner;
     std::uint32_t low, high;  ///< vertices, not points
-    std::uint32_t apex;       ///< the point across, of a triangle; of others a number that no other has
-    double turn = 0;          ///< about the edge
+    std::uint32_t apex;       ///< opposite point of a triangle; for other faces a unique number
+    double turn = 0;          ///< angle about the edge
 };
 
 class Pairing {
@@ -44,9 +44,9 @@ class Pairing {
 
   private:
     static constexpr std::uint32_t kForward =
-        0x80000000u;  // marks a half-edge that runs from its lower point to the higher one
+        0x80000000u;  // flag: the half-edge runs from its lower point to the higher one
 
-    /// body(low, high, corner) for the edges of all faces that count; the corner with kForward.
+    /// Calls body(low, high, corner) for the edges of all used faces; the corner is combined with kForward.
     template <class Body>
     void forHalves(const Body& body) const {
         forEachFace(surface_.mesh, [&](std::size_t, std::size_t first, std::uint32_t size) {
@@ -60,7 +60,8 @@ class Pairing {
             }
         });
     }
-    /// Neighbouring corners at one point: the face has no area there, and its edges would pair with one another.
+    /// Returns whether consecutive corners share a point: the face has no area there, and its edges would pair with
+    /// each other.
     [[nodiscard]] bool touchesTwice(std::size_t first, std::uint32_t size) const {
         std::uint32_t before = surface_.pointOf(static_cast<std::uint32_t>(first) + size - 1);
         std::uint32_t next = 0;
@@ -81,7 +82,7 @@ class Pairing {
         pairs_.sure[a] = b | mark;
         pairs_.sure[b] = a | mark;
     }
-    /// Pairs faces that are not coincident.
+    /// Pairs faces that do not coincide.
     void pairDoubtfully(std::uint32_t a, std::uint32_t b, std::uint32_t mark) {
         if (pairs_.doubtful.empty())
             pairs_.doubtful = Buffer<std::uint32_t>(allocator_, pairs_.sure.size(), kNoPartner);
@@ -117,7 +118,7 @@ class Pairing {
         return surface_.pointOf(corner) < surface_.pointOf(surface_.faces.next(corner));
     }
 
-    /// Pairs those that are two of a kind, and returns the others, sorted.
+    /// Pairs the faces whose kind occurs exactly twice, and returns the others, sorted.
     template <class KindOf>
     std::span<FaceAtEdge> pairTwos(std::span<FaceAtEdge> faces, KindOf kindOf) {
         sortList(faces.begin(), faces.end(), [&](const FaceAtEdge& a, const FaceAtEdge& b) {
@@ -151,7 +152,7 @@ class Pairing {
             pairDoubtfully(faces[i % count].corner, faces[(i + 1) % count].corner, 0);
     }
 
-    /// The interior of a face lies at cross(normal, edge) of its edge, whichever way it is wound.
+    /// The interior of a face is in the direction cross(normal, edge) of its edge, for either winding.
     void setTurns(std::span<FaceAtEdge> faces) const {
         const std::uint32_t any = faces[0].corner, other = surface_.faces.next(any);
         const bool is_forward = runsForward(any);
@@ -171,7 +172,7 @@ class Pairing {
         }
     }
 
-    /// `faces` must be sorted by turn.
+    /// `faces` must be sorted by angle.
     void pairStraightest(std::span<const FaceAtEdge> faces) {
         std::size_t a = 0, b = 1;
         double least = 4 * kPi;
@@ -210,7 +211,7 @@ DVec3 centre(const Surface& surface, std::uint32_t face) {
     return (1.0 / (past - first)) * sum;
 }
 
-/// The normals of a face's corners, added up.
+/// Returns the sum of the normals of a face's corners.
 DVec3 normalSum(const Surface& surface, std::uint32_t face) {
     const MeshView& mesh = surface.mesh;
     DVec3 sum;
@@ -221,7 +222,7 @@ DVec3 normalSum(const Surface& surface, std::uint32_t face) {
     return sum;
 }
 
-/// Solid angle of a triangle as seen from the origin.
+/// Returns the solid angle of a triangle as seen from the origin.
 double solidAngle(const DVec3& a, const DVec3& b, const DVec3& c) {
     const double volume = dot(a, cross(b, c)), la = length(a), lb = length(b), lc = length(c);
     const double along = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
@@ -230,7 +231,7 @@ double solidAngle(const DVec3& a, const DVec3& b, const DVec3& c) {
     return volume < 0 ? -2 * half : 2 * half;
 }
 
-/// Faces together, so that sums do not depend on threads.
+/// Faces per block, so that sums do not depend on threads.
 constexpr std::size_t kBlock = 2048;
 constexpr std::uint32_t kPoints = 12;
 
@@ -238,10 +239,10 @@ constexpr std::uint32_t kPoints = 12;
 struct OwnAngles {
     const WindingCall& call;
     double x[kPoints], y[kPoints], z[kPoints];
-    std::uint32_t own[kPoints];  ///< the face on which a point lies, which is not seen from it
+    std::uint32_t own[kPoints];  ///< the face that contains a point, which is excluded for it
 
     void add(std::uint32_t face, double (&sums)[kPoints]) const {
-        // Beyond this many squared lengths of its edges a face is a dipole; that is good to some percent.
+        // Beyond this many squared edge lengths a face is approximated by a dipole, with an error of some percent.
         constexpr double kFar = 25;
         const Surface& surface = call.surface;
         const DVec3 middle = centre(surface, face), vector = call.areaVector(face);
@@ -258,7 +259,7 @@ struct OwnAngles {
     }
 
   private:
-    /// Squared length of the longest edge at the first corner.
+    /// Returns the squared length of the longest edge at the first corner.
     [[nodiscard]] double longestEdge(std::uint32_t face) const {
         const MeshFaces& faces = call.surface.faces;
         const DVec3 origin = call.surface.position(faces.first(face));
@@ -291,7 +292,7 @@ namespace {
 
 class Flood {
   public:
-    /// at_border: of each point; empty, or pairs whose edge is at a border with both its ends are followed late.
+    /// at_border: for each point; empty, or pairs whose edge has both ends at a border are followed last.
     Flood(const WindingCall& call, std::uint32_t begin, Buffer<std::uint32_t>& order, Buffer<std::uint8_t>& reached,
           const Buffer<std::uint8_t>& at_border)
         : call_(call),
@@ -307,7 +308,7 @@ class Flood {
     Component run(std::uint32_t first) {
         Component component{.begin = end_};
         reach(first, false);
-        std::uint64_t before = 0, after = 0;  // each pair is met from both sides
+        std::uint64_t before = 0, after = 0;  // each pair is visited from both sides
         std::uint32_t at = component.begin;
         do {
             for (; at < end_; ++at) {
@@ -344,7 +345,7 @@ class Flood {
     [[nodiscard]] bool runsForward(std::uint32_t corner) const {
         return call_.surface.pointOf(corner) < call_.surface.pointOf(faces_.next(corner));
     }
-    /// For a doubtful pair: whether both faces traverse their edge in the same direction.
+    /// Returns, for a doubtful pair, whether both faces traverse their edge in the same direction.
     [[nodiscard]] bool areAgainst(std::uint32_t corner, std::uint32_t partner) const {
         return runsForward(corner) == runsForward(partner);
     }
@@ -358,8 +359,8 @@ class Flood {
         return !at_border_.empty() && at_border_[call_.surface.pointOf(corner)] != 0 &&
                at_border_[call_.surface.pointOf(faces_.next(corner))] != 0;
     }
-    /// Reaches one more face over a pair that was left out; false where there is none. Before late_ there is none already,
-    /// nor at the first late_corners_ of its face, which may have very many.
+    /// Reaches one more face over a deferred pair; returns false if there is none. There are none before late_, nor at
+    /// the first late_corners_ of its face, which may have very many.
     bool goOnLate() {
         for (; !at_border_.empty() && late_ < end_; ++late_, late_corners_ = 0) {
             const std::uint32_t face = order_[late_];
@@ -375,7 +376,7 @@ class Flood {
         }
         return false;
     }
-    /// Twice the number of sure pairs in conflict.
+    /// Returns twice the number of sure pairs in conflict.
     [[nodiscard]] std::uint64_t sureConflicts(const Component& component) const {
         std::uint64_t count = 0;
         for (std::uint32_t at = component.begin; at < end_; ++at) {
@@ -390,7 +391,7 @@ class Flood {
         return count;
     }
 
-    /// body(face, corner, partner) for the doubtful pairs of a face, as long as it returns true.
+    /// Calls body(face, corner, partner) for the doubtful pairs of a face, as long as it returns true.
     template <class Body>
     bool forDoubtful(std::uint32_t face, const Body& body) const {
         for (std::uint32_t c = faces_.first(face); c < faces_.past(face); ++c) {
@@ -398,7 +399,8 @@ class Flood {
         }
         return true;
     }
-    /// Reaches one more face, over a doubtful pair with this mark; false where there is none. Before `at` there is none already.
+    /// Reaches one more face over a doubtful pair with this mark; returns false if there is none. There are none before
+    /// `at`.
     bool goOn(std::uint32_t& at, std::uint32_t mark) {
         for (; !call_.pairs.doubtful.empty() && at < end_; ++at) {
             const std::uint32_t face = order_[at];
@@ -412,7 +414,7 @@ class Flood {
         }
         return false;
     }
-    /// Twice the number of doubtful pairs that were in conflict and are not any more.
+    /// Returns twice the number of doubtful pairs whose conflict was resolved.
     [[nodiscard]] std::uint64_t doubtfulConflicts(const Component& component) const {
         std::uint64_t count = 0;
         for (std::uint32_t at = component.begin; !call_.pairs.doubtful.empty() && at < end_; ++at) {
@@ -432,7 +434,7 @@ class Flood {
     Buffer<std::uint8_t>& reached_;
     const Buffer<std::uint8_t>& at_border_;
     std::uint32_t end_;                ///< end of the reached part of the order
-    std::uint32_t late_, even_, odd_;  ///< positions up to which late, even and odd pairs were examined
+    std::uint32_t late_, even_, odd_;  ///< positions up to which deferred, even and odd pairs were examined
     std::uint32_t late_corners_ = 0;
 };
 
@@ -482,7 +484,7 @@ void measure(const WindingCall& call, const Buffer<std::uint32_t>& order, Compon
         if (!(area < 1e300)) continue;
         component.area += area;
         component.kept += is_turned ? -area : area;
-        // Newell's vector times any corner: for a flat face what its triangles give together.
+        // Newell's vector times any corner: for a flat face equal to the sum over its triangles.
         component.volume += dot(vector, surface.position(surface.faces.first(face)) - origin);
         if (!has_normals) continue;
         const double side = dot(vector, normalSum(surface, face));

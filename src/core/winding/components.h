@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Faces that go on into one another, boxes around them, and components of a surface.
+// Connected faces, bounding boxes, and components of a surface.
 #pragma once
 
 #include <algorithm>
@@ -14,9 +14,9 @@
 
 namespace tspace::winding {
 
-// Finds faces that are connected by shared edges.
+// Search for faces that are connected by shared edges.
 
-/// The faces of a call and the points that they share.
+/// Faces of a call, and the points that they share.
 struct Surface {
     const MeshView& mesh;
     const MeshFaces& faces;
@@ -24,11 +24,11 @@ struct Surface {
 
     [[nodiscard]] std::uint32_t pointOf(std::uint32_t corner) const { return points[corner]; }
     [[nodiscard]] DVec3 position(std::uint32_t corner) const { return toDouble(mesh.positions[mesh.indices[corner]]); }
-    /// Twice the area times the normal that a counter-clockwise winding gives.
+    /// Returns twice the area times the normal for counter-clockwise winding.
     [[nodiscard]] DVec3 areaVector(std::uint32_t face) const {
         return areaVector(face, [](const Vec3&) {});
     }
-    /// see(position): of each corner, on the way.
+    /// Also calls see(position) for each corner.
     template <class See>
     DVec3 areaVector(std::uint32_t face, const See& see) const {
         const std::uint32_t first = faces.first(face), past = faces.past(face);
@@ -49,21 +49,22 @@ struct Surface {
 };
 
 inline constexpr std::uint32_t kNoPartner = 0xffffffffu;
-/// Mark of a pair in conflict. A pair of coincident faces has none: neither is turned against the other.
+/// Mark of a pair in conflict. A pair of coincident faces has none: their relative winding is kept.
 inline constexpr std::uint32_t kAgainst = 0x80000000u;
 
-/// For each corner c: the corner whose edge, from it to the next one of its face, is the other half of c's edge.
+/// For each corner c: the corner at the start of the half-edge that is paired with c's half-edge.
 struct EdgePairs {
-    /// With kAgainst; kNoPartner at borders, and for faces that are not used or touch a point twice. c itself: see `doubtful`.
+    /// Combined with kAgainst; kNoPartner at borders, and for faces that are ignored or touch a point twice. c itself:
+    /// see `doubtful`.
     Buffer<std::uint32_t> sure;
-    /// Partners that were found by turn about an edge of more than two faces, with kOdd where their number is odd. Empty where
-    /// there are no such edges.
+    /// Partners found by angle about an edge of more than two faces, with kOdd if their number is odd. Empty if there
+    /// are no such edges.
     Buffer<std::uint32_t> doubtful;
 };
 inline constexpr std::uint32_t kOdd = 0x80000000u;
 EdgePairs pairEdges(const Surface& surface, const Allocator* allocator);
 
-// A tree of boxes, halved at the median of the widest side: for rays and for points.
+// Bounding box tree, split at the median of the widest side: for queries with rays and points.
 
 struct Box {
     float least[3] = {3e38f, 3e38f, 3e38f}, most[3] = {-3e38f, -3e38f, -3e38f};
@@ -91,10 +92,10 @@ struct Box {
 
 class BoxTree {
   public:
-    /// `boxes` stay where they are as long as the tree.
+    /// `boxes` must not move during the lifetime of the tree.
     BoxTree(const Buffer<Box>& boxes, std::size_t count, const Allocator* allocator);
 
-    /// body(number) for the boxes that, as all nodes above them, are accepted by accepts(box).
+    /// Calls body(number) for the boxes that are accepted by accepts(box), together with all their ancestors.
     template <class Accepts, class Body>
     void visit(Accepts&& accepts, Body&& body) const {
         std::size_t stack[64], depth = 0;
@@ -118,7 +119,8 @@ class BoxTree {
     struct Range {
         std::size_t begin, end;
     };
-    /// Nodes are numbered from 1, level by level; each level halves the ranges of the one above.
+    /// Returns the range of a node. Nodes are numbered from 1, level by level; each level halves the ranges of the
+    /// previous one.
     [[nodiscard]] Range rangeOf(std::size_t node) const;
 
     const Buffer<Box>& boxes_;
@@ -127,20 +129,21 @@ class BoxTree {
     Buffer<Box> nodes_;
 };
 
-// Components of a surface: wound alike by walking over pairs of faces, then decided as a whole.
+// Components of a surface: consistent winding by traversing pairs of faces, then a decision as a whole.
 
-/// Faces in the order in which they were reached; those of a component lie together.
+/// Range of faces in the order in which they were reached; the faces of a component are contiguous.
 struct Component {
     std::uint32_t begin = 0, end = 0;  ///< range in that order
     Box box = {};
     bool is_closed = true;
     std::uint64_t conflicts_before = 0, conflicts_after = 0;
-    // Sums over its faces as they are wound now, before the component is decided:
-    double area = 0;    ///< doubled, as all areas here
-    double kept = 0;    ///< area of faces that are wound as in the input, minus that of others
-    double facing = 0;  ///< area of faces whose normals lie on their side, minus that of those on the other
-    double faced = 0;   ///< area of both
-    double volume = 0;  ///< six times
+    // Sums over its faces in their current winding, before the component is decided:
+    double area = 0;  ///< doubled, like all areas here
+    double kept = 0;  ///< area of faces wound as in the input, minus the area of others
+    /// area of faces whose normals are on their front side, minus the area of those on the back side
+    double facing = 0;
+    double faced = 0;   ///< area of both kinds
+    double volume = 0;  ///< six times the volume
     std::uint32_t turned_count = 0;
 
     [[nodiscard]] std::uint32_t size() const { return end - begin; }
@@ -156,7 +159,7 @@ struct WindingCall {
     double outward = 1;  ///< normalFactor(convention)
 
     [[nodiscard]] const Allocator* allocator() const { return options.execution.allocator; }
-    /// Area vector with the current winding of the face.
+    /// Returns the area vector for the current winding of the face.
     [[nodiscard]] DVec3 areaVector(std::uint32_t face) const {
         return (turned[face] != 0 ? -outward : outward) * surface.areaVector(face);
     }
@@ -171,22 +174,23 @@ struct FloodMemory {
         : order(allocator, face_count), reached(allocator, face_count, 0) {}
 };
 
-/// Reaches the faces of a component from `first`, winds them alike and writes them to order[begin...]. Faces that were
-/// reached are in `reached`. Over doubtful pairs it goes only to what sure pairs do not lead to: those of an even
-/// number of faces first. Those that contradict the others are no pairs.
-/// Where an edge had four faces and holes took two, the others may be no neighbours. Such a pair puts all that is reached
-/// over it on the wrong side, and contradicts the pairs around. So a component that has borders and contradicts itself is
-/// reached again, first over the pairs whose edge touches no border or with one end; the way with fewer conflicts stays.
+/// Reaches the faces of a component from `first`, makes their winding consistent and writes them to order[begin...].
+/// Reached faces are marked in `reached`. Doubtful pairs are used only for faces that sure pairs do not reach, first
+/// those of an even number of faces. Doubtful pairs that contradict the others are ignored.
+/// If an edge had four faces and holes removed two, the others may not be neighbors. Such a pair puts all faces reached
+/// over it on the wrong side, and contradicts the surrounding pairs. A component that has borders and contradicts
+/// itself is therefore traversed again, first over pairs whose edge touches the border with at most one end; the result
+/// with fewer conflicts is kept.
 Component flood(const WindingCall& call, std::uint32_t first, std::uint32_t begin, FloodMemory& memory);
 
-/// Sums of a component.
+/// Computes the sums of a component.
 void measure(const WindingCall& call, const Buffer<std::uint32_t>& order, Component& component);
 
-/// The mean winding number of the component about points of its own faces: 1/2 where it is nearly closed, and -1/2 where
-/// it is inside out; 0 where no side is inside.
+/// Returns the mean winding number of the component about points of its own faces: 1/2 if it is nearly closed, -1/2 if
+/// it is inside out; 0 if it has no inside.
 double ownWindingNumber(const WindingCall& call, const Buffer<std::uint32_t>& order, const Component& component);
 
-/// Finds closed components inside other ones: for an odd number of enclosing components `inside` becomes 1.
+/// Finds closed components inside other ones: sets `inside` to 1 for an odd number of enclosing components.
 void findNested(const WindingCall& call, const Buffer<std::uint32_t>& order, const Buffer<Component>& closed,
                 std::size_t count, Buffer<std::uint8_t>& inside);
 

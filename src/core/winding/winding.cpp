@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Boxes for rays and points, which closed components lie in others, and mendWinding.
+// Boxes for rays and points, nesting of closed components, and mendWinding.
 #include "core/winding/components.h"
 
 #include <bit>
@@ -15,7 +15,7 @@ namespace tspace::winding {
 
 namespace {
 
-constexpr std::size_t kLeaf = 8;  // boxes, at most
+constexpr std::size_t kLeaf = 8;  // maximum number of boxes
 
 }  // namespace
 
@@ -54,8 +54,8 @@ BoxTree::Range BoxTree::rangeOf(std::size_t node) const {
     return range;
 }
 
-// Finds closed components inside other ones: casts rays from points of their faces and counts the faces of all others that they
-// cross.
+// Finds closed components inside other ones: casts rays from points of their faces, and counts the intersections with
+// the faces of all others.
 
 namespace {
 
@@ -74,10 +74,10 @@ struct Ray {
             near = std::max(near, std::min(a, b));
             far = std::min(far, std::max(a, b));
         }
-        // Boxes are a little too small by rounding.
+        // Rounding makes boxes slightly too small.
         return near <= far * (1 + 1e-12);
     }
-    /// Moeller and Trumbore 1997.
+    /// Intersection test of Moeller and Trumbore 1997.
     [[nodiscard]] bool meets(const DVec3& a, const DVec3& b, const DVec3& c) const {
         const DVec3 ab = b - a, ac = c - a, across = cross(direction, ac);
         const double scale = dot(ab, across);
@@ -91,7 +91,7 @@ struct Ray {
     }
 };
 
-/// How often the ray runs through a face, by the triangles about its first corner.
+/// Returns the number of intersections of the ray with a face, over the triangles at its first corner.
 unsigned crossings(const Surface& surface, std::uint32_t face, const Ray& ray) {
     const std::uint32_t first = surface.faces.first(face), past = surface.faces.past(face);
     unsigned count = 0;
@@ -100,7 +100,7 @@ unsigned crossings(const Surface& surface, std::uint32_t face, const Ray& ray) {
     return count;
 }
 
-/// Box by box: whether any other holds that of component i.
+/// Returns whether the box of any other component contains the box of component i.
 bool isHeld(const BoxTree& boxes, const Buffer<Component>& closed, std::size_t i) {
     bool held = false;
     boxes.visit([&](const Box& box) { return !held && box.holds(closed[i].box); },
@@ -139,7 +139,7 @@ void findNested(const WindingCall& call, const Buffer<std::uint32_t>& order, con
         }
     }
     const BoxTree tree(boxes, face_count, call.allocator());
-    // Directions that lie in no axis or diagonal plane, to miss edges.
+    // Directions outside of axis and diagonal planes, to avoid hitting edges.
     constexpr DVec3 kDirections[] = {{0.8129, 0.3571, 0.4603}, {-0.2887, 0.9013, -0.3233}, {0.1733, -0.4441, 0.8791}};
     constexpr std::uint32_t kRays = 16;  // rays in each direction
     constexpr double kClear = 0.7;
@@ -173,15 +173,15 @@ void findNested(const WindingCall& call, const Buffer<std::uint32_t>& order, con
 
 namespace tspace {
 
-// mendWinding: checks, and how each component is decided.
+// mendWinding: validation, and the decision for each component.
 
 namespace {
 
 using winding::Component;
 
-/// 0 on average where no side is inside, 1/2 where a component is nearly closed.
+/// Threshold between 0, the mean if there is no inside, and 1/2 for a nearly closed component.
 constexpr double kLeastWindingNumber = 0.15;
-constexpr std::uint32_t kFewest = 4;  // faces of a component that is decided: a tetrahedron has four
+constexpr std::uint32_t kFewest = 4;  // minimum number of faces of a component that is decided: a tetrahedron has four
 
 class Mending {
   public:
@@ -212,7 +212,7 @@ class Mending {
         if (component.conflicts_after != 0 && component.conflicts_after >= component.conflicts_before) {
             for (std::uint32_t i = component.begin; i < component.end; ++i) call_.turned[memory_.order[i]] = 0;
             component.conflicts_after = component.conflicts_before;
-            // A body with holes may have an edge that had four faces, and two now that are no neighbours.
+            // A body with holes may have an edge that had four faces, of which two are left that are not neighbors.
             const double number = component.is_closed ? 0 : ownWindingNumber(call_, memory_.order, component);
             return finish(component, number < -kLeastWindingNumber, report_.one_sided_count);
         }
@@ -220,19 +220,19 @@ class Mending {
         if (normalsAgree(component)) {
             finish(component, component.facing < 0, report_.by_normals_count);
         } else if (component.is_closed && hasVolume(component)) {
-            // Nesting can be decided only when all components are known.
+            // Nesting can only be decided when all components are known.
             closed_[closed_count_++] = component;
         } else {
             decideOpen(component);
         }
     }
 
-    /// Half of the area has normals, and four fifths of that agree.
+    /// Returns whether at least half of the area has normals, and four fifths of that agree.
     static bool normalsAgree(const Component& component) {
         return component.faced > 0.5 * component.area && std::fabs(component.facing) > 0.6 * component.faced;
     }
 
-    /// Only normals say which side of a leaf or a card is out.
+    /// Decides leaves and cards, whose outside only normals can show.
     void decideSmall(Component& component) {
         if (component.conflicts_after != 0) return leave(component, report_.small_count);
         measure(call_, memory_.order, component);
@@ -240,14 +240,14 @@ class Mending {
         finish(component, component.facing < 0, report_.by_normals_count);
     }
 
-    /// Turns nothing.
+    /// Flips no face.
     void leave(const Component& component, std::uint64_t& counter) {
         for (std::uint32_t i = component.begin; i < component.end; ++i) call_.turned[memory_.order[i]] = 0;
         ++counter;
         report_.conflict_count_after += component.conflicts_before;
     }
 
-    /// Counts a component, and turns all of its faces if it `is_inside_out`.
+    /// Counts a component, and flips all of its faces if it `is_inside_out`.
     void finish(const Component& component, bool is_inside_out, std::uint64_t& counter) {
         std::uint32_t turned = component.turned_count;
         if (is_inside_out) {
@@ -260,8 +260,8 @@ class Mending {
         report_.conflict_count_after += component.conflicts_after;
     }
 
-    /// A sheet that is closed because it has two sides has none. A cube has 1/15 of its area to the power of 3/2, a box of
-    /// 1 x 1 x 0.0001 still 1/30,000.
+    /// Returns whether a closed component has a volume; a two-sided sheet has none. The volume of a cube is 1/15 of its
+    /// area to the power of 3/2, of a box of 1 x 1 x 0.0001 still 1/30,000.
     static bool hasVolume(const Component& component) {
         const double area = 0.5 * component.area, volume = component.volume / 6;
         return std::fabs(volume) > 1e-7 * area * std::sqrt(area);
@@ -276,7 +276,8 @@ class Mending {
         }
     }
 
-    /// A cavity is wound the other way, a body in a body is not: what the input mostly says is right, unless it says nothing.
+    /// Decides closed components. Cavities have the opposite winding, but a body inside a body has not: the predominant
+    /// winding of the input is kept, unless it is unclear.
     void decideClosed() {
         constexpr double kClear = 0.2;
         Buffer<std::uint8_t> inside(call_.allocator(), closed_count_, 0);
@@ -316,7 +317,7 @@ Buffer<std::uint32_t> pointsOfCorners(const MeshView& mesh, const Call<WindingOp
 
 Result<WindingReport> checkAndMend(const MeshView& given, const Call<WindingOptions>& options,
                                    StridedSpan<std::uint8_t> turned) {
-    // About four times what a mean of normals takes.
+    // Takes about four times as long as a mean of normals.
     Parallel parallel(options.execution, 4 * given.cornerCount());
     if (Error e = checkMesh(given, &parallel); e.code != ErrorCode::ok) return e;
     if (Error e = checkSpan(turned, given.faceCount(), "turned"); e.code != ErrorCode::ok) return e;
