@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kernel behind derivative_terms.h. Included once per CPU, after lanes_*.h and with TSPACE_LANES set to
-// its namespace. Each lane is one triangle or one vertex.
+// Kernel of derivative_terms.h. Included once per instruction set, after lanes_*.h and with TSPACE_LANES set to its
+// namespace. Each lane is one triangle or one vertex.
 #pragma once
 
 #include "core/simd/vectors_kernel.h"
@@ -12,12 +12,12 @@ using namespace simd::TSPACE_LANES;
 
 namespace {
 
-constexpr float kLeast = 1e-30f, kGreatest = 1e30f;  // far enough from the ends of float for all that follows
-// A determinant a - b is taken from single precision when |a - b| > (|a| + |b|) / 32. Its terms are off by
-// 3 roundings each, so it is then good to 100 roundings (6e-6) at worst and its sign is certain.
+constexpr float kLeast = 1e-30f, kGreatest = 1e30f;  // far enough from the limits of float for all following operations
+// A determinant a - b is computed in single precision if |a - b| > (|a| + |b|) / 32. Its terms have an error of 3
+// roundings each, so its error is at most 100 roundings (6e-6) and its sign is certain.
 constexpr float kLeastShare = 1.0f / 32;
-// Single precision is enough when Gram-Schmidt leaves a sixteenth of the length, and when the volume that
-// decides the sign is not just rounding (about 2^-18 of the product of lengths).
+// Single precision is sufficient if Gram-Schmidt leaves at least a sixteenth of the length, and if the volume that
+// decides the sign exceeds rounding noise (about 2^-18 of the product of lengths).
 constexpr float kLeastRest2 = 1.0f / 256;
 constexpr float kLeastVolume = 1.0f / 16384;
 
@@ -28,12 +28,12 @@ struct Group {
     Floats u[3], v[3];
 };
 
-/// With strides that are known, addresses need no multiplication.
+/// With constant strides, addresses need no multiplication.
 template <bool kTight>
 inline Group load(const TriangleSource& source, const std::uint32_t* vertices, bool exact) {
     const std::size_t position_stride = kTight ? 12 : source.position_stride, uv_stride = kTight ? 8 : source.uv_stride;
     Group g;
-#pragma GCC unroll 3  // or what the loop indexes lies in memory
+#pragma GCC unroll 3  // otherwise the indexed arrays are kept in memory
     for (std::size_t k = 0; k < 3; ++k) {
         g.p[k] = gatherVectors(source.positions, position_stride, vertices + k, exact);
         gather2(source.uvs, uv_stride, vertices + k, g.u[k], g.v[k]);
@@ -55,21 +55,21 @@ struct GroupBits {
                 (size < broadcast(kGreatest));
 
     const Vectors e1 = g.p[1] - g.p[0], e2 = g.p[2] - g.p[0];
-    // Two corners at one position have one x, which is rarely so.
+    // Two corners at the same position have equal x, which is rare.
     if (bitsOf((e1.x == zero) | (e2.x == zero) | (g.p[1].x == g.p[2].x)) != 0) [[unlikely]]
         safe = safe & !(equal(g.p[0], g.p[1]) | equal(g.p[0], g.p[2]) | equal(g.p[1], g.p[2]));
-    // The quotients first: products of edges and UV differences can leave the range of float, these cannot.
+    // Quotients first: products of edges and UV differences can exceed the range of float, these cannot.
     const Vectors s = (t2 * r) * e1 - (t1 * r) * e2, t = (s1 * r) * e2 - (s2 * r) * e1;
-    // 0 * x is 0 unless x is infinite or a NaN.
+    // 0 * x is 0 unless x is infinite or NaN.
     safe = safe & (zero * ((s.x + s.y + s.z) + (t.x + t.y + t.z)) == zero);
     storeRows<8>(rows, s.x + zero, s.y, s.z, t.x);
     storePairs<8>(rows + 4, t.y, t.z);
     return {bitsOf(safe), bitsOf(safe & (determinant < zero))};
 }
 
-/// Whether any vertex is the last one, which has nothing after it to be read along.
+/// Returns whether any vertex is the last one, after which no memory may be read.
 inline bool namesLastVertex(const std::uint32_t* vertices, std::size_t count, std::uint32_t last) {
-    std::uint32_t others = ~std::uint32_t{0};  // turned into 0 by the last one
+    std::uint32_t others = ~std::uint32_t{0};  // set to 0 by the last vertex
     for (std::size_t i = 0; i < 3 * count; ++i) others &= vertices[i] == last ? 0 : ~std::uint32_t{0};
     return others == 0;
 }
@@ -97,11 +97,12 @@ void compute(const TriangleSource& source, const std::uint32_t* vertices, std::s
     }
 }
 
-// Four floats at any multiple of 4 bytes, aliasing any type. Clang ignores `aligned` after the equals sign.
+// Unaligned float vectors (any multiple of 4 bytes) that may alias any type. Clang ignores `aligned` after the equals
+// sign.
 using Head __attribute__((aligned(4), may_alias)) = float __attribute__((vector_size(16)));
 using Tail __attribute__((aligned(4), may_alias)) = float __attribute__((vector_size(8)));
 
-/// The row that one triangle adds at a vertex.
+/// Row that a triangle adds at a vertex.
 struct Addend {
     Head head;
     Tail tail;
@@ -114,7 +115,7 @@ inline void addAt(SumArrays sums, std::size_t v, const Addend& a) {
     *reinterpret_cast<Head*>(sums.heads + 4 * v) += a.head;
     *reinterpret_cast<Tail*>(sums.tails + 2 * v) += a.tail;
 }
-/// First a, then b.
+/// Adds a, then b.
 inline void addAt(SumArrays sums, std::size_t v, const Addend& a, const Addend& b) {
     auto* const head = reinterpret_cast<Head*>(sums.heads + 4 * v);
     auto* const tail = reinterpret_cast<Tail*>(sums.tails + 2 * v);
@@ -122,8 +123,8 @@ inline void addAt(SumArrays sums, std::size_t v, const Addend& a, const Addend& 
     *tail = *tail + a.tail + b.tail;
 }
 
-/// Most of the time goes into writing sums. So two triangles that come of one quad, in the order that most
-/// programs cut it, write the two vertices that they share once.
+/// Most of the time is spent writing sums. Two triangles from one quad, in the order in which most programs cut it,
+/// therefore write their two shared vertices once.
 void add(const DerivativeTerms& terms, const std::uint32_t* vertices, std::size_t begin, std::size_t end,
          SumArrays sums) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -155,7 +156,7 @@ void addSome(const DerivativeTerms& terms, const std::uint32_t* vertices, std::s
 
 inline Floats size(Vectors a) { return absolute(a.x) + absolute(a.y) + absolute(a.z); }
 
-/// kWidth consecutive elements, as gather3 wants them.
+/// Indices of kWidth consecutive elements, for gather3.
 struct Consecutive {
     std::uint32_t index[3 * kWidth];
     constexpr Consecutive() : index() {
@@ -163,8 +164,8 @@ struct Consecutive {
     }
 };
 
-/// makeCornerFrame in single precision. Returns the bits of the vertices whose tangents are right; the heads of the
-/// others stay as they are.
+/// Computes makeCornerFrame in single precision. Returns the bits of the vertices whose tangents are accurate; the
+/// heads of the others are unchanged.
 [[gnu::always_inline]] inline unsigned finishGroup(float* heads, const float* tails, Vectors n, float sign_factor) {
     Vectors s, t;
     loadRows<4>(heads, s.x, s.y, s.z, t.x);

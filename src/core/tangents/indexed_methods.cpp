@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Planning for lengyel, flat and basis: faces cut to triangles, and what can be counted early.
+// Plans of lengyel, flat and basis: triangulated faces, and counts that do not depend on the pose.
 #include "core/tangents/indexed_methods.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace tspace {
 
 namespace {
 
-/// Cuts faces, unless all are triangles.
+/// Triangulates faces, unless all are triangles.
 void cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* allocator, IndexedPlan& plan) {
     plan.triangle_vertices = plan.corner_vertices;
     mikk::TriangleList cut = mikk::cutFaces(mesh, ngons, allocator);
@@ -33,7 +33,7 @@ void cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* allocator, Ind
     plan.face_begins[mesh.faceCount()] = static_cast<std::uint32_t>(mesh.cornerCount());
 }
 
-/// Copies an array that a kept plan reads.
+/// Copies an array for a plan that is kept.
 template <class View, class T>
 void keep(const View& from, Buffer<T>& kept, const Allocator* allocator, Parallel& parallel) {
     kept = Buffer<T>(allocator, from.count);
@@ -161,10 +161,10 @@ void writeExtras(const TangentOutput& out, std::size_t entry, const CornerFrame&
     if (!out.has_tangent.empty()) out.has_tangent[entry] = frame.has_tangent ? 1 : 0;
 }
 
-// One dP/du and dP/dv per face, made orthogonal to the normal of each of its corners.
+// The method `flat`: one dP/du and dP/dv per face, orthogonalized against the normal of each of its corners.
 //
-// For a polygon they are the mean over its UV area, sum(t2 E1 - t1 E2) / sum(determinant) over any fan of
-// triangles: by Green's theorem a value of the border alone, which no choice of diagonals changes.
+// For a polygon they are the mean over its UV area, sum(t2 E1 - t1 E2) / sum(determinant) over any fan of triangles: by
+// Green's theorem this depends only on the border, not on the choice of diagonals.
 
 namespace {
 
@@ -207,7 +207,7 @@ void evaluateFlat(const IndexedPlan& plan, const Pose& pose, const TangentOutput
         });
 }
 
-// Tangents without UVs: an orthonormal basis from the normal alone.
+// The method `basis`: an orthonormal basis from the normal, without UVs.
 // Based on: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
 
 namespace {
@@ -220,7 +220,7 @@ CornerFrame basisFrame(const Vec3& normal, float sign_factor) {
     return {{t.x, t.y, t.z, sign_factor}, sign_factor * toFloat(axes.y), 1, 1, has_direction};
 }
 
-/// 1 for each vertex that a used corner names.
+/// Returns 1 for each vertex that a used corner refers to.
 Buffer<std::uint8_t> findUsedVertices(const IndexedPlan& plan, const Allocator* allocator) {
     Buffer<std::uint8_t> used(allocator, plan.vertex_count, 0);
     for (std::size_t c = 0; c < plan.cornerCount(); ++c) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The classic method: sums of unnormalised dP/du and dP/dv per vertex index, then Gram-Schmidt. Both steps run in
-// single precision by kernels (derivative_terms.h); triangles and vertices for which that is not exact enough go again
-// in double. Memory traffic is most of the work, so sums lie in the outputs' memory where they fit.
+// Lengyel's method: sums of unnormalized dP/du and dP/dv per vertex index, then Gram-Schmidt. Both steps run in single
+// precision in kernels (derivative_terms.h); triangles and vertices for which that is not exact enough are recomputed
+// in double. Memory traffic dominates, so sums are stored in the memory of the outputs if they fit.
 // Based on: Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", 2001.
 #include <algorithm>
 #include <array>
@@ -21,20 +21,20 @@ namespace tspace {
 
 namespace {
 
-/// Counts of one range of vertices: defects of triangles whose first vertex is in it.
+/// Counts for a range of vertices: defects of triangles whose first vertex is in it.
 struct RangeCounts {
-    std::uint64_t degenerate = 0;          ///< two corners at one position
-    std::uint64_t degenerate_uv = 0;       ///< no UV area
-    std::uint64_t mirrored = 0;            ///< negative UV area
-    std::uint64_t used = 0, defaults = 0;  ///< vertices
+    std::uint64_t degenerate = 0;          ///< triangles with two corners at the same position
+    std::uint64_t degenerate_uv = 0;       ///< triangles without UV area
+    std::uint64_t mirrored = 0;            ///< triangles with negative UV area
+    std::uint64_t used = 0, defaults = 0;  ///< numbers of vertices
 };
 
-/// The sums of all vertices, in single precision and in triangle order: six floats each, since memory traffic is most
-/// of the work. Two arrays, since either may lie in memory that outputs are written to later.
+/// Sums of all vertices, in single precision and in triangle order: six floats each, since memory traffic dominates.
+/// Two arrays, since either may be in memory of outputs that are written later.
 struct VertexSums : derivatives::SumArrays {
     [[nodiscard]] float* head(std::size_t vertex) const { return heads + 4 * vertex; }
     [[nodiscard]] float* tail(std::size_t vertex) const { return tails + 2 * vertex; }
-    /// Marks vertices as untouched. -0 + x is x for all x, also 0, and addends of s.x are never -0.
+    /// Marks vertices as untouched. -0 + x is x for all x, including 0, and addends of s.x are never -0.
     void clear(GroupRange range) const {
         fill(head(range.begin), head(range.end), -0.0f);
         fill(tail(range.begin), tail(range.end), -0.0f);
@@ -43,7 +43,7 @@ struct VertexSums : derivatives::SumArrays {
 
   private:
     static void fill(float* begin, float* end, float value) {
-        constexpr std::ptrdiff_t kFloats = 16;  // a line
+        constexpr std::ptrdiff_t kFloats = 16;  // cache line
         for (; end - begin >= kFloats; begin += kFloats) {
             prefetchLines<true>(begin, kFloats * sizeof(float));
             std::fill_n(begin, kFloats, value);
@@ -52,14 +52,14 @@ struct VertexSums : derivatives::SumArrays {
     }
 };
 
-/// The lowest `count` bits, of 1 to 64.
+/// Returns a mask of the lowest `count` bits, 1 to 64.
 std::uint64_t lowBits(std::size_t count) { return ~std::uint64_t{0} >> (64 - count); }
 
 static_assert(TriangleBatch::kMost == derivatives::kTermTriangles);
 static_assert(TriangleBatch::kMost % derivatives::kTermGroup == 0);
 constexpr std::uint32_t kGroup{derivatives::kTermGroup};
 
-/// Triangles whose vertices are their groups.
+/// Triangles whose groups are their vertices.
 class IndexedTriangles final : public TriangleGroups {
   public:
     explicit IndexedTriangles(const IndexView& vertices) : TriangleGroups(vertices.count / 3), vertices_(vertices) {}
@@ -77,11 +77,12 @@ class IndexedTriangles final : public TriangleGroups {
     const IndexView& vertices_;
 };
 
-/// Adds triangles up, in ranges of vertices that may be summed at the same time: blocks in single precision, and in double
-/// precision those that rounding, overflow or degeneracy could spoil.
+/// Sums triangles, in ranges of vertices that may be processed in parallel: blocks in single precision, and in double
+/// precision those for which rounding, overflow or degeneracy matters.
 class FaceSums {
   public:
-    /// `visits`, one per vertex, counts the triangles that were added; it may be null. `wanted`: ranges at most.
+    /// `visits`, one per vertex, counts the triangles that were added; it may be null. `wanted`: maximum number of
+    /// ranges.
     FaceSums(const IndexedPlan& plan, StridedSpan<const Vec3> positions, const derivatives::DerivativeKernel& kernel,
              VertexSums sums, float* visits, unsigned wanted, const Allocator* allocator, Parallel& parallel)
         : plan_(plan),
@@ -94,7 +95,7 @@ class FaceSums {
 
     [[nodiscard]] const RangeLists& ranges() const { return ranges_; }
 
-    /// Writes the sums of one range.
+    /// Computes the sums of one range.
     [[nodiscard]] RangeCounts sum(std::size_t index) const {
         const GroupRange range = ranges_.range(index);
         sums_.clear(range);
@@ -123,7 +124,7 @@ class FaceSums {
         return {triangles_, kBlock, plan_.vertex_count, size, allocator, parallel};
     }
 
-    /// In the order of the triangles, which decides how sums are rounded.
+    /// Adds triangles in order, since the order determines the rounding of sums.
     void addBatch(const TriangleBatch& batch, const derivatives::DerivativeTerms& terms, GroupRange range,
                   RangeCounts& counts) const {
         const std::uint32_t* const v = batch.groups;
@@ -150,8 +151,8 @@ class FaceSums {
         }
     }
 
-    /// Adds one triangle in double. One without derivatives adds nothing, but marks its vertices as used. A function of
-    /// its own: inlined, it would take registers from the loop around it.
+    /// Adds one triangle in double. A triangle without derivatives adds nothing, but marks its vertices as used. Not
+    /// inlined, because it would take registers from the surrounding loop.
     [[gnu::noinline]] void addUnsafe(const std::uint32_t* v, GroupRange range, RangeCounts& counts) const {
         const Vec3 &p0 = positions_[v[0]], &p1 = positions_[v[1]], &p2 = positions_[v[2]];
         const UvFrame frame = uvFrame(p0, p1, p2, plan_.uvs[v[0]], plan_.uvs[v[1]], plan_.uvs[v[2]]);
@@ -187,11 +188,11 @@ class FaceSums {
     RangeLists ranges_;
 };
 
-/// Turns sums into frames, one entry per vertex. Tangents take the places of the heads of the sums; where
-/// `out` has other places for them, they are copied there.
+/// Converts sums to frames, one entry per vertex. Tangents overwrite the heads of the sums; if `out` stores them
+/// elsewhere, they are copied.
 class VertexFrames {
   public:
-    /// out.has_tangent, where it is not empty, is all 1 before the call.
+    /// out.has_tangent must be empty or all 1 before the call.
     VertexFrames(const derivatives::DerivativeKernel& kernel, const VertexSums& sums, const float* visits,
                  StridedSpan<const Vec3> normals, float sign_factor, const TangentOutput& out)
         : kernel_(kernel), sums_(sums), visits_(visits), normals_(normals), sign_factor_(sign_factor), out_(out) {
@@ -202,7 +203,7 @@ class VertexFrames {
     void write(GroupRange range, RangeCounts& counts) const {
         for (std::uint32_t v = range.begin; v != range.end;) {
             const std::uint32_t left = std::min(kMost, range.end - v);
-            // Whole groups, without the last vertex of all: the kernel would read past its normal.
+            // Whole groups, without the very last vertex: the kernel would read past its normal.
             const auto most = static_cast<std::uint32_t>(std::min<std::size_t>(left, normals_.count - 1 - v));
             const std::uint32_t whole = has_extras_ ? 0 : most / kGroup * kGroup;
             whole != 0 ? finishInPlace(v, whole, counts) : finishCopy(v, left, counts);
@@ -212,7 +213,7 @@ class VertexFrames {
     }
 
   private:
-    static constexpr std::uint32_t kMost = 64;  ///< vertices at a time
+    static constexpr std::uint32_t kMost = 64;  ///< vertices per iteration
 
     void finishInPlace(std::uint32_t first, std::uint32_t count, RangeCounts& counts) const {
         const auto* normals = reinterpret_cast<const std::byte*>(&normals_[first]);
@@ -240,7 +241,7 @@ class VertexFrames {
         }
     }
 
-    /// Finishes the vertices that are not `done` in double, and counts all.
+    /// Finishes the vertices that are not `done` in double, and counts all vertices.
     void finishOthers(std::uint32_t first, std::uint32_t count, std::uint64_t done, RangeCounts& counts) const {
         counts.used += static_cast<unsigned>(std::popcount(done & lowBits(count)));
         for (std::uint64_t rest = ~done & lowBits(count); rest != 0; rest &= rest - 1)
@@ -280,7 +281,7 @@ class VertexFrames {
     bool has_extras_ = false, copies_tangents_ = false;
 };
 
-/// Outputs per vertex from which those per corner are copied. The tangents are in the places of the sums.
+/// Outputs per vertex from which outputs per corner are copied. The tangents are stored in place of the sums.
 struct VertexExtras {
     Buffer<Vec3> bitangents;
     Buffer<float> magnitudes_s, magnitudes_t;
@@ -310,8 +311,8 @@ void copyToCorners(const IndexedPlan& plan, const T* from, const StridedSpan<T>&
     }
 }
 
-/// Copies the tangents of used corners. Returns the number of those whose vertex has a default. `has_tangent`: one per
-/// vertex; null: all have one.
+/// Copies the tangents of used corners. Returns the number of corners whose vertex has a default. `has_tangent`: one
+/// per vertex; null: all have a tangent.
 std::uint64_t copyTangents(const IndexedPlan& plan, const float* from, const std::uint8_t* has_tangent,
                            const StridedSpan<Vec4>& out, std::size_t begin, std::size_t end) {
     const std::uint8_t* const used = plan.corner_used.data();
@@ -320,7 +321,7 @@ std::uint64_t copyTangents(const IndexedPlan& plan, const float* from, const std
         auto* to = reinterpret_cast<std::byte*>(&out[begin]);
         std::uint64_t defaults = 0;
         for (std::size_t c = begin; c < end; ++c, to += out.stride_bytes) {
-            // A store waits for the line that it changes, unless that was prefetched.
+            // A store waits for its cache line unless it was prefetched.
             prefetchLines<true>(to, 1, kAhead);
             if (used != nullptr && used[c] == 0) continue;
             const std::size_t vertex = vertexOf(c);
@@ -331,8 +332,8 @@ std::uint64_t copyTangents(const IndexedPlan& plan, const float* from, const std
     });
 }
 
-/// Memory for the sums. Page faults of fresh memory cost time, so a part lies in the outputs until these are written:
-/// the tails, or, where outputs are per vertex, the heads, which then become the tangents in place.
+/// Memory for the sums. Page faults of fresh memory cost time, so a part is stored in the outputs until these are
+/// written: the tails, or, if outputs are per vertex, the heads, which are then replaced by the tangents in place.
 struct SumPlaces {
     Buffer<float> head_buffer, tail_buffer;
     VertexSums sums;

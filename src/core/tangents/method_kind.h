@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Kinds of methods. With TSPACE_MIKKTSPACE_ONLY there is one method, and nothing that others need is compiled.
+// Kinds of methods. With TSPACE_MIKKTSPACE_ONLY there is only one method, and code for the others is not compiled.
 #pragma once
 
 #include "tspace/tangents.h"
@@ -9,7 +9,7 @@ namespace tspace {
 #ifdef TSPACE_MIKKTSPACE_ONLY
 
 inline constexpr Method kLastMethod = Method::mikktspace;
-inline constexpr bool kHasOnePass = false;  ///< a plan for each call: half the speed, and half the code
+inline constexpr bool kHasOnePass = false;  ///< a plan for each call: half the speed, and half the code size
 constexpr bool isMikktspace(Method) { return true; }
 constexpr bool isEstimated(Method) { return false; }
 constexpr bool isGrouped(Method) { return true; }
@@ -21,7 +21,7 @@ inline constexpr bool kHasOnePass = true;
 constexpr bool isMikktspace(Method method) { return method == Method::mikktspace; }
 /// Methods computed by tangents/estimators instead of sums.
 constexpr bool isEstimated(Method method) { return method == Method::fast || method == Method::best; }
-/// Methods of tangents/mikktspace; the others have one result per vertex or face.
+/// Returns whether a method is implemented by tangents/mikktspace; the others have one result per vertex or face.
 constexpr bool isGrouped(Method method) {
     return isMikktspace(method) || isEstimated(method) || method == Method::uniform || method == Method::angle ||
            method == Method::area;
@@ -29,12 +29,12 @@ constexpr bool isGrouped(Method method) {
 
 #endif
 
-/// For Parallel: estimators take several times as long as sums.
+/// Returns the amount of work for Parallel: estimators take several times as long as sums.
 constexpr std::uint64_t tangentWork(Method method, std::uint64_t corners) {
     return (isEstimated(method) ? 4 : 1) * corners;
 }
 
-/// Whether a plan outlives the mesh it was made from (and may see other poses), or is used up on it at once.
+/// Whether a plan outlives its mesh (and may be used for other poses), or is used once within a call.
 enum class PlanUse { kept, once };
 
 }  // namespace tspace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Mirrored triangles in a convention, out of the counts of triangles by the sign of their UV area.
+// Number of mirrored triangles in a convention, derived from the counts of triangles by UV orientation.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace tspace {
 
-/// Whether triangles with positive UV area show the image mirrored, as seen from outside. Handedness does not matter: the
-/// winding is the order of corners that is seen.
+/// Returns whether triangles with positive UV area show the image mirrored, as seen from outside. Independent of
+/// handedness: the winding is the visible order of corners.
 constexpr bool positiveUvsAreMirrored(const Convention& convention) {
     return (convention.v_axis == VAxis::down) != (convention.winding == Winding::clockwise);
 }
 
-/// Number of triangles that have UV area and are not in `report.mirrored_count`. The grouping methods do not look at the UVs of
-/// degenerate triangles, and `basis` not at any.
+/// Returns the number of triangles with UV area that are not in `report.mirrored_count`. Methods with groups do not
+/// examine the UVs of degenerate triangles, and `basis` examines none.
 inline std::uint64_t notMirroredCount(const TangentReport& report, Method method) {
     if (!isGrouped(method) && method != Method::lengyel && method != Method::flat) return 0;
     const std::uint64_t not_examined = isGrouped(method) ? report.degenerate_triangle_count : 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What planBuffers reads of a plan.
+// Access to the parts of a plan, for planBuffers.
 #pragma once
 
 #include "core/tangents/indexed_methods.h"
@@ -11,7 +11,7 @@ struct PlanParts {
     const mikk::EvaluationPlan* grouped = nullptr;  ///< null for lengyel, flat and basis
     const IndexedPlan* indexed = nullptr;           ///< null for all others
     bool is_symmetric = false, normalizes_normals = false;
-    bool has_own_lists = false;  ///< vertices of the plan are not those of a pose
+    bool has_own_lists = false;  ///< vertices of the plan differ from those of a pose
 };
 
 PlanParts partsOf(const TangentPlan& plan);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The way into mikktspace/, then the public functions: checks, the symmetric frame, and the choice between plans that group
-// faces and plans that do not.
+// Entry points of mikktspace/, then the public functions: validation, the symmetric frame, and the choice between plans
+// with and without groups.
 #include "core/tangents/mikktspace/evaluate.h"
 
 #include <algorithm>
@@ -28,30 +28,32 @@
 
 namespace tspace::mikk {
 
-// The two entries of mikktspace/: generateGrouped for a mesh in its own pose, planGrouped for plans of other poses.
+// Entry points of mikktspace/: generateGrouped for a mesh in its own pose, planGrouped for plans for other poses.
 
 namespace {
 
-/// Meshes of at most kSmallMesh corners take their scratch memory from one block: many small allocations would take a fifth of
-/// the time. Most need kBytesPerCorner; blocks above kLargestBlock are not taken, because the system unmaps them after each
-/// call. The vertex path may need more memory, which comes from the caller's allocator.
+/// Meshes of at most kSmallMesh corners allocate their scratch memory from one block: many small allocations would take
+/// a fifth of the time. Most need kBytesPerCorner; blocks above kLargestBlock are not used, because the system unmaps
+/// them after each call. The vertex path may need more memory, which comes from the caller's allocator.
 constexpr std::size_t kSmallMesh = 4096, kBytesPerCorner = 32, kLeastBlock = 4096, kLargestBlock = 98304,
                       kStackRoom = 8192;
 
-/// The memory of the tangents, which serves as scratch memory until they are written at the end.
+/// Returns the memory of the tangents, which serves as scratch memory until they are written at the end.
 std::span<std::byte> unwritten(const TangentOutput& out) {
     if (out.tangents.stride_bytes != sizeof(Vec4)) return {};
     return {reinterpret_cast<std::byte*>(out.tangents.data), out.tangents.count * sizeof(Vec4)};
 }
 
-/// The last bucket, for Pairing::reference and finite meshes: the reference's order of others is not reproduced.
+/// Finds the last bucket, for Pairing::reference and finite meshes: for other meshes the reference's order is not
+/// reproduced.
 LastBucket lastBucketOf(const WeldedMesh& welded, const Call<TangentOptions>& options, const Allocator* transient,
                         Parallel& parallel) {
     if (!isMikktspace(options.method) || options.pairing != Pairing::reference || !welded.nodes.all_finite) return {};
     return findLastBucket(welded, transient, options.execution.allocator, parallel);
 }
 
-/// Generates by a plan for this call alone: for angular thresholds, and where one pass is not compiled in.
+/// Generates tangents with a plan for this call only: for angular thresholds, and if one-pass evaluation is not
+/// compiled in.
 TangentReport planAndEvaluate(const MeshView& mesh, const Call<TangentOptions>& options, const TangentOutput& out,
                               Parallel& parallel) {
     const EvaluationPlan plan = planGrouped(mesh, options, parallel, PlanUse::once);
@@ -113,26 +115,26 @@ namespace tspace {
 
 namespace {
 
-/// FrameShape::symmetric: the orthonormal frame nearest to dP/du and dP/dv, both of which count alike. Returns the tangent of
-/// that frame, or `tangent` where one of the three has no direction.
-/// Based on: Löwdin, "On the Non-Orthogonality Problem", 1950 (symmetric orthogonalisation), here for two unit vectors.
+/// FrameShape::symmetric: the orthonormal frame closest to dP/du and dP/dv, with equal weights. Returns the tangent of
+/// that frame, or `tangent` if one of the three vectors has no direction.
+/// Based on: Löwdin, "On the Non-Orthogonality Problem", 1950 (symmetric orthogonalization), here for two unit vectors.
 Vec3 symmetricTangent(const Vec3& tangent, const Vec3& bitangent, const Vec3& normal) {
     DVec3 n = toDouble(normal);
     if (!normalize(n)) return tangent;
     const auto across = [&](const Vec3& v) { return toDouble(v) - dot(n, toDouble(v)) * n; };
     DVec3 t = across(tangent), b = across(bitangent);
     if (!normalize(t) || !normalize(b)) return tangent;
-    // Perpendicular to the bitangent, on the tangent's side: the other of the two such directions would belong to the
-    // opposite orientation of the UVs or of N.
+    // Perpendicular to the bitangent, on the tangent's side: the opposite direction would belong to the opposite
+    // orientation of the UVs or of N.
     DVec3 p = cross(b, n);
     if (dot(p, t) < 0) p = -1.0 * p;
     DVec3 sum = t + p;
     return normalize(sum) ? toFloat(sum) : tangent;
 }
 
-/// Turns each tangent, in the plane across its normal, half of the way to the direction that is perpendicular
-/// to the bitangent. So cross(N, T) and T are each off by half of the UVs' shear, where T alone was exact
-/// before. normalOf(i): the normal of entry i. An entry without tangent, bitangent or normal stays as it is.
+/// Rotates each tangent, in the plane perpendicular to its normal, half of the way to the direction perpendicular to
+/// the bitangent: cross(N, T) and T then both deviate by half of the UVs' shear, while T alone was exact before.
+/// normalOf(i): the normal of entry i. An entry without tangent, bitangent or normal is unchanged.
 template <class NormalOf>
 void makeSymmetric(const StridedSpan<Vec4>& tangents, const StridedSpan<Vec3>& bitangents, const NormalOf& normalOf,
                    Parallel& parallel) {
@@ -161,7 +163,7 @@ struct NeededBitangents {
 
 namespace {
 
-/// The methods count triangles with negative UV area as mirrored.
+/// Adapts the report to the convention: methods count triangles with negative UV area as mirrored.
 TangentReport inConvention(TangentReport report, Method method, bool positive_is_mirrored) {
     if (positive_is_mirrored) report.mirrored_count = notMirroredCount(report, method);
     return report;
@@ -178,9 +180,9 @@ struct TangentPlan::State {
     bool is_symmetric = false;
     bool normalizes_normals = false;
     bool positive_is_mirrored = false;
-    Buffer<std::uint32_t> corner_vertices;  ///< for a symmetric frame, one per corner; empty: outputs are per vertex
+    Buffer<std::uint32_t> corner_vertices;  ///< for a symmetric frame: one per corner; empty: outputs are per vertex
     std::size_t normal_count = 0;           ///< number of normals of a pose
-    /// For a mesh with several index lists: the pose's position and normal of each vertex that the plan works on.
+    /// For a mesh with several index lists: index of the pose's position and normal for each vertex of the plan.
     std::vector<std::uint32_t> source_vertices, source_normals;
 
     [[nodiscard]] TangentReport evaluate(const Pose& pose, const TangentOutput& out, const Execution& execution,
@@ -195,7 +197,7 @@ struct TangentPlan::State {
             mikk::evaluateGroups(grouped, pose, {grouped.uvs.data(), grouped.uvs.size()}, out, execution, parallel));
     }
 
-    /// evaluate(), with the frame that the options chose.
+    /// Calls evaluate(), and applies the requested frame shape.
     [[nodiscard]] TangentReport evaluateFrames(const Pose& pose, const TangentOutput& out, const Execution& execution,
                                                Parallel& parallel) const {
         if (!is_symmetric) return evaluate(pose, out, execution, parallel);
@@ -266,7 +268,7 @@ Error checkOutput(const TangentOutput& out, std::size_t output_count) {
     return optional(out.has_tangent, "has_tangent");
 }
 
-/// The methods clear the entries of outputs that no face gives a tangent.
+/// Initializes has_tangent to 1: methods clear the entries of outputs without a contributing face.
 void startHasTangent(const TangentOutput& out, Parallel& parallel) {
     parallel.forRanges(out.has_tangent.count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) out.has_tangent[i] = 1;
@@ -305,8 +307,7 @@ Buffer<Vec3> gathered(const StridedSpan<const Vec3>& values, const std::vector<s
     return result;
 }
 
-/// With several index lists vertices are combinations that the caller does not know, so there are no results per
-/// vertex.
+/// With several index lists vertices are combinations unknown to the caller, so there are no results per vertex.
 Error checkDomain(const TangentOptions& options) {
     if (options.domain == OutputDomain::corner) return {ErrorCode::ok, {}};
     return {ErrorCode::invalidOption, "results per vertex need a mesh with one index list"};
@@ -336,7 +337,8 @@ Result<std::unique_ptr<TangentPlan::State>> makePlan(const MeshView& given, cons
     return state;
 }
 
-/// The plan of a mesh with several index lists: that of the mesh with one, and where its vertices come from.
+/// Creates the plan of a mesh with several index lists: the plan of the equivalent mesh with one list, and the sources
+/// of its vertices.
 Result<std::unique_ptr<TangentPlan::State>> planLists(const MeshView& mesh, const Call<TangentOptions>& options) {
     if (Error e = checkDomain(options); e.code != ErrorCode::ok) return e;
     if (Result<Done> valid = validate(mesh); !valid) return std::move(valid).error();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shared by both estimators, on lanes. Included after lanes_*.h, with TSPACE_LANES set to its namespace. Each lane is
-// one triangle, or one group.
+// Code shared by both estimators, on lanes. Included after lanes_*.h, with TSPACE_LANES set to its namespace. Each lane
+// is one triangle or one group.
 #pragma once
 
 #include "core/simd/vectors_kernel.h"
@@ -12,8 +12,7 @@ using namespace simd::TSPACE_LANES;
 
 namespace {
 
-/// kWidth triangles. Edge k goes from corner k to corner k + 1. Where a value is not finite, all edges are
-/// zero.
+/// kWidth triangles. Edge k goes from corner k to corner k + 1. If a value is not finite, all edges are zero.
 struct TriangleEdges {
     Vectors edge[3];
     Floats u[3], v[3];   ///< UV edges
@@ -53,12 +52,12 @@ struct TriangleEdges {
 };
 
 struct Triangles : TriangleEdges {
-    Floats determinant;        ///< twice the signed area in UVs
+    Floats determinant;        ///< twice the signed UV area
     Vectors along_u, along_v;  ///< dP/du and dP/dv times |determinant|
 
     Triangles(const VertexSource& source, const std::uint32_t* vertices, bool exact)
         : TriangleEdges(source, vertices, exact) {
-        // From corner 0: edges 0 and -2.
+        // Relative to corner 0: edges 0 and -2.
         determinant = u[2] * v[0] - u[0] * v[2];
         const Floats facing = select(determinant < zero(), broadcast(-1.0f), broadcast(1.0f));
         const Floats v2 = minus(facing * v[2]), v0 = facing * v[0], u2 = minus(facing * u[2]), u0 = facing * u[0];
@@ -67,9 +66,9 @@ struct Triangles : TriangleEdges {
         along_v = u0 * back - u2 * edge[0];
     }
 
-    /// The weight of a triangle in the mean that is meant to be robust: A^2 / (sum of squared edges)^(3/4).
-    /// Among triangles of one size, errors of positions and UVs call for A^2 / (sum of squares), the inverse
-    /// of the variance of their tangents; and the larger of two triangles is trusted more than that.
+    /// Returns the weight of a triangle in the robust mean: A^2 / (sum of squared edges)^(3/4). For triangles of equal
+    /// size, errors of positions and UVs suggest A^2 / (sum of squares), the inverse of the variance of their tangents;
+    /// of two triangles, the larger one gets more weight than that.
     [[nodiscard]] Floats robustWeight() const {
         const Floats sum = square[0] + square[1] + square[2], root = squareRoot(sum);
         return quotient(double_area * double_area, root * squareRoot(root));

@@ -17,8 +17,8 @@ struct GroupRest {
     float weight = 0;           ///< weight of a sum
 };
 
-/// Output for `count` groups: three floats at tangents + g * tangent_stride for group g, bitangent and lengths in
-/// rest[g]. Groups that no triangle adds to get 0.
+/// Output for `count` groups: for group g, three floats at tangents + g * tangent_stride, and bitangent and lengths in
+/// rest[g]. Groups without triangles get 0.
 struct GroupEstimates {
     std::byte* tangents = nullptr;
     std::size_t tangent_stride = 0;
@@ -26,10 +26,10 @@ struct GroupEstimates {
     std::size_t count = 0;
 };
 
-/// Positions, normals and UVs have one entry per vertex, of which there is at least one. All corners of a
-/// group have one normal. `refine` steps follow the fit of `best`. Sums are made in the order of triangles. `to`: the
-/// first groups, the groups after them, and so on. Scratch memory: up to 1 MB per task, and range_lists.h; with steps 32
-/// bytes per group, or 64. Linear. Throws OutOfMemory.
+/// Estimates all groups. Positions, normals and UVs are nonempty, with one entry per vertex. All corners of a group
+/// have the same normal. `refine` steps follow the fit of `best`. Sums are in the order of triangles. `to`: outputs of
+/// consecutive ranges of groups. Scratch memory: up to 1 MB per task, and range_lists.h; with steps 32 or 64 bytes per
+/// group. Linear. Throws OutOfMemory.
 void estimateGroups(Method method, unsigned refine, const TriangleGroups& triangles, const Pose& pose,
                     const StridedSpan<const Vec2>& uvs, const InputScale& scale, std::span<const GroupEstimates> to,
                     const Execution& execution, Parallel& parallel);

@@ -1,34 +1,34 @@
 // SPDX-License-Identifier: MIT
-// The method `best`: around each vertex the surface is taken as a quadratic map of the UVs,
+// The method `best`: around each vertex the surface is modeled as a quadratic map of the UVs,
 //   P = P0 + J d + H(d, d) / 2,
-// and fitted to the edges that leave the vertex; J has dP/du and dP/dv. The fit doubts itself:
-// the larger, or the less able to explain the edges, its quadratic part is, the more that part is held down
-// (a ridge), and the more a plain robust mean of the triangles' tangents is mixed in.
+// fitted to the edges at the vertex; J contains dP/du and dP/dv. The fit estimates its own reliability: the larger its
+// quadratic part is, or the less of the edges it explains, the more that part is damped (a ridge), and the more of a
+// robust mean of the triangles' tangents is blended in.
 //
-// For both edges of each corner, with d = (u, v) and e the differences in UVs and in space, N and N' the normals
-// of its two ends, of length 1, and A the area of the triangle:
-//   p = e across N,  l = p |e|/|p| (1 + c^2/24),  c = (N' - N).e/|e|
-//                                            l: the edge as an arc, laid into the tangent plane
+// For both edges of each corner, with d = (u, v) and e the differences in UVs and in space, N and N' the unit normals
+// of its two ends, and A the area of the triangle:
+//   p = e projected perpendicular to N,  l = p |e|/|p| (1 + c^2/24),  c = (N' - N).e/|e|
+//                                            l: the edge as an arc, mapped to the tangent plane
 //   w = sqrt(A) / |e|^2,  f = (u^2/2, u v, v^2/2)
 //   M += w d d^T,  C += w d f^T,  Q += w f f^T,  R += w d l^T,  P += w f l^T,  L += w l.l
 //   b += g/|g| A^2 / (|e1|^2 + |e2|^2 + |e3|^2)^(3/4)
 //                                            g: dP/du, or dP/dv, of the triangle
-// Then per group, with UVs scaled so that M has ones on its diagonal:
+// Then per group, with UVs scaled so that the diagonal of M is 1:
 //   q(k) = (Q - C^T M^-1 C + k D)^-1 (P - C^T M^-1 R),  J(k) = M^-1 (R - C q(k)),  D = 0.3 trace(Q) diag(1, 2, 1)
 //   from k0 = 0.0003:  bend = (energy of the quadratic part) / (energy of the linear part)
 //                      miss = (what the fit leaves unexplained) / (what its quadratic part explains)
 //   k = k0 + 512 bend^2 + 5 miss bend / (bend + 0.001),  m = (k - k0) / (k - k0 + 2)
 //   T = unit((1 - m) unit(J(k)_u) + m unit(b))
 //
-// Normals enter twice: they say where the tangent plane is, and how much longer an arc is than its chord.
+// Normals are used twice: for the tangent plane, and for the ratio of arc to chord length.
 //
 // Based on: Zhang and Naga, "A New Finite Element Gradient Recovery Method: Superconvergence Property", 2005
-// (polynomial preserving recovery), here on a surface, with sums over triangles in the place of lists of
-// neighbours. The ridge, the two tests and the mixing are tspace's own; docs/concepts/methods/best.md has the
+// (polynomial preserving recovery), here on a surface, with sums over triangles instead of lists of
+// neighbors. The ridge, the two tests and the blending are tspace's own; docs/concepts/methods/best.md has the
 // measurements.
 //
-// The steps that may follow stand at the end. Included once per CPU, after lanes_*.h and with TSPACE_LANES set to its
-// namespace.
+// The optional refinement steps are at the end of the file. Included once per instruction set, after lanes_*.h and
+// with TSPACE_LANES set to its namespace.
 #pragma once
 
 #include "core/tangents/estimators/estimator_lanes.h"
@@ -37,18 +37,18 @@ namespace tspace::estimators::TSPACE_LANES {
 
 namespace {
 
-constexpr float kLongestArc = 2.0f;  // an edge that climbs more than 60 degrees from the tangent plane is no arc in it
+constexpr float kLongestArc = 2.0f;  // an edge at more than 60 degrees to the tangent plane is not an arc in it
 constexpr float kSmallestDeterminant = 1e-6f;
-constexpr float kLeftWeight = 2.0f;  // the 2 before left: found by trying values (docs/evidence/accuracy.md)
+constexpr float kLeftWeight = 2.0f;  // the 2 before left: tuned (docs/evidence/accuracy.md)
 
-/// Excess length of the arc over the edge `e`, given the normals at its ends; symmetric in the ends.
+/// Returns the ratio of arc length to edge length, given the normals at the ends; symmetric in the ends.
 inline Floats arcLengthOf(Vectors a, Vectors b, Vectors e, Floats square) {
     const Floats turn = dot(b, e) - dot(a, e);
     return broadcast(1.0f) + quotient(turn * turn, square) * broadcast(1.0f / 24);
 }
 
-/// Edge `e`, seen from the end with this plane, as an arc in the plane. Turning the edge over turns the
-/// result over.
+/// Returns edge `e`, from the viewpoint of the end with this plane, as an arc in the plane. Reversing the edge reverses
+/// the result.
 inline Flat arcOf(const Plane& here, Vectors e, Floats square, Floats arc_length) {
     const Flat p = here.flatten(e);
     const Floats flat = dot(p, p);
@@ -56,7 +56,7 @@ inline Flat arcOf(const Plane& here, Vectors e, Floats square, Floats arc_length
     return keep(isFinite(factor), factor) * p;
 }
 
-/// A vector laid into the plane, its length kept.
+/// Returns a vector rotated into the plane, with the same length.
 inline Flat laidInto(const Plane& here, Vectors v) {
     const Flat p = here.flatten(v);
     const Floats stretch = smaller(squareRoot(dot(v, v) / dot(p, p)), broadcast(kLongestArc));
@@ -68,25 +68,24 @@ inline Floats lengthOf(Flat v, Floats factor) {
     return keep(isFinite(length), length);
 }
 
-constexpr float kRidge = 3e-4f;  // k0: so little that a smooth surface does not feel it
+constexpr float kRidge = 3e-4f;  // k0: small enough to have no effect on smooth surfaces
 constexpr float kBendWeight = 512.0f;
 constexpr float kMissWeight = 5.0f, kMissLimit = 3.0f, kSmallBend = 1e-3f;
-constexpr float kMixAt = 2.0f;  // the ridge at which fit and mean count alike
+constexpr float kMixAt = 2.0f;  // ridge at which fit and mean have equal weights
 constexpr float kMostRidge = 1e6f;
-// Sums are rounded to about 1e-7. Where the edges leave the quadratic part open (few triangles), that alone
-// is explained by one of 1e-7^2 / k0, or 3e-11 of the energy. A surface of 512 squared cells has 1e-7.
+// Sums have rounding errors of about 1e-7. If the edges do not determine the quadratic part (few triangles), such
+// errors alone explain 1e-7^2 / k0, or 3e-11, of the energy. A surface of 512 squared cells has 1e-7.
 constexpr float kRoundingShare = 1e-9f;
-// The ridge weighs the second derivatives as their Frobenius norm does: uu, uv, vv as 1, 2, 1. This is the share of
-// trace(Q) that Q's entries for uu and vv have where edges point everywhere. Q's own diagonal will not do: where four
-// edges make a cross, which leaves the part uv open, it hardly holds that part, and u^2 v^2 then explains what
-// it must not.
+// The ridge weights second derivatives like their Frobenius norm: uu, uv, vv as 1, 2, 1. This is the share of trace(Q)
+// of Q's entries for uu and vv if edges point in all directions. Q's own diagonal is unsuitable: if four edges form a
+// cross, which leaves uv undetermined, it hardly damps uv, and u^2 v^2 would explain too much.
 constexpr float kRidgeShare = 0.3f;
 
 constexpr std::size_t kFitRows = 7;
 
-// -- what a triangle adds --
+// -- contributions of a triangle --
 
-/// Terms that an edge adds to the sums of both its ends, up to signs.
+/// Terms that an edge adds to the sums of both its ends, except for signs.
 struct EdgeMoments {
     Floats weight;
     Floats du, dv;              ///< w d
@@ -166,9 +165,9 @@ void addRecovery(const VertexSource& source, const std::uint32_t* vertices, std:
     }
 }
 
-// -- what a group makes of it --
+// -- results of a group --
 
-/// The sums of kWidth groups, in UVs that are scaled so that the diagonal of M is 1.
+/// Sums of kWidth groups, in UVs scaled so that the diagonal of M is 1.
 struct Fit {
     Floats scale_u, scale_v;
     Floats m0, m1, m2;  ///< M
@@ -188,7 +187,7 @@ struct Fit {
         loadRows<kStep>(at + 16, p[0].x, p[0].y, p[1].x, p[1].y);
         loadRows<kStep>(at + 20, p[2].x, p[2].y, robust_u.x, robust_u.y);
         loadRows<kStep>(at + 24, robust_v.x, robust_v.y, energy, unused);
-        // One direction of the UVs may be missing; it must not be scaled to nothing but noise.
+        // One UV direction may be missing; it must not be scaled up to pure noise.
         const Floats least = broadcast(kSmallestDeterminant) * larger(m0, m2), one = broadcast(1.0f);
         const Floats s = one / squareRoot(larger(m0, least)), t = one / squareRoot(larger(m2, least));
         const Floats ss = s * s, st = s * t, tt = t * t;
@@ -222,12 +221,12 @@ struct Fit {
     }
 };
 
-/// The normal equations after J is eliminated.
+/// Normal equations after elimination of J.
 struct Reduced {
     Floats i0, i1, i2;  ///< M^-1
     Flat linear[2];     ///< M^-1 R: J of a fit without quadratic part
     Floats s[6];        ///< Q - C^T M^-1 C
-    Floats ridge;       ///< factor of k on the diagonal of s; twice that in its middle
+    Floats ridge;       ///< factor of k on the diagonal of s; twice that for its middle entry
     Flat p[3];          ///< P - C^T M^-1 R
 
     explicit Reduced(const Fit& f) {
@@ -267,7 +266,7 @@ struct Solution {
 /// Doubt about the quadratic part.
 struct Doubt {
     Floats shape;     ///< because it is large, or explains little
-    Floats rounding;  ///< because it is so small that it may be rounding
+    Floats rounding;  ///< because it is so small that it may be rounding noise
 };
 
 inline Doubt doubtIn(const Fit& f, const Reduced& m, const Solution& s) {
@@ -279,7 +278,7 @@ inline Doubt doubtIn(const Fit& f, const Reduced& m, const Solution& s) {
         m.ridge * dot(s.q[0], s.q[0]) + (m.ridge + m.ridge) * dot(s.q[1], s.q[1]) + m.ridge * dot(s.q[2], s.q[2]);
     const Floats explained = dot(s.q[0], m.p[0]) + dot(s.q[1], m.p[1]) + dot(s.q[2], m.p[2]) + broadcast(kRidge) * held;
     const Floats left = f.energy - dot(f.r[0], m.linear[0]) - dot(f.r[1], m.linear[1]) - explained;
-    // A NaN becomes the limit: the second one counts then.
+    // A NaN becomes the limit; then only the second doubt matters.
     const Floats miss = smaller(larger(left, zero()) / explained, broadcast(kMissLimit));
     const Floats doubt = broadcast(kBendWeight) * (bend * bend) +
                          broadcast(kMissWeight) * miss * (bend / (bend + broadcast(kSmallBend)));
@@ -287,8 +286,8 @@ inline Doubt doubtIn(const Fit& f, const Reduced& m, const Solution& s) {
     return {smaller(doubt, most), smaller(noise * noise, most)};
 }
 
-/// The direction of a fitted derivative, mixed with the robust mean. Where one has no direction the other
-/// stands alone.
+/// Returns the direction of a fitted derivative, blended with the robust mean. If one of them has no direction, the
+/// other is used.
 inline Vectors directionOf(const Plane& plane, Flat fitted, Flat robust, Floats share) {
     const Flat a = unit(fitted), b = unit(robust);
     const Floats one = broadcast(1.0f);
@@ -317,26 +316,26 @@ void finishRecovery(float* sums, const float* normals, std::size_t count) {
     }
 }
 
-// -- the step --
+// -- refinement step --
 //
-// The trapezoid rule: what is interpolated along an edge, integrated, must be that edge,
+// Trapezoid rule: the interpolated derivative along an edge, integrated, must equal that edge,
 //   (J_i + J_j) d / 2 = e,
-// as far as one change of J explains that. J = (dP/du, dP/dv) is that of each group before the step, so the order of
+// as far as a single change of J can explain that. J = (dP/du, dP/dv) of each group before the step, so the order of
 // groups does not matter. For both edges of each corner, with l, d and w as above:
-//   r = 2 l - flat(J_j d) - J_i d        flat: laid into the plane across N_i, its length kept
+//   r = 2 l - flat(J_j d) - J_i d        flat: rotated into the plane perpendicular to N_i, with the same length
 //   M += w d d^T,  R += w d r^T,  E += w r.r
-// Then per group, m being the share that the robust mean has in it already:
+// Then per group, where m is the share of the robust mean in its tangent:
 //   dJ = M^-1 R,  explained = R : dJ,  left = E - explained
 //   f = 1/2 (1 - m) / ((1 + (2 left / explained)^2) (1 + |dJ_u|^2 / |J_u|^2 + |dJ_v|^2 / |J_v|^2))
 //   J' = J + f dJ
-// The factor 1/2 is there because the other end moves too. A residual that no change of J explains is noise or a kink. The
-// last factor holds back edges that hardly span the plane: T turns by atan(1/4), 14 degrees, at most.
+// The factor 1/2 accounts for the change at the other end. A residual that no change of J explains is noise or a kink.
+// The last factor limits the effect of edges that barely span the plane: T rotates by at most atan(1/4), 14 degrees.
 
-/// An edge, and what J at both its ends gives for it.
+/// An edge, and its prediction by J at both ends.
 struct Edge {
     Vectors e;
     Floats square, arc_length, u, v, weight;
-    Vectors along[2];  ///< J d at its first and second end
+    Vectors along[2];  ///< J d at the first and the second end
     Mask counts;
 
     Edge(const TriangleEdges& t, std::size_t k, const Plane& first, const Plane& second, const Vectors (&first_j)[2],
@@ -351,7 +350,7 @@ struct Edge {
           counts(is_known) {}
 };
 
-/// The term that an edge adds at one of its ends; the same for both directions of the edge.
+/// Term that an edge adds at one of its ends; equal for both directions of the edge.
 struct Residual {
     Floats weight;
     Flat r;
@@ -417,7 +416,7 @@ void finishEdgeStep(float* sums, const float* normals, const float* from, std::s
         loadRows<kStepFloats>(from + kStepFloats * g, ju.x, ju.y, ju.z, m);
         loadRows<kStepFloats>(from + kStepFloats * g + 4, jv.x, jv.y, jv.z, unused);
         const Plane plane(n);
-        // UVs scaled as for the fit: M has ones on its diagonal.
+        // UVs are scaled as for the fit: the diagonal of M is 1.
         const Floats least = broadcast(kSmallestDeterminant) * larger(uu, vv);
         const Floats s = one / squareRoot(larger(uu, least)), t = one / squareRoot(larger(vv, least));
         const Floats m0 = uu * s * s, m1 = uv * s * t, m2 = vv * t * t, product = m0 * m2;
@@ -428,7 +427,7 @@ void finishEdgeStep(float* sums, const float* normals, const float* from, std::s
         const Flat u = plane.flatten(ju), v = plane.flatten(jv), du = s * a0, dv = t * a1;
         const Floats turn = dot(du, du) / dot(u, u) + dot(dv, dv) / dot(v, v);
         const Floats doubt = broadcast(kLeftWeight) * (left / explained);
-        // NaN if there is nothing to explain.
+        // NaN if the edges leave no residual to explain.
         const Floats f = half * (one - m) / ((one + doubt * doubt) * (one + turn));
         const Flat new_u = u + f * du, new_v = v + f * dv;
         const Vectors x = unit(plane.raise(unit(new_u))), y = unit(plane.raise(unit(new_v)));

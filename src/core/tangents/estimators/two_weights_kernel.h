@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The method `fast`: two weighted sums of dP/du, one that is accurate on smooth surfaces and one that is
-// robust, mixed by the angle between the two. That angle is small, and shrinks with the triangles, where the
-// surface is smooth; it is large at kinks, slivers and noise.
+// The method `fast`: two weighted sums of dP/du, one that is accurate on smooth surfaces and one that is robust,
+// blended by the angle between them. On smooth surfaces the angle is small, and decreases with the size of the
+// triangles; at kinks, slivers and noise it is large.
 //
 // With g = |det| dP/du, the same vector at all three corners:
 //   a += g / (|e1|^2 |e2|^2)          e1, e2: the edges at the corner
 //   b += g / |g| * A^2 / (|e1|^2 + |e2|^2 + |e3|^2)^(3/4)
-//   x = unit(a across N), y = unit(b across N), r = sin^2(angle(x, y)) / sin^2(3.4 degrees)
+//   x = unit(a perpendicular to N), y = unit(b perpendicular to N), r = sin^2(angle(x, y)) / sin^2(3.4 degrees)
 //   T = unit((1 - m) x + m y), m = r / (1 + r)
-// The bitangent is computed alike, from dP/dv.
+// The bitangent is computed in the same way, from dP/dv.
 //
-// Based on: Max, "Weights for Computing Vertex Normals from Facet Normals", 1999, whose weights the first sum
-// has.
+// Based on: Max, "Weights for Computing Vertex Normals from Facet Normals", 1999 (the weights of the first sum).
 //
-// Included once per CPU, after lanes_*.h and with TSPACE_LANES set to its namespace.
+// Included once per instruction set, after lanes_*.h and with TSPACE_LANES set to its namespace.
 #pragma once
 
 #include "core/tangents/estimators/estimator_lanes.h"
@@ -22,7 +21,7 @@ namespace tspace::estimators::TSPACE_LANES {
 
 namespace {
 
-constexpr float kMixSquare = 0.00351691f;  // sin^2(3.4 degrees): where both sums count alike
+constexpr float kMixSquare = 0.00351691f;  // sin^2(3.4 degrees): both sums have equal weights
 
 template <bool kTangentsOnly>
 inline void addTwoWeightsOf(const VertexSource& source, const std::uint32_t* vertices, bool exact, float* rows) {
@@ -63,7 +62,7 @@ void addTwoWeights(const VertexSource& source, const std::uint32_t* vertices, st
     }
 }
 
-/// Mixes both means; where one has no direction the other takes its place.
+/// Blends both means; if one has no direction, returns the other.
 inline Vectors mixed(Vectors n, Vectors accurate, Vectors robust) {
     const Vectors a = unit(accurate - dot(n, accurate) * n), b = unit(robust - dot(n, robust) * n);
     const Vectors across = cross(a, b);

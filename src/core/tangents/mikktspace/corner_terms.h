@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What each corner of a block of triangles adds to the sums of its node: the face tangent, projected along N and normalised,
-// times the corner's weight; and the bitangent and both lengths times that weight. The angle weight of MikkTSpace is
-// Weighting::projected_angle; its formula is in weightOrCosine. Written once (corner_terms_kernel.h), compiled for several
-// CPUs, with equal bits from all of them.
+// Contributions of the corners of a block of triangles to the sums of their nodes: the face tangent, projected
+// perpendicular to N and normalized, times the corner's weight; and the bitangent and both lengths times that weight.
+// The angle weight of MikkTSpace is Weighting::projected_angle; weightOrCosine computes it. Implemented once
+// (corner_terms_kernel.h), compiled for several CPUs, with equal bits.
 #pragma once
 
 #include <cstddef>
@@ -13,42 +13,43 @@
 namespace tspace::mikk {
 
 enum class Weighting : std::uint32_t {
-    projected_angle,  ///< the angle between the corner's two edges after projection along N (mikktspace)
+    projected_angle,  ///< angle between the corner's two edges after projection perpendicular to N (mikktspace)
     one,
-    angle,  ///< the interior angle
-    area,   ///< the triangle's area
-    none,   ///< only marks are written (estimators sum on their own)
+    angle,  ///< interior angle
+    area,   ///< area of the triangle
+    none,   ///< only marks are written (estimators compute their own sums)
 };
 
-/// The vertex data of one call.
+/// Vertex data of a call.
 struct CornerSource : VertexArrays {
     Weighting weighting = Weighting::projected_angle;
-    bool tangents_only = false;  ///< leave out `t` and `lengths_t`
+    bool tangents_only = false;  ///< omit `t` and `lengths_t`
     /// Rows of triangles that are degenerate or have no UV area are not read: the kernel may skip them.
     bool adding_only = false;
 };
 
-inline constexpr std::size_t kTermTriangles = 64;  ///< triangles per block, whose arrays fit in the first-level cache
+inline constexpr std::size_t kTermTriangles = 64;  ///< triangles per block; the block's arrays fit into the L1 cache
 inline constexpr std::size_t kTermCorners = 3 * kTermTriangles;
-inline constexpr std::size_t kTermGroup = 16;  ///< triangles that a kernel reads at once at most
+inline constexpr std::size_t kTermGroup = 16;  ///< maximum number of triangles that a kernel reads at once
 
-/// Marks of a corner. A threshold of 180 degrees separates only opposite tangents or bitangents, whose cosine rounds to -1. If
-/// all tangents of a node have a component above kSideMargin on one axis, or all have one below -kSideMargin, then any two
-/// of them have a cosine of at least 2 * kSideMargin^2 - 1, and rounding is far smaller than that margin. So where all corners
-/// of a node have one mark of tangents in common, and one of bitangents, its group cannot split. A NaN sets no mark.
+/// Marks of a corner. A threshold of 180 degrees separates only opposite tangents or bitangents, whose cosine rounds to
+/// -1. If all tangents of a node have a component above kSideMargin on one axis, or all have one below -kSideMargin,
+/// then any two of them have a cosine of at least 2 * kSideMargin^2 - 1, and rounding is far smaller than that margin.
+/// Therefore, if all corners of a node share a mark of tangents, and a mark of bitangents, its group cannot split. A
+/// NaN sets no mark.
 inline constexpr std::uint32_t kFacesUp = 0x01;    ///< positive UV area
-inline constexpr std::uint32_t kFacesDown = 0x02;  ///< the opposite
+inline constexpr std::uint32_t kFacesDown = 0x02;  ///< negative UV area
 inline constexpr std::uint32_t kFacing = kFacesUp | kFacesDown;
-/// The projected tangent, and the projected bitangent: above the margin on x, below it on x, then y and z.
+/// For the projected tangent and the projected bitangent: above the margin on x, below it on x, then y and z.
 inline constexpr std::uint32_t kTangentSides = 0x3f << 2, kBitangentSides = 0x3f << 8;
 inline constexpr std::uint32_t kAllMarks = kFacing | kTangentSides | kBitangentSides;
 inline constexpr unsigned kFlagShift = 16;
 inline constexpr std::uint32_t kNoUvArea = 1u << kFlagShift;  ///< the triangle has no usable UV area
-/// Two corners are at one position: all other marks are undefined.
+/// Two corners are at the same position; all other marks are then undefined.
 inline constexpr std::uint32_t kDegenerateMark = 2u << kFlagShift;
 inline constexpr std::uint32_t kMirroredMark = 4u << kFlagShift;  ///< no positive UV area
-/// Tangents of a smaller square may not be unit after normalising, and set no marks. Bitangents are marked before they are
-/// normalised, and set marks where their square is below kLargestSquare.
+/// Tangents whose squared length is below kSmallestSquare may not be unit after normalization and set no marks.
+/// Bitangents are tested before normalization; they set marks if their squared length is below kLargestSquare.
 inline constexpr float kSideMargin = 1.0f / 128, kSmallestSquare = 1e-30f, kLargestSquare = 4;
 
 /// Rows of four: row 3 * t + k belongs to corner k of triangle t.
@@ -59,8 +60,8 @@ struct CornerTerms {
     alignas(64) std::uint32_t marks[3][kTermTriangles];
 };
 
-/// `vertices`: three per triangle; whole groups of 16 triangles are read, so the rest of the last one must
-/// hold valid numbers too. count <= kTermTriangles.
+/// `vertices`: three per triangle; whole groups of 16 triangles are read, so the rest of the last group must contain
+/// valid indices. count <= kTermTriangles.
 TSPACE_DECLARE_KERNEL(void cornerTerms(const CornerSource& source, const std::uint32_t* vertices, std::size_t count,
                                        CornerTerms& terms))
 

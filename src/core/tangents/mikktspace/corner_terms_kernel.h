@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The kernel behind corner_terms.h. Included once per CPU, after lanes_*.h and with TSPACE_LANES set to its
-// namespace. Each lane is one triangle and does what the reference does with it, operation by operation; zero and
-// unit are those of evaluate.h.
+// Kernel of corner_terms.h. Included once per instruction set, after lanes_*.h and with TSPACE_LANES set to its
+// namespace. Each lane is one triangle and performs the operations of the reference in the same order; zero tests and
+// unit vectors as in evaluate.h.
 #pragma once
 
 #include "core/simd/vectors_kernel.h"
@@ -21,8 +21,9 @@ inline Vectors select(Mask m, Vectors yes, Vectors no) {
     return {select(m, yes.x, no.x), select(m, yes.y, no.y), select(m, yes.z, no.z)};
 }
 
-/// unit() of evaluate.h for a vector whose square is known. Where the square is above zero some component is above the
-/// smallest normal number (the squares of smaller ones are zero), so notZero is tested only where the square is zero or NaN.
+/// Like unit() of evaluate.h, for a vector whose square is known. If the square is positive, some component is above
+/// the smallest normal number (squares of smaller ones are zero), so notZero is tested only if the square is zero or
+/// NaN.
 inline Vectors unitByRules(Vectors v, Floats square) {
     const Vectors scaled = (broadcast(1.0f) / squareRoot(square)) * v;
     if (all(square > broadcast(0.0f))) [[likely]]
@@ -90,7 +91,8 @@ inline Bits appendSides(Bits marks, Vectors v) {
     return marks;
 }
 
-/// Marks of a corner: of its projected bitangent, its unit tangent, whose square was `square`, and `facing`.
+/// Returns the marks of a corner: for its projected bitangent, its unit tangent, whose square was `square`, and
+/// `facing`.
 inline Bits sidesOf(Vectors s, Floats square, Vectors t, Bits facing) {
     static_assert(kFacing == 0x3 && kTangentSides == 0x3f << 2 && kBitangentSides == 0x3f << 8);
     const Bits sides = appendSides(appendSides(broadcastBits(0), t), s);
@@ -98,8 +100,9 @@ inline Bits sidesOf(Vectors s, Floats square, Vectors t, Bits facing) {
     return shiftLeft<2>(keepWhere(sides, are_sure)) | facing;
 }
 
-/// The weight of a corner; for the two weightings that are angles the cosine of the weight. projected_angle is MikkTSpace's: the
-/// two edges at the corner are projected along N and normalised, and the angle between them is the weight.
+/// Returns the weight of a corner; for the two weightings by angles, the cosine of the weight. projected_angle is
+/// MikkTSpace's: the two edges at the corner are projected perpendicular to N and normalized, and the angle between
+/// them is the weight.
 inline Floats weightOrCosine(Weighting weighting, const Vectors& normal, const Vectors& previous, const Vectors& next) {
     if (weighting == Weighting::projected_angle) return dot(flatten(normal, previous), flatten(normal, next));
     if (weighting == Weighting::angle) return dot(unitByRules(previous), unitByRules(next));

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Reproduces the order of the reference's welding: a grid of 2048 cells along the longest axis of the
-// bounding box, then in each cell a repeated partition in place at the middle of the longest axis, until
-// positions no longer differ there. The first corner of a node in the order that results is its
-// representative.
+// Reproduces the order of the reference's welding: a grid of 2048 cells along the longest axis of the bounding box,
+// then in each cell a repeated in-place partition at the middle of the longest axis, until positions no longer differ.
+// The first corner of a node in the resulting order is its representative.
 //
-// Every partition halves one axis of a float box, so the number of levels is bounded by the range of floats
-// whatever the input; the stack of ranges stays short because the smaller side is always divided first.
+// Every partition halves one axis of a float box, so the range of floats bounds the number of levels for any input; the
+// stack of ranges stays short because the smaller side is always divided first.
 #include "core/tangents/mikktspace/grid_order.h"
 
 #include <algorithm>
@@ -23,26 +22,26 @@ namespace {
 
 constexpr int kCells = 2048;
 constexpr std::size_t kVertexGrain = 16384;  // a multiple of 4
-// Mark of a vertex: the number of its cell among the cells of wanted vertices, from 1, or 0; and flags for vertices at
+// Mark of a vertex: 1-based number of its cell among the cells of requested vertices, or 0; and flags for vertices at
 // either end of the grid.
 constexpr std::uint16_t kNumber = 0x0fff, kAtLow = 0x4000, kAtHigh = 0x8000;
-constexpr std::uint32_t kWanted = kNone - 1;  // stands for a representative that is wanted and not known yet
+constexpr std::uint32_t kWanted = kNone - 1;  // placeholder for a requested representative that is not known yet
 
 /// An entry of the corner list, in one cell of the reference's grid.
 struct alignas(16) CellElement {
     Vec3 position;
-    std::uint32_t entry;  ///< kTopBit: its node's representative is wanted
+    std::uint32_t entry;  ///< kTopBit: the representative of its node is requested
 };
 
 float component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-/// x, y, z and z again.
+/// Loads x, y, z, z.
 Float4 loadVec3(const Vec3& v) {
     const Float4 xyyz = joinPairs(&v.x, &v.y);
     return __builtin_shufflevector(xyyz, xyyz, 0, 1, 3, 3);
 }
 
-/// A bounding box; the fourth lanes do not matter. As in the reference, a NaN never moves a bound, and a bound
-/// that starts as NaN stays.
+/// Bounding box; the fourth lanes are ignored. As in the reference, a NaN never moves a bound, and a bound that starts
+/// as NaN stays NaN.
 struct Box {
     Float4 low, high;
 
@@ -62,10 +61,10 @@ struct Box {
     }
 };
 
-/// Divides the corners of one cell of the grid as the reference does, down to leaves of equal positions.
-/// found(entry) is called for all entries of leaves, in an order such that the last call for a node is for its
-/// representative. All entries of a node are in one leaf, because equal positions always go to the same side. Ranges where no
-/// element is marked are skipped.
+/// Divides the corners of one grid cell as the reference does, down to leaves of equal positions. Calls found(entry)
+/// for all entries of leaves, in an order in which the last call for a node is for its representative. All entries of a
+/// node are in the same leaf, because equal positions always go to the same side. Ranges without marked elements are
+/// skipped.
 template <class Found>
 class Cell {
   public:
@@ -73,7 +72,7 @@ class Cell {
         : elements_(elements.data()), count_(elements.size()), found_(found) {}
 
     void run() {
-        Range waiting[64];  // each at most half of the one before
+        Range waiting[64];  // each is at most half of the previous one
         std::size_t depth = 0;
         Range range{0, count_};
         while (true) {
@@ -107,7 +106,7 @@ class Cell {
         const int axis = box.longestAxis();
         const float low = box.low[axis], high = box.high[axis], middle = 0.5f * (high + low);
         if (middle >= high || middle <= low) {
-            // The first of a node is kept; going backwards makes the first the last to be named.
+            // The first entry of a node is its representative; going backwards visits it last.
             for (std::size_t i = range.end; i-- > range.begin;) found_(elements_[i].entry & kValue);
             return false;
         }
@@ -117,7 +116,7 @@ class Cell {
         return true;
     }
 
-    /// The reference swaps the first element that belongs to the right with the last one that belongs to the
+    /// Like the reference, swaps the first element that belongs to the right with the last one that belongs to the
     /// left, and so on.
     std::size_t partition(Range range, int axis, float middle) {
         const auto goesLeft = [&](std::size_t n) { return component(elements_[n].position, axis) < middle; };
@@ -146,18 +145,18 @@ struct GridOrder {
         Buffer<std::uint32_t> found;
         if (in.triangles.count == 0) return found;
         for (const std::uint32_t v : wanted) representatives[in.nodes.ofVertex(v)] = kWanted;
-        // The reference takes the box of the corner list. The box of all vertices is computed much faster, and may be used
-        // when vertices at both ends of its longest axis are in the list: the list's box is then as long along that axis and
-        // shorter along others only.
+        // The reference uses the box of the corner list. The box of all vertices is much faster to compute, and may be
+        // used if vertices at both ends of its longest axis are in the list: the list's box is then equally long along
+        // that axis and shorter along others.
         if (in.triangles.corner(0) != 0 || !findIn(boxOfVertices(), true, found)) findIn(boxOfList(), false, found);
         for (const std::uint32_t v : wanted) {
             std::uint32_t& representative = representatives[in.nodes.ofVertex(v)];
-            if (representative == kWanted) representative = kNone;  // without corners
+            if (representative == kWanted) representative = kNone;  // no corners
         }
         return found;
     }
 
-    /// The reference's box: of the corner list without its first entry, starting from corner 0 of the mesh.
+    /// Returns the reference's box: of the corner list without its first entry, starting from corner 0 of the mesh.
     [[nodiscard]] Box boxOfList() const {
         Box box(loadVec3(in.mesh.positions[in.mesh.indices[0]]));
         for (std::size_t i = 1; i < 3 * in.triangles.count; ++i) box.add(loadVec3(in.mesh.positions[in.vertexAt(i)]));
@@ -178,7 +177,7 @@ struct GridOrder {
         return whole;
     }
 
-    /// `if_listed`: returns false where vertices at either end of the box are not in the corner list.
+    /// `if_listed`: returns false if vertices at either end of the box are not in the corner list.
     bool findIn(const Box& box, bool if_listed, Buffer<std::uint32_t>& found) {
         const int axis = box.longestAxis();
         const Float4 low = splat(box.low[axis]), high = splat(box.high[axis]);
@@ -216,9 +215,9 @@ struct GridOrder {
         return true;
     }
 
-    /// Divides each cell on its own: a node lies in one cell.
+    /// Divides each cell independently: a node is in one cell.
     void followCells(const Buffer<std::uint32_t>& found, const std::uint16_t* marks, std::size_t cells) {
-        // A counting sort of entries by cell: counts first, then where each cell begins. Number 0 is no cell.
+        // Counting sort of entries by cell: first counts, then the start of each cell. Number 0 means no cell.
         std::array<std::uint32_t, kCells + 2> begin;
         std::fill_n(begin.data(), cells + 2, 0u);
         std::uint32_t buffer[3];

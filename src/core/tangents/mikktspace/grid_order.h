@@ -11,13 +11,13 @@
 
 namespace tspace::mikk {
 
-// The representative of a node: the corner that the reference keeps when it welds. It depends on the order in which the
-// reference's spatial search leaves corners, so that order is reproduced here, for the nodes where it matters.
+// The representative of a node: the corner that the reference keeps when welding. It depends on the order in which the
+// reference's spatial search leaves corners; that order is reproduced here, for the nodes where it matters.
 
-/// Sets representatives[node] to the corner that the reference keeps, for the nodes of `vertices`; kNone where a node has no
-/// corners. Other nodes in the same cells (of 2048) may be set too, correctly. Returns the triangles that have a corner in
-/// these cells, ascending, among them all triangles at the nodes. Nodes must be all finite. Linear in the vertices and
-/// indices, and in the corners of these cells times the halvings of a float interval.
+/// Sets representatives[node] to the corner that the reference keeps, for the nodes of `vertices`; kNone if a node has
+/// no corners. Other nodes in the same cells (of 2048) may also be set, correctly. Returns the triangles that have a
+/// corner in these cells, ascending, including all triangles at the nodes. Requires finite nodes. Linear in the
+/// vertices and indices, and in the corners of these cells times the halvings of a float interval.
 Buffer<std::uint32_t> findRepresentatives(const WeldedMesh& welded, std::span<const std::uint32_t> vertices,
                                           std::uint32_t* representatives, const Allocator* allocator,
                                           Parallel& parallel);

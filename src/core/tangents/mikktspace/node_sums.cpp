@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The sums of all nodes. A task owns a range of nodes: it goes through the triangles that have a node there, in order, and
-// adds to these nodes only. So each sum is made by one task, in the reference's order, and no task waits for another.
-// Triangles at the border of two ranges are computed twice. Where consecutive triangles have nearby nodes, a few ranges per
-// task are enough; elsewhere ranges are so small that all data of their nodes stay in the second cache.
+// Sums of all nodes. A task owns a range of nodes: it processes the triangles that have a node there, in order, and
+// adds to these nodes only. Each sum is therefore computed by one task, in the reference's order, and no task waits for
+// another. Triangles at the border of two ranges are computed twice. If consecutive triangles have nearby nodes, a few
+// ranges per task are sufficient; otherwise ranges are so small that all data of their nodes stay in the L2 cache.
 #include "core/tangents/mikktspace/node_sums.h"
 
 #include <algorithm>
@@ -17,24 +17,24 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr unsigned kTaskShift = 12;  // nodes of a task at least: below, another thread costs more than it saves
+constexpr unsigned kTaskShift = 12;  // minimum number of nodes per task: below, another thread costs more than it saves
 /// Measured for triangles in random order: 8192 nodes 97 ns per triangle, 4096 99, 16384 102, 65536 117, 1024 137.
 constexpr unsigned kScatteredShift = 13;
 constexpr std::size_t kScatteredRange = std::size_t{1} << kScatteredShift;
 constexpr std::size_t kTasksPerThread = 4;
-/// The locality argument of __builtin_prefetch. The prefetched data of a block do not fit into the first cache beside what
-/// the kernel works on. Measured: 120 ns per triangle with the first cache, 67 with the second.
+/// Locality argument of __builtin_prefetch. The prefetched data of a block do not fit into the L1 cache together with
+/// the data of the kernel. Measured: 120 ns per triangle with L1, 67 with L2.
 constexpr int kSecondCache = 2;
 
-/// The arguments of a sum over all triangles.
+/// Arguments of a sum over all triangles.
 struct Sweep : WeldedMesh {
     const CornerSource& source;
     CornerTermsFunction terms;
     NodeSums& sums;
-    bool prefetches = false;  // node data lie outside of the second cache
+    bool prefetches = false;  // node data exceed the L2 cache
 };
 
-/// Sums the ranges of one task, one after the other.
+/// Computes the sums of the ranges of one task.
 class Summer {
   public:
     explicit Summer(const Sweep& sweep) : sweep_(sweep), sums_(sweep.sums) {}
@@ -62,7 +62,7 @@ class Summer {
         return true;
     }
 
-    /// Inlined by force: GCC 12 takes a function that only prefetches for one without effect, and drops the call.
+    /// Forced inline: GCC 12 considers a function that only prefetches to have no effect, and drops the call.
     [[gnu::always_inline]] void prefetch(const TriangleBatch& batch) const {
         const CornerSource& source = sweep_.source;
         for (std::size_t i = 0; i < 3 * batch.count; ++i) {
@@ -124,7 +124,8 @@ class Summer {
         }
     }
 
-    /// A triangle that adds nothing to the sums: a degenerate one makes its nodes complex, one without UV area extends fans.
+    /// Handles a triangle that adds nothing to the sums: a degenerate one makes its nodes complex, one without UV area
+    /// extends fans.
     void addUnusual(const std::uint32_t* n, bool degenerate) {
         for (std::size_t k = 0; k < 3; ++k) {
             if (!range_.has(n[k])) continue;
@@ -143,7 +144,8 @@ class Summer {
     CornerTerms terms_;
 };
 
-/// log2 of the nodes of a range. Small ranges pay where triangles are scattered but each has its nodes in one range.
+/// Returns log2 of the number of nodes per range. Small ranges are beneficial if triangles are scattered but the nodes
+/// of each are in one range.
 unsigned rangeShift(const Sweep& sweep, const MeshTriangles& by_node, unsigned width) {
     const std::size_t nodes = sweep.nodes.count;
     if (sweep.sums.scattered && RangeLists::areCompact(by_node, 1, nodes, kScatteredRange)) return kScatteredShift;
@@ -217,7 +219,7 @@ void sumNodes(const WeldedMesh& welded, const CornerSource& source, CornerTermsF
                            parallel);
     const std::size_t ranges = lists.count(), tasks = std::min<std::size_t>(ranges, parallel.width());
     const std::size_t fans_each = std::min(lists.range(0).size(), lists.mostTriangles(welded.triangles.count));
-    Buffer<ManyPaths> many_paths(transient.allocator(), tasks * fans_each);  // most stay untouched pages
+    Buffer<ManyPaths> many_paths(transient.allocator(), tasks * fans_each);  // most of its pages are never touched
     std::atomic<std::size_t> next{0};
     parallel.forTasks(tasks, [&](std::size_t task) {
         Summer summer(sweep);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sums of all nodes in one pass over the triangles, and whether the triangles around a node are one fan.
+// Sums of all nodes in one pass over the triangles, and detection of nodes whose triangles form a single fan.
 #pragma once
 
 #include <bit>
@@ -17,14 +17,14 @@
 
 namespace tspace::mikk {
 
-// Whether the triangles around a node form one connected fan, found while they come by in ascending order.
+// Detects whether the triangles around a node form one connected fan, while they are visited in ascending order.
 //
-// The rule of groups.h links a triangle's leaving half-edge (to the next node) with the oldest waiting
-// arriving one from that node, and the other way round. As long as no two half-edges of one direction wait
-// for the same neighbour, links are unambiguous and make paths, each of which is described by its two waiting ends. A Fan
-// holds two paths. More may begin before they meet, where triangles come in random order or the second triangles of all
-// quads follow the first ones: such a fan takes a ManyPaths of four paths until two are left again. A fifth path, an
-// ambiguous link, or a ring beside other paths makes the fan complex, and its node goes the vertex path.
+// The rule of groups.h links a triangle's leaving half-edge (to the next node) with the oldest waiting arriving
+// half-edge from that node, and vice versa. As long as no two half-edges of one direction wait for the same neighbor,
+// links are unambiguous and form paths, each of which is described by its two waiting ends. A Fan stores two paths.
+// More may start before they meet, if triangles are in random order or the second triangles of all quads follow the
+// first ones: such a fan uses a ManyPaths of four paths until two are left. A fifth path, an ambiguous link, or a ring
+// in addition to other paths makes the fan complex, and its node is handled by the vertex path.
 
 /// The paths of a fan that has more than two.
 struct ManyPaths {
@@ -34,7 +34,7 @@ struct ManyPaths {
     } paths[kMost];
 };
 
-/// A pool of ManyPaths, numbered from 1. It must have one for each fan of three triangles or more.
+/// Pool of ManyPaths, numbered from 1. It needs one for each fan of three triangles or more.
 class FanRoom {
   public:
     explicit FanRoom(ManyPaths* places) : places_(places) {}
@@ -53,28 +53,28 @@ class FanRoom {
 
   private:
     ManyPaths* places_;
-    std::uint32_t used_ = 0;  // number of entries ever taken
-    std::uint32_t free_ = 0;  // head of the list of those given back, linked through paths[0].leaves
+    std::uint32_t used_ = 0;  // number of entries ever used
+    std::uint32_t free_ = 0;  // head of the free list, linked through paths[0].leaves
 };
 
 class Fan {
   public:
     [[nodiscard]] bool isOne() const { return ends_[0] != 0 && ends_[2] == 0; }
-    /// 0: there is at most one path.
+    /// Returns the second path; 0 if there is at most one.
     [[nodiscard]] std::uint32_t secondPath() const { return ends_[2]; }
 
-    /// Adds the triangle whose corner at this node is followed by the node `next` and preceded by `previous`. Without
-    /// branches: in meshes without order a processor could not predict them.
+    /// Adds the triangle whose corner at this node is followed by the node `next` and preceded by `previous`.
+    /// Branchless: for unordered meshes branches would be unpredictable.
     void add(std::uint32_t next, std::uint32_t previous, FanRoom& room) {
         const Four own = Four{next, previous, next, previous} | kTopBit;
         const Four extended = std::bit_cast<Four>(ends_ == __builtin_shufflevector(own, own, 1, 0, 3, 2));
-        const Four kept = __builtin_shufflevector(extended, extended, 1, 0, 3, 2);  // the other ends of these paths
+        const Four kept = __builtin_shufflevector(extended, extended, 1, 0, 3, 2);  // other ends of the extended paths
         const Four other = ends_ & ~(extended | kept);
         const bool is_complex = laneBits(std::bit_cast<Mask4>(ends_ == own)) != 0;
         if (is_complex || (laneBits(std::bit_cast<Mask4>(other == 0)) & 5) == 0) [[unlikely]]
             return addToMany({own[0], own[1]}, room);
-        // The other ends of the paths that it extends replace the triangle's own. A closed ring keeps ends that no triangle
-        // meets.
+        // If the triangle extends a path, the path's far end replaces the triangle's end. A closed ring keeps stale
+        // ends, which match no triangle.
         const Four changes = ((ends_ ^ own) | extended) & kept;
         const Four grown = own ^ changes ^ turned(changes);
         ends_ = __builtin_shufflevector(grown, other | turned(other), 0, 1, 4, 5);
@@ -101,14 +101,14 @@ class Fan {
         room.giveBack(place);
     }
 
-    /// Returns how many paths there are now, and 0 where the fan becomes complex.
+    /// Returns the current number of paths, or 0 if the fan becomes complex.
     static std::uint32_t join(ManyPaths& many, std::uint32_t count, ManyPaths::Path grown) {
         const auto [next, previous] = grown;
         std::uint32_t kept = 0;
         for (std::uint32_t i = 0; i < count; ++i) {
             const ManyPaths::Path path = many.paths[i];
             const bool meets_end = path.leaves == previous, meets_start = path.arrives == next;
-            if (meets_end && meets_start) return 0;  // a ring, and other paths
+            if (meets_end && meets_start) return 0;  // a ring in addition to other paths
             if (path.leaves == next || path.arrives == previous) return 0;
             if (meets_end) grown.arrives = path.arrives;
             if (meets_start) grown.leaves = path.leaves;
@@ -119,14 +119,15 @@ class Fan {
         return kept;
     }
 
-    /// Path i leaves towards the node ends_[2 * i], where a triangle may follow, and arrives from ends_[2 * i + 1]; nodes have
-    /// kTopBit, 0 is no path. A fan with ManyPaths has {1, 0, its number, count of paths}; a complex one kComplex.
+    /// Path i leaves towards node ends_[2 * i], where a triangle may follow, and arrives from ends_[2 * i + 1]; nodes
+    /// are combined with kTopBit, and 0 means no path. A fan with ManyPaths is {1, 0, its number, count of paths}; a
+    /// complex one is kComplex.
     Four ends_{};
 };
 
-// The sums of all nodes, by one sweep over the triangles.
+// Sums of all nodes, in one pass over the triangles.
 
-/// The weighted sum of a node and its fan: half a cache line.
+/// Weighted sum of a node, and its fan: half a cache line.
 struct alignas(32) NodeSum {
     float s[4] = {0, 0, 0, 0};  ///< sum of weighted tangents, and of weights
     Fan fan;
@@ -134,33 +135,35 @@ struct alignas(32) NodeSum {
 
 /// Flags of a triangle in NodeSums::kinds, from the marks of corner_terms.h.
 enum TriangleKind : std::uint8_t {
-    kDegenerateUv = kNoUvArea >> kFlagShift,  ///< adds nothing and clears no marks, but links its neighbours in the fan
+    kDegenerateUv = kNoUvArea >> kFlagShift,  ///< adds nothing and clears no marks, but links its neighbors in the fan
     kDegenerateTriangle = kDegenerateMark >> kFlagShift,
     kMirrored = kMirroredMark >> kFlagShift,
 };
 
 struct NodeSums {
     Buffer<NodeSum> nodes;
-    Buffer<std::uint16_t> marks;  ///< one per node: marks that all its corners have (corner_terms.h); 0 at nodes of
-                                  ///< degenerate triangles, which are complex
+    /// one per node: marks shared by all its corners (corner_terms.h); 0 for nodes of degenerate triangles, which are
+    /// complex
+    Buffer<std::uint16_t> marks;
     Buffer<GroupRest>
         rest;  ///< one per node: bitangents and lengths; their weight is in `nodes`. Empty when tangents_only
     Buffer<TriangleKind> kinds;  ///< one per triangle, transient
-    bool scattered = false;      ///< the nodes of consecutive triangles lie far apart in memory
+    bool scattered = false;      ///< nodes of consecutive triangles are far apart in memory
     TangentReport report;        ///< counts of triangles
 
-    /// The sum of a node.
+    /// Returns the sum of a node.
     [[nodiscard]] float* row(std::size_t node) { return nodes[node].s; }
     [[nodiscard]] const float* row(std::size_t node) const { return nodes[node].s; }
 
-    /// Whether no triangle adds to the node, because it has none or all have degenerate UVs. No triangle faces both ways.
+    /// Returns whether no triangle contributes to the node, because it has none or all have degenerate UVs. No triangle
+    /// has both marks.
     [[nodiscard]] bool isEmpty(std::size_t node) const {
         return (marks[node] & (kFacesUp | kFacesDown)) == (kFacesUp | kFacesDown);
     }
 };
 
-/// The mesh's triangles, as range lists and estimators read them: each node is a group. `kinds`: null, or NodeSums::kinds;
-/// then triangles without UV area add nothing.
+/// Triangles of the mesh for range lists and estimators: each node is a group. `kinds`: null, or NodeSums::kinds; then
+/// triangles without UV area contribute nothing.
 class MeshTriangles final : public TriangleGroups {
   public:
     MeshTriangles(const WeldedMesh& welded, const TriangleKind* kinds)
@@ -180,14 +183,16 @@ class MeshTriangles final : public TriangleGroups {
     const TriangleKind* kinds_;
 };
 
-/// finish(first, end): the sums of these nodes are complete. `first` is a multiple of 64. Called by all threads.
+/// Calls finish(first, end) when the sums of these nodes are complete. `first` is a multiple of 64. Called by all
+/// threads.
 using FinishNodes = std::function<void(std::size_t, std::size_t)>;
 
 /// Calls `finish` for all nodes.
 void finishInRanges(std::size_t count, const FinishNodes& finish, Parallel& parallel);
 
-/// Fills `sums`, and finishes all nodes, range by range. nodes.vertex() must be valid. `transient`: scratch memory that is not
-/// read any more when tangents are written. `range_shift`: log2 of the nodes of a range; 0: chosen for the mesh.
+/// Computes `sums`, and finishes all nodes, range by range. nodes.vertex() must be valid. `transient`: scratch memory
+/// that is not read after tangents are written. `range_shift`: log2 of the number of nodes per range; 0: chosen for the
+/// mesh.
 void sumNodes(const WeldedMesh& welded, const CornerSource& source, CornerTermsFunction terms, ScratchBlock& transient,
               const Allocator* allocator, Parallel& parallel, NodeSums& sums, const FinishNodes& finish,
               unsigned range_shift = 0);

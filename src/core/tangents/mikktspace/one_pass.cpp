@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Grouping and evaluation in one pass over the triangles, for simple nodes: one fan, one orientation, tangents that the angular
-// test cannot separate. Nearly all nodes of nearly all meshes are simple. The steps, in the order of this file:
+// Grouping and evaluation in one pass over the triangles, for simple nodes: one fan, one orientation, tangents that the
+// angular test cannot separate. Nearly all nodes of nearly all meshes are simple. The steps, in the order of this file:
 //
-//   1. sums: of all nodes, with marks of what their triangles have in common, and their fans (node_sums.cpp)
-//   2. finishNodes: simple nodes turn their sums into results in place; others are marked as complex
-//   3. checkPolygons, checkDegenerateUvs: nodes that a rule of the reference about whole triangles concerns become complex too
-//   4. estimators: for `fast` and `best` the sums are replaced by estimates, of the simple and the complex nodes together
-//   5. writeCorners: each corner takes the result of its node
-//   6. the vertex path plans and evaluates complex nodes (plan.cpp, evaluate.cpp), over what step 5 wrote there
+//   1. sums: for all nodes, with the marks shared by their triangles, and their fans (node_sums.cpp)
+//   2. finishNodes: replaces the sums of simple nodes by results in place; marks others as complex
+//   3. checkPolygons, checkDegenerateUvs: mark nodes to which the reference's rules about whole triangles apply as complex
+//   4. estimators: for `fast` and `best` the sums are replaced by estimates, for simple and complex nodes together
+//   5. writeCorners: each corner gets the result of its node
+//   6. the vertex path plans and evaluates complex nodes (plan.cpp, evaluate.cpp), overwriting the results of step 5
 //
-// The vertex path gives equal bits for any node, so it does not matter to results which nodes are simple.
+// The vertex path gives equal bits for any node, so results do not depend on which nodes are simple.
 #include <algorithm>
 #include <atomic>
 #include <bit>
@@ -31,9 +31,9 @@ namespace tspace::mikk {
 namespace {
 
 constexpr std::size_t kCornerGrain = 16384;
-constexpr std::uint16_t kReplaced = 0x8000;  ///< in NodeSums::marks: the node has a default in place of an estimate
+constexpr std::uint16_t kReplaced = 0x8000;  ///< flag in NodeSums::marks: the node has a default instead of an estimate
 
-/// The state of a call that its steps share.
+/// State of a call, shared by its steps.
 struct OnePass {
     OnePass(const NodeSetting& setting, const TangentOutput& output, ScratchBlock& scratch, Parallel& threads)
         : in(setting),
@@ -48,7 +48,7 @@ struct OnePass {
 
     [[nodiscard]] bool isComplex(std::size_t n) const { return (complex[n / 64] >> (n % 64) & 1) != 0; }
 
-    /// Leaves a node to the vertex path, also one that was finished. (A node without groups was not counted.)
+    /// Leaves a node to the vertex path, even if it was finished. (A node without groups was not counted.)
     void makeComplex(std::uint32_t node) {
         std::uint64_t& word = complex[node / 64];
         const std::uint64_t bit = std::uint64_t{1} << (node % 64);
@@ -63,7 +63,7 @@ struct OnePass {
     ScratchBlock& transient;
     Parallel& parallel;
     const Allocator* allocator;
-    bool estimates;  ///< fast and best: estimators sum, and one pass only groups
+    bool estimates;  ///< fast and best: the sums come from estimators; this pass only forms groups
     Sink sink;
     DefaultCorners defaults;
 
@@ -76,10 +76,10 @@ struct OnePass {
 // -- 2. simple nodes --
 
 struct FourKinds {
-    unsigned complex, empty;  ///< a bit per node
+    unsigned complex, empty;  ///< one bit per node
 };
 
-/// Finishes the nodes n to n + 3, one per lane. Where only `left` of them exist, the last one fills the missing lanes.
+/// Finishes the nodes n to n + 3, one per lane. If only `left` of them exist, the last one fills the missing lanes.
 FourKinds finishFour(OnePass& pass, std::size_t n, std::size_t left) {
     const auto nodeOf = [=](std::size_t i) { return n + std::min(i, left - 1); };
     const std::size_t at[4] = {n, nodeOf(1), nodeOf(2), nodeOf(3)};
@@ -92,7 +92,7 @@ FourKinds finishFour(OnePass& pass, std::size_t n, std::size_t left) {
     const Mask4 second_path = inLanes([=](std::size_t node) { return nodes[node].fan.secondPath(); });
     const auto has = [&](std::uint32_t mark) { return (marks & static_cast<std::int32_t>(mark)) != 0; };
     const Mask4 up = has(kFacesUp), down = has(kFacesDown), empty = up & down;
-    // A node of one orientation has triangles, so its fan has at least one path; without a second one it is one fan.
+    // A node with one orientation has triangles, so its fan has at least one path; without a second path it is one fan.
     Mask4 simple = (up ^ down) & (second_path == 0);
     const unsigned missing = 15u & ~0u << std::min<std::size_t>(left, 4);
     if (pass.estimates) return {laneBits(~(simple | empty)) & ~missing, laneBits(empty) & ~missing};
@@ -100,7 +100,7 @@ FourKinds finishFour(OnePass& pass, std::size_t n, std::size_t left) {
            w = loadFloat4(nodes[at[3]].s);
     transpose4(x, y, z, w);
     const Float4 square = dot(Vec3x4{x, y, z}, Vec3x4{x, y, z});
-    // A sum that vanishes is left to the vertex path.
+    // Sums that vanish are left to the vertex path.
     simple &= (square > splat(0)) & (square < splat(__builtin_huge_valf()));
     if (pass.in.maySplit()) simple &= has(kTangentSides) & has(kBitangentSides);
     for (std::size_t i = 0; !pass.sums.rest.empty() && i < std::min<std::size_t>(left, 4); ++i) {
@@ -108,7 +108,7 @@ FourKinds finishFour(OnePass& pass, std::size_t n, std::size_t left) {
         rest = restOf(empty[i] != 0 ? Tangents{} : meanOf({}, rest, nodes[at[i]].s[3], false));
     }
     const Float4 inverse = splat(1) / sqrt4(square);
-    const Mask4 negative = ~(marks & ~empty) << 31;  // the bit of kFacesUp becomes that of the sign
+    const Mask4 negative = ~(marks & ~empty) << 31;  // moves the bit of kFacesUp to the sign bit
     const Float4 sign = std::bit_cast<Float4>(std::bit_cast<Mask4>(splat(pass.sink.sign(true))) ^ negative);
     w = sign;
     x = select4(empty, splat(1), inverse * x);
@@ -122,8 +122,8 @@ FourKinds finishFour(OnePass& pass, std::size_t n, std::size_t left) {
     return {laneBits(~(simple | empty)) & ~missing, laneBits(empty) & ~missing};
 }
 
-/// Marks complex nodes, and turns the sums of all others into results, in place (estimated methods have no sums). `first`: a
-/// multiple of 64. Threads may call at the same time.
+/// Marks complex nodes, and replaces the sums of all others by results in place (estimated methods have no sums).
+/// `first`: a multiple of 64. May be called by several threads.
 void finishNodes(OnePass& pass, std::size_t first, std::size_t end) {
     std::uint64_t complex_here = 0, groups_here = 0;
     for (; first < end; first += 64) {
@@ -142,10 +142,10 @@ void finishNodes(OnePass& pass, std::size_t first, std::size_t end) {
     pass.group_count += groups_here;
 }
 
-// -- 3. nodes that whole triangles make complex --
+// -- 3. nodes that are complex because of whole triangles --
 
-/// All triangles of a face take one orientation, and its degenerate ones copy results, which the vertex path does. Nodes of
-/// faces whose triangles differ become complex.
+/// Marks nodes of faces whose triangles differ as complex: all triangles of a face use the same orientation, and
+/// degenerate ones copy results, which the vertex path implements.
 void checkPolygons(OnePass& pass) {
     const Buffer<std::uint32_t>& faces = pass.in.triangles.faces;
     for (std::size_t first = 0, end = 0; first < faces.size(); first = end) {
@@ -161,7 +161,8 @@ void checkPolygons(OnePass& pass) {
     }
 }
 
-/// body(triangle, its nodes) for each triangle without UV area. Eight kinds are looked at together: few are such.
+/// Calls body(triangle, its nodes) for each triangle without UV area. Tests eight kinds at once, since such triangles
+/// are rare.
 template <class Body>
 void forEachDegenerateUv(const OnePass& pass, const Body& body) {
     constexpr std::uint64_t kDegenerateUvs = 0x0101010101010101u * kDegenerateUv;
@@ -180,15 +181,15 @@ void forEachDegenerateUv(const OnePass& pass, const Body& body) {
     }
 }
 
-/// Several triangles of a polygon may have one corner of the mesh.
+/// Avoids counting corners twice: several triangles of a polygon may share a corner of the mesh.
 void distinguishDefaults(OnePass& pass) {
     if (pass.in.hasPolygons()) pass.defaults.distinguish(pass.in.mesh.cornerCount(), pass.allocator);
 }
 
-/// A triangle without UV area takes the orientation of the first group that reaches it, at any of its
-/// nodes. Where all other triangles at its three nodes have one orientation, it takes that one, in any order; then it only
-/// links its neighbours in the fan. Nodes of other such triangles become complex, except where they have no other triangle
-/// and so no group. Corners there are counted as defaults.
+/// A triangle without UV area uses the orientation of the first group that reaches it, at any of its nodes. If all
+/// other triangles at its three nodes have the same orientation, it uses that one, in any order, and only links its
+/// neighbors in the fan. Nodes of other such triangles become complex, unless they have no other triangle and so no
+/// group. Corners there are counted as defaults.
 void checkDegenerateUvs(OnePass& pass) {
     if (pass.sums.report.degenerate_uv_count == 0) return;
     distinguishDefaults(pass);
@@ -208,8 +209,8 @@ void checkDegenerateUvs(OnePass& pass) {
 
 // -- 4. estimates --
 
-/// Triangles whose groups are the nodes, and for complex nodes the groups of their plan, numbered from the node count on: so all
-/// groups of a mesh are estimated together.
+/// Triangles whose groups are the nodes, or, for complex nodes, the groups of their plan, numbered from the node count
+/// on: all groups of a mesh are estimated together.
 class JoinedTriangles final : public TriangleGroups {
   public:
     /// `is_planned`: one bit per node.
@@ -241,8 +242,8 @@ class JoinedTriangles final : public TriangleGroups {
     std::span<const std::uint64_t> is_planned_;
 };
 
-/// Estimates all groups together, since a step of `best` reads the results of neighbouring groups. Results of simple nodes
-/// take the place of their sums; those of the plan's groups are returned.
+/// Estimates all groups together, since a step of `best` reads the results of neighboring groups. Results of simple
+/// nodes replace their sums; those of the plan's groups are returned.
 GroupSums estimateWithPlan(OnePass& pass, const EvaluationPlan& plan) {
     if (!wantsTangentsOnly(pass.out)) pass.sums.rest = Buffer<GroupRest>(pass.allocator, pass.in.nodes.count);
     GroupSums planned = roomForSums(plan, wantsOnlyTangents(plan, pass.out), pass.allocator);
@@ -260,7 +261,7 @@ GroupSums estimateWithPlan(OnePass& pass, const EvaluationPlan& plan) {
     return planned;
 }
 
-/// Brings estimates of simple nodes into the form of results, with defaults where they vanish. Returns whether some did.
+/// Converts estimates of simple nodes to results, with defaults for those that vanish. Returns whether any did.
 bool finishEstimates(OnePass& pass, std::size_t first, std::size_t end) {
     bool any_replaced = false;
     for (std::size_t n = first; n < end; ++n) {
@@ -303,7 +304,8 @@ GroupSums estimate(OnePass& pass, const EvaluationPlan& plan) {
 
 // -- 5. corners --
 
-/// Writes a range of corners in parts. The nodes of the next part are looked up, and prefetched, before a part is written.
+/// Writes a range of corners in parts. The nodes of the next part are looked up, and prefetched, before a part is
+/// written.
 void writeCorners(const OnePass& pass, std::size_t first, std::size_t end) {
     constexpr std::size_t kPart = 64;
     const bool streamed = pass.out.tangents.stride_bytes == sizeof(Vec4) &&
@@ -336,7 +338,7 @@ void writeCorners(const OnePass& pass, std::size_t first, std::size_t end) {
     if (streamed) endOfRows();
 }
 
-/// Writes all corners. Those of complex nodes are written too: the vertex path overwrites them.
+/// Writes all corners, including those of complex nodes, which the vertex path overwrites.
 void writeCorners(const OnePass& pass) {
     pass.parallel.forRanges(pass.in.mesh.cornerCount(), kCornerGrain,
                             [&](std::size_t begin, std::size_t end) { writeCorners(pass, begin, end); });
@@ -374,7 +376,8 @@ TangentReport evaluateInOnePass(const NodeSetting& setting, const TangentOutput&
         if (!pass.sums.isEmpty(node)) pass.makeComplex(node);
     }
     TangentReport report = pass.sums.report;
-    // Sums are released before the corners of complex nodes are listed; but estimates need the groups of all nodes first.
+    // Sums are released before the corners of complex nodes are listed; but estimates need the groups of all nodes
+    // first.
     if (!pass.estimates) {
         writeCorners(pass);
         pass.sums = {};

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The plan half of the method: groups every chosen node (groups.h), finds the groups that an angular threshold splits
-// (SplitFinder), and writes both down as an EvaluationPlan, which evaluate.cpp runs on any pose.
+// Planning: groups every selected node (groups.h), finds the groups that an angular threshold splits (SplitFinder), and
+// stores both as an EvaluationPlan, which evaluate.cpp runs on any pose.
 //
-// h stands for a half-edge of the plan's own triangles, 3 * t + k: triangle t is triangle triangles[t] of the mesh, or t where
-// that list is empty.
+// h denotes a half-edge of the plan's own triangles, 3 * t + k: triangle t is triangle triangles[t] of the mesh, or t
+// if that list is empty.
 //
-// list             how many               an entry is                                its top bit (kTopBit) says
+// list             how many               an entry is                                its top bit (kTopBit) means
 // vertices         one per h              the vertex whose data stand for the corner  -
 // groups           one per h              the group that takes its result            it adds nothing to the sum (no UV area)
 // slots            one per h, or empty    its corner of the mesh                     the corner has several results: conflicts
@@ -21,8 +21,8 @@
 // skipped_corners  of ignored faces       a corner of the mesh                       -
 // copies           of degenerate t        a corner that copies, and the one copied   -
 //
-// groups[h] is kNone for half-edges without a group, and for members of groups that split: these have their result from
-// splits. While the planner works on a node, groups[h] is a source as in conflicts.
+// groups[h] is kNone for half-edges without a group, and for members of groups that split: `splits` contains their
+// results. While the planner processes a node, groups[h] is a source as in conflicts.
 #include "core/tangents/mikktspace/vertex_path.h"
 
 #include <algorithm>
@@ -45,8 +45,8 @@ bool sameBits(const T& a, const T& b) {
     return std::memcmp(&a, &b, sizeof(T)) == 0;
 }
 
-/// Whether two equal vertices have equal bits. Where a zero's sign differs, only the data of the node's own vertex give the
-/// reference's bits.
+/// Returns whether two equal vertices have equal bits. If the signs of zeros differ, only the data of the node's own
+/// vertex give the bits of the reference.
 bool sameData(const MeshView& mesh, std::uint32_t a, std::uint32_t b) {
     return sameBits(mesh.positions[a], mesh.positions[b]) && sameBits(mesh.normals[a], mesh.normals[b]) &&
            sameBits(mesh.uvs[a], mesh.uvs[b]);
@@ -119,7 +119,7 @@ class Planner {
         return in_.triangles.corner(corners_.halfEdgeOf(half_edge));
     }
 
-    /// Numbers the groups of a node, splits them, and turns the sources in to_.groups into groups.
+    /// Numbers the groups of a node, splits them, and replaces the sources in to_.groups by groups.
     void addNode(std::size_t place) {
         const NodeGroups groups = grouping_.groupsOf(place);
         const auto first = static_cast<std::uint32_t>(positive_.size());
@@ -148,7 +148,7 @@ class Planner {
     /// Returns whether any group of the node splits.
     bool splitGroups(std::size_t place, const NodeGroups& groups) {
         if (groups.group == nullptr) return splitGroup(place, groups.corners);
-        // Sorted by group, ascending within each group, as a counting sort leaves them.
+        // Counting sort by group; ascending within each group.
         ends_.drop(ends_.size());
         std::fill_n(ends_.extend(groups.count + 1), groups.count + 1, 0u);
         for (std::size_t i = 0; i < groups.corners.size(); ++i)
@@ -187,8 +187,8 @@ class Planner {
         auto operator<=>(const Repeat&) const = default;
     };
 
-    /// Finds corners of the mesh that several half-edges have, as at a quad's diagonal: each of these half-edges becomes a
-    /// conflict. Returns false, and does nothing, where there are none.
+    /// Finds corners of the mesh with several half-edges, as at a quad's diagonal: each of these half-edges becomes a
+    /// conflict. Returns false, without changes, if there are none.
     bool addRepeats(const NodeGroups& groups) {
         bool ascending = true;
         repeats_.drop(repeats_.size());
@@ -216,7 +216,7 @@ class Planner {
         }
     }
 
-    /// Plans the corners of degenerate triangles: a copy, or the default where the copied corner has the default or where
+    /// Plans the corners of degenerate triangles: a copy, or the default if the copied corner has the default or if
     /// there is none to copy.
     void addCopies() {
         if (corners_.copies.empty()) return;
@@ -240,11 +240,11 @@ class Planner {
     Grouping grouping_;
     EvaluationPlan to_;
     SplitFinder splits_;
-    // Scratch, used again for each node.
+    // Scratch memory, reused for each node.
     Growing<std::uint32_t> ends_;  // end of each group in members_
     Growing<NodeCorner> members_;  // the node's corners, group by group
     Growing<Repeat> repeats_;
-    // Lists of the plan while they grow.
+    // Plan arrays under construction.
     Growing<std::uint8_t> positive_;
     Growing<EvaluatedSplit> split_groups_;
     Growing<std::uint32_t> split_members_;
@@ -264,8 +264,8 @@ std::size_t EvaluationPlan::memoryBytes() const {
            bytes(skipped_corners) + bytes(copies) + bytes(triangles);
 }
 
-// Lists the corners of chosen nodes: finds the triangles around them, computes their terms, gives each face one orientation,
-// sorts corners by node (a counting sort), and plans copies for corners of degenerate triangles.
+// Corner lists of selected nodes: finds the triangles around them, computes their terms, unifies the orientation of
+// each face, sorts corners by node (a counting sort), and plans copies for corners of degenerate triangles.
 
 namespace {
 
@@ -360,7 +360,7 @@ class CornerReader {
             }
         }
         facing[chosen_count] = 0;
-        // begin[place + 1] now becomes where the place begins; placeCorners moves it to where the place ends.
+        // begin[place + 1] becomes the start of the place; placeCorners moves it to the end of the place.
         for (std::size_t place = 0; place < chosen_count; ++place) begin[place + 2] += begin[place + 1];
         to_.corners = Buffer<NodeCorner>(allocator_, begin[chosen_count + 1]);
     }
@@ -398,7 +398,8 @@ class CornerReader {
 
     [[nodiscard]] std::uint32_t faceOf(std::size_t t) const { return in_.triangles.faces[to_.triangleOf(t)]; }
 
-    /// Gives all triangles of a face one orientation. Of faces whose triangles differ, all triangles have been found.
+    /// Unifies the orientation of all triangles of a face. For faces with different orientations, all triangles have
+    /// been collected.
     void uniteFaces() {
         for (std::size_t t = 1; t < count_;) {
             if (to_.flags[t] == to_.flags[t - 1] || faceOf(t) != faceOf(t - 1)) {
@@ -412,7 +413,7 @@ class CornerReader {
         }
     }
 
-    /// Degenerate triangles do not take part.
+    /// Degenerate triangles are ignored.
     void uniteFace(std::size_t first, std::size_t end) {
         good_.drop(good_.size());
         std::uint32_t facing = 0;
@@ -431,8 +432,8 @@ class CornerReader {
 
     [[nodiscard]] bool isAny(std::size_t i) const { return (to_.flags[good_[i]] & kAny) != 0; }
 
-    /// The triangle whose orientation the face takes. In a quad the first, unless the second has a usable UV area and the
-    /// first's is not at least as large; in an n-gon the largest with a usable UV area.
+    /// Returns the triangle whose orientation the face uses. For a quad the first, unless the second has a usable UV
+    /// area and the first one's is not at least as large; for an n-gon the largest with a usable UV area.
     [[nodiscard]] std::size_t orientingTriangle() const {
         const auto area = [&](std::size_t i) { return std::fabs(uvArea(good_[i])); };
         if (good_.size() == 2) return good_[!isAny(1) && !(area(0) >= area(1)) ? 1 : 0];
@@ -443,12 +444,12 @@ class CornerReader {
         return good_[chosen];
     }
 
-    /// Plans copies for corners that only degenerate triangles have. Where the face has good triangles too, such a corner
-    /// copies the corner of the face at its own position; else the first good corner of its node. (The reference searches the
-    /// face's good triangle for the position; in a quad there is only one such corner.) All corners of degenerate triangles
-    /// are at chosen nodes.
+    /// Plans copies for corners that only degenerate triangles have. If the face also has valid triangles, such a
+    /// corner copies the corner of the face at its own position; otherwise the first valid corner of its node. (The
+    /// reference searches the face's valid triangle for the position; in a quad there is only one such corner.) All
+    /// corners of degenerate triangles are at selected nodes.
     void planCopies() {
-        Buffer<std::uint8_t> done;  // one per corner of polygons: 1 has a good triangle, 2 is planned
+        Buffer<std::uint8_t> done;  // one per corner of polygons: 1: has a valid triangle, 2: is planned
         if (!in_.triangles.faces.empty()) {
             done = Buffer<std::uint8_t>(allocator_, in_.mesh.cornerCount(), std::uint8_t{0});
             for (std::size_t t = 0; t < count_; ++t) {
@@ -473,7 +474,8 @@ class CornerReader {
         }
     }
 
-    /// Another corner of the triangle at the same position, if a good triangle of the face has it too; else kNone.
+    /// Returns another corner of the triangle at the same position, if a valid triangle of the face also has it;
+    /// otherwise kNone.
     std::uint32_t copiedInFace(std::size_t t, std::uint32_t k, const Buffer<std::uint8_t>& done) const {
         const auto position = [&](std::uint32_t corner) { return in_.mesh.positions[in_.mesh.indices[corner]]; };
         for (std::uint32_t j = 1; j < 3; ++j) {
@@ -496,7 +498,7 @@ class CornerReader {
     VertexCorners to_;
     Buffer<std::uint32_t> place_of_;  // one per node: its position in `chosen`, or kNone
     std::size_t count_ = 0;           // number of triangles
-    Growing<std::uint32_t> good_;     // the triangles of one face that are not degenerate
+    Growing<std::uint32_t> good_;     // triangles of one face that are not degenerate
 };
 
 }  // namespace

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The vertex path lists the corners around each chosen node, links them across their shared edges, groups them, and writes
-// a plan, which is evaluated (evaluate.h). One pass chooses the complex nodes: several groups, fans of too many parts,
-// contested triangles, sums that do not show that nothing splits, corners of degenerate triangles, the reference's last
-// bucket. planTangents chooses all nodes.
+// The vertex path lists the corners around each selected node, links them across their shared edges, groups them, and
+// writes a plan, which is evaluated (evaluate.h). One-pass evaluation selects the complex nodes: several groups, fans
+// of too many parts, contested triangles, sums that do not prove that nothing splits, corners of degenerate triangles,
+// the reference's last bucket. planTangents selects all nodes.
 //
-//   plan.cpp            triangles around the chosen nodes, one orientation per face, corners node by node; and the plan
+//   plan.cpp            triangles around the selected nodes, one orientation per face, corners node by node; and the plan
 //   groups.cpp          links between the corners of a node, groups, contested triangles; groups that an angular threshold
 //                       below 180 degrees separates
 #pragma once
@@ -36,26 +36,26 @@ struct VertexPath {
     /// Ascending. Must include all nodes of degenerate triangles, of contested triangles (unless a node has no other
     /// triangle), and of faces whose triangles differ in orientation or degeneracy (checkPolygons in one_pass.cpp).
     std::span<const std::uint32_t> chosen;
-    bool are_all;  ///< `chosen` are all nodes
+    bool are_all;  ///< whether `chosen` contains all nodes
     PlanUse use;   ///< once: the plan has the mesh's own terms, except for estimators
     Parallel& parallel;
 };
 
-/// Flags of a triangle, beside kFacesUp or kFacesDown, which all triangles of a face share (uniteFaces).
+/// Flags of a triangle, in addition to kFacesUp or kFacesDown (shared by all triangles of a face: uniteFaces).
 enum TriangleFlag : std::uint8_t {
-    kAny = 4,        ///< no usable UV area: joins groups of either orientation, opens none, adds nothing
-    kContested = 8,  ///< groups.h: takes the orientation of the first group that reaches it
+    kAny = 4,        ///< no usable UV area: joins groups of either orientation, starts none, contributes nothing
+    kContested = 8,  ///< groups.h: uses the orientation of the first group that reaches it
     kDegenerate = 16,
 };
 
-/// A corner of a triangle that is not degenerate. The corners of a node lie side by side.
+/// A corner of a triangle that is not degenerate. The corners of a node are contiguous.
 struct NodeCorner {
     const float* s;                ///< its row of CornerTerms::s
     std::uint32_t half_edge;       ///< 3 * the triangle's number in `found` + k
     std::uint32_t next, previous;  ///< nodes
-    std::uint32_t facing;          ///< kFacesUp or kFacesDown; 0: its triangle has no UV area, and it adds nothing
+    std::uint32_t facing;          ///< kFacesUp or kFacesDown; 0: its triangle has no UV area and contributes nothing
 
-    /// Its row of CornerTerms::t.
+    /// Returns its row of CornerTerms::t.
     [[nodiscard]] const float* t() const {
         return s + (offsetof(CornerTerms, t) - offsetof(CornerTerms, s)) / sizeof *s;
     }
@@ -73,9 +73,9 @@ struct VertexCorners {
 
     Buffer<NodeCorner> corners;  ///< node by node, ascending by triangle
     // One per chosen node.
-    Buffer<std::uint32_t> begin;  ///< start of its corners in `corners`; they end where the next node's begin
-    /// The orientations of the triangles that add to it: kFacesUp, kFacesDown, or both. One more entry, 0, stands for nodes
-    /// that are not chosen.
+    Buffer<std::uint32_t> begin;  ///< start of its corners in `corners`; they end at the start of the next node's
+    /// Orientations of the triangles that contribute to it: kFacesUp, kFacesDown, or both. An additional entry, 0,
+    /// represents nodes that are not selected.
     Marks facing;
     /// Corners of the mesh that only degenerate triangles have, with the corners that they copy, or kNone.
     Growing<Copy> copies;
@@ -88,7 +88,7 @@ struct VertexCorners {
     [[nodiscard]] std::uint32_t triangleOf(std::size_t t) const {
         return found.empty() ? static_cast<std::uint32_t>(t) : found[t];
     }
-    /// The number that a half-edge has in the mesh.
+    /// Returns the number of a half-edge in the mesh.
     [[nodiscard]] std::uint32_t halfEdgeOf(std::uint32_t half_edge) const {
         return 3 * triangleOf(half_edge / 3) + half_edge % 3;
     }
@@ -99,19 +99,22 @@ struct VertexCorners {
 
 VertexCorners readCorners(const VertexPath& path);
 
-/// Plans the chosen nodes; the report counts the triangles around them. Takes about 210 bytes per triangle around these
-/// nodes. Throws OutOfMemory.
+/// Plans the selected nodes; the report counts the triangles around them. Uses about 210 bytes per triangle around
+/// these nodes. Throws OutOfMemory.
 EvaluationPlan planChosen(const VertexPath& path);
 
-/// Tangents of the mesh's own pose: simple nodes by one pass (one_pass.cpp), complex ones by the vertex path. Not for angular
-/// thresholds below 180 degrees. `transient`: scratch memory for data that are not read any more when tangents are written,
-/// so that it may lie in the output. `range_shift`: log2 of the nodes of a range; 0: chosen for the mesh. Throws OutOfMemory.
+/// Computes the tangents of the mesh's own pose: simple nodes in one pass (one_pass.cpp), complex ones by the vertex
+/// path. Not for angular thresholds below 180 degrees. `transient`: scratch memory for data that are not read after
+/// tangents are written, so that it may be in the output. `range_shift`: log2 of the number of nodes per range; 0:
+/// chosen for the mesh. Throws OutOfMemory.
 TangentReport evaluateInOnePass(const NodeSetting& setting, const TangentOutput& out, ScratchBlock& transient,
                                 Parallel& parallel, unsigned range_shift = 0);
 
-/// Whether evaluateSmall applies: at most 64 triangles, which are the faces, with few vertices, and finite; mikktspace.
+/// Returns whether evaluateSmall applies: at most 64 triangles, which are the faces, few vertices, all finite;
+/// mikktspace.
 bool isSmall(const NodeSetting& setting);
-/// The results of evaluateInOnePass, and of plans for any angular threshold, for a small mesh (small_mesh.cpp).
+/// Computes the results of evaluateInOnePass, and of plans for any angular threshold, for a small mesh
+/// (small_mesh.cpp).
 TangentReport evaluateSmall(const NodeSetting& setting, const TangentOutput& out);
 
 }  // namespace tspace::mikk

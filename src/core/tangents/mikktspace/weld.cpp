@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cutting faces into triangles, by the rule of triangulate.h.
+// Triangulation of faces by the rule of triangulate.h, and welding.
 #include "core/tangents/mikktspace/weld.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace tspace::mikk {
 
 namespace {
 
-/// The sizes of faces that are cut: 3 and 4, and those of n-gons if wanted. All others are skipped.
+/// Sizes of faces that are triangulated: 3 and 4, and those of n-gons if requested. All others are skipped.
 class UsedSizes {
   public:
     explicit UsedSizes(Ngons ngons) : count_(ngons == Ngons::triangulate ? 0u - kLeast : 5 - kLeast) {}
@@ -32,13 +32,13 @@ class UsedSizes {
     std::uint32_t count_;
 };
 
-/// Counts of faces and corners. Corners are fewer than 2^31.
+/// Counts of faces and corners. There are fewer than 2^31 corners.
 struct FaceCounts {
-    std::uint32_t triangles = 0;  // after cutting
+    std::uint32_t triangles = 0;  // after triangulation
     std::uint32_t faces_of_three = 0, skipped_faces = 0, skipped_corners = 0;
 };
 
-/// The loop has no branch, so that it becomes SIMD: a size that is not used counts as 0.
+/// Counts by a branchless loop, which compilers vectorize: a size that is not used counts as 0.
 FaceCounts countFaces(std::span<const std::uint32_t> sizes, Ngons ngons) {
     const UsedSizes used(ngons);
     std::uint32_t corners = 0, used_corners = 0, used_faces = 0, faces_of_three = 0;
@@ -53,7 +53,7 @@ FaceCounts countFaces(std::span<const std::uint32_t> sizes, Ngons ngons) {
     return {used_corners - 2 * used_faces, faces_of_three, faces - used_faces, corners - used_corners};
 }
 
-/// Counts the faces of a mesh by their list of sizes, or by the one size of all.
+/// Counts the faces of a mesh, from their list of sizes, or from their common size.
 FaceCounts countFaces(const MeshView& mesh, Ngons ngons) {
     if (!mesh.face_sizes.empty()) return countFaces(mesh.face_sizes, ngons);
     const std::uint32_t size = mesh.face_size;
@@ -93,15 +93,16 @@ TriangleList cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* alloca
     return list;
 }
 
-// The reference sorts corners into cells of a grid and compares those of a small cell with each other. Here the vertices of
-// the mesh are hashed (core/base/weld.h). Both find the same classes; grid_order.cpp finds the reference's representatives
-// where they matter.
+// The reference sorts corners into cells of a grid and compares those of a small cell with each other. Here the
+// vertices of the mesh are hashed (core/base/weld.h). Both find the same classes; grid_order.cpp finds the reference's
+// representatives where they matter.
 
 namespace {
 
-/// The reference adds the ends of intervals of positions: above this the sum may overflow and welding stops.
+/// The reference adds the bounds of intervals of positions: above this value the sum may overflow and its welding
+/// stops.
 constexpr float kHugePosition = 1.6e38f;
-constexpr std::size_t kPrefetchAhead = 32;  // entries between the prefetch of a root and its comparison
+constexpr std::size_t kPrefetchAhead = 32;  // distance between the prefetch of a root and its comparison, in entries
 
 struct Vertex {
     Vec3 position, normal;
@@ -127,8 +128,8 @@ std::uint64_t pairAt(const void* at) {
     return pair;
 }
 
-/// Whether two vertices have equal bits. Words are read in place: a copy would be stored in small pieces and loaded in large
-/// ones, which defeats store forwarding.
+/// Returns whether two vertices have equal bits. Words are read in place: a copy would be stored in small pieces and
+/// loaded in large ones, which defeats store forwarding.
 bool sameBits(const MeshView& mesh, std::size_t a, std::size_t b) {
     const Vec3 &p = mesh.positions[a], &q = mesh.positions[b], &m = mesh.normals[a], &n = mesh.normals[b];
     const std::uint64_t xy = (pairAt(&p) ^ pairAt(&q)) | (pairAt(&m) ^ pairAt(&n));
@@ -137,13 +138,13 @@ bool sameBits(const MeshView& mesh, std::size_t a, std::size_t b) {
     return (xy | z | (pairAt(&mesh.uvs[a]) ^ pairAt(&mesh.uvs[b]))) == 0;
 }
 
-/// Four floats or words at once, in the compiler's own vectors: scalar code where the target has none.
+/// Four floats or words at once, as compiler vectors: scalar code if the target has none.
 using Fours = float __attribute__((vector_size(16)));
 using Words = std::uint32_t __attribute__((vector_size(16)));
 using Pairs = std::uint64_t __attribute__((vector_size(16)));
 
-/// Hashes of the vertices [begin, end). Vertices that compare equal have equal hashes: adding +0 turns -0
-/// into +0. Returns whether all of them are finite and not huge; large normals and UVs are taken for huge here.
+/// Hashes the vertices in [begin, end). Vertices that compare equal have equal hashes: adding +0 changes -0 to +0.
+/// Returns whether all of them are finite and not huge; large normals and UVs count as huge here.
 bool hashVertices(const MeshView& mesh, std::size_t begin, std::size_t end, std::uint32_t* hashes) {
     const Fours limit = Fours{} + kHugePosition;
     const Words no_sign = Words{} + 0x7fffffffu;
@@ -157,7 +158,7 @@ bool hashVertices(const MeshView& mesh, std::size_t begin, std::size_t end, std:
         const Fours b = std::bit_cast<Fours>(Pairs{std::bit_cast<Pairs>(z)[0], pairAt(&uvs[v])}) + Fours{};
         finite &= (std::bit_cast<Fours>(std::bit_cast<Words>(a) & no_sign) < limit) &
                   (std::bit_cast<Fours>(std::bit_cast<Words>(b) & no_sign) < limit);
-        // Turned against each other, so that signs that change together (mirrored shapes) do not cancel.
+        // Rotated, so that signs that change together (mirrored shapes) do not cancel.
         const Words turned = std::bit_cast<Words>(b) << 13 | std::bit_cast<Words>(b) >> 19;
         const Pairs both = std::bit_cast<Pairs>(std::bit_cast<Words>(a) ^ turned);
         std::uint64_t h = both[0] * 0xbf58476d1ce4e5b9u ^ std::rotl(both[1] * 0x94d049bb133111ebu, 32);
@@ -167,14 +168,14 @@ bool hashVertices(const MeshView& mesh, std::size_t begin, std::size_t end, std:
     return (finite[0] & finite[1] & finite[2] & finite[3]) != 0;
 }
 
-/// Positions, normals and UVs, which the vertices of a node have in common.
+/// Positions, normals and UVs, which are equal within a node.
 class CornerData final : public Weldable {
   public:
     explicit CornerData(const MeshView& mesh) : mesh_(mesh) {}
 
-    /// Whether all vertices are finite and not huge; valid when all are hashed.
+    /// Returns whether all vertices are finite and not huge; valid after hashing.
     [[nodiscard]] bool allFinite() const { return all_finite_; }
-    /// Whether some vertex differs from its root in the sign of a zero; valid when roots are found.
+    /// Returns whether any vertex differs from its root in the sign of a zero; valid after the search for roots.
     [[nodiscard]] bool mixed() const { return mixed_; }
 
     void hash(std::size_t begin, std::size_t end, std::uint32_t* hashes) override {
@@ -212,7 +213,7 @@ class CornerData final : public Weldable {
         Words words{};
         std::size_t i = 0;
         for (const float x : {p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y})
-            words[i++] = std::bit_cast<std::uint32_t>(x + 0.0f);  // -0 as +0
+            words[i++] = std::bit_cast<std::uint32_t>(x + 0.0f);  // treats -0 as +0
         return words;
     }
     void prefetch(std::uint32_t vertex) const {
@@ -225,12 +226,12 @@ class CornerData final : public Weldable {
     std::atomic<bool> all_finite_{true}, mixed_{false};
 };
 
-/// Numbers the nodes by their first vertices. Without branches, which processors could not predict.
+/// Numbers the nodes by their first vertices. Branchless, since branches would be unpredictable.
 void numberNodes(Buffer<std::uint32_t> root_of, Nodes& nodes) {
     std::uint32_t next = 0;
     for (std::size_t v = 0; v < root_of.size(); ++v) {
         const std::uint32_t root = root_of[v];
-        const std::uint32_t node = root_of[root];  // a node already, unless v is the root
+        const std::uint32_t node = root_of[root];  // already a node, unless v is the root
         const std::uint32_t is_first = root == v ? 1 : 0;
         root_of[v] = node + is_first * (next - node);
         next += is_first;
@@ -240,7 +241,7 @@ void numberNodes(Buffer<std::uint32_t> root_of, Nodes& nodes) {
     nodes.of_vertex = std::move(root_of);
 }
 
-/// If nodes mix -0 and +0, takes the data of the reference's representative, whose bits matter.
+/// If nodes mix -0 and +0, selects the data of the reference's representative, whose bits matter.
 [[gnu::cold]] void resolveMixed(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes,
                                 const Allocator* allocator, Parallel& parallel) {
     listVertices(nodes, allocator);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cuts faces into triangles and welds equal vertices.
+// Triangulates faces and welds equal vertices.
 #pragma once
 
 #include "core/base/memory.h"
@@ -11,8 +11,8 @@ namespace tspace::mikk {
 
 TriangleList cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* allocator);
 
-/// Memory: findRoots of core/base/weld.h; up to 4 bytes per vertex remain. `transient` allocates what does not remain; null:
-/// `allocator`.
+/// Welds equal vertices. Memory: findRoots of core/base/weld.h; up to 4 bytes per vertex remain. `transient` allocates
+/// temporary memory; null: `allocator`.
 Nodes weld(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator, Parallel& parallel,
            const Allocator* transient = nullptr);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Triangles of faces that were cut.
+// Reading of triangulated faces.
 #include "core/tangents/mikktspace/welded_mesh.h"
 
 namespace tspace::mikk {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A mesh whose faces are cut into triangles and whose equal vertices are one node.
+// A mesh whose faces are triangulated and whose equal vertices are welded to nodes.
 #pragma once
 
 #include <algorithm>
@@ -15,9 +15,9 @@
 
 namespace tspace::mikk {
 
-// Faces cut into triangles.
+// Triangulated faces.
 
-/// All triangles, degenerate ones too, in face order.
+/// All triangles, including degenerate ones, in face order.
 struct TriangleList {
     std::size_t count = 0;
     Buffer<std::uint32_t> corners;  ///< three corners of the mesh per triangle; empty: 3t, 3t+1, 3t+2
@@ -33,49 +33,50 @@ struct TriangleList {
     }
 };
 
-/// readTriangles where faces were cut.
+/// Like readTriangles, for triangulated polygons.
 const std::uint32_t* readCutTriangles(const MeshView& mesh, const TriangleList& triangles, std::size_t first,
                                       std::size_t count, std::uint32_t* buffer);
 
-/// The vertices of the triangles [first, first + count), three each: a pointer into the indices where they can be read in
-/// place, else `buffer`.
+/// Returns the vertices of the triangles [first, first + count), three each: a pointer into the indices if they can be
+/// read in place, otherwise `buffer`.
 inline const std::uint32_t* readTriangles(const MeshView& mesh, const TriangleList& triangles, std::size_t first,
                                           std::size_t count, std::uint32_t* buffer) {
     if (triangles.corners.empty()) return readIndices(mesh.indices, 3 * first, 3 * count, buffer);
     return readCutTriangles(mesh, triangles, first, count, buffer);
 }
 
-// Welding: vertices with equal position, normal and UV become one node. A NaN equals its
-// own bits, so that a file may store such a vertex once or twice.
+// Welding: vertices with equal position, normal and UV become one node. A NaN equals its own bits, so that a file may
+// store such a vertex once or twice.
 
-/// Nodes are numbered by their first vertices, ascending. A vertex that no triangle uses has a node as well,
-/// which then may have no corners.
+/// Nodes are numbered by their first vertices, ascending. An unused vertex also has a node, which may then have no
+/// corners.
 struct Nodes {
     std::size_t count = 0;
-    /// No corner has a NaN, an infinity or a huge position.
+    /// Whether no corner has a NaN, an infinity or a huge position.
     bool all_finite = true;
-    /// Some node mixes -0 and +0: the node's data are those of vertex(node), not those of any vertex of it.
+    /// Whether any node mixes -0 and +0: the node's data are then those of vertex(node), not of any of its vertices.
     bool mixed = false;
     Buffer<std::uint32_t> of_vertex;  ///< node of each vertex; empty: no two vertices are equal, node == vertex
-    /// One per node: the vertex whose data stand for it. There when `mixed`, and after
-    /// listVertices; empty: node == vertex.
+    /// One per node: the vertex that provides its data. Available if `mixed`, and after listVertices; empty: node ==
+    /// vertex.
     Buffer<std::uint32_t> vertices;
 
     [[nodiscard]] std::uint32_t ofVertex(std::uint32_t vertex) const {
         return of_vertex.empty() ? vertex : of_vertex[vertex];
     }
-    /// The nodes of some vertices. Returns `some` where each vertex is its own node, else writes to `to` and returns it.
+    /// Returns the nodes of some vertices: `some` if each vertex is its own node, otherwise writes to `to` and returns
+    /// it.
     const std::uint32_t* ofVertices(const std::uint32_t* some, std::size_t some_count, std::uint32_t* to) const {
         for (std::size_t i = 0; !of_vertex.empty() && i < some_count; ++i) to[i] = of_vertex[some[i]];
         return of_vertex.empty() ? some : to;
     }
-    /// Valid after listVertices.
+    /// Returns the vertex that provides a node's data. Valid after listVertices.
     [[nodiscard]] std::uint32_t vertex(std::size_t node) const {
         return vertices.empty() ? static_cast<std::uint32_t>(node) : vertices[node];
     }
 };
 
-/// A mesh whose faces are cut and whose vertices are welded.
+/// A mesh whose faces are triangulated and whose vertices are welded.
 struct WeldedMesh {
     const MeshView& mesh;
     const TriangleList& triangles;
@@ -87,23 +88,25 @@ struct WeldedMesh {
     [[nodiscard]] std::uint32_t nodeAt(std::size_t half_edge) const { return nodes.ofVertex(vertexAt(half_edge)); }
 };
 
-// Collects the triangles that have a marked vertex or node, with several threads.
+// Multithreaded collection of the triangles that have a marked vertex or node.
 
-inline constexpr std::size_t kCollectBlock = 64;                 ///< triangles, a bit each
+inline constexpr std::size_t kCollectBlock = 64;                 ///< triangles, one bit each
 inline constexpr std::size_t kBlockCorners = 3 * kCollectBlock;  ///< corners of the mesh per block
 
-/// 0, 1, 2, ...
+/// Returns 0, 1, 2, ...
 inline Buffer<std::uint32_t> numbersBelow(std::size_t count, const Allocator* allocator) {
     Buffer<std::uint32_t> numbers(allocator, count);
     for (std::size_t i = 0; i < count; ++i) numbers[i] = static_cast<std::uint32_t>(i);
     return numbers;
 }
 
-/// Marks of vertices or nodes, a byte each: they are read in random order, where extracting a bit costs more than the memory.
+/// Marks of vertices or nodes, one byte each: they are read in random order, where extracting a bit costs more than the
+/// memory.
 using Marks = Buffer<std::uint8_t>;
 inline Marks noMarks(const Allocator* allocator, std::size_t count) { return Marks(allocator, count, std::uint8_t{0}); }
 
-/// The triangles, ascending, with a vertex for which markOf(vertex) has a bit of `mask`. `any` gets the bits of all marks.
+/// Returns the triangles, ascending, with a vertex for which markOf(vertex) has a bit of `mask`. `any` receives the
+/// bits of all marks.
 template <class MarkOf>
 Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList& triangles, const MarkOf& markOf,
                                        std::uint32_t mask, const Allocator* allocator, Parallel& parallel,
@@ -125,7 +128,7 @@ Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList&
     const std::size_t block_count = (triangles.count + kCollectBlock - 1) / kCollectBlock;
     if (block_count == 0) return {};
     Buffer<std::uint64_t> passed(allocator, block_count);
-    Buffer<std::uint32_t> ends(allocator, block_count);  // counts first, then where each block's triangles end
+    Buffer<std::uint32_t> ends(allocator, block_count);  // first counts, then the end of each block's triangles
     parallel.forRanges(block_count, kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t block = begin; block < end; ++block) {
             passed[block] = bitsOf(block);

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Words and numbers of this folder:
+// Terms and numbering of this folder:
 //
 // node            a welded vertex: all corners with equal position, normal and UV (weld.h)
 // half-edge       3 * triangle + k: the edge of a triangle from its corner k to corner k+1, and also that corner itself
-// slot            the corner of the mesh that a half-edge's result belongs to; the two corners at a quad's diagonal are
+// slot            the corner of the mesh that receives a half-edge's result; the two corners at a quad's diagonal are
 //                 slots of two half-edges each
 // group           half-edges at one node that share tangents
 // facing          the orientation of a triangle's UVs: kFacesUp with positive area, kFacesDown (mirrored) otherwise
-// simple node     its triangles make one fan, face one way, and no angular threshold can split them: one group. One pass
-//                 (one_pass.cpp) finishes these nodes. All others are complex and go the vertex path (vertex_path.h)
-// contested       a triangle without UV area at whose nodes groups of both orientations may ask for it (groups.h)
-// representative  the corner that the reference keeps for a node: the lowest in its own search order (grid_order.cpp)
+// simple node     its triangles form one fan with the same facing, and no angular threshold can split them: one group.
+//                 One pass (one_pass.cpp) finishes these nodes. All others are complex: vertex path (vertex_path.h)
+// contested       a triangle without UV area whose nodes have groups of both orientations that may claim it (groups.h)
+// representative  the corner that the reference keeps for a node: the first in its own search order (grid_order.cpp)
 //
-// The reference works face by face, with recursion; its "tri info" is a triangle, its "tangent space" a result. Here every
-// node is grouped alone: groups.h proves that the result is the same.
+// The reference works face by face, with recursion; its "tri info" is a triangle, its "tangent space" a result. Here
+// every node is grouped independently: groups.h proves that the result is the same.
 #pragma once
 
 #include <algorithm>
@@ -25,27 +25,27 @@
 namespace tspace::mikk {
 
 inline constexpr std::uint32_t kNone = 0xffffffffu;
-/// No number of a half-edge, a corner or a group has this bit: lists use it as a flag (table in plan.cpp).
+/// Flag bit that is unused in numbers of half-edges, corners and groups (table in plan.cpp).
 inline constexpr std::uint32_t kTopBit = 0x80000000u;
 inline constexpr std::uint32_t kValue = 0x7fffffffu;
-/// Most half-edges a mesh may have: they share 32 bits with kTopBit.
+/// Maximum number of half-edges of a mesh: they share 32 bits with kTopBit.
 inline constexpr std::uint64_t kMaxHalfEdges = kValue;
 
 struct Copy {
     std::uint32_t to = 0, from = 0;  ///< corners of the mesh
 };
 
-/// The number of triangles that the faces of a mesh are cut into.
+/// Returns the number of triangles after triangulation.
 std::uint64_t countTriangles(const MeshView& mesh, Ngons ngons);
 
-// A list that grows, on the caller's allocator. For the calling thread only, as every Buffer.
+// Growable list on the caller's allocator. For the calling thread only, like every Buffer.
 
 template <class T>
 class Growing {
   public:
     explicit Growing(const Allocator* allocator) : allocator_(allocator) {}
 
-    /// `capacity` must not be below size().
+    /// `capacity` must not be less than size().
     [[gnu::noinline]] void reserve(std::size_t capacity) {
         Buffer<T> larger(allocator_, capacity);
         std::copy_n(buffer_.data(), count_, larger.data());
@@ -55,7 +55,7 @@ class Growing {
         if (count_ == buffer_.size()) reserve(std::max<std::size_t>(16, 2 * count_));
         buffer_[count_++] = value;
     }
-    /// Makes room for `more` elements and returns the first; they are not initialised.
+    /// Appends `more` uninitialized elements and returns a pointer to the first.
     T* extend(std::size_t more) {
         if (count_ + more > buffer_.size()) reserve(std::max(count_ + more, 2 * count_));
         count_ += more;
@@ -70,10 +70,10 @@ class Growing {
     const T* begin() const { return buffer_.data(); }
     const T* end() const { return buffer_.data() + count_; }
 
-    /// Takes the last `count` elements off.
+    /// Removes the last `count` elements.
     void drop(std::size_t count) { count_ -= count; }
 
-    /// The elements in a Buffer of exactly their size.
+    /// Returns the elements in a Buffer of exactly their size.
     [[nodiscard, gnu::noinline]] Buffer<T> exact() const {
         Buffer<T> result(allocator_, count_);
         std::copy_n(buffer_.data(), count_, result.data());
