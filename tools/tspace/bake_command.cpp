@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace bake: one low poly and one high poly, or a table of them (bake_pairs.h).
+// tspace bake: bakes one low poly and one high poly, or a table of pairs (bake_pairs.h).
 #include <chrono>
 #include <memory>
 #include <string>
@@ -23,10 +23,10 @@ namespace {
 
 struct BakeArguments {
     std::string low = {}, high = {}, output = {};
-    std::string report = {};  ///< a file for the JSON; empty: none
+    std::string report = {};  ///< path of the JSON report; empty: none
     BakeFileOptions options = {};
-    std::string pairs = {};        ///< a table, in place of `low` and `high`
-    std::string option_text = {};  ///< the options given that decide about results
+    std::string pairs = {};        ///< path of a table that replaces `low` and `high`
+    std::string option_text = {};  ///< the given options that affect results
     BatchArguments batch = {};
     bool json = false;
     bool quiet = false;
@@ -61,7 +61,7 @@ ExitCode runBake(const BakeArguments& arguments) {
         ExitCode exit_code =
             result ? report::exitCodeOf(*result)
                    : printErrorOfFiles({arguments.low, arguments.high, options.cage, "", options.skew}, result.error());
-        // Who reads no report shall see why there is no map.
+        // Prints why there is no map, for users who do not read the report.
         if (result && result->output_files.empty()) {
             for (const std::string& finding : result->findings) printRemark(finding);
         }
@@ -91,7 +91,7 @@ ExitCode runPairs(const BakeArguments& arguments) {
                          .quiet = arguments.quiet});
 }
 
-/// Returns what makes no sense, or nothing.
+/// Returns an error message for an invalid combination of options, or an empty string.
 std::string finish(const Given& given, BakeArguments& arguments) {
     arguments.option_text = resultOptions(given);
     if (arguments.pairs.empty())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace bake --pairs: several bakes at one time; one that fails does not stop the others.
+// tspace bake --pairs: several bakes in parallel; a failed bake does not stop the others.
 #include "bake_pairs.h"
 
 #include <algorithm>
@@ -38,11 +38,11 @@ std::string trimmed(std::string_view text) {
 
 std::string below(const Path& folder, const std::string& name) { return Path(fs::path(folder) / Path(name)).string(); }
 
-/// A line of the table.
+/// One line of the table.
 struct Pair {
     Job job = {};
     std::size_t line = 0;
-    std::string high = {}, model = {};  ///< `model`: where the low poly goes with its maps; or empty
+    std::string high = {}, model = {};  ///< `model`: output path of the low poly with its maps; or empty
 };
 
 /// Throws FileError.
@@ -87,15 +87,15 @@ std::vector<Pair> readTable(const BakePairsArguments& arguments) {
     return pairs;
 }
 
-/// A line, and what its bake writes.
+/// A line of the table, and the files that its bake writes.
 struct PairOutputs {
     std::size_t line = 0;
     std::vector<std::string> files = {};
 };
 
-/// A sentence where two lines write the same file, or nothing.
+/// Returns a sentence if two lines write the same file, otherwise an empty string.
 std::string sharedOutput(const std::vector<PairOutputs>& pairs) {
-    std::map<std::string, std::size_t> lines;  // lines of the table, by file identity
+    std::map<std::string, std::size_t> lines;  // line numbers in the table, by file identity
     for (const PairOutputs& pair : pairs) {
         for (const std::string& file : pair.files) {
             const auto [first, is_new] = lines.emplace(identityOf(file), pair.line);
@@ -113,7 +113,8 @@ BakeFileOptions optionsOf(const BakePairsArguments& arguments, const Pair& pair)
     return options;
 }
 
-/// Materials and tiles give files words of their own. A low poly is read for them where another pair has a name that they may make.
+/// Adds file names that depend on materials and tiles. For them the low poly is read if another pair has a name that
+/// this pair may write.
 void addWords(const BakePairsArguments& arguments, const std::vector<Pair>& pairs, std::vector<PairOutputs>& outputs) {
     std::map<std::string, std::size_t> plain;  // pairs, by the identities of their files
     for (std::size_t i = 0; i < outputs.size(); ++i) {
@@ -130,7 +131,7 @@ void addWords(const BakePairsArguments& arguments, const std::vector<Pair>& pair
     }
     for (const std::size_t i : asked) {
         const Pair& pair = pairs[i];
-        // If a low poly cannot be read, its own bake reports it.
+        // If a low poly cannot be read, its own bake reports the error.
         (void)tryFile([&] {
             outputs[i].files = outputsFor(pair.job.input, {pair.job.output, {}}, optionsOf(arguments, pair));
         });
@@ -148,7 +149,7 @@ class PairsRun {
         progressLine().setFileCount(pairs_.size());
     }
 
-    /// An error ends the run before anything was done.
+    /// Opens the manifest. An error ends the run before anything is done.
     Result<Done> openManifest() {
         std::vector<Job> jobs;
         for (const Pair& pair : pairs_) jobs.push_back(pair.job);
@@ -203,7 +204,7 @@ class PairsRun {
         done.outcome.input = pair.job.input;
         done.outcome.output = pair.job.output;
         std::vector<std::string> read = {pair.job.input, pair.high};
-        // Another high poly or another destination gives another result.
+        // A different high poly or output gives a different result.
         const std::string options =
             arguments_.option_text + " high=" + pair.high + (pair.model.empty() ? "" : " model=" + pair.model);
         const auto make = [&]() -> Result<BakeFileReport> {
@@ -249,7 +250,7 @@ class PairsRun {
         exit_code_ = worse(exit_code_, code);
     }
 
-    /// Called in the order of the table, one at a time.
+    /// Reports a bake. Called in the order of the table, one call at a time.
     void tell(std::size_t number) {
         report::BakedPair& done = done_[number];
         if (!done.outcome.result) {
@@ -271,10 +272,10 @@ class PairsRun {
     const Clock::time_point start_ = Clock::now();
     std::vector<Pair> pairs_;
     std::vector<report::BakedPair> done_;
-    std::vector<std::string> texts_;  ///< printed text for each
+    std::vector<std::string> texts_;  ///< printed text of each pair
     unsigned workers_;
     BatchRecord record_ = {};
-    std::mutex mutex_;  ///< for the next one
+    std::mutex mutex_;  ///< guards the following members
     ExitCode exit_code_ = ExitCode::done;
     std::atomic<bool> output_is_closed_ = false;
 };
@@ -297,7 +298,7 @@ ExitCode runBakePairs(const BakePairsArguments& arguments) {
     for (const PairOutputs& pair : written) outputs.insert(outputs.end(), pair.files.begin(), pair.files.end());
     for (const Pair& pair : pairs) inputs.insert(inputs.end(), {pair.job.input, pair.high});
     if (const Result<Done> fit = prepareOutputs(outputs, inputs); !fit) return printUsageError(fit.error().message);
-    // The name of the low poly in the table decides.
+    // The shard depends on the name of the low poly in the table.
     std::erase_if(pairs, [&](const Pair& pair) { return !isInShard(pair.job, arguments.batch.shard); });
     PairsRun run(arguments, std::move(pairs));
     if (const Result<Done> opened = run.openManifest(); !opened)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Many bakes in one run, as a table names them.
+// Many bakes in one run, listed in a table.
 #pragma once
 
 #include <string>
@@ -11,9 +11,9 @@
 namespace tspace::tool {
 
 struct BakePairsArguments {
-    std::string table = {};   ///< lines LOW = HIGH, or LOW = HIGH = NAME, with paths from its folder
-    std::string output = {};  ///< a folder: NAME, or that of LOW as a .png
-    std::string report = {};  ///< a file for the JSON; empty: none
+    std::string table = {};   ///< lines LOW = HIGH, or LOW = HIGH = NAME, with paths relative to the table's folder
+    std::string output = {};  ///< output folder; a file is named NAME, or like LOW with the extension .png
+    std::string report = {};  ///< path of the JSON report; empty: none
     /// `out_mesh`: a folder, or empty.
     BakeFileOptions options = {};
     std::string option_text = {};  ///< the options that affect results

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Threads that take one job after the other.
+// Threads that take jobs from a shared queue.
 #include "batch.h"
 
 #include <algorithm>
@@ -33,8 +33,8 @@ unsigned threadsPerFile(unsigned asked, unsigned workers) {
 
 namespace {
 
-/// Runs `work` on up to `count` further threads and on this one; on fewer where the system gives no more. The first exception
-/// of `work` is thrown when all threads have ended.
+/// Runs `work` on this thread and up to `count` further threads; on fewer if the system provides fewer. Rethrows the
+/// first exception of `work` after all threads have ended.
 void workOnThreads(unsigned count, const std::function<void()>& work) {
     std::mutex mutex;
     std::exception_ptr failure;
@@ -79,7 +79,7 @@ void runBatch(std::size_t count, unsigned workers, const std::function<void(std:
         }
     };
     workOnThreads(workers - 1, take);
-    // After stop() jobs may be missing; those behind a missing one were worked on all the same.
+    // After stop() some jobs may be missing; later jobs may have been processed all the same.
     for (; reported < count; ++reported) {
         if (is_done[reported] != 0) finished(reported);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Many files: several at one time, results in the order of the files, and a share of them for each of several machines.
+// Processing of many files: several in parallel, results in file order, and shards for several machines.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace tspace::tool {
 
-/// Share `index` (from 1) of `count`.
+/// Shard `index` (1-based) of `count`.
 struct Shard {
     unsigned index = 1;
     unsigned count = 1;
@@ -19,27 +19,28 @@ struct Shard {
 
 /// Number of files processed in parallel, and their selection.
 struct BatchArguments {
-    unsigned jobs = 1;  ///< files at one time; 0: as many as there are cores
+    unsigned jobs = 1;  ///< number of files processed in parallel; 0: one per core
     Shard shard = {};
     std::string manifest = {};  ///< empty: none
-    bool resume = false;        ///< leave out files that are done and unchanged by the manifest
-    bool verbose = false;       ///< the details of every file, also where there are several
+    bool resume = false;        ///< skip files that are done and unchanged according to the manifest
+    bool verbose = false;       ///< print details for every file, even with several inputs
 };
 
-/// The hash of a file's name below its input decides, so its shard does not depend on other files.
+/// Returns whether a job belongs to the shard. Depends only on the hash of the path relative to the input, so it does
+/// not change with other files.
 bool isInShard(const Job& job, const Shard& shard);
-/// Keeps the jobs of the shard.
+/// Removes all jobs outside the shard.
 void takeShard(std::vector<Job>& jobs, const Shard& shard);
 
-/// Number of files processed in parallel.
+/// Returns the number of files processed in parallel.
 unsigned workerCount(const BatchArguments& batch, std::size_t job_count);
 
-/// Default number of threads per file: the cores, divided among the files in progress.
+/// Returns the default number of threads per file: the cores, divided among the files in progress.
 unsigned threadsPerFile(unsigned asked, unsigned workers);
 
-/// Calls work(i) for every i below `count` on `workers` threads, or as many of them as the system gives, and finished(i) for
-/// each in ascending order, one at a time, as soon as it and all before it are done. No work begins after stop() is true;
-/// finished() is then called only for those that were worked on.
+/// Calls work(i) for every i below `count` on `workers` threads, or fewer if the system provides fewer, and finished(i)
+/// for each in ascending order, one call at a time, as soon as it and all before it are done. Starts no work after
+/// stop() returns true; finished() is then called only for jobs that were processed.
 void runBatch(std::size_t count, unsigned workers, const std::function<void(std::size_t)>& work,
               const std::function<void(std::size_t)>& finished, const std::function<bool()>& stop);
 

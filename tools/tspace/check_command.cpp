@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace check: what is wrong in models, as text, JSON, SARIF and a page.
+// tspace check: reports faults of models as text, JSON, SARIF and HTML.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -26,8 +26,8 @@ namespace {
 struct CheckArguments {
     std::vector<std::string> inputs = {};
     options::CheckRequest request = {};
-    std::string sarif = {};  ///< a file for the findings in SARIF; empty: none
-    std::string html = {};   ///< a file for the findings as a page; empty: none
+    std::string sarif = {};  ///< path of the SARIF report; empty: none
+    std::string html = {};   ///< path of the HTML report; empty: none
     Color color = Color::automatic;
     BatchArguments batch = {};
     bool json = false;
@@ -53,7 +53,7 @@ void addCheckReporting(Command& command, CheckArguments& arguments) {
                                    "environment variable NO_COLOR is set)."));
 }
 
-/// Whether a file is named as normal maps are: rock_normal.png, Rock-NRM.tga, rock_n.dds.
+/// Returns whether a file is named like a normal map: rock_normal.png, Rock-NRM.tga, rock_n.dds.
 bool isNormalMapName(const std::string& file) {
     static constexpr std::array kWords = {"n", "nor", "norm", "normals", "nrm", "nrml", "nml", "ddn"};
     const std::string stem = lowerAscii(Path(std::filesystem::path(Path(file)).stem()).string());
@@ -70,8 +70,8 @@ bool isNormalMapName(const std::string& file) {
     return false;
 }
 
-/// Whether a folder was searched and found an image that neither its name nor its texels make a normal map: a base color, a
-/// roughness. Somebody who names such an image asks whether it is one.
+/// Returns whether a search found an image that is not a normal map according to its name and its texels, such as a
+/// base color or roughness. An image named by the user is always reported.
 bool isOtherImage(const Job& job, const CheckReport& report) {
     if (!job.is_found_image || !report.image || isNormalMapName(job.input)) return false;
     const std::string& content = report.image->content;
@@ -115,7 +115,7 @@ ExitCode runCheck(const CheckArguments& arguments) {
         if (outcome.result && options::failsBy(arguments.request, *outcome.result))
             exit_code = worse(exit_code, ExitCode::findings);
     }
-    // Reports name files that cannot be read, but one file that did not fit into memory is worth no report.
+    // Reports contain files that cannot be read, but not a single file that did not fit into memory.
     const auto is_reported = [](const report::CheckOutcome& outcome) {
         return outcome.result || outcome.result.error().code != ErrorCode::outOfMemory;
     };

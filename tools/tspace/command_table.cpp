@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The list of all commands, and the command help.
+// Table of all commands, and the command help.
 #include "command_table.h"
 
 #include <memory>
@@ -26,7 +26,7 @@ constexpr bool kHasBaking = false;
 struct Entry {
     const char* name;
     Command (*make)();
-    bool is_there = true;  ///< false: this build cannot do it, and lists it nowhere; started, it says why
+    bool is_there = true;  ///< false: not available in this build, and not listed; if started, it prints the reason
 };
 Command helpCommand();
 constexpr Entry kCommands[] = {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The table of commands, from which the command line is read (read_command_line.h), and --help (help.h), man pages and
-// completions (pages/) are made. Options that decide about results are described in the library (src/commands/NAME/), all others
-// in NAME_command.cpp here.
+// Table of commands, used to parse the command line (read_command_line.h), and to generate --help (help.h), man pages
+// and completions (pages/). Options that affect results are declared in the library (src/commands/NAME/), others in
+// NAME_command.cpp here.
 #pragma once
 
 #include <functional>
@@ -16,37 +16,38 @@
 
 namespace tspace::tool {
 
-using namespace tspace::options;  // NOLINT: the words of the table
+using namespace tspace::options;  // NOLINT: the vocabulary of the table
 
-/// Kind of file that the first operand of a command must be, judging by its name.
+/// Required type of the first operand of a command, according to its name.
 enum class Reads { anything, models, images };
 
-/// A command owns its arguments, and its copies share them: options write them, and `run` reads them.
+/// A command owns its arguments, which its copies share: options write them, and `run` reads them.
 struct Command {
     std::string name = {};                   ///< set by the table
-    std::string summary = {};                ///< "add the tangents that normal maps need"
+    std::string summary = {};                ///< such as "add the tangents that normal maps need"
     std::string operands = {};               ///< "IN... -o OUT", for the usage line
     std::string description = {};            ///< a paragraph
     std::vector<std::string> examples = {};  ///< whole command lines
     OptionList options = {};
-    /// Called when all options are taken. Returns what makes no sense together, or nothing.
+    /// Called after all options are parsed. Returns an error message for an invalid combination of options, or an empty
+    /// string.
     std::function<std::string(const Given& given)> finish = {};
-    /// Reads what the command line names, before `run`; done, or the code of what it printed.
+    /// Reads files named on the command line, before `run`. Returns `done`, or the exit code of the printed error.
     std::function<report::ExitCode()> prepare = {};
-    /// Does what the options ask for, prints, and says how it went.
+    /// Runs the command, prints the result, and returns the exit code.
     std::function<report::ExitCode()> run = {};
     Reads reads = Reads::anything;
-    bool keeps_freed_memory = false;  ///< memory that one primitive gave back serves the next one (main.cpp)
+    bool keeps_freed_memory = false;  ///< freed memory is reused instead of returned to the system (main.cpp)
 
     Option& add(const char* group, Option option) { return options::add(options, group, std::move(option)); }
-    /// Options that calls of the library have too.
+    /// Adds options shared with library calls.
     void add(OptionList more) { std::move(more.begin(), more.end(), std::back_inserter(options)); }
 };
 
-/// The description in `tspace --help`.
+/// Description in `tspace --help`.
 inline constexpr const char* kToolSummary = "exact tangent frames for the normal maps of 3D models";
 
-/// Whether the page that tspace view needs is installed with the tool.
+/// Returns whether the page needed by tspace view is installed with the tool.
 bool hasViewPage();
 
 /// The whole tool.
@@ -55,7 +56,7 @@ struct ToolTable {
     std::vector<Option> options = {};  ///< options that can replace a command: --help, --version
 };
 
-// Each is in NAME_command.cpp.
+// Each function is defined in NAME_command.cpp.
 Command generateCommand();
 Command diffCommand();
 Command identifyCommand();
@@ -71,14 +72,14 @@ Command bakeCommand();
 Command finishCommand();
 Command mapErrorCommand();
 
-/// All commands that this build has, in the order in which help lists them.
+/// Returns all commands of this build, in the order of the help.
 ToolTable toolTable();
 
-/// One of these, without the others: their options take a fifth of the time in which the tool starts. Nothing: there is none of
-/// this name.
+/// Returns a single command, without building the others, whose options take a fifth of the tool's start time. Returns
+/// nullopt if there is no command of this name.
 std::optional<Command> findCommand(const std::string& name);
 
-/// A file, or several where `target` is a list.
+/// Returns an option for a file operand; for several if `target` is a list.
 Option operand(const char* value_name, std::string& target, HelpText help);
 Option operand(const char* value_name, std::vector<std::string>& target, HelpText help);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Options that several commands have.
+// Options shared by several commands.
 #include "common_options.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr unsigned kMostJobs = 1024;
 
-/// "I/N" with 1 <= I <= N.
+/// Parses "I/N" with 1 <= I <= N.
 bool parseShard(const std::string& text, Shard& shard) {
     const std::size_t slash = text.find('/');
     std::uint64_t index = 0, count = 0;
@@ -61,13 +61,13 @@ void readStream(std::FILE* stream, std::string& text) {
     if (std::ferror(stream) != 0) failFile(ErrorCode::cannotRead, "it cannot be read");
 }
 
-/// Appends the paths that a list names: one per line, or separated by NUL bytes where it has any.
+/// Appends the paths in a list: one per line, or separated by NUL bytes if it contains any.
 ExitCode readFileList(const std::string& list, std::vector<std::string>& inputs) {
     std::string text;
     const bool is_stdin = list == "-";
     const std::optional<Error> failure = tryFile([&] {
         if (is_stdin) return readStream(stdin, text);
-        // A pipe, as shells pass it for <(...).
+        // A pipe, which shells pass for <(...).
         if (kindOf(list) == PathKind::stream) {
             if (const CFile file = openFile(list, "rb")) return readStream(file.get(), text);
         }

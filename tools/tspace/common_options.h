@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Options that several commands have.
+// Options shared by several commands.
 #pragma once
 
 #include <string>
@@ -11,18 +11,18 @@
 
 namespace tspace::tool {
 
-/// A heading in help. Options under it decide how a command runs, not what it finds or writes.
+/// Heading in the help. Options under it affect how a command runs, but not its results.
 inline constexpr const char* kManyFiles = "Many files";
 
-/// The operand IN... and --files-from, whose files follow those of the operand when the command is prepared.
+/// Adds the operand IN... and --files-from, whose files are appended when the command is prepared.
 void addInputs(Command& command, std::vector<std::string>& inputs);
 void addBatch(Command& command, BatchArguments& batch, bool with_manifest);
 /// Also --help.
 void addReporting(Command& command, bool& json, bool& quiet);
 Option helpOption();
 
-/// The options given that decide about results: "--all --method=angle", in the order of their names, so that the
-/// manifest of another command line with the same meaning fits.
+/// Returns the given options that affect results: "--all --method=angle", sorted by name, so that equivalent command
+/// lines match in a manifest.
 std::string resultOptions(const Given& given);
 
 }  // namespace tspace::tool

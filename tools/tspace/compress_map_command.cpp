@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace compress-map: one normal map as a texture for engines.
+// tspace compress-map: compresses one normal map to a texture for engines.
 #include <memory>
 
 #include "command_table.h"
@@ -22,7 +22,7 @@ struct CompressMapArguments {
 };
 
 ExitCode runCompressMap(const CompressMapArguments& arguments) {
-    // The first level stands for a folder of PNGs.
+    // The first level represents a folder of PNGs.
     const auto fileOf = [](const std::string& path, const std::string& input) {
         return path.ends_with('/') ? levelPath(path, input, 0) : path;
     };

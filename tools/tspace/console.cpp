@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What goes to the terminal.
+// Output to the terminal.
 #include "console.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 namespace tspace::tool {
 namespace {
 
-/// Writes the line in one piece, as several threads may print.
+/// Writes the line with a single call, because several threads may print.
 void printLine(const std::string& line) { printPlain(line + "\n"); }
 
 }  // namespace
@@ -27,7 +27,7 @@ void printPlain(std::string_view text) noexcept {
 }
 
 ExitCode printError(const std::string& file, const Error& error) {
-    // A wrong option is no fault of the file.
+    // An invalid option is not a fault of the file.
     const std::string about = error.code == ErrorCode::invalidOption ? "" : printable(file) + ": ";
     std::string line = "tspace: " + about + printable(error.message);
     if (!error.place.empty() && error.place != file) line += " (at " + printable(error.place) + ")";
@@ -58,7 +58,7 @@ bool printResult(std::string_view text, std::FILE* to) {
 
 namespace {
 
-/// Assumed width of a terminal, in columns, if it is unknown.
+/// Assumed terminal width in columns, if it is unknown.
 constexpr std::size_t kUsualWidth = 80;
 
 }  // namespace
@@ -71,7 +71,7 @@ std::string fitted(std::string_view text, std::FILE* to) {
 bool printText(std::string_view text, std::FILE* to) { return printResult(fitted(text, to), to); }
 
 ExitCode printPage(std::string_view page) {
-    // Long lines of text would be hard to read.
+    // Very long lines of text would be hard to read.
     constexpr std::size_t kWidest = 100;
     const std::size_t width = std::min(terminalWidth(stdout).value_or(kUsualWidth), kWidest);
     return printResult(report::fitText(page, width, 0)) ? ExitCode::done : ExitCode::cannotReadOrWrite;
@@ -147,7 +147,7 @@ void ProgressLine::draw() {
         line = fmt::format("{} of {} files{}; ", done_count_, file_count_,
                            failed_count_ == 0 ? "" : fmt::format(", {} failed", failed_count_));
     }
-    // A line that is wider than the terminal could not be erased.
+    // A line wider than the terminal could not be erased.
     const std::size_t width = terminalWidth(stderr).value_or(kUsualWidth) - 1, taken = line.size() + end.size() + 2;
     const std::string file = taken < width ? report::lastColumns(printable(file_), width - taken) : "";
     line += (file.empty() ? "" : file + ": ") + end;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What goes to the terminal: results to stdout, one line per error and the progress to stderr.
+// Output to the terminal: results to stdout, error lines and progress to stderr.
 #pragma once
 
 #include <chrono>
@@ -25,43 +25,44 @@ using report::ExitCode;
 using report::printable;
 using report::worse;
 
-/// When severities are coloured. automatic: on a terminal, unless the user said no by NO_COLOR.
+/// Use of colors for severities. automatic: on a terminal, unless NO_COLOR is set.
 enum class Color { automatic, always, never };
 
-/// Writes the text to stderr as it is. All output of the tool to stderr goes through here. Throws nothing, since an error of
-/// stderr could not be reported.
+/// Writes the text to stderr unchanged. All stderr output of the tool uses this function. Does not throw, since an
+/// error of stderr could not be reported.
 void printPlain(std::string_view text) noexcept;
 
-/// Prints "tspace: FILE: message (at PLACE)" on stderr as exactly one line, and returns the exit code it
-/// stands for.
+/// Prints "tspace: FILE: message (at PLACE)" to stderr as exactly one line, and returns the exit code for the error.
 ExitCode printError(const std::string& file, const Error& error);
-/// Like printError, for a call on several files: the error's element is the index of the file, or the first file is named.
+/// Like printError, for a call on several files: names the file whose index is the error's element, otherwise the first
+/// file.
 ExitCode printErrorOfFiles(const std::vector<std::string>& files, const Error& error);
-/// Prints "tspace: message" for a wrong command line, and returns the exit code for that.
+/// Prints "tspace: message" for an invalid command line, and returns the exit code for it.
 ExitCode printUsageError(const std::string& message);
 
-/// Prints "tspace: message" that is no error.
+/// Prints "tspace: message" for a remark that is not an error.
 void printRemark(const std::string& message);
 
-/// Writes text to stdout, or to stderr where a model goes to stdout. false when stdout cannot take it (closed pipe, full
-/// disk), which is said on stderr.
+/// Writes text to stdout, or to stderr if a model is written to stdout. Returns false if stdout cannot be written
+/// (closed pipe, full disk), which is reported on stderr.
 bool printResult(std::string_view text, std::FILE* to = stdout);
 
-/// A text for people, fitted to terminalWidth(). Lines stay whole where that is not known, for programs that search them.
+/// Wraps a text to terminalWidth(). If the width is unknown, lines stay unwrapped, for programs that search them.
 std::string fitted(std::string_view text, std::FILE* to = stdout);
 bool printText(std::string_view text, std::FILE* to = stdout);
 /// Like printText(), for a help page.
 ExitCode printPage(std::string_view page);
 
-/// Whether stdout gets colours. automatic: it is a terminal that shows them, and the user did not say no by NO_COLOR.
+/// Returns whether stdout gets colors. automatic: if it is a terminal with colors, and NO_COLOR is not set.
 bool wantsColor(Color color);
 
-/// Columns of the terminal on `file`: COLUMNS where it is set, else what the terminal says; nothing where there is none.
+/// Returns the columns of the terminal on `file`: COLUMNS if set, otherwise the terminal's width; nullopt if there is
+/// no terminal.
 std::optional<std::size_t> terminalWidth(std::FILE* file);
 
-/// The status line of the run on stderr: how many files are done, the stage of a file in progress, and the time since the start.
-/// A thread draws it, so it also appears in stages that report nothing. It stays silent when stderr is not a terminal, and during
-/// the first half second. Whatever the functions above print replaces the line. Any thread may call.
+/// Status line of the run on stderr: number of finished files, stage of a file in progress, and time since the start. A
+/// thread draws it, so it is also updated during stages without reports. It is not shown if stderr is not a terminal,
+/// and during the first half second. Text printed by the functions above replaces the line. Thread-safe.
 class ProgressLine {
   public:
     ProgressLine() = default;
@@ -69,14 +70,14 @@ class ProgressLine {
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
 
-    /// Does nothing where stderr is not a terminal, or the system has no thread to draw the line.
+    /// Does nothing if stderr is not a terminal, or the system has no thread to draw the line.
     void start();
     void stop();
     void setFileCount(std::size_t count);
-    /// total 0: the part that is done is unknown.
+    /// `total` 0: the progress within the stage is unknown.
     void update(const std::string& file, const char* what, std::uint64_t done, std::uint64_t total);
     void fileDone(bool succeeded);
-    /// Writes text in place of the line. Throws nothing.
+    /// Writes text in place of the line. Does not throw.
     std::size_t write(std::string_view text, std::FILE* to) noexcept;
 
   private:
@@ -85,7 +86,7 @@ class ProgressLine {
     void draw();
     void erase() noexcept;
 
-    std::mutex mutex_ = {};  ///< for everything but `thread_`
+    std::mutex mutex_ = {};  ///< guards everything except `thread_`
     std::condition_variable stopped_ = {};
     std::thread thread_ = {};
     bool is_running_ = false, is_shown_ = false;
@@ -95,9 +96,9 @@ class ProgressLine {
     Clock::time_point start_ = {};
 };
 
-/// The one line of the program.
+/// Returns the only status line of the program.
 ProgressLine& progressLine();
-/// A callback for the library that shows the stages of a file.
+/// Returns a callback for the library that shows the stages of a file.
 Progress progressOf(const std::string& file);
 
 }  // namespace tspace::tool

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace convert-map: one normal map, for other frames.
+// tspace convert-map: converts one normal map for other frames.
 #include <memory>
 
 #include "command_table.h"

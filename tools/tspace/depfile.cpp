@@ -16,8 +16,8 @@
 namespace tspace::tool {
 namespace {
 
-/// Appends a name. Backslashes count twice where a space or # follows, as in the depfiles of GCC. A colon would end the targets of a
-/// rule; that of a drive, C:/, does not.
+/// Appends a name. Backslashes are doubled before a space or #, as in the depfiles of GCC. A colon would end the
+/// targets of a rule, except the colon of a drive (C:/).
 void appendName(std::string& rule, const std::string& name) {
     const bool has_drive = name.size() > 2 && name[1] == ':' && (name[2] == '/' || name[2] == '\\');
     std::size_t backslashes = 0;
@@ -31,7 +31,7 @@ void appendName(std::string& rule, const std::string& name) {
     }
 }
 
-/// Whether an option names a file which a command writes.
+/// Returns whether an option names a file that a command writes.
 bool namesOutput(const Option& option) {
     constexpr std::string_view kOutputOptions[] = {"--output", "--html", "--sarif", "--report"};
     return std::find(std::begin(kOutputOptions), std::end(kOutputOptions), option.name()) != std::end(kOutputOptions);
@@ -47,7 +47,7 @@ ExitCode runRecorded(const std::string& path, const std::function<ExitCode()>& r
         inputs = recorded.inputs();
         outputs = recorded.outputs();
     }
-    // A run that failed has said why.
+    // A failed run has already printed the reason.
     if (outputs.empty() || (exit_code != ExitCode::done && exit_code != ExitCode::findings)) return exit_code;
     const std::string identity = identityOf(path);
     if (std::any_of(inputs.begin(), inputs.end(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace diff: two models, corner by corner.
+// tspace diff: compares two models corner by corner.
 #include <memory>
 
 #include "command_table.h"
@@ -20,7 +20,7 @@ struct DiffArguments {
     std::string a = {};
     std::string b = {};
     options::DiffRequest request = {};
-    std::string html = {};  ///< a file for the comparison as a page; empty: none
+    std::string html = {};  ///< path of the HTML report; empty: none
     bool json = false;
     bool quiet = false;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A fingerprint of a file's bytes: tells whether a file is still the one that was worked on. Not for security.
+// Fingerprint of a file's contents, to detect whether a processed file has changed. Not for security.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@ struct FileHash {
     bool operator==(const FileHash&) const = default;
 };
 
-/// Returns nothing if the file cannot be read.
+/// Returns nullopt if the file cannot be read.
 std::optional<FileHash> hashFile(const std::string& path);
 
-/// Hash of a text, equal on all machines.
+/// Returns the hash of a text, which is equal on all machines.
 std::uint64_t hashText(std::string_view text);
 
 }  // namespace tspace::tool

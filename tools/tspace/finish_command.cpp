@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace finish: one model, perhaps with a low poly.
+// tspace finish: prepares one model, optionally with a low poly.
 #include <chrono>
 #include <memory>
 #include <string>
@@ -21,7 +21,7 @@ namespace {
 
 struct FinishArguments {
     std::string input = {}, output = {};
-    std::string report = {};  ///< a file for the JSON; empty: none
+    std::string report = {};  ///< path of the JSON report; empty: none
     FinishOptions options = {};
     bool json = false;
     bool quiet = false;
@@ -61,7 +61,7 @@ ExitCode runFinish(const FinishArguments& arguments) {
         const Result<FinishReport>& result = outcome.result;
         ExitCode exit_code =
             result ? report::exitCodeOf(*result) : printErrorOfFiles({about_low, arguments.input}, result.error());
-        // Who reads no report shall see why there is no model.
+        // Prints why there is no model, for users who do not read the report.
         if (result && result->output_files.empty()) {
             for (const std::string& finding : result->bake->findings) printRemark(finding);
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace flip-green: one image, its green channel inverted.
+// tspace flip-green: inverts the green channel of one image.
 #include <memory>
 
 #include "command_table.h"
@@ -15,7 +15,7 @@ namespace {
 
 struct FlipGreenArguments {
     std::string input = {};
-    std::string output = {};  ///< the input, where it is written over
+    std::string output = {};  ///< equal to the input if it is overwritten
     bool in_place = false;
     FlipGreenOptions options = {};
     bool json = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace generate: many files, several at one time; one bad file does not stop the others.
+// tspace generate: processes many files in parallel; a failed file does not stop the others.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -25,7 +25,7 @@ namespace {
 struct GenerateArguments {
     JobRequest jobs = {};
     GenerateOptions options = {};
-    std::string option_text = {};  ///< the options given that decide about results, in one spelling
+    std::string option_text = {};  ///< the given options that affect results, in canonical form
     BatchArguments batch = {};
     bool json = false;
     bool quiet = false;
@@ -54,7 +54,7 @@ void addOutputOptions(Command& command, GenerateArguments& arguments) {
                               "the input; glb for OBJ."));
 }
 
-/// Applies what options mean together. Returns what makes no sense, or nothing.
+/// Applies the effects of option combinations. Returns an error message for an invalid combination, or an empty string.
 std::string finish(const Given& given, GenerateArguments& arguments) {
     arguments.option_text = resultOptions(given);
     const std::string wrong = options::finish(given, arguments.options);
@@ -68,7 +68,7 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// The files that were read and written, with fingerprints. A file that was written over is only an output.
+/// Returns the input and output files with fingerprints. An overwritten file is listed only as output.
 ManifestEntry manifestEntry(const Job& job, const report::GenerateOutcome& outcome, const std::string& options) {
     ManifestEntry entry{.version = TSPACE_VERSION, .options = options, .job = job, .seconds = outcome.seconds};
     if (!outcome.result) {
@@ -102,7 +102,7 @@ class GenerateRun {
         progressLine().setFileCount(jobs_.size());
     }
 
-    /// An error ends the run before anything was done.
+    /// Opens the manifest. An error ends the run before anything is done.
     Result<Done> openManifest() { return record_.open(arguments_.batch, jobs_, arguments_.options.dry_run); }
 
     ExitCode run() {
@@ -162,8 +162,8 @@ class GenerateRun {
         outcomes_[number] = std::move(outcome);
     }
 
-    /// What is printed about a file that was written: its line or its details, or as JSON the document of a run over this file
-    /// alone.
+    /// Returns the text printed for a written file: its line, its details, or the JSON document of a run with only this
+    /// file.
     std::string textOf(const report::GenerateOutcome& outcome) const {
         const bool is_alone = jobs_.size() == 1;
         if (arguments_.json && is_alone) return report::generateJson({outcome}, ExitCode::done, secondsSince(start_));
@@ -179,7 +179,7 @@ class GenerateRun {
         exit_code_ = worse(exit_code_, code);
     }
 
-    /// Reports a file. Called in the order of the files, one at a time.
+    /// Reports a file. Called in file order, one call at a time.
     void finish(std::size_t number) {
         const report::GenerateOutcome& outcome = outcomes_[number];
         if (!outcome.result) {
@@ -200,7 +200,7 @@ class GenerateRun {
     std::FILE* report_to_;
     bool wants_text_;
     BatchRecord record_ = {};
-    std::mutex mutex_;  ///< for the next one
+    std::mutex mutex_;  ///< guards the following members
     ExitCode exit_code_ = ExitCode::done;
     std::atomic<bool> output_is_closed_ = false;
 };

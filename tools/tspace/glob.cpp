@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One name of the pattern after the other, over sorted folders.
+// Matches the path components of the pattern one after the other, in sorted folders.
 #include "glob.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ Names namesOf(const fs::path& path) {
     return names;
 }
 
-/// Adds the files below `folder` that match the names from `first` on. Recursion is as deep as the folders are.
+/// Adds the files below `folder` that match the components from `first` on. The recursion is as deep as the folders.
 void match(const fs::path& folder, const Names& names, std::size_t first, std::set<fs::path>& found) {
     const bool is_last = first + 1 == names.size();
     const bool is_any_depth = names[first] == "**" && !is_last;
@@ -34,7 +34,7 @@ void match(const fs::path& folder, const Names& names, std::size_t first, std::s
     for (const FolderEntry& entry : entries) {
         const fs::path path = folder / fs::path(Path(entry.name));
         if (is_any_depth) {
-            // Links to folders could lead in a circle.
+            // Links to folders could form a cycle.
             if (entry.name.front() != '.' && entry.kind == PathKind::folder && !entry.is_link)
                 match(path, names, first, found);
         } else if (matchesName(names[first], entry.name)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Patterns for file names, where the shell does not expand them, or where the list would be too long for a command line.
+// Patterns for file names, for shells that do not expand them, and for lists that are too long for a command line.
 #pragma once
 
 #include <filesystem>
@@ -8,14 +8,14 @@
 
 namespace tspace::tool {
 
-/// true when the text has *, ? or [.
+/// Returns whether the text contains *, ? or [.
 bool isPattern(const std::string& text);
 
-/// The longest leading folder of a pattern that has no wildcard; "." for none. Results lie below it.
+/// Returns the longest leading folder of a pattern without a wildcard; "." if there is none. All results are below it.
 std::filesystem::path patternRoot(const std::string& pattern);
 
-/// Files that match, in the order of their names. *, ? and [...] stay inside one name and do not match a leading dot; a
-/// whole name ** matches any number of folders, none too, but for hidden ones.
+/// Returns the matching files, sorted by name. *, ? and [...] match within one path component and do not match a
+/// leading dot; a component ** matches any number of folders, including none, except hidden ones.
 std::vector<std::filesystem::path> matchPattern(const std::string& pattern);
 
 }  // namespace tspace::tool

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace height-to-normal: one height map as a normal map.
+// tspace height-to-normal: converts one height map to a normal map.
 #include <memory>
 
 #include "command_table.h"

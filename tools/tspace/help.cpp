@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pages from the table of options.
+// Help pages, generated from the table of options.
 #include "help.h"
 
 #include <algorithm>
@@ -60,7 +60,7 @@ std::vector<std::pair<std::string, std::vector<const Option*>>> optionsByGroup(c
 std::string helpPage(const ToolTable& tool) {
     std::string page = std::string("tspace - ") + kToolSummary + "\n\nUsage: tspace COMMAND [OPTION...]\n\nCommands:\n";
     for (const Command& command : tool.commands) {
-        // Its page may be installed later, so man pages have it.
+        // Not listed without its page. Man pages list it, because the page may be installed later.
         if (command.name == "view" && !hasViewPage()) continue;
         page += "  " + command.name + "\n        " + command.summary + "\n";
     }

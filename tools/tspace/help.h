@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How --help looks: like a short man page, 80 columns wide.
+// Format of --help: like a short man page, 80 columns wide.
 #pragma once
 
 #include <string>
@@ -10,22 +10,22 @@
 
 namespace tspace::tool {
 
-/// "Exit codes:" and a line for each.
+/// "Exit codes:" and a line for each code.
 extern const char* const kExitCodes;
 
-/// "Built without: PNG and JPEG, WebP.", as a line; empty where nothing is left out.
+/// Returns a line such as "Built without: PNG and JPEG, WebP."; empty if the build is complete.
 std::string leftOut();
 
-/// The page of the whole tool, with lines of any length.
+/// Returns the page of the whole tool, with lines of any length.
 std::string helpPage(const ToolTable& tool);
-/// The page of a command: usage, description, options by group with their defaults, examples.
+/// Returns the page of a command: usage, description, options by group with their defaults, examples.
 std::string helpPage(const Command& command);
 
-/// "tspace generate IN... -o OUT [OPTION...]".
+/// Returns a line such as "tspace generate IN... -o OUT [OPTION...]".
 std::string usageLine(const Command& command);
-/// "-o, --output OUT"; of an operand "IN...".
+/// Returns "-o, --output OUT", or "IN..." for an operand.
 std::string optionHead(const Option& option);
-/// Headings in the order of their first option, with their options.
+/// Returns the headings in the order of their first option, with their options.
 std::vector<std::pair<std::string, std::vector<const Option*>>> optionsByGroup(const std::vector<Option>& options);
 
 }  // namespace tspace::tool

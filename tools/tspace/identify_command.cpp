@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace identify: which method made the tangents of models.
+// tspace identify: finds the method that computed the tangents of models.
 #include <memory>
 
 #include "command_table.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The common parts of commands that write one image: stdin and stdout as files, and the report at the end. Their arguments
-// have `input`, `output`, `json`, `quiet` and `options.dry_run`.
+// Common parts of commands that write one image: stdin and stdout as files, and the report at the end. Their arguments
+// must have `input`, `output`, `json`, `quiet` and `options.dry_run`.
 #pragma once
 
 #include <cstdio>
@@ -26,7 +26,7 @@ bool goesToTerminal(const Arguments& arguments) {
     return arguments.output == "-" && !arguments.options.dry_run && isTerminal(stdout);
 }
 
-/// call(options), with stdout in the place of a file where `output` is "-".
+/// Calls call(options), writing to stdout instead of a file if `output` is "-".
 template <class Options, class Call>
 auto callWithOutput(const std::string& output, Options options, const Call& call) -> decltype(call(options)) {
     if (output != "-") return call(options);
@@ -44,7 +44,7 @@ auto callOnImage(const std::string& input, const std::string& output, std::uint6
     progressLine().update(input, "converting", 0, 0);
     std::vector<std::uint8_t> bytes;
     if (input == "-") {
-        // Any bytes are taken here; the library tells the format.
+        // Accepts any bytes; the library determines the format.
         const auto is_anything = [](std::string_view) { return true; };
         Result<std::vector<std::uint8_t>> read = readStandardInput("an image", memory_limit_bytes, is_anything, "");
         if (!read) return std::move(read).error();
@@ -54,8 +54,8 @@ auto callOnImage(const std::string& input, const std::string& output, std::uint6
     return callWithOutput(output, std::move(options), call);
 }
 
-/// Writes the image by make(), which returns a Result. Prints the error, or the result as text, textOf(outcome), or as JSON,
-/// jsonOf(outcome, exit_code): on stderr where the image goes to stdout.
+/// Writes the image with make(), which returns a Result. Prints the error, or the result as text, textOf(outcome), or
+/// as JSON, jsonOf(outcome, exit_code); on stderr if the image is written to stdout.
 template <class Arguments, class Make, class JsonOf, class TextOf>
 ExitCode makeAndPrint(const Arguments& arguments, const Make& make, JsonOf jsonOf, TextOf textOf) {
     HeldOutputs outputs;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace inspect: what is in models.
+// tspace inspect: describes the contents of models.
 #include <memory>
 
 #include "command_table.h"

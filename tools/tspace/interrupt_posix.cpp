@@ -28,14 +28,14 @@ std::atomic<int> caught_signal = 0;
     _exit(128 + signal);
 }
 
-/// Raises SIGALRM in half a second. False where the system has no such timer.
+/// Raises SIGALRM in half a second. Returns false if the system does not support the timer.
 bool startTimer() {
     constexpr itimerval kHalfSecond = {.it_interval = {}, .it_value = {.tv_sec = 0, .tv_usec = 500000}};
     return setitimer(ITIMER_REAL, &kHalfSecond, nullptr) == 0;
 }
 
 extern "C" void takeSignal(int signal) {
-    // SIGALRM is the end of the half second, or sent from elsewhere.
+    // SIGALRM marks the end of the half second, or was sent from outside.
     const bool may_wait = signal != SIGPIPE && signal != SIGALRM && caught_signal == 0;
     if (!removeTemporaryFiles(!may_wait)) {
         caught_signal = signal;
@@ -54,7 +54,7 @@ void endCleanlyBySignals() {
     sigfillset(&action.sa_mask);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGALRM}) {
         struct sigaction old = {};
-        // nohup and background jobs ask for signals to be ignored; that stays. The timer above needs SIGALRM.
+        // nohup and background jobs set signals to be ignored, which must be preserved. The timer above needs SIGALRM.
         if (sigaction(signal, nullptr, &old) == 0 && (old.sa_handler != SIG_IGN || signal == SIGALRM))
             sigaction(signal, &action, nullptr);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Ctrl-C removes temporary files and ends the program. Windows restores the default handler when it calls this one, which it
-// does on a thread of its own.
+// Ctrl-C removes temporary files and ends the program. Windows restores the default handler before it calls this one on
+// a separate thread.
 #include <atomic>
 #include <csignal>
 #include <cstdlib>

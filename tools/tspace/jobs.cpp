@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which files are worked on and where their results go. Looks at the file system, writes nothing.
+// Determines the files to process and their outputs. Reads the file system, but writes nothing.
 #include "jobs.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One spelling per file, also for files that do not exist yet.
+/// Returns a canonical spelling per file, also for files that do not exist yet.
 std::string canonicalName(const fs::path& path) try {
     return canonicalPath(path).string();
 } catch (const fs::filesystem_error&) {
@@ -29,11 +29,11 @@ std::string canonicalName(const fs::path& path) try {
 
 struct Found {
     Job job;
-    fs::path relative;  // path below its folder; for files named on the command line: the file name
+    fs::path relative;  // path relative to its folder; for files named on the command line: the file name
 };
 
-/// Lists files that `is_wanted` accepts in `folder` and below, but for those in `skipped_folder` (where outputs go). Only the
-/// files of a folder that cannot be read are missing.
+/// Lists files that `is_wanted` accepts in `folder` and below, except those in `skipped_folder` (the output folder). If
+/// a folder cannot be read, only its files are missing.
 void listFiles(const fs::path& folder, bool (*is_wanted)(const std::string&), const std::string& skipped_folder,
                std::vector<fs::path>& files, std::vector<Found>& failures) {
     std::vector<fs::path> folders;
@@ -42,7 +42,7 @@ void listFiles(const fs::path& folder, bool (*is_wanted)(const std::string&), co
     for (const FolderEntry& entry : entries) {
         const fs::path path = folder / fs::path(Path(entry.name));
         if (entry.kind == PathKind::folder) {
-            // No links to folders: they may lead in a circle.
+            // Links to folders are skipped, because they may form a cycle.
             if (!entry.is_link) folders.push_back(path);
         } else if (entry.kind == PathKind::file && is_wanted(Path(path).string())) {
             files.push_back(path);
@@ -84,7 +84,8 @@ void findFiles(const fs::path& folder, const std::string& skipped_folder, Search
     std::move(failures.begin(), failures.end(), std::back_inserter(found));
 }
 
-/// Model files that match, or else images. The output folder is no reason to leave one out: the pattern says what is meant.
+/// Finds matching model files, or images if there are none. The output folder is not skipped, because the pattern is
+/// explicit.
 void findMatches(const std::string& pattern, SearchedFiles searched, std::vector<Found>& found) {
     const fs::path root = patternRoot(pattern);
     std::vector<Found> models, images;
@@ -133,7 +134,7 @@ Error usage(std::string message) { return {ErrorCode::invalidOption, std::move(m
 
 Result<std::vector<Job>> jobsInPlace(const JobRequest& request) {
     std::vector<Job> jobs = inputJobs(request.inputs);
-    // A model that is named twice is changed once.
+    // A model that is named twice is processed once.
     std::set<std::string> named;
     std::erase_if(jobs, [&](const Job& job) {
         return job.error.code == ErrorCode::ok && job.input != "-" && !named.insert(identityOf(job.input)).second;
@@ -153,7 +154,7 @@ Result<std::vector<Job>> jobWithNamedOutput(const JobRequest& request) {
     const std::string extension = lowerExtension(job.output);
     const bool is_glb = isGlbOutput(job.output);
     if (is_glb && !isGlbName(job.output)) {
-        // A stream keeps its name: it gets no extension.
+        // A stream keeps its name and gets no extension.
         if (request.container == Container::gltf) return usage("only a GLB is one stream of bytes: " + job.output);
         return std::vector<Job>{std::move(job)};
     }
@@ -171,7 +172,7 @@ Result<std::vector<Job>> jobWithNamedOutput(const JobRequest& request) {
     return std::vector<Job>{std::move(job)};
 }
 
-/// The one model goes to stdout.
+/// Returns the job for a single model that is written to stdout.
 Result<std::vector<Job>> jobToStandardOutput(const JobRequest& request, bool has_several) {
     if (has_several) return usage("only one model can go to stdout");
     if (request.container == Container::gltf) return usage("only a GLB can go to stdout, not --container gltf");
@@ -184,7 +185,7 @@ Result<std::vector<Job>> jobToStandardOutput(const JobRequest& request, bool has
 
 Result<std::vector<Job>> jobsIntoFolder(const JobRequest& request) {
     const fs::path folder = Path(request.output);
-    std::map<std::string, std::string> writers;  // canonical output -> input
+    std::map<std::string, std::string> writers;  // input path by canonical output path
     std::set<std::string> inputs;                // identities
     std::vector<Found> found = findInputs(request.inputs, canonicalName(folder));
     for (const Found& item : found) inputs.insert(identityOf(item.job.input));
@@ -196,7 +197,7 @@ Result<std::vector<Job>> jobsIntoFolder(const JobRequest& request) {
             const char* extension = extensionFor(request.container, job.input);
             fs::path relative = item.relative;
             job.output = Path(folder / relative.replace_extension(extension)).string();
-            // a.glb and a.obj side by side: the second becomes a.obj.glb.
+            // If a.glb and a.obj are in the same folder, the second one becomes a.obj.glb.
             const auto taken = writers.find(canonicalName(job.output));
             if (taken != writers.end() && lowerExtension(taken->second) != lowerExtension(job.input)) {
                 job.output = Path(folder / item.relative).string() + extension;
@@ -237,7 +238,7 @@ std::vector<std::string> outputFolders(const std::vector<Job>& jobs) {
     for (const Job& job : jobs) {
         if (!job.output.empty()) sorted.insert(Path(fs::path(folderOf(canonicalName(job.output))) / "").string());
     }
-    // Folders inside of a folder follow it at once.
+    // Subfolders directly follow their parent folder.
     std::vector<std::string> folders;
     for (const std::string& folder : sorted) {
         if (folders.empty() || !folder.starts_with(folders.back())) folders.push_back(folder);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From the inputs on the command line (files, folders, patterns) to single files and where their results go.
+// Converts the inputs on the command line (files, folders, patterns) to single files with their outputs.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace tspace::tool {
 
-/// File format of outputs whose name does not determine it.
+/// Format of outputs whose name does not determine it.
 enum class Container { sameAsInput, glb, gltf };
 
-/// The inputs and where results go, as the command line says.
+/// Inputs and output location according to the command line.
 struct JobRequest {
     std::vector<std::string> inputs = {};
     std::string output = {};
@@ -20,41 +20,42 @@ struct JobRequest {
     Container container = Container::sameAsInput;
     bool is_dry_run = false;
     bool has_manifest = false;
-    bool has_list = false;  ///< inputs come from --files-from: the output is a folder, however many they are
+    bool has_list = false;  ///< inputs come from --files-from: the output is a folder, regardless of their number
 };
 
-/// One model file to work on.
+/// One model file to process.
 struct Job {
     std::string input = {};
-    std::string output = {};                ///< empty for commands that write nothing
-    std::string name = {};                  ///< path below the input folder; for files that were named: as named
-    std::string remark = {};                ///< a remark on the output that the user may not expect; may be empty
-    bool is_found_image = false;            ///< an image that no input names: a search found it
-    Error error = {.code = ErrorCode::ok};  ///< why it cannot even be tried
+    std::string output = {};  ///< empty for commands without output files
+    /// path relative to the input folder; for files named explicitly: the given name
+    std::string name = {};
+    std::string remark = {};                ///< remark about an output that the user may not expect; may be empty
+    bool is_found_image = false;            ///< an image found by a search, not named by an input
+    Error error = {.code = ErrorCode::ok};  ///< error that prevents the job from starting
 };
 
-/// Path of tspace-import, which lies beside this program. Empty: it is not there.
+/// Returns the path of tspace-import, which must be next to this program. Empty if it does not exist.
 std::string importerPath();
 
-/// true for names that end in .glb, .vrm, .gltf or .obj, in any case; also .fbx, .ply, .stl, .dae and .3ds where the importer
-/// is there. (Files that are named may be of any format that it reads.)
+/// Returns whether a name ends in .glb, .vrm, .gltf or .obj, ignoring case; also .fbx, .ply, .stl, .dae and .3ds if the
+/// importer exists. (Explicitly named files may have any format that the importer reads.)
 bool isModelFile(const std::string& path);
 
-/// Kinds of files that folders and patterns are searched for.
+/// Types of files that are searched in folders and patterns.
 enum class SearchedFiles {
     models,
-    modelsOrImages  ///< for images where a folder or a pattern has no model
+    modelsOrImages  ///< images if a folder or a pattern has no model
 };
 
-/// Every input file, the model files of every input folder and below in the order of their names, and the model files
-/// that match a pattern (glob.h) that is not itself a file.
+/// Returns every input file, the model files of every input folder and below, sorted by name, and the model files that
+/// match a pattern (glob.h) that is not itself a file.
 std::vector<Job> inputJobs(const std::vector<std::string>& inputs, SearchedFiles searched = SearchedFiles::models);
 
-/// Like inputJobs(), with outputs. Creates no folder; folders are created when something is written. An Error with code
+/// Like inputJobs(), with outputs. Creates no folders; they are created when files are written. An error with code
 /// invalidOption describes a fault of the command line.
 Result<std::vector<Job>> generateJobs(const JobRequest& request);
 
-/// The folders that the jobs write into, without those that lie in another one of them.
+/// Returns the folders that the jobs write into, without subfolders of others.
 std::vector<std::string> outputFolders(const std::vector<Job>& jobs);
 
 }  // namespace tspace::tool

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Starts the command that the command line asks for.
+// Starts the command given on the command line.
 #include <cstdlib>
 #include <exception>
 #include <new>
@@ -29,8 +29,8 @@ namespace {
 
 using namespace tspace::tool;
 
-/// Memory that one primitive gave back serves the next one. By default large blocks go back to the system at once, and
-/// each page of the next one has to be cleared again.
+/// Makes freed memory of one primitive available to the next. By default large blocks are returned to the system
+/// immediately, and each page of the next block has to be cleared again.
 void keepFreedMemory() {
 #ifdef __GLIBC__
     constexpr int kMostAllowed = 32 << 20;
@@ -39,8 +39,8 @@ void keepFreedMemory() {
 #endif
 }
 
-/// All other commands keep small results between large blocks that they free. In one heap the freed blocks would not fit each
-/// other's places, and files with many primitives would take a multiple of the memory that they need.
+/// Returns large freed blocks to the system. All other commands keep small results between them: in one heap, freed
+/// blocks would be fragmented, and files with many primitives would need a multiple of the memory.
 void giveMemoryBack() {
 #ifdef __GLIBC__
     mallopt(M_MMAP_THRESHOLD, 256 << 10);
@@ -49,7 +49,7 @@ void giveMemoryBack() {
 
 constexpr const char* kOutOfMemory = "tspace: out of memory\n";
 
-/// Words that people try, and the command line that does it.
+/// A common wrong command name, and the command line to suggest.
 struct Synonym {
     std::string_view word;
     const char* command_line;
@@ -73,7 +73,7 @@ bool isModelName(const std::string& name) {
     return tspace::isGltfName(name) || extension == ".obj" || extension == ".fbx";
 }
 
-/// Returns a message where the names of all inputs say that another command is meant.
+/// Returns a message if the names of all inputs show that a different command was intended.
 std::string wrongKindOfInput(const Command& command, const Given& given) {
     if (command.reads == Reads::anything) return {};
     const bool reads_models = command.reads == Reads::models;
@@ -90,7 +90,7 @@ std::string wrongKindOfInput(const Command& command, const Given& given) {
            "' is a model; tspace generate --flip-green and --convert-maps change the maps of a model";
 }
 
-/// Handles a first word that is no command.
+/// Handles a first argument that is not a command.
 ExitCode runWithoutCommand(const std::string& word) {
     const ToolTable tool = toolTable();
     if (word == "-h" || word == "--help") return printPage(helpPage(tool));
@@ -132,8 +132,8 @@ ExitCode run(int argc, char** argv) {
     return exit_code;
 }
 
-/// Called where an exception cannot be thrown because there is no memory for it, or would leave a function that may not throw.
-/// As after a signal, no temporary file is left.
+/// Called if an exception cannot be thrown because of a lack of memory, or would leave a noexcept function. As after a
+/// signal, no temporary files remain.
 [[noreturn]] void endWithoutUnwinding() {
     const bool is_out_of_memory =
         std::current_exception() == nullptr || tspace::caughtError().code == tspace::ErrorCode::outOfMemory;

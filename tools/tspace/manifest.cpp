@@ -40,8 +40,8 @@ bool isUtf8(const std::string& text) try {
     return false;
 }
 
-/// Adds a text that may be no UTF-8, as names of files on Linux may: JSON cannot hold it, so that it follows as
-/// NAMEEncoded, in the percent encoding of URIs.
+/// Adds a text that may not be valid UTF-8, such as a file name on Linux. JSON cannot represent it, so it is added as
+/// NAMEEncoded, percent-encoded like URIs.
 void addText(Json& object, const std::string& name, const std::string& text) {
     object[name] = text;
     if (!isUtf8(text)) object[name + "Encoded"] = percentEncode(text);
@@ -73,7 +73,7 @@ std::vector<HashedFile> filesFromJson(const Json& list) {
     return files;
 }
 
-/// Throws JsonError where something is missing or of another type.
+/// Throws JsonError if a member is missing or has a wrong type.
 ManifestEntry entryFromJson(const Json& line) {
     ManifestEntry entry;
     entry.version = line.at("version").get<std::string>();
@@ -98,7 +98,8 @@ Error fileError(ErrorCode code, const std::string& path) {
                       path + ": " + std::strerror(errno)};
 }
 
-/// Whether lines may be appended: there is nothing yet, or a manifest, be it of a run that was killed in its first line.
+/// Returns whether lines may be appended: the file is missing or empty, or is a manifest, even one of a run that was
+/// killed within its first line.
 bool isManifest(const std::string& path) {
     constexpr std::string_view kBegin = R"({"schema":"tspace.manifest/)";
     constexpr std::size_t kLookedAt = std::size_t{1} << 16;
@@ -109,7 +110,7 @@ bool isManifest(const std::string& path) {
     return kBegin.starts_with(found) || found.find(kBegin) != std::string::npos;
 }
 
-/// A run that was killed while it wrote leaves a line without an end.
+/// Returns whether the last line is incomplete, because a run was killed while it wrote.
 bool endsInsideALine(const std::string& path) {
     std::ifstream file(std::filesystem::path(Path(path)), std::ios::binary | std::ios::ate);
     if (!file || file.tellg() <= 0) return false;
@@ -224,7 +225,7 @@ report::ExitCode BatchRecord::append(const ManifestEntry& entry) {
 std::vector<HashedFile> hashFiles(const std::vector<std::string>& paths) {
     std::vector<HashedFile> files;
     for (const std::string& path : paths) {
-        // A stream would be waited for.
+        // Hashing a stream would block.
         if (kindOf(path) == PathKind::stream) continue;
         if (const std::optional<FileHash> hash = hashFile(path)) files.push_back({path, *hash});
     }

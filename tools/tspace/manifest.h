@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The record of a batch: one line of JSON per file that was worked on, so that a later run knows what is done.
+// Record of a batch: one line of JSON per processed file, so that a later run can skip finished files.
 // docs/reference/json.md describes the lines.
 #pragma once
 
@@ -26,28 +26,28 @@ struct HashedFile {
 struct ManifestEntry {
     std::string version = {};  ///< version of the tool
     std::string options = {};  ///< options that affect the result
-    Job job = {};              ///< input, output, and the error if there was one
+    Job job = {};              ///< input, output, and the error, if any
     bool changed = false;
     double seconds = 0;
-    std::vector<HashedFile> inputs = {};   ///< everything that was read, but for files that were written over
-    std::vector<HashedFile> outputs = {};  ///< everything that was written
+    std::vector<HashedFile> inputs = {};   ///< all files that were read, except overwritten ones
+    std::vector<HashedFile> outputs = {};  ///< all files that were written
 };
 
 /// Records of earlier runs. If several lines have the same input and output, the last one counts.
 class ManifestRecord {
   public:
-    /// A file that is not there is an empty record. Lines that are not whole (a run that was killed) or of another
-    /// schema are left out.
+    /// Reads a manifest. A missing file is an empty record. Incomplete lines (of a run that was killed) and lines of
+    /// other schemas are skipped.
     static Result<ManifestRecord> read(const std::string& path);
 
-    /// True when the job was done with the same options and version, and no file of it has changed since.
+    /// Returns whether the job was done with the same options and version, and none of its files has changed since.
     [[nodiscard]] bool isDone(const Job& job, const std::string& options) const;
 
   private:
     std::map<std::string, ManifestEntry> entries_;
 };
 
-/// Appends lines, each by one write, so that a reader never meets half of two.
+/// Appends lines, each with a single write, so that a reader never sees an incomplete line.
 class ManifestWriter {
   public:
     static Result<ManifestWriter> open(const std::string& path);
@@ -58,18 +58,18 @@ class ManifestWriter {
     CFile file_;
 };
 
-/// The manifest of a batch while it runs, if it has one; and what all of its outputs keep off. Any thread may call.
+/// The manifest of a running batch, if it has one, and the files that its outputs must not replace. Thread-safe.
 class BatchRecord {
   public:
-    /// Removes the temporary files that killed runs left beside the outputs, but in a dry run; reads the manifest and opens it
-    /// as the arguments say. An error ends the run before anything was done.
+    /// Removes temporary files that killed runs left next to the outputs (except in a dry run), reads the manifest and
+    /// opens it according to the arguments. An error ends the run before anything is done.
     Result<Done> open(const BatchArguments& batch, const std::vector<Job>& jobs, bool is_dry_run);
-    /// With --resume: whether it is done already.
+    /// Returns whether the job is already done (with --resume).
     [[nodiscard]] bool isDone(const Job& job, const std::string& options) const {
         return record_ && record_->isDone(job, options);
     }
     [[nodiscard]] bool isKept() const { return !path_.empty(); }
-    /// Appends a line. Where that fails it is said, and no more is appended.
+    /// Appends a line. If that fails, prints the error and appends nothing more.
     report::ExitCode append(const ManifestEntry& entry);
 
   private:
@@ -81,7 +81,7 @@ class BatchRecord {
     std::optional<ManifestWriter> writer_ = {};
 };
 
-/// Hashes files, in their order. Those that cannot be read are left out.
+/// Hashes files in order. Files that cannot be read are skipped.
 std::vector<HashedFile> hashFiles(const std::vector<std::string>& paths);
 
 }  // namespace tspace::tool

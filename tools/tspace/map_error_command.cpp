@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace map-error: one normal map.
+// tspace map-error: measures one normal map.
 #include <memory>
 #include <set>
 
@@ -64,7 +64,7 @@ ExitCode runMapError(const MapErrorArguments& arguments) {
     });
 }
 
-/// Options of a comparison with a high poly that do not apply to a comparison with a source.
+/// Returns the options of a comparison with a high poly that do not apply to a comparison with a source.
 std::vector<std::string> onlyWithHigh(const OptionList& of_high) {
     const std::set<std::string> shared = {"--two-channels", "--threads", "--no-sync", "--memory-limit",
                                           "--import-seconds"};

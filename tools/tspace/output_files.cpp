@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks before the work, and writing after it.
+// Checks of outputs before a run, and writing of reports after it.
 #include "output_files.h"
 
 #include <map>
@@ -37,7 +37,8 @@ Result<Done> prepareOutputs(const std::vector<std::string>& outputs, const std::
 
 Result<Done> writeTextFile(const std::string& path, const std::string& text, const InputFiles* inputs) {
     Result<Done> written = atFileBorder([&]() -> Result<Done> {
-        // A report that cannot be written costs nothing else. Only writing to a stream shows whether it can.
+        // A report that cannot be written must not discard other outputs. Only writing to a stream shows whether it
+        // works.
         std::optional<HeldOutputs> at_once;
         if (kindOf(path) == PathKind::stream) at_once.emplace();
         AtomicOutput output({.inputs = inputs});

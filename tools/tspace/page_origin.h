@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What pages say of the run that made them.
+// Information in HTML pages about the run that wrote them.
 #pragma once
 
 #include <span>
@@ -9,11 +9,11 @@
 
 namespace tspace::tool {
 
-/// Call it once, first, with the words of the command line.
+/// Must be called once, first, with the arguments of the command line.
 void rememberCommandLine(std::span<char* const> words);
 
-/// The date is that of SOURCE_DATE_EPOCH, as reproducible-builds.org says, else now; both in UTC. An error where that variable is
-/// no number of seconds: its message is for a wrong command line.
+/// Returns the origin. The date is SOURCE_DATE_EPOCH (see reproducible-builds.org) if set, otherwise the current time,
+/// both in UTC. Fails if that variable is not a number of seconds; the message describes a wrong command line.
 Result<PageOrigin> pageOrigin();
 
 }  // namespace tspace::tool

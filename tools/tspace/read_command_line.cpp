@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Arguments one after the other.
+// Parses arguments in order.
 #include "read_command_line.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ class Reader {
             } else if (argument == "--") {
                 only_operands = true;
             } else {
-                // -o2 is a name of its own where a command has it.
+                // -o2 is a separate name if a command declares it.
                 const bool is_name = argument[1] == '-' || (argument.size() > 2 && find(argument) != nullptr);
                 wrong = is_name ? readLong(argument) : readShort(argument);
             }
@@ -62,7 +62,7 @@ class Reader {
         return {};
     }
 
-    /// If the next argument is the name of another option, the value is missing.
+    /// Takes the value of an option. If the next argument is the name of another option, the value is missing.
     std::string takeNext(const Option& option) {
         const std::string_view next = next_ < arguments_.size() ? arguments_[next_] : "--";
         if (next == "--" || find(std::string(next.substr(0, next.find('=')))) != nullptr)

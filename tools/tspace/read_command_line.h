@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads a command line by the table of its command.
+// Parses a command line according to the table of its command.
 #pragma once
 
 #include <span>
@@ -9,10 +9,10 @@
 
 namespace tspace::tool {
 
-/// Reads what stands behind the name of the command: --name VALUE, --name=VALUE, -n VALUE, -nVALUE, flags together
-/// (-ab), operands in between, and "--" before those that begin with a dash. "-" alone is an operand. Gives every value
-/// to its option. Returns what is wrong with the line, or nothing. With --help among the arguments nothing else is
-/// looked at.
+/// Parses the arguments after the name of the command: --name VALUE, --name=VALUE, -n VALUE, -nVALUE, combined flags
+/// (-ab), operands in between, and "--" before operands that start with a dash. "-" alone is an operand. Passes every
+/// value to its option. Returns an error message, or an empty string. If --help is among the arguments, everything else
+/// is ignored.
 std::string readCommandLine(const Command& command, std::span<const char* const> arguments, Given& given);
 
 }  // namespace tspace::tool

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Many files for commands that only read: several at one time, reported in the order of the files; one bad file does not stop
-// the others.
+// Processing of many files by commands that only read: several in parallel, reported in file order; a failed file does
+// not stop the others.
 #pragma once
 
 #include <atomic>
@@ -16,12 +16,12 @@ namespace tspace::tool {
 template <class Value>
 struct ReadFiles {
     std::vector<report::Outcome<Value>> outcomes = {};
-    ExitCode exit_code = ExitCode::done;  ///< the worst of the files that could not be read
-    bool output_is_closed = false;        ///< stdout was closed; files may have been left out
+    ExitCode exit_code = ExitCode::done;  ///< the worst exit code of the files that could not be read
+    bool output_is_closed = false;        ///< stdout was closed; some files may not have been processed
 };
 
-/// Calls read(job) for each job, which gives a Result<Value>. Errors are printed, and, where `wants_text`, textOf(outcome) of what was read:
-/// of several files the first line, where the user did not ask for all.
+/// Calls read(job), which returns a Result<Value>, for each job. Prints errors and, with `wants_text`, textOf(outcome)
+/// of each result; with several files only its first line, unless the user requested details.
 template <class Value, class Read, class TextOf>
 ReadFiles<Value> readFiles(const std::vector<Job>& jobs, const BatchArguments& batch, bool wants_text, Read read,
                            TextOf textOf) {

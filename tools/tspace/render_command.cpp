@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace render: one model, one picture.
+// tspace render: renders one picture of one model.
 #include <memory>
 
 #include "command_table.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The order at the end of every command that writes files: the report is prepared, the outputs are put in place, the report is
-// printed.
+// Final steps of every command that writes files: prepare the report, put the outputs in place, print the report.
 #pragma once
 
 #include <cstdio>
@@ -12,29 +11,30 @@
 
 namespace tspace::tool {
 
-/// The end of a command, ready to be printed without memory.
+/// Prepared result of a command, which can be printed without allocating.
 struct PreparedReport {
     ExitCode exit_code = ExitCode::done;
     std::string text = {};
     std::FILE* to = stdout;
 };
 
-/// Ends a command whose outputs are held. prepare(failure) composes the report: `failure` is null before the outputs are put in
-/// place, and the reason in a second call where that failed and no output is there. Files that it writes are outputs, too.
-/// Nothing needs memory once outputs are in place; std::bad_alloc before that leaves none.
+/// Ends a command whose outputs are held. prepare(failure) composes the report: `failure` is null before the outputs
+/// are put in place; if that fails, prepare is called again with the reason, and no output exists. Files that it writes
+/// are outputs, too. Nothing allocates once outputs are in place; std::bad_alloc before that leaves no outputs.
 template <class Prepare>
 ExitCode commitAndPrint(HeldOutputs& outputs, const Prepare& prepare) {
     PreparedReport report = prepare(static_cast<const Error*>(nullptr));
     if (const Result<Done> done = outputs.commit(); !done) {
         report = prepare(&done.error());
-        // Only a file of the report is held now; the exit code is that of an error already.
+        // Only a report file is held now; the exit code is already that of an error.
         static_cast<void>(outputs.commit());
     }
     return printResult(report.text, report.to) ? report.exit_code : ExitCode::cannotReadOrWrite;
 }
 
-/// One file of several: outcome.result becomes make(), prepare() composes what is said about it, and its outputs are put in
-/// place. Where memory ends or an output cannot be put in place, that is the result, and there are no outputs.
+/// Processes one of several files: sets outcome.result to make(), composes its report with prepare(), and puts its
+/// outputs in place. If memory runs out or an output cannot be put in place, the result is this error, and there are no
+/// outputs.
 template <class Outcome, class Make, class Prepare>
 void makeAndCommit(Outcome& outcome, const Make& make, const Prepare& prepare) {
     const Result<Done> done = atBorder([&]() -> Result<Done> {
@@ -51,8 +51,8 @@ inline constexpr const char* kNoMemoryForReport =
 inline constexpr const char* kNoMemoryForManifest =
     "tspace: cannot write the manifest for lack of memory; the outputs are complete\n";
 
-/// Calls work(), which follows outputs that are in place: what concerns several files, or is about the files written. Where
-/// memory ends in it, the line, which needs none, and the exit code of a file that cannot be written take its place.
+/// Calls work(), which runs after outputs are in place and concerns several files, or the files written. If memory runs
+/// out in it, prints `line`, which needs no memory, and returns the exit code of a file that cannot be written.
 template <class Work>
 ExitCode afterOutputs(const char* line, const Work& work) {
     const Result<ExitCode> done = atBorder([&]() -> Result<ExitCode> { return work(); });

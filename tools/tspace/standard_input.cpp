@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads all of stdin, as long as it looks like a model.
+// Reads all of stdin if it looks like a model.
 #include "standard_input.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 30;  // a GLB cannot be larger
 
-/// Decides by the first bytes. JSON may begin with a UTF-8 byte order mark and whitespace.
+/// Checks the first bytes. JSON may start with a UTF-8 byte order mark and whitespace.
 bool looksLikeModel(std::string_view text) {
     if (text.starts_with("glTF")) return true;
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// "-" as an input or output: bytes that come and go through pipes.
+// "-" as an input or output: data in pipes.
 #pragma once
 
 #include <span>
@@ -12,23 +12,23 @@
 
 namespace tspace::tool {
 
-/// All of stdin.
+/// Reads all of stdin.
 ///
-/// what                  for a message: "a model"
-/// memory_limit_bytes    as FileOptions::memory_limit_bytes
-/// looks_right           looks at the first bytes
-/// why_not               the message where those are not right
+/// what                  noun for messages: "a model"
+/// memory_limit_bytes    see FileOptions::memory_limit_bytes
+/// looks_right           checks the first bytes
+/// why_not               message if the first bytes are wrong
 ///
-/// Fails with cannotRead, unsupportedFile, invalidFile (nothing there) and tooLarge.
+/// Fails with cannotRead, unsupportedFile, invalidFile (no data) and tooLarge.
 Result<std::vector<std::uint8_t>> readStandardInput(const char* what, std::uint64_t memory_limit_bytes,
                                                     bool (*looks_right)(std::string_view), const char* why_not);
 
-/// The bytes of a model on stdin, for as long as it is worked on.
+/// Owns the bytes of a model from stdin.
 class StandardInput {
   public:
-    /// Where `input` is "-", reads all of stdin and points `options` at it. Fails with cannotRead, unsupportedFile
-    /// (neither GLB nor glTF: other formats are told by their names) and tooLarge.
-    /// `takes_images`: an image may come too.
+    /// If `input` is "-", reads all of stdin and sets up `options` to use it. Fails with cannotRead, unsupportedFile
+    /// (neither GLB nor glTF: other formats are recognized by their names) and tooLarge. `takes_images`: images are
+    /// also allowed.
     Result<Done> open(const std::string& input, FileOptions& options, bool takes_images = false);
 
   private:
@@ -38,9 +38,10 @@ class StandardInput {
 /// "-" as an output.
 class StandardOutput {
   public:
-    /// False where it cannot be written. close() gives the reason, since errno may have changed by the time of the message.
+    /// Writes bytes. Returns false if they cannot be written. close() returns the reason, since errno may have changed
+    /// by the time of the message.
     bool write(std::span<const std::uint8_t> bytes);
-    /// Call it at the end, also after errors: fails with the reason why not all was written.
+    /// Must be called at the end, also after errors: fails with the reason if not everything was written.
     Result<Done> close();
 
   private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Calls of the operating system (system_posix.cpp, system_windows.cpp); those on files are in model/io/system_files.h.
+// Operating system calls (system_posix.cpp, system_windows.cpp); those on files are in model/io/system_files.h.
 #pragma once
 
 #include <cstdio>
@@ -9,21 +9,21 @@
 
 namespace tspace::tool {
 
-/// Call it before all else. Where the program was started without stdin, stdout or stderr, opens something that takes and
-/// gives nothing in their places: else the next file that is opened would be one of them, and get what is printed.
+/// Must be called before all else. If the program was started without stdin, stdout or stderr, opens a dummy in their
+/// place: otherwise the next opened file would get such a descriptor, and receive printed text.
 void openStandardStreams();
 
-/// The words of the command line, in UTF-8. Call it once, first: it also makes standard input and output carry bytes as
-/// they are.
+/// Returns the arguments of the command line in UTF-8. Must be called once, first: it also switches standard input and
+/// output to binary mode.
 std::vector<char*> commandLine(int argc, char** argv);
 
 bool isTerminal(std::FILE* file);
-/// Columns of the terminal; 0 where it is not a terminal, or does not tell.
+/// Returns the number of terminal columns; 0 if it is not a terminal, or unknown.
 std::size_t terminalColumns(std::FILE* file);
-/// Whether a terminal on stdout shows colours.
+/// Returns whether stdout is a terminal with colors.
 bool terminalHasColors();
 
-/// Whether a name matches a pattern of *, ? and [...], none of which stand for a dot in front.
+/// Returns whether a name matches a pattern with *, ? and [...], which do not match a leading dot.
 bool matchesName(const std::string& pattern, const std::string& name);
 
 std::tm utcTime(std::time_t time);

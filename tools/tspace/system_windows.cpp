@@ -2,7 +2,7 @@
 #include <fcntl.h>
 #include <io.h>
 #include <windows.h>
-// After the above, which it needs.
+// Must follow the headers above, which it depends on.
 #include <shellapi.h>
 
 #include <cstdint>
@@ -27,9 +27,9 @@ bool isIn(std::string_view set, char c) {
     return false;
 }
 
-/// Whether the pattern, which is not empty, begins with what stands for the one character; takes that off.
+/// Returns whether the first element of a nonempty pattern matches the character, and removes that element.
 bool takeOne(std::string_view& pattern, char c) {
-    // A bracket that is nothing else may stand first in a set.
+    // A closing bracket may be the first character of a set.
     const std::size_t first = pattern.size() > 1 && (pattern[1] == '!' || pattern[1] == '^') ? 2 : 1;
     const std::size_t end = pattern.front() == '[' ? pattern.find(']', first + 1) : std::string_view::npos;
     bool fits = pattern.front() == '?' || pattern.front() == c;
@@ -38,7 +38,7 @@ bool takeOne(std::string_view& pattern, char c) {
     return fits;
 }
 
-/// Bytes as they are, errors at once; UTF-8 and colours where it is a terminal.
+/// Sets binary mode and unbuffered stderr; UTF-8 and colors on a terminal.
 void prepareStreams() {
     for (std::FILE* file : {stdin, stdout, stderr}) _setmode(_fileno(file), _O_BINARY);
     std::setvbuf(stderr, nullptr, _IONBF, 0);
@@ -52,7 +52,7 @@ void prepareStreams() {
 
 }  // namespace
 
-// Windows has handles for them, which no file gets.
+// Not needed: Windows uses handles, which are never assigned to files.
 void openStandardStreams() {}
 
 std::vector<char*> commandLine(int argc, char** argv) {
@@ -93,7 +93,7 @@ bool terminalHasColors() {
 bool matchesName(const std::string& pattern_text, const std::string& name_text) {
     std::string_view pattern = pattern_text, name = name_text;
     if (name.starts_with('.') && !pattern.starts_with('.')) return false;
-    // Position of the last *, and the text that it has not matched yet: it matches more if the rest fails.
+    // Position of the last *, and the text that it has not matched yet: the * matches more if the rest fails.
     std::string_view behind_star, left;
     bool has_star = false;
     while (!name.empty() || !pattern.empty()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace view: a page with the model in it.
+// tspace view: writes a page with an embedded model.
 #include <filesystem>
 #include <memory>
 
@@ -27,7 +27,7 @@ struct ViewArguments {
 
 namespace fs = std::filesystem;
 
-/// Path next to an installed tool, or in the build folder; empty: it was not built.
+/// Returns the path next to an installed tool, or in the build folder; empty if it was not built.
 std::string pagePath() {
     const Path own = ownProgram();
     if (own.empty()) return {};

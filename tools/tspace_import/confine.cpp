@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Means of Linux that need no rights of root: Landlock for paths, from 5.13 on, and a filter of system calls.
+// Linux mechanisms that need no root privileges: Landlock for paths (since 5.13), and a system call filter.
 #include "confine.h"
 
 #ifdef __linux__
@@ -28,11 +28,11 @@ namespace {
 
 #if defined(LANDLOCK_CREATE_RULESET_VERSION) && defined(SYS_landlock_create_ruleset)
 
-/// Every right on files that this version of Landlock can take away; headers may be older than the kernel.
+/// Returns all file rights that this version of Landlock can restrict; the headers may be older than the kernel.
 std::uint64_t rightsOf(long version) {
     constexpr unsigned kOfFirst = 13;
     unsigned count = kOfFirst;
-    if (version >= 2) ++count;  // link and rename into another folder
+    if (version >= 2) ++count;  // linking and renaming into another folder
     if (version >= 3) ++count;  // truncate
     if (version >= 5) ++count;  // ioctl
     return (std::uint64_t{1} << count) - 1;
@@ -40,7 +40,7 @@ std::uint64_t rightsOf(long version) {
 
 void allowReading(int rules, const std::string& path) {
     const int place = open(path.c_str(), O_PATH | O_CLOEXEC);
-    if (place < 0) return;  // reading it reports the reason
+    if (place < 0) return;  // reading the file reports the reason
     struct stat status = {};
     landlock_path_beneath_attr rule = {};
     rule.allowed_access = LANDLOCK_ACCESS_FS_READ_FILE;
@@ -70,7 +70,7 @@ bool confineFiles(const std::vector<std::string>&) { return false; }
 
 #endif
 
-// The run-time libraries of sanitizers start threads, and read what the kernel says of this process.
+// Sanitizers start threads and read kernel information about this process, which the filter would block.
 #if (defined(__x86_64__) || defined(__aarch64__)) && !defined(TSPACE_SANITIZED)
 
 #ifdef __x86_64__
@@ -79,8 +79,8 @@ constexpr std::uint32_t kMachine = AUDIT_ARCH_X86_64;
 constexpr std::uint32_t kMachine = AUDIT_ARCH_AARCH64;
 #endif
 
-/// The calls that a parser needs: memory, reading files, open descriptors, clocks, and exit. Numbers of x32 programs differ,
-/// so they are refused.
+/// System calls that a parser needs: memory, reading files, open descriptors, clocks, and exit. Programs for x32 use
+/// different numbers, so they are rejected.
 constexpr std::uint32_t kCalls[] = {
     // Memory and locks.
     SYS_brk,
@@ -118,7 +118,7 @@ constexpr std::uint32_t kCalls[] = {
     SYS_readlink,
     SYS_access,
 #endif
-    // This process, its time and its end.
+    // This process, its time, and its exit.
     SYS_getpid,
     SYS_gettid,
     SYS_sysinfo,
@@ -135,19 +135,20 @@ constexpr std::uint32_t kCalls[] = {
 
 constexpr std::uint32_t kWritingFlags = O_ACCMODE | O_CREAT | O_TRUNC | O_APPEND;
 
-/// The lower half of an argument: both machines are little-endian.
+/// Returns the offset of the lower half of an argument: both architectures are little-endian.
 constexpr std::uint32_t argumentAt(std::size_t i) {
     return static_cast<std::uint32_t>(offsetof(seccomp_data, args) + i * sizeof(std::uint64_t));
 }
 
-/// Calls that are not on the list fail as if this kernel did not have them, and libraries have other ways for that.
+/// Installs the filter. Calls that are not on the list fail as if the kernel did not support them, and libraries use
+/// alternatives.
 bool confineCalls() {
     std::vector<sock_filter> filter;
     const auto load = [&](std::size_t offset) {
         filter.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset)));
     };
     const auto end = [&](std::uint32_t action) { filter.push_back(BPF_STMT(BPF_RET | BPF_K, action)); };
-    /// Goes on behind the next `skipped` steps where the loaded word is not `value`.
+    /// Skips the next `skipped` instructions if the loaded word is not `value`.
     const auto onlyIf = [&](std::uint32_t value, std::uint8_t skipped) {
         filter.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, 0, skipped));
     };
@@ -184,7 +185,7 @@ bool confineCalls() { return false; }
 }  // namespace
 
 Confinement confine(const std::vector<std::string>& readable) {
-    // Else both are for root alone.
+    // Otherwise both mechanisms require root.
     if (prctl(PR_SET_NO_NEW_PRIVS, 1UL, 0UL, 0UL, 0UL) != 0) return {};
     Confinement made;
     made.of_files = confineFiles(readable);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Takes the rights away from a process that reads an untrusted file.
+// Drops the privileges of a process that reads an untrusted file.
 #pragma once
 
 #include <string>
@@ -7,15 +7,16 @@
 
 namespace tspace::import {
 
-/// The restrictions that hold from now on. A kernel without both leaves only the limits of resources.
+/// Restrictions in effect. A kernel that supports neither leaves only the resource limits.
 struct Confinement {
-    bool of_files = false;  ///< Landlock: no file is read but those allowed, none is written, made, renamed or run
+    /// Landlock: only allowed files can be read; nothing can be written, created, renamed or executed
+    bool of_files = false;
     bool of_calls =
-        false;  ///< seccomp: no other program, process, connection or signal; no file is opened to be written
+        false;  ///< seccomp: no other program, process, connection or signal; no file can be opened for writing
 };
 
-/// For this process, which has one thread, and all that it may start; there is no way back. Files that are open stay so.
-/// `readable`: files, and folders with all that is below them; others are not there for it.
+/// Confines this process, which must have one thread, and all its children; this cannot be undone. Open files stay
+/// open. `readable`: files, and folders including their contents; all others appear not to exist.
 Confinement confine(const std::vector<std::string>& readable);
 
 }  // namespace tspace::import

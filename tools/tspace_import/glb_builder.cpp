@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The frame around JSON and BIN.
+// Container of JSON and BIN.
 #include "glb_builder.h"
 
 #include <stdexcept>

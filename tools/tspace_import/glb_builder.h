@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A GLB that grows accessor by accessor, and what was mended in it.
+// GLB that grows accessor by accessor, with counts of repaired values.
 #pragma once
 
 #include <cstdint>

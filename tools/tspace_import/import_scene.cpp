@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Assimp's scene as glTF: nodes, meshes with their skins, animations.
+// Converts Assimp's scene to glTF: nodes, meshes with their skins, animations.
 #include "import_scene.h"
 
 #include <assimp/commonMetaData.h>
@@ -52,7 +52,7 @@ class SceneWriter {
     [[nodiscard]] Mended& mended() { return builder_.mended(); }
 
   private:
-    /// Breadth first, so that depth costs no stack.
+    /// Lists nodes breadth first, so that deep hierarchies need no stack.
     void listNodes() {
         nodes_.push_back(scene_.mRootNode);
         for (std::size_t i = 0; i < nodes_.size(); ++i) {
@@ -75,7 +75,7 @@ class SceneWriter {
         const std::vector<float> matrix = columnsOf(place, builder_.mended());
         if (i > 0) countCoarsePlace(node.mTransformation, meters_, builder_.mended());
         if (isAnimated(node) && isFinite(place[0], 16)) {
-            // A matrix cannot be animated.
+            // glTF does not allow animating a matrix.
             aiVector3D scale, translation;
             aiQuaternion rotation;
             place.Decompose(scale, rotation, translation);
@@ -89,7 +89,8 @@ class SceneWriter {
         return json;
     }
 
-    /// FBX says how many centimetres its unit has; of other formats Assimp has put it into the root, or they do not say.
+    /// Returns the transform to meters. FBX declares the size of its unit in centimeters; for other formats Assimp has
+    /// applied it to the root, or it is unknown.
     [[nodiscard]] aiMatrix4x4 inMetres() const {
         float centimetres = 100;
         if (scene_.mMetaData != nullptr) scene_.mMetaData->Get("UnitScaleFactor", centimetres);
@@ -112,7 +113,7 @@ class SceneWriter {
         std::optional<std::size_t> mesh = {}, skin = {};
     };
 
-    /// One glTF mesh for all meshes of the node that are where the file has them, and one for those that were moved.
+    /// Adds one glTF mesh for all meshes of the node with unchanged coordinates, and one for those with an offset.
     void addMeshes(std::size_t i) {
         const aiNode& node = *nodes_[i];
         std::vector<unsigned> list, moved;
@@ -129,7 +130,7 @@ class SceneWriter {
         if (numbers.skin) json["skin"] = *numbers.skin;
     }
 
-    /// Nodes with the same list and skin share a mesh.
+    /// Nodes with equal lists and skins share a mesh.
     MeshNumbers meshOf(const std::vector<unsigned>& list, const aiNode& node) {
         if (list.empty()) return {};
         const auto [known, is_new] = mesh_of_.try_emplace(list);
@@ -137,8 +138,8 @@ class SceneWriter {
         return known->second;
     }
 
-    /// The node itself, with the offset as its translation, where it has no place of its own and nothing else hangs at it;
-    /// else a child for it.
+    /// Returns the node itself, with the offset as its translation, if it has no transform and no other content;
+    /// otherwise a new child.
     std::size_t nodeAtOffset(std::size_t i, bool has_other_mesh) {
         const Json translation = {moved_.offset.x, moved_.offset.y, moved_.offset.z};
         Json& json = builder_.json()["nodes"][i];
@@ -188,7 +189,7 @@ class SceneWriter {
         return numbers;
     }
 
-    /// The material, or one without the textures that are on UV sets which the primitive lacks.
+    /// Returns the material, or a copy without the textures whose UV sets the primitive lacks.
     std::size_t materialFor(std::size_t number, const Json& primitive) {
         Json material = builder_.json()["materials"][number];
         bool changed = false;
@@ -213,7 +214,7 @@ class SceneWriter {
         std::map<std::string, std::uint16_t> place_of = {};
     };
 
-    /// The bones of all meshes of a node. None where a bone has no node.
+    /// Returns the bones of all meshes of a node; none if a bone has no node.
     Skin skinOf(const std::vector<unsigned>& list) {
         Skin skin;
         for (const unsigned number : list) {
@@ -268,7 +269,8 @@ class SceneWriter {
     static bool isFiniteValue(const aiVector3D& v) { return isFinite(&v.x, 3); }
     static bool isFiniteValue(const aiQuaternion& q) { return isFinite(&q.w, 4); }
 
-    /// Keys whose time does not grow are left out, since glTF forbids them, and those that are not finite.
+    /// Adds a track. Keys whose time does not increase are skipped, because glTF forbids them, and so are keys that are
+    /// not finite.
     template <class Key>
     void addTrack(Json& animation, std::size_t node, const char* path, const Key* keys, unsigned count, double ticks) {
         std::vector<float> times, values;
@@ -292,7 +294,7 @@ class SceneWriter {
     const aiScene& scene_;
     bool takes_tangents_;
     MovedMeshes moved_;
-    double meters_ = 1;  ///< one unit of the nodes below the root
+    double meters_ = 1;  ///< meters per unit of the nodes below the root
     GlbBuilder builder_;
     std::vector<const aiNode*> nodes_ = {};
     std::vector<std::size_t> first_child_ = {};
@@ -301,7 +303,7 @@ class SceneWriter {
     std::map<std::string, std::size_t> reduced_materials_ = {};  ///< by their JSON
 };
 
-/// How a file is read.
+/// Parameters of reading a file.
 struct Reading {
     const std::string& path;
     const ImportRules& rules;
@@ -309,7 +311,8 @@ struct Reading {
     bool takes_tangents;
 };
 
-/// Reads the file once more, near the origin. Returns why that does not help; nothing where it does. `scene` is gone then.
+/// Reads the file again, near the origin. Returns why that does not help, or an empty string if it does; `scene` is
+/// then invalid.
 std::string readNearOrigin(const Reading& reading, const aiScene& scene, Imported& imported) {
     const std::optional<NearFile> moved = nearOrigin(reading.path);
     if (!moved) return "; the file has no more digits than those: move the model to the origin before it is exported";
@@ -317,7 +320,7 @@ std::string readNearOrigin(const Reading& reading, const aiScene& scene, Importe
         ", and no common offset fixes that; split the model, and move each part to its own origin";
     if (moved->bytes.empty()) return no_common;
     const std::vector<aiVector3D> first_vertices = firstVertices(scene);
-    std::vector<std::string> refused;  // already recorded by the first reading
+    std::vector<std::string> refused;  // already recorded by the first pass
     reading.importer.SetIOHandler(new ModelFiles(reading.path, reading.rules.anywhere, refused, &moved->bytes));
     const aiScene* const near = reading.importer.ReadFile(reading.path, 0);
     if (near == nullptr || near->mRootNode == nullptr) return "; reading it near the origin failed";
@@ -337,7 +340,8 @@ std::string readNearOrigin(const Reading& reading, const aiScene& scene, Importe
     return {};
 }
 
-/// Takes an offset out, or says why not, in a scene whose edges are coarse. `scene` may be gone then.
+/// Subtracts an offset if the edges of a scene are coarse, or records why this is not possible. `scene` may be invalid
+/// afterwards.
 void mendCoarse(const Reading& reading, const aiScene& scene, const Mended& mended, Imported& imported) {
     const std::string coarse = mended.coarseness();
     std::string why;
@@ -364,7 +368,7 @@ Imported importScene(const std::string& path, const ImportRules& rules) {
     std::vector<std::string> refused;
     Assimp::Importer importer;
     importer.SetIOHandler(new ModelFiles(path, rules.anywhere, refused));  // the importer takes ownership
-    // No step after reading: seams, duplicates and polygons stay as the file has them.
+    // No post-processing, so that seams, duplicates and polygons stay as in the file.
     const aiScene* scene = importer.ReadFile(path, 0);
     std::vector<std::string> not_read;
     for (const std::string& file : refused)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A file that Assimp reads, as the bytes of a GLB.
+// Converts a file that Assimp reads to the bytes of a GLB.
 #pragma once
 
 #include <cstdint>
@@ -10,24 +10,28 @@ namespace tspace::import {
 
 struct Imported {
     std::vector<std::uint8_t> glb = {};
-    std::string error = {};        ///< one sentence; empty: it was read
-    bool has_no_tangents = false;  ///< the file has none, as far as its text says
+    std::string error = {};        ///< one sentence; empty: the file was read
+    bool has_no_tangents = false;  ///< the file contains no tangents, according to its text
     std::vector<std::string> warnings = {};
-    bool keeps_coordinates = false;  ///< floats do not hold the shape, and ImportRules::keep_coordinates was given
-    double offset[3] = {0, 0, 0};    ///< taken out of coordinates, and the translation of their nodes
+    bool keeps_coordinates = false;  ///< floats cannot represent the shape, and ImportRules::keep_coordinates was set
+    double offset[3] = {0, 0, 0};    ///< offset subtracted from coordinates; it is the translation of their nodes
 };
 
-/// The options of reading.
+/// Options for reading a file.
 struct ImportRules {
     bool anywhere =
-        false;  ///< files that it names are read wherever they are; else where the URIs of glTF may lead (src/model/io/folder_rule.h)
+        /// referenced files may be anywhere; otherwise the rule for glTF URIs applies (src/model/io/folder_rule.h)
+        false;
     bool keep_coordinates =
-        false;  ///< else an offset is taken out where floats do not hold the shape, and the file has more than floats
+        /// false: an offset is subtracted if floats cannot represent the shape, and the file has more precision than
+        /// floats
+        false;
 };
 
-/// Meshes are neither joined nor split: one primitive per mesh of the file, polygons cut by tspace's own rule, vertices
-/// joined only when all their attributes have the same bits. Nodes, materials (base colour and normal map), all UV
-/// sets, colours, skins, morph targets and animations go along. UVs are turned so that v runs down.
+/// Reads a scene. Meshes are neither joined nor split: one primitive per mesh of the file, polygons are triangulated by
+/// tspace's rule, and vertices are merged only if all their attributes have equal bits. Nodes, materials (base color
+/// and normal map), all UV sets, colors, skins, morph targets and animations are preserved. UVs are flipped so that v
+/// points down.
 Imported importScene(const std::string& path, const ImportRules& rules);
 
 }  // namespace tspace::import

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// tspace-import IN MAX_BYTES MAX_PROCESSOR_SECONDS MAX_SECONDS PARENT WHERE COORDINATES: reads FBX, PLY, STL, DAE, 3DS and
-// what else Assimp knows, and writes to stdout a GLB that tspace goes on with. A program of its own, because Assimp's
-// parsers may crash, run away or do worse on broken files: memory and time are limited, and so is what it may do
-// (confine.h). WHERE: "folder", the files that it may read are those in the model's folder, or "anywhere". COORDINATES:
-// "near-origin", an offset may be taken out, or "as-they-are". It ends when the process PARENT does. Not meant to be called
-// by hand.
+// tspace-import IN MAX_BYTES MAX_PROCESSOR_SECONDS MAX_SECONDS PARENT WHERE COORDINATES: reads FBX, PLY, STL, DAE, 3DS
+// and other formats of Assimp, and writes a GLB to stdout, which tspace processes. It is a separate program, because
+// Assimp's parsers may crash, hang or be exploited by corrupt files: memory and time are limited, and so are its
+// privileges (confine.h). WHERE: "folder" (only files in the model's folder may be read) or "anywhere". COORDINATES:
+// "near-origin" (an offset may be subtracted) or "as-they-are". It ends when the process PARENT does. Not intended for
+// users.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -33,7 +33,7 @@ constexpr int kBadInput = 3;
 constexpr int kCannotWrite = 4;
 constexpr int kOutOfMemory = 5;
 
-/// The type of `resource` is another one on each system.
+/// The type of `resource` differs between systems.
 template <class Resource>
 void limit(Resource resource, rlim_t soft, rlim_t hard) {
     const rlimit limits = {soft, hard};
@@ -42,20 +42,20 @@ void limit(Resource resource, rlim_t soft, rlim_t hard) {
 
 void limitAll(rlim_t bytes, rlim_t processor_seconds, unsigned seconds) {
     limit(RLIMIT_CORE, 0, 0);
-    limit(RLIMIT_FSIZE, 0, 0);  // pipes are no files
-    // The signal of the soft limit tells the parent why. At the hard one there is no way around.
+    limit(RLIMIT_FSIZE, 0, 0);  // pipes do not count as files
+    // The signal of the soft limit informs the parent. The hard limit cannot be circumvented.
     limit(RLIMIT_CPU, processor_seconds, processor_seconds + 1);
-    // One second after the parent would have ended it: for a parent that is not there to do it.
+    // One second after the parent would end the process, in case the parent no longer exists.
     alarm(seconds + 1);
-#if defined(RLIMIT_AS) && !defined(TSPACE_SANITIZED)  // which reserves terabytes of addresses
+#if defined(RLIMIT_AS) && !defined(TSPACE_SANITIZED)  // sanitizers reserve terabytes of address space
     limit(RLIMIT_AS, bytes, bytes);
 #else
     static_cast<void>(bytes);
 #endif
 }
 
-/// From now on this process ends when the thread that started it does: in tspace that thread waits here for it. False:
-/// it has ended before.
+/// Makes this process end when the thread that started it does; in tspace that thread waits for this process. Returns
+/// false if it has already ended.
 bool endWithParent([[maybe_unused]] pid_t parent) {
 #ifdef __linux__
     prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -63,7 +63,7 @@ bool endWithParent([[maybe_unused]] pid_t parent) {
     return getppid() == parent;
 }
 
-/// Closes files that the parent had open: a parser must not reach them.
+/// Closes files that the parent had open, because a parser must not access them.
 void closeOtherFiles() {
     constexpr unsigned kFirst = 3;
 #if defined(__linux__) && defined(SYS_close_range)
@@ -73,14 +73,14 @@ void closeOtherFiles() {
     for (long i = kFirst; i < std::min(sysconf(_SC_OPEN_MAX), kMost); ++i) close(static_cast<int>(i));
 }
 
-/// No file that is opened takes the place of stdin, stdout or stderr, which may be closed.
+/// Ensures that no opened file gets the descriptor of stdin, stdout or stderr, which may be closed.
 void openStandardStreams() {
     for (int number = STDIN_FILENO; number <= STDERR_FILENO; ++number) {
         if (fcntl(number, F_GETFD) == -1) static_cast<void>(open("/dev/null", number == 0 ? O_WRONLY : O_RDONLY));
     }
 }
 
-/// Keeps stdout for the result: output of libraries is dropped.
+/// Reserves stdout for the result; output of libraries is dropped.
 int takeStdout() {
     const int result = dup(STDOUT_FILENO);
     const int nowhere = open("/dev/null", O_WRONLY);
@@ -102,7 +102,7 @@ int run(const char* input, const tspace::import::ImportRules& rules, std::FILE* 
         std::fprintf(stderr, "cannot write the result\n");
         return kCannotWrite;
     }
-    // importDocument tells these lines from others that a library may print.
+    // importDocument distinguishes these lines from others that a library may print.
     if (imported.has_no_tangents) std::fprintf(stderr, "tangents: none\n");
     if (imported.keeps_coordinates) std::fprintf(stderr, "coordinates: kept\n");
     const double* const offset = imported.offset;
@@ -116,7 +116,7 @@ int run(const char* input, const tspace::import::ImportRules& rules, std::FILE* 
 }  // namespace
 
 #ifdef TSPACE_SANITIZED
-/// The leak checker reads /proc, which a confined process may not, and would end it with an error.
+/// The leak checker reads /proc, which a confined process must not access, and would report an error.
 extern "C" const char* __lsan_default_options() { return "detect_leaks=0"; }
 #endif
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Base colour, metal and roughness, normal map; images embedded or by name.
+// Base color, metalness and roughness, normal map; images embedded or by name.
 #include "materials.h"
 
 #include <assimp/material.h>
@@ -36,8 +36,8 @@ std::string percentEncoded(const std::string& text) {
     return out;
 }
 
-/// A path that leads below the model's folder. Files from elsewhere (absolute, of another system, upwards) are looked
-/// for beside the model by their bare name.
+/// Returns a path below the model's folder. Files from other locations (absolute, of another system, above the folder)
+/// are searched next to the model by their name.
 std::string localName(std::string path) {
     std::replace(path.begin(), path.end(), '\\', '/');
     const std::filesystem::path plain = std::filesystem::path(path).lexically_normal();
@@ -76,7 +76,7 @@ class MaterialWriter {
             if (pbr.contains("baseColorTexture")) break;
             if (std::optional<Json> texture = reference(source, type)) pbr["baseColorTexture"] = std::move(*texture);
         }
-        // Height maps (bump) are no normal maps, and are left out.
+        // Height maps (bump) are not normal maps, and are ignored.
         for (const aiTextureType type : {aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA}) {
             if (material.contains("normalTexture")) break;
             if (std::optional<Json> texture = reference(source, type)) material["normalTexture"] = std::move(*texture);
@@ -100,7 +100,8 @@ class MaterialWriter {
         return json;
     }
 
-    /// v' = 1 - v on both sides of v * scale + offset. Rotation turns about another point there; it is left out.
+    /// Adds a transform with v' = 1 - v on both sides of v * scale + offset. Rotation uses a different pivot in this
+    /// case; it is ignored.
     void addTransform(const aiUVTransform& t, Json& json) {
         if (!isFinite(&t.mScaling.x, 2) || !isFinite(&t.mTranslation.x, 2)) return;
         if (t.mScaling.x == 1 && t.mScaling.y == 1 && t.mTranslation.x == 0 && t.mTranslation.y == 0) return;
@@ -123,7 +124,7 @@ class MaterialWriter {
     std::optional<Json> imageFor(const std::string& path) {
         const aiTexture* embedded = scene_.GetEmbeddedTexture(path.c_str());
         if (embedded == nullptr) return Json{{"uri", percentEncoded(localName(path))}};
-        // Raw pixels would need an encoder; PNG and JPEG are what files embed.
+        // Raw pixels would need an encoder; files usually embed PNG and JPEG.
         if (embedded->mHeight != 0) return {};
         const auto* bytes = reinterpret_cast<const std::uint8_t*>(embedded->pcData);
         const char* type = mediaType(bytes, embedded->mWidth);

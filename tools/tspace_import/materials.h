@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Assimp's materials as glTF materials: colours, and the textures that matter for frames.
+// Converts Assimp's materials to glTF materials: colors, and the textures that matter for frames.
 #pragma once
 
 #include <assimp/scene.h>
@@ -8,7 +8,7 @@
 
 namespace tspace::import {
 
-/// All materials, in their order, with their textures and images.
+/// Adds all materials, in order, with their textures and images.
 void addMaterials(GlbBuilder& builder, const aiScene& scene);
 
 }  // namespace tspace::import

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rules for OBJ (src/model/obj) hold here too: invalid numbers are replaced and counted.
+// Follows the rules for OBJ (src/model/obj): invalid numbers are replaced and counted.
 #include "mend.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace tspace::import {
 
 namespace {
 
-/// Normals that are unit by the validator's tolerance keep their bits.
+/// Normals that are unit within the validator's tolerance keep their bits.
 constexpr double kUnitTolerance = 5e-4;
 
 using Vec = std::array<double, 3>;
@@ -113,7 +113,7 @@ std::size_t mendNormals(std::vector<float>& normals, const std::vector<float>& p
 void countCoarseEdges(const std::vector<float>& positions, const std::vector<std::uint32_t>& triangles,
                       Mended& mended) {
     constexpr double kLeastSteps = 500, kFar = 1 << 14;
-    // Whole numbers and short fractions have zeros there; rounded ones seldom do.
+    // The last bits of integers and short fractions are zero; those of rounded numbers rarely are.
     constexpr std::uint32_t kLastBits = 63;
     const auto isRound = [](float value) { return (std::bit_cast<std::uint32_t>(value) & kLastBits) == 0; };
     const auto stepAt = [](float value) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers that other formats allow and glTF does not.
+// Repairs numbers that other formats allow and glTF does not.
 #pragma once
 
 #include <assimp/scene.h>
@@ -15,44 +15,46 @@ namespace tspace::import {
 struct Mended {
     std::size_t positions = 0, uvs = 0, normals = 0, tangents = 0, transforms = 0;
     std::size_t edges = 0, coarse_edges = 0;  ///< edges of triangles; see countCoarseEdges
-    std::size_t coarse_places = 0;            ///< nodes whose translation floats hold less exactly than to a millimeter
-    double worst_place = 0;                   ///< largest shift of a node by rounding to floats, in meters
+    /// number of nodes whose translation floats represent less precisely than a millimeter
+    std::size_t coarse_places = 0;
+    double worst_place = 0;  ///< largest shift of a node by rounding to floats, in meters
 
-    /// Whether so many edges are coarse that it shows: one in twenty, as for OBJ.
+    /// Returns whether so many edges are coarse that it is visible: one in twenty, as for OBJ.
     [[nodiscard]] bool isCoarse() const { return coarse_edges != 0 && 20 * coarse_edges >= edges; }
-    /// Human-readable description for isCoarse().
+    /// Returns a human-readable description for isCoarse().
     [[nodiscard]] std::string coarseness() const;
-    /// A sentence for each kind that occurred, but for coarse edges.
+    /// Returns a sentence per kind of repair, except coarse edges.
     [[nodiscard]] std::vector<std::string> warnings() const;
 };
 
-/// A number from 0 to 1; `otherwise` for one that is not finite.
+/// Clamps a number to 0 to 1; returns `otherwise` if it is not finite.
 double unitInterval(float value, double otherwise);
 
 bool isFinite(const float* values, std::size_t count);
 
-/// Puts 0 in place of every element of `components` floats that is not finite as a whole. Returns how many.
+/// Replaces every element of `components` floats by zeros if any of them is not finite. Returns the number of replaced
+/// elements.
 std::size_t zeroNotFinite(std::vector<float>& values, std::size_t components);
 
-/// Makes normals unit. One that has no direction gets that of the first of the vertex's triangles that has an area, and
-/// (0, 0, 1) where none has. Returns how many had none. `triangles`: three vertices each.
+/// Normalizes normals. A normal without direction becomes that of the first nondegenerate triangle of its vertex, or
+/// (0, 0, 1) if there is none. Returns the number of normals without direction. `triangles`: three vertices each.
 std::size_t mendNormals(std::vector<float>& normals, const std::vector<float>& positions,
                         const std::vector<std::uint32_t>& triangles);
 
-/// Counts the edges of triangles, and among them those too far from the origin: rounding to floats, which Assimp reads all
-/// numbers as, may change them by a five-hundredth of their length along an axis. All of them where none has a length, and the mesh is so far
-/// away that they may have been rounded to it.
+/// Counts the edges of triangles, and those too far from the origin: rounding to floats (Assimp reads all numbers as
+/// floats) may change them by more than 1/500 of their length along an axis. Counts all edges if all have length zero,
+/// and the mesh is so far away that rounding may be the cause.
 void countCoarseEdges(const std::vector<float>& positions, const std::vector<std::uint32_t>& triangles, Mended& mended);
 
-/// Counts a node whose translation is so large that rounding it to floats may move the node by a millimeter or more.
-/// `meters`: one unit of the translation.
+/// Counts a node whose translation is so large that rounding to floats may move the node by a millimeter or more.
+/// `meters`: meters per unit of the translation.
 void countCoarsePlace(const aiMatrix4x4& matrix, double meters, Mended& mended);
 
-/// Column by column, as glTF wants it; Assimp stores rows. The last row is exactly 0 0 0 1. The identity, counted,
-/// where a number is not finite.
+/// Returns the matrix in column-major order, as in glTF (Assimp is row-major). The last row is exactly 0 0 0 1. Returns
+/// the identity, and counts it, if a number is not finite.
 std::vector<float> columnsOf(const aiMatrix4x4& matrix, Mended& mended);
 
-/// Unit; the identity where it has no direction.
+/// Normalizes a rotation; returns the identity if it has no direction.
 aiQuaternion unitRotation(const aiQuaternion& rotation);
 
 }  // namespace tspace::import

@@ -45,7 +45,7 @@ std::vector<float> differences(const aiVector3D* moved, const aiVector3D* base, 
     return floats;
 }
 
-/// The joints of every vertex with the largest weights first, four to a set, at most two sets. Weights add up to 1.
+/// Adds the joints of every vertex, largest weights first, four per set, at most two sets. Weights sum to 1.
 void addWeights(const aiMesh& mesh, const std::vector<std::uint16_t>& joints, std::vector<Attribute>& attributes) {
     constexpr std::size_t kPerSet = 4, kMostSets = 2;
     struct Influence {
@@ -58,7 +58,7 @@ void addWeights(const aiMesh& mesh, const std::vector<std::uint16_t>& joints, st
         for (unsigned w = 0; w < bone.mNumWeights; ++w) {
             const aiVertexWeight& entry = bone.mWeights[w];
             if (entry.mVertexId >= mesh.mNumVertices || !std::isfinite(entry.mWeight) || !(entry.mWeight > 0)) continue;
-            // A joint may stand only once in a vertex.
+            // A joint may be used only once per vertex.
             std::vector<Influence>& list = influences[entry.mVertexId];
             const auto known = std::find_if(list.begin(), list.end(),
                                             [&](const Influence& influence) { return influence.joint == joints[b]; });
@@ -93,8 +93,8 @@ void addWeights(const aiMesh& mesh, const std::vector<std::uint16_t>& joints, st
     }
 }
 
-/// T as it is, and which side of cross(N, T) the bitangent is on. It points where v grows, upwards here; that is where
-/// glTF wants the bitangent too, although its v runs down: so w is that side, as it comes.
+/// Returns T unchanged, and the side of cross(N, T) that the bitangent is on. The bitangent points along increasing v,
+/// upward here; glTF expects the same direction, although its v points down: so w is that side, unchanged.
 Attribute tangentsOf(const aiMesh& mesh) {
     Attribute tangents{"TANGENT", 4};
     tangents.values.reserve(std::size_t{4} * mesh.mNumVertices);
@@ -155,7 +155,8 @@ std::vector<Attribute> attributesOf(const aiMesh& mesh, const std::vector<std::u
 /// Representative of each vertex: the first one with the same bits in every attribute.
 struct Joined {
     std::vector<std::uint32_t> place =
-        {};                                ///< for each old vertex, the index of its representative among the kept ones
+        /// for each old vertex, the index of its representative among the kept vertices
+        {};
     std::vector<std::uint32_t> kept = {};  ///< old numbers
 };
 
@@ -176,7 +177,7 @@ Joined joinEqual(const std::vector<Attribute>& attributes, std::size_t count) {
     return joined;
 }
 
-/// Vertices of triangles. Points and lines are left out.
+/// Returns the vertices of triangles. Points and lines are skipped.
 std::vector<std::uint32_t> trianglesOf(const aiMesh& mesh) {
     std::vector<std::uint32_t> indices, sizes;
     bool only_triangles = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Assimp's meshes as glTF primitives.
+// Converts Assimp's meshes to glTF primitives.
 #pragma once
 
 #include <assimp/scene.h>
@@ -11,9 +11,9 @@
 
 namespace tspace::import {
 
-/// A primitive without its material; nothing where the mesh has no triangles.
-/// `joints`: for each bone of the mesh its place in the skin's list of joints; empty: no skin. `takes_tangents`: those
-/// that the mesh has are those of the file.
+/// Adds a primitive without its material; returns nullopt if the mesh has no triangles. `joints`: for each bone of the
+/// mesh its index in the skin's list of joints; empty: no skin. `takes_tangents`: the mesh's tangents are those of the
+/// file.
 std::optional<Json> addPrimitive(GlbBuilder& builder, const aiMesh& mesh, const std::vector<std::uint16_t>& joints,
                                  bool takes_tangents);
 

@@ -17,8 +17,8 @@ ModelFiles::ModelFiles(const std::string& model, bool anywhere, std::vector<std:
                        const std::vector<char>* instead)
     : model_(model), folder_(model_.parent_path()), anywhere_(anywhere), refused_(refused), instead_(instead) {}
 
-/// The file on the disk, where the rule allows it; empty: it is not there. Assimp puts the folder before most names; the
-/// others are names in it too.
+/// Returns the path of a file on the disk if the rule allows it; empty if it does not exist. Assimp prefixes most names
+/// with the folder; other names are also relative to it.
 std::string ModelFiles::find(const fs::path& name) const {
     const fs::path file = folder_ / name;
     std::error_code failed;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The files that a model names, for Assimp.
+// Access to the files that a model references, for Assimp.
 #pragma once
 
 #include <assimp/DefaultIOSystem.h>
@@ -10,12 +10,12 @@
 
 namespace tspace::import {
 
-/// Opens the model, and what lies in its folder or below, by the rule for the URIs of glTF (src/model/io/folder_rule.h): no ".."
-/// in a name, and no link that leads out. Others are not there.
+/// Opens the model and files in its folder or below, by the rule for glTF URIs (src/model/io/folder_rule.h): no ".." in
+/// a name, and no link that leaves the folder. Other files appear not to exist.
 class ModelFiles : public Assimp::DefaultIOSystem {
   public:
-    /// `anywhere` lifts the rule. `refused` gets what is there and was not read, fit for a message. `instead`: where not null,
-    /// what is read in place of the model.
+    /// `anywhere` disables the rule. `refused` receives existing files that were not read, formatted for messages.
+    /// `instead`: if not null, these bytes replace the model.
     ModelFiles(const std::string& model, bool anywhere, std::vector<std::string>& refused,
                const std::vector<char>* instead = nullptr);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What near_origin/ says about a file, found again in Assimp's scene, whose numbers are floats.
+// Applies the result of near_origin/ to Assimp's scene, whose numbers are floats.
 #pragma once
 
 #include <assimp/scene.h>
@@ -10,19 +10,19 @@
 
 namespace tspace::import {
 
-/// Meshes whose coordinates an offset was taken out of.
+/// Meshes from whose coordinates an offset was subtracted.
 struct MovedMeshes {
     DVec3 offset = {};
-    std::vector<bool> is_moved = {};  ///< by mesh; empty: none
+    std::vector<bool> is_moved = {};  ///< one per mesh; empty: none moved
 
     [[nodiscard]] bool isMoved(unsigned mesh) const { return mesh < is_moved.size() && is_moved[mesh]; }
 };
 
-/// First finite vertex of each mesh.
+/// Returns the first finite vertex of each mesh.
 std::vector<aiVector3D> firstVertices(const aiScene& scene);
 
-/// Which meshes of the scene of NearFile are moved, by the first vertices of the scene of the file as it was: one geometry is
-/// one or several meshes.
+/// Returns which meshes of the scene of NearFile are moved, by comparing with the first vertices of the original scene:
+/// one geometry may be several meshes.
 MovedMeshes movedMeshes(const aiScene& scene, const std::vector<aiVector3D>& first_vertices, const DVec3& offset);
 
 }  // namespace tspace::import

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers as text with a point, whatever the locale.
+// Numbers as text with a decimal point, regardless of the locale.
 #pragma once
 
 #include <charconv>
@@ -8,13 +8,13 @@
 
 namespace tspace::import {
 
-/// The shortest text that reads as the same number.
+/// Returns the shortest text that is parsed as the same number.
 inline std::string numberText(double number) {
     char text[32];
     return {text, std::to_chars(text, text + sizeof text, number).ptr};
 }
 
-/// 0 where it is no number.
+/// Parses a number; returns 0 if it is invalid.
 inline double readNumber(std::string_view text) {
     double number = 0;
     if (text.starts_with('+')) text.remove_prefix(1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names of elements stand as plain text in FBX, also in its binary form, and in COLLADA.
+// Element names are stored as plain text in FBX (including its binary form) and in COLLADA.
 #include "stored_tangents.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ struct Names {
     const char *extension, *tangents, *bitangents;
 };
 
-// TEXTANGENT and TEXBINORMAL of COLLADA end the same way.
+// TEXTANGENT and TEXBINORMAL of COLLADA have the same ending.
 constexpr std::array kFormats = {Names{".fbx", "LayerElementTangent", "LayerElementBinormal"},
                                  Names{".dae", "TANGENT\"", "BINORMAL\""}, Names{".dae", "TANGENT'", "BINORMAL'"}};
 
@@ -26,7 +26,7 @@ bool contains(const std::string& path, std::string_view name) {
     constexpr std::size_t kBlock = std::size_t{1} << 20;
     std::vector<char> block(kBlock + name.size());
     std::ifstream file(path, std::ios::binary);
-    // The end of each block stands before the next one, for a name that lies in both.
+    // Copies the end of each block before the next one, for names that span both.
     for (std::size_t kept = 0; file;) {
         file.read(block.data() + kept, static_cast<std::streamsize>(kBlock));
         const std::size_t count = kept + static_cast<std::size_t>(file.gcount());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether a file has tangents of its own; Assimp does not say so.
+// Determines whether a file contains tangents; Assimp does not report this.
 #pragma once
 
 #include <string>
@@ -7,13 +7,13 @@
 namespace tspace::import {
 
 enum class StoredTangents {
-    none,            ///< the format names its tangents, and the file does not have that name
+    none,            ///< the format names its tangents, and the name does not occur in the file
     withBitangents,  ///< Assimp's tangents are those of the file
     unknown,  ///< Assimp does not read them from this format, or the file lacks the bitangents: then their sign is
               ///< not known, and Assimp makes one up
 };
 
-/// Looks for names in the bytes of the file.
+/// Searches for names in the bytes of the file.
 StoredTangents storedTangents(const std::string& path);
 
 }  // namespace tspace::import

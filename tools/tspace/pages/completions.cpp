@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Completions of bash, zsh and fish: commands, options, and the values of options.
+// Shell completions for bash, zsh and fish: commands, options, and option values.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ std::vector<std::string> commandNames(const ToolTable& tool) {
     return names;
 }
 
-/// The text between single quotes in bash and zsh.
+/// Quotes a text with single quotes for bash and zsh.
 std::string shellQuoted(const std::string& text) { return fmt::format("'{}'", replaced(text, "'", "'\\''")); }
 
 std::string bashValues(const Option& option) {
@@ -37,7 +37,7 @@ std::string bashValues(const Option& option) {
     return option.is_file ? "_tspace_files" : ":";
 }
 
-/// A line of the case over "COMMAND OPTION": the values that may follow the option.
+/// Returns the cases of "COMMAND OPTION" for bash: the values that may follow the option.
 std::string bashCases(const Command& command) {
     std::string cases, operand = "_tspace_files";
     for (const Option& option : command.options) {
@@ -53,7 +53,7 @@ std::string bashCases(const Command& command) {
     return cases;
 }
 
-/// Inside [] of a specification of _arguments.
+/// Escapes a text for the part in [] of a specification of _arguments.
 std::string zshText(const std::string& text) {
     return replaced(replaced(replaced(text, "[", "\\["), "]", "\\]"), ":", "\\:");
 }

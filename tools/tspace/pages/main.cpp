@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes the man pages and completions of tspace. Runs when tspace is built.
 // usage: tspace_pages FOLDER DATE
-//        tspace_pages --options      prints the options of the calls of the C API as JSON, for scripts/api
+//        tspace_pages --options      prints the options of the C API calls as JSON, for scripts/api
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
     written &= write(folder / "share/bash-completion/completions/tspace", bashCompletion(tool));
     written &= write(folder / "share/zsh/site-functions/_tspace", zshCompletion(tool));
     written &= write(folder / "share/fish/vendor_completions.d/tspace.fish", fishCompletion(tool));
-    // Last, because the build goes by its time.
+    // Written last, because the build checks its modification time.
     written &= write(folder / "man/man1/tspace.1", manPage(tool, date));
     if (!written) std::cerr << "tspace_pages: cannot write below " << folder << "\n";
     return written ? 0 : 4;

@@ -12,7 +12,7 @@
 namespace tspace::tool {
 namespace {
 
-/// Dashes stay dashes, which roff would turn into hyphens that cannot be copied.
+/// Escapes dashes, which roff would otherwise turn into hyphens that cannot be copied.
 std::string escaped(const std::string& text) { return replaced(replaced(text, "\\", "\\e"), "-", "\\-"); }
 
 std::string upperCase(std::string text) {
@@ -20,8 +20,8 @@ std::string upperCase(std::string text) {
     return text;
 }
 
-/// Short lines, and a new one after each sentence, as roff wants it to space sentences. A line that began with a dot
-/// would be a request.
+/// Wraps text to short lines, with a line break after each sentence, which roff needs for spacing. A line must not
+/// start with a dot, which would be a request.
 std::string filled(const std::string& text) {
     constexpr std::size_t kWidth = 76;
     std::string out, line;
@@ -49,7 +49,7 @@ std::string nameSection(const std::string& name, const std::string& summary) {
     return ".SH NAME\n" + escaped(name) + " \\- " + escaped(summary) + "\n";
 }
 
-/// ".TP" and what stands left of the paragraph: names bold, values slanted.
+/// Returns ".TP" and the head of the paragraph: names in bold, values in italics.
 std::string head(const Option& option) {
     std::string names;
     for (const std::string& name : option.names)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The options of the calls of the C API as JSON, from which scripts/api writes those of the bindings.
+// Options of the C API calls as JSON, from which scripts/api generates the options of the bindings.
 #include <array>
 
 #include "commands/shared/request.h"
@@ -18,7 +18,7 @@ std::string list(const Texts& texts) {
     return "[" + made + "]";
 }
 
-/// Which of some values an option takes, by which one knows numbers from text.
+/// Returns which of several sample values an option accepts, to distinguish numbers from text.
 std::string taken(const Option& option) {
     std::vector<std::string> values;
     for (const char* value : {"1", "0.5", "auto", "16x16", "64M", "text"}) {

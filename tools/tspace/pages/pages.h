@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Man pages and completions of shells, made from the table of options when tspace is built.
+// Man pages and shell completions, generated from the table of options when tspace is built.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace tspace::tool {
 
-/// tspace.1, in man's macros of roff.
+/// Returns tspace.1, in the man macros of roff.
 std::string manPage(const ToolTable& tool, const std::string& date);
 /// tspace-COMMAND.1.
 std::string manPage(const ToolTable& tool, const Command& command, const std::string& date);
@@ -17,12 +17,13 @@ std::string bashCompletion(const ToolTable& tool);
 std::string zshCompletion(const ToolTable& tool);
 std::string fishCompletion(const ToolTable& tool);
 
-/// Options of the calls of the C API, as JSON.
+/// Returns the options of the C API calls as JSON.
 std::string optionsJson();
 
-/// The description of an option in completions: its help up to the end of the first sentence, or its first colon.
+/// Returns the description of an option for completions: its help up to the end of the first sentence, or up to its
+/// first colon.
 std::string firstSentence(const std::string& help);
-/// `text` with each `mark` replaced.
+/// Returns `text` with each `mark` replaced.
 std::string replaced(std::string text, const std::string& mark, const std::string& by);
 
 }  // namespace tspace::tool

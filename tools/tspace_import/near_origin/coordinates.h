@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The coordinates of a file, and the file with others in their place. One reader for each format.
+// Coordinates of a file, and the file with replaced coordinates. One reader per format.
 #pragma once
 
 #include <cstddef>
@@ -12,31 +12,31 @@
 
 namespace tspace::import {
 
-/// The vertices of one geometry: x y z, in double.
+/// Vertices of one geometry: x y z, in double precision.
 struct VertexList {
     std::vector<double> values = {};
-    bool is_moved = false;  ///< the values are no longer those of the file
+    bool is_moved = false;  ///< the values differ from those in the file
 };
 
 class FileCoordinates {
   public:
     virtual ~FileCoordinates() = default;
-    /// The file with the values of the lists that are moved.
+    /// Returns the file with the values of the moved lists.
     virtual std::vector<char> rewritten() = 0;
 
     std::vector<VertexList> lists = {};
 };
 
-/// Coordinates that stand in the file as text.
+/// Coordinates stored in the file as text.
 class TextCoordinates : public FileCoordinates {
   public:
     explicit TextCoordinates(std::vector<char> bytes) : text_(std::move(bytes)) {}
 
     [[nodiscard]] std::string_view text() const { return {text_.data(), text_.size()}; }
     void addList();
-    /// A number of the last list. `word`: in text().
+    /// Adds a number to the last list. `word`: part of text().
     void add(std::string_view word);
-    /// Leaves out the last list unless its numbers make whole vertices.
+    /// Removes the last list unless its numbers form complete vertices.
     void endList();
 
     std::vector<char> rewritten() override;
@@ -50,7 +50,7 @@ class TextCoordinates : public FileCoordinates {
     std::vector<std::vector<Place>> places_ = {};  ///< positions of the values of each list
 };
 
-/// Null if the reader finds none.
+/// Null if the reader finds no coordinates.
 using Coordinates = std::unique_ptr<FileCoordinates>;
 
 Coordinates readPly(std::vector<char> bytes);
@@ -58,7 +58,7 @@ Coordinates readStl(std::vector<char> bytes);
 
 inline bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-/// The next word between blanks from `at` on, which is moved behind it; empty at the end.
+/// Returns the next word between blanks, starting at `at`, which is moved after it; empty at the end.
 std::string_view nextWord(std::string_view text, std::size_t& at);
 
 }  // namespace tspace::import

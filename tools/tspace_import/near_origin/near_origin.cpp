@@ -47,7 +47,8 @@ DVec3 vertexOf(const VertexList& list, std::size_t i) {
     return {list.values[3 * i], list.values[3 * i + 1], list.values[3 * i + 2]};
 }
 
-/// The middle of the vertices of some lists. As in float_loss.h, so that a few that lie elsewhere decide nothing.
+/// Returns the rounded center of the vertices of some lists, computed as in float_loss.h, so that a few outliers do not
+/// affect it.
 DVec3 middleOf(const std::vector<const VertexList*>& lists) {
     return roundMiddle([&](const auto& visit) {
         for (const VertexList* list : lists) {
@@ -56,8 +57,8 @@ DVec3 middleOf(const std::vector<const VertexList*>& lists) {
     });
 }
 
-/// Whether the origin is several times as far away as most vertices reach. From a corner of a square or a cube it is twice as
-/// far; an offset of less than four times gains two bits.
+/// Returns whether the origin is several times as far away as most vertices extend. Measured from a corner of a square
+/// or cube the factor is two; an offset with a factor of less than four gains only two bits.
 bool isFar(const VertexList& list, const DVec3& middle) {
     std::vector<double> distances;
     for (std::size_t i = 0; i < list.values.size() / 3; ++i) {
@@ -71,9 +72,9 @@ bool isFar(const VertexList& list, const DVec3& middle) {
     return length(middle) > kFar * *median;
 }
 
-/// Whether one value in twenty, along the axes that are far, has more digits than a float: it lies between two floats. Those
-/// that were written from floats in few digits lie close to one. `middles`: of the lists;
-/// none: every axis counts.
+/// Returns whether one value in twenty, along the axes that are far, has more digits than a float: it is between two
+/// floats. Values that were written from floats with few digits are close to a float. `middles`: centers of the lists;
+/// empty: every axis counts.
 bool hasMoreThanFloats(const std::vector<const VertexList*>& lists, const std::vector<DVec3>& middles) {
     constexpr double kClose = 1.0 / 16, kFarthest = 1024;
     std::array<double, 3> axes{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PLY as text, or with doubles: whose vertices are the first element, with x, y and z as single numbers.
+// PLY as text, or with doubles, if vertices are the first element, with x, y and z as single numbers.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -21,7 +21,7 @@ struct Header {
     std::size_t end = 0;  ///< size of the header, in bytes
     std::size_t vertex_count = 0;
     std::array<std::size_t, 3> places =
-        {};                       ///< positions of x, y and z in a vertex: number of values, or bytes, before them
+        {};                       ///< positions of x, y and z within a vertex: number of preceding values, or bytes
     std::size_t vertex_size = 0;  ///< numbers, or bytes
 };
 
@@ -118,7 +118,7 @@ class BinaryPly : public FileCoordinates {
 Coordinates readTextPly(std::vector<char> bytes, const Header& header) {
     if (header.vertex_count > bytes.size() / (2 * header.vertex_size)) return {};
     auto file = std::make_unique<TextCoordinates>(std::move(bytes));
-    // Word by word: nothing says that a vertex has a line of its own.
+    // Reads word by word, because a vertex need not be on a line of its own.
     std::size_t at = header.end;
     std::vector<std::string_view> vertex(header.vertex_size);
     file->addList();

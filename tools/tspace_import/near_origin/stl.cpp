@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// STL as text. In binary it holds floats, which have nothing more to give: normals of the same floats near the origin have
-// the same bits (tests/model/imported/near_origin_test.cpp), since differences of neighbours among floats are exact.
+// STL as text. Binary STL contains floats, which have no additional precision: normals of the same floats near the
+// origin have the same bits (tests/model/imported/near_origin_test.cpp), since differences of neighboring floats are
+// exact.
 #include <cstring>
 
 #include "near_origin/coordinates.h"
@@ -9,7 +10,7 @@ namespace tspace::import {
 
 namespace {
 
-/// Assimp's rule: the size is that of as many triangles as it says.
+/// Assimp's rule: the file size matches the declared number of triangles.
 bool isBinaryStl(const std::vector<char>& bytes) {
     constexpr std::size_t kHeader = 84, kPerTriangle = 50;
     if (bytes.size() < kHeader) return false;
@@ -28,7 +29,7 @@ Coordinates readStl(std::vector<char> bytes) {
     for (std::size_t at = 0; at < text.size();) {
         const std::string_view word = nextWord(text, at);
         if (word == "solid" || word == "endsolid") {
-            // A name, which may be any words.
+            // A name, which may consist of any words.
             while (at < text.size() && text[at] != '\n' && text[at] != '\r') ++at;
             if (word == "solid") {
                 file->endList();
