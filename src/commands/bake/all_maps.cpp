@@ -18,7 +18,7 @@ namespace tspace {
 
 namespace {
 
-/// More ids are counted, and not listed.
+/// Maximum number of IDs listed in the report. All IDs are counted.
 constexpr std::size_t kMostListedIds = 256;
 
 std::array<std::uint8_t, 3> bytesOf(const Vec3& color) {
@@ -88,7 +88,7 @@ void HighDetail::findShells(float weld_distance) {
         const std::uint32_t vertex = high_.mesh.indices[corner];
         return roots.empty() ? vertex : roots[vertex];
     };
-    // Positions that triangles hold together.
+    // Connected components of triangles by shared positions (disjoint sets).
     std::vector<std::uint32_t> shells(high_.mesh.positions.size());
     std::iota(shells.begin(), shells.end(), 0u);
     for (std::size_t i = 0; i < triangles; ++i) {
@@ -123,7 +123,7 @@ PlacedTexture HighDetail::placed(std::size_t primitive, const std::optional<Text
 }
 
 void HighDetail::readMaterials(const std::string& path) {
-    // glTF says that colours of vertices are linear; in other formats they are bytes as a screen shows them.
+    // Vertex colors are linear in glTF; other formats store them as sRGB bytes.
     const bool is_linear = isGltfName(path);
     for (std::size_t i = 0; i < scene_.scene.primitives.size(); ++i) {
         Material& material = materials_.emplace_back();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Maps beside the normal map: what the high poly's file says of its triangles, and images of layers.
+// Maps other than the normal map: attributes of the high poly's triangles from its file, and images of the baked
+// layers.
 #pragma once
 
 #include <deque>
@@ -10,10 +11,10 @@
 
 namespace tspace {
 
-/// The ids and materials of the triangles of a high poly. Must stay where it is while a bake looks at it.
+/// IDs and materials of the triangles of a high poly. Must not be moved while a bake uses it.
 class HighDetail {
   public:
-    /// The models must have been read with these options, and must outlive this. Throws FileError.
+    /// `options` are those with which the models were read. The models must outlive this object. Throws FileError.
     HighDetail(const BakeModels& models, const std::string& path, const BakeFileOptions& options);
     HighDetail(const HighDetail&) = delete;
     HighDetail& operator=(const HighDetail&) = delete;
@@ -21,7 +22,7 @@ class HighDetail {
     /// The requested layers, with the IDs and materials of this object.
     [[nodiscard]] LayerOptions layers() const;
     [[nodiscard]] std::uint64_t idCount() const { return id_count_; }
-    /// The first of them.
+    /// The first IDs, at most 256.
     [[nodiscard]] const std::vector<BakedId>& ids() const { return listed_; }
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -51,8 +52,9 @@ class HighDetail {
     std::vector<std::string> warnings_ = {};
 };
 
-/// The PNG of a layer, and what is said of it; `path` is to be set. Colours are told with the sRGB curve in 8 bits, `orm` and ids
-/// in 8 bits, others in `bits`. Lets go of the values of the layer. `origin`: of the models, in the world.
+/// Encodes a layer as PNG and describes it in the returned report entry, except `path`. Colors are written with the
+/// sRGB curve in 8 bits, `orm` and IDs in 8 bits, other layers in `bits` bits. Frees the values of the layer. `origin`:
+/// origin of the models in world space.
 std::vector<std::uint8_t> layerPng(BakedLayer& layer, const BakedMap& map, unsigned bits, const DVec3& origin,
                                    BakedLayerFile& file);
 

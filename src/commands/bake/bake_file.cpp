@@ -27,7 +27,7 @@
 namespace tspace {
 namespace {
 
-/// `name`: of the file, which says TGA or else PNG.
+/// Encodes an image as TGA or PNG, chosen by the extension of `name` (default: PNG).
 std::vector<std::uint8_t> imageFileOf(const std::string& name, std::uint32_t width, std::uint32_t height,
                                       std::vector<Vec3> texels, unsigned bits) {
     std::optional<std::vector<std::uint8_t>> file =
@@ -46,7 +46,7 @@ class FileBaking {
         : output_(output), options_(options), step_(step) {
         step_.inputs.watch(options_.file);
         options_.map.reading.two_channels = options_.map.reading.two_channels || options_.unit;
-        // The size of the image is an option, so the limit by the size of the input file does not fit here.
+        // The image size is an option, so a limit derived from the size of the input file is not applicable.
         constexpr std::uint64_t kUsualLimit = std::uint64_t{16} << 30;
         std::uint64_t& limit = options_.map.memory_limit_bytes;
         if (limit == 0) limit = options_.file.memory_limit_bytes;
@@ -94,7 +94,7 @@ class FileBaking {
                 " of an edge length, and the map shows it: --denoise auto bakes normals without the noise");
     }
 
-    /// A .png; a .tga, of 8 bits; or a texture, whose blocks are fitted to what the texels of 16 bits are filtered to.
+    /// Accepted outputs: .png; .tga with 8 bits; or a texture, whose blocks are fitted to the filtered 16-bit texels.
     void checkOutput() {
         if (lowerExtension(output_) == ".png") return;
         if (isTgaName(output_)) {
@@ -113,14 +113,14 @@ class FileBaking {
         options_.map.bits = 16;
     }
 
-    /// The file of a normal map, and no texels any more.
+    /// Encodes the normal map, and frees its texels.
     std::vector<std::uint8_t> takeNormalFile(BakedMap& map) const {
         std::vector<Vec3> texels = std::exchange(map.texels, {});
         if (isTextureName(output_)) return packTexture(output_, map.width, map.height, texels, options_.execution);
         return imageFileOf(output_, map.width, map.height, std::move(texels), map.bits);
     }
 
-    /// A model that is written reads the map as glTF says.
+    /// The written model interprets the map according to glTF, so options that contradict it are refused.
     void checkOutMesh() const {
         if (options_.out_mesh.empty()) return;
         if (!isGltfName(options_.out_mesh)) failEnding(options_.out_mesh, {".glb", ".vrm", ".gltf"});
@@ -151,12 +151,12 @@ class FileBaking {
         return image.material.empty() ? "the low poly" : inQuotes(image.material);
     }
 
-    /// The triangles that have a say, and the others as the rest. UVs that are not finite are counted by the bake.
+    /// Returns the triangles to bake, with all other triangles in the rest. Non-finite UVs are counted by the bake.
     LowPart insidePart(const LowModel::Image& image, std::uint64_t& outside) {
         const auto isOutside = [&](std::size_t triangle) {
             const Vec2* const uvs = &image.part.corners.uvs[3 * triangle];
             const float u = uvs[0].x + uvs[1].x + uvs[2].x, v = uvs[0].y + uvs[1].y + uvs[2].y;
-            // Beyond the edge of a clamped texture nothing is shown again.
+            // Beyond the edge of a clamped texture, no texel repeats.
             const auto isBeside = [](TextureWrap wrap, float sum) {
                 return wrap != TextureWrap::clamp && (sum < 0 || sum > 3);
             };
@@ -280,7 +280,7 @@ class FileBaking {
     /// Adds a map to the outputs, or to the model that is written with it.
     void addMap(const std::string& path, const std::vector<std::uint8_t>& png, std::optional<MapSlot> slot,
                 const LowModel::Image& image) {
-        // Baking again writes over the map that the low poly shows.
+        // A new bake may overwrite the map that the low poly references.
         step_.inputs.letOff(path);
         if (options_.out_mesh.empty() || !slot) {
             files_.add(path, png);
@@ -305,7 +305,8 @@ class FileBaking {
         }
     }
 
-    /// Texture slot of a glTF material for a layer. Red of `orm` is `ao` if both are baked: then one image serves both.
+    /// Texture slot of a glTF material for a layer. If `ao` and `orm` are both baked, red of `orm` is the occlusion, so
+    /// one image has both slots.
     [[nodiscard]] std::optional<MapSlot> slotOf(MapLayer layer) const {
         switch (layer) {
             case MapLayer::ao:
@@ -327,7 +328,7 @@ class FileBaking {
         const auto add = [&](const std::string& what, const std::string& why) {
             report_.findings.push_back(pathInQuotes(high_) + ": " + what + (why.empty() ? "" : "; " + why));
         };
-        constexpr std::uint64_t kFew = 50;  // one of so many
+        constexpr std::uint64_t kFew = 50;  // "few" means fewer than one in 50
         if (map.missed_count > map.hit_count) {
             add(std::to_string(map.missed_count) + " of " + std::to_string(map.missed_count + map.hit_count) +
                     " texels of " + pathInQuotes(file.path) + " hit no front face of it" +
@@ -346,7 +347,7 @@ class FileBaking {
         }
     }
 
-    /// Warns of surfaces that the map's own rays did not hit.
+    /// Warns about surfaces that rays with the map's own settings did not hit.
     void warnOfRays(const BakedFile& file) {
         const MapError& own = file.map.own_error;
         if (own.hidden_count == 0) return;
@@ -358,7 +359,7 @@ class FileBaking {
 
     const std::string& output_;
     std::string high_ = {};
-    bool is_without_map_ = false;  ///< no ray of an image met anything
+    bool is_without_map_ = false;  ///< no ray of an image hit anything
     BakeFileOptions options_;
     const BakeStep& step_;
     BakeModels models_ = {};
@@ -437,7 +438,7 @@ std::vector<Vec3> pictureOfHeat(const std::vector<float>& heat, double top_deg) 
 
 namespace tspace::report {
 
-// Baked maps, as JSON.
+// Baked maps as JSON.
 
 Json errorOfMapJson(const MapError& error) {
     return {{"points", error.point_count},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How normal maps are baked and measured.
+// Options for baking and measuring normal maps.
 #include <algorithm>
 #include <cmath>
 
@@ -53,7 +53,7 @@ Option mapSizeOption(BakeOptions& map) {
 }
 
 Option mapsOption(LayerOptions& layers) {
-    // The first name that is given takes the place of the default.
+    // The first given name replaces the default list.
     const auto take = [&layers, is_first = true](const std::string& name) mutable -> std::string {
         const bool is_normal = name == "normal";
         layers.has_normal = is_normal || (layers.has_normal && !is_first);

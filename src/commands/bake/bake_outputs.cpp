@@ -20,7 +20,7 @@ std::size_t extensionOf(const std::string& path) {
     return has_extension ? dot : path.size();
 }
 
-/// The name of a material with all letters replaced that a file name should not have.
+/// Returns the name of a material with all characters replaced that are unsuitable for file names.
 std::string fileWord(const std::string& name) {
     std::string word;
     for (const char letter : name) {
@@ -31,7 +31,7 @@ std::string fileWord(const std::string& name) {
     return word.empty() ? "material" : word;
 }
 
-/// File names of the images of a low poly, and of the pictures beside them.
+/// Returns the file names of the images of a low poly, and of the additional pictures.
 std::vector<std::string> outputsOf(const BakeNames& bake, const BakeFileOptions& options,
                                    const std::vector<std::string>& words) {
     std::vector<std::string> names;
@@ -50,7 +50,7 @@ std::vector<std::string> outputsOf(const BakeNames& bake, const BakeFileOptions&
     return names;
 }
 
-/// Whether words of materials and tiles may make one of `plain` the file `path`.
+/// Returns whether words of materials and tiles can turn one of `plain` into the file `path`.
 bool mayBecome(const std::vector<std::string>& plain, const std::string& path) {
     for (const std::string& shorter : withoutWords(path)) {
         const std::string identity = identityOf(shorter);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a bake names its files.
+// File names of the outputs of a bake.
 #pragma once
 
 #include <string>
@@ -10,36 +10,37 @@
 
 namespace tspace {
 
-/// "dir/name.WORD.png" of "dir/name.png"; the path itself without a word.
+/// Returns "dir/name.WORD.png" for "dir/name.png", or the path itself for an empty word.
 std::string withWord(const std::string& path, const std::string& word);
 
-/// "dir/name_LAYER.png" of "dir/name.png".
+/// Returns "dir/name_LAYER.png" for "dir/name.png".
 std::string withLayer(const std::string& path, MapLayer layer);
 
-/// The word of each image of a low poly, in its order: its material, told apart where two are alike. One image has none.
+/// Returns the word of each image of a low poly, in order: the name of its material, made unique if names repeat. A
+/// single image has an empty word.
 std::vector<std::string> imageWords(const LowModel& low);
 
-/// The word of a tile of an image.
+/// Returns the word of a tile of an image.
 std::string tileWord(const std::string& image, std::uint32_t tile);
 
-/// From which paths the names of maps are made.
+/// Paths from which the names of maps are derived.
 struct BakeNames {
     std::string output = {};         ///< path of the normal map
-    std::string layers_output = {};  ///< path from which those of all other maps are derived; empty: `output`
+    std::string layers_output = {};  ///< path from which the paths of all other maps are derived; empty: `output`
 };
 
-/// Everything that a bake writes for a low poly of one image and without tiles. Reads no file.
+/// Returns all outputs of a bake for a low poly with one image and no tiles. Reads no file.
 std::vector<std::string> plainOutputs(const BakeNames& bake, const BakeFileOptions& options);
 
-/// Everything that a bake writes for this low poly, which is read for its materials and tiles. Throws FileError.
+/// Returns all outputs of a bake for this low poly, which is read for its materials and tiles. Throws FileError.
 std::vector<std::string> outputsFor(const std::string& low, const BakeNames& bake, const BakeFileOptions& options);
 
-/// Everything that a bake writes, for a comparison with `others`: further outputs of the same command line, or empty texts.
-/// The low poly is read only where its materials or tiles could give a map one of these names.
+/// Returns all outputs of a bake, for a comparison with `others`: further outputs of the same command line, or empty
+/// strings. The low poly is read only if its materials or tiles could give a map one of these names.
 std::vector<std::string> outputsBeside(const std::vector<std::string>& others, const std::string& low,
                                        const BakeNames& bake, const BakeFileOptions& options);
 
-/// Names of which an image of a low poly makes this one: "dir/a.b.png" and "dir/a.png" of "dir/a.b.c.png".
+/// Returns the paths from which an image word can lead to this path: "dir/a.b.png" and "dir/a.png" for "dir/a.b.c.png".
 std::vector<std::string> withoutWords(const std::string& path);
 
 }  // namespace tspace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tspace bake reports.
+// Reports of tspace bake.
 #pragma once
 
 #include <string>
@@ -17,12 +17,12 @@ inline ExitCode exitCodeOf(const BakeFileReport& report) {
 }
 Json bakeDocument(const Outcome<BakeFileReport>& outcome, const std::string& high, ExitCode exit_code);
 std::string bakeJson(const Outcome<BakeFileReport>& outcome, const std::string& high, ExitCode exit_code);
-/// Report of a successful bake as text. `out_mesh`: as BakeFileOptions::out_mesh.
+/// Returns the report of a successful bake as text. `out_mesh`: see BakeFileOptions::out_mesh.
 std::string bakeText(const Outcome<BakeFileReport>& outcome, const std::string& out_mesh);
-/// In one line, for one of several.
+/// Returns the report as one line, for use in a list of bakes.
 std::string bakeLine(const Outcome<BakeFileReport>& outcome);
 
-/// One bake of several.
+/// One of several bakes.
 struct BakedPair {
     Outcome<BakeFileReport> outcome = {};
     std::string high = {};
@@ -30,18 +30,17 @@ struct BakedPair {
 };
 std::string bakedPairsJson(const std::vector<BakedPair>& pairs, ExitCode exit_code, double seconds);
 
-/// The rows of a bake that was done. `out_mesh`: as BakeFileOptions::out_mesh.
+/// Adds the rows of a completed bake to the table. `out_mesh`: see BakeFileOptions::out_mesh.
 void addBakedRows(const BakeFileReport& done, const std::string& out_mesh, Table& table);
 
-/// As docs/reference/json.md has them.
-/// A normal map of the high poly, and how it is known which way its green points.
+/// JSON as described in docs/reference/json.md: a normal map of the high poly, and the source of its green direction.
 Json highMapJson(const BakedHighMap& map);
 const char* greenSourceWord(GreenSource source);
 std::string highMapText(const BakedHighMap& map);
 const char* raysWord(const UsedRays& rays);
 const char* directionsWord(const UsedRays& rays);
 
-/// The angles between what a map shows and the high poly.
+/// JSON of the angles between a map and the high poly.
 Json errorOfMapJson(const MapError& error);
 
 }  // namespace tspace::report

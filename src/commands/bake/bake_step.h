@@ -13,15 +13,17 @@ namespace tspace {
 /// Sources of the models, and destination of the results.
 struct BakeStep {
     BakeSources sources = {};
-    /// Base of the names of the other maps: NAME_ao.png for NAME.png. Empty: the output, as for the normal map.
+    /// Path from which the names of the other maps are derived: NAME_ao.png for NAME.png. Empty: the output, as for the
+    /// normal map.
     std::string layers_output = {};
     bool notes_noise = true;  ///< warns of noisy positions of the high poly
-    InputFiles& inputs;       ///< are told what is read
+    InputFiles& inputs;       ///< receives the names of the files that are read
     AtomicOutput& map_files;
     AtomicOutput& model_files;  ///< files of BakeFileOptions::out_mesh
 };
 
-/// bakeFile, but that nothing is committed. Where the report names no output files, nothing is to be. Throws FileError.
+/// Like bakeFile, but commits nothing. If the report names no output files, nothing must be committed. Throws
+/// FileError.
 BakeFileReport bakeAsStep(const std::string& low, const std::string& high, const std::string& output,
                           const BakeFileOptions& options, const BakeStep& step);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A baked map as text.
+// Report of a baked map as text.
 #include <fmt/format.h>
 
 #include "commands/bake/bake_report.h"
@@ -20,7 +20,7 @@ std::string raysText(const BakedFile& file) {
                        error.reach, directions);
 }
 
-/// Values mapped to black and white, unless the name implies them.
+/// Returns the values mapped to black and white, or "" if the name of the layer implies them.
 std::string rangeText(const BakedLayerFile& layer) {
     const auto& least = layer.least;
     const auto& most = layer.most;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The normal maps that a high poly shows itself, which are baked through.
+// Normal maps of the high poly, whose details are baked too.
 #pragma once
 
 #include <cstdint>
@@ -23,22 +23,24 @@ struct HighMaps {
     std::vector<std::string> warnings = {};
 };
 
-/// Reads maps as primitives name them, each image once.
+/// Reads the normal maps of primitives, each image once.
 class HighMapReading {
   public:
-    /// The scene must have its images, and must stay.
+    /// The scene must contain its images and outlive this object.
     HighMapReading(const Scene& scene, const BakeFileOptions& options) : scene_(scene), options_(options) {}
 
-    /// How a primitive shows its normal map; null where it shows none, or one that cannot be baked through (a warning says why).
+    /// Returns the use of a primitive's normal map, or null if it has none or one that cannot be baked (reported as a
+    /// warning).
     const TangentUse* find(const ScenePrimitive& primitive);
-    /// The number of the map of a use that find() gave, which `triangle_count` more triangles show.
+    /// Returns the index of the map of a use that find() returned, and adds `triangle_count` to the triangles that use
+    /// it.
     std::uint32_t numberOf(const ScenePrimitive& primitive, const TangentUse& use, std::size_t triangle_count);
     [[nodiscard]] HighMaps take() { return std::move(made_); }
 
   private:
     using Key = std::tuple<std::size_t, double, bool, TextureWrap, TextureWrap>;
     struct Image {
-        std::optional<std::size_t> number = {};  ///< in HighMaps::images; nothing: it is not used
+        std::optional<std::size_t> number = {};  ///< index in HighMaps::images; none: unused
         bool is_grey = false;
         Green green = Green::up;  ///< direction of green according to its texels
         bool shows_green = false;

@@ -21,8 +21,8 @@ bool isDigits(std::string_view text) {
     return std::all_of(text.begin(), text.end(), [](char letter) { return letter >= '0' && letter <= '9'; });
 }
 
-/// "body" of "Body_low", "BODY_HP", "Body_high_001", "Body_high_buckle" and so on. Behind "low" numbers alone may stand: what
-/// follows may tell two low polys apart, and high polys of one low poly may be several.
+/// Returns "body" for "Body_low", "BODY_HP", "Body_high_001", "Body_high_buckle" and similar names. After "low" only a
+/// number is allowed, since other words may distinguish low polys; one low poly may have several high polys.
 std::string nameStem(std::string name) {
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
@@ -48,7 +48,7 @@ Names namesOf(const DrawnScene& drawn, std::size_t placement) {
     return {at.node_name, drawn.scene.primitives[at.primitive].mesh_name};
 }
 
-/// Names of each primitive where it stands first.
+/// Returns the names of the first placement of each primitive.
 std::vector<Names> firstNames(const DrawnScene& drawn) {
     std::vector<std::optional<Names>> names(drawn.scene.primitives.size());
     for (std::size_t i = 0; i < drawn.placements.size(); ++i) {
@@ -61,9 +61,9 @@ std::vector<Names> firstNames(const DrawnScene& drawn) {
     return result;
 }
 
-using Pairs = std::map<std::string, std::string>;  ///< a name of the high poly, and that of its low poly
+using Pairs = std::map<std::string, std::string>;  ///< maps a name of the high poly to the name of its low poly
 
-/// Lines "LOW = HIGH"; empty ones and those that begin with # are left out.
+/// Reads lines "LOW = HIGH". Empty lines and lines that begin with # are ignored.
 Pairs readPairs(const std::string& path, const FileOptions& file) {
     if (file.opened) file.opened(path);
     const Bytes bytes = readFile(path);
@@ -91,7 +91,7 @@ Pairs readPairs(const std::string& path, const FileOptions& file) {
     return pairs;
 }
 
-/// "'a', 'b' and 3 more".
+/// Returns a list such as "'a', 'b' and 3 more".
 std::string listOf(const std::set<std::string>& names) {
     constexpr std::size_t kShown = 5;
     std::string text;
@@ -145,7 +145,7 @@ class Matching {
 
     [[nodiscard]] std::string keyOf(const std::string& name) const { return pairs_ != nullptr ? name : nameStem(name); }
 
-    /// Numbers the objects of the low poly: nodes or, if these have no names, meshes with one name are one object.
+    /// Numbers the objects of the low poly: nodes or, if these have no names, all meshes of one name form one object.
     void numberLow() {
         for (std::size_t i = 0; i < low_names_.size(); ++i) {
             const std::string key = keyOf(low_names_[i].shown());
@@ -156,12 +156,12 @@ class Matching {
             const auto number = static_cast<std::uint32_t>(by_node_.size());
             match_.low.push_back(by_node_.emplace(key, number).first->second);
             const auto [of_mesh, is_new] = by_mesh_.emplace(keyOf(low_names_[i].mesh), match_.low.back());
-            // A mesh at several objects says nothing about them.
+            // A mesh that several objects use does not identify an object.
             if (!is_new && of_mesh->second != match_.low.back()) of_mesh->second = kEveryGroup;
         }
     }
 
-    /// Group of an object of the high poly.
+    /// Returns the group of an object of the high poly.
     [[nodiscard]] std::uint32_t groupOf(const Names& names) const {
         for (const std::string& name : {names.node, names.mesh}) {
             if (name.empty()) continue;

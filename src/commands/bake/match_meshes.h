@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which meshes of a low poly look at which meshes of a high poly.
+// Decides which meshes of the high poly the rays of each low-poly mesh may hit.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +13,17 @@ namespace tspace {
 
 /// Object groups of both models, for LowPoly::groups and HighPoly::groups.
 struct MeshMatch {
-    bool is_used = false;                    ///< else all look at all
+    bool is_used = false;                    ///< false: all rays may hit all meshes
     std::vector<std::uint32_t> low = {};     ///< one per primitive
     std::vector<std::uint32_t> high = {};    ///< one per placement
-    std::vector<std::string> warnings = {};  ///< one sentence each: what has no partner
+    std::vector<std::string> warnings = {};  ///< one sentence per object without a partner
 };
 
-/// The file of pairs that BakeFileOptions::match names; empty where it is `names` or `all`.
+/// Returns the path of the file of pairs in BakeFileOptions::match, or "" if it is `names` or `all`.
 std::string matchFileOf(const std::string& how);
 
-/// `how`: BakeFileOptions::match. By the names of nodes, and where one has no partner by those of meshes. Throws FileError for
-/// a file of pairs that cannot be read.
+/// `how`: BakeFileOptions::match. Matches by names of nodes, and objects without a partner by names of meshes. Throws
+/// FileError if the file of pairs cannot be read.
 MeshMatch matchMeshes(const DrawnScene& low, const DrawnScene& high, const std::string& how, const FileOptions& file);
 
 }  // namespace tspace

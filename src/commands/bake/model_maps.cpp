@@ -19,7 +19,7 @@ namespace {
 using gltf::Document;
 using gltf::Editor;
 
-/// How often materials name a texture.
+/// Returns how many times materials reference a texture.
 std::size_t referencesTo(const Json& value, std::size_t texture) {
     std::size_t count = 0;
     if (value.is_object()) {
@@ -30,7 +30,7 @@ std::size_t referencesTo(const Json& value, std::size_t texture) {
     return count;
 }
 
-/// The property of a slot in VRM 0.x; null: there is none.
+/// Returns the VRM 0.x property of a slot, or null if there is none.
 const char* vrmPropertyOf(MapSlot slot) {
     switch (slot) {
         case MapSlot::normal:
@@ -44,7 +44,7 @@ const char* vrmPropertyOf(MapSlot slot) {
     }
 }
 
-/// How often VRM 0.x names a texture: its materials by number, and its thumbnail.
+/// Returns how many times VRM 0.x references a texture: its materials by index, and its thumbnail.
 std::size_t vrmReferencesTo(const Json& json, std::size_t texture) {
     const Json* const vrm = gltf::findExtension(json, "VRM");
     if (vrm == nullptr || !vrm->is_object()) return 0;
@@ -70,7 +70,7 @@ std::optional<std::size_t> indexIn(const Json& object, const char* key, std::siz
     return index->get<std::size_t>();
 }
 
-/// The references of a material that show a slot: the member, and whether it is one of pbrMetallicRoughness.
+/// A reference to a texture in a material: its key, and whether it is in pbrMetallicRoughness.
 struct SlotReference {
     const char* key;
     bool is_in_pbr;
@@ -95,7 +95,7 @@ std::vector<SlotReference> referencesOf(MapSlot slot) {
     return {{"normalTexture", false}};
 }
 
-/// The object that holds a reference; made where it is not there.
+/// Returns the object that contains a reference, and creates it if necessary.
 Json& holderOf(Json& material, const SlotReference& reference) {
     if (!reference.is_in_pbr) return material;
     Json& pbr = material["pbrMetallicRoughness"];
@@ -103,7 +103,7 @@ Json& holderOf(Json& material, const SlotReference& reference) {
     return pbr;
 }
 
-/// The map already contains the factors of the high poly.
+/// Sets neutral factors, because the map already contains the factors of the high poly.
 void setFactors(Json& material, MapSlot slot) {
     switch (slot) {
         case MapSlot::color: {
@@ -142,14 +142,14 @@ class MapPlacing {
         }
     }
 
-    /// True: a .gltf names the file beside it.
+    /// Returns true if a .gltf references the map as a separate file.
     bool place(const ModelMap& map) {
         const std::vector<std::size_t> materials = giveMaterials(map);
         const std::optional<std::size_t> old = oldTexture(materials, map.slot);
         const std::optional<std::string> name = nameBeside(map.path);
         const std::size_t image = placeImage(map, name, old);
         const std::size_t texture = old ? *old : append("textures", Json{{"source", image}});
-        // The map was baked for the sampler of the old texture.
+        // The map was baked for the sampler of the old texture, so that sampler is kept.
         if (!old) setWrap(document_.json["textures"][texture], map);
         for (std::size_t i = 0; i < materials.size(); ++i) {
             for (const SlotReference& reference : referencesOf(map.slot))
@@ -192,7 +192,7 @@ class MapPlacing {
         texture["sampler"] = samplers.size() - 1;
     }
 
-    /// A material for each primitive of the map: a copy where primitives share it that the map is not for.
+    /// Assigns a material to each primitive of the map: a copy if primitives share it that do not use the map.
     std::vector<std::size_t> giveMaterials(const ModelMap& map) {
         std::vector<std::optional<std::size_t>> before;
         std::map<std::size_t, std::size_t> users;
@@ -218,7 +218,7 @@ class MapPlacing {
     std::size_t ownMaterial(std::optional<std::size_t> before, bool is_alone) {
         if (!before) return append("materials", Json::object());
         if (is_alone) return *before;
-        // VRM 0.x describes materials in the order of the list.
+        // VRM 0.x describes materials in the order of the glTF materials.
         if (gltf::vrmMaterial(document_, *before) != nullptr) {
             Json& all = document_.json["extensions"]["VRM"]["materialProperties"];
             if (all.size() == document_.json["materials"].size()) {
@@ -243,7 +243,8 @@ class MapPlacing {
         entry["floatProperties"]["_BumpScale"] = 1.0;
     }
 
-    /// The texture that all these references of these materials show, where nothing else shows it or its image.
+    /// Returns the texture that all these references of these materials show, if nothing else uses the texture or its
+    /// image.
     [[nodiscard]] std::optional<std::size_t> oldTexture(const std::vector<std::size_t>& materials, MapSlot slot) const {
         const std::vector<SlotReference> references = referencesOf(slot);
         const Json& json = document_.json;
@@ -273,7 +274,7 @@ class MapPlacing {
         return count == 1 ? texture : std::nullopt;
     }
 
-    /// Puts the image last in the list, or in the place of that of an old texture.
+    /// Appends the image, or replaces the image of an old texture.
     std::size_t placeImage(const ModelMap& map, const std::optional<std::string>& name,
                            std::optional<std::size_t> old) {
         std::optional<std::size_t> old_view;
@@ -298,7 +299,7 @@ class MapPlacing {
         return at;
     }
 
-    /// The name by which a .gltf refers to the file; nothing where it cannot.
+    /// Returns the URI by which a .gltf references the file, or nothing if it cannot.
     [[nodiscard]] std::optional<std::string> nameBeside(const std::string& path) const {
         if (target_.container == gltf::Container::glb) return {};
         std::string name = pathBelow(folderOf(target_.path), path);
@@ -332,7 +333,7 @@ class MapPlacing {
     Document& document_;
     Editor& editor_;
     const gltf::OutputTarget& target_;
-    std::map<std::size_t, std::size_t> users_ = {};  ///< primitives of each material
+    std::map<std::size_t, std::size_t> users_ = {};  ///< number of primitives that use each material
 };
 
 }  // namespace

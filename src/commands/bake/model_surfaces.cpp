@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Model files as the arrays that baking takes.
+// Reads model files into the arrays that baking uses.
 #include "commands/bake/model_surfaces.h"
 
 #include <algorithm>

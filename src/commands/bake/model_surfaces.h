@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Model files as the arrays that baking takes, and what comes out of a bake: pictures, and the model with its maps.
+// Model files as arrays for baking, and the results of a bake: pictures, and the model with its maps.
 #pragma once
 
 #include <cstdint>
@@ -24,10 +24,10 @@ namespace tspace {
 
 // A low poly with the maps that were baked for it as the textures of its materials.
 
-/// A primitive, and the UVs that its map is read with.
+/// A primitive, and the UVs with which its map is sampled.
 struct MappedPrimitive {
     std::uint32_t mesh = 0, primitive = 0;
-    bool had_map = false;  ///< its material has a normal map already, with these UVs
+    bool had_map = false;  ///< its material already has a normal map with these UVs
     std::size_t uv_set = 0;
     UvTransform transform = {};
 };
@@ -35,9 +35,9 @@ struct MappedPrimitive {
 /// Texture slot of a material.
 enum class MapSlot { normal, occlusion, metal, occlusion_and_metal, color, emission };
 
-/// A baked image, and the primitives that read it.
+/// A baked image, and the primitives that use it.
 struct ModelMap {
-    std::string path = {};  ///< the file that holds it
+    std::string path = {};  ///< path of the image file
     Bytes png = {};
     std::vector<MappedPrimitive> primitives = {};
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
@@ -45,14 +45,14 @@ struct ModelMap {
 };
 
 struct ModelWithMaps {
-    gltf::Model model;        ///< with the frames that were baked for
+    gltf::Model model;        ///< with the frames for which the maps were baked
     std::string output = {};  ///< .glb or .gltf
     std::vector<ModelMap> maps = {};
 };
 
-/// Adds the model with its maps to `model_files`, and the maps themselves to `map_files`, which may be the same. A GLB holds
-/// them; a .gltf names them where they lie in its folder or below, and holds them otherwise. Maps that were there go where
-/// nothing else shows them. Throws FileError.
+/// Adds the model with its maps to `model_files`, and the maps to `map_files`, which may be the same object. A GLB
+/// embeds the maps; a .gltf references them if they are in its folder or a subfolder, and embeds them otherwise.
+/// Previous maps are removed unless something else uses them. Throws FileError.
 void addModelWithMaps(ModelWithMaps&& model, AtomicOutput& model_files, AtomicOutput& map_files,
                       std::vector<std::string>& warnings);
 
@@ -69,10 +69,10 @@ auto tagInput(BakeInput input, Body&& body) {
 
 /// Triangles of a low poly.
 struct LowPart {
-    OwnedMesh corners = {};  ///< a vertex for each
+    OwnedMesh corners = {};  ///< one vertex per corner
     std::vector<Vec3> cage = {};
     std::vector<std::uint32_t> groups = {};
-    std::vector<Vec3> rest_positions = {}, rest_normals = {};  ///< like LowPoly's
+    std::vector<Vec3> rest_positions = {}, rest_normals = {};  ///< as in LowPoly
 
     [[nodiscard]] LowPoly view() const {
         return {.positions = corners.positions,
@@ -85,12 +85,12 @@ struct LowPart {
                 .rest_normals = rest_normals};
     }
     [[nodiscard]] std::size_t triangleCount() const { return corners.positions.size() / 3; }
-    /// Appends a triangle of another one.
+    /// Appends a triangle of another part.
     void addTriangle(const LowPart& from, std::size_t triangle);
     void addToRest(const LowPart& from, std::size_t triangle);
 };
 
-/// Parts of a low poly that share a material, and so an image.
+/// Parts of a low poly that share a material, and therefore an image.
 struct LowModel {
     struct Image {
         std::string material = {};
@@ -103,13 +103,14 @@ struct LowModel {
     std::vector<std::string> warnings = {};
     bool frames_made = false;
     PositionBox all_places = {};  ///< bounding box of all instances; `images` has the first instance of each primitive
-    DVec3 origin = {};            ///< origin of the positions in world space: not zero if both models are far from it
+    /// origin of the positions in world space; nonzero if both models are far from the origin
+    DVec3 origin = {};
 
     [[nodiscard]] std::size_t triangleCount() const;
     [[nodiscard]] bool hasCage() const { return !images.empty() && !images.front().part.cage.empty(); }
 };
 
-/// The triangles of a high poly that a placement of its scene gives, from this one on.
+/// Triangles of the high poly, starting at `first_triangle`, that belong to one placement in the scene.
 struct HighPart {
     std::uint32_t first_triangle = 0;
     std::size_t placement = 0;
@@ -117,9 +118,9 @@ struct HighPart {
 
 struct HighModel {
     std::vector<HighPart> parts = {};  ///< in ascending order
-    OwnedMesh mesh = {};               ///< with tangents and UVs where it shows maps of its own
+    OwnedMesh mesh = {};               ///< with tangents and UVs if the high poly has normal maps
     std::vector<std::uint32_t> groups = {};
-    std::vector<std::uint32_t> map_of = {};  ///< empty where it shows none
+    std::vector<std::uint32_t> map_of = {};  ///< map index per triangle; empty if there are no maps
     HighMaps shown = {};
     std::vector<std::string> warnings = {};
     double position_step =
@@ -142,12 +143,13 @@ struct HighModel {
 struct BakeModels {
     LowModel low = {};
     HighModel high = {};
-    DrawnScene high_scene = {};  ///< scene, if its materials or names are needed for maps; otherwise empty
-    std::optional<gltf::Model> low_model = {};  ///< the low poly with its frames, where `out_mesh` asks for it
+    DrawnScene high_scene = {};  ///< scene of the high poly if maps need its materials or names; otherwise empty
+    std::optional<gltf::Model> low_model = {};  ///< the low poly with its frames, if `out_mesh` is given
     bool matched_by_name = false;
 
-    FloatImage skew = {};  ///< without texels where there is none
-    /// The rays of a bake or a measure: those asked for, with the image that was read, wrapped so.
+    FloatImage skew = {};  ///< no texels if there is no such image
+    /// Returns the ray options of a bake or a measurement: the requested ones, with the skew image and these wrap
+    /// modes.
     [[nodiscard]] RayOptions rays(const RayOptions& asked, TextureWrap wrap_u, TextureWrap wrap_v) const;
     /// Ray distance for all images: as requested, or derived from the sizes of both models.
     [[nodiscard]] double reach(double asked) const;
@@ -156,45 +158,46 @@ struct BakeModels {
     [[nodiscard]] PositionBox lowBox() const;
 };
 
-/// The order of the corners of a triangle at a place, which may mirror: corner i of the placed one is that one of its primitive.
+/// Returns the index in the primitive of corner i of a placed triangle; a mirroring transform reverses the order.
 std::size_t placedCorner(const Affine& place, std::size_t i);
 
-/// How a primitive reads its normal map, or will: the normal map that its own material has, or the first thing that needs
-/// tangents, which they follow. Null: the first UVs, as they are.
+/// Returns how a primitive samples its normal map, or will sample it: the normal map of its material, or else the first
+/// texture that needs tangents, whose UVs the tangents follow. Null: the first UV set, without a transform.
 const TangentUse* mapUse(const ScenePrimitive& primitive);
 
-/// An image that is an input of the call: readMapImage.
+/// Reads an image that is an input of the call, by readMapImage.
 FloatImage readFloatImage(const std::string& path, const FileOptions& options, ImageUse use = ImageUse::vectors);
 
-/// GLBs in the place of the files of a bake, whose names say only what they are called. Empty: the file is read.
+/// GLBs in memory that replace the files of a bake; the paths then only provide names. Empty: the file is read.
 struct BakeSources {
     std::span<const std::uint8_t> low = {}, high = {};
 };
 
-/// Reads the models, makes the frames that the low poly lacks, and matches meshes by name. Throws FileError, which says as
-/// its element which BakeInput it is about: also where the low poly has no UVs, where the cage has other triangles, and
-/// where one of them has none at all.
+/// Reads the models, computes missing frames of the low poly, and matches meshes by name. Throws FileError, whose
+/// element is the BakeInput it refers to; also if the low poly has no UVs, the cage has different triangles, or a model
+/// has no triangles.
 BakeModels readBakeModels(const std::string& low, const std::string& high, const BakeFileOptions& options,
                           const BakeSources& sources = {});
 
-/// The triangles of a low poly by their images, as they are in the file: for what they are called. Throws FileError.
+/// Returns the triangles of a low poly grouped by image, in file order, to derive file names. Throws FileError.
 LowModel readLowImages(const std::string& low, const BakeFileOptions& options);
 
-/// The low poly with tangents of `options`.tangents computed anew on these faces, in the order that readBakeModels gives. Nothing
-/// where that method gives another number of triangles. Throws FileError.
+/// Returns the low poly with tangents recomputed by `options`.tangents on these faces, in the order of readBakeModels,
+/// or nothing if the method yields a different number of triangles. Throws FileError.
 std::optional<LowModel> readLowAnew(const std::string& low, const BakeFileOptions& options, Faces faces,
                                     const LowModel& known);
 
 bool shows(const LayerOptions& layers, MapLayer layer);
-/// Whether a layer shows what materials do.
+/// Returns whether a layer uses materials.
 bool showsMaterials(const LayerOptions& layers);
 
-// Pictures of a bake: what each texel is, and where the error is.
+// Pictures of a bake: the kind of each texel, and the error.
 
-/// Red: nothing was met; yellow: several triangles; green: baked; dark green: padding; black: background.
+/// Red: no hit; yellow: several triangles; green: baked; dark green: padding; black: background.
 std::vector<Vec3> pictureOfOrigins(const BakedMap& map);
 
-/// From black (0) over blue, red and yellow to white (`top_deg` and more). Texels without triangles: dark grey.
+/// Colors from black (0) through blue, red and yellow to white (`top_deg` or more). Texels without triangles are dark
+/// gray.
 std::vector<Vec3> pictureOfHeat(const std::vector<float>& heat, double top_deg);
 
 }  // namespace tspace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// compressMapFile: the image, its levels, their blocks, and how far they are off. Its options, and its report as JSON.
+// compressMapFile: reads the image, computes mip levels, encodes blocks, and measures the error. Also its options, and
+// its report as JSON.
 #include "tspace/map_files.h"
 
 #include <algorithm>
@@ -246,7 +247,7 @@ Option factorOption(double& factor) {
     Option option = options::option("--roughness-factor", "NUMBER", take,
                                     "roughnessFactor of the material. It is multiplied into the texture, so set it to "
                                     "1 in the material afterwards.");
-    option.default_text = std::string("1");  // GCC 12 warns of a literal here
+    option.default_text = std::string("1");  // a string object, because GCC 12 warns about a literal here
     option.needs = "--roughness";
     return option;
 }

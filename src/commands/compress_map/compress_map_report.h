@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tspace compress-map reports.
+// Reports of tspace compress-map.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace tspace {
 
-/// The PNG of a level in a folder of PNGs, which ends in "/": FOLDER/NAME.LEVEL.png.
+/// Returns the path of the PNG of a mip level: FOLDER/NAME.LEVEL.png; `folder` ends in "/".
 std::string levelPath(const std::string& folder, const std::string& input, std::size_t level);
 
 }  // namespace tspace

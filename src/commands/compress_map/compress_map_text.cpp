@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A normal map that became a texture, as text.
+// Report of a compressed normal map as text.
 #include <fmt/format.h>
 
 #include "commands/compress_map/compress_map_report.h"

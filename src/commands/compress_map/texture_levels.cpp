@@ -13,8 +13,9 @@
 namespace tspace {
 namespace {
 
-/// Unit vectors, and how many texels of the image were none or look below the horizon. `far_off`: how many are so far from unit that no
-/// normal map has them: `bake --lengths free` and `convert-map --bits 8` write lengths from .7 to 1.1, rounded.
+/// Returns unit vectors, and counts texels without a direction and texels below the horizon. `far_off`: number of
+/// texels whose length no normal map has: `bake --lengths free` and `convert-map --bits 8` write lengths from 0.7 to
+/// 1.1, rounded.
 NormalLevel normalsOf(const FloatImage& image, std::vector<float>&& coverage, std::uint64_t& far_off,
                       CompressMapFileReport& report) {
     constexpr double kMostOff = 0.1, kShortest = 0.65, kLongest = 1.15;
@@ -34,7 +35,7 @@ NormalLevel normalsOf(const FloatImage& image, std::vector<float>&& coverage, st
     return level;
 }
 
-/// Lays vectors that look below the horizon on it, where two channels can say them.
+/// Projects vectors below the horizon onto it, where two channels can represent them.
 void layOnHorizon(NormalLevel& level) {
     for (Vec3& normal : level.normals) {
         if (normal.z >= 0) continue;

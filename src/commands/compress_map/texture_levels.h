@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A normal map, and a roughness texture that belongs to it, as levels of textures: arrays in, arrays out. No file is read or written, and
-// nothing is thrown but for memory: the module "textures" of the npm package has these functions too.
+// Mip levels of a normal map and of a roughness texture that belongs to it, on arrays. No file is read or written, and
+// only out-of-memory exceptions are thrown: the module "textures" of the npm package uses these functions too.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace tspace {
 
-/// A level as it is written, and as it is decoded.
+/// A mip level as encoded bytes, and as decoded vectors.
 struct PackedLevel {
     std::vector<std::uint8_t> bytes = {};
     std::vector<Vec3> texels = {};
@@ -29,35 +29,37 @@ std::optional<PackedLevel> packLevel(const NormalLevel& level, const CompressMap
 
 TexelKind textureKind(const CompressMapFileOptions& options);
 
-/// The DDS of a texture, with that header.
+/// Returns the DDS file of a texture, with this header.
 std::vector<std::uint8_t> ddsFileOf(const Texture& texture, DdsHeader header);
 
-/// Why there is no texture of these options.
+/// Returns why no texture is possible with these options, or nothing.
 std::optional<Error> textureFault(const CompressMapFileOptions& options, bool is_dds);
 
-/// Size and bits of an image. One of two channels becomes vectors, with a warning that says which.
+/// Records the size and bit depth of the image. A two-channel image is converted to vectors, with a warning that names
+/// the channels.
 void beginReport(FloatImage& image, CompressMapFileReport& report);
 
 struct MapLevels {
-    std::vector<NormalLevel> levels = {};  ///< with spreads where there is a roughness texture
-    NormalLevel truth = {};  ///< the first level before vectors were laid on the horizon; empty where none were
+    std::vector<NormalLevel> levels = {};  ///< with spreads if there is a roughness texture
+    NormalLevel truth = {};  ///< the first level before vectors were projected onto the horizon; empty if none were
 };
 
-/// All levels, or the first where no others are needed. `has_three`: for three channels, which can say what looks below the horizon. Adds
-/// warnings.
+/// Computes all levels, or only the first if no others are needed. `has_three`: three channels are written, which can
+/// represent vectors below the horizon. Adds warnings.
 MapLevels makeMapLevels(FloatImage image, const CompressMapFileOptions& options, bool has_roughness, bool has_three,
                         Parallel& parallel, CompressMapFileReport& report);
 
 void keepError(const FilteredError& error, CompressMapFileReport& report);
 
-/// All of map.levels, and how far the first is off. Nothing where the library astcenc fails.
+/// Encodes all of map.levels, and measures the error of the first. Returns nothing if the library astcenc fails.
 std::optional<Texture> packLevels(const MapLevels& map, const CompressMapFileOptions& options, Parallel& parallel,
                                   CompressMapFileReport& report);
 
-/// Levels of the roughness texture `first`, all or the first, as the options say; whyGridsDiffer must be empty.
+/// Computes the levels of the roughness texture `first`, all or only the first according to the options. The result of
+/// whyGridsDiffer must be empty.
 std::vector<RoughnessLevel> makeRoughness(const RoughnessLevel& first, const CompressMapFileOptions& options,
                                           const MapLevels& map, Parallel& parallel, CompressMapFileReport& report);
-/// R8G8B8A8.
+/// Returns the texture in R8G8B8A8.
 Texture roughnessTexture(std::span<const RoughnessLevel> levels);
 
 }  // namespace tspace

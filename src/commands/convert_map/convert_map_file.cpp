@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// convertMapFile: the image, the meshes of both sides, limits, warnings. Its options, and its report as JSON.
+// convertMapFile: reads the image and the meshes of both sides, applies limits and collects warnings. Also its options,
+// and its report as JSON.
 #include <charconv>
 #include <optional>
 #include <string_view>
@@ -43,17 +44,17 @@ Meshes readMeshes(const std::string& input, const ConvertMapFileOptions& options
     const std::string& to_mesh = options.to_mesh.empty() ? options.mesh : options.to_mesh;
     Meshes meshes;
     if (!from_tangent && !to_tangent) {
-        // Either model has the transform between object and world space.
+        // Both models have the transform between object and world space, so either can be used.
         if (options.from != options.to) meshes.from = read(options.mesh.empty() ? to_mesh : options.mesh);
         return meshes;
     }
     if (from_tangent && !options.mesh.empty()) meshes.from = read(options.mesh);
-    // One mesh serves both sides where it is one file.
+    // If both sides name one file, it is read once.
     if (to_tangent && !to_mesh.empty() && !(meshes.from && to_mesh == options.mesh)) meshes.to = read(to_mesh);
     return meshes;
 }
 
-/// `mesh`: that of this side, or the only one. `is_own`: its triangles are this side's.
+/// `mesh`: the mesh of this side, or the only mesh. `is_own`: the triangles of `mesh` belong to this side.
 MapSide mapSideOf(const MapMesh* mesh, bool is_own, MapFileSpace space, const MapReading& reading) {
     MapSide side{.space = space == MapFileSpace::tangent ? MapSpace::tangent : MapSpace::object, .reading = reading};
     if (mesh == nullptr) return side;
@@ -71,7 +72,7 @@ struct MapSides {
     MapSide from, to;
 };
 
-/// Whether directions along these axes go with the normals of the mesh, in the mean over its triangles.
+/// Returns the mean cosine, over the triangles, between directions along these axes and the normals of the mesh.
 double agreementOf(const FloatImage& image, const MapMesh& mesh, const MapReading& reading, const MapAxes& axes) {
     const TextureShape shape{image.width, image.height, mesh.wrap_u, mesh.wrap_v};
     const std::vector<Vec2>& uvs = mesh.corners.uvs;
@@ -88,7 +89,8 @@ double agreementOf(const FloatImage& image, const MapMesh& mesh, const MapReadin
     return count == 0 ? 0 : sum / static_cast<double>(count);
 }
 
-/// The axes of the side that is not in tangent space. `warnings`: gets a sentence where they were found by the image.
+/// Returns the axes of the side that is not in tangent space. `warnings` receives a sentence if they were inferred from
+/// the image.
 MapAxes axesOf(const FloatImage& image, const Meshes& meshes, const ConvertMapFileOptions& options,
                std::vector<std::string>& warnings) {
     const bool from_tangent = options.from == MapFileSpace::tangent, to_tangent = options.to == MapFileSpace::tangent;
@@ -111,7 +113,7 @@ MapAxes axesOf(const FloatImage& image, const Meshes& meshes, const ConvertMapFi
     return kMapAxesZUp;
 }
 
-/// `axes`: one per triangle, where they are not those of the mesh.
+/// `axes`: one entry per triangle if they differ from those of the mesh.
 MapSides sidesOf(const Meshes& meshes, const ConvertMapFileOptions& options, std::span<const MapAxes> axes) {
     const MapMesh* const from = meshes.from ? &*meshes.from : nullptr;
     const MapMesh* const to = meshes.to ? &*meshes.to : nullptr;
@@ -121,7 +123,7 @@ MapSides sidesOf(const Meshes& meshes, const ConvertMapFileOptions& options, std
     if (any == nullptr) return sides;
     if (options.from == MapFileSpace::tangent) sides.to.axes = axes;
     if (options.to == MapFileSpace::tangent) sides.from.axes = axes;
-    // Between object and world space the axes of the mesh lie in the world.
+    // Between object and world space, the axes of the mesh are transformed to world space.
     if (options.from == MapFileSpace::object && options.to == MapFileSpace::world) sides.from.axes = any->axes;
     if (options.from == MapFileSpace::world && options.to == MapFileSpace::object) sides.to.axes = any->axes;
     return sides;
@@ -199,7 +201,8 @@ unsigned outputBits(ImageFormat format, unsigned bits) {
     return bits;
 }
 
-/// Reads the image by its layout. Returns the texels as they were, where that is another than the default.
+/// Converts the image according to its channel layout. Returns the original texels if the layout is not the default,
+/// and otherwise an empty vector.
 std::vector<Vec3> applyLayout(const MapLayout& layout, FloatImage& image) {
     if (layout == MapLayout{}) return {};
     const bool takes_alpha = layout.x.channel == MapChannel::alpha || layout.y.channel == MapChannel::alpha ||
@@ -213,7 +216,7 @@ std::vector<Vec3> applyLayout(const MapLayout& layout, FloatImage& image) {
     return before;
 }
 
-/// Changes by the layout count too. `is_alone`: no mesh turns vectors, so that angles are known.
+/// Counts texels changed by the layout. `is_alone`: no mesh transforms the vectors, so the angles can be measured.
 void countLayout(std::span<const Vec3> before, std::span<const Vec3> after, bool is_alone, ConvertMapReport& texels) {
     texels.changed = 0;
     double sum = 0, most = 0;
@@ -354,7 +357,8 @@ constexpr Named<BitangentPlace> kBitangents[] = {
 };
 constexpr Named<unsigned> kBitCounts[] = {{"8", 8}, {"16", 16}, {"32", 32}};
 
-/// "bgr": z, y and x. A capital letter is an inverted channel. With two letters z is computed.
+/// Parses a layout such as "bgr" (z, y and x). A capital letter is an inverted channel. With two letters z is
+/// reconstructed.
 std::string takeChannels(const std::string& letters, MapLayout& layout) {
     constexpr const char* kWrong =
         "must be two or three of r, g, b and a, such as rg, ag or bgr; a capital letter inverts a channel";
@@ -454,7 +458,7 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
 }
 
 std::string finish(const Given& given, ConvertMapFileOptions& options) {
-    // Whatever their order on the command line, conventions come first.
+    // Conventions are applied first, in any order on the command line.
     for (const Given::Item& item : given.items) {
         const std::string& name = item.option->name();
         if (name == "--from-bitangent" || name == "--to-bitangent") item.option->take(item.value);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tspace convert-map reports.
+// Reports of tspace convert-map.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace tspace::report {
 
 std::string convertMapJson(const Outcome<ConvertMapFileReport>& outcome, ExitCode exit_code);
-/// `options`: those of the call; the text names their models.
+/// `options`: options of the call; the text names its models.
 std::string convertMapText(const Outcome<ConvertMapFileReport>& outcome, const ConvertMapFileOptions& options);
 
 }  // namespace tspace::report

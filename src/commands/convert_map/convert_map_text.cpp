@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A normal map that was converted, as text.
+// Report of a converted normal map as text.
 #include <fmt/format.h>
 
 #include "commands/convert_map/convert_map_report.h"

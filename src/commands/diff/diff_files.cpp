@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// diffFiles: reads, pairs, compares corner by corner. Options of diff and identify, and the report of diff as JSON.
+// diffFiles: reads two models, pairs their triangles, and compares them corner by corner. Also the options of diff and
+// identify, and the report of diff as JSON.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -18,16 +19,16 @@
 namespace tspace {
 namespace {
 
-// Many angles, and their statistics.
+// A collection of angles with statistics.
 
 class AngleSamples {
   public:
-    /// Degrees between two directions of any length. Pairs of unusable directions (zero, or not finite) are counted,
-    /// unless both are. Returns the angle, or 0.
+    /// Adds the angle in degrees between two directions of any length. Pairs with one unusable direction (zero or
+    /// non-finite) are counted. Returns the angle, or 0 for unusable directions.
     double add(const Vec3& a, const Vec3& b);
     void append(const AngleSamples& other);
 
-    /// Sorts; O(n log n).
+    /// Sorts the angles; O(n log n).
     [[nodiscard]] AngleStatistics statistics() const;
 
   private:
@@ -37,7 +38,7 @@ class AngleSamples {
 
 // Nearest-rank percentiles.
 
-/// The smallest value that `share` of all do not exceed.
+/// Returns the smallest value that at least `share` of all values do not exceed.
 double percentile(const std::vector<float>& sorted, double share) {
     const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
     return sorted[std::max<std::size_t>(rank, 1) - 1];
@@ -89,7 +90,7 @@ struct FrameSamples {
     }
 };
 
-/// 1, -1, 0, or 2 for a NaN: a value that is no sign differs from every sign, but not from itself.
+/// Returns 1, -1, 0, or 2 for NaN: an invalid value differs from every sign, but not from itself.
 int signOf(float w) {
     if (std::isnan(w)) return 2;
     return (w > 0) - (w < 0);
@@ -97,7 +98,7 @@ int signOf(float w) {
 
 Vec3 bitangentOf(const Vec3& normal, const Vec4& tangent) { return tangent.w * cross(normal, xyz(tangent)); }
 
-/// The worst places found so far, each vertex of A once.
+/// The worst corners found so far, each vertex of A once.
 class WorstPlaces {
   public:
     explicit WorstPlaces(std::size_t most) : most_(most) {}
@@ -120,12 +121,12 @@ class WorstPlaces {
     [[nodiscard]] const std::vector<FrameDifference>& places() const { return places_; }
 
   private:
-    /// A differing sign turns B round, so it counts by the angle of B.
+    /// A different sign reverses B, so the angle of B includes it.
     static double worstOf(const FrameDifference& d) { return std::max({d.tangent_deg, d.normal_deg, d.bitangent_deg}); }
     static bool isWorse(const FrameDifference& a, const FrameDifference& b) { return worstOf(a) > worstOf(b); }
 
     std::size_t most_;
-    std::vector<FrameDifference> places_ = {};  ///< the worst first
+    std::vector<FrameDifference> places_ = {};  ///< sorted, the worst first
 };
 
 class Comparison {
@@ -228,7 +229,7 @@ class Comparison {
     WorstPlaces worst_;
 };
 
-/// An error says which of the two files it is about.
+/// Reads a scene; an error states which of the two files it refers to.
 Scene readNumbered(const std::string& path, const FileOptions& options, std::uint64_t number) {
     try {
         return readScene(path, options, false);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tspace diff reports, as JSON, as text and in words. As a page it is in pages/diff_page.h.
+// Reports of tspace diff as JSON and as text. diff_page.h in pages has the HTML page.
 #pragma once
 
 #include <string>
@@ -15,24 +15,24 @@ std::string diffJson(const std::string& a, const std::string& b, double toleranc
                      ExitCode exit_code);
 std::string diffText(const std::string& a, const std::string& b, const FrameDiff& diff);
 
-// A comparison in words and tables for people, on a terminal or a page.
+// A comparison as sentences and tables, for a terminal or a page.
 
-/// Rows of cells, of which the first is the head; empty: there is nothing to show.
+/// Rows of cells, of which the first is the header; empty: no table.
 using TextTable = std::vector<std::vector<std::string>>;
 
-/// Names from files are not escaped.
+/// Sentences and tables. Names from files are not escaped.
 struct DiffWords {
     std::string summary = {};               ///< "A against B: ..."
     std::vector<std::string> remarks = {};  ///< further sentences
-    TextTable angles = {};                  ///< angles over the whole file
+    TextTable angles = {};                  ///< angles of the whole file
     TextTable primitives = {};
     TextTable worst = {};
 };
 
-/// `a`, `b`: the names of the files.
+/// `a`, `b`: names of the files.
 DiffWords diffWords(const std::string& a, const std::string& b, const FrameDiff& diff);
 
-/// "up to 0.1": the angles in a bin of kAngleBins.
+/// Returns the label of a bin of kAngleBins, such as "up to 0.1".
 std::string binText(std::size_t bin);
 
 }  // namespace tspace::report

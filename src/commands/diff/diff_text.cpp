@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Results of tspace diff as text.
+// Report of tspace diff as text.
 #include <algorithm>
 
 #include "commands/diff/diff_report.h"

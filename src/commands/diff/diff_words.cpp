@@ -15,12 +15,12 @@ std::string spelled(double value, std::chars_format format, int digits) {
     return end.ec == std::errc() ? std::string(text, end.ptr) : std::string("?");
 }
 
-/// Few digits, and as many as a small angle needs.
+/// Formats an angle with two decimals, or four if it is below 0.1.
 std::string degrees(double value) {
     return spelled(value, std::chars_format::fixed, value != 0 && value < 0.1 ? 4 : 2);
 }
 
-/// "" or a sentence on files whose importer cannot give tangents.
+/// Returns "" or a sentence on files whose tangents the importer cannot read.
 std::string notReadText(const std::string& a, const std::string& b, const FrameDiff& diff) {
     const auto any = [&](bool PrimitiveDiff::*not_read) {
         return std::any_of(diff.primitives.begin(), diff.primitives.end(), [&](const auto& p) { return p.*not_read; });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Triangles by their corners, or by their places. Primitives by geometry first, since names repeat and tools drop them; then by
-// names; then by the place in the file.
+// Pairs triangles by their corners or by their positions, and primitives by geometry (since names repeat and tools drop
+// them), then by name, then by index in the file.
 #include "commands/diff/pair_primitives.h"
 
 #include <algorithm>
@@ -18,11 +18,12 @@
 
 namespace tspace {
 
-// Triangles as keys: three corners, the smallest first.
+// Keys of triangles: three corner hashes, starting with the smallest.
 
 namespace {
 
-/// Texture coordinates that both meshes may have kept; the first set alone, since tools add and drop the others.
+/// Returns the texture coordinates that both meshes may have kept: only the first set, since tools add and drop the
+/// others.
 const SharedArray<Vec2>* firstUvs(const ScenePrimitive& primitive) {
     return primitive.uv_sets.empty() || primitive.uv_sets[0].empty() ? nullptr : &primitive.uv_sets[0];
 }
@@ -41,9 +42,9 @@ class CornerHashes {
 
     struct Key {
         std::uint64_t hash = 0;
-        std::uint32_t first = 0;  ///< the corner that the key begins with
+        std::uint32_t first = 0;  ///< the corner with which the key begins
     };
-    /// Begins with the smallest rotation, so that the key does not depend on the corner the file begins with.
+    /// Starts with the smallest rotation, so that the key does not depend on the first corner in the file.
     [[nodiscard]] Key keyOf(std::size_t triangle) const {
         const std::array<std::uint64_t, 3> h = {at(triangle, 0), at(triangle, 1), at(triangle, 2)};
         std::uint32_t first = 0;
@@ -65,7 +66,7 @@ class CornerHashes {
     std::vector<std::uint64_t> vertices_;
 };
 
-/// Pairs triangles that are not yet paired. `paired_b` is one mark per triangle.
+/// Pairs triangles that are not yet paired. `paired_b` has one entry per triangle.
 void pairEqualKeys(const ScenePrimitive& a, const ScenePrimitive& b, bool with_uvs, std::vector<char>& paired_a,
                    std::vector<char>& paired_b, std::vector<TrianglePair>& pairs) {
     const CornerHashes hashes_a(a, with_uvs), hashes_b(b, with_uvs);
@@ -95,7 +96,7 @@ void pairEqualKeys(const ScenePrimitive& a, const ScenePrimitive& b, bool with_u
 
 constexpr double kPlaceTolerance = 1e-3;
 
-/// Used vertices moved and scaled so that their box has its centre at 0 and the largest side 1.
+/// Returns the used vertices, moved and scaled so that the center of their bounding box is 0 and its largest side is 1.
 std::vector<DVec3> boxedPositions(const ScenePrimitive& primitive) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     DVec3 low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
@@ -117,7 +118,7 @@ std::vector<DVec3> boxedPositions(const ScenePrimitive& primitive) {
     return boxed;
 }
 
-/// Triangles of one mesh by the place of their centre.
+/// Triangles of one mesh in a grid, by their centers.
 class TriangleGrid {
   public:
     explicit TriangleGrid(const ScenePrimitive& primitive)
@@ -133,7 +134,7 @@ class TriangleGrid {
     }
     [[nodiscard]] DVec3 centreOf(std::uint32_t t) const { return (1.0 / 3) * (at(t, 0) + at(t, 1) + at(t, 2)); }
 
-    /// Calls visit(triangle) for those near `centre`, the first hundred of each cell, until it returns true.
+    /// Calls visit(triangle) for triangles near `centre`, the first hundred of each cell, until it returns true.
     template <class Visit>
     void visitNear(const DVec3& centre, Visit&& visit) const {
         constexpr std::size_t kMostPerCell = 100;
@@ -149,8 +150,8 @@ class TriangleGrid {
     }
 
   private:
-    /// Cells are twice as wide as the tolerance, so centres that are near lie in the own cell or in those on the nearer side:
-    /// bit k of `corner` steps along axis k. Number 0 is the own cell.
+    /// Cells are twice as wide as the tolerance, so near centers are in the same cell or in the adjacent cells on the
+    /// nearer side: bit k of `corner` selects the step along axis k. Corner 0 is the cell itself.
     static std::uint64_t cellHash(const DVec3& p, unsigned corner) {
         const auto cell = [&](double x, unsigned axis) {
             const double scaled = x / (2 * kPlaceTolerance);
@@ -166,7 +167,7 @@ class TriangleGrid {
     std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_ = {};
 };
 
-/// The rotation that lays triangle `t` of A on `u` of B, or 3 when none does.
+/// Returns the rotation that maps triangle `t` of A to triangle `u` of B, or 3 if there is none.
 std::uint32_t rotationBetween(const TriangleGrid& a, std::uint32_t t, const TriangleGrid& b, std::uint32_t u) {
     for (std::uint32_t rotation = 0; rotation < 3; ++rotation) {
         bool is_near = true;
@@ -211,7 +212,7 @@ std::vector<TrianglePair> pairByPlace(const ScenePrimitive& a, const ScenePrimit
             pairs.push_back({t, u, rotation});
             return true;
         };
-        // Most files keep the order; where triangles lie on each other it decides.
+        // Most files keep the order of triangles; it also distinguishes coincident triangles.
         if (t < is_paired.size() && pairWith(t)) continue;
         grid_b.visitNear(grid_a.centreOf(t), pairWith);
     }
@@ -220,7 +221,7 @@ std::vector<TrianglePair> pairByPlace(const ScenePrimitive& a, const ScenePrimit
 
 namespace {
 
-/// The key that both partners have in common; empty: this primitive takes no part.
+/// Returns the key that both partners share; empty: the primitive is not paired by this key.
 using KeyOf = std::function<std::string(const ScenePrimitive&)>;
 
 class Pairer {
@@ -230,7 +231,7 @@ class Pairer {
         for (const ScenePrimitive& primitive : b.primitives) taken_.push_back(primitive.corners.empty());
     }
 
-    /// If several have one key, they are paired in order.
+    /// If several primitives have the same key, they are paired in order.
     void pairBy(const char* how, const KeyOf& key_of) {
         std::map<std::string, std::vector<std::size_t>> free_by_key;
         for (std::size_t k = b_.primitives.size(); k-- > 0;) {
@@ -270,7 +271,7 @@ class Pairer {
         const ScenePrimitive& mine = a_.primitives[pair.a];
         const ScenePrimitive& other = b_.primitives[pair.b];
         pair.triangles = pairByCorners(mine, other);
-        // Moved a little everywhere: quantised, or written with fewer digits.
+        // All vertices moved slightly: the mesh was quantized, or written with fewer digits.
         if (pair.triangles.size() < mine.corners.size() / 3) {
             std::vector<TrianglePair> by_place = pairByPlace(mine, other);
             if (by_place.size() > pair.triangles.size()) pair.triangles = std::move(by_place);
@@ -279,12 +280,12 @@ class Pairer {
 
     const Scene& a_;
     const Scene& b_;
-    std::vector<std::size_t> partner_;  ///< one per primitive of A
+    std::vector<std::size_t> partner_;  ///< index in B per primitive of A
     std::vector<std::string> how_;
-    std::vector<bool> taken_ = {};  ///< one per primitive of B; also those without triangles
+    std::vector<bool> taken_ = {};  ///< per primitive of B; true also for those without triangles
 };
 
-/// Looked up several times.
+/// Computed once, because keys are used several times.
 std::map<const ScenePrimitive*, std::string> geometryKeys(const Scene& a, const Scene& b) {
     std::map<const ScenePrimitive*, std::string> keys;
     for (const Scene* scene : {&a, &b}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which primitive of one file is which of another, and which of their triangles are which.
+// Pairs the primitives of two files, and their triangles.
 #pragma once
 
 #include <cstddef>
@@ -11,36 +11,37 @@
 
 namespace tspace {
 
-// Matches the triangles of two meshes that show the same surface.
+// Matching of triangles of two meshes that represent the same surface.
 
-/// Triangle `a` of A is triangle `b` of B; corner k of it is corner (k + rotation) % 3 there.
+/// Triangle `a` of A corresponds to triangle `b` of B; corner k of `a` corresponds to corner (k + rotation) % 3 of `b`.
 struct TrianglePair {
     std::uint32_t a = 0, b = 0;
     std::uint32_t rotation = 0;
 };
 
-/// A number that two meshes have in common when they consist of the same triangles (corner positions), whatever the
-/// order and the vertices. Different meshes nearly never have the same.
+/// Returns a hash that is equal for two meshes of the same triangles (corner positions), in any order and with any
+/// vertices. The hashes of different meshes are almost never equal.
 std::uint64_t geometryHash(const ScenePrimitive& primitive);
 
-/// Pairs triangles with the same corner positions, those with the same UVs (of `uv_set`) first. Positions are compared
-/// as numbers. Triangles that are there several times are paired in their order. Expected linear.
+/// Pairs triangles with the same corner positions, first those with equal UVs (of `uv_set`). Positions are compared as
+/// numbers. Repeated triangles are paired in order. Expected linear time.
 std::vector<TrianglePair> pairByCorners(const ScenePrimitive& a, const ScenePrimitive& b);
 
-/// Pairs triangles whose corners lie at the same place but for 1/1000 of the size of the mesh, after both meshes were
-/// moved and scaled to the same box: quantised, and written with fewer digits. Expected linear; where hundreds of
-/// triangles share a place, some may stay without a partner.
+/// Pairs triangles whose corners agree within 1/1000 of the size of the mesh, after both meshes were moved and scaled
+/// to the same bounding box: quantized meshes, and those written with fewer digits. Expected linear time; if hundreds
+/// of triangles coincide, some may remain unpaired.
 std::vector<TrianglePair> pairByPlace(const ScenePrimitive& a, const ScenePrimitive& b);
 
 inline constexpr std::size_t kNoPrimitive = ~std::size_t{0};
 
 struct PrimitivePair {
-    std::size_t a = kNoPrimitive, b = kNoPrimitive;  ///< numbers in their scenes; kNoPrimitive: no partner
+    std::size_t a = kNoPrimitive, b = kNoPrimitive;  ///< indices in their scenes; kNoPrimitive: no partner
     std::string paired_by = "none";                  ///< PrimitiveDiff::paired_by
     std::vector<TrianglePair> triangles = {};
 };
 
-/// The primitives of A in file order, then those of B without a partner. Primitives without triangles are left out.
+/// Returns the primitives of A in file order, then those of B without a partner. Primitives without triangles are
+/// omitted.
 std::vector<PrimitivePair> pairPrimitives(const Scene& a, const Scene& b);
 
 }  // namespace tspace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// finishFile: mends, checks, mends what check still finds, bakes, and checks what is written; its report as JSON.
+// finishFile: fixes winding and normals, runs check, repairs the remaining findings, bakes, and checks the result; its
+// report as JSON.
 #include "tspace/bake_file.h"
 
 #include <algorithm>
@@ -24,13 +25,14 @@
 namespace tspace {
 namespace {
 
-/// Tools that make UVs, which tspace does not.
+/// Tools that create UVs, which tspace does not.
 constexpr const char* kUvMakers = "unwrapping tools make them (Blender's Smart UV Project, xatlas, RizomUV)";
 
-/// A name that says GLB, for bytes that are one.
+/// Returns a name with the extension .glb, for bytes in GLB format.
 std::string glbName(const std::string& path) { return isGlbName(path) ? path : path + ".glb"; }
 
-/// Findings that new normals mend. `was_turned`: triangles of the primitive were, and its normals made on them as they were.
+/// Returns whether recomputed normals fix the finding. `was_turned`: triangles of the primitive were flipped after
+/// normals had been computed for the old winding.
 bool asksForNormals(const Finding& finding, bool was_turned) {
     switch (finding.code) {
         case FindingCode::normalsMissing:
@@ -61,10 +63,10 @@ CheckReport checked(const std::string& name, ByteSpan content, const FinishOptio
     return valueOrThrow(checkFile(name, check));
 }
 
-/// A model in work: a GLB in memory, and what is known of it.
+/// A model during processing: a GLB in memory, and its report.
 class ModelInWork {
   public:
-    /// `output`: what the result will be called, whose folder files that it names are told from.
+    /// `output`: path of the result, which determines relative paths of referenced files.
     ModelInWork(const std::string& path, const std::string& output, bool is_low, const FinishOptions& options,
                 FinishedModel& report)
         : path_(path), output_(output), is_low_(is_low), options_(options), report_(report) {
@@ -76,7 +78,7 @@ class ModelInWork {
         GenerateOptions generate = generateOptions();
         runFirst(generate, {});
         if (std::vector<std::uint32_t> right = rightMeshes(); !right.empty()) {
-            // Faces of OBJ files are one surface.
+            // All faces of an OBJ file form one surface.
             generate.mend_winding = !isObj();
             runFirst(generate, {.wound_meshes = std::move(right)});
         }
@@ -88,7 +90,7 @@ class ModelInWork {
             take(run(glbName(path_), before, again, {.normals = wishes}), wishes);
             check_ = check(glbName(path_), bytes_);
         }
-        generate.mend_winding = true;  // or it would be advised, by the name that it has elsewhere
+        generate.mend_winding = true;  // otherwise check would suggest it, under the option name of another command
         warnOfWinding(generate, report_.made);
         report_.made.output_files.clear();
         countUvs();
@@ -132,7 +134,8 @@ class ModelInWork {
         check_ = report_.made.changed ? check(glbName(path_), bytes_) : report_.before;
     }
 
-    /// Meshes whose normals fit the triangles less since some were turned. Normals that are made anew fit them all the same.
+    /// Returns meshes whose normals fit their triangles less well after flipping. Recomputed normals fit in either
+    /// case.
     [[nodiscard]] std::vector<std::uint32_t> rightMeshes() {
         if (options_.normals == FinishNormals::all) return {};
         const auto wasMade = [&](const Finding& finding) {
@@ -160,7 +163,7 @@ class ModelInWork {
         return right;
     }
 
-    /// Null: it is about the file.
+    /// Returns null if the finding refers to the whole file.
     [[nodiscard]] const PrimitiveReport* primitiveOf(const Finding& finding) const {
         if (finding.place.empty()) return nullptr;
         for (const PrimitiveReport& primitive : report_.made.primitives) {
@@ -177,7 +180,7 @@ class ModelInWork {
         return count;
     }
 
-    /// Reads the file, or the bytes, and puts the result into `bytes_`.
+    /// Processes the file, or the bytes, and stores the result in `bytes_`.
     GenerateReport run(const std::string& name, ByteSpan content, GenerateOptions generate, const GenerateStep& step) {
         bytes_.clear();
         generate.file = fileOf(content);
@@ -188,11 +191,11 @@ class ModelInWork {
         return valueOrThrow(generateStep(name, output_, generate, step));
     }
 
-    /// Normals to recompute after fixing the winding.
+    /// Returns the normals to recompute after fixing the winding.
     [[nodiscard]] gltf::NormalWishes wishesOf() const {
         if (options_.normals == FinishNormals::none) return {};
         const std::vector<PrimitiveReport>& primitives = report_.made.primitives;
-        // Normals of STL give the orientation of triangles, not their shading.
+        // Normals of STL files only indicate the orientation of triangles, not their shading.
         const bool all = options_.normals == FinishNormals::all || lowerExtension(path_) == ".stl";
         gltf::NormalWishes wishes{.anew = std::vector<bool>(primitives.size(), all),
                                   .morphs = std::vector<bool>(primitives.size(), false)};
@@ -209,7 +212,7 @@ class ModelInWork {
         return any(wishes.anew) || any(wishes.morphs) ? wishes : gltf::NormalWishes{};
     }
 
-    /// Adds what a second run did.
+    /// Merges the report of a second run.
     void take(GenerateReport&& second, const gltf::NormalWishes& wishes) {
         GenerateReport& made = report_.made;
         made.changed = made.changed || second.changed;
@@ -244,7 +247,7 @@ class ModelInWork {
     const FinishOptions& options_;
     FinishedModel& report_;
     Bytes bytes_ = {};
-    CheckReport check_ = {};  ///< check of the bytes
+    CheckReport check_ = {};  ///< result of check on the bytes
 };
 
 BakeNames namesOf(const std::string& output) {
@@ -258,7 +261,7 @@ class Finishing {
 
     FinishReport run(const std::string& input, const std::string& output) {
         requireEnding(output, {".glb", ".vrm"});
-        // The low poly first: it is small, and what is wrong with it is known soon.
+        // The low poly is processed first: it is small, and its faults are found early.
         ModelInWork model(input, output, false, options_, report_.model);
         if (options_.low.empty()) {
             tagInput(BakeInput::high, [&] { return model.finish(), true; });
@@ -281,7 +284,7 @@ class Finishing {
     }
 
   private:
-    /// Fails where nothing can be baked.
+    /// Throws if nothing can be baked.
     void checkLow() const {
         if (report_.low->without_uvs_count < report_.low->made.primitives.size()) return;
         throw FileError{{.code = ErrorCode::missingAttribute,
@@ -301,7 +304,7 @@ class Finishing {
         report_.remarks.push_back(which + " no UVs, so no tangents and no maps were made: " + kUvMakers);
     }
 
-    /// The bake would name an option of its own.
+    /// Adds a note on noise, because the warning of the bake would name an option of bake.
     void noteNoise() {
         const auto& findings = report_.model.before.findings;
         const bool is_noisy = std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
@@ -315,7 +318,7 @@ class Finishing {
                 "--normals all");
     }
 
-    /// The model with its maps; the maps go to the outputs.
+    /// Returns the model with its maps; the map files are added to the outputs.
     Bytes bake(const std::string& input, const std::string& output, ByteSpan low, ByteSpan high) {
         BakeFileOptions bake = options_.bake;
         bake.map.rays.weld_distance = options_.weld_distance;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a model is finished.
+// Options of tspace finish.
 #include <algorithm>
 #include <iterator>
 #include <string_view>
@@ -13,7 +13,7 @@ namespace {
 constexpr Named<FinishNormals> kFinishNormals[] = {
     {"missing", FinishNormals::missing}, {"all", FinishNormals::all}, {"none", FinishNormals::none}};
 
-/// Options of bake that mean something here.
+/// Options of bake that finish also supports.
 constexpr std::string_view kBakes[] = {"--match",
                                        "--maps",
                                        "--samples",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tspace finish did as a page for people.
+// HTML report of tspace finish.
 #include <algorithm>
 
 #include "commands/finish/finish_report.h"
@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint32_t kViewWidth = 440, kViewHeight = 360;
 constexpr double kYawDeg = 35, kBehindDeg = 215;
 
-/// A model from both sides, lit and in the colours of the normals that are shaded.
+/// Returns pictures of a model from both sides, lit and in the colors of the shaded normals.
 std::string viewsHtml(const std::string& path, const FileOptions& file, const std::string& caption) {
     std::string figures;
     const std::optional<Error> failure = tryFile([&] {

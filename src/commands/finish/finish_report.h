@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tspace finish reports: as JSON, as text, and as a page.
+// Reports of tspace finish: as JSON, as text, and as an HTML page.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,13 @@
 
 namespace tspace {
 
-/// One HTML file that needs nothing else: pictures before and after, what was done, and what check finds in the output.
-/// `output`: its bytes; pictures of the models as they were are drawn of their files, which are read once more. Throws FileError.
+/// Returns a self-contained HTML page: pictures before and after, the changes, and the findings of check on the output.
+/// `output`: its bytes; pictures of the original models are drawn from their files, which are read again. Throws
+/// FileError.
 std::string finishPage(const FinishReport& report, const std::string& output_path, std::span<const std::uint8_t> output,
                        const FileOptions& file, const PageOrigin& origin);
 
-/// The files that finishFile() writes, for a comparison with `others` as in outputsBeside(), but for the page.
+/// Returns the files that finishFile() writes, without the page, for a comparison with `others` as in outputsBeside().
 std::vector<std::string> finishOutputs(const std::vector<std::string>& others, const std::string& output,
                                        const FinishOptions& options);
 
@@ -34,9 +35,9 @@ inline ExitCode exitCodeOf(const FinishReport& report) {
 std::string finishJson(const Outcome<FinishReport>& outcome, const std::string& low, ExitCode exit_code);
 std::string finishText(const Outcome<FinishReport>& outcome);
 
-/// "2 errors, 1 warning, 3 notes".
+/// Returns a summary such as "2 errors, 1 warning, 3 notes".
 std::string findingCounts(const CheckReport& report);
-/// Lists the changes to a model, in sentences without a full stop.
+/// Lists the changes to a model, in sentences without a final period.
 std::vector<std::string> doneTo(const FinishedModel& model);
 
 }  // namespace tspace::report

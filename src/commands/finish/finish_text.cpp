@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What was finished as text.
+// Report of tspace finish as text.
 #include <fmt/format.h>
 
 #include "commands/bake/bake_report.h"
@@ -15,7 +15,7 @@ void addModel(const char* what, const FinishedModel& model, Table& table) {
     for (const std::string& warning : model.made.warnings) table.addRow({"warning", printable(warning)});
 }
 
-/// The errors that are left, each with what mends it.
+/// Adds the remaining errors, each with its fix.
 void addErrors(const CheckReport& check, Table& table) {
     constexpr std::size_t kMostErrors = 5;
     std::size_t count = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// flipGreen and flipGreenFile: what an image may take, and files. Their report as JSON.
+// flipGreen and flipGreenFile: memory limits, and files. Also their report as JSON.
 #include <algorithm>
 
 #include "commands/flip_green/flip_green_report.h"
@@ -16,9 +16,9 @@
 namespace tspace {
 namespace {
 
-/// Rows of a PNG take next to no memory but time, and a few bytes may claim any number of them: their unpacked bytes may be
-/// this multiple of the memory limit. 1 GB, about 5 seconds, for any file: a map of one colour and 16384 x 16384
-/// texels has 800 MB in a file of 800 KB.
+/// Rows of a PNG need little memory but take time, and a small file may claim any number of them. The decoded size may
+/// be this multiple of the memory limit: 1 GB, about 5 seconds, for the smallest file. A single-color map of 16384 x
+/// 16384 texels has 800 MB in a file of 800 KB.
 void checkWork(ByteSpan bytes, std::uint64_t memory_limit_bytes) {
     constexpr std::uint64_t kTimesMemory = 16, kMost = std::uint64_t{1} << 56;
     const std::uint64_t memory = memory_limit_bytes != 0
@@ -44,7 +44,7 @@ FlippedImage flip(ByteSpan bytes, const FlipGreenOptions& options) {
     return valueOrThrow(flipImage(bytes, options));
 }
 
-/// Format according to the extension of the output's name.
+/// Returns the format according to the extension of the output's name.
 ImageFileFormat namedFormat(const std::string& output) {
     const std::string extension = lowerExtension(output);
     if (extension == ".png") return ImageFileFormat::png;

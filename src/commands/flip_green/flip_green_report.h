@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tspace flip-green reports.
+// Reports of tspace flip-green.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace tspace::report {
 std::string flipGreenJson(const Outcome<FlipGreenReport>& outcome, ExitCode exit_code);
 std::string flipGreenText(const Outcome<FlipGreenReport>& outcome);
 
-/// Format name: "PNG", "JPEG" or "WebP".
+/// Returns the name of a format: "PNG", "JPEG" or "WebP".
 const char* imageFormatName(ImageFileFormat format);
 
 }  // namespace tspace::report

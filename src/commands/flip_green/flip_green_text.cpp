@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An image whose green was inverted, as text.
+// Report of an image with inverted green as text.
 #include <fmt/format.h>
 
 #include "commands/flip_green/flip_green_report.h"

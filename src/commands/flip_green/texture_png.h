@@ -6,7 +6,8 @@
 
 namespace tspace {
 
-/// A KTX2 or DDS with green inverted as a PNG: x, y and z, and alpha where that is none of them. Throws FileError.
+/// Returns a KTX2 or DDS with inverted green as a PNG: x, y and z, and alpha if it is not one of them. Throws
+/// FileError.
 FlippedImage flippedTexturePng(ByteSpan bytes);
 
 }  // namespace tspace

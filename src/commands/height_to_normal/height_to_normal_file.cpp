@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// heightToNormalFile: the image, the mesh, warnings. Its options, and its report as JSON.
+// heightToNormalFile: reads the image and the mesh, and collects warnings. Also its options, and its report as JSON.
 #include "commands/shared/map_image_file.h"
 
 #include <cmath>
@@ -17,10 +17,10 @@
 namespace tspace {
 namespace {
 
-/// Leans beyond these mean that the strength is in other units than the mesh.
+/// Slopes beyond these limits suggest that the strength is in different units than the mesh.
 constexpr double kSteepDeg = 60, kFlatDeg = 0.1;
 
-/// The heights of a texel of 8 bits a channel, in meters.
+/// Returns the height of a texel with 8 bits per channel, in meters.
 double terrainHeight(HeightEncoding encoding, const Vec3& texel) {
     const auto byteOf = [](float part) { return std::floor(255 * static_cast<double>(part) + 0.5); };
     const double r = byteOf(texel.x), g = byteOf(texel.y), b = byteOf(texel.z);
@@ -28,7 +28,7 @@ double terrainHeight(HeightEncoding encoding, const Vec3& texel) {
                                                   : 256 * r + g + b / 256 - 32768;
 }
 
-/// Heights in meters above the first texel, so that floats keep all their digits.
+/// Returns heights in meters relative to the first texel, so that floats keep all their digits.
 std::vector<float> terrainHeights(HeightEncoding encoding, const FloatImage& image) {
     std::vector<float> heights;
     heights.reserve(image.texels.size());
@@ -37,7 +37,7 @@ std::vector<float> terrainHeights(HeightEncoding encoding, const FloatImage& ima
     return heights;
 }
 
-/// A byte that is off by one in red is off by kilometers.
+/// Throws if the image may be lossy: an error of one in red is an error of kilometers.
 void checkTerrain(ByteSpan bytes, const FloatImage& image) {
     if (image.bits != 8)
         failFile(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tspace height-to-normal reports.
+// Reports of tspace height-to-normal.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace tspace::report {
 
 std::string heightToNormalJson(const Outcome<HeightToNormalFileReport>& outcome, ExitCode exit_code);
-/// `options`: those of the call; the text names the strength and the model.
+/// `options`: options of the call; the text names the strength and the model.
 std::string heightToNormalText(const Outcome<HeightToNormalFileReport>& outcome,
                                const HeightToNormalFileOptions& options);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A height map that became a normal map, as text.
+// Report of a converted height map as text.
 #include <fmt/format.h>
 
 #include "commands/height_to_normal/height_to_normal_report.h"
