@@ -19,13 +19,13 @@ export const missing =
 const types = { ".html": "text/html", ".js": "text/javascript", ".wasm": "application/wasm" };
 
 /** Runs the module `page` until it sets window.result, which is returned. `files`: bytes by their addresses; body(tab, result): then. */
-export async function runPage({ page, files = {}, body = () => {}, size = { width: 800, height: 600 } }) {
+export async function runPage({ page, html = '<!doctype html><meta charset="utf-8"><script type="module" src="./page.js"></script>', query = "", files = {}, body = () => {}, size = { width: 800, height: 600 } }) {
   const folder = mkdtempSync(join(tmpdir(), "tspace-webgpu-"));
   let server, browser;
   try {
     const source = mkdtempSync(join(project, "webgpu-"));
     try {
-      writeFileSync(join(source, "index.html"), '<!doctype html><meta charset="utf-8"><body><script type="module" src="./page.js"></script>');
+      writeFileSync(join(source, "index.html"), html);
       writeFileSync(join(source, "page.js"), page);
       await vite.build({ root: source, configFile: false, logLevel: "error", build: { outDir: folder, target: "esnext", emptyOutDir: true } });
     } finally {
@@ -48,7 +48,7 @@ export async function runPage({ page, files = {}, body = () => {}, size = { widt
     const messages = [];
     tab.on("pageerror", (error) => messages.push(String(error)));
     tab.on("console", (message) => message.type() === "error" && messages.push(message.text()));
-    await tab.goto(`http://127.0.0.1:${server.address().port}/`);
+    await tab.goto(`http://127.0.0.1:${server.address().port}/${query}`);
     await tab.waitForFunction(() => window.result, null, { timeout: 240_000 }).catch((error) => assert.fail([...messages, error].join("\n")));
     const result = await tab.evaluate(() => window.result);
     assert.equal(result.error, undefined, messages.join("\n"));
