@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What is timed must be right. All jobs: the same bits with 1, 2 and 3 threads, written over garbage.
-// mikktspace: the bits of the interface of the reference, which reads and welds corner by corner, and those
-// that the reference itself gave where they are known. evaluate: those of mikktspace. lengyel: the plain
-// loop's directions. split: every corner finds its old vertex and its tangent.
+// Correctness checks of everything that is timed. All jobs: equal bits with 1, 2 and 3 threads, with outputs that
+// contain garbage before. mikktspace: equal to the bits of the reference's interface, which reads and welds corner by
+// corner, and to recorded results of the reference itself. evaluate: equal to mikktspace. lengyel: directions of the
+// plain loop. split: every corner finds its old vertex and its tangent.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -32,7 +32,7 @@ std::uint64_t hashWithThreads(const Job& job, unsigned threads, bool keep_tangen
     return hashOf(*job.outputs);
 }
 
-/// Corner by corner through the callbacks of the reference's interface.
+/// Data for the callbacks of the reference's interface, corner by corner.
 struct Callbacks {
     const Mesh* mesh;
     std::vector<std::size_t> first_corners;
@@ -79,7 +79,7 @@ std::uint64_t hashThroughCallbacks(const Mesh& mesh) {
 }
 
 std::string mikktspaceError(const Mesh& mesh, const Outputs& outputs) {
-    // The interface of the reference leaves polygons alone.
+    // The reference's interface ignores polygons.
     const bool has_polygons = std::ranges::any_of(mesh.face_sizes, [](std::uint32_t n) { return n > 4; });
     if (!has_polygons && hashThroughCallbacks(mesh) != hashOf(outputs)) {
         return "the reference's interface gives other bits";
@@ -91,7 +91,7 @@ std::string mikktspaceError(const Mesh& mesh, const Outputs& outputs) {
 
 std::string lengyelError(const Mesh& mesh, const Outputs& outputs) {
     constexpr float kNear = 0.9998f;  // one degree
-    // Where UVs are nearly flat, other rounding may turn a tangent. No more corners than one in so many.
+    // If UVs are nearly degenerate, different rounding may rotate a tangent: at most one corner in this many.
     constexpr std::size_t kOneInSoMany = 50;
     const Mesh triangles = mesh.triangulated();
     std::vector<Vec4> expected(mesh.positions.size());

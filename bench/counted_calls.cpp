@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The calls whose instructions the test counts: tspace_counted_calls CASE, under callgrind. One thread, SSE2
-// where the library has a choice, meshes that are the same everywhere: so the count depends on the code and
-// the compiler alone.
+// Calls whose instructions are counted by the test: tspace_counted_calls CASE, under callgrind. One thread, SSE2 if the
+// library has a choice, meshes that are equal on every machine: the count depends only on the code and the compiler.
 #include <cstdio>
 #include <cstring>
 #include <functional>
@@ -13,10 +12,10 @@
 namespace tspace::bench {
 namespace {
 
-/// callgrind counts while this function runs: a name that it can be told, and never inlined.
+/// Function that callgrind observes: with a fixed name, and never inlined.
 extern "C" [[gnu::noinline]] void tspaceCountedCall(const Job& job, const Execution& execution) {
     job.call(execution);
-    // Not a tail call, which would leave the function too early.
+    // prevents a tail call, which would leave the function too early
     asm volatile("" ::: "memory");
 }
 
@@ -60,7 +59,7 @@ constexpr PackCase kPackCases[] = {
     {"unpack_oct32_20k", FrameFormat::oct32, true},
 };
 
-/// Below the border, where targets can be chosen.
+/// Below the API boundary, where SIMD targets can be selected.
 Job packJob(FrameFormat name, bool unpack) {
     const pack::Format& format = *pack::formatOf(name);
     test::RandomBits random(1);
@@ -102,7 +101,7 @@ int run(const char* name) {
 int main(int argc, char** argv) {
     if (argc == 2 && std::strcmp(argv[1], "--compiler") == 0) {
 #ifndef __x86_64__
-        std::fputs("not for x86-64: ", stdout);  // whose instructions were recorded
+        std::fputs("not for x86-64: ", stdout);  // the recorded counts are for x86-64
 #endif
 #ifdef __clang__
         std::puts("clang " __clang_version__ " " TSPACE_BENCH_FLAGS);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Counts what the library allocates through the caller's hook.
+// Allocator that counts the library's allocations.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The whole tool as a process: making tangents against reading a file and writing the same bytes again.
+// The tool as a process: time to generate tangents relative to copying a file.
 #include <spawn.h>
 #include <stdlib.h>
 #include <sys/wait.h>
@@ -29,7 +29,7 @@ void runTool(const std::vector<std::string>& arguments) {
     }
 }
 
-/// Memory rather than a disk, where there is such a folder.
+/// Returns a folder in memory rather than on disk, if available.
 std::string temporaryFolder() {
     const bool has_memory = std::filesystem::is_directory("/dev/shm");
     std::string name = (has_memory ? std::filesystem::path("/dev/shm") : std::filesystem::temp_directory_path()) /
@@ -44,8 +44,7 @@ RowResult measureFile(const std::string& title, const std::string& model, Lab& l
     if (!std::filesystem::exists(input) || !std::filesystem::exists(lab.tool()) || folder.empty()) {
         return row.note = "not there: " + input + " or the tool", row;
     }
-    // No material of the model needs tangents, so without --all the tool reads it, looks into it, and writes
-    // its bytes.
+    // The model's materials need no tangents, so without --all the tool reads and examines it, and writes its bytes.
     const std::string copy = folder + "/copy.glb", result = folder + "/result.glb";
     const std::vector<std::string> unchanged = {lab.tool(), "generate", "--quiet", input, "-o", copy};
     const auto generate = [&](const char* threads) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reading as fast as the machine can, writing as plain stores.
+// Reads as fast as the machine can, and writes with ordinary stores.
 #include "floor.h"
 
 #include <cstring>
@@ -8,7 +8,7 @@ namespace tspace::bench {
 
 namespace {
 
-/// The sum of all whole 64-bit words: cheap enough that only the reading counts.
+/// Returns the sum of all 64-bit words: cheap enough that only reading matters.
 template <class T>
 std::uint64_t readAll(const std::vector<T>& values) {
     const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
@@ -26,7 +26,7 @@ std::uint64_t readAll(const std::vector<T>& values) {
 void memoryFloor(const Mesh& mesh, std::vector<Vec4>& out) {
     const std::uint64_t sum =
         readAll(mesh.positions) + readAll(mesh.normals) + readAll(mesh.uvs) + readAll(mesh.indices);
-    // The written value depends on what was read, so that neither half can be left out.
+    // The written value depends on the read data, so that neither can be optimized away.
     const float value = static_cast<float>(sum % 1024);
     for (Vec4& v : out) v = {value, value, value, value};
 }

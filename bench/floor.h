@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What no tangent generator can be faster than: the time to move its data.
+// Lower bound for any tangent generator: the time to move its data.
 #pragma once
 
 #include "mesh.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Regular meshes, made from their number of triangles alone.
+// Regular meshes, generated from their number of triangles.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,13 +10,13 @@ namespace tspace::bench {
 
 namespace {
 
-/// sin and cos of `periods` turns cut into `steps`, and of a ripple on top.
+/// sin and cos of `periods` turns divided into `steps`, and of a ripple on top.
 struct Turn {
     std::vector<double> sine, cosine, ripple, ripple_slope;
 
     Turn(std::uint32_t steps, double waves) {
         for (std::uint32_t i = 0; i <= steps; ++i) {
-            // The last step is the first one, to the bit: a seam is two vertices at one position.
+            // The last step equals the first one exactly: a seam is two vertices at one position.
             const double angle = 2 * std::numbers::pi * (i % steps) / steps;
             sine.push_back(std::sin(angle));
             cosine.push_back(std::cos(angle));
@@ -35,8 +35,8 @@ Vec3 unit(double x, double y, double z) {
     return toFloat(x / length, y / length, z / length);
 }
 
-/// u of each column: up for `fold` columns, then down at three quarters of the pace, so that it never comes
-/// back to the same value at the seam.
+/// Returns u of each column: increases for `fold` columns, then decreases at three quarters of the rate, so that it
+/// never returns to the same value at the seam.
 std::vector<float> foldedU(std::uint32_t columns, std::uint32_t fold) {
     std::vector<float> u = {0};
     double value = 0;
@@ -69,7 +69,7 @@ void addTorusVertices(Mesh& mesh, std::uint32_t columns, std::uint32_t rows, std
     }
 }
 
-/// rows = sqrt(triangles / 4), so that twice as many columns give that many triangles.
+/// Returns sqrt(triangles / 4), so that twice as many columns give that many triangles.
 std::uint32_t rowsFor(std::size_t triangles) {
     return std::max(1u, static_cast<std::uint32_t>(std::sqrt(static_cast<double>(triangles) / 4)));
 }

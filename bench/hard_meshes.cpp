@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The shapes that the tests of linear time use, under the names of the table.
+// Shapes of the linear-time tests, under the names of the table.
 #include <utility>
 
 #include "core/tangents/shapes.h"

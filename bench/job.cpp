@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One maker for each kind of call.
+// One factory for each kind of call.
 #include "job.h"
 
 #include <cstdio>
@@ -20,7 +20,7 @@ T orDie(Result<T> result) {
     return *std::move(result);
 }
 
-/// Multiply and rotate over 32-bit words; order matters.
+/// Hashes by multiplying and rotating 32-bit words; depends on the order.
 template <class T>
 void mix(std::uint64_t& hash, const std::vector<T>& values) {
     static_assert(sizeof(T) % 4 == 0);
@@ -78,7 +78,7 @@ Job evaluateJob(const Mesh& mesh) {
         }};
 }
 
-/// Asks for a result per vertex, where the library has that.
+/// Requests results per vertex, if the library supports that.
 template <class Options>
 bool askForVertexDomain(Options& options) {
     if constexpr (requires { options.domain; }) {
@@ -105,7 +105,7 @@ Job normalsJob(const Mesh& mesh, NormalWeighting weighting = NormalWeighting::an
             }};
 }
 
-/// With threads, where the library has that.
+/// Splits with threads, if the library supports that.
 template <class Run>
 Result<SplitResult> split(const Mesh& mesh, const Outputs& outputs, const Run& execution) {
     const CornerAttribute attributes[] = {cornerAttribute(outputs.tangents)};

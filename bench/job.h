@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The calls that are measured, by name.
+// Measured calls, by name.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace tspace::bench {
 
-/// What a call writes.
+/// Outputs of a call.
 struct Outputs {
     std::vector<Vec4> tangents = {};
     std::vector<Vec3> bitangents = {}, normals = {};
@@ -24,29 +24,29 @@ struct Outputs {
     SplitResult split = {};
 };
 
-/// A hash of all bits.
+/// Returns a hash of all bits.
 std::uint64_t hashOf(const Outputs& outputs);
 std::uint64_t hashOf(const Mesh& mesh);
 
 struct Job {
     std::shared_ptr<Outputs> outputs;
-    /// Ends the program when the library reports an error.
+    /// Terminates the program if the library reports an error.
     std::function<void(const Execution&)> call;
 };
 
-/// `mesh` must outlive the job. "mikktspace", "mikktspace_all" (every output), "mikktspace_corrected",
-/// "evaluate" (on a ready plan), "uniform", "angle", "area", "fast", "best", "lengyel", "lengyel_vertex" (a result per
-/// vertex), "flat", "basis", "normals" (angle-weighted), "normals_crease" (the same with a crease angle),
-/// "normals_flat", "split" (by the tangents of mikktspace). A job without outputs where the library does not have it.
+/// Creates a job; `mesh` must outlive it. "mikktspace", "mikktspace_all" (every output), "mikktspace_corrected",
+/// "evaluate" (on an existing plan), "uniform", "angle", "area", "fast", "best", "lengyel", "lengyel_vertex" (one
+/// result per vertex), "flat", "basis", "normals" (angle-weighted), "normals_crease" (with a crease angle),
+/// "normals_flat", "split" (by the tangents of mikktspace). The job has no outputs if the library does not support it.
 Job makeJob(const std::string& name, const Mesh& mesh);
 const std::vector<std::string>& jobNames();
 
-/// Why a result is wrong, or nothing: other thread counts must give the same bits, and so must another way to
-/// the same result; see check.cpp.
+/// Returns why a result is wrong, or an empty string: other thread counts, and alternative ways to compute the same
+/// result, must give the same bits; see check.cpp.
 std::string findError(const std::string& job_name, const Mesh& mesh);
 
-/// Targets by name: "scalar", "sse2", "avx2", "avx512", "neon". false where the library has no such choice, or this
-/// machine no such instructions.
+/// Selects a target by name: "scalar", "sse2", "avx2", "avx512", "neon". Returns false if the library has no such
+/// choice, or this machine does not support it.
 template <class Any>
 bool forceSimd(Any& execution, const std::string& target) {
     if constexpr (requires { execution.simd; }) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names to meshes, and what is kept between rows.
+// Meshes by name, and data shared by all rows.
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -11,13 +11,13 @@ namespace tspace::bench {
 
 namespace {
 
-/// "20k" or "8M"; else 0.
+/// Returns the number for "20k" or "8M"; otherwise 0.
 std::size_t trianglesOf(const std::string& size) {
     const std::size_t number = std::strtoul(size.c_str(), nullptr, 10);
     return size.ends_with("k") ? 1000 * number : size.ends_with("M") ? 1000000 * number : 0;
 }
 
-/// Without triangles where the name is not one.
+/// Returns a mesh without triangles if the name is unknown.
 Mesh generatedMesh(const std::string& name) {
     const std::size_t first = name.find('_'), second = name.find('_', first + 1);
     if (first == std::string::npos) return {};

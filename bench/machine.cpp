@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The processor by its own name; compiler and flags as they were at build time.
+// Processor name; compiler and flags at build time.
 #include "machine.h"
 
 #include <fmt/format.h>

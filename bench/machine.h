@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the figures come from.
+// Description of the machine that produced the results.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,7 +8,7 @@
 namespace tspace::bench {
 
 nlohmann::ordered_json machineJson();
-/// One line.
+/// Returns the description as one line.
 std::string machineText();
 
 }  // namespace tspace::bench

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rows over many meshes at once: real models as they are in their files, tori of all sizes where a rule of the reference may
-// matter, triangles in other orders, sizes where threads may not pay.
+// Rows over many meshes: real models as in their files, tori of all sizes for which a rule of the reference may matter,
+// triangles in other orders, sizes for which threads may not be worthwhile.
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
@@ -17,7 +17,7 @@ namespace tspace::bench {
 
 namespace {
 
-/// One mesh of a row: two calls in turns.
+/// One mesh of a row: two calls, measured alternately.
 struct Pair {
     double seconds = 0, base_seconds = 0;  ///< of the best round
     double ratio = 0;                      ///< median over rounds
@@ -37,7 +37,7 @@ std::string inWords(double value) {
     return text.substr(0, text.find('.') + 3);
 }
 
-/// The row's value is the worst mesh.
+/// Sets the row's value to the worst mesh.
 void summarize(const std::vector<Pair>& pairs, double asked, RowResult& row) {
     if (pairs.empty()) return void(row.note = "no meshes");
     const auto worst = std::ranges::max_element(pairs, {}, &Pair::ratio);
@@ -46,7 +46,7 @@ void summarize(const std::vector<Pair>& pairs, double asked, RowResult& row) {
     row.note = std::to_string(pairs.size()) + " meshes; worst at " + std::to_string(worst->triangles) + " triangles";
 }
 
-/// The row's value is the sum of times.
+/// Sets the row's value to the sum of times.
 void summarizeTotal(std::vector<Pair> pairs, RowResult& row) {
     if (pairs.empty()) return void(row.note = "no meshes");
     double seconds = 0, base_seconds = 0;
@@ -80,7 +80,7 @@ Row models(const std::string& title, std::size_t least, std::size_t most) {
         }};
 }
 
-/// Pairing::reference, which asks whether the reference's last bucket matters, against Pairing::corrected.
+/// Compares Pairing::reference, which tests whether the reference's last bucket matters, with Pairing::corrected.
 Pair racePairings(const Mesh& mesh, int rounds) {
     const Job reference = makeJob("mikktspace", mesh), corrected = makeJob("mikktspace_corrected", mesh);
     const Execution one{.thread_count = 1};
@@ -114,7 +114,7 @@ std::string torusName(const std::string& size, const std::string& order) {
     return "torus_" + size + (order == "natural" ? "" : "_" + order);
 }
 
-/// Tori whose triangles come in another order, against natural order. `sizes`: empty for that of the run.
+/// Compares tori whose triangles are in another order with natural order. `sizes`: empty for the size of the run.
 Row order(const std::string& title, const std::string& name, std::vector<std::string> sizes, double asked) {
     return {title, [=](Lab& lab) {
                 RowResult row{.title = title};
@@ -157,7 +157,7 @@ std::vector<Row> orderRows() {
     return rows;
 }
 
-/// Tori of some sizes: `threads` (0: as many as there are) against one.
+/// Compares `threads` (0: all) with one thread, for tori of some sizes.
 Row threads(const std::string& title, unsigned thread_count, std::vector<std::size_t> sizes) {
     return {title, [=](Lab& lab) {
                 RowResult row{.title = title};
@@ -173,7 +173,7 @@ Row threads(const std::string& title, unsigned thread_count, std::vector<std::si
             }};
 }
 
-/// Boxes in one call: two threads against one.
+/// Compares two threads with one thread, for boxes in a single call.
 Row meshJobs(const std::string& title, std::size_t box_count) {
     return {title, [=](Lab& lab) {
                 RowResult row{.title = title};
@@ -197,7 +197,7 @@ Row meshJobs(const std::string& title, std::size_t box_count) {
 
 Row smallCall(const std::string& title) {
     return {title, [=](Lab& lab) {
-                constexpr int kCalls = 1000;  // one alone is below what clocks and caches blur
+                constexpr int kCalls = 1000;  // a single call is below the resolution of clocks and caches
                 RowResult row{.title = title, .unit = " us"};
                 const Mesh mesh = boxMesh();
                 const Job job = makeJob("mikktspace", mesh);

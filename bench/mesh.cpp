@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What all meshes can do, whatever they were made from.
+// Functions of all meshes, whatever their source.
 #include "mesh.h"
 
 #include <random>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Models as one mesh each, through the readers of the asset layer.
+// Models as one mesh each, loaded by the readers of the asset layer.
 #include <algorithm>
 #include <exception>
 #include <filesystem>
@@ -84,7 +84,7 @@ std::vector<Mesh> modelPrimitives(const std::string& folder) {
         try {
             std::ranges::move(gltfPrimitives(path), std::back_inserter(meshes));
         } catch (const FileError&) {
-            // Not every file can be read: some are there to be refused.
+            // Some files are invalid by design, and are rejected.
         }
     }
     std::erase_if(meshes, [](const Mesh& mesh) { return mesh.triangleCount() == 0; });

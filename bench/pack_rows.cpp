@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Packing and unpacking frames, beside copying them.
+// Packing and unpacking of frames, compared with copying them.
 #include <cstring>
 
 #include "core/pack/format_names.h"
@@ -12,7 +12,7 @@ namespace tspace::bench {
 
 namespace {
 
-constexpr std::size_t kFrames = 16384;  ///< these stay in the second cache
+constexpr std::size_t kFrames = 16384;  ///< these fit into the L2 cache
 constexpr double kPackAsked = 60, kUnpackAsked = 3;
 
 const test::FrameList& someFrames() {
@@ -38,7 +38,7 @@ RowResult runPacking(const std::string& title, FrameFormat format, bool unpack, 
     const std::size_t copy = race.add([&] {
         std::memcpy(out.normals.data(), frames.normals.data(), kFrames * sizeof(Vec3));
         std::memcpy(out.tangents.data(), frames.tangents.data(), kFrames * sizeof(Vec4));
-        asm volatile("" ::: "memory");  // or the copies would be left out
+        asm volatile("" ::: "memory");  // prevents the copies from being optimized away
     });
     race.run(lab.rounds());
     const auto ns = [&](std::size_t which) { return 1e9 * race.best(which) / kFrames; };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// On purpose nothing clever: this is the code that most programs have.
+// Intentionally simple: this is the code of most programs.
 #include "plain_loop.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rounds of all runners, and what can be said about them.
+// Rounds of all runners, and their statistics.
 #include "race.h"
 
 #include <time.h>
@@ -19,7 +19,7 @@ double now(clockid_t clock) {
 }  // namespace
 
 std::size_t Race::add(std::function<void()> body) {
-    // Long enough for the clocks, short enough to be disturbed seldom.
+    // long enough for the clocks, short enough to be rarely disturbed
     constexpr double kSecondsPerRound = 2e-3;
     body();
     const double start = now(CLOCK_MONOTONIC);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Several pieces of work timed in turns, so that a change of the machine's pace meets all of them.
+// Alternating measurement of several tasks, so that changes of the machine's speed affect all of them.
 #pragma once
 
 #include <cstddef>
@@ -8,22 +8,22 @@
 
 namespace tspace::bench {
 
-/// Time on the processor leaves out the waiting for one, so it is the quieter clock where one thread works.
-/// Where two do, only the clock on the wall tells whether they worked at once.
+/// Processor time excludes waiting for a processor, so it is less noisy for a single thread. For two threads, only
+/// wall-clock time shows whether they ran at the same time.
 enum class Clock { processor, wall };
 
 class Race {
   public:
-    /// Returns the number of this runner. `body` is called once now, to warm up and to see how long it takes:
-    /// short ones run several times a round.
+    /// Adds a runner and returns its number. `body` is called once now, to warm up and to measure its duration: short
+    /// ones run several times per round.
     std::size_t add(std::function<void()> body);
     void run(int rounds);
 
-    /// Seconds for one call in the best round, which other load on the machine disturbs least.
+    /// Returns the seconds per call in the best round, which is disturbed least by other load.
     [[nodiscard]] double best(std::size_t runner, Clock clock = Clock::processor) const;
 
-    /// Quartiles of the ratios inside each round. On a shared machine the pace changes from second to second, by half
-    /// and more; what runs in one round meets the same pace, the best rounds of two runners need not.
+    /// Quartiles of the ratios within each round. On a shared machine the speed changes from second to second, by half
+    /// and more; measurements of one round have the same speed, the best rounds of two runners need not.
     struct Ratio {
         double median = 0, low = 0, high = 0;
     };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Made with the reference at commit 3e895b4, compiled by gcc 12.2 with -O2 -ffp-contract=off. How: check.cpp
-// linked with the reference in the place of tspace/compat/mikktspace.h, and a line printed for each mesh.
+// Created with the reference at commit 3e895b4, compiled by gcc 12.2 with -O2 -ffp-contract=off: check.cpp linked with
+// the reference instead of tspace/compat/mikktspace.h, printing a line for each mesh.
 #include "reference_results.h"
 
 namespace tspace::bench {

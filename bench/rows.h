@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rows of the table: what is asked, and how it is measured.
+// Rows of the table: targets and measurements.
 #pragma once
 
 #include <functional>
@@ -18,9 +18,9 @@ namespace tspace::bench {
 struct Cell {
     std::optional<double> value = {};
     double low = 0, high = 0;     ///< quartiles over rounds, for ratios of times
-    std::optional<double> asked;  ///< at most this
+    std::optional<double> asked;  ///< maximum target
     double ns = 0;                ///< per triangle, for times
-    bool busy = false;            ///< other work held the second core, so two threads could not show what they do
+    bool busy = false;            ///< other work used the second core, so two threads could not be measured
 
     [[nodiscard]] bool pass() const { return !value || !asked || *value <= *asked; }
 };
@@ -30,13 +30,13 @@ struct RowResult {
     std::string unit = "x";
     Cell one_thread = {}, two_threads = {};
     std::string note = {};
-    bool wrong = false;  ///< a result was not what it has to be; `note` says why
+    bool wrong = false;  ///< a result was wrong; `note` states why
 };
 
-/// What all rows share: meshes by name, made once, and checks done once.
+/// Data shared by all rows: meshes by name, created once, and checks performed once.
 class Lab {
   public:
-    /// rounds: 0 for the usual number
+    /// rounds: 0 for the default
     Lab(bool quick, int rounds, std::string shared_folder, std::string tool)
         : quick_(quick),
           rounds_(rounds > 0 ? rounds
@@ -47,22 +47,23 @@ class Lab {
 
     [[nodiscard]] bool quick() const { return quick_; }
     [[nodiscard]] int rounds() const { return rounds_; }
-    /// "1M", or "100k" in a quick run.
+    /// Returns "1M", or "100k" in a quick run.
     [[nodiscard]] std::string size() const { return quick_ ? "100k" : "1M"; }
     [[nodiscard]] const std::string& tool() const { return tool_; }
-    /// A file of the shared test data.
+    /// Returns the path of a file of the shared test data.
     [[nodiscard]] std::string shared(const std::string& path) const { return shared_ + "/" + path; }
 
-    /// SHAPE_SIZE[_ORDER]: torus, sphere, grid, quads, soup (the torus with unindexed corners) or folds (a torus that is
-    /// mirrored every tenth column), 10k, 8M or the like, and one of triangleOrders(); or the path of a model.
+    /// Returns a mesh by name: SHAPE_SIZE[_ORDER]: torus, sphere, grid, quads, soup (the torus with unindexed corners)
+    /// or folds (a torus mirrored every tenth column); 10k, 8M etc.; and one of triangleOrders(); or the path of a
+    /// model.
     const Mesh& mesh(const std::string& name);
-    /// The indexed triangles that the plain loop takes for it.
+    /// Returns its indexed triangles, as used by the plain loop.
     const Mesh& plainMesh(const std::string& name);
-    /// findError, once for each job and mesh.
+    /// Returns findError, computed once for each job and mesh.
     const std::string& error(const std::string& job, const std::string& mesh);
-    /// Each primitive of the shared models that has normals and UVs, as it is in its file.
+    /// Returns each primitive of the shared models with normals and UVs, unmodified.
     const std::vector<Mesh>& primitives();
-    /// Gives the memory of all meshes back.
+    /// Releases the memory of all meshes.
     void forgetMeshes();
 
   private:

@@ -16,13 +16,13 @@ namespace {
 
 struct Contest {
     std::string job;
-    std::string mesh;  ///< "SIZE" stands for the size of the run
+    std::string mesh;  ///< "SIZE" is replaced by the size of the run
     std::optional<double> asked_one, asked_two;
     std::string simd = {};     ///< forced target, or the best
-    bool any_threads = false;  ///< only the default number of threads, in the place of one
+    bool any_threads = false;  ///< only the default number of threads, instead of one
 };
 
-/// Two plain loops at once that take so much longer than one did not both have a core.
+/// If two concurrent plain loops take this many times as long as one, they did not both have a core.
 constexpr double kBusy = 1.25;
 
 std::string withSize(std::string mesh, const Lab& lab) {
@@ -42,14 +42,14 @@ std::string inWords(double ns) {
     return text.substr(0, text.find('.') + 2);
 }
 
-/// The plain loop twice at the same time: says how much of a second core this machine gives at the moment.
+/// Runs the plain loop twice concurrently, to measure how much of a second core is available.
 void plainLoopTwice(const Mesh& mesh, std::vector<Vec4>& tangents, std::vector<Vec4>& other_tangents) {
     std::thread other([&] { plainLoop(mesh, other_tangents); });
     plainLoop(mesh, tangents);
     other.join();
 }
 
-/// Whether the row can be measured and its results are right; if not, the row says why.
+/// Returns whether the row can be measured and its results are correct; if not, the row states why.
 bool isReady(RowResult& row, const Contest& contest, const std::string& mesh_name, Lab& lab) {
     const Mesh& mesh = lab.mesh(mesh_name);
     Execution probe;
@@ -66,7 +66,7 @@ bool isReady(RowResult& row, const Contest& contest, const std::string& mesh_nam
     return row.note.empty();
 }
 
-/// What the times depend on, in words.
+/// Returns remarks on what the times depend on.
 std::string remarks(const Contest& contest, const Mesh& mesh, const Job& job, std::size_t started_threads) {
     std::string text;
     if (contest.any_threads) text += "; threads started: " + std::to_string(started_threads);
@@ -116,7 +116,7 @@ Row contest(const std::string& title, const Contest& contest) {
     return {title, [=](Lab& lab) { return runContest(title, contest, lab); }};
 }
 
-/// A mesh eight times as large, time per triangle against the smaller one's.
+/// Measures a mesh eight times as large, as time per triangle relative to the smaller one.
 RowResult runGrowth(const std::string& title, Lab& lab) {
     RowResult row{.title = title};
     const std::string large_name = lab.quick() ? "torus_1M" : "torus_8M", small_name = "torus_" + lab.size();
@@ -143,7 +143,7 @@ RowResult runGrowth(const std::string& title, Lab& lab) {
     return row;
 }
 
-/// The largest mesh with memory from the system against memory that an arena keeps between calls.
+/// Measures the largest mesh with memory from the system against memory that an arena keeps between calls.
 RowResult runWithoutArena(const std::string& title, Lab& lab) {
     RowResult row{.title = title};
     row.note = lab.quick() ? "torus_1M" : "torus_8M";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every combination, each beside the plain loop and the memory floor on the same mesh.
+// All combinations, each next to the plain loop and the memory floor on the same mesh.
 #include "sweep.h"
 
 #include <benchmark/benchmark.h>
@@ -29,7 +29,7 @@ double secondsOf(const std::function<void()>& body) {
 }
 
 void measure(benchmark::State& state, Lab& lab, std::string& current_mesh, const Combination& c) {
-    // Meshes come one after the other, and the largest are too large to keep.
+    // Meshes are used one after the other, and the largest are too large to keep.
     if (current_mesh != c.mesh) lab.forgetMeshes();
     current_mesh = c.mesh;
     const Mesh &mesh = lab.mesh(c.mesh), &plain_mesh = lab.plainMesh(c.mesh);

@@ -8,8 +8,8 @@
 
 namespace tspace::bench {
 
-/// Google Benchmark over every mesh, job, thread count and SIMD target whose name MESH/JOB/threads:N/TARGET
-/// matches the regular expression. `json`: as in TableOptions. Returns 1 when nothing matches.
+/// Runs Google Benchmark over every mesh, job, thread count and SIMD target whose name MESH/JOB/threads:N/TARGET
+/// matches the regular expression. `json`: as in TableOptions. Returns 1 if nothing matches.
 int runSweep(Lab& lab, const std::string& pattern, const std::string& json);
 
 }  // namespace tspace::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows as Markdown, so that a table can go into a page as it is, and as JSON.
+// Prints rows as Markdown (for pasting into the docs) and as JSON.
 #include "table.h"
 
 #include <fmt/format.h>
@@ -37,7 +37,7 @@ std::string verdict(const Cell& cell) {
     return cell.busy ? "busy" : "short";
 }
 
-/// One text for both cells; empty where neither has one.
+/// Joins the texts of two cells; empty if both are empty.
 std::string joined(const std::string& a, const std::string& b) { return a.empty() || b.empty() ? a + b : a + "; " + b; }
 
 std::string spreadText(const Cell& cell) {
@@ -86,7 +86,7 @@ Json rowJson(const char* section, const RowResult& row) {
             {"wrong", row.wrong}};
 }
 
-/// The plain loop and the floor, which all other times are compared with.
+/// The plain loop and the memory floor, with which all other times are compared.
 struct Yardsticks {
     double plain, plain_shuffled, floor_vertex, floor_corner;  ///< ns per triangle
 };

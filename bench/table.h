@@ -13,8 +13,8 @@ struct TableOptions {
     std::string json = {};     ///< file, "-" (instead of the table), or empty
 };
 
-/// Measures and prints all rows that match. Returns 1 when a result was wrong, or nothing matched; a row that
-/// is short of its target is no failure.
+/// Measures and prints all matching rows. Returns 1 if a result was wrong, or nothing matched; a row that misses its
+/// target is not an error.
 int printTable(Lab& lab, const TableOptions& options);
 
 }  // namespace tspace::bench

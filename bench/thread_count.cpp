@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stands before the C library's pthread_create, which std::thread calls, and counts.
+// Intercepts the C library's pthread_create, which std::thread calls, and counts the calls.
 #include "thread_count.h"
 
 #include <dlfcn.h>

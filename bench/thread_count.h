@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Whether a call starts threads.
+// Number of started threads, to test whether a call starts any.
 #pragma once
 
 #include <cstddef>
 
 namespace tspace::bench {
 
-/// Threads that this program has started so far.
+/// Returns the number of threads that this program has started so far.
 std::size_t startedThreads();
 
 }  // namespace tspace::bench

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Meshes that make careless implementations quadratic or recursive: ten times the triangles, and a stack of
-// 64 KB.
+// Meshes that make naive implementations quadratic or recursive: ten times the triangles, and a stack of 64 KB.
 #include <pthread.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,7 +12,7 @@ namespace tspace::bench {
 
 namespace {
 
-/// In a process of its own, since the answer may be a crash.
+/// Runs in a separate process, which may crash.
 bool runsOnSmallStack(const Job& job) {
     const pid_t child = fork();
     if (child == 0) {

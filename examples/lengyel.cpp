@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Eric Lengyel's method (Computing Tangent Space Basis Vectors for an Arbitrary Mesh, 2001), written out with public functions:
-// one loop over the triangles, one loop over the vertices. generateTangents() with Method::lengyel computes the same.
+// Eric Lengyel's method (Computing Tangent Space Basis Vectors for an Arbitrary Mesh, 2001), implemented with public
+// functions: one loop over the triangles, one loop over the vertices. generateTangents() with Method::lengyel computes
+// the same tangents.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -13,7 +14,7 @@ using tspace::Vec3;
 
 void add(Vec3& sum, const Vec3& v) { sum = {sum.x + v.x, sum.y + v.y, sum.z + v.z}; }
 
-/// One tangent per vertex; w is the sign of B = w * cross(N, T).
+/// Returns one tangent per vertex; w is the sign in B = w * cross(N, T).
 std::vector<tspace::Vec4> lengyelTangents(const std::vector<Vec3>& positions, const std::vector<Vec3>& normals,
                                           const std::vector<tspace::Vec2>& uvs,
                                           const std::vector<std::uint32_t>& indices) {
@@ -29,7 +30,8 @@ std::vector<tspace::Vec4> lengyelTangents(const std::vector<Vec3>& positions, co
             add(along_v[vertex], face.bitangent);
         }
     }
-    // Make each tangent perpendicular to the normal (Gram-Schmidt). The sign says on which side of the tangent dP/dv lies.
+    // Make each tangent perpendicular to the normal (Gram-Schmidt). The sign is the side of the tangent on which dP/dv
+    // lies.
     std::vector<tspace::Vec4> tangents(positions.size());
     for (std::size_t v = 0; v < positions.size(); ++v)
         tangents[v] = tspace::packTangent({.tangent = along_u[v], .bitangent = along_v[v], .normal = normals[v]});
@@ -39,7 +41,7 @@ std::vector<tspace::Vec4> lengyelTangents(const std::vector<Vec3>& positions, co
 }  // namespace
 
 int main() {
-    // A square that is bent upwards, with a texture that covers it once.
+    // A square that is bent upwards; the texture covers it once.
     const std::vector<Vec3> positions = {{0, 0, 0}, {2, 0, 1}, {2, 2, 1}, {0, 2, 0}};
     const std::vector<Vec3> normals = {{-0.6f, 0, 0.8f}, {0, 0, 1}, {0, 0, 1}, {-0.6f, 0, 0.8f}};
     const std::vector<tspace::Vec2> uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};

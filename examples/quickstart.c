@@ -5,7 +5,7 @@
 
 enum { VERTICES = 6, CORNERS = 12, FLOATS = 8 };
 
-/* Two squares side by side, as an interleaved vertex buffer: position, normal, UV. The texture runs to the right on the
+/* Two adjacent squares, as an interleaved vertex buffer: position, normal, UV. The texture runs to the right on the
  * first square and is mirrored on the second, so the two vertices between them need two tangents each. */
 static const float vertices[VERTICES][FLOATS] = {
     {0, 0, 0, 0, 0, 1, 0, 0}, {1, 0, 0, 0, 0, 1, 1, 0}, {2, 0, 0, 0, 0, 1, 0, 0},
@@ -36,7 +36,7 @@ int main(void) {
     tspace_IndexedFrames* frames = NULL;
     if (tspace_makeIndexedFrames(&mesh, &options, NULL, &frames, &error) != TSPACE_OK) return fail(&error);
 
-    /* A vertex whose corners need different tangents is split: the copies come after the vertices of the mesh. */
+    /* A vertex whose corners need different tangents is split: the copies follow the vertices of the mesh. */
     for (size_t v = 0; v < frames->vertex_count; ++v) {
         const float* t = frames->tangents + 4 * v;
         printf("vertex %zu copies %u: tangent %g %g %g sign %g\n", v, (unsigned)frames->source_vertices[v], t[0], t[1],

@@ -6,7 +6,7 @@
 
 namespace {
 
-// Two squares side by side, as an interleaved vertex buffer: position, normal, UV. The texture runs to the right on the
+// Two adjacent squares, as an interleaved vertex buffer: position, normal, UV. The texture runs to the right on the
 // first square and is mirrored on the second, so the two vertices between them need two tangents each.
 constexpr std::size_t kFloatsPerVertex = 8, kVertexCount = 6;
 // clang-format off
@@ -41,7 +41,7 @@ int main() {
     const auto frames = tspace::makeIndexedFrames(mesh, options);
     if (!frames) return fail(frames.error());
 
-    // A vertex whose corners need different tangents is split: the copies come after the vertices of the mesh.
+    // A vertex whose corners need different tangents is split: the copies follow the vertices of the mesh.
     for (std::size_t v = 0; v < frames->vertexCount(); ++v) {
         const tspace::Vec4& t = frames->tangents[v];
         std::printf("vertex %zu copies %u: tangent %g %g %g sign %g\n", v,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads values from the input of a fuzz target.
+// Reader of values from the input of a fuzz target.
 #pragma once
 
 #include <cstdint>
@@ -7,20 +7,20 @@
 #include <cstdlib>
 #include <cstring>
 
-/// Aborts where `what` does not hold: that is the finding.
+/// Aborts if `holds` is false, which reports a finding.
 inline void require(bool holds, const char* what) {
     if (holds) return;
     std::fprintf(stderr, "fuzz: this does not hold: %s\n", what);
     std::abort();
 }
 
-/// Reads values off the input; zeros once it is used up.
+/// Reads values from the input; zeros after its end.
 class ByteReader {
   public:
     ByteReader(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
 
     std::uint8_t byte() { return at_ < size_ ? data_[at_++] : 0; }
-    /// A value of arbitrary bits.
+    /// Returns a float with arbitrary bits.
     float any() {
         std::uint8_t bytes[4] = {byte(), byte(), byte(), byte()};
         float value = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Runs a fuzz program without libFuzzer: fuzz_NAME SEEDS SECONDS. First every file below SEEDS as it is, then files
-// with random changes until the time is up. The same order every time. What kills the program is left in "crash-input".
+// Runs a fuzz program without libFuzzer: fuzz_NAME SEEDS SECONDS. First runs every file below SEEDS unchanged, then
+// files with random changes until the time limit. The order is deterministic. A crashing input is saved as
+// "crash-input".
 #include <algorithm>
 #include <chrono>
 #include <csignal>
@@ -29,7 +30,7 @@ void keepInput() {
     std::fprintf(stderr, "fuzz: the input is in crash-input (%zu bytes)\n", current.size());
 }
 
-/// Without sanitizers; it is the end, so that no rule for signals matters.
+/// Saves the input on a signal, without sanitizers. The process ends afterwards, so signal safety does not matter.
 void keepInputOf(int signal) {
     keepInput();
     std::signal(signal, SIG_DFL);
@@ -82,7 +83,7 @@ class Mutator {
                              piece.end());
                 break;
             }
-            default: {  // a piece of another seed
+            default: {  // part of another seed
                 const Input& other = seeds_[below(seeds_.size())];
                 if (other.empty()) break;
                 const std::size_t from = below(other.size()),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files for calls that read no bytes.
+// Temporary files for calls that cannot read from memory.
 #pragma once
 
 #include <unistd.h>
@@ -15,7 +15,7 @@
 
 namespace tspace::fuzz {
 
-/// A folder in memory where there is one.
+/// Creates a folder, in memory if possible.
 inline std::filesystem::path makeFolder() {
     std::error_code failed;
     const std::filesystem::path shm = "/dev/shm";

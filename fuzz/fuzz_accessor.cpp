@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Accessors: input is JSON with `bufferViews` and `accessors`, a zero byte, and the bytes of buffer 0. Every accessor
-// is decoded in every way; each must end with values or with an error.
+// Accessors: the input is JSON with `bufferViews` and `accessors`, a zero byte, and the bytes of buffer 0. Every
+// accessor is decoded in every way; each call must return values or an error.
 #include <algorithm>
 #include <string>
 
@@ -20,7 +20,7 @@ void attempt(Body&& body) {
     try {
         body();
     } catch (const FileError&) {
-        // What broken files lead to.
+        // expected for invalid files
     }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Baking and measuring: any low poly, any high poly, any options give an error, or a map whose channels all lie in 0 to 1 and
-// the same for two threads. Without Embree nothing is baked, and nothing is looked for.
+// Baking and measuring: any low poly, high poly and options result in an error, or in a map whose channels are all in 0
+// to 1 and equal for two threads. Without Embree nothing is tested.
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -16,7 +16,7 @@ class BakeReader : public ByteReader {
   public:
     using ByteReader::ByteReader;
 
-    /// Mostly multiples of a small step, so that surfaces meet; now and then arbitrary bits.
+    /// Returns mostly multiples of a small step, so that surfaces intersect; sometimes arbitrary bits.
     float value() {
         const std::uint8_t b = byte();
         return b == 255 ? any() : static_cast<float>(b % 17) / 8 - 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The core's border: any mesh with any options. One thread with plain C++ and three threads with the best SIMD give the
-// same bits, as do generate and plan + evaluate; sanitize leaves nothing broken.
+// API boundary of the core: any mesh with any options. One thread with scalar code and three threads with the best SIMD
+// target give the same bits, as do generate and plan + evaluate; sanitize leaves no invalid tangent.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -21,7 +21,7 @@ class Reader : public ByteReader {
   public:
     using ByteReader::ByteReader;
 
-    /// Few different values, so that corners weld and triangles collapse; now and then arbitrary bits.
+    /// Returns few different values, so that corners are welded and triangles collapse; sometimes arbitrary bits.
     float value() {
         const std::uint8_t b = byte();
         return b == 255 ? any() : static_cast<float>(b % 7) - 3;
@@ -60,7 +60,7 @@ struct Input {
     }
 };
 
-/// An index list for each attribute over the same faces: normals and UVs of other vertices.
+/// Separate index lists for each attribute over the same faces: normals and UVs of other vertices.
 struct Lists {
     std::vector<std::uint8_t> normals = {};
     std::vector<std::uint16_t> uvs = {};
@@ -78,7 +78,7 @@ struct Lists {
     }
 };
 
-/// All outputs of one call. A NaN equals any NaN: which one a sum of two gives is the processor's choice.
+/// All outputs of a call. A NaN equals any NaN: the processor chooses which NaN a sum of two returns.
 struct Outputs {
     std::vector<Vec4> tangents;
     std::vector<Vec3> bitangents;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two models, compared: figures that are in order and within their bounds, the same numbers of pairs in both directions, and no
+// Comparison of two models: consistent values within their bounds, equal numbers of pairs in both directions, and no
 // difference between a model and itself.
 #include <cmath>
 

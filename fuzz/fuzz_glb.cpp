@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whole files: the binary container, then all behind it.
+// Whole GLB files: the binary container and its contents.
 #include "whole_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whole files: the JSON of glTF, with buffers in data URIs.
+// Whole glTF files: JSON with buffers in data URIs.
 #include "whole_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Images: what their heads claim, their pixels with 8 bits and with all, and their green channel inverted.
+// Images: headers, pixels with 8 bits and with full precision, and inversion of the green channel.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Answers of an importer that a hostile model has taken over: arbitrary messages and results, through every command.
+// Output of an importer that is under control of a hostile model: arbitrary messages and results, through every
+// command.
 #include "whole_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

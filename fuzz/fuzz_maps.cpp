@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The engines of convert-map, height-to-normal and map-error: any texels, frames and options give an error, or channels that lie
-// in 0 to 1, and the same from two threads.
+// Engines of convert-map, height-to-normal and map-error: any texels, frames and options result in an error, or in
+// channels in 0 to 1 that are equal for two threads.
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -57,7 +57,7 @@ MapSide sideOf(ByteReader& in, const Corners& corners) {
     return side;
 }
 
-/// call(threads, out) once with one thread and once with two.
+/// Calls call(threads, out) with one thread and with two, and compares the outputs.
 template <class Call>
 void requireSame(std::size_t texels, Call&& call) {
     std::vector<Vec3> one(texels), two(texels);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Packed frames: any bytes are sound frames; any floats can be packed, and what unpacks packs to the same; models that have
-// packed frames, sound or not, get others that check finds nothing wrong with.
+// Packed frames: any bytes are valid frames; any floats can be packed, and unpacked frames pack to the same bytes;
+// models with valid or invalid packed frames get new ones without findings in check.
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -27,7 +27,7 @@ void requireUnit(const std::vector<Vec3>& normals, const std::vector<Vec4>& tang
     }
 }
 
-/// The frames of `bytes`, and whether they come back when they are packed and unpacked.
+/// Checks the frames of `bytes`, and whether packing and unpacking reproduces them.
 void checkBytes(FrameFormat format, std::span<const std::byte> bytes, bool is_exact) {
     const std::size_t count = bytes.size() / frameBytes(format);
     std::vector<Vec3> normals(count), again_normals(count);
@@ -46,7 +46,7 @@ void checkBytes(FrameFormat format, std::span<const std::byte> bytes, bool is_ex
 }
 
 void checkFloats(ByteReader& in, FrameFormat format) {
-    constexpr std::size_t kCount = 9;  // more than the lanes of any CPU
+    constexpr std::size_t kCount = 9;  // more than the lanes of any SIMD target
     std::vector<Vec3> normals;
     std::vector<Vec4> tangents;
     const auto value = [&in] {
@@ -80,7 +80,7 @@ void checkModel(ByteReader& in, FrameFormat format) {
     const bool is_sound = checkFile("a.glb", {.file = options.file}).ok();
     const Result<GenerateReport> report = generateFile("a.glb", "b.glb", options);
     if (!report) return require(!report.error().message.empty(), "an error has a message");
-    // Primitives that stay as they are go out as they came in; indices out of range are found by check alone.
+    // Unchanged primitives are copied as they are; only check finds indices out of range.
     if (!is_sound) return;
     const Result<CheckReport> checked = checkFile("b.glb", {.file = {.content = output}});
     require(checked.ok(), "what was written can be read");
@@ -104,7 +104,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     ByteReader in(data, size);
     const auto format = static_cast<FrameFormat>(in.byte() % 9);
     const std::size_t count = size / frameBytes(format);
-    // Exact where the header says so.
+    // Exact for the formats for which the header guarantees it.
     checkBytes(format, {reinterpret_cast<const std::byte*>(data), count * frameBytes(format)},
                format <= FrameFormat::oct32);
     checkFloats(in, format);

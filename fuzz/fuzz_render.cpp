@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures of any model with any options: a PNG of the size that was asked for, the same from two threads, or an error.
+// Images of any model with any options: a PNG of the requested size, equal for two threads, or an error.
 #include <string>
 #include <vector>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// KTX2 and DDS whose heads are right but for what the input says: any bytes as blocks and levels. fuzz_image has files that are
-// broken anywhere.
+// KTX2 and DDS files with valid headers, except for values from the input: arbitrary bytes as blocks and levels.
+// fuzz_image covers files that are corrupt anywhere.
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -20,7 +20,7 @@ void put(Bytes& to, Number number) {
     for (std::size_t i = 0; i < sizeof number; ++i) to.push_back(static_cast<std::uint8_t>(number >> 8 * i));
 }
 
-/// What a file says of itself.
+/// Header values of a file.
 struct Claims {
     std::uint32_t format = 0, width = 0, height = 0, levels = 1;
     std::uint8_t scheme = 0, model = 1, channel = 0, transfer = 1;
@@ -86,7 +86,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     claims.channel = choices / 16;
     if (claims.model == 166) claims.format = 0;
     claims.levels = 1;
-    // Bytes of a block of 16 are claimed; of other formats the file is then broken, but for those that come to as many.
+    // Claims the size of 16-byte blocks; for formats with other sizes the file is then invalid, unless the sizes happen
+    // to match.
     const std::uint64_t blocks = (claims.width + 3) / 4 * ((claims.height + 3) / 4);
     const std::uint8_t per_texel = in.byte() % 18;
     claims.unpacked = per_texel > 16   ? blocks * 16

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Stands for an importer that a model has taken over. The "model" is its script: how it ends (1 byte), the length of its
-// messages (2 bytes, low byte first), the messages, and its result.
+// Simulates an importer under control of a hostile model. The "model" is its script: exit status (1 byte), length of
+// the messages (2 bytes, little-endian), the messages, and the result.
 #include <cstdio>
 #include <cstdlib>
 #include <iterator>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes a small image from the input.
+// Creates a small image from the input.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace tspace::fuzz {
 
-/// Up to 12 texels wide and high; often as normal maps are, blue for the most part.
+/// Creates a random image of up to 12 x 12 texels; often mostly blue, like a normal map.
 inline FloatImage makeImage(ByteReader& in) {
     const std::uint32_t width = 1 + in.byte() % 12u, height = 1 + in.byte() % 12u;
     const bool is_blue = in.byte() % 2 == 0;
@@ -22,7 +22,7 @@ inline FloatImage makeImage(ByteReader& in) {
     return image;
 }
 
-/// The same as a PNG; empty where this build writes none.
+/// Returns such an image as a PNG; empty if this build cannot write PNGs.
 inline std::vector<std::uint8_t> makePng(ByteReader& in) {
     const FloatImage image = makeImage(in);
     return encodePng(image, image.bits).value_or(std::vector<std::uint8_t>{});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Makes a GLB from the input. Its structure is mostly valid, so that the code behind the reader runs, on arbitrary values.
-// Broken files are the work of other targets.
+// Creates a GLB from the input. Its structure is mostly valid, so that the code behind the reader runs, on arbitrary
+// values. Other targets cover invalid files.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@
 
 namespace tspace::fuzz {
 
-/// The component type of an accessor.
+/// Component type of an accessor.
 struct NumberFormat {
     gltf::ComponentType component;
     bool is_normalized = false;
@@ -24,7 +24,7 @@ struct NumberFormat {
 
 class ModelMaker {
   public:
-    /// `image`: a file for its textures; empty: it has none.
+    /// `image`: file for its textures; empty: no textures.
     explicit ModelMaker(ByteReader& in, std::vector<std::uint8_t> image = {}) : in_(in), image_(std::move(image)) {}
 
     std::vector<std::uint8_t> glb() {
@@ -52,12 +52,13 @@ class ModelMaker {
     using ComponentType = gltf::ComponentType;
     using Numbers = NumberFormat;
 
-    /// Mostly multiples of a small step, so that corners weld and triangles meet; now and then arbitrary bits.
+    /// Returns mostly multiples of a small step, so that corners are welded and triangles meet; sometimes arbitrary
+    /// bits.
     float value() {
         const std::uint8_t b = in_.byte();
         return b == 255 ? in_.any() : static_cast<float>(b % 17) / 8 - 1;
     }
-    /// A number that JSON can spell.
+    /// Returns a number that JSON can represent.
     std::string number() {
         const float x = value();
         char text[40];
@@ -79,7 +80,7 @@ class ModelMaker {
         return view_count_++;
     }
 
-    /// Elements of `width` numbers, each at a multiple of four bytes where `is_aligned`. Returns the accessor.
+    /// Adds elements of `width` numbers, aligned to four bytes each if `is_aligned`. Returns the accessor.
     std::size_t addAccessor(const Numbers& kind, const char* type, std::size_t width, std::size_t count,
                             bool is_aligned) {
         const std::size_t stride = is_aligned ? (kind.bytes() * width + 3) / 4 * 4 : kind.bytes() * width;
@@ -112,7 +113,7 @@ class ModelMaker {
     }
 
     static constexpr Numbers kFloat{ComponentType::f32};
-    /// Of vectors: floats, or integers as KHR_mesh_quantization has them.
+    /// Returns a format for vectors: floats, or integers as in KHR_mesh_quantization.
     Numbers vectorNumbers() {
         constexpr Numbers kKinds[] = {kFloat, kFloat, kFloat, {ComponentType::i8, true}, {ComponentType::i16, true}};
         return kKinds[in_.byte() % 5];
@@ -189,7 +190,7 @@ class ModelMaker {
         return list;
     }
 
-    /// A chain from node 0 on, whose every matrix may be singular or turn things inside out.
+    /// Returns a chain of nodes from node 0, whose matrices may be singular or mirroring.
     std::string nodes() {
         std::string list;
         for (std::size_t n = 0; n < 3; ++n) {

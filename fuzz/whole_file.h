@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One hostile file through every command. What must hold: no crash, no leak, no report of a sanitizer; and a run that
-// fails leaves nothing behind.
+// Runs every command on a hostile file. Requirements: no crash, no leak, no sanitizer report; and a failed run leaves
+// no files behind.
 #pragma once
 
 #include <cstddef>

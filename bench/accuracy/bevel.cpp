@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A square face with rounded borders: large flat triangles beside thin ones, on which the texture may run otherwise.
-// Where it is sheared, the patches at the face's corners have no UV area (45 degrees) or are mirrored (72 degrees).
+// A square face with rounded borders: large flat triangles adjacent to thin ones, on which the texture may have another
+// direction. If it is sheared, the patches at the face's corners have no UV area (45 degrees) or are mirrored (72
+// degrees).
 #include "test_mesh.h"
 
 namespace tspace::accuracy {
 
 namespace {
 
-constexpr double kQuarter = 0.78539816339744831;  // the rounded part turns by 45 degrees: the rest is the next face's
+// the rounded part rotates by 45 degrees: the rest belongs to the next face
+constexpr double kQuarter = 0.78539816339744831;
 
 class BevelGrid {
   public:
@@ -31,7 +33,7 @@ class BevelGrid {
   private:
     struct Line {
         double flat = 0;   ///< coordinate on the flat part
-        double angle = 0;  ///< by which the normal leans there
+        double angle = 0;  ///< angle of the normal there
     };
 
     [[nodiscard]] const Line& line(int i) const { return lines_[static_cast<std::size_t>(i)]; }
@@ -41,11 +43,11 @@ class BevelGrid {
         const double r = bevel_.radius;
         const DVec3 normal = unit({std::tan(x.angle), std::tan(y.angle), 1});
         const double shear = std::tan(bevel_.shear_deg * kQuarter / 45);
-        const double past_x = r * x.angle, past_y = r * y.angle;  // the way along the arc, beyond the flat part
+        const double past_x = r * x.angle, past_y = r * y.angle;  // arc length beyond the flat part
         ExactFrame frame;
         frame.position = DVec3{x.flat, y.flat, -r} + r * normal;
         frame.normal = normal;
-        frame.tangent = {1, 0, 0};  // of the flat part; nothing is measured elsewhere
+        frame.tangent = {1, 0, 0};  // of the flat part; other parts are not measured
         frame.bitangent = {0, 1, 0};
         frame.u = x.flat + bevel_.stretch * past_x + shear * past_y;
         frame.v = y.flat + bevel_.stretch * past_y + shear * past_x;

@@ -10,7 +10,7 @@ namespace tspace::accuracy {
 
 namespace {
 
-constexpr int kPixels = 48;  // along each side of a panel
+constexpr int kPixels = 48;  // pixels along each side of a panel
 constexpr double kSide = 168, kGap = 16, kTop = 48, kName = 20;
 constexpr std::size_t kColumns = 4;
 
@@ -32,7 +32,7 @@ double turn(const Vec3& a, const Vec3& b, double x, double y) {
     return (double{b.x} - a.x) * (y - a.y) - (double{b.y} - a.y) * (x - a.x);
 }
 
-/// The error at a place of the flat face, seen from above.
+/// Returns the error at a position of the flat face, seen from above.
 double errorAt(const TestMesh& mesh, const BevelPanel& panel, const DVec3& exact, double x, double y) {
     for (const std::uint32_t triangle : mesh.measured) {
         const std::size_t first = 3 * std::size_t{triangle};
@@ -48,7 +48,7 @@ double errorAt(const TestMesh& mesh, const BevelPanel& panel, const DVec3& exact
     return 0;
 }
 
-/// One path per colour; neighbours in a row of the same colour are one rectangle.
+/// Returns one path per color; adjacent pixels of a row with equal color become one rectangle.
 std::string pixels(const TestMesh& mesh, const BevelPanel& panel, const DVec3& exact, double left, double top) {
     std::string paths[kSteps];
     const double size = kSide / kPixels;

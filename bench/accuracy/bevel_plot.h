@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Errors over the flat face of a bevel, as colours.
+// Errors over the flat face of a bevel, as colors.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace tspace::accuracy {
 
-/// One square of the picture: a vector per corner of the mesh, which is interpolated and held against `exact`.
+/// One square of the image: a vector per corner of the mesh, which is interpolated and compared with `exact`.
 struct BevelPanel {
     std::string name;
     std::vector<Vec3> vectors;

@@ -7,10 +7,10 @@ namespace tspace::accuracy {
 
 namespace {
 
-// With this factor the figures of MikkTSpace are those of the study that the targets come from.
+// With this factor the results of MikkTSpace equal those of the study from which the targets were taken.
 constexpr double kUvNoise = 0.915;
 
-/// With mean 0 and deviation 1.
+/// Returns a normally distributed number with mean 0 and standard deviation 1.
 double normalDeviate(Random& random) {
     const double size = std::sqrt(-2 * std::log(1 - random.unit()));
     return size * std::cos(6.283185307179586 * random.unit());
@@ -33,7 +33,8 @@ std::vector<double> meanEdges(const TestMesh& mesh, At at) {
     return sums;
 }
 
-/// The two copies of a vertex on the fold follow one another and have to stay together.
+/// Returns whether a vertex is the second copy of a vertex on the fold. Both copies are consecutive, and must move
+/// together.
 bool isSecondCopy(const TestMesh& mesh, std::size_t v) {
     return v > 0 && mesh.s[v] == mesh.s[v - 1] && mesh.t[v] == mesh.t[v - 1];
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Meshes as CAD kernels cut them, and as simplifiers leave them.
+// Meshes as triangulated by CAD kernels, and as produced by simplifiers.
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -22,7 +22,7 @@ std::uint32_t addPoint(Scan& to, const DVec3& p) {
     return static_cast<std::uint32_t>(to.positions.size() - 1);
 }
 
-/// The profile turned about z, in quads cut in two. Its ends, unless it is closed, are fans from one vertex.
+/// Rotates the profile about z, as quads cut into triangles. Unless it is closed, its ends are fans from one vertex.
 Scan turnedAboutZ(const Shape& shape, const std::vector<ProfilePoint>& profile, std::uint32_t sides, bool is_closed) {
     Scan made{&shape};
     const auto rings = static_cast<std::uint32_t>(profile.size());
@@ -65,7 +65,7 @@ Scan filleted(std::uint32_t sides, std::uint32_t segments) {
     return turnedAboutZ(drawnShapes()[1], profile, sides, false);
 }
 
-/// Two sides of `strips` long quads each, the others of one.
+/// Returns a slab with two sides of `strips` long quads each, and single quads on the others.
 Scan slab(std::uint32_t strips) {
     Scan made{&drawnShapes()[3]};
     std::vector<std::uint32_t> lower, upper;

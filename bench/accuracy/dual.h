@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Numbers that carry their derivatives along s and t: exact derivatives of any formula (automatic differentiation,
-// forward mode).
+// Dual numbers with derivatives along s and t: exact derivatives of any formula (automatic differentiation, forward
+// mode).
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@ struct Dual {
     double value = 0, ds = 0, dt = 0;
 
     constexpr Dual() = default;
-    constexpr Dual(double v) : value(v) {}  // NOLINT: constants may stand in formulas
+    constexpr Dual(double v) : value(v) {}  // constants may be used in formulas
     constexpr Dual(double v, double along_s, double along_t) : value(v), ds(along_s), dt(along_t) {}
 };
 
@@ -22,7 +22,7 @@ inline Dual operator*(const Dual& a, const Dual& b) {
     return {a.value * b.value, a.ds * b.value + a.value * b.ds, a.dt * b.value + a.value * b.dt};
 }
 
-/// The function whose value at a is `value` and whose derivative there is `slope`.
+/// Returns a function's dual number, given its `value` and `slope` at a.
 inline Dual chain(const Dual& a, double value, double slope) { return {value, slope * a.ds, slope * a.dt}; }
 
 inline Dual operator/(const Dual& a, const Dual& b) { return a * chain(b, 1 / b.value, -1 / (b.value * b.value)); }

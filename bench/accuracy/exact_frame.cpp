@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kDegrees = 57.29577951308232;
 
-/// The inverse of the derivative of (u, v) by (s, t).
+/// Inverse of the derivative of (u, v) by (s, t).
 struct Inverse {
     double su, sv, tu, tv, determinant;
 

@@ -10,7 +10,7 @@ namespace tspace::accuracy {
 
 namespace {
 
-// In the figures "scattered" stands for irregular and random together.
+// In the figures "scattered" denotes irregular and random together.
 const char* const kScattered = "scattered";
 
 template <class RecordType>
@@ -24,7 +24,7 @@ double meanOf(const std::vector<RecordType>& records, const std::function<bool(c
     return geometricMean(collect<RecordType>(records, wanted, value));
 }
 
-/// Over all surfaces, undamaged.
+/// Returns the mean over all surfaces, without damage.
 template <class RecordType>
 double cleanMean(const std::vector<RecordType>& records, const std::string& method, const std::string& tessellation,
                  int cells, bool held_out, const std::function<double(const RecordType&)>& value) {
@@ -37,7 +37,7 @@ double cleanMean(const std::vector<RecordType>& records, const std::string& meth
         value);
 }
 
-/// Vertex errors of damaged meshes, with shares in [low, high].
+/// Returns vertex errors of damaged meshes, with shares in [low, high].
 template <class RecordType>
 double damagedMean(const std::vector<RecordType>& records, const std::string& method, const std::string& damage,
                    double low, double high, bool held_out) {
@@ -67,7 +67,7 @@ double largest(const std::vector<double>& values) {
     return values.empty() ? std::nan("") : *std::max_element(values.begin(), values.end());
 }
 
-/// How many times the error halves when cells do.
+/// Returns the order of convergence: how many times the error halves if the cell size halves.
 double order(double coarse, double fine, double factor) { return std::log(coarse / fine) / std::log(factor); }
 
 Figure shadingFigure(const std::string& tessellation, int cells) {
@@ -130,7 +130,7 @@ Figure bevelFigure(const char* key, const char* title, double Record::*value) {
             }};
 }
 
-/// Over the surfaces that have a fold.
+/// Returns the mean over the surfaces with a fold.
 Figure foldFigure() {
     return {"fold_gap_scattered_32", "both sides of a fold, 32x32 scattered",
             [](const Study& study, const std::string& method, bool held_out) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The figures that tables, JSON and plots show: each one a mean over many records of a study.
+// Values shown by tables, JSON and plots: each one is a mean over many records of a study.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace tspace::accuracy {
 
-/// One column of the wide table. NaN where a quick study did not measure it.
+/// A column of the wide table. NaN if a quick study did not measure it.
 struct Figure {
     std::string key;    ///< for JSON
     std::string title;  ///< for people
@@ -21,15 +21,15 @@ struct Figure {
 std::span<const Figure> tangentFigures();
 /// Vertex normals by weighting.
 std::span<const Figure> normalFigures();
-/// The figure with that key, of the tangents.
+/// Returns the tangent figure with that key.
 const Figure& tangentFigure(const std::string& key);
 
-/// The mean vertex error, or mean shading error, over the surfaces of one tessellation.
+/// Return the mean vertex error, or the mean shading error, over the surfaces of one tessellation.
 double tangentError(const Study& study, const std::string& method, const std::string& tessellation, int cells,
                     bool held_out);
 double shadingError(const Study& study, const std::string& method, const std::string& tessellation, int cells,
                     bool held_out);
-/// The same of vertex normals, borders included.
+/// Returns the mean error of vertex normals, including borders.
 double normalError(const Study& study, const std::string& weighting, const std::string& tessellation, int cells,
                    bool held_out);
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Normals of the kinds of meshes that people have: grids, scans, decimated meshes and drawn ones, of shapes that were tried
-// and of others.
+// Normals for typical kinds of meshes: grids, scans, decimated meshes and CAD meshes, of tuned and held-out shapes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +27,7 @@ struct Kind {
     std::function<std::vector<Scan>(const StudyOptions&, std::span<const Shape>)> make;
 };
 
-/// One mesh of each shape that is sharp, or is not.
+/// Returns one mesh of each shape that is sharp, or not sharp.
 Kind kindOf(std::string name, bool is_sharp, const std::function<Scan(const Shape&, int cells, Random)>& one,
             int cells) {
     return {std::move(name), is_sharp, [=](const StudyOptions& options, std::span<const Shape> from) {
@@ -75,7 +74,8 @@ Normals normalsBy(const Scan& scan, const NormalOptions& options) {
     return normals;
 }
 
-/// Weighted by the angle and by the product of its edges, as meshoptimizer's generateNormals without smoothing.
+/// Computes normals weighted by the angle and by the product of its edges, as meshoptimizer's generateNormals without
+/// smoothing.
 Normals normalsByProduct(const Scan& scan) {
     std::vector<DVec3> sums(scan.positions.size());
     const auto at = [&](std::size_t corner) { return toDouble(scan.positions[scan.indices[corner]]); };
@@ -117,10 +117,10 @@ std::string rangeOf(const std::vector<double>& values) {
 }
 const char* nameOf(bool is_sharp) { return is_sharp ? "sharp" : "smooth"; }
 
-// Edges that are hard in truth: where the shape's normals at the middles of both faces differ.
+// True hard edges: edges at which the shape's normals at the centers of both faces differ.
 
 struct Edge {
-    std::size_t corners[2];  ///< each from its own side
+    std::size_t corners[2];  ///< one from each side
 };
 std::vector<Edge> edgesOf(const Scan& scan) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> by_ends;
@@ -136,7 +136,7 @@ std::vector<Edge> edgesOf(const Scan& scan) {
 }
 std::size_t nextOf(std::size_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 
-/// One number per face; faces of one number hang together over edges that are soft in truth.
+/// Returns one number per face; faces with equal numbers are connected over truly soft edges.
 std::vector<std::uint32_t> smoothPieces(const Scan& scan, const std::vector<Edge>& edges) {
     constexpr double kSoft = 25 * kPi / 180;
     std::vector<std::uint32_t> pieces(scan.indices.size() / 3);
@@ -157,11 +157,11 @@ std::vector<std::uint32_t> smoothPieces(const Scan& scan, const std::vector<Edge
         if (!scan.shape->is_sharp || angleBetween(exact[a], exact[b]) < kSoft) pieces[rootOf(a)] = rootOf(b);
     }
     for (std::uint32_t face = 0; face < pieces.size(); ++face) pieces[face] = rootOf(face);
-    for (std::uint32_t& piece : pieces) ++piece;  // 0 is smooth with nobody
+    for (std::uint32_t& piece : pieces) ++piece;  // 0 means never smooth
     return pieces;
 }
 
-/// Of the length of all edges, those whose faces have other normals at an end.
+/// Returns the share, by length, of the edges whose faces have different normals at an end.
 double hardShare(const Scan& scan, const std::vector<Edge>& edges, const Normals& normals) {
     double hard = 0, all = 0;
     for (const Edge& edge : edges) {
@@ -234,7 +234,7 @@ void printCreases(const StudyOptions& options, std::span<const Shape> from) {
                std::accumulate(of_smooth.begin(), of_smooth.end(), 0.0) / static_cast<double>(of_smooth.size()));
 }
 
-/// The least error without what removes noise; with hard edges too where there are some.
+/// Returns the smallest error without denoising, also with hard edges if there are any.
 double leastError(const StudyOptions& options, const Scan& scan) {
     using enum NormalWeighting;
     double least = 180;

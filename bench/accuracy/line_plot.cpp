@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kLeft = 70, kTop = 44, kWidth = 520, kHeight = 360, kLegend = 130;
 
-/// From values to places, by logarithms.
+/// Logarithmic mapping from values to positions.
 struct Axis {
     double low, high, from, to;
 
@@ -30,7 +30,7 @@ std::string segment(double x1, double y1, double x2, double y2, const char* colo
     return fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"{}\"/>\n", x1, y1, x2, y2, colour);
 }
 
-/// Whole powers of ten around all values.
+/// Returns an axis of whole powers of ten that includes all values.
 Axis heightAxis(const std::vector<Line>& lines) {
     double low = 1e300, high = 1e-300;
     for (const Line& line : lines) {
@@ -55,7 +55,7 @@ std::string grid(const Axis& x_axis, const Axis& y_axis, const std::vector<doubl
     return svg;
 }
 
-/// `lines` from the top; each with dots and its name at the right.
+/// Draws `lines` in order, with dots, and labels at the right.
 std::string drawn(const Axis& x_axis, const Axis& y_axis, const std::vector<Line>& lines) {
     std::string svg;
     double legend = kTop + 10;

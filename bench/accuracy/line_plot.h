@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A chart with logarithmic axes.
+// Line chart with logarithmic axes.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@ struct Line {
     std::vector<double> x, y;
 };
 
-/// `x_ticks` are the places of the x axis that get a number. Values of y that are not positive are left out.
+/// Returns the chart. `x_ticks`: labeled positions of the x axis. Values of y that are not positive are omitted.
 std::string linePlot(const std::string& title, const std::string& x_title, const std::string& y_title,
                      const std::vector<double>& x_ticks, const std::vector<Line>& lines);
 
-/// The colour of a method or weighting, the same in every picture.
+/// Returns the color of a method or weighting, equal in all plots.
 std::string colourOf(const std::string& name);
 
 }  // namespace tspace::accuracy

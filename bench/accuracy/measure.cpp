@@ -14,7 +14,7 @@ DVec3 pointAt(const TestMesh& mesh, std::uint32_t triangle, std::size_t k) {
     return toDouble(mesh.positions[mesh.indices[3 * std::size_t{triangle} + k]]);
 }
 
-/// Which corners count, by corner.
+/// Calls visit(corner) for the selected corners.
 template <class Visit>
 void forCorners(const TestMesh& mesh, Corners corners, Visit visit) {
     if (corners == Corners::measured) {
@@ -37,7 +37,7 @@ Spread spreadOver(const TestMesh& mesh, Corners corners, ErrorOf errorOf) {
     return spreadOf(std::move(errors));
 }
 
-/// A normal in tangent space that changes over the texture and leans by up to 30 degrees.
+/// Returns a tangent-space normal that varies over the texture and is tilted by up to 30 degrees.
 DVec3 texelAt(double u, double v) {
     constexpr double kTurn = 6.283185307179586;
     const double x = 0.38 * std::sin(kTurn * (3 * u + 0.5 * v) + 0.7), y = 0.38 * std::cos(kTurn * (2 * v - 0.6 * u));

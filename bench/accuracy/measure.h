@@ -1,43 +1,43 @@
 // SPDX-License-Identifier: MIT
-// How far frames are from the exact ones.
+// Errors of frames against exact frames.
 #pragma once
 
 #include "methods.h"
 
 namespace tspace::accuracy {
 
-/// Over corners, in degrees.
+/// Statistics over corners, in degrees.
 struct Spread {
     double mean = 0, p95 = 0, max = 0;
 };
 Spread spreadOf(std::vector<double> values);
 
-/// Which corners count.
+/// Corners to include.
 enum class Corners { all, inside, border, measured };
 
-/// Tangents against the exact dP/du made orthogonal to the normal that the mesh has.
+/// Returns the errors of tangents against the exact dP/du, orthogonalized against the mesh's normal.
 Spread tangentErrors(const TestMesh& mesh, const Frames& frames, Corners corners);
-/// The separately stored bitangents against dP/dv.
+/// Returns the errors of separately stored bitangents against dP/dv.
 Spread bitangentErrors(const TestMesh& mesh, const Frames& frames, Corners corners);
-/// sign * cross(N, T) against dP/dv.
+/// Returns the errors of sign * cross(N, T) against dP/dv.
 Spread crossErrors(const TestMesh& mesh, const Frames& frames, Corners corners);
-/// Tangents on both sides of a fold of the chart, which should be each other's opposite. 0 where there is no fold.
+/// Returns the mean deviation of tangents on both sides of a fold of the chart from being opposite. 0 without a fold.
 double foldGap(const TestMesh& mesh, const Frames& frames);
 Spread normalErrors(const TestMesh& mesh, const std::vector<Vec3>& normals, Corners corners);
 
-/// Points on the mesh, spread by area, with the directions that a normal map gives there.
+/// Points on the mesh, distributed by area, with the directions from a normal map there.
 class Shading {
   public:
     Shading(const TestMesh& mesh, int count, Random random);
-    /// Mean angle between the exact directions and those of interpolated frames, as shaders make them: N and T not
-    /// normalised, B = sign * cross(N, T), and only the result normalised.
+    /// Returns the mean angle between the exact directions and those of interpolated frames, as in shaders: N and T not
+    /// normalized, B = sign * cross(N, T), and only the result normalized.
     [[nodiscard]] double meanError(const Frames& frames) const { return meanError(frames, mesh_.normals); }
-    /// With other normals, one per vertex.
+    /// Like meanError, with other normals, one per vertex.
     [[nodiscard]] double meanError(const Frames& frames, const std::vector<Vec3>& normals) const;
-    /// Of interpolated normals alone, as a flat map shows them.
+    /// Returns the mean error of interpolated normals, as with a flat map.
     [[nodiscard]] double meanNormalError(const std::vector<Vec3>& normals) const;
-    /// The same between two kinds of frames: what is wrong when a map was baked with the one and is shaded with the
-    /// other.
+    /// Returns the mean angle between two kinds of frames: the error if a map was baked with one kind and is shaded
+    /// with the other.
     [[nodiscard]] double meanDifference(const Frames& frames, const Frames& baked) const;
 
   private:

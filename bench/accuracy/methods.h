@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is measured: the methods of tspace, called by users' own way, and the exact frames.
+// Measured methods: the methods of tspace, through the public API, and the exact frames.
 #pragma once
 
 #include <string>
@@ -17,9 +17,9 @@ struct Frames {
     std::vector<Vec3> bitangents;
 };
 
-/// The name of the exact frames at vertices: interpolation alone is what they err by.
+/// Name of the exact frames at vertices, whose error is due to interpolation only.
 inline constexpr const char* kFloor = "floor";
-/// `best` with other steps than by default: 1 for tangents, 2 for normals.
+/// `best` with a number of refinement steps other than the default (1 for tangents, 2 for normals).
 inline constexpr const char *kFitAlone = "best, 0 steps", *kOneStep = "best, 1 step", *kTwoSteps = "best, 2 steps";
 
 struct NamedMethod {
@@ -28,7 +28,7 @@ struct NamedMethod {
     std::uint32_t refine = 1;
 };
 
-/// Every method that uses UVs.
+/// Returns every method that uses UVs.
 std::vector<NamedMethod> methods();
 Frames framesBy(Method method, const TestMesh& mesh, std::uint32_t refine = 1);
 Frames exactFrames(const TestMesh& mesh);
@@ -40,7 +40,7 @@ struct NamedWeighting {
 };
 
 std::vector<NamedWeighting> weightings();
-/// Normals per corner. Vertices on a fold are one point.
+/// Returns normals per corner. Copies of a vertex on a fold are welded.
 std::vector<Vec3> normalsBy(NormalWeighting weighting, const TestMesh& mesh,
                             std::uint32_t refine = NormalOptions{}.refine);
 

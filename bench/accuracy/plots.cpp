@@ -12,7 +12,7 @@ namespace tspace::accuracy {
 
 namespace {
 
-/// The sizes at which a study has a figure, and the figure.
+/// Returns a line with the figure at each size for which a study has it.
 template <class FigureAt>
 Line lineOf(const std::string& name, FigureAt figureAt) {
     Line line{name, {}, {}};
@@ -27,7 +27,7 @@ Line lineOf(const std::string& name, FigureAt figureAt) {
 
 std::vector<double> ticksOf(const std::vector<Line>& lines) { return lines.front().x; }
 
-/// `angle` would lie on `mikktspace`.
+/// Returns whether a method is plotted; `angle` would coincide with `mikktspace`.
 bool isDrawn(const std::string& method) {
     return method != "angle" && method != kFitAlone && method != kOneStep && method != kTwoSteps;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures of a study, as SVG.
+// Plots of a study, as SVG.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace tspace::accuracy {
 
 /// Writes vertex-error.svg, shading-error.svg, normal-error.svg, bevel-tangents.svg and bevel-normals.svg into a
-/// folder, which is made where it is missing. False when one cannot be written.
+/// folder, which is created if missing. Returns false if one cannot be written.
 bool writePlots(const Study& study, const std::string& folder);
 
 }  // namespace tspace::accuracy

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Random numbers that are the same on every machine: the distributions of the standard library are not.
+// Random numbers that are equal on every machine: the distributions of the standard library are not.
 // Based on: Steele, Lea & Flood, "Fast Splittable Pseudorandom Number Generators", 2014 (SplitMix64).
 #pragma once
 
@@ -13,7 +13,7 @@ namespace tspace::accuracy {
 
 class Random {
   public:
-    /// Different lists of numbers give unrelated sequences.
+    /// Different seeds give unrelated sequences.
     explicit Random(std::initializer_list<std::uint64_t> seeds) {
         for (const std::uint64_t seed : seeds) state_ = mix(state_ ^ mix(seed + kStep));
     }

@@ -17,11 +17,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What a method should reach. 0: nothing is asked.
+/// Target of a method. 0: no target.
 struct Target {
     const char* key;
     double fast, best;
-    bool is_least = false;  ///< asked is at least, not at most
+    bool is_least = false;  ///< the target is a minimum, not a maximum
 };
 
 constexpr Target kTargets[] = {
@@ -32,7 +32,7 @@ constexpr Target kTargets[] = {
 
 std::string text(double value) {
     if (std::isnan(value)) return "";
-    if (value < 1e-5) return "0";  // rounding of floats
+    if (value < 1e-5) return "0";  // float rounding
     return fmt::format("{:.3g}", value);
 }
 
@@ -42,7 +42,7 @@ bool has(const Study& study, const std::string& method) {
 
 bool passes(double value, double asked, bool is_least) { return is_least ? value >= asked : value <= asked; }
 
-/// Three columns: measured, asked, verdict. Empty where the method does not exist or nothing is asked.
+/// Returns three columns: measured, target, verdict. Empty if the method does not exist or has no target.
 std::string targetText(const Study& study, const Target& target, const std::string& method, double asked) {
     if (!has(study, method)) return " | | |";
     const double value = tangentFigure(target.key).value(study, method, false);
@@ -63,7 +63,7 @@ void printTargets(const Study& study) {
     }
 }
 
-/// One row per figure, one column per method.
+/// Prints one row per figure, with one column per method.
 void printFigures(const Study& study, std::span<const Figure> figures, const std::vector<std::string>& methods,
                   bool held_out) {
     fmt::print("| |");
@@ -73,7 +73,7 @@ void printFigures(const Study& study, std::span<const Figure> figures, const std
     fmt::print("\n");
     for (const Figure& figure : figures) {
         if (std::isnan(figure.value(study, methods.front(), held_out))) continue;
-        // Bevels are neither among the twelve nor held out.
+        // Bevels are neither among the twelve surfaces nor held out.
         if (held_out && figure.key.find("bevel") != std::string::npos) continue;
         fmt::print("| {} |", figure.title);
         for (const std::string& method : methods) fmt::print(" {} |", text(figure.value(study, method, held_out)));
@@ -81,7 +81,7 @@ void printFigures(const Study& study, std::span<const Figure> figures, const std
     }
 }
 
-/// One row per surface: vertex errors inside, 32x32, irregular and random.
+/// Prints one row per surface: vertex errors inside, 32x32, irregular and random.
 void printSurfaces(const Study& study) {
     fmt::print("| |");
     for (const std::string& method : study.methods) fmt::print(" {} |", method);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A study as tables for people (Markdown, so that they can go into a page) and as JSON.
+// Prints tables as Markdown (for pasting into the docs) and as JSON.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace tspace::accuracy {
 
-/// What is asked of `fast` and `best`, beside what was measured, and then every figure of every method.
+/// Prints the targets of `fast` and `best` next to the measured values, and then every figure of every method.
 void printTables(const Study& study);
-/// A table of normals on scans.
+/// Prints a table of normals on scans.
 void printScans(const StudyOptions& options);
-/// Tables of normals by what meshes come from: weightings, hard edges, noise.
+/// Prints tables of normals by kind of mesh: weightings, hard edges, noise.
 void printKinds(const StudyOptions& options);
-/// All figures. `path`: a file, or "-" for stdout. False when it cannot be written.
+/// Writes all figures. `path`: a file, or "-" for stdout. Returns false if it cannot be written.
 bool writeJson(const Study& study, const std::string& path);
 
 }  // namespace tspace::accuracy

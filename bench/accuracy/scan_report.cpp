@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Normals of scans: shaded error by noise, with and without what removes it and what finds hard edges.
+// Normals of scans: shading error by noise, with and without denoising and automatic hard edges.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -11,9 +11,10 @@ namespace tspace::accuracy {
 
 namespace {
 
-constexpr double kHalfSize = 1.05;  // of the grid; shapes lie in the unit cube
+constexpr double kHalfSize = 1.05;  // of the grid; shapes are in the unit cube
 
-/// Nearly: the sum of twelve uniform numbers, without functions whose last bits differ between C libraries.
+/// Returns an approximately normal number: the sum of twelve uniform numbers, without functions whose last bits differ
+/// between C libraries.
 double normalNumber(Random& random) {
     double sum = -6;
     for (int i = 0; i < 12; ++i) sum += random.unit();
@@ -23,7 +24,7 @@ double normalNumber(Random& random) {
 using Cell = std::array<int, 3>;
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-/// Values of a shape at the corners of cells.
+/// Values of a shape at the corners of grid cells.
 class Field {
   public:
     Field(const Shape& shape, int cells, double noise, Random& random)
@@ -47,7 +48,7 @@ class Field {
     [[nodiscard]] DVec3 place(double x, double y, double z) const {
         return {step_ * x - kHalfSize, step_ * y - kHalfSize, step_ * z - kHalfSize};
     }
-    /// In cells, where the shape crosses the edge between two corners.
+    /// Returns the intersection of the shape with the edge between two corners, in cells.
     [[nodiscard]] DVec3 crossing(const Cell& a, const Cell& b) const {
         const double share = value(a) / (value(a) - value(b));
         return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), a[2] + share * (b[2] - a[2])};
@@ -67,7 +68,7 @@ class Field {
     std::vector<double> values_;
 };
 
-/// One point in each cell that the shape passes through.
+/// Surface nets: one point in each cell that the shape crosses.
 class Nets {
   public:
     explicit Nets(const Field& field) : field_(field) {}
@@ -81,7 +82,7 @@ class Nets {
     }
 
   private:
-    /// The mean of where the shape crosses the cell's edges.
+    /// Adds the mean of the intersections of the shape with the cell's edges.
     void addPoint(int x, int y, int z, Scan& to) {
         DVec3 sum;
         int count = 0;
@@ -102,7 +103,7 @@ class Nets {
         to.positions.push_back(toFloat(field_.place(sum.x / count, sum.y / count, sum.z / count)));
     }
 
-    /// The points of the four cells around an edge that the shape crosses, cut along the shorter diagonal.
+    /// Adds the points of the four cells around an edge that the shape crosses, cut along the shorter diagonal.
     void addQuad(const Cell& from, int axis, Scan& to) const {
         Cell end = from;
         ++end[static_cast<std::size_t>(axis)];
@@ -129,7 +130,7 @@ class Nets {
     std::vector<std::uint32_t> points_;
 };
 
-/// Points where the shape crosses edges of cells.
+/// Marching cubes: points where the shape crosses edges of cells.
 class Cubes {
   public:
     explicit Cubes(const Field& field) : field_(field), points_(3 * field.count(), kNone) {}
@@ -139,11 +140,11 @@ class Cubes {
     }
 
   private:
-    /// Corners, as bits of x, y and z, of each side of a cell: counter-clockwise as seen from outside.
+    /// Corners, as bits of x, y and z, of each side of a cell: counter-clockwise seen from outside.
     static constexpr unsigned kSides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                                               {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
 
-    /// On each side a line goes around each run of corners inside; together these are loops, and each becomes a fan.
+    /// On each side, a line surrounds each run of corners inside; the lines form loops, and each loop becomes a fan.
     void addCell(const Cell& cell, Scan& to) {
         std::array<std::uint32_t, 64>
             next{};  // by the corners of an edge of the cell, lower one times 8: kNone or a point's
@@ -157,7 +158,7 @@ class Cubes {
             std::array<bool, 4> in{};
             for (std::size_t k = 0; k < 4; ++k) in[k] = field_.isInside(at(side[k]));
             for (std::size_t k = 0; k < 4; ++k) {
-                if (in[k] || !in[(k + 1) % 4]) continue;  // a run begins
+                if (in[k] || !in[(k + 1) % 4]) continue;  // start of a run
                 std::size_t last = (k + 1) % 4;
                 while (in[(last + 1) % 4]) last = (last + 1) % 4;
                 const std::size_t leave = slot(side[last], side[(last + 1) % 4]),

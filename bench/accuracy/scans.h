@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Meshes as scanners and generators make them, irregular and noisy, of shapes whose normals are known everywhere.
+// Meshes like those of scanners and generators, irregular and noisy, of shapes whose normals are known everywhere.
 #pragma once
 
 #include <span>
@@ -11,22 +11,22 @@
 
 namespace tspace::accuracy {
 
-/// A shape by its distance function: negative inside.
+/// A shape, given by its signed distance function: negative inside.
 struct Shape {
     const char* name;
     double (*distance)(const DVec3& p);
     bool is_sharp = false;
 
     [[nodiscard]] DVec3 normalAt(const DVec3& p) const;
-    /// The point of the surface next to one that is near to it.
+    /// Returns the closest surface point for a nearby point.
     [[nodiscard]] DVec3 nearest(DVec3 p) const;
 };
 
 /// Blended ellipsoids, a torus, a rounded box; then a part with holes, and a gear.
 std::span<const Shape> shapes();
-/// A hand, ripples, links; then a nut, steps, a bracket. Nothing was tried on these.
+/// A hand, ripples, links; then a nut, steps, a bracket. Not used for tuning.
 std::span<const Shape> heldOutShapes();
-/// Those of drawnMeshes(): a torus and a cylinder with a fillet of 0.16; then a cylinder and a slab.
+/// Shapes of drawnMeshes(): a torus and a cylinder with a fillet of 0.16; then a cylinder and a slab.
 std::span<const Shape> drawnShapes();
 
 struct Scan {
@@ -37,24 +37,25 @@ struct Scan {
     [[nodiscard]] MeshView view() const { return {.positions = positions, .indices = {indices}}; }
 };
 
-/// The triangles of surface nets on a grid of cells^3, whose points are moved onto the surface, then in each direction by a
-/// normal distribution whose deviation is `noise` of the mean edge.
+/// Returns surface nets on a grid of cells^3, with the points moved onto the surface and then, in each direction, by a
+/// normal distribution whose standard deviation is `noise` of the mean edge.
 /// Based on: Gibson, "Constrained Elastic Surface Nets", 1998.
 Scan scan(const Shape& shape, int cells, double noise, Random random);
 
-/// Surface nets, and marching cubes, as they come: the noise is on the field, in cells.
-/// Based on: Lorensen & Cline, "Marching Cubes", 1987; on a face with two diagonal corners inside, these are apart.
+/// Return surface nets, or marching cubes, unmodified: the noise is in the field, in cells.
+/// Based on: Lorensen & Cline, "Marching Cubes", 1987; two diagonal corners inside on a face are separated.
 Scan surfaceNets(const Shape& shape, int cells, double noise, Random random);
 Scan marchingCubes(const Shape& shape, int cells, double noise, Random random);
 
-/// meshoptimizer's simplifier; empty where the bench is built without it. share: of the triangles
+/// Applies meshoptimizer's simplifier; empty if the bench was built without it. share: of the triangles
 Scan decimated(const Scan& scan, double share);
 
-/// As CAD kernels cut them: long strips, caps that are fans from one vertex of the rim, fillets of few segments.
+/// Returns meshes as triangulated by CAD kernels: long strips, caps that are fans from one vertex of the rim, fillets
+/// with few segments.
 std::vector<Scan> drawnMeshes(bool is_sharp);
 
-/// At points spread by area, the mean angle in degrees between normals as shaders interpolate them and those of the shape.
-/// normals: one per corner
+/// Returns the mean angle, in degrees, between normals as interpolated by shaders and normals of the shape, at points
+/// distributed by area. normals: one per corner
 double shadedError(const Scan& scan, const std::vector<Vec3>& normals, int points, Random random);
 
 }  // namespace tspace::accuracy

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shapes by their distance functions.
+// Shapes, as signed distance functions.
 #include <algorithm>
 #include <cmath>
 
@@ -29,7 +29,7 @@ double cylinder(double radius, double height, double most_radius, double half_he
     return box({radius, height, 0}, {most_radius, half_height, 1});
 }
 double radiusOf(double x, double y) { return std::sqrt(x * x + y * y); }
-/// So that nothing lies along the grid.
+/// Rotates a point, so that nothing is aligned with the grid.
 DVec3 turned(const DVec3& p) {
     constexpr double c = 0.921060994, s = 0.389418342, d = 0.764842187, t = 0.644217687;
     const double y = s * p.x + c * p.y;
@@ -74,7 +74,7 @@ double gear(const DVec3& at) {
 constexpr Shape kShapes[] = {
     {"blob", blob}, {"torus", torus}, {"rounded box", roundedBox}, {"part", part, true}, {"gear", gear, true}};
 
-// Held out: nothing in the library was tried on these.
+// Held-out shapes, which were not used for tuning the library.
 
 double segment(const DVec3& p, const DVec3& a, const DVec3& b) {
     const DVec3 along = b - a, to = p - a;
@@ -96,7 +96,7 @@ double ripples(const DVec3& at) {
     const auto [z_sine, z_cosine] = sineCosine(7 * p.z);
     return 0.7 * (length(p) - 0.72 + 0.05 * (x_sine * y_cosine + y_sine * z_cosine + z_sine * x_cosine));
 }
-/// Two rings that run into each other.
+/// Two intersecting rings.
 double links(const DVec3& at) {
     const DVec3 p = turned(at), q = p - DVec3{0.25, 0, 0}, r = p + DVec3{0.3, 0, 0};
     return blend(radiusOf(radiusOf(q.x, q.y) - 0.45, q.z) - 0.17, radiusOf(radiusOf(r.x, r.z) - 0.4, r.y) - 0.13, 0.08);
@@ -110,7 +110,7 @@ double nut(const DVec3& at) {
         d = larger(d, cosine * p.x + sine * p.y - 0.7);
     }
     const double radius = radiusOf(p.x, p.y);
-    d = larger(d, 0.8 * (radius - 0.74) + 0.6 * (std::fabs(p.z) - 0.31));  // a chamfer all around
+    d = larger(d, 0.8 * (radius - 0.74) + 0.6 * (std::fabs(p.z) - 0.31));  // chamfer all around
     return larger(d, 0.38 - radius);
 }
 double steps(const DVec3& at) {
@@ -131,7 +131,7 @@ double bracket(const DVec3& at) {
 constexpr Shape kHeldOut[] = {{"hand", hand},     {"ripples", ripples},   {"links", links},
                               {"nut", nut, true}, {"steps", steps, true}, {"bracket", bracket, true}};
 
-// Of meshes that are not made on a grid.
+// Shapes of meshes that are not created on a grid.
 
 double lathed(const DVec3& p) { return radiusOf(radiusOf(p.x, p.y) - 0.6, p.z) - 0.25; }
 double filleted(const DVec3& p) { return cylinder(radiusOf(p.x, p.y), p.z, 0.64, 0.64) - 0.16; }
@@ -150,7 +150,7 @@ DVec3 differences(const Shape& shape, const DVec3& p) {
 
 DVec3 Shape::normalAt(const DVec3& p) const {
     DVec3 slope = differences(*this, p);
-    // Between two faces the differences may cancel.
+    // Between two faces the differences may cancel out.
     if (!(length(slope) > 0)) slope = differences(*this, p + DVec3{1e-4, 2e-4, 3e-4});
     return (1 / length(slope)) * slope;
 }

@@ -58,7 +58,7 @@ class Runner {
         }
     }
 
-    /// The largest meshes only where a plot needs them.
+    /// Returns whether a size is needed; the largest meshes are only needed for plots.
     [[nodiscard]] bool isWanted(Tessellation kind, int cells) const {
         if (quick()) return cells == 8 || cells == 32 || (cells == 64 && kind == Tessellation::irregular);
         if (kind == Tessellation::anisotropic) return cells <= 128;
@@ -122,7 +122,7 @@ class Runner {
         if (!is_flat) measureNormals(mesh, record, shading ? &*shading : nullptr);  // all of them would be exact
     }
 
-    /// `shading`: null where it is not asked for.
+    /// `shading`: null if not requested.
     void measureNormals(const TestMesh& mesh, const Record& of, const Shading* shading) {
         for (const NamedWeighting& weighting : weightings()) {
             const std::vector<Vec3> normals = normalsBy(weighting.weighting, mesh, weighting.refine);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Everything that is measured, as one list of records that tables and plots ask.
+// All measurements, as a list of records that tables and plots query.
 #pragma once
 
 #include <functional>
@@ -11,31 +11,31 @@
 
 namespace tspace::accuracy {
 
-/// One mesh and one method.
+/// Result for one mesh and one method.
 struct Record {
     std::string surface, tessellation, damage, method;
     bool held_out = false;
     int cells = 0;
-    double share = 0;              ///< of the damage
+    double share = 0;              ///< amount of damage
     Spread inside = {}, all = {};  ///< tangents
     double border = 0;             ///< mean at the border of the chart
     double fold_gap = 0;
     double shading = 0;
-    double from_mikktspace = 0;       ///< shading against that of `mikktspace`
-    double bitangent = 0, cross = 0;  ///< mean errors of both kinds of bitangent
+    double from_mikktspace = 0;       ///< shading difference from `mikktspace`
+    double bitangent = 0, cross = 0;  ///< mean errors of both kinds of bitangents
 
     [[nodiscard]] bool isIrregular() const { return tessellation == "irregular" || tessellation == "random"; }
 };
 
-/// The same for vertex normals; `method` is the weighting.
+/// Like Record, for vertex normals; `method` is the weighting.
 struct NormalRecord {
     std::string surface, tessellation, damage, method;
     bool held_out = false;
     int cells = 0;
     double share = 0;
     Spread inside = {}, all = {};
-    double flat_shading = 0;  ///< of a flat map
-    double bent_shading = 0;  ///< of a bent one, with tangents by `best` from these normals
+    double flat_shading = 0;  ///< with a flat map
+    double bent_shading = 0;  ///< with a bumpy map, and tangents by `best` from these normals
 
     [[nodiscard]] bool isIrregular() const { return tessellation == "irregular" || tessellation == "random"; }
 };
@@ -50,14 +50,14 @@ struct Study {
     StudyOptions options = {};
     std::vector<Record> records = {};
     std::vector<NormalRecord> normals = {};
-    /// In the order of tables: the methods, then the floor.
+    /// In table order: the methods, then the floor.
     std::vector<std::string> methods = {}, weightings = {};
 };
 
 Study runStudy(const StudyOptions& options);
 
-/// The mean of the logarithms, so that no surface counts more for being harder. Errors below a millionth of a degree
-/// count as that. NaN where there is none.
+/// Returns the geometric mean, so that difficult surfaces have no larger weight. Errors below a millionth of a degree
+/// are raised to it. NaN if there are no values.
 double geometricMean(const std::vector<double>& values);
 
 template <class RecordType>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Grids over the unit square of a surface's parameters.
+// Grids over the unit square of the parameters of a surface.
 #include <algorithm>
 
 #include "test_mesh.h"
@@ -16,14 +16,14 @@ double turn(const Point& a, const Point& b, const Point& c) {
     return (b.s - a.s) * (c.t - a.t) - (b.t - a.t) * (c.s - a.s);
 }
 
-/// Whether d is inside the circle through a, b, c (which turn to the left).
+/// Returns whether d is inside the circle through a, b, c (in counter-clockwise order).
 bool inCircle(const Point& a, const Point& b, const Point& c, const Point& d) {
     const double ax = a.s - d.s, ay = a.t - d.t, bx = b.s - d.s, by = b.t - d.t, cx = c.s - d.s, cy = c.t - d.t;
     const double aa = ax * ax + ay * ay, bb = bx * bx + by * by, cc = cx * cx + cy * cy;
     return ax * (by * cc - bb * cy) - ay * (bx * cc - bb * cx) + aa * (bx * cy - by * cx) > 0;
 }
 
-/// Lines of the grid, from 0 to 1.
+/// Returns the grid lines, from 0 to 1.
 std::vector<double> lines(int cells, bool loops) {
     std::vector<double> line(1, 0.0);
     for (int i = 0; i < cells; ++i) line.push_back(line.back() + (loops && i % 4 == 3 ? 0.1 : 1.0));
@@ -110,7 +110,7 @@ class Grid {
         addTriangle(corner[first], corner[first + 2], corner[(first + 3) % 4]);
     }
 
-    /// 0: the diagonal goes from corner 0 to 2; 1: from 1 to 3.
+    /// Returns 0 if the diagonal connects corners 0 and 2; 1 for corners 1 and 3.
     int firstOfDiagonal(const std::size_t (&corner)[4], int column, int row) {
         const Point &a = points_[corner[0]], &b = points_[corner[1]], &c = points_[corner[2]], &d = points_[corner[3]];
         const bool chance = random_.coin();
@@ -123,14 +123,14 @@ class Grid {
             default:
                 break;
         }
-        // Where a cell has a hollow corner only one diagonal is inside.
+        // If a cell has a reflex corner, only one diagonal is inside.
         if (turn(a, b, c) <= 0 || turn(a, c, d) <= 0) return 1;
         if (turn(b, c, d) <= 0 || turn(b, d, a) <= 0) return 0;
         if (kind_ == Tessellation::random) return chance ? 1 : 0;
         return inCircle(scaled(a), scaled(b), scaled(c), scaled(d)) ? 1 : 0;
     }
 
-    /// In cells.
+    /// Returns a point in units of cells.
     [[nodiscard]] Point scaled(const Point& p) const { return {p.s * columns_, p.t * rows_}; }
 
     void addTriangle(std::size_t a, std::size_t b, std::size_t c) {

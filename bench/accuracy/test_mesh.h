@@ -19,9 +19,9 @@ struct TestMesh {
     // One per vertex:
     std::vector<ExactFrame> frames;
     std::vector<double> s, t;
-    std::vector<std::int8_t> sides;       ///< of the fold; vertices on it are there twice, once for each side
-    std::vector<std::uint8_t> is_inside;  ///< not on the border of the chart, nor on the fold
-    /// The triangles that shading is measured on: all, or those of a bevel's flat part.
+    std::vector<std::int8_t> sides;       ///< side of the fold; vertices on it exist twice, once for each side
+    std::vector<std::uint8_t> is_inside;  ///< neither on the border of the chart nor on the fold
+    /// Triangles on which shading is measured: all, or those of the flat part of a bevel.
     std::vector<std::uint32_t> measured;
 
     [[nodiscard]] MeshView view() const {
@@ -32,17 +32,17 @@ struct TestMesh {
 };
 
 enum class Tessellation {
-    regular,      ///< all diagonals the same way
-    alternating,  ///< diagonals turn from cell to cell
-    irregular,    ///< points moved by up to 0.36 of a cell, the diagonals of Delaunay
-    random,       ///< points moved by up to 0.3 of a cell, diagonals by chance
-    anisotropic,  ///< as irregular, with an eighth of the rows
-    loops,        ///< every fourth row and column a tenth as wide
+    regular,      ///< all diagonals in the same direction
+    alternating,  ///< diagonals alternate from cell to cell
+    irregular,    ///< points moved by up to 0.36 of a cell, Delaunay diagonals
+    random,       ///< points moved by up to 0.3 of a cell, random diagonals
+    anisotropic,  ///< like irregular, with an eighth of the rows
+    loops,        ///< every fourth row and column has a tenth of the width
 };
 
 const char* nameOf(Tessellation tessellation);
 
-/// A mesh of `cells` by `cells` cells with exact normals, rounded to float.
+/// Returns a mesh of `cells` by `cells` cells with exact normals, rounded to float.
 TestMesh tessellate(const Surface& surface, Tessellation tessellation, int cells, Random random);
 
 /// A square face with rounded borders.
@@ -50,11 +50,11 @@ struct Bevel {
     double radius = 0.05;
     int strips = 1;                     ///< across the rounded part
     int flat_cells = 1;                 ///< along each side of the flat part
-    int diagonal = 0;                   ///< 0 or 1: one of the two; 2: by chance
+    int diagonal = 0;                   ///< 0 or 1: one of the two; 2: random
     double stretch = 1, shear_deg = 0;  ///< of the UV map across the rounded part
 };
 
-/// The configurations that the figures are means of.
+/// Returns the configurations over which the results are averaged.
 std::vector<Bevel> bevels();
 TestMesh bevelMesh(const Bevel& bevel, Random random);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Low polys and the high polys that they stand for, of surfaces with a formula.
+// Low polys with matching high polys, of surfaces given by formulas.
 #pragma once
 
 #include <string>
@@ -13,11 +13,11 @@ namespace tspace::bench {
 
 enum class Charts {
     one,
-    four,     ///< quarters, turned by 0, 37 and 90 degrees, and one mirrored
-    mirrored  ///< both halves on the same texels, one of them mirrored
+    four,     ///< quarters, rotated by 0, 37 and 90 degrees, and one mirrored
+    mirrored  ///< both halves use the same texels, one of them mirrored
 };
 
-/// Three entries per triangle, as LowPoly.
+/// Three entries per triangle, like LowPoly.
 struct LowMesh {
     std::vector<Vec3> positions = {}, normals = {};
     std::vector<Vec4> tangents = {};
@@ -35,11 +35,11 @@ struct HighMesh {
     [[nodiscard]] HighPoly view() const { return {.positions = positions, .normals = normals, .corners = corners}; }
 };
 
-/// 16 x 16 irregular cells in frames of the method, glTF's convention.
+/// Returns 16 x 16 irregular cells with frames of the method, in glTF's convention.
 LowMesh makeLow(const accuracy::Surface& surface, Charts charts, Method method = Method::mikktspace);
 
-/// `cells` x `cells` x 2 triangles. `relief`: waves and rings that lean by about 10 degrees in the mean.
-/// `beyond`: cells that it goes on by on each side. Chords of a curved border lie outside of it, and rays from there would meet
+/// Returns `cells` x `cells` x 2 triangles. `relief`: waves and rings with a mean slope of about 10 degrees. `beyond`:
+/// cells added on each side, because chords of a curved border are outside of it, and rays from there would hit
 /// nothing.
 HighMesh makeHigh(const accuracy::Surface& surface, int cells, bool relief, int beyond = 0);
 

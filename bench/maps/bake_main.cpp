@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// tspace_bake_bench: errors of baked maps, in degrees, on surfaces with a formula; and these surfaces as files.
+// tspace_bake_bench: errors of baked maps, in degrees, on surfaces given by formulas; also writes these surfaces as
+// files.
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -55,7 +56,7 @@ std::vector<const accuracy::Surface*> chosenSurfaces(bool held_out) {
     return chosen;
 }
 
-/// What one kind of case gives: maps that are exact at each texel's centre, and solved ones.
+/// Results for one kind of case: maps that are exact at each texel's center, and solved maps.
 struct CaseMeans {
     Means exact16, solved16, plain8, solved8;
     double slowest = 0;
@@ -78,7 +79,7 @@ void addSurface(const accuracy::Surface& surface, Charts charts, bool relief, st
     means.exact16.add(exact.error);
     means.solved16.add(baked(16, MapFit::solve).error);
     means.solved8.add(baked(8, MapFit::solve).error);
-    // Plain rounding of the same map.
+    // Simple rounding of the same map.
     std::vector<Vec3> texels = exact.texels;
     const auto rounded = [](float channel) { return std::floor(channel * 255 + 0.5F) / 255; };
     for (Vec3& texel : texels) texel = {rounded(texel.x), rounded(texel.y), rounded(texel.z)};
@@ -112,9 +113,9 @@ void printTable(std::uint32_t size, bool held_out) {
             for (const accuracy::Surface* surface : chosenSurfaces(held_out))
                 addSurface(*surface, kind.charts, relief, size, means);
             const std::string name = std::string(relief ? "relief, " : "smooth, ") + kind.name;
-            // Halves that want different normals have no right map.
+            // No map is correct for halves that require different normals.
             const bool has_none = kind.charts == Charts::mirrored && relief;
-            // One texel serves both halves, whose frames and triangles are not quite alike.
+            // One texel serves both halves, whose frames and triangles differ slightly.
             const bool is_shared = kind.charts == Charts::mirrored;
             const char* const asked16 = has_none ? "" : is_shared ? "1.0, 1.0" : relief ? ".55, .70" : ".92, .70";
             const char* const asked8 = has_none ? "" : is_shared ? "1.0, 1.0" : relief ? ".40, .95" : ".65, .95";
@@ -126,17 +127,17 @@ void printTable(std::uint32_t size, bool held_out) {
     std::printf("\nSlowest bake: %.1f s (2 threads, on the clock).\n", slowest);
 }
 
-/// A row of printLevels: means over surfaces of what is shown and of each level.
+/// A row of printLevels: means over surfaces of the shading and of each level.
 struct LevelRow {
     const char* name;
     unsigned bits;
     TexelLengths lengths = TexelLengths::even;
-    float least = 0;  ///< shorter vectors of the map of 16 bits are made so long
+    float least = 0;  ///< minimum vector length of the 16-bit map; shorter vectors are lengthened to it
     double log_shown = 0;
     std::array<double, kLevels> log_levels = {};
 };
 
-/// With vectors of a least length, of 16 bits.
+/// Returns the map with a minimum vector length, with 16 bits.
 BakedMap lengthened(BakedMap map, float least, const LowMesh& low, const HighMesh& high) {
     for (Vec3& texel : map.texels) {
         const DVec3 vector = 2 * toDouble(texel) - DVec3{1, 1, 1};
@@ -197,7 +198,7 @@ void writeObj(const std::string& path, std::span<const Vec3> positions, std::spa
     file.precision(9);
     for (const Vec3& at : positions) file << "v " << at.x << ' ' << at.y << ' ' << at.z << '\n';
     for (const Vec3& normal : normals) file << "vn " << normal.x << ' ' << normal.y << ' ' << normal.z << '\n';
-    // Upwards in OBJ, downwards here.
+    // v points up in OBJ, down here
     for (const Vec2& uv : uvs) file << "vt " << uv.x << ' ' << 1 - uv.y << '\n';
     for (std::size_t i = 0; i < corners.size(); ++i) {
         if (i % 3 == 0) file << (i == 0 ? "f" : "\nf");
@@ -219,7 +220,7 @@ struct WeldedMesh {
     std::vector<std::uint32_t> corners = {};
 };
 
-/// Equal corners as one vertex: Blender rounds normals, and what is split would then stay so.
+/// Merges equal corners into one vertex: Blender rounds normals, and split vertices would remain split.
 WeldedMesh weld(const LowMesh& low) {
     WeldedMesh welded;
     std::map<std::array<float, 8>, std::uint32_t> known;
@@ -237,7 +238,7 @@ WeldedMesh weld(const LowMesh& low) {
     return welded;
 }
 
-/// low.obj, cage.obj (the low poly moved along its normals by `reach`) and high.obj.
+/// Writes low.obj, cage.obj (the low poly moved along its normals by `reach`) and high.obj.
 void writeModels(const std::string& folder, const char* name, bool relief, int cells, double reach) {
     for (const bool held_out : {false, true}) {
         for (const accuracy::Surface* surface : chosenSurfaces(held_out)) {

@@ -17,7 +17,7 @@ def load(path):
     before = set(bpy.data.objects)
     bpy.ops.wm.obj_import(filepath=path, forward_axis="Y", up_axis="Z")
     (made,) = set(bpy.data.objects) - before
-    # The importer drops normals here and there. In these files each vertex has the normal of its own number.
+    # The importer drops some normals. In these files each vertex has the normal with its own index.
     made.data.polygons.foreach_set("use_smooth", [True] * len(made.data.polygons))
     made.data.use_auto_smooth = True
     with open(path, encoding="ascii") as file:

@@ -127,7 +127,7 @@ def lifted(thing, height):
     return moved(thing, lambda at: at + height(at) * at.normalized())
 
 
-# Cases: each gives a low poly and a high poly.
+# Cases: each returns a low poly and a high poly.
 
 
 def rib(size, at):
@@ -185,7 +185,7 @@ def all_smooth():
 def organic():
     low = smooth(lifted(ball(1, 4), lambda at: lumps(at, 0.25)))
     high = smooth(lifted(ball(1, 8), lambda at: lumps(at, 0.25) + 0.004 * noise.noise(40 * at)))
-    # Islands around the corners of an icosahedron, each turned.
+    # Islands around the corners of an icosahedron, each rotated.
     corners = ball(1, 1)
     centres = [vertex.co.normalized() for vertex in corners.data.vertices]
     bpy.data.objects.remove(corners)
@@ -404,7 +404,8 @@ def run(case, folder, size):
     low, high = begin(CASES[case])
     blender_cycles.set_up(1)
     os.makedirs(folder, exist_ok=True)
-    cage = cage_of(low) if case in WITH_CAGE else None  # before the marks, so that files have them in one order
+    # before the marks, so that all files have them in the same order
+    cage = cage_of(low) if case in WITH_CAGE else None
     corners = marks([low, high])
     export(os.path.join(folder, "low.gltf"), [low, corners])
     export(os.path.join(folder, "high.glb"), [high])

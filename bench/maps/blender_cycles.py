@@ -8,7 +8,7 @@ def set_up(samples):
     scene.render.engine = "CYCLES"
     scene.cycles.device = "CPU"
     scene.cycles.samples = samples
-    # Where there is no denoiser, a bake that asks for one stays empty.
+    # If no denoiser is available, a bake that requests one remains empty.
     scene.cycles.use_denoising = False
     scene.cycles.use_adaptive_sampling = False
     scene.render.threads_mode = "FIXED"

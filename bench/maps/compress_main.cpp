@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What formats and levels of normal maps are off by, as tables (scripts/maps --textures).
+// Errors of formats and mip levels of normal maps, as tables (scripts/maps --textures).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,10 +25,10 @@
 namespace tspace::bench {
 namespace {
 
-constexpr std::uint32_t kSeed = 11;  ///< of the tables in docs/guides/compress-map.md
+constexpr std::uint32_t kSeed = 11;  ///< seed of the tables in docs/guides/compress-map.md
 constexpr double kDegrees = 57.29577951308232;
 
-/// x and y of a map in a format.
+/// Returns x and y of a map after compression.
 using Pack = std::function<std::vector<Vec3>(const NormalLevel&, Parallel&)>;
 
 struct Row {
@@ -54,7 +54,7 @@ std::vector<Vec3> rounded(const NormalLevel& level, Parallel&) {
 
 std::vector<Vec3> exact(const NormalLevel& level, Parallel&) { return level.normals; }
 
-/// All pairs of ends near the extremes, both kinds of palettes, least squares of each channel.
+/// Tries all pairs of end points near the extremes, both kinds of palettes, and least squares of each channel.
 std::vector<Vec3> leastSquares(const NormalLevel& level, Parallel& parallel) {
     std::vector<Vec3> texels(level.normals.size());
     const std::size_t across = level.width / 4;
@@ -98,7 +98,7 @@ std::vector<Vec3> leastSquares(const NormalLevel& level, Parallel& parallel) {
 }
 
 #ifdef TSPACE_HAS_SQUISH
-/// From 8 bits, as it takes them.
+/// Compresses from 8 bits, as the library requires.
 std::vector<Vec3> bySquish(const NormalLevel& level, Parallel&) {
     std::vector<Vec3> texels(level.normals.size());
     const TexelFormat format = texelFormat(TexelKind::bc5);
@@ -124,7 +124,7 @@ std::vector<Vec3> bySquish(const NormalLevel& level, Parallel&) {
 }
 #endif
 
-/// By the library astcenc; of x and y as they are, or with `fits` of those for which the filtered map is nearest.
+/// Compresses with the library astcenc: x and y unchanged, or with `fits` optimized for the filtered map.
 Pack astc(AstcEffort effort, bool fits) {
     return [=](const NormalLevel& level, Parallel& parallel) {
         std::vector<Vec2> wanted;
@@ -182,7 +182,7 @@ void printFormats(const std::vector<CompressedCase>& cases, Parallel& parallel) 
     }
 }
 
-/// The maps as PNGs with 8 and 16 bits, for other programs: NAME.8.png, NAME.16.png.
+/// Writes the maps as PNGs with 8 and 16 bits, for other programs: NAME.8.png, NAME.16.png.
 bool writeMaps(const std::vector<CompressedCase>& cases, const std::string& folder) {
     for (const CompressedCase& one : cases) {
         FloatImage image{one.level.width, one.level.height, 16, {}, {}};
@@ -199,9 +199,9 @@ bool writeMaps(const std::vector<CompressedCase>& cases, const std::string& fold
     return true;
 }
 
-// Levels: what is shaded by one normal and one roughness in place of all the normals that a texel covers.
+// Mip levels: shading by one normal and one roughness instead of all normals that a texel covers.
 
-/// GGX with height-correlated Smith, as glTF has it, without Fresnel, times the cosine.
+/// GGX with height-correlated Smith, as in glTF, without Fresnel, times the cosine.
 double shaded(const DVec3& normal, double alpha, const DVec3& view, const DVec3& light) {
     const double nv = dot(normal, view), nl = dot(normal, light);
     if (nv <= 0 || nl <= 0) return 0;
@@ -214,13 +214,14 @@ double shaded(const DVec3& normal, double alpha, const DVec3& view, const DVec3&
 
 class LevelShading {
   public:
-    /// `normals`: those that the texel covers.
+    /// `normals`: the normals covered by the texel.
     LevelShading(std::vector<DVec3> normals, const DVec3& mean, double spread, double roughness, std::uint32_t seed)
         : normals_(std::move(normals)), mean_(mean), alpha_(roughness * roughness), engine_(seed) {
         wide_ = std::min(1.0, std::sqrt(alpha_ * alpha_ + spread));
     }
 
-    /// Of the integral over lights: what the roughness as it was, and as it is widened, are off by.
+    /// Returns the relative RMS error of the shading, integrated over lights: with the original roughness, and with the
+    /// widened one.
     std::array<double, 2> errors() {
         constexpr int kViews = 6, kLights = 66;
         std::array<double, 2> off{};
@@ -246,7 +247,8 @@ class LevelShading {
         return {std::sqrt(off[0] / all), std::sqrt(off[1] / all)};
     }
 
-    /// |ln| of the angle with half of the energy of the lobe of half vectors, against the true one.
+    /// Returns |ln| of the ratio of the angle that contains half of the energy of the lobe of half vectors to the true
+    /// angle.
     std::array<double, 2> widths() {
         constexpr std::size_t kSamples = 2001;
         std::vector<double> angles;
@@ -293,7 +295,7 @@ class LevelShading {
     std::mt19937 engine_;
 };
 
-/// The unit vector that a renderer sees there, in texels; whole numbers are corners of texels.
+/// Returns the unit vector that a renderer samples at a position in texels; integers are corners of texels.
 DVec3 filteredAt(const NormalLevel& level, double x, double y) {
     const double left = std::floor(x - 0.5), top = std::floor(y - 0.5), right = x - 0.5 - left, down = y - 0.5 - top;
     const auto at = [&](double column, double row) {
@@ -328,7 +330,7 @@ void printLevels(const std::vector<CompressedCase>& cases, std::uint32_t seed, P
                     const std::size_t texel = engine() % level.normals.size();
                     const std::size_t x = texel % level.width << k, y = texel / level.width << k;
                     std::vector<DVec3> normals;
-                    // Between texels a renderer sees what the filter makes; on large footprints texels are enough.
+                    // Between texels a renderer samples filtered values; for large footprints texels are sufficient.
                     const std::size_t points = k <= 2 ? 4 : k == 3 ? 2 : 1;
                     const std::size_t side = points << k, all = side * side,
                                       step = std::max<std::size_t>(1, all / kMostNormals);

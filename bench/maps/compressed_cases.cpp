@@ -15,7 +15,7 @@ constexpr double kTurn = 6.283185307179586;
 class Random {
   public:
     explicit Random(std::uint32_t seed) : engine_(seed) {}
-    /// From 0 to 1; the same numbers with every library.
+    /// Returns a number in 0 to 1; equal for every standard library.
     double operator()() { return static_cast<double>(engine_()) / 4294967296.0; }
     double around(double most) { return most * (2 * (*this)() - 1); }
 
@@ -23,7 +23,7 @@ class Random {
     std::mt19937 engine_;
 };
 
-/// Numbers at the corners of a grid that repeats, and smooth between them.
+/// Values at the corners of a periodic grid, interpolated smoothly.
 class ValueNoise {
   public:
     ValueNoise(std::size_t cells, Random& random) : cells_(cells), values_(cells * cells) {
@@ -47,7 +47,7 @@ class ValueNoise {
     std::vector<double> values_;
 };
 
-/// Mean directions of a height, in texels, that is sampled `fine` times along each side of a texel.
+/// Returns mean directions of a height field, in texels, that is sampled `fine` times along each side of a texel.
 NormalLevel levelOf(const std::vector<double>& heights, std::uint32_t size, std::uint32_t fine) {
     const std::size_t wide = std::size_t{size} * fine;
     const auto height = [&](std::size_t x, std::size_t y) { return heights[y % wide * wide + x % wide]; };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace_convert_bench: how exactly converted normal maps show what they showed, in degrees, on surfaces with a formula.
+// tspace_convert_bench: accuracy of converted normal maps, in degrees, on surfaces given by formulas.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -45,7 +45,7 @@ Map converted(const Map& map, const MapSide& from, const MapSide& to, unsigned b
     return out;
 }
 
-/// What a mesh shades with a map, filtered, at points spread evenly over its area.
+/// Returns the shading of a mesh with a filtered map, at points distributed evenly over its area.
 std::vector<DVec3> pictureOf(const Map& map, const LowMesh& mesh) {
     constexpr double kPoints = 100000;
     std::vector<double> areas(mesh.positions.size() / 3);
@@ -65,7 +65,7 @@ std::vector<DVec3> pictureOf(const Map& map, const LowMesh& mesh) {
             corners.tangents[i] = mesh.tangents[3 * t + i];
         }
         for (due += kPoints * areas[t] / whole; due >= 1; --due) {
-            // The additive recurrence of the plastic number: even in any range, and the same for every map.
+            // Additive recurrence of the plastic number: evenly distributed in any range, and equal for every map.
             ++number;
             double a = std::fmod(number * 0.7548776662466927, 1), b = std::fmod(number * 0.5698402909980532, 1);
             if (a + b > 1) {
@@ -113,13 +113,13 @@ class Row {
         log_p99_ += std::log(std::max(angles.p99, 1e-12));
         ++count_;
     }
-    /// The same figures with a target for their mean.
+    /// Returns the same row with a target for its mean.
     [[nodiscard]] Row withTarget(double most_mean) const {
         Row row = *this;
         row.most_mean_ = most_mean;
         return row;
     }
-    /// False: it misses its target.
+    /// Returns false if it misses its target.
     [[nodiscard]] bool print() const {
         const double mean = std::exp(log_mean_ / count_), p99 = std::exp(log_p99_ / count_);
         const bool is_met = (most_mean_ == 0 || mean <= most_mean_) && (most_p99_ == 0 || p99 <= most_p99_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Codes of frames by one interface: tspace's formats and the others.
+// Common interface of frame encodings: tspace's formats and others.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@
 
 namespace tspace::bench {
 
-inline constexpr std::size_t kBatch = 16384;  ///< frames that stay in the cache
+inline constexpr std::size_t kBatch = 16384;  ///< frames that fit into the cache
 
 struct Code {
-    std::string name, function;  ///< the function decodes in GLSL
+    std::string name, function;  ///< function: the GLSL decoder
     std::size_t bytes = 0;
-    /// kBatch frames at a time; decode gives those that were encoded last.
+    /// kBatch frames at a time; decode returns the frames that were encoded last.
     std::function<void(const test::FrameList&)> encode;
     std::function<void(test::FrameList&)> decode;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One table of codes of frames: tspace's formats beside others. Errors over random frames, times of one thread, and what
-// decoding costs a shader.
+// Table of frame encodings: tspace's formats and others. Errors over random frames, single-threaded times, and shader
+// cost of decoding.
 #include <fmt/core.h>
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION

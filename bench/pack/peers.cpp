@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The encoders of peers.glsl's decoders, and those decoders in C++.
+// Encoders for the decoders of peers.glsl, and those decoders in C++.
 #include "peers.h"
 
 #include <cmath>
 
 #include "core/base/vec_math.h"
 
-// The types of GLSL, from those of Metal; last, as it has macros.
+// GLSL types, emulated with the Metal header; included last because it defines macros.
 #include <metal_stdlib>
 
 namespace tspace::bench {
@@ -42,7 +42,7 @@ DVec3 tangentOf(const PeerFrame& f) { return {f.tangent.x, f.tangent.y, f.tangen
 bool isMirrored(const PeerFrame& f) { return f.tangent.w < 0; }
 std::uint32_t rounded(double x) { return static_cast<std::uint32_t>(std::lround(x)); }
 
-/// N as an octahedron of kBits each way, the rest of 31 bits the angle.
+/// Encodes N as an octahedron with kBits in each direction, and the angle in the rest of 31 bits.
 template <unsigned kBits, peer_Frame (*decode)(uvec2)>
 PeerWords encodeAngle(const PeerFrame& f) {
     constexpr unsigned kAngleBits = 31 - 2 * kBits;
@@ -50,7 +50,7 @@ PeerWords encodeAngle(const PeerFrame& f) {
     const Point at = unfolded(toDouble(f.normal));
     const std::uint32_t i = rounded((at.x + 1) * kHalf), j = rounded((at.y + 1) * kHalf);
     const std::uint32_t word = i << (32 - kBits) | j << (32 - 2 * kBits) | (isMirrored(f) ? 1 : 0);
-    // T at no angle, and at a quarter turn, are the axes that the decoder takes.
+    // T at angle 0, and at a quarter turn, are the axes that the decoder uses.
     const DVec3 p = tangentOf(decoded<decode>(word)), q = tangentOf(decoded<decode>(word | 1u << (kAngleBits - 1)));
     const double angle = std::atan2(dot(tangentOf(f), q), dot(tangentOf(f), p)) / 6.283185307179586;
     return word | (rounded((angle + 1) * kAngles) & ((1u << kAngleBits) - 1)) << 1;
@@ -59,7 +59,8 @@ PeerWords encodeAngle(const PeerFrame& f) {
 struct Quaternion {
     double at[4];
 };
-/// Of the rotation T, N x T, N, with w >= 0: the largest component first, which divides the others.
+/// Returns the quaternion of the rotation T, N x T, N, with w >= 0: the largest component first, which divides the
+/// others.
 Quaternion quaternionOf(const PeerFrame& f) {
     const DVec3 t = tangentOf(f), n = toDouble(f.normal), b = cross(n, t);
     const double squares[4] = {1 + t.x - b.y - n.z, 1 - t.x + b.y - n.z, 1 - t.x - b.y + n.z, 1 + t.x + b.y + n.z};
@@ -96,7 +97,7 @@ PeerWords encodeSmallestThree(const PeerFrame& f) {
     return word << 3 | largest << 1 | (isMirrored(f) ? 1 : 0);
 }
 
-/// w is at least one step, and the others make room for it: the bias of the talk.
+/// w is at least one step, and the others are reduced accordingly: the bias from the talk.
 PeerWords encodeQtangent16(const PeerFrame& f) {
     Quaternion q = quaternionOf(f);
     constexpr double kBias = 1.0 / 32767;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Other codes of whole frames, as engines and public code have them: plain rounding, no search.
+// Other encodings of whole frames, from engines and public code: simple rounding, no search.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ using PeerWords = std::uint64_t;
 
 struct Peer {
     const char* name;
-    const char* function;  ///< of peers.glsl, which decodes it
+    const char* function;  ///< decoder in peers.glsl
     std::size_t bytes;
     PeerWords (*encode)(const PeerFrame& frame);
     PeerFrame (*decode)(PeerWords words);

@@ -31,15 +31,15 @@ Vec4 withSign(const DVec3& v, double sign) {
     return {f.x, f.y, f.z, static_cast<float>(sign)};
 }
 
-/// Seen from in front and above.
+/// Rotates to a view from the front and above.
 DVec3 turned(const DVec3& v) {
     constexpr double kTilt = 0.5;
     const double c = std::cos(kTilt), s = std::sin(kTilt);
     return {v.x, c * v.y - s * v.z, s * v.y + c * v.z};
 }
 
-/// A grid of a closed surface around the y axis: at(longitude, latitude) gives a point, both from 0 to 1. u runs from the
-/// front to the back on both sides, so that one half is mirrored.
+/// Returns a grid of a closed surface around the y axis: at(longitude, latitude) returns a point, both from 0 to 1. u
+/// runs from the front to the back on both sides, so that one half is mirrored.
 template <class At>
 Mesh gridOf(At at) {
     constexpr int kAround = 96, kAcross = 48;
@@ -82,13 +82,13 @@ Mesh torus() {
     });
 }
 
-/// A texel of a bumpy map: z is up.
+/// Returns a texel of a bumpy map: z is up.
 DVec3 texelAt(double u, double v) {
     const double bumps = 2 * kPi * 8;
     return unitOf({0.35 * std::cos(bumps * u), 0.35 * std::cos(bumps * v), 1});
 }
 
-/// By MikkTSpace, with a light and its highlight.
+/// Shades by MikkTSpace, with a light and its specular highlight.
 double shade(const DVec3& normal, const DVec3& tangent, double sign, double u, double v) {
     const DVec3 texel = texelAt(u, v), bitangent = sign * cross(normal, tangent);
     const DVec3 n = unitOf(texel.x * tangent + texel.y * bitangent + texel.z * normal);
@@ -101,7 +101,7 @@ struct Pixels {
     std::vector<double> shade, depth;
 };
 
-/// Orthographic, from z downwards; what is nearest counts. Below 0 where there is nothing.
+/// Draws an orthographic view along -z with a depth test. Values below 0 mark the background.
 Pixels draw(const Mesh& mesh, const test::FrameList& frames, int size) {
     const std::size_t count = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
     Pixels pixels{std::vector<double>(count, -1), std::vector<double>(count, std::numeric_limits<double>::lowest())};
@@ -155,7 +155,7 @@ Picture differencePicture(const std::vector<Code>& codes, int size) {
         for (int column = 0; column < columns; ++column) {
             test::FrameList frames = mesh.frames;
             if (column > 0) {
-                frames.resize(kBatch);  // frames of zeros behind those of the mesh are mended
+                frames.resize(kBatch);  // zero frames after those of the mesh are repaired
                 codes[static_cast<std::size_t>(column - 1)].encode(frames);
                 codes[static_cast<std::size_t>(column - 1)].decode(frames);
             }

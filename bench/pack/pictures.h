@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the errors of codes do to a picture.
+// Effect of encoding errors on a rendered image.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ struct Picture {
     std::vector<std::uint8_t> grey;  ///< from the top row downwards
 };
 
-/// Two rows, a sphere and a torus, each with a normal map and with mirrored UVs on one half; from the left, shaded with
-/// frames in floats, then for each code 100 times the difference from that.
+/// Two rows, a sphere and a torus, each with a normal map and mirrored UVs on one half; from the left: shaded with
+/// float frames, then for each encoding 100 times the difference from that.
 Picture differencePicture(const std::vector<Code>& codes, int size);
 
 }  // namespace tspace::bench

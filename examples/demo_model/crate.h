@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The crate: a rounded cube whose left half mirrors the right one's texture. What its mesh and its textures agree on.
+// Layout shared by the mesh and the textures of the crate: a rounded cube whose left half uses the right half's
+// texture, mirrored.
 //
 // Layout of the texture (u right, v down), in units of the cube's edge; one edge is half of the texture:
 //
@@ -18,22 +19,22 @@
 
 namespace crate {
 
-/// Half of the cube's edge, in metres.
+/// Half of the cube's edge, in meters.
 inline constexpr double kHalfEdge = 0.5;
-/// Radius of the rounded edges, in metres.
+/// Radius of the rounded edges, in meters.
 inline constexpr double kBevelRadius = 0.08;
-/// Length of the bevel's cross section from a flat side to the middle of the edge: an eighth of a circle, pi/4 * r.
+/// Arc length of the bevel's cross section from a flat side to the middle of the edge: an eighth of a circle, pi/4 * r.
 inline constexpr double kBevelArc = 0.78539816339744831 * kBevelRadius;
-/// Half of a side unrolled: the flat part and the bevel up to its middle.
+/// Half of an unrolled side: the flat part and the bevel up to its middle.
 inline constexpr double kHalfUnrolled = kHalfEdge - kBevelRadius + kBevelArc;
 
 enum class Side { top, front, under, back, right, left };
 inline constexpr int kSideCount = 6;
 
-/// Texture coordinates per metre: a side takes half of the texture, its rest is a gutter around it.
+/// Texture coordinates per meter: a side uses half of the texture, the rest is a gutter around it.
 inline constexpr double kUvPerMetre = 0.5;
 
-/// Texture coordinates of a side's middle.
+/// Texture coordinates of the center of a side.
 struct Place {
     double u, v;
 };
@@ -56,7 +57,7 @@ constexpr Place placeOf(Side side) {
     }
     return {0, 0};
 }
-/// true: the side's texture is shared by its halves x > 0 and x < 0.
+/// Returns whether the halves x > 0 and x < 0 of the side share its texture.
 constexpr bool isMirrored(Side side) { return side != Side::right && side != Side::left; }
 
 struct Mesh {
@@ -66,11 +67,11 @@ struct Mesh {
     std::vector<std::uint16_t> indices;
 };
 
-/// Normals are smooth over the bevels; a UV seam runs along the middle of most of them.
+/// Creates the mesh. Normals are smooth across the bevels; UV seams run along the middle of most bevels.
 Mesh makeMesh();
 
 struct Image {
-    int size = 0;  ///< width and height, in pixels
+    int size = 0;  ///< width and height, in texels
     std::vector<std::uint8_t> rgb;
 };
 
@@ -79,7 +80,7 @@ struct Textures {
     Image normal;      ///< tangent space, green up
 };
 
-/// Images of `size` by `size` pixels.
+/// Creates images of `size` by `size` texels.
 Textures makeTextures(int size = 1024);
 
 }  // namespace crate

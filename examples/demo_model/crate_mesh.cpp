@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The crate's triangles: six sides of a rounded cube, unrolled as crate.h says.
+// Triangles of the crate: six sides of a rounded cube, unrolled as described in crate.h.
 #include <array>
 #include <cmath>
 
@@ -10,11 +10,11 @@ namespace {
 
 using Vec = std::array<double, 3>;
 
-/// One grid line across a side, seen along the other axis of that side.
+/// A grid line across a side, as seen along the other axis of that side.
 struct Line {
     double flat = 0;    ///< nearest coordinate on the flat part
-    double lean = 0;    ///< -1..1: how far the normal leans over, 1 in the middle of the edge
-    double offset = 0;  ///< distance from the side's middle on the unrolled surface
+    double lean = 0;    ///< -1..1: tilt of the normal, 1 in the middle of the edge
+    double offset = 0;  ///< distance from the center of the side on the unrolled surface
 };
 
 std::vector<Line> gridLines() {
@@ -38,7 +38,7 @@ std::vector<Line> gridLines() {
     return lines;
 }
 
-/// Directions of a side in space: out of it, along u (for x > 0), along v.
+/// Directions of a side in space: outwards, along u (for x > 0), along v.
 struct Axes {
     Side side;
     Vec out, right, down;
@@ -63,7 +63,7 @@ void addVertex(Mesh& mesh, const Axes& axes, const Line& column, const Line& row
     mesh.uvs.push_back(static_cast<float>(place.v + kUvPerMetre * row.offset));
 }
 
-/// Sides that follow each other downwards share the vertices of the edge between them.
+/// Adds vertically adjacent sides, which share the vertices of their common edge.
 void addStrip(Mesh& mesh, const std::vector<Axes>& sides) {
     const std::vector<Line> lines = gridLines();
     const std::size_t columns = lines.size();
@@ -89,7 +89,7 @@ void addStrip(Mesh& mesh, const std::vector<Axes>& sides) {
 }  // namespace
 
 Mesh makeMesh() {
-    // Space: x right, y up, z to the viewer. down = right x out, so that u, -v, out are right-handed for x > 0.
+    // Axes: x right, y up, z towards the viewer. down = right x out, so that u, -v, out are right-handed for x > 0.
     constexpr Vec x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, left{-1, 0, 0}, down{0, -1, 0}, away{0, 0, -1};
     Mesh mesh;
     addStrip(mesh, {{Side::top, y, x, z}, {Side::front, z, x, down}});

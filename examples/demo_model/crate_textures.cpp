@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The crate's textures: a height field of grooves, rivets and plates, its normal map, and paint that follows
-// it. Only sqrt is used of libm, so that the pixels are the same everywhere.
+// Textures of the crate: a height field of grooves, rivets and plates, its normal map, and paint that follows it. Uses
+// only sqrt from libm, so that the texels are equal on every machine.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,7 @@ namespace crate {
 namespace {
 
 struct Point {
-    double x, y;  ///< metres from the side's middle: right, down
+    double x, y;  ///< meters from the center of the side: right, down
 };
 
 double smoothstep(double low, double high, double value) {
@@ -20,7 +20,7 @@ double smoothstep(double low, double high, double value) {
 
 double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
-// Distances to shapes, negative inside. After "2D distance functions" by Inigo Quilez.
+// Signed distances to shapes, negative inside. After "2D distance functions" by Inigo Quilez.
 
 double roundedBox(Point p, double half_width, double half_height, double radius) {
     const double x = std::abs(p.x) - half_width + radius, y = std::abs(p.y) - half_height + radius;
@@ -35,7 +35,7 @@ double segment(Point p, Point a, Point b, double radius) {
     return length(p.x - a.x - t * x, p.y - a.y - t * y) - radius;
 }
 
-// Heights in metres, from distances.
+// Heights in meters, from distances.
 
 double plate(double distance, double height) { return height * smoothstep(0.006, -0.006, distance); }
 
@@ -47,10 +47,10 @@ double rivet(Point p) {
     return t > 0 ? 0.6 * kRadius * std::sqrt(t) : 0;
 }
 
-/// Distance to the nearest multiple of `step`, with its sign.
+/// Returns the signed distance to the nearest multiple of `step`.
 double repeat(double value, double step) { return value - step * std::floor(value / step + 0.5); }
 
-/// Rivets on the square |x| = r or |y| = r.
+/// Returns the height of rivets on the square |x| = r or |y| = r.
 double rivetFrame(Point p) {
     constexpr double kRow = 0.39, kStep = 0.13;
     const bool on_column = std::abs(p.x) > std::abs(p.y);
@@ -65,7 +65,7 @@ double letterT(Point p) {
                     roundedBox({p.x, p.y - 0.02}, 0.032, 0.13, 0.008));
 }
 
-/// Tread plate: short bars, turned by a right angle from cell to cell.
+/// Returns the height of a tread plate: short bars, rotated by a right angle from cell to cell.
 double tread(Point p) {
     constexpr double kCell = 0.085;
     const double column = std::floor(p.x / kCell), row = std::floor(p.y / kCell);
@@ -74,7 +74,7 @@ double tread(Point p) {
     return segment(local, {-0.022, -0.022 * turn}, {0.022, 0.022 * turn}, 0.006);
 }
 
-/// What makes a side different from the others.
+/// Returns the height of the details that are specific to a side.
 double detail(Side side, Point p) {
     const double inside = smoothstep(-0.03, -0.04, panel(p));
     switch (side) {
@@ -96,7 +96,7 @@ double detail(Side side, Point p) {
                                                    : 0;
         }
         case Side::right: {
-            // Eight bolts by symmetry: fold into one eighth of the circle.
+            // Eight bolts by symmetry: maps to one eighth of the circle.
             double x = std::abs(p.x), y = std::abs(p.y);
             if (y > x) {
                 std::swap(x, y);
@@ -118,7 +118,7 @@ double height(Side side, Point p) {
     return groove(panel(p)) + plate(panel(p) + 0.018, 0.006) + rivetFrame(p) + detail(side, p);
 }
 
-/// 0..1, constant over a cell of the integer grid.
+/// Returns a value in 0..1, constant over a cell of the integer grid.
 double noiseAt(std::int64_t x, std::int64_t y) {
     std::uint64_t bits =
         static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15u ^ static_cast<std::uint64_t>(y) * 0xC2B2AE3D27D4EB4Fu;
@@ -127,7 +127,7 @@ double noiseAt(std::int64_t x, std::int64_t y) {
     return static_cast<double>(bits >> 40) / static_cast<double>(1u << 24);
 }
 
-/// Smooth noise with features of about 1 / `frequency` metres.
+/// Returns smooth noise with features of about 1 / `frequency` meters.
 double noise(Point p, double frequency) {
     const double x = p.x * frequency, y = p.y * frequency;
     const double column = std::floor(x), row = std::floor(y);
@@ -161,7 +161,7 @@ Color paint(Side side, Point p) {
     if (side == Side::top) {
         color = mix(color, kSteel, 0.5 * smoothstep(0.002, -0.002, std::max(tread(p), panel(p) + 0.035)));
     }
-    const double shift = 3 * static_cast<int>(side);  // each side wears in its own places
+    const double shift = 3 * static_cast<int>(side);  // offset so that sides differ in wear
     const double grain = 0.6 * noise({p.x + shift, p.y}, 23) + 0.4 * noise({p.x, p.y + shift + 7}, 91);
     const double edge = smoothstep(0.41, 0.47, std::max(std::abs(p.x), std::abs(p.y)));
     color = mix(color, kSteel, smoothstep(0.80, 0.84, grain + 0.22 * edge));
@@ -170,7 +170,7 @@ Color paint(Side side, Point p) {
     return mix(color, kDirt, std::clamp(0.75 * deep + 0.25 * (1 - grain), 0.0, 1.0));
 }
 
-/// The side whose part of the texture holds this place, gutter included.
+/// Returns the side whose part of the texture contains a position, including its gutter.
 Side sideAt(double u, double v) {
     if (u < 0.5) {
         return u < 0.25 ? (v < 0.5 ? Side::top : Side::front) : (v < 0.5 ? Side::under : Side::back);
@@ -183,7 +183,7 @@ std::uint8_t toByte(double value) { return static_cast<std::uint8_t>(std::clamp(
 }  // namespace
 
 Textures makeTextures(int size) {
-    const double pixel = 1 / (size * kUvPerMetre);  // metres
+    const double pixel = 1 / (size * kUvPerMetre);  // meters per texel
     Textures result;
     result.base_color.size = result.normal.size = size;
     for (int row = 0; row < size; ++row) {
@@ -196,7 +196,7 @@ Textures makeTextures(int size) {
             for (const double value : {color.r, color.g, color.b}) {
                 result.base_color.rgb.push_back(toByte(value));
             }
-            // Slopes by central differences over two pixels; green points up, against v.
+            // Slopes from central differences over two texels; green points up, against v.
             const double slope_u = (height(side, {p.x + pixel, p.y}) - height(side, {p.x - pixel, p.y})) / (2 * pixel);
             const double slope_v = (height(side, {p.x, p.y + pixel}) - height(side, {p.x, p.y - pixel})) / (2 * pixel);
             const double scale = 1 / std::sqrt(slope_u * slope_u + slope_v * slope_v + 1);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// tspace_demo_model FILE.glb [SIZE]: writes the model that scripts/demo uses, made from nothing but this code, with images of
-// SIZE by SIZE pixels.
-// A crate with a normal map, mirrored UVs, UV seams and bevels, and no tangents. Every run writes the same
+// tspace_demo_model FILE.glb [SIZE]: writes the procedural model that scripts/demo uses, with images of SIZE by SIZE
+// texels. A crate with a normal map, mirrored UVs, UV seams and bevels, and without tangents. Every run writes the same
 // bytes.
 #include <algorithm>
 #include <bit>
@@ -24,11 +23,11 @@ namespace {
 
 using tspace::Json;
 
-// glTF's own numbers.
+// Constants of the glTF format.
 constexpr int kFloat = 5126, kUnsignedShort = 5123, kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 constexpr int kLinear = 9729, kLinearMipmapLinear = 9987, kRepeat = 10497;
 
-/// The binary chunk, and the JSON that describes its pieces.
+/// The binary chunk, and the JSON that describes its parts.
 struct Builder {
     std::string binary;
     Json views = Json::array();
