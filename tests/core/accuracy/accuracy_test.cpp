@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How close frames come to exact ones, on few and small meshes. scripts/accuracy measures the same at length.
+// Accuracy of frames relative to exact ones, on a few small meshes. scripts/accuracy measures it in full.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -20,7 +20,7 @@ std::vector<const Surface*> allSurfaces() {
     return all;
 }
 
-/// The geometric mean over the twelve surfaces of what `errorOf` says about their irregular meshes.
+/// Returns the geometric mean of `errorOf` over the irregular meshes of the twelve surfaces.
 double meanOver(int cells, const std::function<double(const TestMesh&)>& errorOf) {
     std::vector<double> errors;
     for (const Surface& surface : surfaces()) {
@@ -99,7 +99,7 @@ TEST(Tessellations, TurnNoTriangleOverAndKeepTheSidesOfAFoldApart) {
     }
 }
 
-/// A plane whose texture is turned, stretched and sheared, the same everywhere.
+/// A plane whose texture is uniformly rotated, stretched and sheared.
 SurfacePoint affine(const Dual& s, const Dual& t, int) {
     return {{s, 2 * t, 0.5 * s - t}, {0.3 * s + 1.1 * t + 0.2, 0.4 * t - 0.9 * s}};
 }
@@ -144,7 +144,7 @@ TEST(BestTangents, AreSeveralTimesCloserThanMikktspaceOnSmoothSurfaces) {
     EXPECT_LT(1.3 * errorOf(Method::fast), mikktspace);
 }
 
-// Vertices with four neighbours, which do not determine a quadratic map, must not spoil the order.
+// Vertices with four neighbors, which do not determine a quadratic map, must not reduce the order of convergence.
 TEST(BestTangents, ConvergeNearlyWithTheSecondOrderOnIrregularMeshes) {
     for (const bool held_out : {false, true}) {
         std::vector<double> coarse, fine;
@@ -215,7 +215,7 @@ TEST(BestTangents, LoseNextToNothingToNoiseByTheSteps) {
     }
 }
 
-/// Of `best` normals with 0, 1 and 2 steps: geometric means over all surfaces that are not flat.
+/// Returns the errors of `best` normals with 0, 1 and 2 steps: geometric means over all curved surfaces.
 std::array<double, 3> errorsBySteps(Tessellation tessellation, int cells, double noise) {
     std::array<double, 3> means{};
     for (std::uint32_t refine = 0; refine < 3; ++refine) {
@@ -274,7 +274,7 @@ TEST(BestNormals, AreNoWorseThanAngleTimesAreaOnBevels) {
     }
     EXPECT_LT(best, 1.03 * angle_area);
     EXPECT_LT(best, 1.01 * fit);
-    EXPECT_GT(max, 10 * angle_area);  // proves that there was an error to resist
+    EXPECT_GT(max, 10 * angle_area);  // proves that the error to resist exists
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// result_hashes scalar|sse2|neon|best: computes everything that has kernels for each CPU, for meshes made from
-// whole numbers, and prints a hash for each kind of result. What two CPUs print must be the same. Any NaN
-// counts as equal to any NaN.
+// result_hashes scalar|sse2|neon|best: computes everything that has CPU-specific kernels, for meshes generated from
+// integers, and prints a hash per kind of result. The output must be the same on all CPUs. All NaNs count as equal.
 #include <algorithm>
 #include <bit>
 #include <cstdio>
@@ -49,13 +48,12 @@ struct Mesh {
     }
 };
 
-/// Whole numbers only, of which the standard says what they are, and no function of the C library.
+/// Uses only integers, whose results the standard defines, and no C library functions.
 class Maker {
   public:
     explicit Maker(std::uint32_t seed) : random_(seed) {}
 
-    /// Few vertices and many faces between them: corners that weld, edges with many faces, faces without
-    /// area.
+    /// Returns few vertices with many faces between them: welded corners, edges with many faces, faces without area.
     Mesh soup() {
         Mesh mesh;
         const std::uint32_t count = 3 + below(12), most_corners = 1 + below(3), faces = 1 + below(40);
@@ -71,7 +69,7 @@ class Maker {
         return mesh;
     }
 
-    /// A rough sheet of triangles and quads, mirrored in bands, with normals that are not unit.
+    /// Returns a rough sheet of triangles and quads, mirrored in bands, with normals that are not unit.
     Mesh sheet() {
         Mesh mesh;
         const std::uint32_t columns = 2 + below(14), rows = 1 + below(14), band = 1 + below(columns);
@@ -135,7 +133,7 @@ struct Results {
     bool all_worked = true;
 };
 
-/// All outputs, what sanitizing makes of the tangents, and evaluation of a plan.
+/// Adds all outputs, the sanitized tangents, and the evaluation of a plan.
 void addTangents(const Mesh& mesh, Method method, const Execution& execution, Results& results) {
     const MeshView view = mesh.view();
     const std::size_t count = view.cornerCount();
@@ -167,7 +165,7 @@ void addNormals(const Mesh& mesh, NormalWeighting weighting, const Execution& ex
     results.hashes["normals " + std::to_string(static_cast<unsigned>(weighting))].add(normals);
 }
 
-/// Frames as rough as the mesh: most are mended first.
+/// Packs frames as rough as the mesh: most are repaired first.
 void addPacked(const Mesh& mesh, FrameFormat format, Results& results) {
     const std::size_t count = mesh.normals.size();
     std::vector<Vec4> tangents;

@@ -148,7 +148,7 @@ TEST(Arena, LeavesAddressesToOthersWhereTheyAreLimited) {
     EXPECT_EXIT(std::exit(use() ? 0 : 1), testing::ExitedWithCode(0), "");
 }
 
-/// Bytes of address space that this process has mapped.
+/// Returns the bytes of address space that this process has mapped.
 std::size_t mappedBytes() {
     long pages = 0;
     if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
@@ -158,8 +158,8 @@ std::size_t mappedBytes() {
     return static_cast<std::size_t>(pages) * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-/// Uses an arena while `left` bytes of address space are free. The mapping made before it lies where an arena that
-/// exceeds its own reservation would write. False if a byte of that mapping changed or blocks overlap.
+/// Uses an arena while `left` bytes of address space are free. A mapping created before it is placed where an arena
+/// that exceeds its reservation would write. Returns false if a byte of that mapping changed, or if blocks overlap.
 bool stayInsideWith(std::size_t left) {
     constexpr std::size_t kNeighborBytes = std::size_t{16} << 20, kBlockBytes = std::size_t{1} << 19;
     void* const mapping = mmap(nullptr, kNeighborBytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -187,7 +187,7 @@ TEST(Arena, WritesOnlyToItsOwnMemoryWhereAddressesAreScarce) {
 }
 #endif
 
-/// A torus of two triangles per cell, its seams shared.
+/// A torus with two triangles per cell and shared seams.
 struct Torus {
     std::vector<Vec3> positions, normals;
     std::vector<Vec2> uvs;
@@ -221,7 +221,7 @@ struct Torus {
     }
 };
 
-/// The most that is live at one time.
+/// Tracks the peak of live memory.
 struct PeakAllocator {
     std::size_t live = 0, peak = 0;
     Allocator allocator{.allocate =
@@ -242,7 +242,7 @@ struct PeakAllocator {
 const std::vector<Method> kMethods{Method::mikktspace, Method::lengyel, Method::uniform, Method::angle, Method::area,
                                    Method::flat,       Method::basis,   Method::fast,    Method::best};
 
-/// Everything of this library that takes an allocator.
+/// Calls all functions of the library that take an allocator.
 void computeAll(const Torus& torus, Method method, const Allocator* allocator) {
     const Execution execution{.thread_count = 1, .allocator = allocator};
     std::vector<Vec3> normals(torus.indices.size());
@@ -256,7 +256,8 @@ void computeAll(const Torus& torus, Method method, const Allocator* allocator) {
 
 #if defined(__GLIBC__) && !defined(TSPACE_SANITIZED)
 TEST(Arena, IsWhatKeepsMemoryAndNoThreadDoes) {
-    mallopt(M_MMAP_THRESHOLD, 131072);  // and glibc does not change it any more: each large buffer has fresh pages
+    // also stops glibc from adapting the threshold: each large buffer gets fresh pages
+    mallopt(M_MMAP_THRESHOLD, 131072);
     const Torus torus(100);
     std::vector<Vec4> tangents(torus.indices.size());
     const auto faultsOfFourthCall = [&](const Allocator* allocator) {

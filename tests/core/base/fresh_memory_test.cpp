@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What fresh memory holds changes no bit of any result.
+// The content of fresh memory does not affect any bit of a result.
 #include <gtest/gtest.h>
 
 #include "core/normals/normals_outcome.h"

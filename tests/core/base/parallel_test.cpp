@@ -125,7 +125,7 @@ TEST(Parallel, CarriesWhatABodyThrowsToTheCaller) {
     for (const Execution& execution : {Execution{}, Execution{.thread_count = 4}, Execution{.executor = &executor}}) {
         for (int round = 0; round < 50; ++round) {
             Parallel parallel(execution);
-            // Gone when the exception comes out: nobody may still work on it.
+            // Destroyed when the exception arrives: no thread may still use it.
             auto seen = std::make_unique<std::vector<std::atomic<int>>>(64);
             try {
                 parallel.forTasks(seen->size(), [&](std::size_t task) {
@@ -138,7 +138,7 @@ TEST(Parallel, CarriesWhatABodyThrowsToTheCaller) {
                 for (const std::atomic<int>& n : *seen) EXPECT_LE(n, 1);
             }
             seen.reset();
-            // It goes on as before.
+            // The object still works afterwards.
             std::atomic<int> count{0};
             parallel.forTasks(10, [&](std::size_t) { ++count; });
             EXPECT_EQ(count, 10);

@@ -9,7 +9,7 @@
 namespace tspace {
 namespace {
 
-/// Counts what it gives out, and may have nothing more to give.
+/// Counts allocations, and fails after a limit.
 struct Source {
     int calls = 0, held = 0, most_calls = 1000;
     Allocator allocator{allocate, release, this};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sorting in little code gives what the standard library gives.
+// The compact sort gives the same results as the standard library.
 #include "core/base/sort.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The search for equal vertices, where hashes tell little.
+// Search for equal vertices with poor hashes.
 #include "core/base/weld.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace tspace {
 namespace {
 
-/// Vertices that are numbers, with a hash that may be a bad one. Negative ones equal nothing, as NaNs do.
+/// Vertices represented by numbers, with a hash that may be poor. Negative numbers equal nothing, like NaN.
 class Numbers final : public Weldable {
   public:
     Numbers(std::vector<int> values, std::uint32_t factor) : values_(std::move(values)), factor_(factor) {}
@@ -61,7 +61,7 @@ TEST(Welding, FindsTheLowestEqualVertex) {
     }
 }
 
-/// All in one place of the table, or with one hash: comparing all with all would take hours.
+/// All vertices in one table slot, or with one hash: comparing all pairs would take hours.
 TEST(Welding, TakesNoQuadraticTimeWhereHashesCollide) {
     for (const int distinct : {99999, 300000}) {
         expectRoots(300000, distinct, 1u << 20);

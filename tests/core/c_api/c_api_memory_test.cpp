@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The C API with the caller's executor and memory: what it takes, gives back, and does where there is none left.
+// The C API with the caller's executor and allocator: its allocations and releases, and its behavior when memory runs
+// out.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -13,7 +14,7 @@
 namespace tspace::test {
 namespace {
 
-/// Counts what it gives and takes back, and refuses after `allowed` allocations.
+/// Counts allocations and releases, and fails after `allowed` allocations.
 struct CountingMemory {
     std::size_t given = 0;
     std::size_t live = 0;
@@ -101,7 +102,7 @@ TEST(CApi, APlanOutlivesTheStructsItWasMadeWith) {
     CountingMemory memory;
     tspace_TangentPlan* plan = nullptr;
     {
-        // On the heap and freed, so that an address sanitizer sees a plan that still looks at it.
+        // Heap-allocated and freed, so that AddressSanitizer detects a plan that still refers to them.
         const auto allocator = std::make_unique<tspace_Allocator>(memory.hooks());
         const auto c_mesh = std::make_unique<tspace_Mesh>(mesh.c());
         tspace_TangentOptions options = tangentOptions();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The C API does what the C++ API does, to the bit.
+// The C API gives the same bits as the C++ API.
 #include "tspace/tspace.h"
 
 #include <gtest/gtest.h>
@@ -105,7 +105,7 @@ TEST(CApi, DefaultsOfTangentsAreThoseOfCpp) {
     EXPECT_EQ(TangentOptions{}.refine, options.refine);
     tspace_Execution execution;
     TSPACE_INIT(execution);
-    EXPECT_EQ(0u, execution.thread_count);  // like 1, the default in C++
+    EXPECT_EQ(0u, execution.thread_count);  // equivalent to 1, the default in C++
     tspace_NormalOptions normals;
     TSPACE_INIT(normals);
     EXPECT_EQ(static_cast<std::uint32_t>(NormalOptions{}.weighting), normals.weighting);
@@ -170,7 +170,8 @@ TEST(CApi, TheConventionHasNoDefault) {
 template <class Struct>
 using Init = tspace_ErrorCode (*)(Struct*, uint32_t, tspace_Error*) noexcept;
 
-/// Options that `init` prepares have the bytes of those of TSPACE_INIT, up to each size that the struct ever had.
+/// Options that `init` prepares have the same bytes as those of TSPACE_INIT, up to each size that the struct has ever
+/// had.
 template <class Struct>
 void expectInitLikeTheMacro(Init<Struct> init, std::initializer_list<std::size_t> old_sizes = {}) {
     Struct by_macro;
@@ -228,7 +229,7 @@ TEST(CApi, TangentOptionsOfZerosAreRefused) {
     EXPECT_EQ(nullptr, std::strstr(error.message, "TSPACE_")) << "bindings show it too: " << error.message;
     tspace_TangentPlan* plan = nullptr;
     EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, tspace_planTangents(&c_mesh, &options, nullptr, &plan, nullptr));
-    options.refine = 1;  // then somebody wants 0 degrees
+    options.refine = 1;  // then a caller requests 0 degrees
     EXPECT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr, nullptr));
     options.refine = 0;
     options.angular_threshold_deg = 180;
@@ -247,7 +248,7 @@ TEST(CApi, NormalOptionsOfZerosAreRefused) {
     ASSERT_EQ(TSPACE_OK, tspace_initNormalOptions(&options, sizeof options, nullptr));
     options.weighting = TSPACE_NORMAL_WEIGHTING_FLAT;
     EXPECT_EQ(TSPACE_OK, tspace_generateNormals(&c_mesh, &options, out, nullptr, nullptr, nullptr));
-    // Nothing is lost: with 0 for each of the others alone, the result is that of zeros.
+    // No combination is lost: with 0 for each of the other options alone, the result equals that of zeros.
     ASSERT_TRUE(generateNormals(mesh.view(), {NormalWeighting::flat, {}, 0, {}, false, false, 0}, flat));
     EXPECT_TRUE(sameBits(flat, made));
 }
@@ -383,7 +384,7 @@ TEST(CApi, RefinesNormalsAsTheCppApi) {
     EXPECT_FALSE(sameBits(normalsWith(0), normalsWith(1)));
 }
 
-/// A bent sheet of 60 x 60 squares whose points lie beside it.
+/// Returns a bent sheet of 60 x 60 squares with noisy positions.
 SimpleMesh noisySheet() {
     constexpr std::uint32_t kSide = 60;
     SimpleMesh sheet;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the C API says to callers who make a mistake.
+// Errors of the C API for invalid calls.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -69,7 +69,7 @@ TEST_F(CErrors, CutALongMessageBetweenCharacters) {
     }
 }
 
-/// Every size that is not the right one is refused, above and below, but for one that the struct had earlier.
+/// Checks that every wrong size is rejected, above and below, except the size of an earlier version.
 template <class Struct, class Call>
 void expectSizeChecked(const char* what, Struct& sized, Call call, std::size_t earlier = 0) {
     const std::uint32_t right = sized.struct_size;
@@ -127,7 +127,7 @@ TEST_F(CErrors, RefuseSizesOfStructsThatThisVersionDoesNotKnow) {
     tspace_destroyTangentPlan(plan);
 }
 
-/// The struct as a header had it that ended before `first_new`: what comes behind is not the callee's to read or write.
+/// The struct of an older header that ended before `first_new`: the callee must not access the bytes after it.
 template <class Struct>
 struct AsOldCaller {
     AsOldCaller(const Struct& now, std::size_t first_new) : size(first_new) {
@@ -184,13 +184,13 @@ TEST_F(CErrors, ServeCallersThatWereCompiledWithAnOlderHeader) {
 }
 
 TEST_F(CErrors, KnowEverySizeThatAStructHad) {
-    // As of a struct that grew twice.
+    // Sizes of a struct that grew twice.
     constexpr std::size_t kGrown[] = {24, 32, 48};
     for (const std::uint32_t size : {24U, 32U, 48U})
         EXPECT_EQ(c_api::checkStructSize(size, kGrown, "options").code, ErrorCode::ok) << size;
     for (const std::uint32_t size : {0U, 28U, 40U, 52U, 0xffffffffU})
         EXPECT_EQ(c_api::checkStructSize(size, kGrown, "options").code, ErrorCode::invalidOption) << size;
-    // What headers had on machines of 64 bits, once and for all.
+    // Sizes in published headers on 64-bit machines, which must never change.
     const auto expectKnown = [](std::span<const std::size_t> known, std::initializer_list<std::size_t> sizes) {
         for (const std::size_t size : sizes)
             EXPECT_NE(std::find(known.begin(), known.end(), size), known.end()) << size;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The drop-in gives the reference's words for every golden mesh whose bits are promised. The layout of the files is in the README
-// beside them.
+// The drop-in gives the reference's words for every golden mesh whose bits are promised. The README next to the files
+// describes their layout.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -60,7 +60,7 @@ void setFull(const SMikkTSpaceContext* context, const float tangent[], const flo
     words[8] = static_cast<std::uint32_t>(preserving);
 }
 
-/// Comes after setFull and must give the same tangent.
+/// Called after setFull; must receive the same tangent.
 void setBasic(const SMikkTSpaceContext* context, const float tangent[], const float sign, const int face,
               const int vertex) {
     Golden& golden = of(context);

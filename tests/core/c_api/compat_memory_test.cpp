@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Each allocation of a MikkTSpace call fails once: the call is false and no setter was called. This program
-// has its own operator new, so it is alone in its file.
+// Lets each allocation of a MikkTSpace call fail once: the call returns false and calls no setter. This program has its
+// own operator new, so the test has a separate file.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -11,7 +11,7 @@
 namespace {
 
 constexpr long kNoLimit = -1;
-long allowed = kNoLimit;  ///< allocations until one fails; the library is called with faces too few for threads
+long allowed = kNoLimit;  ///< allocations until one fails; the meshes have too few faces for threads
 
 void* allocateOrNull(std::size_t bytes, std::size_t alignment) {
     if (allowed == 0) return nullptr;

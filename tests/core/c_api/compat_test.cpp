@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The MikkTSpace drop-in: who is called, when, in which order, and what happens to callers with strange
-// answers.
+// The MikkTSpace drop-in: which callbacks are called, when and in which order, and the handling of unusual callback
+// results.
 #include "tspace/compat/mikktspace.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Results of the C API beside those of the C++ API.
+// Results of the C API compared with those of the C++ API.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A mesh of triangles, quads and pentagons over random vertices, as both APIs see it.
+// A mesh of triangles, quads and pentagons over random vertices, for both APIs.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace tspace::test {
 
-/// Defaults, and the convention that has none.
+/// Returns the defaults, with a convention, which has no default.
 inline tspace_TangentOptions tangentOptions() {
     tspace_TangentOptions options;
     TSPACE_INIT(options);
@@ -30,7 +30,7 @@ struct RandomMesh : SimpleMesh {
         }
         for (std::uint32_t f = 0; f < face_count; ++f) {
             face_sizes.push_back(3 + f % 3);
-            // Neighbours in the vertex list, so that faces have different corners and share vertices.
+            // Consecutive vertices, so that the corners of a face differ and faces share vertices.
             const std::uint32_t first = static_cast<std::uint32_t>(random()) % (vertex_count - 4);
             for (std::uint32_t k = 0; k < face_sizes.back(); ++k) indices.push_back(first + k);
         }

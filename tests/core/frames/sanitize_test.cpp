@@ -45,7 +45,7 @@ struct Scene {
     }
 };
 
-/// Two triangles that share an edge; all frames are sound.
+/// Two triangles that share an edge; all frames are valid.
 Scene twoTriangles() {
     return {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}},
             .normals = {4, Vec3{0, 0, 1}},
@@ -70,7 +70,7 @@ void expectMended(const Vec4& t, const Vec3& n) {
 TEST(Sanitize, ChangesNoBitOfSoundTangents) {
     Scene scene = twoTriangles();
     scene.tangents[0] = {1.0004f, 0, -0.0f, 1};  // unit within the validator's tolerance
-    scene.tangents[1] = {0.8f, 0, 0.6f, 1};      // not orthogonal, but no frame problem
+    scene.tangents[1] = {0.8f, 0, 0.6f, 1};      // not orthogonal, which is not a fault of the frame
     scene.tangents[2] = {0.9f, std::sqrt(0.19f), 0, 1};
     const std::vector<Vec4> before = scene.tangents;
     EXPECT_EQ(scene.sanitize().mendedCount(), 0u);
@@ -88,8 +88,8 @@ TEST(Sanitize, CountsEachCornerByItsFirstCauseAndByItsCure) {
     EXPECT_EQ(report.bad_sign_count, 1u);
     EXPECT_EQ(report.mendedCount(), 5u);
     EXPECT_EQ(report.normalized_count, 2u);     // the long one and the one without a sign
-    EXPECT_EQ(report.from_neighbor_count, 2u);  // from the first face's sound corner
-    EXPECT_EQ(report.from_basis_count, 1u);     // no sound corner in its face or at its position
+    EXPECT_EQ(report.from_neighbor_count, 2u);  // from the valid corner of the first face
+    EXPECT_EQ(report.from_basis_count, 1u);     // no valid corner in its face or at its position
     EXPECT_TRUE(sameBits(scene.tangents[0], {1, 0, 0, 1}));
     EXPECT_TRUE(sameBits(scene.tangents[1], {1, 0, 0, 1}));
     EXPECT_TRUE(sameBits(scene.tangents[3], {0, 1, 0, 1}));
@@ -100,7 +100,7 @@ TEST(Sanitize, FindsABrokenCornerWhereverItLies) {
     Scene scene = twoTriangles();
     scene.face_sizes = {};
     for (std::uint32_t face = 2; face < 130; ++face) scene.indices.insert(scene.indices.end(), {0, 1, 2});
-    // Faces of either sign side by side.
+    // Faces of either sign alternate.
     for (std::size_t c = scene.tangents.size(); c < scene.indices.size(); ++c)
         scene.tangents.push_back({1, 0, 0, c / 3 % 4 == 1 ? -1.0f : 1.0f});
     ASSERT_EQ(scene.sanitize().mendedCount(), 0u);
@@ -120,7 +120,7 @@ TEST(Sanitize, FindsABrokenCornerWhereverItLies) {
 TEST(Sanitize, TakesTheFirstSoundTangentAtThePositionWhenTheFaceHasNone) {
     Scene scene = twoTriangles();
     scene.positions[2].x = -0.0f;
-    scene.positions.push_back({0, 1, 0});  // the same point under another index and another zero
+    scene.positions.push_back({0, 1, 0});  // the same position with a different index and a different zero
     scene.normals.push_back({0, 0, 1});
     scene.indices[3] = 4;
     scene.tangents = {{1, 0, 0, -1}, {1, 0, 0, -1}, {0, -1, 0, -1}, {0, 0, 0, kNan}, {0, 0, 0, 5}, {0, 0, 0, 0}};
@@ -245,7 +245,7 @@ TEST(Sanitize, GivesAUnitTangentWhereTheNormalIsBroken) {
     expectMended(scene.tangents[5], scene.normals[3]);
 }
 
-/// A vertex whose N is no direction needs one tangent, and no copies.
+/// A vertex whose N has no direction needs one tangent, and no copies.
 TEST(Sanitize, GivesOneTangentToAVertexWhoseNormalIsBroken) {
     for (const Vec3& normal : {Vec3{}, Vec3{kNan, kNan, kNan}}) {
         Scene scene = twoTriangles();
@@ -254,7 +254,7 @@ TEST(Sanitize, GivesOneTangentToAVertexWhoseNormalIsBroken) {
         EXPECT_EQ(scene.sanitize().from_neighbor_count, 2u);
         EXPECT_TRUE(sameBits(scene.tangents[1], {1, 0, 0, 1}));
         EXPECT_TRUE(sameBits(scene.tangents[4], {1, 0, 0, 1}));
-        // Faces with other signs keep them.
+        // Faces with different signs keep them.
         scene.tangents = {{1, 0, 0, 1}, {kNan, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, -1}, {kNan, 0, 0, 1}, {0, 1, 0, -1}};
         scene.sanitize();
         EXPECT_TRUE(sameBits(scene.tangents[1], {1, 0, 0, 1}));
@@ -297,7 +297,7 @@ float anyValue() {
                           [](std::uint32_t bits) { return std::bit_cast<float>(bits); })}});
 }
 
-/// Garbage in every place, with a good share of sound frames between.
+/// Returns random values everywhere, with many valid frames in between.
 Scene anyScene() {
     Scene scene;
     const auto vertices = *rc::gen::inRange<std::size_t>(1, 12);
@@ -434,7 +434,7 @@ TEST(Sanitize, ReportsThatMemoryRanOutAndGivesAllOfItBack) {
     }
 }
 
-/// In quadratic time this would meet the test's time limit.
+/// An algorithm with quadratic time would exceed the test's time limit.
 TEST(SanitizeTime, StaysLinearWhenEveryCornerLooksForANeighborAtOnePosition) {
     Scene scene;
     const std::uint32_t faces = 300000;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An indexed mesh with frames in one call is what the single steps give.
+// An indexed mesh with frames from one call equals the result of the single steps.
 #include "tspace/indexed_frames.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ IndexedFramesOptions gltfOptions(Method method = Method::mikktspace) {
     return {.tangents = {.method = method, .convention = conventions::gltf}};
 }
 
-/// Tangents per corner by the single steps.
+/// Returns tangents per corner, computed with the single steps.
 std::vector<Vec4> tangentsAtCorners(const MeshView& mesh, const TangentOptions& options) {
     std::vector<Vec4> tangents(mesh.cornerCount());
     EXPECT_TRUE(generateTangents(mesh, options, {tangents}));
@@ -32,7 +32,8 @@ std::vector<T> atCorners(const IndexedFrames& frames, const std::vector<T>& valu
     return result;
 }
 
-/// Every corner has the position it had, and every vertex is the source of a corner that uses it, or of none.
+/// Checks that every corner keeps its position, and that every vertex is the source of a corner that uses it, or is
+/// unused.
 void expectSources(const MeshView& mesh, const IndexedFrames& frames) {
     ASSERT_EQ(frames.indices.size(), mesh.cornerCount());
     ASSERT_EQ(frames.source_corners.size(), frames.vertexCount());
@@ -120,7 +121,7 @@ TEST(IndexedFrames, TheConventionSaysWhichSideIsOut) {
     for (std::size_t c = 0; c < a.size(); ++c) EXPECT_EQ(a[c], (Vec3{-b[c].x, -b[c].y, -b[c].z}));
 }
 
-/// What of a vertex decides whether two are one.
+/// The values of a vertex that determine whether two vertices are merged.
 using VertexKey = std::array<float, 12>;
 
 TEST(IndexedFrames, AMeshWithoutIndicesGetsThem) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// NormalWeighting::best where its result is known: planes, boxes, bevels, hard edges, noise. How accurate it is on
-// curved surfaces is tested in tests/core/accuracy.
+// NormalWeighting::best where its result is known: planes, boxes, bevels, hard edges, noise. tests/core/accuracy tests
+// its accuracy on curved surfaces.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ double angleDeg(const Vec3& a, const Vec3& b) {
     return 57.29577951 * std::atan2(std::sqrt(x * x + y * y + z * z), product);
 }
 
-/// A grid over [0, 1]^2 at the given lines, with a height for every point.
+/// Returns a grid over [0, 1]^2 at the given lines, with a height for every point.
 template <class HeightAt>
 SimpleMesh grid(const std::vector<float>& lines, HeightAt heightAt) {
     SimpleMesh mesh;
@@ -74,7 +74,7 @@ TEST(BestNormals, OfAGradedParabolaAreCloserThanThoseOfSimpleMeans) {
 }
 
 TEST(BestNormals, KeepTheFaceBesideANarrowBevelFlat) {
-    // The rounded border is 0.02 wide and falls by 45 degrees.
+    // The rounded border is 0.02 wide and slopes by 45 degrees.
     const SimpleMesh mesh = grid({0, 0.02f, 0.98f, 1}, [](float x, float y) {
         const float past = std::max({0.02f - x, x - 0.98f, 0.02f - y, y - 0.98f, 0.0f});
         return -past;
@@ -88,8 +88,8 @@ TEST(BestNormals, KeepTheFaceBesideANarrowBevelFlat) {
     }
 }
 
-/// A closed cylinder of radius 1 and height 2 with rounded rims. Each cap is a fan from one vertex of its rim, as CAD
-/// kernels write it; the triangles of the upper one come first.
+/// Returns a closed cylinder of radius 1 and height 2 with rounded rims. Each cap is a fan from one vertex of its rim,
+/// as written by CAD kernels; the triangles of the upper one come first.
 SimpleMesh roundedCylinder(std::uint32_t sides, std::uint32_t segments, double fillet) {
     constexpr double kQuarter = 1.5707963267948966;
     SimpleMesh mesh;
@@ -117,7 +117,7 @@ SimpleMesh roundedCylinder(std::uint32_t sides, std::uint32_t segments, double f
     return mesh;
 }
 
-/// Mean angle from +z of the normals that the first `count` triangles interpolate, over their area.
+/// Returns the mean angle between +z and the interpolated normals over the area of the first `count` triangles.
 double shadedErrorOfFlatTriangles(const SimpleMesh& mesh, std::size_t count, const std::vector<Vec3>& normals) {
     constexpr int kCells = 6;
     double sum = 0, areas = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// NormalOptions::crease_auto: which edges it makes hard, and what it reports.
+// NormalOptions::crease_auto: the edges that become hard, and the report.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ Outcome bestOf(const MeshView& mesh, float crease_deg, float denoise = 0, const 
     return normalsOf(mesh, {.weighting = NormalWeighting::best, .crease_angle_deg = crease_deg, .denoise = denoise},
                      execution);
 }
-/// A tube with a flat end: its rim turns by 90 degrees, its sides by 360 / sides.
+/// Returns a tube with a flat end: the rim has 90 degrees, the sides 360 / sides.
 SimpleMesh tube(std::uint32_t sides) {
     SimpleMesh mesh;
     for (std::uint32_t row = 0; row <= 8; ++row) {
@@ -83,7 +83,7 @@ TEST(AutomaticCreases, AreNoneOnSmoothShapes) {
     }
 }
 
-/// Their edges turn by 40 degrees and more, by all angles.
+/// Their edges have angles of 40 degrees and more, distributed continuously.
 TEST(AutomaticCreases, HarmNoSmoothShapesThatWereDecimatedToSomeHundredTriangles) {
     for (const std::span<const Shape> all : {accuracy::shapes(), accuracy::heldOutShapes()}) {
         for (const Shape& shape : all) {
@@ -100,7 +100,7 @@ TEST(AutomaticCreases, HarmNoSmoothShapesThatWereDecimatedToSomeHundredTriangles
     }
 }
 
-/// They have flat parts, and their edges are found.
+/// They have flat regions, and their edges are detected.
 TEST(AutomaticCreases, AreFoundOnPartsThatWereDecimatedToSomeHundredTriangles) {
     for (const std::span<const Shape> all : {accuracy::shapes(), accuracy::heldOutShapes()}) {
         for (const Shape& shape : all) {
@@ -113,7 +113,7 @@ TEST(AutomaticCreases, AreFoundOnPartsThatWereDecimatedToSomeHundredTriangles) {
     }
 }
 
-/// Shaded, in parts of the least of four weightings with three angles.
+/// Returns the shading error, relative to the smallest error of four weightings with three angles.
 double partOfExisting(const Scan& scan, const std::vector<Vec3>& normals) {
     using enum NormalWeighting;
     double least = 180;
@@ -145,10 +145,10 @@ TEST(AutomaticCreases, HaveTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST(AutomaticCreases, HaveTheSameBitsBesideAFaceThatIsNoTriangle) {
-    // Then noise is smoothed face by face, and not four triangles at a time.
+    // Noise is then smoothed face by face instead of four triangles at a time.
     for (const double noise : {0.025, 0.05, 0.1}) {
         Scan scan = accuracy::scan(shape("part"), 24, noise, Random{7});
-        for (int left = 0; left < 4; ++left) {  // any number of triangles in the last four, some of them at a rim
+        for (int left = 0; left < 4; ++left) {  // any number of triangles in the last four, some of them at a border
             std::vector<std::uint32_t> sizes(scan.indices.size() / 3, 3), indices = scan.indices;
             MeshView triangles = scan.view();
             triangles.face_sizes = sizes;

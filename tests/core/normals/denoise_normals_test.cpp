@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// NormalOptions::denoise: what it gains on noisy meshes, where it may not change a bit, and what broken meshes do to it.
+// NormalOptions::denoise: its improvement on noisy meshes, cases where it must not change any bit, and invalid meshes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ bool areUnit(const std::vector<Vec3>& normals) {
     return std::all_of(normals.begin(), normals.end(), [](const Vec3& n) { return std::fabs(length(n) - 1) < 1e-5f; });
 }
 
-/// Its caps are fans from one vertex of the rim.
+/// A cylinder whose caps are fans from one vertex of the rim.
 SimpleMesh cappedCylinder(std::uint32_t sides, std::uint32_t rows) {
     SimpleMesh mesh;
     for (std::uint32_t row = 0; row <= rows; ++row) {
@@ -66,11 +66,11 @@ SimpleMesh cappedCylinder(std::uint32_t sides, std::uint32_t rows) {
     return mesh;
 }
 
-/// The sides of kCubeFaces one after the other, of cells^2 squares each, with noise of so many edges.
+/// Returns the sides of kCubeFaces one after the other, with cells^2 squares each, and noise in units of edge lengths.
 SimpleMesh noisyCube(std::uint32_t cells, double noise, Random random) {
     SimpleMesh cube;
     const std::vector<Vec3> corners = test::cubePositions();
-    std::map<std::array<float, 3>, Vec3> moved;              // vertices of two sides move together
+    std::map<std::array<float, 3>, Vec3> moved;              // vertices shared by two sides move together
     const double size = 2 * noise / cells * std::sqrt(3.0);  // random numbers around 0 deviate by 1 / sqrt(3)
     for (const auto& face : test::kCubeFaces) {
         const auto first = static_cast<std::uint32_t>(cube.positions.size());
@@ -98,7 +98,7 @@ SimpleMesh noisyCube(std::uint32_t cells, double noise, Random random) {
     return cube;
 }
 
-/// Shaded error, in parts of the least of area, angle, angleArea and best.
+/// Returns the shading error, relative to the smallest error of area, angle, angleArea and best.
 double partOfExisting(const Scan& scan, const std::vector<Vec3>& normals) {
     using enum NormalWeighting;
     constexpr int kPoints = 3000;
@@ -113,7 +113,7 @@ double partOfExisting(const Scan& scan, const std::vector<Vec3>& normals) {
 TEST(DenoisedNormals, AreNearerToTheShapeOnNoisyScans) {
     struct Case {
         const char* shape;
-        double noise, part;  // what is allowed, above the .3 to .6 that is measured
+        double noise, part;  // noise, and upper bound of the relative error (measured: 0.3 to 0.6)
     };
     for (const Case& c : {Case{"blob", 0.03, 0.85}, Case{"blob", 0.1, 0.55}, Case{"blob", 0.3, 0.38},
                           Case{"rounded box", 0.03, 0.80}, Case{"rounded box", 0.1, 0.55}, Case{"torus", 0.1, 0.35}}) {
@@ -174,7 +174,7 @@ TEST(DenoisedNormals, HaveTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST(DenoisedNormals, KeepHardEdges) {
-    // A noisy cube: fits on each side see that side alone, so its normals stay within the noise of one direction.
+    // A noisy cube: the fit on each side uses only that side, so its normals stay within the noise of one direction.
     SimpleMesh cube = noisyCube(24, 0.1, Random{3});
     const Outcome hard = bestOf(cube.view(), kAuto, 50), before = bestOf(cube.view(), 0, 50);
     EXPECT_GT(hard.report.noise, 0.05);
@@ -193,7 +193,7 @@ TEST(DenoisedNormals, TakeAFactorOnTheNoiseThatIsMeasured) {
     const Scan scan = accuracy::scan(shape("torus"), 40, 0.1, Random{4});
     const Outcome automatic = bestOf(scan.view(), kAuto), once = bestOf(scan.view(), 1),
                   thrice = bestOf(scan.view(), 3);
-    EXPECT_TRUE(sameBits(automatic.normals, once.normals));  // all of it is noise
+    EXPECT_TRUE(sameBits(automatic.normals, once.normals));  // the whole deviation is noise
     EXPECT_FLOAT_EQ(thrice.report.noise, 3 * once.report.noise);
     EXPECT_FALSE(sameBits(once.normals, thrice.normals));
     for (const float wrong : {-0.5f, -2.0f, 4.5f, std::numeric_limits<float>::quiet_NaN()}) {
@@ -253,7 +253,7 @@ TEST(DenoisedNormals, OfPolygonsAreBetterToo) {
     EXPECT_LT(after, 0.45 * before);
 }
 
-/// Seconds, and results that are finite and unit.
+/// Returns the seconds, and checks that results are finite and unit.
 double timeOf(const SimpleMesh& mesh, float denoise) {
     const auto start = std::chrono::steady_clock::now();
     EXPECT_TRUE(areUnit(bestOf(mesh.view(), denoise).normals));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Normals with their report, and the shapes of the accuracy bench, for tests of single options.
+// Normals with their report, and the shapes of the accuracy benchmark, for tests of single options.
 #pragma once
 
 #include <gtest/gtest.h>

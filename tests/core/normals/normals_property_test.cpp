@@ -42,7 +42,8 @@ double angleOf(const D3& a, const D3& b) {
     return std::atan2(std::sqrt(dotOf(c, c)), dotOf(a, b));
 }
 
-/// Each face against each, with libm, for triangles: what generateNormals must give but for rounding.
+/// Compares all pairs of faces, with libm, for triangles: the result that generateNormals must give except for
+/// rounding.
 class BruteForce {
   public:
     BruteForce(const SimpleMesh& mesh, const NormalOptions& options) : mesh_(mesh), options_(options) {
@@ -145,7 +146,7 @@ class BruteForce {
     std::vector<double> areas_;
 };
 
-/// Triangles between points of a small grid: shared, doubled and crowded edges, collapsed faces, copies of
+/// Returns triangles between points of a small grid: shared, duplicated and crowded edges, collapsed faces, copies of
 /// vertices.
 SimpleMesh randomGridMesh() {
     SimpleMesh mesh;
@@ -168,7 +169,7 @@ struct RandomOptions {
 
     explicit RandomOptions(std::size_t face_count) {
         options.weighting = static_cast<NormalWeighting>(randomInt(0, 7));
-        // Values that no angle of the grid comes near.
+        // Values far from all angles of the grid.
         constexpr float kCreases[] = {180, 180, 3, 37.3f, 63.1f, 91.7f, 122.9f, 171.3f};
         options.crease_angle_deg = kCreases[randomInt(0, 8)];
         options.weld_positions = randomInt(0, 3) != 0;
@@ -308,7 +309,7 @@ RC_GTEST_PROP(PoseNormals, WithoutHardEdgesAreThoseOfTheMovedMesh, ()) {
     RC_ASSERT(sameBits(poseNormalsOf(mesh, moved.positions, options), normalsOf(moved.view(), options)));
 }
 
-/// Two squares that share an edge and meet in it at `angle_deg`, from 0 (flat).
+/// Returns two squares that share an edge and meet at `angle_deg`; 0: flat.
 SimpleMesh book(double angle_deg) {
     const double angle = angle_deg * kPi / 180;
     const auto x = static_cast<float>(std::cos(angle)), z = static_cast<float>(std::sin(angle));

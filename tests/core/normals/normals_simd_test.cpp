@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Neither the instructions nor the way (the short one for triangles, or the general one) may change a normal.
+// Neither the SIMD target nor the code path (the fast one for triangles, or the general one) may change a normal.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -46,7 +46,7 @@ void expectSameBits(const Outcome& a, const Outcome& b) {
     EXPECT_EQ(a.report.fallback_corner_count, b.report.fallback_corner_count);
 }
 
-/// A bent sheet of 2 * side^2 triangles. Its first and last columns lie at the same positions, as at a UV seam.
+/// Returns a bent sheet of 2 * side^2 triangles. Its first and last columns have equal positions, as at a UV seam.
 SimpleMesh sheet(std::uint32_t side, float size = 1, Vec3 stretch = {1, 1, 1}) {
     SimpleMesh mesh;
     const auto n = static_cast<float>(side);
@@ -103,7 +103,7 @@ std::vector<SimpleMesh> meshes() {
     all.push_back(withBackSides(sheet(30)));
     all.push_back(withBackSides(sheet(30, 1e-30f)));
     all.push_back(withBrokenValues(sheet(40)));
-    // Large enough to be done in ranges of points, whose number depends on the threads.
+    // Large enough to be processed in ranges of points, whose number depends on the threads.
     all.push_back(withBackSides(sheet(190)));
     all.push_back(withBrokenValues(sheet(200)));
     return all;
@@ -124,8 +124,8 @@ TEST(Simd, EveryTargetGivesTheNormalsOfPlainCode) {
     }
 }
 
-/// As many edges hard as soft: the random mesh's angles are anything, the sheets' are small, the back sides' 180
-/// degrees.
+/// As many hard as soft edges: angles of the random mesh are arbitrary, those of the sheets are small, those of the
+/// back sides are 180 degrees.
 TEST(HardEdges, GiveTheSameBitsForAnyTargetAndNumberOfThreads) {
     for (const SimpleMesh& mesh : {randomMesh(), withBackSides(sheet(60)), withBrokenValues(sheet(100))}) {
         std::vector<NormalOptions> kinds(std::begin(kKinds), std::end(kKinds));
@@ -141,7 +141,7 @@ TEST(HardEdges, GiveTheSameBitsForAnyTargetAndNumberOfThreads) {
     }
 }
 
-/// Vertices without indices lie in other ranges of points than those of an indexed mesh.
+/// Vertices without indices are in different ranges of points than those of an indexed mesh.
 TEST(HardEdges, DoNotDependOnWhichVerticesArePoints) {
     for (const SimpleMesh& mesh : {sheet(150), withBackSides(sheet(60)), randomMesh()}) {
         SimpleMesh soup;
@@ -153,7 +153,7 @@ TEST(HardEdges, DoNotDependOnWhichVerticesArePoints) {
     }
 }
 
-/// Where no edge is hard, and faces around a point are one fan, the way taken does not show.
+/// If no edge is hard, and the faces around a point form one fan, the code path must not affect the result.
 TEST(HardEdges, ThatAreNoneLeaveTheBitsOfSmoothNormals) {
     for (const SimpleMesh& mesh : {sheet(40), sheet(200)}) {
         NormalOptions options;
@@ -178,9 +178,10 @@ TEST(Simd, AnyNumberOfTrianglesAndVerticesIsDone) {
 TEST(Simd, ReadsInterleavedPositionsUpToTheLastByteOnly) {
     const SimpleMesh mesh = sheet(20);
     const std::size_t count = mesh.positions.size();
-    std::vector<float> data(5 * count);  // two other numbers, then the position: the last ends where the memory ends
+    // two other numbers, then the position: the last position ends at the end of the memory
+    std::vector<float> data(5 * count);
     for (std::size_t v = 0; v < count; ++v) std::memcpy(&data[5 * v + 2], &mesh.positions[v], sizeof(Vec3));
-    const std::vector<float> exact(data);  // its capacity is its size, so a sanitizer sees any step beyond
+    const std::vector<float> exact(data);  // its capacity is its size, so a sanitizer detects any access beyond it
     MeshView view = mesh.view();
     view.positions = vec3Span(exact.data() + 2, count, 20);
     for (const SimdTarget target : kTargets) {
@@ -201,8 +202,9 @@ TEST(Simd, WritesIntoInterleavedVerticesWithoutTouchingTheirNeighbours) {
     }
 }
 
-/// `best` adds the corners of triangles on the one way, and the corners of points on the other. Edges that lean by 1e-5
-/// from one direction are nearly one direction in single precision: then it takes the mean by `max`.
+/// Returns the tolerance of `best`, which adds the corners of triangles in one code path, and the corners of points in
+/// the other. Edges that differ by 1e-5 from one direction are nearly parallel in single precision: then it uses the
+/// mean by `max`.
 float allowedOfBest(const SimpleMesh& mesh) {
     float reach = 0;
     for (const Vec3& p : mesh.positions)
@@ -210,7 +212,7 @@ float allowedOfBest(const SimpleMesh& mesh) {
     return reach > 1e3f && reach < 1e6f ? 0.03f : 2e-4f;
 }
 
-/// A smoothing group that holds every face changes nothing but the way.
+/// A smoothing group that contains every face changes only the code path.
 TEST(ShortWay, GivesTheNormalsOfTheGeneralOneAlsoForTinyHugeAndThinTriangles) {
     for (const SimpleMesh& mesh : soundMeshes()) {
         const std::vector<std::uint32_t> one_group(mesh.indices.size() / 3, 1);
@@ -221,7 +223,7 @@ TEST(ShortWay, GivesTheNormalsOfTheGeneralOneAlsoForTinyHugeAndThinTriangles) {
             const Outcome want = compute(mesh.view(), options);
             EXPECT_EQ(got.report.degenerate_face_count, want.report.degenerate_face_count);
             EXPECT_EQ(got.report.fallback_corner_count, want.report.fallback_corner_count);
-            // Angles are good to 2e-7, and a mean may be shorter than its terms.
+            // Angles are accurate to 2e-7, and a mean may be shorter than its terms.
             const float allowed = weighting == NormalWeighting::area   ? 2e-7f
                                   : weighting == NormalWeighting::best ? allowedOfBest(mesh)
                                                                        : 1e-5f;
@@ -258,7 +260,7 @@ TEST(Indices, BeyondTheVerticesAreFoundInMeshesOfAnySizeAndOrder) {
 }
 
 TEST(Welding, OfAnIndexedMeshIsThatOfTheSameVerticesWithoutIndices) {
-    // Few of the first one's vertices share a position, most of the second one's do.
+    // Few vertices of the first mesh share a position; most vertices of the second one do.
     for (const SimpleMesh& mesh : {sheet(150), randomMesh()}) {
         SimpleMesh soup;
         for (const std::uint32_t v : mesh.indices) soup.positions.push_back(mesh.positions[v]);

@@ -56,8 +56,7 @@ TEST(AngleWeights, GiveTheBoxDiagonalHoweverTheFacesAreCut) {
 }
 
 TEST(AngleWeights, CountAReflexCornerByItsInteriorAngle) {
-    // An L with its notch at vertex 0, and a wall on the notch. Uncut, and cut from the notch into three
-    // triangles.
+    // An L with its notch at vertex 0, and a wall on the notch: as one polygon, and triangulated from the notch.
     SimpleMesh whole;
     whole.positions = {{0, 0, 0}, {0, 1, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, -1, 0}, {1, 0, 0}, {0, 0, 1}};
     SimpleMesh cut = whole;
@@ -69,8 +68,7 @@ TEST(AngleWeights, CountAReflexCornerByItsInteriorAngle) {
 }
 
 TEST(Weights, AreWhatTheirNamesSay) {
-    // Two triangles at the origin: in the plane z = 0 with legs 1 and 1, in the plane x = 0 with legs 2
-    // and 4.
+    // Two triangles at the origin: in the plane z = 0 with legs 1 and 1, in the plane x = 0 with legs 2 and 4.
     SimpleMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 2, 0}, {0, 0, 4}};
     mesh.positions[2] = {0.70710678f, 0.70710678f, 0};
@@ -112,7 +110,7 @@ TEST(Weights, CountAFaceOnceAtACollapsedEdge) {
 TEST(Newell, GivesTheNormalOfABentAndOfAConcavePolygon) {
     SimpleMesh mesh;
     mesh.positions = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 1, 0}, {0, 4, 0}};
-    mesh.addFace({3, 4, 0, 1, 2});  // begins at its reflex corner
+    mesh.addFace({3, 4, 0, 1, 2});  // starts at its reflex corner
     for (const Vec3& n : normalsOf(mesh.view())) EXPECT_EQ(n, (Vec3{0, 0, 1}));
 }
 
@@ -135,8 +133,7 @@ TEST(CreaseAngle, SplitsACubeBelowNinetyDegreesOnly) {
 }
 
 TEST(CreaseAngle, ActsOnEdgesSoThatGentleTurnsAddUp) {
-    // A quarter of a cylinder in nine steps of 10 degrees about one point: first and last face are 80 degrees
-    // apart.
+    // A quarter of a cylinder in nine steps of 10 degrees about one point: first and last face differ by 80 degrees.
     SimpleMesh mesh;
     mesh.positions.push_back({0, 0, 0});
     for (int i = 0; i <= 9; ++i) {
@@ -190,7 +187,7 @@ TEST(SmoothingGroups, AsMasksSmoothFacesWithABitInCommon) {
             .crease_angle_deg = crease, .smoothing_groups = masks, .smoothing_groups_are_masks = true};
         const std::vector<Vec3> normals = normalsOf(cube.view(), options);
         const float k = std::sqrt(0.5f);
-        EXPECT_EQ(normals[0], (Vec3{-1, 0, 0}));  // vertex 0: its neighbours there have no bit of it
+        EXPECT_EQ(normals[0], (Vec3{-1, 0, 0}));  // vertex 0: its neighbors there share no bit with it
         expectNear(normals[4], {k, 0, -k});       // vertex 1: +x and -z share the highest bit
         EXPECT_EQ(normals[8], (Vec3{0, -1, 0}));  // vertex 0
         EXPECT_EQ(normals[20], (Vec3{0, 0, 1}));  // no bits
@@ -246,9 +243,9 @@ TEST(Fallbacks, ReplaceWhatHasNoMean) {
     SimpleMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, 5}};
     mesh.addFace({0, 1, 2});
-    mesh.addFace({0, 2, 1});  // the back of the first: the means cancel
-    mesh.addFace({0, 0, 1});  // no normal, at points whose mean vanishes
-    mesh.addFace({3, 3, 3});  // no normal at a point of its own
+    mesh.addFace({0, 2, 1});  // the back side of the first face: the means cancel
+    mesh.addFace({0, 0, 1});  // degenerate face at points whose mean normal is zero
+    mesh.addFace({3, 3, 3});  // degenerate face at a separate point
     NormalReport report;
     const std::vector<Vec3> normals = normalsOf(mesh.view(), {}, &report);
     for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(normals[c], (Vec3{0, 0, 1}));
@@ -260,12 +257,12 @@ TEST(Fallbacks, ReplaceWhatHasNoMean) {
 }
 
 TEST(Fallbacks, ReplaceAMeanWhoseAnglesAddUpToNothing) {
-    // At vertex 0 one triangle looks up, and two that share its angle look down.
+    // At vertex 0 one triangle faces up, and two that divide its angle face down.
     for (const Vec3 middle : {Vec3{1, 1, 0}, Vec3{2, 1, 0}, Vec3{1, 2, 0}, Vec3{3, 1, 0}, Vec3{5, 7, 0}}) {
         SimpleMesh mesh;
         mesh.positions = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, middle};
         mesh.indices = {0, 1, 2, 0, 3, 1, 0, 2, 3};
-        for (const bool as_faces : {false, true}) {  // with sizes of faces it is computed in another way
+        for (const bool as_faces : {false, true}) {  // explicit face sizes use a different code path
             if (as_faces) mesh.face_sizes = {3, 3, 3};
             std::vector<Vec3> out(9);
             ASSERT_TRUE(generateNormals(mesh.view(), {}, out));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// NormalOptions::refine: the step against the same in double precision, and what it may never do.
+// NormalOptions::refine: the step compared with the same step in double precision, and its limits.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -32,7 +32,7 @@ double angleDeg(const Vec3& a, const Vec3& b) {
     return 180 / 3.141592653589793 * std::atan2(length(cross(toDouble(a), toDouble(b))), dot(toDouble(a), toDouble(b)));
 }
 
-/// The least squares of one normal's step, in the plane across it.
+/// The least-squares system of one normal's step, in the plane perpendicular to it.
 struct Step {
     DVec3 n, x, y;
     double xx = 0, xy = 0, yy = 0, xm = 0, ym = 0, mm = 0, turn = 0;
@@ -58,7 +58,7 @@ struct Step {
     }
 };
 
-/// One step from these normals of corners, for triangles. Corners with one vertex and one normal are one.
+/// Performs one step from the given normals of corners, for triangles. Corners with equal vertex and normal are merged.
 std::vector<Vec3> oneStep(const SimpleMesh& mesh, const std::vector<Vec3>& from) {
     using Key = std::pair<std::uint32_t, std::array<float, 3>>;
     const auto keyOf = [&](std::size_t c) { return Key{mesh.indices[c], {from[c].x, from[c].y, from[c].z}}; };
@@ -77,7 +77,7 @@ std::vector<Vec3> oneStep(const SimpleMesh& mesh, const std::vector<Vec3>& from)
     return out;
 }
 
-/// A bent sheet of side x side cells with uneven lines, whose second half is turned up by a hard edge.
+/// Returns a bent sheet of side x side cells with uneven lines, whose second half is folded up at a hard edge.
 SimpleMesh foldedSheet(std::uint32_t side, float fold) {
     SimpleMesh mesh;
     std::vector<float> lines{0};
@@ -112,7 +112,7 @@ RC_GTEST_PROP(RefinedNormals, AreTheStepInDoublePrecision, ()) {
     RC_ASSERT(areClose(normalsOf(mesh.view(), kBest, 2), oneStep(mesh, one)));
 }
 
-/// Each side of the hard edge by itself, by the same step.
+/// Each side of the hard edge separately, with the same step.
 RC_GTEST_PROP(RefinedNormals, WithHardEdgesAreTheStepOfEachSide, ()) {
     const SimpleMesh mesh = foldedSheet(6, 2);
     NormalOptions creased = kBest;
@@ -120,7 +120,7 @@ RC_GTEST_PROP(RefinedNormals, WithHardEdgesAreTheStepOfEachSide, ()) {
     const std::vector<Vec3> fit = normalsOf(mesh.view(), creased, 0), one = normalsOf(mesh.view(), creased, 1);
     RC_ASSERT(areClose(one, oneStep(mesh, fit)));
 
-    // The lower side alone, with what lies across the hard edge taken away.
+    // Only the lower side, without the faces across the hard edge.
     SimpleMesh alone = mesh;
     alone.indices.clear();
     std::vector<Vec3> wanted;
@@ -145,7 +145,7 @@ RC_GTEST_PROP(RefinedNormals, WithHardEdgesAreTheStepOfEachSide, ()) {
     RC_ASSERT(areClose(normalsOf(mesh.view(), grouped, 1), one));
 }
 
-/// Triangles of anything, or of a small grid: collapsed, crowded, seen from both sides, not finite.
+/// Triangles of arbitrary values, or of a small grid: collapsed, crowded, double-sided, not finite.
 RC_GTEST_PROP(RefinedNormals, OfGarbageTurnByFourteenDegreesAtMostAndStayUnit, ()) {
     SimpleMesh mesh;
     const bool is_grid = test::randomInt(0, 2) == 0;
@@ -185,7 +185,7 @@ TEST(RefinedNormals, AreOfTwoStepsAtMost) {
     EXPECT_EQ(result.error().code, ErrorCode::invalidOption);
 }
 
-/// The middle of a fan of 200,000 triangles costs one sum, however many steps there are.
+/// The center of a fan of 200,000 triangles costs one sum, regardless of the number of steps.
 TEST(RefinedNormals, OfAFanAreDoneInOnePassAStep) {
     SimpleMesh fan;
     fan.positions.push_back({0, 0, 0.2f});

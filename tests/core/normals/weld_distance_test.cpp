@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// NormalOptions::weld_distance and WindingOptions::weld_distance: positions that are equal but for rounding.
+// NormalOptions::weld_distance and WindingOptions::weld_distance: positions that are equal except for rounding.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace tspace::test {
 namespace {
 
-/// A grid over u and v from 0 to 1; the last row and column have vertices of their own, as for a UV seam.
+/// Returns a grid over u and v from 0 to 1; the last row and column have separate vertices, as at a UV seam.
 SimpleMesh sweep(std::uint32_t columns, std::uint32_t rows, const std::function<Vec3(double, double)>& at) {
     SimpleMesh mesh;
     for (std::uint32_t row = 0; row <= rows; ++row) {
@@ -36,7 +36,7 @@ Vec3 point(double x, double y, double z) {
     return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
 }
 
-/// Closed by sin(2 pi), as programs compute it. `offset` moves it before it is rounded to floats.
+/// Returns a torus closed by sin(2 pi), as programs compute it. `offset` moves it before it is rounded to floats.
 SimpleMesh torus(double scale = 1, const Vec3& offset = {}) {
     return sweep(32, 16, [&](double u, double v) {
         const double a = 2 * std::numbers::pi * u, b = 2 * std::numbers::pi * v, ring = 1 + 0.4 * std::cos(b);
@@ -45,7 +45,7 @@ SimpleMesh torus(double scale = 1, const Vec3& offset = {}) {
     });
 }
 
-/// The same with the last row and column exactly at the first.
+/// Returns the torus with the last row and column exactly at the first.
 SimpleMesh closedTorus() {
     SimpleMesh mesh = torus();
     for (std::size_t row = 0; row <= 16; ++row) mesh.positions[33 * row + 32] = mesh.positions[33 * row];
@@ -53,7 +53,8 @@ SimpleMesh closedTorus() {
     return mesh;
 }
 
-/// Poles by sin(pi): all vertices of the last row are apart by less than any float near 1 tells.
+/// Returns a sphere with poles by sin(pi): the vertices of the last row differ by less than the spacing of floats near
+/// 1.
 SimpleMesh sphere() {
     return sweep(24, 12, [](double u, double v) {
         const double a = 2 * std::numbers::pi * u, b = std::numbers::pi * v;
@@ -67,7 +68,7 @@ std::vector<Vec3> normalsOf(const SimpleMesh& mesh, NormalOptions options, unsig
     return normals;
 }
 
-/// Of unit vectors; exact for small angles.
+/// Returns the angle between unit vectors; accurate for small angles.
 double degrees(const Vec3& a, const Vec3& b) {
     const double x = double{a.x} - b.x, y = double{a.y} - b.y, z = double{a.z} - b.z;
     return 2 * std::asin(std::min(1.0, std::sqrt(x * x + y * y + z * z) / 2)) * 180 / std::numbers::pi;
@@ -119,14 +120,14 @@ TEST(WeldDistance, GivesTheSameBitsForAnyNumberOfThreads) {
     EXPECT_EQ(normalsOf(mesh, options, 1), normalsOf(mesh, options, 3));
 }
 
-/// Its edges are few spacings of floats long: what shape is left must stay.
+/// Its edges are a few float spacings long: the remaining shape must be preserved.
 TEST(WeldDistance, LeavesSmallMeshesFarFromTheOriginAlone) {
     const SimpleMesh mesh = torus(0.01, {4096, 0, 0});
     Parallel parallel({});
     EXPECT_TRUE(NearPositions(mesh.view(), NormalOptions::weld_auto, nullptr, parallel).empty());
 }
 
-/// One large triangle must not decide for a small part near the origin, whose floats are fine.
+/// One large triangle must not affect a small part near the origin, where floats are precise.
 TEST(WeldDistance, LeavesFineDetailBesideALargeTriangleAlone) {
     SimpleMesh mesh = torus(1e-4);
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -170,7 +171,7 @@ TEST(WeldDistance, RefusesWhatIsNoDistance) {
     }
 }
 
-/// Without the seam closed, the half that was turned over is a component of its own, as good as any.
+/// Without welding the seam, the flipped half is a separate component whose winding is equally plausible.
 TEST(WeldDistance, JoinsTheFacesOfASeamForWinding) {
     SimpleMesh mesh = torus();
     const std::size_t faces = mesh.cornerCount() / 3;

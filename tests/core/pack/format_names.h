@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The formats by name, in the order of their numbers.
+// Names of the formats, in the order of their numbers.
 #pragma once
 
 namespace tspace::test {

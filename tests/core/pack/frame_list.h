@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What packing did to frames.
+// Frames before and after packing, and their errors.
 #pragma once
 
 #include <algorithm>
@@ -19,13 +19,13 @@ inline constexpr FrameFormat kAllFormats[] = {
     FrameFormat::frame32,     FrameFormat::frame48,    FrameFormat::frame64,
     FrameFormat::oct32,       FrameFormat::qtangent64, FrameFormat::snorm8Pair,
     FrameFormat::snorm16Pair, FrameFormat::gltfSnorm8, FrameFormat::gltfSnorm16};
-/// Those that promise to find each unpacked frame again.
+/// Formats for which packing an unpacked frame restores it exactly.
 inline constexpr FrameFormat kExactFormats[] = {FrameFormat::frame32, FrameFormat::frame48, FrameFormat::frame64,
                                                 FrameFormat::oct32};
 
 inline std::string nameOf(FrameFormat format) { return kFormatNames[static_cast<std::size_t>(format)]; }
 
-/// How many frames a test looks at: `otherwise`, unless the environment says.
+/// Returns the number of frames to test: `otherwise`, unless an environment variable is set.
 inline long frameCount(long otherwise) {
     const char* text = std::getenv("TSPACE_FRAMES");
     return text != nullptr ? std::atol(text) : otherwise;
@@ -45,7 +45,7 @@ inline FrameList unpacked(FrameFormat format, const std::vector<std::byte>& byte
 }
 
 struct PackErrors {
-    double normal_deg = 0, tangent_deg = 0;  ///< the worst of all frames
+    double normal_deg = 0, tangent_deg = 0;  ///< maximum over all frames
     double normal_sum = 0, tangent_sum = 0;
     std::uint64_t wrong_signs = 0;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bounds of pack.h, and that unpacked frames are found again. TSPACE_FRAMES=100000000 looks at that many random
+// The bounds of pack.h, and that unpacked frames are restored exactly. TSPACE_FRAMES=100000000 tests that many random
 // frames of each format, and prints their errors in any case.
 #include <gtest/gtest.h>
 
@@ -35,8 +35,8 @@ TEST_P(PackBounds, HoldForRandomFrames) {
                 errors.normal_deg, errors.tangent_deg, errors.normal_sum / frames, errors.tangent_sum / frames, done);
 }
 
-/// Rotations at and around those where codes change sides: turns of axes into axes, by 45, 120 and 180 degrees, off by
-/// anything from 1e-11 to a step.
+/// Returns rotations at and near those where codes change sides: rotations of axes to axes, by 45, 120 and 180 degrees,
+/// with deviations from 1e-11 to a quantization step.
 FrameList specialFrames() {
     const double offsets[] = {0, 1e-11, 1e-7, 1e-5, 1e-3, 2e-3};
     const double values[] = {0, 0.41421356237309503, 1, -0.41421356237309503, -1};
@@ -55,7 +55,7 @@ FrameList specialFrames() {
     return frames;
 }
 
-/// The sign of qtangent64 is in w, which therefore cannot be 0.
+/// The sign of qtangent64 is stored in w, which therefore cannot be 0.
 TEST_P(PackBounds, HoldForHalfTurns) {
     RandomBits random(10);
     PackErrors errors;
@@ -73,7 +73,7 @@ TEST_P(PackBounds, HoldForHalfTurns) {
 
 TEST_P(PackBounds, HoldAtAxesAndBetweenThem) { expectWithinBounds(GetParam(), errorsOf(GetParam(), specialFrames())); }
 
-/// From the worst of some frames uphill, by ever smaller turns: ends in the corners of cells.
+/// Maximizes the error from the worst of some frames by ever smaller rotations: ends in corners of cells.
 TEST_P(PackBounds, HoldInCornersOfCells) {
     constexpr std::size_t kClimbers = 512;
     const FrameErrorBound bound = frameErrorBound(GetParam());
@@ -112,7 +112,8 @@ TEST_P(PackBounds, HoldInCornersOfCells) {
     }
 }
 
-/// What is unpacked from `bytes` is orthonormal, and packing it gives what unpacks to the same.
+/// Checks that frames unpacked from `bytes` are orthonormal, and that packing them gives words that unpack to the same
+/// frames.
 void expectFoundAgain(FrameFormat format, const std::vector<std::byte>& bytes) {
     const FrameList frames = unpacked(format, bytes);
     double worst = 0;
@@ -123,7 +124,7 @@ void expectFoundAgain(FrameFormat format, const std::vector<std::byte>& bytes) {
         };
         const double off =
             std::max({std::fabs(std::sqrt(dot(n, n)) - 1), std::fabs(std::sqrt(dot(t, t)) - 1), std::fabs(dot(n, t))});
-        worst = off <= worst ? worst : off;  // also takes what is not a number
+        worst = off <= worst ? worst : off;  // also accepts NaN
     }
     EXPECT_LE(worst, 5e-7) << nameOf(format);
     const FrameList again = unpacked(format, packed(format, frames));
@@ -153,7 +154,7 @@ TEST_P(PackExact, FindsTheFirstAndLastWordsAgain) {
     expectFoundAgain(GetParam(), bytes);
 }
 
-/// Evenly over all words of 4 bytes: TSPACE_FRAMES=4294967296 looks at each of them.
+/// Evenly distributed over all 4-byte words: TSPACE_FRAMES=4294967296 tests all of them.
 TEST(PackWords, OfFourBytesAreFoundAgain) {
     const std::uint64_t count = std::uint64_t{1} << 32, step = count / static_cast<std::uint64_t>(frameCount(500'000));
     for (const FrameFormat format : {FrameFormat::frame32, FrameFormat::oct32}) {
@@ -167,7 +168,7 @@ TEST(PackWords, OfFourBytesAreFoundAgain) {
     }
 }
 
-/// Corners, edges and middles of the cubes in all charts of frame32.
+/// Corners, edges and centers of the cubes in all charts of frame32.
 TEST(Frame32, FindsWordsAtTheBordersOfChartsAgain) {
     std::vector<std::byte> bytes;
     for (std::uint32_t g = 0; g < 24; ++g) {
@@ -184,7 +185,7 @@ TEST(Frame32, FindsWordsAtTheBordersOfChartsAgain) {
 }
 
 TEST(Frame32, FillsTheFacesOfCharts) {
-    // Random rotations rarely lie where charts meet; these all do.
+    // Random rotations are rarely at the border of charts; these all are.
     RandomBits random(5);
     FrameList frames;
     for (int i = 0; i < 200'000; ++i) {
@@ -211,7 +212,7 @@ TEST_P(PackExact, KeepsTheBitsOfFramesAlongAxes) {
 }
 
 TEST(PackBounds, AreNotMetByCoarserCodes) {
-    // The measure can fail: N and T in 8 bits each are outside of what frame32 promises.
+    // Checks that the error measure can fail: N and T with 8 bits each exceed the bound of frame32.
     RandomBits random(6);
     const PackErrors errors = errorsOf(FrameFormat::snorm8Pair, randomFrames(random, 10'000));
     EXPECT_GT(errors.normal_deg, frameErrorBound(FrameFormat::frame32).normal_deg);

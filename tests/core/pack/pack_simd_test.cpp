@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The instructions may change no bit, whatever the number of frames.
+// The SIMD target must not change any bit, for any number of frames.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -49,7 +49,7 @@ PackedFrames packedOn(const pack::Format& format, SimdTarget target, const Frame
     return packed;
 }
 
-/// Of the scalar ones, all of which are the same.
+/// Checks that all targets give the same result as the scalar code, and returns it.
 PackedFrames expectSamePacked(const pack::Format& format, const FrameList& frames) {
     const PackedFrames wanted = packedOn(format, SimdTarget::scalar, frames);
     for (const SimdTarget target : kTargets) {

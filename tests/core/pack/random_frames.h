@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Frames to pack, made without tspace.
+// Frames for packing, generated without tspace.
 #pragma once
 
 #include <cmath>
@@ -45,7 +45,7 @@ struct FrameList {
         normals.push_back(n);
         tangents.push_back(t);
     }
-    /// The frame that a rotation of the axes gives.
+    /// Adds the frame that results from rotating the axes.
     void add(Quaternion q, float sign) {
         const double scale = 2 / (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
         const auto f = [](double x) { return static_cast<float>(x); };
@@ -60,7 +60,7 @@ struct FrameList {
     }
 };
 
-/// Evenly spread over all rotations: points in the ball of four dimensions.
+/// Returns a rotation, uniformly distributed: points in the four-dimensional ball.
 inline Quaternion randomRotation(RandomBits& random) {
     for (;;) {
         const Quaternion q{random.number(), random.number(), random.number(), random.number()};
@@ -74,13 +74,14 @@ inline FrameList randomFrames(RandomBits& random, std::size_t count) {
     frames.normals.reserve(count);
     frames.tangents.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
-        const Quaternion rotation = randomRotation(random);  // before the sign, whatever the compiler
+        // before the sign, regardless of the compiler's evaluation order
+        const Quaternion rotation = randomRotation(random);
         frames.add(rotation, (random.next() & 1) != 0 ? -1.0f : 1.0f);
     }
     return frames;
 }
 
-/// Exact for angles of any size, unlike the arc cosine.
+/// Returns the angle; accurate for angles of any size, unlike the arc cosine.
 inline double angleDeg(const Vec3& a, const Vec3& b) {
     const double ax = a.x, ay = a.y, az = a.z, bx = b.x, by = b.y, bz = b.z;
     const double x = ay * bz - az * by, y = az * bx - ax * bz, z = ax * by - ay * bx;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The stored sign means the same for every method, whatever convention the mesh is in.
+// The stored sign has the same meaning for every method, in any convention of the mesh.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -18,7 +18,7 @@ struct MirroredStrip {
     std::vector<std::uint32_t> indices{0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4};
     std::vector<Vec3> normals{6};
 
-    /// Normals of the convention's outside.
+    /// Sets normals that point to the convention's outside.
     explicit MirroredStrip(const Convention& convention) {
         for (Vec3& n : normals) n = {0, 0, normalFactor(convention)};
     }
@@ -30,7 +30,7 @@ struct MirroredStrip {
     }
 };
 
-/// dP/dv is (0, 1, 0) on the whole strip; the bitangent that the convention asks for follows from v and green alone.
+/// dP/dv is (0, 1, 0) on the whole strip; the bitangent required by the convention follows from v and green only.
 Vec3 wantedBitangent(const Convention& c) {
     return {0, (c.v_axis == VAxis::down) == (c.green == Green::down) ? 1.0f : -1.0f, 0};
 }
@@ -54,8 +54,9 @@ TEST(Conventions, GiveEveryMethodTheSignThatRebuildsTheWantedBitangent) {
 }
 
 TEST(Conventions, DecideWhichTrianglesAreCountedAsMirrored) {
-    // The left square has negative UV area. With v up it is mirrored, and with v down the other one is; as seen from outside,
-    // clockwise winding reverses that. One triangle more has two corners at one vertex, and one more repeats a left one.
+    // The left square has negative UV area. With v up it is mirrored; with v down the other one is; clockwise winding,
+    // seen from outside, reverses that. An additional triangle has two corners at one vertex, and another repeats a
+    // left one.
     const std::vector<std::uint32_t> left{0, 1, 4};
     for (const char* preset : {"gltf", "opengl", "directx", "unreal", "unity", "blender", "godot"}) {
         const Convention convention = *findConvention(preset);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the methods `fast` and `best` promise: their formulas, where they are exact, how their error falls,
-// and that nothing in the input makes them give a number that is not finite.
+// Properties of the methods `fast` and `best`: their formulas, cases where they are exact, convergence of the error,
+// and finite results for any input.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -29,12 +29,12 @@ Outputs generate(const SimpleMesh& shape, Method method, std::uint32_t refine = 
 
 double distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
-/// Degrees between a unit vector and the direction that is exact there.
+/// Returns the angle in degrees between a unit vector and the exact direction.
 double errorDeg(const Vec3& got, const Vec3& want) {
     return 2 * std::asin(std::min(1.0, distance(got, want) / 2)) * 180 / std::numbers::pi;
 }
 
-/// Mean error of the tangents at corners whose vertex is inside.
+/// Returns the mean error of the tangents at corners whose vertex is not at the border.
 double meanError(const SmoothPatch& patch, Method method, std::uint32_t refine = 1) {
     const Outputs got = generate(patch.shape, method, refine);
     double sum = 0, count = 0;
@@ -107,7 +107,8 @@ TEST(Estimators, BestFollowsAQuadraticMapThatMeansDoNot) {
     const double angle = meanError(patch, Method::angle);
     EXPECT_GT(angle, 0.02);
     EXPECT_LT(meanError(patch, Method::best, 0), angle / 20);
-    EXPECT_LT(meanError(patch, Method::best), angle / 12);  // interpolated frames fit the edges, not those at vertices
+    // interpolated frames fit the edges, not the directions at vertices
+    EXPECT_LT(meanError(patch, Method::best), angle / 12);
     EXPECT_LT(meanError(patch, Method::fast), angle / 1.5);
 }
 
@@ -185,7 +186,7 @@ TEST(Estimators, AMirroredHalfMirrorsTheFrame) {
     }
 }
 
-/// Shapes in which values are broken, huge, tiny or degenerate.
+/// Returns shapes with values that are not finite, huge, tiny or degenerate.
 std::vector<SimpleMesh> hostileShapes() {
     std::vector<SimpleMesh> list{fan(50),           unrolledFan(50), cone(50),
                                  collapsed(40),     book(40, true),  someDegenerate(800),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Evaluating plans frame after frame on an arena allocates nothing after the first frame, from no source.
+// Evaluating plans repeatedly on an arena allocates nothing after the first evaluation, from any source.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -10,7 +10,7 @@
 
 namespace {
 
-std::size_t allocation_count = 0;  // of operator new, in this program
+std::size_t allocation_count = 0;  // calls of operator new in this program
 
 void* counted(std::size_t bytes, std::size_t alignment) {
     ++allocation_count;

@@ -25,7 +25,7 @@ std::vector<NodeCorner> around(const Corners& corners) {
     return around;
 }
 
-/// Number of connected parts formed by the links of groups.h.
+/// Returns the number of connected components formed by the links of groups.h.
 std::size_t countParts(const Corners& corners) {
     const auto count = static_cast<std::uint32_t>(corners.next.size());
     std::vector<std::uint32_t> left(count), right(count), part(count, kNone);
@@ -40,7 +40,7 @@ std::size_t countParts(const Corners& corners) {
     return parts;
 }
 
-/// Neighbours around a ring or path, in random order, and some corners that do not fit.
+/// Returns neighbors around a ring or path, in random order, with some corners that do not fit.
 Corners randomCorners() {
     const auto size = *rc::gen::inRange<std::uint32_t>(2, 10);
     const bool closed = *rc::gen::arbitrary<bool>();
@@ -70,7 +70,7 @@ bool isFoundOne(const Corners& corners) {
     return fan.isOne();
 }
 
-/// Each half-edge once, and one part.
+/// Returns whether each half-edge occurs once, and there is one component.
 bool isPlainFan(const Corners& corners) {
     const auto allDiffer = [](const std::vector<std::uint32_t>& of) {
         return std::set<std::uint32_t>(of.begin(), of.end()).size() == of.size();
@@ -83,7 +83,7 @@ RC_GTEST_PROP(Fan, IsOneOnlyWherePairingMakesOnePart, ()) {
     const bool found = isFoundOne(corners);
     RC_TAG(found);
     if (found) RC_ASSERT(countParts(corners) == 1u);
-    // More corners may begin more paths than there is room for.
+    // More corners may start more paths than fit into the fixed space.
     if (corners.next.size() <= 8 && isPlainFan(corners)) RC_ASSERT(found);
 }
 
@@ -140,13 +140,13 @@ TEST(Fan, FollowsTrianglesInTheOrderOfAMesh) {
     FanRoom room(&place);
     Fan fan;
     EXPECT_FALSE(fan.isOne());
-    // Two strips of three triangles around a node, as the rows of a grid bring them.
+    // Two strips of three triangles around a node, in the order of the rows of a grid.
     const std::uint32_t next[] = {0, 1, 2, 5, 4, 3}, previous[] = {1, 2, 3, 0, 5, 4};
     for (int i = 0; i < 6; ++i) fan.add(next[i], previous[i], room);
     EXPECT_TRUE(fan.isOne());
 }
 
-/// Each second triangle of a ring, then the others.
+/// Every second triangle of a ring, then the others.
 bool isRingFound(std::uint32_t size) {
     ManyPaths place;
     FanRoom room(&place);

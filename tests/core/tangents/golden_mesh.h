@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The golden files of the MikkTSpace reference as meshes, and comparing bits.
+// Golden files of the MikkTSpace reference as meshes, and bitwise comparison.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace tspace::test {
 
-/// Laid out as in the file.
+/// Same layout as in the file.
 struct GoldenResult {
     Vec3 tangent, bitangent;
     float magnitude_s = 0, magnitude_t = 0;
@@ -27,7 +27,7 @@ struct GoldenMesh {
     std::vector<GoldenResult> results;
 };
 
-/// Returns false when the file is not a complete golden file.
+/// Returns false if the file is not a complete golden file.
 inline bool readGolden(const std::filesystem::path& path, GoldenMesh& golden) {
     const GoldenFile file(path);
     if (file.face_sizes.empty()) return false;
@@ -44,7 +44,7 @@ inline bool readGolden(const std::filesystem::path& path, GoldenMesh& golden) {
     return true;
 }
 
-/// Whether `mikktspace` promises the reference's bits for a mesh.
+/// Returns whether `mikktspace` promises the reference's bits for a mesh.
 inline bool hasPromisedBits(const SimpleMesh& shape) {
     const auto allFit = [&](const Vec3& v) {
         return hasPromisedBits(v.x) && hasPromisedBits(v.y) && hasPromisedBits(v.z);
@@ -55,7 +55,7 @@ inline bool hasPromisedBits(const SimpleMesh& shape) {
     });
 }
 
-/// Equal words; any NaN equals any NaN.
+/// Returns whether words are equal; any NaN equals any NaN.
 inline bool sameBits(float a, float b) { return (a != a && b != b) || std::memcmp(&a, &b, sizeof a) == 0; }
 inline bool sameBits(const Vec3& a, const Vec3& b) {
     return sameBits(a.x, b.x) && sameBits(a.y, b.y) && sameBits(a.z, b.z);

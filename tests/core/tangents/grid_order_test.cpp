@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which corner of a node the reference keeps, against a plain replay of its search.
+// Compares the corner that the reference keeps for a node with a simple simulation of its search.
 #include "core/tangents/mikktspace/grid_order.h"
 #include "core/tangents/mikktspace/last_bucket.h"
 
@@ -21,12 +21,12 @@ using test::SimpleMesh;
 
 constexpr int kCells = 2048;
 
-/// The rules of the reference, one element at a time.
+/// Implements the rules of the reference, one element at a time.
 class Replay {
   public:
     explicit Replay(const MeshView& mesh) : mesh_(mesh) {}
 
-    /// The corners in the order in which the search leaves them.
+    /// Returns the corners in the order in which the search outputs them.
     std::vector<std::uint32_t> run() {
         for (std::uint32_t c = 0; c < mesh_.cornerCount(); ++c) order_.push_back(c);
         const std::vector<float> d = extent(0, order_.size());
@@ -89,7 +89,7 @@ class Replay {
     float low_[3] = {}, high_[3] = {};
 };
 
-/// Random triangles over `count` places, their vertices in any order; and one vertex `far` away, so that all
+/// Returns random triangles over `count` positions, with vertices in any order; and one vertex `far` away, so that all
 /// others are in few cells.
 SimpleMesh soup(std::uint32_t count, float far, std::uint32_t seed) {
     std::mt19937 random(seed);
@@ -108,7 +108,7 @@ struct Found {
     std::vector<std::uint32_t> wanted, all, some;
 };
 
-/// By the replay, for all nodes, and for the first `asked` ones.
+/// Computes representatives with the simulation, for all nodes, and for the first `asked` ones.
 Found representatives(const MeshView& mesh, std::size_t asked, unsigned threads) {
     Parallel parallel(Execution{.thread_count = threads});
     const TriangleList triangles = cutFaces(mesh, Ngons::skip, nullptr);
@@ -127,7 +127,7 @@ Found representatives(const MeshView& mesh, std::size_t asked, unsigned threads)
 }
 
 TEST(GridOrder, IsTheReferencesInCellsOfManyCorners) {
-    for (const float far : {64.0f, 100000.0f, 30000000.0f}) {  // from all cells to one
+    for (const float far : {64.0f, 100000.0f, 30000000.0f}) {  // from all cells to a single one
         for (const std::uint32_t seed : {1u, 2u, 3u}) {
             const SimpleMesh shape = soup(3000, far, seed);
             const Found found = representatives(shape.view(), 20, 1 + seed % 2);
@@ -146,7 +146,7 @@ TEST(GridOrder, IsTheReferencesForNodesInManyCells) {
 TEST(GridOrder, IsTheReferencesForAFewNodesOfALongCell) {
     for (const std::uint32_t seed : {6u, 7u, 8u}) {
         SimpleMesh shape = soup(10000, 30000000.0f, seed);  // 60,000 corners, nearly all in one cell
-        shape.addVertex({0, -500, 0}, {0, 0, 1}, {0, 0});   // no triangle's: not in any box
+        shape.addVertex({0, -500, 0}, {0, 0, 1}, {0, 0});   // used by no triangle: not in any box
         for (const unsigned threads : {1u, 3u}) {
             const Found found = representatives(shape.view(), 20, threads);
             for (std::size_t n = 0; n < 20; ++n) EXPECT_EQ(found.some[n], found.wanted[n]);
@@ -167,7 +167,7 @@ TEST(GridOrder, IsTheReferencesWhereManyCutsTakeLittleOff) {
 }
 
 TEST(GridOrder, PassesOverVerticesThatNoTriangleUses) {
-    for (const bool along : {false, true}) {  // on the longest axis, or on another
+    for (const bool along : {false, true}) {  // on the longest axis, or on another one
         SimpleMesh shape = soup(3000, 1000.0f, 5);
         const auto nobodys = static_cast<std::uint32_t>(shape.positions.size());
         shape.addVertex(along ? Vec3{-5000, 0, 0} : Vec3{0, 900, 0}, {0, 0, 1}, {0, 0});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What must not change the results: index width, strides, threads, the order of vertices, how the mesh is
-// held.
+// Properties that must not affect the results: index width, strides, threads, order of vertices, representation of the
+// mesh.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -13,8 +13,8 @@
 namespace tspace::test {
 namespace {
 
-/// Triangles and quads over few vertices, so that edges are shared by many faces, with UV seams, mirrored and
-/// collapsed UVs and double vertices.
+/// Returns triangles and quads over few vertices, so that edges are shared by many faces, with UV seams, mirrored and
+/// collapsed UVs and duplicated vertices.
 SimpleMesh randomShape() {
     SimpleMesh shape;
     const int vertices = *rc::gen::inRange(3, 40);
@@ -164,7 +164,7 @@ RC_GTEST_PROP(GroupedProperty, TheConventionChangesOnlySignAndBitangent, ()) {
     }
 }
 
-/// Large enough for every phase to be cut into several tasks.
+/// Large enough for every phase to be divided into several tasks.
 TEST(GroupedThreads, GiveTheSameBits) {
     std::vector<SimpleMesh> shapes{gridOf(40000),       fan(20000),       someDegenerate(40000),
                                    checkerboard(40000), notFinite(40000), someWithoutUvArea(40000),

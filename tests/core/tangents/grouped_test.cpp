@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the grouping methods promise on small meshes, at the border, and when memory runs out.
+// Properties of the grouping methods on small meshes, at the API border, and when memory runs out.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -29,7 +29,7 @@ Outputs generate(const SimpleMesh& shape, const TangentOptions& options = {.conv
     return outputs;
 }
 
-/// A unit square in the plane of x and y whose UVs are its positions.
+/// A unit square in the xy plane whose UVs are its positions.
 SimpleMesh square() {
     SimpleMesh shape;
     for (const Vec2 uv : {Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 1}}) shape.addVertex({uv.x, uv.y, 0}, kUp, uv);
@@ -306,7 +306,7 @@ TEST(TangentBorder, OutputsThatAreNotWantedMayBeMissing) {
     EXPECT_EQ(all.tangents, some.tangents);
 }
 
-/// Counts what is handed out, and fails from a given call on.
+/// Counts allocations, and fails from a given call on.
 struct CountingAllocator {
     std::size_t calls = 0, fails_at = ~std::size_t{0}, live_bytes = 0, peak_bytes = 0;
     Allocator allocator{.allocate = [](void* user, std::size_t bytes, std::size_t alignment) -> void* {
@@ -324,7 +324,7 @@ struct CountingAllocator {
                         .user = this};
 };
 
-/// Returns how many allocations a call makes.
+/// Lets each allocation of a call fail once; returns the number of allocations.
 std::size_t letEachAllocationFail(const SimpleMesh& shape, float threshold, Method method = Method::mikktspace) {
     CountingAllocator counting;
     const Execution execution{.allocator = &counting.allocator};
@@ -359,7 +359,8 @@ TEST(TangentMemory, EachAllocationMayFail) {
 
 TEST(TangentMemory, UnindexedCornersTakeAtMost32BytesPerTriangle) {
     SimpleMesh shape = grid(200);
-    for (std::uint32_t corner = 0; corner < 300; ++corner) shape.uvs[shape.indices[corner]] = {};  // for a second look
+    // requires a second pass
+    for (std::uint32_t corner = 0; corner < 300; ++corner) shape.uvs[shape.indices[corner]] = {};
     SimpleMesh corners;
     for (const std::uint32_t v : shape.indices) corners.addVertex(shape.positions[v], shape.normals[v], shape.uvs[v]);
     MeshView mesh = corners.view();
@@ -373,7 +374,7 @@ TEST(TangentMemory, UnindexedCornersTakeAtMost32BytesPerTriangle) {
     }
 }
 
-/// Nodes that the vertex path takes need memory, and one pass settles those of a grid in this order too.
+/// Nodes handled by the vertex path need memory, and one pass completes the nodes of a grid in this order too.
 TEST(TangentMemory, SecondTrianglesOfQuadsMayFollowAllFirstOnes) {
     const SimpleMesh natural = gridOf(20000);
     SimpleMesh sweeps = natural;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// lengyel, flat and basis, through their plan.
+// lengyel, flat and basis, with their plans.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ void expectNear(const Vec3& a, const Vec3& b, double tolerance = 1e-6) {
     EXPECT_NEAR(a.z, b.z, tolerance);
 }
 
-/// A unit square in z = 0 with N = +z, cut along 0-2; u along 2x, v along 4y.
+/// A unit square in z = 0 with N = +z, divided along 0-2; u along 2x, v along 4y.
 SimpleMesh square() {
     SimpleMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -93,7 +93,7 @@ TEST(Lengyel, GivesMirroredFacesTheSignMinusOne) {
 }
 
 TEST(Lengyel, GivesTheNumbersOfItsPage) {
-    // docs/concepts/methods/simple.md works this triangle through.
+    // docs/concepts/methods/simple.md computes this triangle step by step.
     SimpleMesh mesh;
     mesh.positions = {{0, 0, 0}, {4, 1, 0}, {0, 2, 0}};
     mesh.normals = {{0.6f, 0, 0.8f}, {0, 0, 1}, {0, 0, 1}};
@@ -116,7 +116,7 @@ TEST(Lengyel, GivesTheNumbersOfItsPage) {
 }
 
 TEST(Lengyel, SumsUnnormalisedDerivatives) {
-    // At vertex 0 one face has T = (1, 0, 0), the other T = (0, 3, 0): the longer one counts three times.
+    // At vertex 0 one face has T = (1, 0, 0), the other T = (0, 3, 0): the longer one has three times the weight.
     SimpleMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 3, 0}, {-1, 0, 0}};
     mesh.normals.assign(5, {0, 0, 1});
@@ -153,7 +153,7 @@ TEST(Lengyel, LeavesOutFacesWithoutUvAreaAndBrokenOnes) {
     mesh.normals.push_back({0, 0, 1});
     mesh.uvs.push_back({1, 0});
     mesh.addFace({0, 1, 4});
-    mesh.addFace({0, 1, 5});  // all on v = 0
+    mesh.addFace({0, 1, 5});  // all UVs on v = 0
     const Outputs out = tangentsOf(mesh.view(), {.method = Method::lengyel, .convention = conventions::opengl});
     EXPECT_EQ(out.tangents[0], (Vec4{1, 0, 0, 1}));
     EXPECT_EQ(out.magnitudes_s[0], 0.5f);
@@ -258,7 +258,7 @@ TEST(VertexDomain, GivesUnusedVerticesZeroAndCountsOutputs) {
     mesh.normals.resize(7, {0, 0, 1});
     mesh.uvs.resize(7);
     mesh.addFace({4, 5});     // ignored
-    mesh.addFace({0, 1, 6});  // collapses in UV: vertex 6 is used, but has no tangent
+    mesh.addFace({0, 1, 6});  // collapsed in UV: vertex 6 is used, but has no tangent
     mesh.uvs[6] = mesh.uvs[0];
     for (const Method method : {Method::lengyel, Method::basis}) {
         std::vector<Vec4> tangents(7, Vec4{9, 9, 9, 9});
@@ -318,14 +318,14 @@ TEST(OneCall, CopiesNeitherIndicesNorUvs) {
         ASSERT_TRUE(generateTangents(mesh.view(),
                                      {.method = Method::lengyel, .convention = conventions::opengl, .domain = domain},
                                      {.tangents = out}, {.thread_count = 1, .allocator = &allocator}));
-        // A part of each vertex's sum; the other part is where the outputs come to later. Per corner also a mark.
+        // A part of each vertex's sum; the rest is in the output memory. With domain corner, also a mark.
         EXPECT_EQ(count.peak, 4 * (domain == OutputDomain::vertex ? 8u : 17u));
     }
     EXPECT_EQ(count.live, 0u);
 }
 
 TEST(Lengyel, LosesNoDigitsAtExtremeScales) {
-    // Single precision must give way where it would overflow, vanish, or cancel.
+    // The computation must switch to double where float would overflow, underflow or cancel.
     const SimpleMesh plain = square();
     for (const float space : {1e-30f, 1.0f, 1e25f}) {
         for (const float texture : {1e-18f, 1e-6f, 1.0f, 1e12f}) {
@@ -350,7 +350,7 @@ TEST(Lengyel, TellsSliversOfTheUvMapFromCollinearUvs) {
     mesh.addFace({0, 1, 2});
     for (const int bits : {0, 8, 16, 22}) {
         const float height = std::ldexp(1.0f, -bits);
-        // s = (1, 1 + height) turned by the diagonal; the determinant is exactly `height`.
+        // s = (1, 1 + height) rotated by the diagonal; the determinant is exactly `height`.
         mesh.uvs = {{0, 0}, {1, 1}, {1, 1 + height}};
         const Outputs out = tangentsOf(mesh.view(), {.method = Method::lengyel, .convention = conventions::opengl});
         // dP/du = ((1 + h) E1 - E2) / h, dP/dv = (E2 - E1) / h
@@ -399,7 +399,7 @@ TEST(Plan, ThatWasMovedFromIsThatOfAMeshWithoutVertices) {
         EXPECT_LT(left.memoryBytes(), 100u);
         EXPECT_EQ(evaluateTangents(left, pose, {.tangents = tangents}).error().code, ErrorCode::planMismatch);
         EXPECT_TRUE(evaluateTangents(left, {}, {}));
-        // It takes another plan again, also its own.
+        // A plan can be assigned again, including itself.
         *made = *std::move(other);
         EXPECT_TRUE(evaluateTangents(*made, pose, {.tangents = tangents}));
         TangentPlan& same = *made;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kernels' arc cosine against the C library's in double, rounded to float. All floats from -1 to 1 were
-// compared once; here one in so many.
+// The kernels' arc cosine compared with the C library's in double, rounded to float. All floats from -1 to 1 were
+// compared once; here only a sample is.
 #include <gtest/gtest.h>
 
 #include <bit>

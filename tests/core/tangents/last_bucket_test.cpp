@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the reference's unsorted last bucket changes, found without a list of all edges.
+// The effect of the reference's unsorted last bucket, computed without a list of all edges.
 #include "core/tangents/mikktspace/last_bucket.h"
 
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ struct Welded {
     }
 };
 
-/// Finds the same links by the reference's rules, one after the other, from a list of all edges.
+/// Finds the same links by the reference's rules, in sequence, from a list of all edges.
 class AllEdges {
   public:
     explicit AllEdges(Welded& welded) {
@@ -150,7 +150,7 @@ std::vector<Vec4> tangents(const MeshView& mesh, Pairing pairing) {
     return result;
 }
 
-/// Sheets, soups of random triangles and quads, books and fans; in natural order and shuffled.
+/// Returns sheets, soups of random triangles and quads, books and fans; in natural order and shuffled.
 SimpleMesh someShape(std::uint32_t seed) {
     std::mt19937 random(seed);
     SimpleMesh shape;
@@ -193,7 +193,7 @@ TEST(LastBucket, ChangesTheLinksThatAListOfAllEdgesChanges) {
     EXPECT_GT(changed, 40);
 }
 
-/// `tail` after a sheet of so many triangles that only the end of the mesh is looked at.
+/// Returns `tail` after a sheet with so many triangles that only the end of the mesh is examined.
 SimpleMesh afterSheet(const SimpleMesh& tail) {
     SimpleMesh shape = test::grid(30);
     const auto first = static_cast<std::uint32_t>(shape.positions.size());
@@ -246,7 +246,7 @@ TEST(LastBucket, RarelyChangesAnything) {
     EXPECT_LT(changed, kGrids / 10);
 }
 
-/// Meshes so large that threads share the work.
+/// Meshes so large that several threads share the work.
 TEST(LastBucket, IsTheSameForLargeMeshesAndAllThreads) {
     for (std::uint32_t seed = 0; seed < 6; ++seed) {
         SimpleMesh shape = seed < 5 ? test::grid(300) : test::fan(100000);
@@ -257,8 +257,7 @@ TEST(LastBucket, IsTheSameForLargeMeshesAndAllThreads) {
     }
 }
 
-/// The last triangles' nodes all have their first corners, and with them their representatives, at the
-/// beginning.
+/// The nodes of the last triangles all have their first corners, and therefore their representatives, at the start.
 TEST(LastBucket, IsFoundWhereTheLastTrianglesOnlyUseOldNodes) {
     SimpleMesh shape = test::grid(80);
     for (int repeat = 0; repeat < 6000; ++repeat) shape.addTriangle(0, 1, 82);
@@ -291,7 +290,7 @@ TEST(LastBucket, ChangesTheLinksOfToriThatAListOfAllEdgesChanges) {
     EXPECT_GT(changed, 10);
 }
 
-/// Against the bits of tspace 0.x, which took all of such a mesh another way and was compared with the reference.
+/// Compares with the bits of tspace 0.x, which processed such meshes differently and was compared with the reference.
 TEST(LastBucket, ToriKeepTheirBits) {
     std::uint64_t hash = 0;
     int different = 0;

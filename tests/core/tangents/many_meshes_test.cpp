@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A call for many meshes: the results of single calls, one error per job, and memory that threads use again.
+// A call for many meshes: results of single calls, one error per job, and memory reused by threads.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -58,7 +58,7 @@ void expectSingleCalls(Batch& batch, const Execution& execution) {
 TEST(ManyMeshes, HaveTheResultsOfSingleCalls) {
     std::vector<SimpleMesh> meshes = smallMeshes(300);
     meshes.push_back(grid(40));
-    meshes.insert(meshes.begin() + 100, grid(200));  // more than a thread's share
+    meshes.insert(meshes.begin() + 100, grid(200));  // more than the share of one thread
     for (const unsigned threads : {1u, 2u, 3u}) {
         Batch batch(meshes);
         for (std::size_t i = 0; i < batch.jobs.size(); i += 3) batch.jobs[i].options.method = Method::best;
@@ -93,7 +93,7 @@ TEST(ManyMeshes, AJobThatFailsDoesNotAffectTheOthers) {
     }
 }
 
-/// Counts allocations, and notices two threads at a time.
+/// Counts allocations, and detects concurrent calls.
 struct WatchedAllocator {
     std::atomic<int> inside{0}, calls{0}, live{0};
     std::atomic<bool> overlapped{false};

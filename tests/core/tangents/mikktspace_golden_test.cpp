@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every output word of `mikktspace` against results of the reference implementation. Built several times
-// against cores with other compiler flags: the bits must not change.
+// Compares every output word of `mikktspace` with results of the reference implementation. Built several times with
+// different compiler flags: the bits must not change.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ struct GoldenCase {
     GoldenMesh golden;
 };
 
-/// Those whose bits are promised, by name.
+/// Returns the cases whose bits are promised, by name.
 std::vector<GoldenCase> goldenCases() {
     std::vector<GoldenCase> cases;
     for (const auto& entry : std::filesystem::directory_iterator(shared("golden/mikktspace"))) {
@@ -46,7 +46,7 @@ bool matches(const GoldenResult& want, const Outputs& got, std::size_t c) {
            sameBits(want.magnitude_t, got.magnitudes_t[c]);
 }
 
-/// Number of corners that differ from the golden results.
+/// Returns the number of corners that differ from the golden results.
 std::size_t wrongCorners(const GoldenMesh& golden, const Outputs& outputs) {
     std::size_t wrong = 0;
     for (std::size_t c = 0; c < golden.results.size(); ++c) wrong += !matches(golden.results[c], outputs, c);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Welding: which vertices become one node, how nodes are numbered, and whose data stand for them.
+// Welding: which vertices become one node, how nodes are numbered, and whose data represents them.
 #include "core/tangents/mikktspace/weld.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace {
 
 using test::SimpleMesh;
 
-constexpr std::size_t kMany = 100000;  // vertices: enough that all threads have work
+constexpr std::size_t kMany = 100000;  // enough vertices to keep all threads busy
 
 Nodes weldWith(const MeshView& mesh, unsigned threads, const Allocator* transient = nullptr) {
     Parallel parallel(Execution{.thread_count = threads});
@@ -28,7 +28,7 @@ Nodes weldWith(const MeshView& mesh, unsigned threads, const Allocator* transien
     return weld(mesh, triangles, nullptr, parallel, transient);
 }
 
-/// Nodes as a search tree finds them: numbered by the first of equal vertices.
+/// Finds nodes with a search tree: numbered by the first of equal vertices.
 std::vector<std::uint32_t> wantedNodes(const MeshView& mesh) {
     std::map<std::array<float, 8>, std::uint32_t> found;
     std::vector<std::uint32_t> nodes;
@@ -53,7 +53,7 @@ void expectWanted(const MeshView& mesh) {
     }
 }
 
-/// Nothing that remains may lie in the transient memory, whether all of what is transient fits or a part of it.
+/// Checks that no permanent data is in the transient memory, whether all or only a part of the transient data fits.
 void expectTheSameWithTransientMemory(const MeshView& mesh) {
     const Nodes want = weldWith(mesh, 2);
     for (const std::size_t bytes_per_vertex : {1u, 5u, 64u}) {
@@ -67,7 +67,7 @@ void expectTheSameWithTransientMemory(const MeshView& mesh) {
     }
 }
 
-/// Random vertices, each with probability 1/`rarity` a copy of an earlier one; triangles use all of them.
+/// Returns random vertices, each with probability 1/`rarity` a copy of an earlier one; triangles use all of them.
 SimpleMesh randomVertices(std::size_t count, unsigned rarity) {
     std::mt19937 random(7);
     SimpleMesh shape;
@@ -177,7 +177,7 @@ TEST(Weld, TakesZerosOfBothSignsForOne) {
     shape.addVertex({1, 0, 0}, {0, 0, 1}, {1, 0});
     shape.addVertex({0, 1, 0}, {0, 0, 1}, {0, 1});
     shape.addTriangle(1, 3,
-                      4);  // the only one at this node: the vertex that is used stands for it, not the first
+                      4);  // the only used vertex of this node: it represents the node, not the first one
     const Nodes nodes = weldWith(shape.view(), 1);
     EXPECT_EQ(nodes.count, 3u);
     EXPECT_TRUE(nodes.mixed);

@@ -14,9 +14,9 @@
 namespace tspace {
 namespace {
 
-constexpr unsigned kCells = 2;  // small, so that the last edge is near everything
+constexpr unsigned kCells = 2;  // small, so that the last edge affects most of the mesh
 
-/// A grid with slanted UVs that differ from cell to cell, so that a lost neighbour shows.
+/// A grid with slanted UVs that differ from cell to cell, so that a missing neighbor changes the result.
 struct Grid : test::SimpleMesh {
     explicit Grid(std::mt19937& random) {
         const auto noise = [&] { return static_cast<float>(random() % 1000) / 2500.0f; };
@@ -35,7 +35,7 @@ struct Grid : test::SimpleMesh {
         }
     }
 
-    /// Tangents per (face, corner) as stored here, computed with the faces in the given order.
+    /// Returns tangents per (face, corner) in storage order, computed with the faces in the given order.
     [[nodiscard]] std::vector<Vec4> tangents(const std::vector<std::size_t>& order, Pairing pairing) const {
         std::vector<std::uint32_t> ordered;
         for (const std::size_t f : order) ordered.insert(ordered.end(), &indices[3 * f], &indices[3 * f] + 3);
@@ -49,7 +49,7 @@ struct Grid : test::SimpleMesh {
     }
 };
 
-/// The most that any tangent moves when faces are shuffled, over many grids.
+/// Returns the largest change of any tangent when faces are shuffled, over many grids.
 float largestChange(Pairing pairing) {
     float largest = 0;
     for (unsigned seed = 0; seed < 500; ++seed) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The plain implementation of MikkTSpace against stored results of the reference, and the engine against the plain
+// Compares the simple implementation of MikkTSpace with stored results of the reference, and the engine with the simple
 // implementation.
 #include "core/tangents/mikktspace/plain.h"
 
@@ -39,7 +39,7 @@ bool sameCounts(const TangentReport& a, const TangentReport& b) {
     return counts(a) == counts(b);
 }
 
-/// Small meshes have a path of their own, which does not take so many vertices.
+/// Small meshes have a separate code path, which does not support this many vertices.
 bool onePassIsExact(const MeshView& mesh, const TangentOptions& options) {
     std::vector<Vec3> positions(mesh.vertexCount() + 200, Vec3{1, 2, 3}), normals(positions.size(), Vec3{0, 0, 1});
     std::vector<Vec2> uvs(positions.size());
@@ -62,7 +62,7 @@ bool onePassIsExact(const MeshView& mesh, const TangentOptions& options) {
            sameBits(small, got);
 }
 
-/// The engine computes the result of a plan in another way than the result of one call.
+/// The engine computes the result of a plan differently from that of one call.
 bool planIsExact(const MeshView& mesh, const TangentOptions& options) {
     Outputs got(mesh.cornerCount());
     const Result<TangentPlan> plan_made = planTangents(mesh, options, {.thread_count = 1});
@@ -98,7 +98,7 @@ TEST(PlainMikktspace, EveryWordEqualsTheReference) {
     EXPECT_GT(count, 300);
 }
 
-/// Compares random meshes from number `first` on. TSPACE_MESHES and TSPACE_FIRST_MESH select others.
+/// Compares random meshes, starting at number `first`. TSPACE_MESHES and TSPACE_FIRST_MESH select others.
 void compareRandomMeshes(std::uint64_t first, std::uint64_t count,
                          bool (*isExact)(const MeshView&, const TangentOptions&)) {
     first = setting("TSPACE_FIRST_MESH", first);
@@ -121,7 +121,7 @@ TEST(PlainMikktspace, TheEngineHasItsBitsOnRandomMeshes) { compareRandomMeshes(0
 TEST(PlainMikktspace, OnePassHasItsBitsOnRandomMeshes) { compareRandomMeshes(2'000'000, 250'000, onePassIsExact); }
 TEST(PlainMikktspace, PlansHaveItsBitsOnRandomMeshes) { compareRandomMeshes(1'000'000, 250'000, planIsExact); }
 
-/// Larger meshes, whose nodes the engine's short path computes, in natural and random order.
+/// Larger meshes, whose nodes the engine's fast path computes, in natural and random order.
 TEST(PlainMikktspace, TheEngineHasItsBitsOnRegularMeshes) {
     std::vector<SimpleMesh> shapes{test::grid(40),
                                    test::fan(300),

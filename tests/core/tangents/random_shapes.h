@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Small random meshes on which implementations of MikkTSpace differ easily: soups and sheets of triangles and quads with equal,
-// collapsed, mirrored and huge values.
+// Small random meshes for which implementations of MikkTSpace differ easily: soups and sheets of triangles and quads
+// with equal, collapsed, mirrored and huge values.
 #pragma once
 
 #include <algorithm>
@@ -14,14 +14,14 @@
 
 namespace tspace::test {
 
-/// Random numbers with few different values, so that much is equal, collapsed or parallel.
+/// Random numbers with few distinct values, so that many are equal, collapsed or parallel.
 class Dice {
   public:
     explicit Dice(std::uint64_t seed) : random_(seed) {}
 
     int below(int count) { return static_cast<int>(random_() % static_cast<unsigned>(count)); }
     float fraction() { return static_cast<float>(random_() >> 40) / 16777216.0f; }
-    /// `kind`: 0 whole numbers, 1 halves, 2 anything from -1 to 1, 3 of any size, 4 now and then no number.
+    /// `kind`: 0 integers, 1 halves, 2 anything from -1 to 1, 3 of any size, 4 sometimes NaN.
     float number(int kind) {
         switch (kind) {
             case 0:
@@ -41,7 +41,7 @@ class Dice {
                 return fraction() * 2 - 1;
         }
     }
-    /// Three times of four of length 1.
+    /// Returns a normal, with length 1 in three of four cases.
     Vec3 normal(int kind) {
         const Vec3 n{number(kind), number(kind), number(kind)};
         const float length = std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
@@ -54,7 +54,7 @@ class Dice {
 
 using Faces = std::vector<std::vector<std::uint32_t>>;
 
-/// A sheet of up to 5 x 5 cells, quads or triangles, whose UVs go back and forth and now and then collapse.
+/// Adds a sheet of up to 5 x 5 cells, quads or triangles, whose UVs alternate in direction and sometimes collapse.
 inline Faces addSheet(Dice& dice, SimpleMesh& shape, int normal_kind) {
     const std::uint32_t width = 1 + dice.below(5), height = 1 + dice.below(5);
     const bool flat = dice.below(2) != 0;
@@ -81,7 +81,7 @@ inline Faces addSheet(Dice& dice, SimpleMesh& shape, int normal_kind) {
     return faces;
 }
 
-/// Triangles and quads over a few positions, normals and UVs.
+/// Adds triangles and quads over a few positions, normals and UVs.
 inline Faces addSoup(Dice& dice, SimpleMesh& shape, int position_kind, int normal_kind, int uv_kind) {
     std::vector<Vec3> positions(2 + dice.below(9)), normals(1 + dice.below(4));
     std::vector<Vec2> uvs(2 + dice.below(7));
@@ -102,7 +102,8 @@ inline Faces addSoup(Dice& dice, SimpleMesh& shape, int position_kind, int norma
     return faces;
 }
 
-/// Faces come in random order and begin at any corner. Every fifth mesh has NaN, infinities and 3e38.
+/// Returns a mesh whose faces are in random order and start at any corner. Every fifth mesh has NaN, infinities and
+/// 3e38.
 inline SimpleMesh randomShape(Dice& dice, bool strange) {
     SimpleMesh shape;
     const int position_kind = strange ? 4 : dice.below(4);
@@ -128,7 +129,7 @@ struct RandomCase {
     float threshold_deg = 180;
 };
 
-/// Case `number`, which is the same everywhere. Every fifth one has values that are not finite.
+/// Returns case `number`, which is the same on all machines. Every fifth one has values that are not finite.
 inline RandomCase randomCase(std::uint64_t number) {
     Dice dice(0x9E3779B97F4A7C15u * (number + 1));
     SimpleMesh shape = randomShape(dice, number % 5 == 4);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The formulas of `fast` and `best` for the group at vertex 0, in double precision and in another way than
-// the library: lists of equations, and Gaussian elimination.
+// The formulas of `fast` and `best` for the group at vertex 0, in double precision and implemented differently from the
+// library: lists of equations, and Gaussian elimination.
 #pragma once
 
 #include <array>
@@ -87,7 +87,7 @@ inline EdgeEquation equationOf(const DVec3& n, const DVec3& other, const DVec3& 
             (size / length(p) * (1 + turn * turn / 24)) * p};
 }
 
-/// Minimises the sum of weight * |l - sum x c|^2, plus k * diagonal * c^2 for the last three.
+/// Minimizes the sum of weight * |l - sum x c|^2, plus k * diagonal * c^2 for the last three coefficients.
 inline std::array<DVec3, 5> solveFit(const std::vector<EdgeEquation>& equations, const std::array<double, 3>& diagonal,
                                      double k) {
     double m[5][5] = {};
@@ -115,7 +115,7 @@ inline std::array<DVec3, 5> solveFit(const std::vector<EdgeEquation>& equations,
     return c;
 }
 
-/// Residual of l after coefficients [begin, end) are applied.
+/// Returns the residual of l after coefficients [begin, end) are applied.
 inline double unexplained(const std::vector<EdgeEquation>& equations, const std::array<DVec3, 5>& c) {
     double sum = 0;
     for (const EdgeEquation& e : equations) {

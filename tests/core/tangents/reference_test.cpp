@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `mikktspace` beside the living MikkTSpace reference, on small random meshes. Built only where cmake is told where its
-// source is (TSPACE_MIKKTSPACE_DIR); tests/core/tangents/CMakeLists.txt gives its function another name.
+// Compares `mikktspace` with the compiled MikkTSpace reference, on small random meshes. Built only if
+// TSPACE_MIKKTSPACE_DIR specifies its source; tests/core/tangents/CMakeLists.txt renames its function.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -62,13 +62,13 @@ void runReference(const SimpleMesh& shape, float threshold, Outputs& outputs) {
     ASSERT_NE(reference_genTangSpace(&context, threshold), 0);
 }
 
-/// A number from the environment.
+/// Returns a number from the environment.
 long setting(const char* name, long otherwise) {
     const char* text = std::getenv(name);
     return text != nullptr ? std::atol(text) : otherwise;
 }
 
-/// Number of the `count` meshes whose bits differ from the reference.
+/// Returns how many of the `count` meshes have bits that differ from the reference.
 long countDifferent(long first, long count, Pairing pairing) {
     long different = 0;
     for (long mesh = first; mesh < first + count; ++mesh) {
@@ -89,7 +89,7 @@ TEST(MikktspaceReference, HasTheSameBitsOnRandomMeshes) {
     EXPECT_EQ(countDifferent(setting("TSPACE_FIRST_MESH", 0), setting("TSPACE_MESHES", 20'000), Pairing::reference), 0);
 }
 
-/// In natural order, where the last bucket matters now and then.
+/// In natural order, where the last bucket sometimes matters.
 TEST(MikktspaceReference, HasTheSameBitsOnTori) {
     for (std::uint32_t columns = 4; columns <= 60; ++columns) {
         for (std::uint32_t rows = 4; rows <= 60; ++rows) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// TangentOptions::refine: the step against the same in double precision, and what it may never do.
+// TangentOptions::refine: the step compared with the same step in double precision, and its limits.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -42,7 +42,7 @@ SmoothPatch patchOf(std::uint32_t seed, double wave = 0.2) {
     return test::smoothPatch(surface, 10, seed);
 }
 
-/// The step of the group at vertex v, from the frames of each vertex before it; all in double precision, in space.
+/// The step of the group at vertex v, from the previous frames of all vertices; in double precision.
 class Step {
   public:
     Step(const SimpleMesh& shape, const Outputs& before) : shape_(shape), u_(shape.positions.size()), v_(u_.size()) {
@@ -106,10 +106,10 @@ TEST(RefinedTangents, AreTheStepInDoublePrecision) {
             const DVec3 before = toDouble(xyz(fit.tangents[c])), after = toDouble(xyz(one.tangents[c]));
             const double turn = angleDeg(before, step.tangentAt(v));
             largest = std::max(largest, turn);
-            // The share of the robust mean, which holds the step back, is not seen from outside.
+            // The weight of the robust mean, which limits the step, is not visible from outside.
             EXPECT_LT(angleDeg(after, step.tangentAt(v)), 0.1 * turn + 1e-3) << "vertex " << v;
         }
-        EXPECT_GT(largest, 0.1);  // so that there was something to compare
+        EXPECT_GT(largest, 0.1);  // proves that there is a difference to compare
     }
 }
 
@@ -128,7 +128,7 @@ TEST(RefinedTangents, AreCloserToTheSurfaceThanTheFitAndTheSecondStepIsCloserSti
     EXPECT_LT(error[2], error[1]);
 }
 
-/// Where UVs are linear the fit is exact, and nothing is left to do.
+/// If UVs are linear, the fit is exact, and nothing remains to be refined.
 TEST(RefinedTangents, StayWhereEdgesFit) {
     const SmoothPatch patch = patchOf(5, 0);
     const Outputs fit = generate(patch.shape, 0), two = generate(patch.shape, 2);
@@ -154,7 +154,8 @@ RC_GTEST_PROP(RefinedTangents, TurnByFourteenDegreesAtMost, ()) {
     }
 }
 
-/// A plan made for two steps gives what generate gives, also after the mesh has moved: then what it gives for the pose.
+/// A plan created for two steps gives the same result as generate, and after the mesh has moved, the result for the
+/// pose.
 TEST(RefinedTangents, OfAPlanFollowThePose) {
     const SmoothPatch patch = patchOf(6);
     SimpleMesh moved = patch.shape;
@@ -172,7 +173,7 @@ TEST(RefinedTangents, OfAPlanFollowThePose) {
     }
 }
 
-/// A closed tube whose UVs begin anew at one line: each side of that line has neighbours of its own only.
+/// A closed tube with a UV seam along one line: neighbors on each side of that line are separate.
 TEST(RefinedTangents, OnBothSidesOfASeamAgreeTwiceAsWell) {
     constexpr std::uint32_t kSide = 32;
     const auto tube = [](double u, double v) {

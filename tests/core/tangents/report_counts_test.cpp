@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Counts of a report, and TangentOutput::has_tangent: equal in one call and by plan and evaluation.
+// Counts of a report, and TangentOutput::has_tangent: equal in one call and with plan and evaluation.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -19,8 +19,8 @@ constexpr Method kMethods[] = {Method::mikktspace, Method::uniform, Method::angl
 
 float smallNumber() { return 0.5f * static_cast<float>(*rc::gen::inRange(-2, 3)); }
 
-/// Faces of 1 to 9 corners over few vertices: corners fall together, UVs are mirrored or have no area, and
-/// now and then a position or a UV is no number.
+/// Returns faces of 1 to 9 corners over few vertices: corners coincide, UVs are mirrored or have no area, and sometimes
+/// a position or a UV is NaN.
 SimpleMesh polygons() {
     SimpleMesh shape;
     const int vertices = *rc::gen::inRange(3, 24);
@@ -94,7 +94,7 @@ struct Masked {
     }
 };
 
-/// Entries whose corner or vertex belongs to no used face.
+/// Returns the number of entries whose corner or vertex belongs to no used face.
 std::uint64_t clearedEntries(const Masked& made) {
     return static_cast<std::uint64_t>(
         std::count_if(made.outputs.tangents.begin(), made.outputs.tangents.end(),
@@ -135,7 +135,7 @@ RC_GTEST_PROP(HasTangent, IsTheSameForVerticesAndForTheirCorners, ()) {
 }
 
 TEST(HasTangent, IsZeroWhereNoTriangleOfTheVertexHasUvArea) {
-    // Two separate triangles; the UVs of the second are one point.
+    // Two separate triangles; the UVs of the second one are a single point.
     SimpleMesh shape = gridOf(2);
     const std::uint32_t a = shape.addVertex({5, 0, 0}, kUp, {0.5f, 0.5f});
     shape.addVertex({6, 0, 0}, kUp, {0.5f, 0.5f});
@@ -143,7 +143,7 @@ TEST(HasTangent, IsZeroWhereNoTriangleOfTheVertexHasUvArea) {
     shape.addTriangle(a, a + 1, a + 2);
     const std::vector<std::uint8_t> expected{1, 1, 1, 1, 1, 1, 0, 0, 0};
     for (const Method method : kMethods) {
-        if (method == Method::basis) continue;  // does not read UVs
+        if (method == Method::basis) continue;  // does not use UVs
         const TangentOptions options{.method = method, .convention = conventions::opengl};
         EXPECT_EQ(Masked(shape.view(), options, false, 1).has_tangent, expected) << methodName(method);
         EXPECT_EQ(Masked(shape.view(), options, true, 1).has_tangent, expected) << methodName(method);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Time grows with the number of triangles and no faster, on the meshes that drive the reference into
-// quadratic time or deep recursion. The bound is generous: ten times the triangles may take forty times the
-// processor time, where quadratic time would take a hundred.
+// Time grows linearly with the number of triangles, on meshes that cause quadratic time or deep recursion in the
+// reference. The bound is generous: ten times the triangles may take forty times the processor time, whereas quadratic
+// time would take a hundred times.
 #include <gtest/gtest.h>
 #include <pthread.h>
 
@@ -33,7 +33,7 @@ constexpr Case kCases[] = {
     {"someWithoutUvArea", someWithoutUvArea},
 };
 
-/// Processor seconds of one call, the best of several.
+/// Returns the processor seconds of one call, the best of several.
 double seconds(const SimpleMesh& shape, Method method, int tries) {
     double best = 1e9;
     for (int i = 0; i < tries; ++i) {
@@ -61,7 +61,7 @@ TEST_P(Scaling, TimePerTriangleStaysBounded) {
 
 TEST_P(Scaling, AStackOf64KilobytesIsEnough) {
 #ifdef TSPACE_SANITIZED
-    constexpr std::size_t kStack = 1 << 20;  // sanitizers pad every frame
+    constexpr std::size_t kStack = 1 << 20;  // sanitizers enlarge every stack frame
 #else
     constexpr std::size_t kStack = 64 << 10;
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Meshes for tests: regular ones, and the ones that make careless implementations slow or wrong.
+// Meshes for tests: regular ones, and ones that make naive implementations slow or wrong.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace tspace::test {
 
 inline constexpr Vec3 kUp{0, 0, 1};
 
-/// A wavy sheet of 2 * side * side triangles.
+/// Returns a wavy sheet of 2 * side * side triangles.
 inline SimpleMesh grid(std::uint32_t side) {
     SimpleMesh shape;
     for (std::uint32_t y = 0; y <= side; ++y) {
@@ -48,7 +48,7 @@ inline void shuffleTriangles(SimpleMesh& shape, std::uint32_t seed) {
     }
 }
 
-/// All triangles share one vertex; the UVs are the positions seen from above.
+/// Returns triangles that share one vertex; the UVs are the positions seen from above.
 inline SimpleMesh fan(std::size_t triangles) {
     SimpleMesh shape;
     const std::uint32_t apex = shape.addVertex({0, 0, 0.5f}, kUp, {0.5f, 0.5f});
@@ -64,7 +64,7 @@ inline SimpleMesh fan(std::size_t triangles) {
     return shape;
 }
 
-/// A fan whose UVs unroll the rim: tangents at the apex point in all directions.
+/// Returns a fan whose UVs unroll the rim: tangents at the apex point in all directions.
 inline SimpleMesh unrolledFan(std::size_t triangles) {
     SimpleMesh shape = fan(triangles);
     for (std::size_t i = 0; i < triangles; ++i) {
@@ -75,7 +75,7 @@ inline SimpleMesh unrolledFan(std::size_t triangles) {
     return shape;
 }
 
-/// A cone with a UV of its own for each face at the apex: as many nodes at one position.
+/// Returns a cone with a separate UV per face at the apex: as many nodes at one position.
 inline SimpleMesh cone(std::size_t triangles) {
     SimpleMesh shape = fan(triangles);
     for (std::size_t i = 0; i < triangles; ++i) {
@@ -85,7 +85,7 @@ inline SimpleMesh cone(std::size_t triangles) {
     return shape;
 }
 
-/// Every triangle is a point at the same place, with UVs of its own.
+/// Returns triangles that are all a point at the same position, with separate UVs.
 inline SimpleMesh collapsed(std::size_t triangles) {
     SimpleMesh shape;
     for (std::size_t i = 0; i < triangles; ++i) {
@@ -98,7 +98,7 @@ inline SimpleMesh collapsed(std::size_t triangles) {
     return shape;
 }
 
-/// All triangles share one edge; every other one runs along it the other way when `mixed`.
+/// Returns triangles that share one edge; with `mixed`, every second one traverses it in the opposite direction.
 inline SimpleMesh book(std::size_t pages, bool mixed) {
     SimpleMesh shape;
     const std::uint32_t a = shape.addVertex({0, 0, 0}, {0, 1, 0}, {0, 0}),
@@ -116,7 +116,7 @@ inline SimpleMesh book(std::size_t pages, bool mixed) {
     return shape;
 }
 
-/// A sheet in which every triangle has its own vertices, at the same positions but with other normals.
+/// Returns a sheet in which every triangle has separate vertices, with equal positions but different normals.
 inline SimpleMesh duplicatesWithOtherNormals(std::size_t triangles) {
     SimpleMesh shape;
     for (std::size_t i = 0; i < triangles; ++i) {
@@ -130,14 +130,14 @@ inline SimpleMesh duplicatesWithOtherNormals(std::size_t triangles) {
     return shape;
 }
 
-/// Every hundredth triangle has two corners at one place.
+/// Returns a grid in which every hundredth triangle has two corners at one position.
 inline SimpleMesh someDegenerate(std::size_t triangles) {
     SimpleMesh shape = gridOf(triangles);
     for (std::size_t t = 50; t < shape.indices.size() / 3; t += 100) shape.indices[3 * t + 1] = shape.indices[3 * t];
     return shape;
 }
 
-/// Neighbouring squares have UVs of opposite orientation.
+/// Returns a grid whose adjacent squares have UVs of opposite orientation.
 inline SimpleMesh checkerboard(std::size_t triangles) {
     SimpleMesh shape = gridOf(triangles);
     const auto side = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(shape.positions.size())));
@@ -149,7 +149,7 @@ inline SimpleMesh checkerboard(std::size_t triangles) {
     return shape;
 }
 
-/// A sheet with NaN and infinity strewn in.
+/// Returns a sheet with scattered NaN and infinities.
 inline SimpleMesh notFinite(std::size_t triangles) {
     SimpleMesh shape = gridOf(triangles);
     for (std::size_t v = 7; v < shape.positions.size(); v += 97) {
@@ -159,7 +159,7 @@ inline SimpleMesh notFinite(std::size_t triangles) {
     return shape;
 }
 
-/// Triangles with all UVs equal beside sound ones.
+/// Returns a grid with some triangles whose UVs are all equal.
 inline SimpleMesh someWithoutUvArea(std::size_t triangles) {
     SimpleMesh shape = gridOf(triangles);
     for (std::size_t v = 0; v < shape.uvs.size(); ++v) {
@@ -168,10 +168,9 @@ inline SimpleMesh someWithoutUvArea(std::size_t triangles) {
     return shape;
 }
 
-/// Triangles in an order that makes the fixed-seed quicksort of the reference pick the smallest key as its
-/// pivot again and again. The first 2048 faces are points that give vertex i the number 3i; the keys of the
-/// others' edges are the smaller number of their ends. The sort is played with keys that are only chosen when
-/// a pivot falls on them.
+/// Returns triangles in an order that makes the fixed-seed quicksort of the reference choose the smallest key as pivot
+/// repeatedly. The first 2048 faces are degenerate and assign number 3i to vertex i; the key of an edge is the smaller
+/// number of its ends. Keys are assigned lazily while simulating the sort, when a pivot hits them.
 inline SimpleMesh sortKiller(std::size_t triangles) {
     constexpr std::uint32_t kVertices = 2048, kHigh = 2000, kRounds = 100;
     SimpleMesh shape;
@@ -182,7 +181,7 @@ inline SimpleMesh sortKiller(std::size_t triangles) {
     }
     std::mt19937 random(1);
     std::vector<std::uint32_t> corners(3 * triangles);
-    // At first all corners are high, so any of them may become low.
+    // Initially all corners are high, so any of them may become low.
     for (std::size_t t = 0; t < triangles; ++t) {
         const std::uint32_t a = random() % 48, b = a + 1 + random() % 23, c = b + 24;
         corners[3 * t] = kHigh + a;
@@ -228,8 +227,8 @@ struct Outputs {
     [[nodiscard]] TangentOutput view() { return {tangents, bitangents, magnitudes_s, magnitudes_t}; }
 };
 
-/// A torus of `columns` times `rows` cells; its positions come without the C library, so that they are the same
-/// everywhere. With seams of the UV map, or closed.
+/// Returns a torus of `columns` times `rows` cells; its positions are computed without the C library, so that they are
+/// the same on all machines. With seams of the UV map, or closed.
 inline SimpleMesh torus(std::uint32_t columns, std::uint32_t rows, bool closed) {
     const auto circle = [](std::uint32_t i, std::uint32_t count, float& x, float& y) {
         // Four quarters, each by t -> ((1 - t t), 2 t) / (1 + t t).

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Neither the instructions nor the way (one pass, or plan and evaluation) may change a bit.
+// Neither the SIMD target nor the code path (one pass, or plan and evaluation) may change any bit.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -20,14 +20,14 @@ namespace {
 
 constexpr SimdTarget kTargets[] = {SimdTarget::scalar, SimdTarget::sse2, SimdTarget::avx2, SimdTarget::avx512,
                                    SimdTarget::neon};
-/// Does not link without tspace_scalar_kernels, where SSE2 would run in the place of plain code.
+/// Fails to link without tspace_scalar_kernels, in which case SSE2 would run instead of scalar code.
 [[maybe_unused]] const volatile auto kPlainCode = &mikk::scalar::cornerTerms;
 
 constexpr Method kMethods[] = {Method::mikktspace, Method::uniform, Method::angle,  Method::area,
                                Method::fast,       Method::best,    Method::lengyel};
 
-/// A sheet rolled up: duplicated vertices along its seam, mirrored UVs on one half, some triangles without UV
-/// area and some without area, normals that are not quite of unit length.
+/// Returns a rolled-up sheet: duplicated vertices along its seam, mirrored UVs on one half, some triangles without UV
+/// area and some without area, and normals that are not exactly unit.
 SimpleMesh rolledSheet(std::uint32_t side) {
     SimpleMesh shape = grid(side);
     for (std::size_t v = 0; v < shape.positions.size(); ++v) {
@@ -65,9 +65,8 @@ SimpleMesh unindexed(const SimpleMesh& from) {
     return shape;
 }
 
-/// A wavy sheet with all that keeps a node from being one plain fan: UVs mirrored every few columns, between
-/// some of them columns without UV area, patches without any, triangles turned over or there twice, and
-/// others without area.
+/// Returns a wavy sheet with everything that prevents a node from being a simple fan: UVs mirrored every few columns,
+/// columns and patches without UV area, flipped and duplicated triangles, and triangles without area.
 SimpleMesh foldedSheet(std::uint32_t side, std::uint32_t fold) {
     SimpleMesh shape = grid(side);
     const std::uint32_t columns = side + 1;
@@ -85,7 +84,7 @@ SimpleMesh foldedSheet(std::uint32_t side, std::uint32_t fold) {
     return shape;
 }
 
-/// Converts rows of four triangles to hexagons; some visit one vertex twice.
+/// Converts rows of four triangles to hexagons; some use one vertex twice.
 SimpleMesh withHexagons(const SimpleMesh& from) {
     SimpleMesh shape = from;
     shape.indices.clear();
@@ -176,7 +175,7 @@ TEST(OnePass, GivesTheBitsOfPlanAndEvaluationForAnyNumberOfThreads) {
     }
 }
 
-/// Soups of few vertices, as in grouped_property_test.cpp, but many more of them.
+/// Returns soups of few vertices, as in grouped_property_test.cpp, but larger.
 SimpleMesh soup(std::uint32_t seed) {
     std::mt19937 random(seed);
     const auto number = [&](std::uint32_t most) { return 0.25f * static_cast<float>(random() % most); };
@@ -194,7 +193,7 @@ SimpleMesh soup(std::uint32_t seed) {
     return shape;
 }
 
-/// A flat ring of rows, the last of which meets the first: there neighbours have numbers that lie far apart.
+/// Returns a flat ring of rows whose last one is connected to the first: there neighbors have very different indices.
 SimpleMesh ring(std::uint32_t rows, std::uint32_t columns) {
     SimpleMesh shape;
     for (std::uint32_t v = 0; v < rows * columns; ++v) {
@@ -212,7 +211,7 @@ SimpleMesh ring(std::uint32_t rows, std::uint32_t columns) {
     return shape;
 }
 
-/// The outputs of one pass. `range_shift`: ranges of so many nodes.
+/// Returns the outputs of one pass. `range_shift`: size of ranges of nodes.
 Outputs onePass(const SimpleMesh& shape, const Call<TangentOptions>& options, bool tangents_only,
                 unsigned range_shift = 0) {
     const MeshView mesh = shape.view();
@@ -257,7 +256,7 @@ TEST(OnePass, AndAPlanGiveTheSameBits) {
 TEST(OnePass, InRangesOfNodesGivesTheSameBits) {
     std::vector<SimpleMesh> list = shapes();
     list.push_back(foldedSheet(200, 7));
-    list.push_back(ring(500, 70));  // farther apart than lists of fans can say
+    list.push_back(ring(500, 70));  // farther apart than lists of fans can represent
     shuffleTriangles(list.back(), 8);
     for (std::uint32_t seed = 0; seed < 40; ++seed) {
         list.push_back(soup(seed + 3000));
@@ -331,13 +330,13 @@ TEST(OnePass, WritesLargeOutputsAsItWritesOthers) {
 TEST(OnePass, ReadsInterleavedVerticesUpToTheLastByteOnly) {
     const SimpleMesh shape = rolledSheet(20);
     const std::size_t count = shape.positions.size();
-    std::vector<float> data(8 * count);  // position, UV, normal: the last normal ends where the memory ends
+    std::vector<float> data(8 * count);  // position, UV, normal: the last normal ends at the end of the memory
     for (std::size_t v = 0; v < count; ++v) {
         const float values[8] = {shape.positions[v].x, shape.positions[v].y, shape.positions[v].z, shape.uvs[v].x,
                                  shape.uvs[v].y,       shape.normals[v].x,   shape.normals[v].y,   shape.normals[v].z};
         std::copy_n(values, 8, data.begin() + static_cast<std::ptrdiff_t>(8 * v));
     }
-    const std::vector<float> exact(data);  // its capacity is its size, so a sanitizer sees any step beyond
+    const std::vector<float> exact(data);  // its capacity is its size, so a sanitizer detects any access beyond it
     MeshView mesh = shape.view();
     mesh.positions = vec3Span(exact.data(), count, 32);
     mesh.uvs = vec2Span(exact.data() + 3, count, 32);

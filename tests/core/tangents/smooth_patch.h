@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Patches whose derivatives are known, and other small shapes that the estimators are tested on.
+// Patches with known derivatives, and other small shapes for tests of the estimators.
 #pragma once
 
 #include <functional>
@@ -18,8 +18,8 @@ struct SmoothPatch {
     std::vector<bool> inside;    ///< one per vertex: not at the border
 };
 
-/// An irregular mesh of [0,1]^2: `side` squared cells, inner points moved by up to a quarter of a cell,
-/// diagonals at random.
+/// Returns an irregular mesh of [0,1]^2: `side` squared cells, inner points moved by up to a quarter of a cell, random
+/// diagonals.
 inline SmoothPatch smoothPatch(const std::function<PatchPoint(double, double)>& surface, std::uint32_t side,
                                std::uint32_t seed) {
     SmoothPatch patch;
@@ -57,8 +57,8 @@ inline SmoothPatch smoothPatch(const std::function<PatchPoint(double, double)>& 
     return patch;
 }
 
-/// Triangles around vertex 0, which is the first corner of all: a bent surface, with normals and UVs that are
-/// not in line with it.
+/// Returns triangles around vertex 0, which is the first corner of each: a curved surface, with unrelated normals and
+/// UVs.
 inline SimpleMesh bumpyRing(std::uint32_t count, std::uint32_t seed) {
     std::mt19937 random(seed);
     const auto noise = [&] { return static_cast<float>(random() % 1000) / 999 - 0.5f; };
@@ -79,8 +79,8 @@ inline SimpleMesh bumpyRing(std::uint32_t count, std::uint32_t seed) {
     return shape;
 }
 
-/// A flat square (the first two triangles) with a rounded border of this radius on two sides, in which the
-/// UVs are sheared.
+/// Returns a flat square (the first two triangles) with a rounded border of this radius on two sides, in which the UVs
+/// are sheared.
 inline SimpleMesh shearedBevel(float radius) {
     SimpleMesh shape;
     const float edges[3] = {-1, 1, 1 + radius};

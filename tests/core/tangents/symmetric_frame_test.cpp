@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The symmetric frame: half of the shear for each axis.
+// The symmetric frame distributes the shear equally between both axes.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -14,7 +14,7 @@ namespace {
 constexpr std::array kMethods{Method::lengyel, Method::uniform, Method::angle, Method::area,
                               Method::flat,    Method::fast,    Method::best};
 
-/// A plane on which dP/du is the x axis and dP/dv leans over by `shear_deg`.
+/// Returns a plane on which dP/du is the x axis and dP/dv is sheared by `shear_deg`.
 SimpleMesh leaningPlane(double shear_deg, bool mirrored) {
     SimpleMesh shape = grid(4);
     const double lean = std::tan(shear_deg * std::numbers::pi / 180);

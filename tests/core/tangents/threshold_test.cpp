@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The core's own cosine of the threshold against the C library's, rounded to float.
+// The core's own cosine of the threshold compared with the C library's, rounded to float.
 #include <gtest/gtest.h>
 
 #include <bit>

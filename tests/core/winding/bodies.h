@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bodies that are wound counter-clockwise from outside, and what damages their winding.
+// Bodies with counter-clockwise winding seen from outside, and functions that damage the winding.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace tspace::test {
 
-/// Triangles, and of each the body that it belongs to.
+/// Triangles, with the body that each belongs to.
 struct Bodies {
     SimpleMesh mesh = {};
     std::vector<std::uint32_t> body_of = {};
@@ -35,8 +35,8 @@ struct Bodies {
     }
 };
 
-/// A sheet over [0, 1]^2 of u by v cells; a side whose ends have one position is closed. Its vertices are one per place, so
-/// that seams are open by indices. `keeps`: which cells are there.
+/// Adds a sheet over [0, 1]^2 of u by v cells; a side whose ends have equal positions is closed. Vertices are separate
+/// per grid point, so that seams are open by indices. `keeps`: which cells to create.
 inline void addSheet(
     Bodies& to, std::uint32_t u_cells, std::uint32_t v_cells, const std::function<Vec3(double, double)>& at,
     const std::function<bool(std::uint32_t, std::uint32_t)>& keeps = [](std::uint32_t, std::uint32_t) {
@@ -58,7 +58,7 @@ inline void addSheet(
     to.closeBody();
 }
 
-/// Of a whole turn; the ends are the same bits.
+/// Sine and cosine of a fraction of a turn; both ends have the same bits.
 inline double sineOfTurn(double turn) { return std::sin(6.283185307179586 * (turn == 1 ? 0 : turn)); }
 inline double cosineOfTurn(double turn) { return std::cos(6.283185307179586 * (turn == 1 ? 0 : turn)); }
 inline Vec3 vec3(double x, double y, double z) {
@@ -71,7 +71,8 @@ inline void addTorus(Bodies& to, Vec3 centre, double large, double small, std::u
         return vec3(centre.x + r * cosineOfTurn(u), centre.y + r * sineOfTurn(u), centre.z + small * sineOfTurn(v));
     });
 }
-/// From the south pole up to `top` of the way to the north pole. The triangles at the poles have no area.
+/// Adds a sphere from the south pole to the fraction `top` of the way to the north pole. The triangles at the poles
+/// have no area.
 inline void addSphere(
     Bodies& to, Vec3 centre, double radius, double top = 1, std::uint32_t cells = 24,
     const std::function<bool(std::uint32_t, std::uint32_t)>& keeps = [](std::uint32_t, std::uint32_t) {
@@ -98,7 +99,7 @@ inline void addBox(Bodies& to, Vec3 least, Vec3 most) {
     }
     to.closeBody();
 }
-/// Equal positions become one vertex.
+/// Merges vertices with equal positions.
 inline void shareVertices(Bodies& bodies) {
     std::vector<Vec3> positions;
     for (std::uint32_t& index : bodies.mesh.indices) {
@@ -110,7 +111,7 @@ inline void shareVertices(Bodies& bodies) {
     }
     bodies.mesh.positions = positions;
 }
-/// Each corner gets a vertex of its own.
+/// Gives each corner a separate vertex.
 inline void separateVertices(Bodies& bodies) {
     std::vector<Vec3> positions;
     for (std::uint32_t& index : bodies.mesh.indices) {
@@ -120,7 +121,7 @@ inline void separateVertices(Bodies& bodies) {
     bodies.mesh.positions = positions;
 }
 
-/// A band that is turned over once, joined with itself: it has one side.
+/// Returns a Moebius band: it has one side.
 inline Bodies moebiusBand(std::uint32_t cells) {
     Bodies band;
     for (std::uint32_t i = 0; i < cells; ++i) {
@@ -141,7 +142,7 @@ inline Bodies moebiusBand(std::uint32_t cells) {
     return band;
 }
 
-/// Turns each face with this chance.
+/// Flips each face with the given probability.
 inline Bodies turnedByChance(Bodies bodies, double share, unsigned seed) {
     std::mt19937 random(seed);
     for (std::size_t f = 0; f < bodies.faceCount(); ++f) {
@@ -149,7 +150,7 @@ inline Bodies turnedByChance(Bodies bodies, double share, unsigned seed) {
     }
     return bodies;
 }
-/// Turns faces in balls until this share of them is turned.
+/// Flips faces within balls until the given share of them is flipped.
 inline Bodies turnedInPatches(Bodies bodies, double share, unsigned seed) {
     std::mt19937 random(seed);
     std::vector<bool> turned(bodies.faceCount());
@@ -169,7 +170,7 @@ inline Bodies turnedInPatches(Bodies bodies, double share, unsigned seed) {
     }
     return bodies;
 }
-/// Turns every second body, or all.
+/// Flips every second body, or all of them.
 inline Bodies turnedWhole(Bodies bodies, bool all) {
     for (std::size_t f = 0; f < bodies.faceCount(); ++f) {
         if (all || bodies.body_of[f] % 2 == 0) bodies.turn(f);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// mendWinding: damages on bodies of every kind, what cannot be mended, and what must stay.
+// mendWinding: damage to bodies of every kind, cases that cannot be repaired, and faces that must not change.
 #include "tspace/winding.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ Mended mend(const MeshView& mesh, const WindingOptions& options = {}, const Exec
     return mended;
 }
 
-/// Share of the area that is wound as in `sound` once `damaged` is mended.
+/// Returns the share of the area with the winding of `sound` after `damaged` is repaired.
 double shareRight(const Bodies& sound, const Bodies& damaged, const Mended& mended) {
     double right = 0, all = 0;
     for (std::size_t f = 0; f < sound.faceCount(); ++f) {
@@ -83,7 +83,7 @@ std::vector<NamedBodies> openBodies() {
     return all;
 }
 
-/// Boxes of a chessboard in space: each edge inside has four faces, and no two boxes share a face.
+/// Returns boxes in a three-dimensional checkerboard: each inner edge has four faces, and no two boxes share a face.
 Bodies boxesThatShareEdges(bool shared) {
     Bodies boxes;
     for (int i = 0; i < 27; ++i) {
@@ -121,7 +121,7 @@ void expectMended(const NamedBodies& sound, const Bodies& damaged, const char* d
     const Mended mended = mend(damaged.view());
     EXPECT_EQ(0u, mended.report.conflict_count_after) << sound.name << ", " << damage;
     EXPECT_GE(shareRight(sound.bodies, damaged, mended), 0.99) << sound.name << ", " << damage;
-    // The fixed part is sound.
+    // The repaired part is valid.
     Bodies result = damaged;
     for (std::size_t f = 0; f < result.faceCount(); ++f) {
         if (mended.turned[f] != 0) result.turn(f);
@@ -188,7 +188,7 @@ TEST(MendWinding, LeavesCavitiesAndBodiesInBodiesAsTheyMostlyAre) {
         EXPECT_EQ(1u, mend(sound.bodies.view()).report.by_nesting_count) << sound.name;
         for (const double share : {0.01, 0.17, 0.3})
             expectMended(sound, turnedByChance(sound.bodies, share, 5), sound.name.c_str());
-        // The outer one alone is inside out.
+        // Only the outer body is inside out.
         expectMended(sound, turnedWhole(sound.bodies, false), sound.name.c_str());
     }
 }
@@ -213,7 +213,7 @@ TEST(MendWinding, TakesTheMajorityWhereNoSideIsInside) {
     EXPECT_EQ(1u, mended.report.by_majority_count);
     EXPECT_EQ(0u, mended.report.conflict_count_after);
     EXPECT_EQ(1, shareRight(terrain, damaged, mended));
-    // Nothing determines that this one is inside out.
+    // No information determines that this one is inside out.
     EXPECT_EQ(0u, mend(turnedWhole(terrain, true).view()).report.turned_count);
 }
 
@@ -240,7 +240,7 @@ TEST(MendWinding, TurnsEachLeafTowardItsOwnNormals) {
     for (std::size_t f = 0; f < damaged.faceCount(); ++f) {
         if (f / 2 % 2 == 0) damaged.turn(f);
     }
-    // Rounded normals, as of a tree crown around the leaves, on the side from which they were wound.
+    // Rounded normals, like those of a tree crown around its leaves, on the side of the original winding.
     std::vector<Vec3> normals;
     for (std::size_t v = 0; v < damaged.mesh.positions.size(); ++v)
         normals.push_back(v % 3 == 0 ? Vec3{0.6F, 0, 0.8F} : Vec3{0, -0.6F, 0.8F});
@@ -250,7 +250,7 @@ TEST(MendWinding, TurnsEachLeafTowardItsOwnNormals) {
     EXPECT_EQ(50u, mended.report.by_normals_count);
     EXPECT_EQ(50u, mended.report.turned_count);
     for (std::size_t f = 0; f < damaged.faceCount(); ++f) EXPECT_EQ(f / 2 % 2 == 0, mended.turned[f] != 0) << f;
-    // Normals of both sides agree on nothing.
+    // Alternating normals give no majority for either side.
     for (std::size_t v = 0; v < normals.size(); ++v) normals[v].z *= v % 2 == 0 ? 1.0F : -1.0F;
     EXPECT_EQ(50u, mend(with_normals).report.small_count);
     EXPECT_EQ(50u, mend(with_normals, {.use_normals = false}).report.small_count);
@@ -280,7 +280,7 @@ TEST(MendWinding, KeepsBothSidesOfASheet) {
         EXPECT_EQ(0u, report.turned_count) << shared;
         EXPECT_EQ(0u, report.conflict_count_after) << shared;
     }
-    // Copies of a double surface are not turned against each other either.
+    // Copies of a double-sided surface are not flipped relative to each other either.
     Bodies twice;
     addTorus(twice, {}, 1, 0.4);
     addTorus(twice, {}, 1, 0.4);
@@ -290,7 +290,7 @@ TEST(MendWinding, KeepsBothSidesOfASheet) {
 }
 
 TEST(MendWinding, MendsBothSidesOfATJunctionByThemselves) {
-    // The right half has twice the cells along the seam: only every second of its edges has a neighbour there.
+    // The right half has twice as many cells along the seam: only every second of its edges has a neighbor there.
     Bodies sheet;
     addSheet(sheet, 4, 4, [](double u, double v) { return vec3(u, v, 0); });
     addSheet(sheet, 4, 8, [](double u, double v) { return vec3(1 + u, v, 0); });
@@ -311,8 +311,8 @@ TEST(MendWinding, ContinuesStraightOnWhereAFinMeetsASurface) {
     EXPECT_EQ(1, shareRight(sheet, damaged, mended));
 }
 
-/// The net of a shape on a noisy field, without each tenth face. Where an edge had four faces, three or two may be left of
-/// which no two are neighbours.
+/// Returns the surface net of a shape on a noisy field, without every tenth face. An edge with four faces may be left
+/// with three or two that are not neighbors.
 NamedBodies netWithHoles(const accuracy::Shape& shape, int cells, unsigned seed) {
     const accuracy::Scan net = accuracy::surfaceNets(shape, cells, 0.1, accuracy::Random{seed});
     NamedBodies net_with_holes{shape.name, {}};
@@ -333,14 +333,14 @@ TEST(MendWinding, MendsGridsWithEdgesOfFourFacesAndHoles) {
         for (const double share : {0.0, 0.3, 1.0}) {
             const Bodies damaged = turnedByChance(body.bodies, share, 1);
             const Mended mended = mend(damaged.view());
-            // Of islands of two and three faces, and of an edge that had four and lost two.
+            // From islands of two and three faces, and from an edge that had four faces and lost two.
             EXPECT_LE(mended.report.conflict_count_after, 4u) << name << ' ' << share;
             EXPECT_GE(shareRight(body.bodies, damaged, mended), 0.99) << name << ' ' << share;
         }
     }
 }
 
-/// What is reached over such an edge is wound against all that is beside it.
+/// Faces reached over such an edge have the opposite winding to all faces around them.
 TEST(MendWinding, ReachesFacesByOtherEdgesThanThoseThatLostTwoOfFour) {
     std::vector<NamedBodies> bodies{netWithHoles(shape("gear"), 48, 4)};
     for (const accuracy::Shape& shape : accuracy::heldOutShapes()) bodies.push_back(netWithHoles(shape, 48, 4));
@@ -356,7 +356,7 @@ TEST(MendWinding, FollowsNormalsThatAgreeAmongThemselves) {
     Bodies ball;
     addSphere(ball, {}, 1);
     for (const Vec3& p : ball.mesh.positions) ball.mesh.normals.push_back({-p.x, -p.y, -p.z});
-    // A sky dome is seen from inside, and its normals say so.
+    // A sky dome is seen from inside, as its normals indicate.
     const Mended mended = mend(ball.view());
     EXPECT_EQ(1u, mended.report.by_normals_count);
     EXPECT_EQ(1, shareRight(turnedWhole(ball, true), ball, mended));
@@ -364,7 +364,7 @@ TEST(MendWinding, FollowsNormalsThatAgreeAmongThemselves) {
     const Bodies dome = turnedWhole(ball, true);
     EXPECT_EQ(0u, mend(dome.view()).report.turned_count);
     EXPECT_EQ(1, shareRight(dome, turnedByChance(dome, 0.3, 3), mend(turnedByChance(dome, 0.3, 3).view())));
-    // Normals that point anywhere are no authority.
+    // Random normals must not determine the winding.
     std::mt19937 random(1);
     for (Vec3& n : ball.mesh.normals) {
         if (random() % 2 != 0) n = {-n.x, -n.y, -n.z};
@@ -412,7 +412,7 @@ TEST(MendWinding, SurvivesFacesWithoutAreaAndPositionsThatAreNoNumbers) {
     for (std::size_t f = 0; f < 24 * 48 * 2; ++f) {
         EXPECT_EQ(torus.mesh.indices[3 * f + 1] != damaged.mesh.indices[3 * f + 1], mended.turned[f] != 0) << f;
     }
-    // An open part whose winding number is asked for.
+    // An open part for which the winding number is needed.
     Bodies open;
     addSphere(open, {}, 1, 0.7);
     open.mesh.positions[30] = {std::nanf(""), INFINITY, 0};

@@ -94,7 +94,7 @@ TEST(ComputeFrames, StoresTheSignOfTheConvention) {
         const PoolOutcome result = compute(square(), primitives, withMethod(method));
         EXPECT_FALSE(result.frames.wasSplit(4));
         EXPECT_EQ(result.frames.indices[0], (Indices{0, 1, 2, 2, 1, 3}));
-        // V runs up in the pool's numbers; glTF reads them as running down.
+        // v points up in the pool; glTF interprets it as pointing down.
         for (const Vec4& t : result.frames.tangents) EXPECT_EQ(t, (Vec4{1, 0, 0, -1}));
     }
 }
@@ -194,7 +194,7 @@ TEST(ComputeFrames, CutsPolygonsAndLeavesFacesWithoutAreaOut) {
     for (std::size_t c = 12; c < 15; ++c) last.push_back(result.frames.source_vertices[corners[c]]);
     EXPECT_EQ(last, (Indices{2, 1, 3}));
     for (const Vec4& t : result.frames.tangents) EXPECT_NEAR(std::hypot(t.x, t.y, t.z), 1.0f, 5e-4f);
-    // The hexagon faces up and the triangle, which runs the other way round, down; they share no corner.
+    // The hexagon faces up and the triangle, which has the opposite winding, faces down; they share no corner.
     for (std::size_t c = 0; c < 15; ++c) EXPECT_EQ(result.frames.normals[corners[c]].z, c < 12 ? 1.0f : -1.0f);
 }
 
@@ -218,7 +218,7 @@ TEST(ComputeFrames, RefusesIndicesAndCountsThatDoNotFit) {
     EXPECT_EQ(code(pool, {.indices = {0, 1, 2}}), ErrorCode::countMismatch);
 }
 
-/// Computing over the whole pool for each primitive would meet the test's time limit.
+/// Processing the whole pool for each primitive would exceed the test's time limit.
 TEST(ComputeFramesTime, StaysLinearWhenManyPrimitivesShareALargePool) {
     OwnedMesh pool;
     std::vector<PrimitiveGeometry> primitives;
@@ -234,7 +234,8 @@ TEST(ComputeFramesTime, StaysLinearWhenManyPrimitivesShareALargePool) {
     EXPECT_FALSE(compute(pool, primitives, options).frames.wasSplit(pool.positions.size()));
 }
 
-/// Processor time in seconds of making normals and tangents for a grid of 20,000 triangles that so many primitives share.
+/// Returns the processor seconds for computing normals and tangents of a grid of 20,000 triangles that is divided into
+/// this number of primitives.
 double secondsForPrimitives(std::uint32_t primitive_count) {
     constexpr std::uint32_t kCells = 100;
     OwnedMesh pool;
@@ -255,7 +256,7 @@ double secondsForPrimitives(std::uint32_t primitive_count) {
 }
 
 TEST(ComputeFramesTime, DoesNotGrowWithTheNumberOfPrimitivesOfAPool) {
-    // A search through all vertices for each primitive takes a hundred times as long.
+    // A search through all vertices for each primitive would take a hundred times as long.
     EXPECT_LT(secondsForPrimitives(1000), 8 * secondsForPrimitives(1) + 0.05);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Morph targets through computeFrames: base + offset is the frame of the moved shape.
+// Morph targets with computeFrames: base + offset is the frame of the displaced shape.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -40,7 +40,7 @@ std::vector<Vec3> dense(const VertexOffsets& offsets, std::size_t count) {
     return result;
 }
 
-/// Numbers as a sculptor would move vertices: most not at all, and never by an infinity.
+/// Returns offsets like those of an artist: most are zero, and none is infinite.
 std::vector<Vec3> anyOffsets(std::size_t count) {
     std::vector<Vec3> offsets(count);
     for (Vec3& offset : offsets) {
@@ -60,7 +60,7 @@ Targets anyTargets(const OwnedMesh& pool) {
     return targets;
 }
 
-/// The targets as they stand in the written file.
+/// Returns the targets as stored in the written file.
 Targets rebuiltTargets(const Targets& targets, const PoolFrames& frames) {
     Targets result;
     for (std::size_t t = 0; t < targets.size(); ++t) {
@@ -76,7 +76,7 @@ Targets rebuiltTargets(const Targets& targets, const PoolFrames& frames) {
     return result;
 }
 
-/// Now and then with vertices that are equal on the base.
+/// Returns a pool that sometimes has vertices that are equal in the base shape.
 OwnedMesh anyPoolWithTwins() {
     OwnedMesh pool = anyPool();
     const std::size_t count = pool.positions.size();
@@ -93,8 +93,8 @@ bool isOne(float a, float b) { return a == b || (std::isnan(a) && std::isnan(b))
 bool isOne(const Vec3& a, const Vec3& b) { return isOne(a.x, b.x) && isOne(a.y, b.y) && isOne(a.z, b.z); }
 bool isOne(const Vec2& a, const Vec2& b) { return isOne(a.x, b.x) && isOne(a.y, b.y); }
 
-/// Corners at a vertex that is equal, on the base, to that of another corner, but not in the moved shape, and, for each
-/// step of `best`, the other corners of their triangles.
+/// Returns the corners whose vertex equals that of another corner in the base shape, but not in the displaced shape,
+/// and, for each step of `best`, the other corners of their triangles.
 std::vector<bool> takenApart(const OwnedMesh& base, const OwnedMesh& moved, const Indices& corners,
                              const TangentOptions& options) {
     const auto areTwins = [&](std::uint32_t a, std::uint32_t b) {
@@ -132,16 +132,16 @@ std::vector<bool> takenApart(const OwnedMesh& base, const OwnedMesh& moved, cons
     return result;
 }
 
-/// Of the angle between the vector and the plane.
+/// Returns the sine of the angle between the vector and the plane.
 double sineOf(const Vec3& t, const Vec3& n) {
     return (double{n.x} * t.x + double{n.y} * t.y + double{n.z} * t.z) / lengthOf(n) / lengthOf(t);
 }
 
 constexpr float kAnyDirection = 1e9f;
 
-/// One primitive of a written pool, moved by a target, evaluated with the groups of the base, or where that
-/// takes equal vertices apart with those of the moved shape. Where this gives a corner no tangent, or one
-/// that leans out of the plane in which that of the base lies, the result is kAnyDirection.
+/// Evaluates one primitive of a written pool, displaced by a target, with the groups of the base shape, or with those
+/// of the displaced shape if it separates equal vertices. If this gives a corner no tangent, or one that leaves the
+/// plane in which the base tangent lies, the result is kAnyDirection.
 std::vector<Vec4> evaluated(OwnedMesh pool, const PrimitiveGeometry& primitive, const MorphOffsets& target,
                             const std::vector<Vec4>& base, const FramesOptions& options) {
     MeshView mesh;
@@ -164,7 +164,7 @@ std::vector<Vec4> evaluated(OwnedMesh pool, const PrimitiveGeometry& primitive, 
         pool.normals[v] = length > 0 && std::isfinite(length) ? unit(moved) : moved;
     }
     RC_ASSERT(evaluateTangents(*plan, {mesh.positions, mesh.normals}, {.tangents = tangents}).ok());
-    const auto hasDirection = [](const Vec4& t) { return lengthOf(xyz(t)) > 1e-30; };  // false for NaN as well
+    const auto hasDirection = [](const Vec4& t) { return lengthOf(xyz(t)) > 1e-30; };  // false for NaN too
     const std::vector<bool> apart = takenApart(at_rest, pool, primitive.indices, options.tangents);
     std::vector<Vec4> regrouped(tangents.size());
     RC_ASSERT(generateTangents(mesh, options.tangents, {.tangents = regrouped}).ok());
@@ -213,9 +213,9 @@ std::vector<Vec4> evaluated(OwnedMesh pool, const PrimitiveGeometry& primitive, 
 
 RC_GTEST_PROP(MorphFrames, AreThoseOfTheMovedShapeWithTheGroupsOfTheBase, ()) {
     const OwnedMesh pool = anyPoolWithTwins();
-    RC_PRE(isOrdinary(pool));  // 1e20 beside 1 leaves rounding to decide about directions
+    RC_PRE(isOrdinary(pool));  // with 1e20 next to 1, rounding would determine directions
     const FramesOptions options = anyOptions();
-    // A broken corner may take the tangent of any other of its face, and the file has triangles only.
+    // An invalid corner may get the tangent of any other corner of its face, and the file contains only triangles.
     const std::vector<PrimitiveGeometry> primitives = options.sanitize ? anyTriangles(pool) : anyFaces(pool);
     const Targets targets = anyTargets(pool);
     const PoolOutcome result = compute(withTargets(pool, targets), primitives, options);
@@ -243,7 +243,7 @@ RC_GTEST_PROP(MorphFrames, AreThoseOfTheMovedShapeWithTheGroupsOfTheBase, ()) {
 
 RC_GTEST_PROP(MorphFrames, ReproduceThemselvesOnTheirOwnOutput, ()) {
     const OwnedMesh pool = anyPoolWithTwins();
-    RC_PRE(isOrdinary(pool));  // what is not equals nothing, itself neither, so its copies join no neighbours
+    RC_PRE(isOrdinary(pool));  // a NaN does not equal itself, so copies of its vertex join no neighbors
     const std::vector<PrimitiveGeometry> primitives = anyFaces(pool);
     const FramesOptions options = anyOptions();
     const Targets targets = anyTargets(pool);
@@ -277,7 +277,7 @@ RC_GTEST_PROP(MorphFrames, LeaveTheBaseAsItIsWithoutTargetsButForSplits, ()) {
     }
 }
 
-/// Two bumpy sheets, apart from each other; the UV map of each is mirrored at its middle column.
+/// Two separate bumpy sheets; the UV map of each is mirrored at its middle column.
 struct Sheets {
     static constexpr std::uint32_t kSize = 8, kPerSheet = (kSize + 1) * (kSize + 1);
     OwnedMesh pool;
@@ -303,7 +303,7 @@ struct Sheets {
     }
 };
 
-/// A turn by 1 radian about (1, 2, 2) / 3.
+/// Rotates a vector by 1 radian about (1, 2, 2) / 3.
 Vec3 turned(const Vec3& v) {
     const double k[3] = {1.0 / 3, 2.0 / 3, 2.0 / 3}, c = std::cos(1.0), s = std::sin(1.0);
     const double along = k[0] * v.x + k[1] * v.y + k[2] * v.z;
@@ -367,7 +367,7 @@ TEST(MorphFrames, AddNothingWhereNothingMoves) {
     }
 }
 
-/// glTF asks for flat normals where there are none, so a plane that a target bends is bent at its edges.
+/// glTF requires flat normals if there are none, so a plane that a target bends gets hard edges.
 TEST(MorphFrames, SplitWhatLiesInOnePlaneAndIsBentByATarget) {
     OwnedMesh plane = square();
     plane.normals.clear();
@@ -408,7 +408,7 @@ TEST(MorphFrames, LieInTheirFacesWhereATargetBendsAFlatShadedPlane) {
     }
 }
 
-/// Two triangles that touch in one vertex and lie in one plane: one tangent on the base, two when one of them turns.
+/// Two coplanar triangles that touch in one vertex: one tangent in the base shape, two if one triangle rotates.
 TEST(MorphFrames, SplitGroupsThatOnlyLookAlikeOnTheBase) {
     const OwnedMesh pool{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}},
                          .normals = {5, Vec3{0, 0, 1}},
@@ -432,9 +432,9 @@ TEST(MorphFrames, SplitGroupsThatOnlyLookAlikeOnTheBase) {
 TEST(MorphFrames, KeepTheTangentWhereFacesCollapse) {
     const OwnedMesh pool = square();
     Targets targets(2);
-    targets[0].positions = {{1, 1, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 0}};  // all to one point
+    targets[0].positions = {{1, 1, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 0}};  // moves all vertices to one point
     targets[1] = targets[0];
-    targets[1].normals.assign(4, {1, 0, 0});  // leaning towards the tangent
+    targets[1].normals.assign(4, {1, 0, 0});  // leaning toward the tangent
     const PoolOutcome result = compute(withTargets(pool, targets), {{.indices = {0, 1, 2, 2, 1, 3}}}, {});
     EXPECT_TRUE(result.frames.morphs[0].tangents.vertices.empty());
     ASSERT_EQ(result.frames.morphs[1].tangents.vertices.size(), 4u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pools and primitives for tests of computeFrames: a few sound ones, and random ones in which everything occurs.
+// Pools and primitives for tests of computeFrames: a few valid ones, and random ones with all special cases.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ inline PoolOutcome compute(const PoolView& pool, const std::vector<PrimitiveGeom
     return {frames.ok() ? *std::move(frames) : PoolFrames{}, std::move(reports)};
 }
 
-/// What a reader would see in the written file.
+/// Returns the mesh that a reader would get from the written file.
 inline OwnedMesh rebuilt(const OwnedMesh& pool, const PoolFrames& frames) {
     OwnedMesh result;
     result.normals = frames.normals;
@@ -53,7 +53,7 @@ inline FramesOptions withMethod(Method method) {
     return options;
 }
 
-/// A square of two triangles, UVs straight.
+/// A square of two triangles with axis-aligned UVs.
 inline OwnedMesh square() {
     return {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}},
             .normals = {4, Vec3{0, 0, 1}},
@@ -64,8 +64,7 @@ inline float anyNumber() {
     return *rc::gen::element(0.0f, -0.0f, 1.0f, -1.0f, 0.5f, 2.0f, 0.25f, -0.75f, 3.0f, 1e20f, 1e-30f, std::nanf(""));
 }
 
-/// Small numbers nearly always, so that neighbours, mirrored UVs, degenerate faces and collapsed UVs all
-/// occur.
+/// Returns small integers nearly always, so that neighbors, mirrored UVs, degenerate faces and collapsed UVs all occur.
 inline float someNumber() {
     return *rc::gen::inRange(0, 60) == 0 ? anyNumber() : static_cast<float>(*rc::gen::inRange(-2, 3));
 }
@@ -82,7 +81,7 @@ inline OwnedMesh anyPool() {
     return pool;
 }
 
-/// Neither NaN nor huge.
+/// Returns whether no value is NaN or huge.
 inline bool isOrdinary(const OwnedMesh& pool) {
     const auto are = [](const auto&... values) { return ((std::fabs(values) < 1e6f) && ...); };
     const auto are3 = [&](const Vec3& v) { return are(v.x, v.y, v.z); };
@@ -101,7 +100,7 @@ inline std::vector<PrimitiveGeometry> anyTriangles(const OwnedMesh& pool) {
     return primitives;
 }
 
-/// Now and then faces of 1 to 6 corners instead of triangles.
+/// Returns triangles, or sometimes faces of 1 to 6 corners.
 inline std::vector<PrimitiveGeometry> anyFaces(const OwnedMesh& pool) {
     std::vector<PrimitiveGeometry> primitives = anyTriangles(pool);
     for (PrimitiveGeometry& primitive : primitives) {

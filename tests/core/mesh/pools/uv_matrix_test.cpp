@@ -44,8 +44,8 @@ TEST(UvMatrix, KeepsTheDigitsOfUvsInQuarterTurns) {
     EXPECT_EQ(turned[1], (Vec2{1e-20f, 3}));
 }
 
-/// A triangle whose UVs are (u, v) = M (x, y), M without much distortion: dP/du and dP/dv are the columns of the
-/// inverse of M.
+/// A triangle whose UVs are (u, v) = M (x, y), with low distortion in M: dP/du and dP/dv are the columns of the inverse
+/// of M.
 RC_GTEST_PROP(UvMatrix, GivesTheFrameThatTheTransformedUvsHaveByTheChainRule, ()) {
     const auto number = [](int low, int high) { return *rc::gen::inRange(low, high) / 100.0; };
     const double angle = number(-700, 700);
@@ -56,7 +56,7 @@ RC_GTEST_PROP(UvMatrix, GivesTheFrameThatTheTransformedUvsHaveByTheChainRule, ()
     PoolView pool(mesh);
     pool.uv_matrix = uvMatrix(angle, scale_u, scale_v);
     FramesOptions options;
-    options.tangents.convention = conventions::opengl;  // v as it is, sign as it is
+    options.tangents.convention = conventions::opengl;  // v and sign unchanged
     const PrimitiveGeometry triangle = {.indices = {0, 1, 2}};
     FramesReport report;
     const Result<PoolFrames> frames = computeFrames(pool, {&triangle, 1}, options, {&report, 1});

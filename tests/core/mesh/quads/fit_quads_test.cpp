@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tangents show on which faces they were made.
+// Tangents reveal the faces on which they were computed.
 #include "core/mesh/quads/quads.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,8 @@ TEST(FitQuads, ExplainsNearlyAllBesideRealTriangles) {
     for (const int triangles_every : {3, 4, 5}) {
         const PolygonMesh mesh = hills(16, triangles_every);
         for (const Cut& cut : kCuts) {
-            // The real triangles meet as those of this cut do, so that more looks like quads.
+            // The original triangles are connected like those of this triangulation, so that more of them look like
+            // quads.
             const bool is_hard = cut == kOtherFan || cut == kCuts.back();
             const QuadFit fit = fitOf(withTangentsOnQuads(mesh, cut));
             EXPECT_TRUE(fit.wins());
@@ -78,9 +79,9 @@ TEST(FitQuads, WinsOnlyByAMargin) {
     EXPECT_TRUE(quadsWin(1000, 500, 950));
     EXPECT_TRUE(quadsWin(1000, 945, 1000));
     EXPECT_FALSE(quadsWin(1000, 500, 500));
-    EXPECT_FALSE(quadsWin(1000, 500, 560));   // a part of what triangles leave, as chance explains
-    EXPECT_FALSE(quadsWin(1000, 999, 1000));  // all of it, but that is one corner
-    EXPECT_FALSE(quadsWin(1000, 50, 450));    // more, and still not the maker
+    EXPECT_FALSE(quadsWin(1000, 500, 560));   // a part of what triangles leave unexplained, as expected by chance
+    EXPECT_FALSE(quadsWin(1000, 999, 1000));  // all of it, but that is a single corner
+    EXPECT_FALSE(quadsWin(1000, 50, 450));    // more, but still not the program's faces
 }
 
 TEST(ChooseFaces, TakesTrianglesUnlessTangentsOrBlenderShowQuads) {
@@ -100,7 +101,7 @@ TEST(ChooseFaces, TakesTrianglesUnlessTangentsOrBlenderShowQuads) {
         EXPECT_EQ(quads(on_quads, false, is_blenders, Faces::automatic), is_blenders ? 144U : 0U);
         EXPECT_EQ(quads(on_quads, false, is_blenders, Faces::quads), 144U);
     }
-    // Blender's own triangles seldom meet as the halves of its quads do.
+    // Original triangles of Blender are rarely connected like the halves of its quads.
     ModelData scattered = trianglesOf(hills(12), kCuts[3]);
     EXPECT_EQ(quads(scattered, false, true, Faces::automatic), 0U);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Meshes of quads and triangles, and the lists of triangles that exporters write for them.
+// Meshes of quads and triangles, and the triangle lists that exporters write for them.
 #pragma once
 
 #include <algorithm>
@@ -27,8 +27,8 @@ struct PolygonMesh {
     }
 };
 
-/// n x n quads over a hilly height field with UVs that bend, so that the shorter diagonal in UV space is now this one,
-/// now the other, and frames depend on it. Every `triangles_every`-th quad (0: none) is two real triangles instead.
+/// Returns n x n quads over a hilly height field with curved UVs, so that the shorter diagonal in UV space varies, and
+/// frames depend on it. Every `triangles_every`-th quad (0: none) is replaced by two original triangles.
 inline PolygonMesh hills(int n, int triangles_every = 0) {
     PolygonMesh mesh;
     const auto height = [](float x, float y) { return 0.35F * std::sin(5 * x + 1) * std::cos(4 * y); };
@@ -59,14 +59,14 @@ inline PolygonMesh hills(int n, int triangles_every = 0) {
     return mesh;
 }
 
-/// How an exporter writes the two triangles of quad 0 1 2 3, as corners of it.
+/// The two triangles that an exporter writes for quad 0 1 2 3, as indices of its corners.
 using Cut = std::array<unsigned, 6>;
-inline constexpr Cut kFan = {0, 1, 2, 0, 2, 3};       // Blender, and nearly everybody
-inline constexpr Cut kOtherFan = {0, 1, 3, 1, 2, 3};  // Blender, where the first would turn a triangle over
+inline constexpr Cut kFan = {0, 1, 2, 0, 2, 3};       // Blender and most other programs
+inline constexpr Cut kOtherFan = {0, 1, 3, 1, 2, 3};  // Blender, if the first split would flip a triangle
 inline const std::vector<Cut> kCuts = {
     kFan, kOtherFan, {0, 1, 2, 2, 3, 0}, {1, 2, 0, 3, 0, 2}, {2, 0, 1, 0, 2, 3}, {3, 0, 1, 3, 1, 2}};
 
-/// For each corner of the triangles, the corner of a polygon that it is.
+/// Returns, for each corner of the triangles, the corresponding corner of a polygon.
 inline std::vector<std::uint32_t> cutQuads(const PolygonMesh& mesh, const Cut& cut) {
     std::vector<std::uint32_t> corners;
     std::uint32_t first = 0;
@@ -79,7 +79,7 @@ inline std::vector<std::uint32_t> cutQuads(const PolygonMesh& mesh, const Cut& c
     return corners;
 }
 
-/// The triangles over the same vertices.
+/// Returns the triangles over the same vertices.
 inline ModelData trianglesOf(const PolygonMesh& mesh, const Cut& cut) {
     ModelData data = mesh.data;
     for (const std::uint32_t corner : cutQuads(mesh, cut)) data.indices.push_back(mesh.corners[corner]);
@@ -95,7 +95,7 @@ inline MeshView viewOf(const ModelData& data) {
     return mesh;
 }
 
-/// What an exporter writes that computes on the polygons: vertices with one tangent each, for glTF.
+/// Returns the output of an exporter that computes tangents on the polygons: vertices with one tangent each, for glTF.
 inline ModelData withTangentsOnQuads(const PolygonMesh& mesh, const Cut& cut) {
     std::vector<Vec4> tangents(mesh.corners.size());
     if (!generateTangents(mesh.view(), {.convention = conventions::opengl}, {.tangents = std::span(tangents)}))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pairs of triangles become the quads that they were cut from, corner by corner.
+// Pairs of triangles become the quads from which they were triangulated, corner by corner.
 #include "core/mesh/quads/quads.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ QuadFaces facesByShape(const ModelData& data) {
     return facesOfPairs(candidates, pairsByShape(mesh, candidates));
 }
 
-/// Every corner of a triangle is the corner of a face with the same vertex.
+/// Checks that every corner of a triangle maps to a corner of a face with the same vertex.
 void expectSameVertices(const QuadFaces& faces, const ModelData& data) {
     ASSERT_EQ(faces.face_corners.size(), data.indices.size());
     for (std::size_t c = 0; c < data.indices.size(); ++c) {
@@ -45,7 +45,7 @@ TEST(QuadPairs, OfRealTrianglesBetweenQuadsAreNone) {
         const ModelData data = trianglesOf(mesh, kFan);
         const QuadFaces faces = facesByShape(data);
         expectSameVertices(faces, data);
-        // The two halves of a cut quad look like one too; but no half goes with a neighbour.
+        // The halves of a quad also look like a quad with their neighbors; but no half may be paired with a neighbor.
         std::size_t triangle = 0;
         for (const std::uint32_t size : faces.sizes) {
             EXPECT_TRUE(size == 3 || triangle % 2 == 0);
@@ -91,7 +91,7 @@ TEST(QuadPairs, AreNeitherFoldedNorTheSameTriangleTwice) {
 }
 
 TEST(QuadPairs, OfOneRunAreThoseThatGainMost) {
-    // A strip of five triangles: four candidates in a row.
+    // A strip of five triangles: four candidate pairs in a row.
     ModelData data;
     for (int i = 0; i < 7; ++i) data.positions.push_back({static_cast<float>(i) / 2, static_cast<float>(i % 2), 0});
     data.normals.resize(7, Vec3{0, 0, 1});
