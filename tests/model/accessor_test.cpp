@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Decoding of accessors over all component types, layouts and sparse parts, and their limits.
+// Decoding of accessors with all component types, layouts and sparse parts, and limits.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -249,7 +249,7 @@ TEST(Accessor, OfABufferWithoutDataIsAnErrorOnlyWhenItsElementsAreNeeded) {
 }
 
 TEST(Accessor, ReadsEveryQuantisedTypeByItsRule) {
-    // KHR_mesh_quantization: normalised or by value.
+    // KHR_mesh_quantization: normalized or by value.
     GltfBuilder builder;
     builder.addAccessor(std::vector<std::int8_t>{-128, -127, 127, 0}, 5120, "VEC3", 1);
     builder.addAccessor(std::vector<std::uint8_t>{0, 51, 255, 0}, 5121, "VEC3", 1);

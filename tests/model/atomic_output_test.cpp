@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All files or none.
+// Output files appear all together or not at all.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -33,7 +33,7 @@ TEST(AtomicOutput, PutsAllFilesInPlaceAtOnce) {
     EXPECT_EQ(readFile(folder.path("a")), one);
     EXPECT_EQ(readFile(folder.path("new/deep/b")), toBytes("onetwo"));
     EXPECT_EQ(output.byteCount(), 9u);
-    EXPECT_EQ(folder.entryCount(), 4u);  // two files, two folders, nothing temporary
+    EXPECT_EQ(folder.entryCount(), 4u);  // two files, two folders, no temporary files
 }
 
 TEST(AtomicOutput, LeavesNothingWithoutCommit) {
@@ -55,8 +55,7 @@ TEST(AtomicOutput, TakesBackWhatWasRenamedWhenALaterRenameFails) {
     output.add(folder.path("first"), toBytes("new"));
     output.add(folder.path("last"), toBytes("new"));
     output.add(folder.path("fresh"), toBytes("new"));
-    // A folder of that name appears in between, so the rename of the first file (done at the end) cannot
-    // work.
+    // A folder with that name is created in between, so that the rename of the first file (done at the end) must fail.
     std::filesystem::create_directory(folder.path("first"));
     EXPECT_EQ(errorOf([&] { output.commit(); }).code, ErrorCode::cannotWrite);
     EXPECT_EQ(readFile(folder.path("last")), toBytes("old"));
@@ -99,7 +98,7 @@ TEST(AtomicOutput, WritesThroughALink) {
     EXPECT_EQ(readFile(folder.path("real")), toBytes("new"));
 }
 
-/// It would become a file in the link's place.
+/// Writing would replace the link by a file.
 TEST(AtomicOutput, RefusesALinkToWhatIsNotThere) {
     const TempFolder folder;
     std::filesystem::create_symlink("nothing", folder.path("link"));
@@ -109,7 +108,7 @@ TEST(AtomicOutput, RefusesALinkToWhatIsNotThere) {
     EXPECT_EQ(folder.entryCount(), 1u);
 }
 
-/// The one temporary file in the folder.
+/// Returns the only temporary file in the folder.
 std::filesystem::path temporaryFile(const TempFolder& folder) {
     for (const std::string& name : folder.files()) {
         if (name.ends_with(kTemporaryEnding)) return folder.path(name);
@@ -190,7 +189,7 @@ TEST(AtomicOutput, ASharedFileStaysAsTheFirstBroughtIt) {
 
 TEST(AbandonedFiles, ComeBackWhereTheirPlaceIsEmpty) {
     const TempFolder folder;
-    // A process that is gone.
+    // A process that has ended.
     const pid_t child = fork();
     if (child == 0) {
         folder.write("a", std::string("set aside"));

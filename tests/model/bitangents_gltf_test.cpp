@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// generateFile with bitangents: what the attribute _BITANGENT holds, and what becomes of vertices, targets and formats.
+// generateFile with bitangents: the values of the attribute _BITANGENT, and the effects on vertices, morph targets and
+// formats.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,8 +27,8 @@ std::vector<Vec3> bitangentsOf(const GenerateRun& outcome) {
     return readVec3(outcome.after, outcome.primitives.at(0), "_BITANGENT");
 }
 
-/// Rows of a grid whose UVs are sheared: u = x - shear(row) * (y - middle), v = -y. So dP/du is (1, 0, 0) everywhere,
-/// and -dP/dv is (-shear, 1, 0) above and below the middle row.
+/// Returns rows of a grid whose UVs are sheared: u = x - shear(row) * (y - middle), v = -y. So dP/du is (1, 0, 0)
+/// everywhere, and -dP/dv is (-shear, 1, 0) above and below the middle row.
 GltfBuilder shearedModel(float below, float above) {
     Grid grid(4, false);
     for (std::size_t i = 0; i < grid.vertexCount(); ++i) {
@@ -107,7 +108,7 @@ TEST(BitangentsGltf, OfStripsStayStripsWithoutASplit) {
     firstPrimitive(model)["mode"] = 5;
     const GenerateRun outcome = run(model, withBitangents(Method::best));
     EXPECT_EQ(outcome.primitives.at(0).mode, gltf::Mode::triangleStrip);
-    // Vertices that no triangle uses have unit ones too.
+    // Unused vertices have unit bitangents too.
     for (const Vec3& b : bitangentsOf(outcome)) EXPECT_NEAR(length(toDouble(b)), 1, 1e-6);
 }
 

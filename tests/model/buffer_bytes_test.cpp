@@ -26,7 +26,7 @@ Bytes flat(const std::vector<OutputPiece>& pieces) {
     return all;
 }
 
-/// Bytes that lie somewhere, and are made as a copy of these.
+/// Generates bytes as a copy of existing ones.
 class Copying final : public ByteMaker {
   public:
     explicit Copying(Bytes bytes) : bytes_(std::move(bytes)) {}

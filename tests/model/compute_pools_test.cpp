@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pools are computed at the same time, and nobody can tell from the file.
+// Pools are computed in parallel, without any effect on the file.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -20,7 +20,7 @@ using test::TempFolder;
 
 constexpr int kU32 = 5125;
 
-/// A primitive of its own accessors: a grid whose rows are mirrored here and there, so that vertices split.
+/// Adds a primitive with separate accessors: a grid whose rows are partly mirrored, so that vertices are split.
 void addGrid(GltfBuilder& builder, std::uint32_t side, std::uint32_t seed, std::uint32_t wrong_index = 0) {
     std::vector<float> positions, normals, uvs;
     for (std::uint32_t y = 0; y <= side; ++y) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// GLB chunks and the JSON in them: what is accepted, and that every defect has its own message.
+// GLB chunks and their JSON: what is accepted, and that every defect has its own message.
 #include <gtest/gtest.h>
 
 #include "gltf_builder.h"
@@ -155,7 +155,7 @@ TEST(Document, RefusesWrongTypesAtTheirPlace) {
 }
 
 TEST(Document, SaysThatGltf1IsTooOld) {
-    // Its root has objects where 2.0 has arrays.
+    // In version 1.0 the root contains objects where 2.0 has arrays.
     const Error error = errorOf([] {
         gltf::parseDocument(toBytes(R"({"accessors":{},"meshes":{},"asset":{"version":"1.0"}})"), "model.gltf", {});
     });
@@ -241,7 +241,7 @@ TEST(Document, NamesRequiredExtensions) {
           std::pair{kKhrMeshopt, meshoptMissing(true)}}) {
         const Error error = errorOf([&, name = name] { EXPECT_TRUE(check(name).empty()); });
         EXPECT_EQ(error.code, missing.empty() ? ErrorCode::ok : ErrorCode::unsupportedFile) << name;
-        // The library and what it lacks are named.
+        // The message names the library and the missing feature.
         EXPECT_TRUE(missing.empty() || error.message == std::string("the file requires ") + name + ": " + missing);
     }
     EXPECT_TRUE(check("KHR_mesh_quantization").empty());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// generate with convert_maps: with the new tangents and the new maps a model looks as it did.
+// generate with convert_maps: with the new tangents and the new maps, a model renders as before.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -24,7 +24,7 @@
 namespace tspace::test {
 namespace {
 
-/// A bent sheet of `cells` x `cells` quads with uneven UVs inside of a rectangle. Its normals are those of the surface.
+/// A bent sheet of `cells` x `cells` quads with uneven UVs inside a rectangle. Its normals are those of the surface.
 struct Sheet {
     unsigned seed = 1;
     int cells = 4;
@@ -66,7 +66,7 @@ SheetArrays arraysOf(const Sheet& sheet) {
     return arrays;
 }
 
-/// A mesh of its own for each sheet, with a node and this material.
+/// Adds a separate mesh for each sheet, with a node and the material.
 void addSheet(GltfBuilder& builder, const Sheet& sheet, int material) {
     const SheetArrays arrays = arraysOf(sheet);
     Json& json = builder.json();
@@ -107,7 +107,7 @@ void embedMap(GltfBuilder& builder, unsigned bits, const char* materials = R"([{
     json["materials"] = Json::parse(materials);
 }
 
-/// What each primitive of a model shades, at points of each of its triangles, with bilinear filtering.
+/// Returns the shading normals of each primitive, at points of each triangle, with bilinear filtering.
 std::vector<std::vector<DVec3>> pictureOf(const std::string& file) {
     const DrawnScene drawn = readDrawnScene(file, {}, true);
     std::vector<std::vector<DVec3>> picture;
@@ -155,7 +155,7 @@ double meanApart(const std::vector<DVec3>& a, const std::vector<DVec3>& b) {
     return count == 0 ? 0 : sum / static_cast<double>(count);
 }
 
-/// A model with mikktspace tangents, and what became of it.
+/// A model with mikktspace tangents, and the result of its conversion.
 struct Converted {
     GenerateReport report = {};
     std::vector<double> off = {}, unconverted = {};  ///< by primitive
@@ -237,7 +237,7 @@ TEST(ConvertMaps, SplitsAMapThatSeveralMeshesNeedInDifferentWays) {
     addSheet(builder, {.seed = 1}, 0);
     addSheet(builder, {.seed = 2, .bend = -0.4}, 0);
     addSheet(builder, {.seed = 3, .bend = 0.1}, 1);
-    addSheet(builder, {.seed = 1}, 1);  // the first once more
+    addSheet(builder, {.seed = 1}, 1);  // the first sheet again
     embedMap(builder, 16,
              R"([{"name":"a","normalTexture":{"index":0}},{"name":"b","normalTexture":{"index":0,"scale":1}}])");
     const Converted made = convertedModel(folder, folder.write("in.glb", builder.glb()), methodOptions(Method::best));
@@ -382,12 +382,12 @@ TEST(ConvertMaps, RefusesOptionsThatChangeThePictureOnPurpose) {
     }
 }
 
-/// Real models, whose maps have 8 bits: no picture is further from the old one than with the old maps, but for what nobody
-/// sees, and large changes are undone.
+/// Real models with 8-bit maps: no picture differs more from the original than with the old maps, except invisibly, and
+/// large changes are undone.
 TEST(ConvertMaps, KeepThePicturesOfModels) {
     struct Model {
         const char* path;
-        double most;  ///< of what the old maps would be off, in the mean over primitives
+        double most;  ///< error with the old maps, as mean over primitives
     };
     for (const Model& model :
          {Model{"features/DuplicateMeshes/duplicate_meshes.gltf", 1.02},

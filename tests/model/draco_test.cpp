@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draco-compressed primitives: what is read, what is encoded anew without a changed value, and what is refused.
+// Draco-compressed primitives: decoding, encoding again without changing values, and rejected data.
 #include <draco/compression/decode.h>
 #include <draco/compression/expert_encode.h>
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ DracoMesh grid() {
     return mesh;
 }
 
-/// Accessors 0 POSITION, 1 NORMAL, 2 TEXCOORD_0, 3 indices, none with a view; the data are view 0.
+/// Accessors 0 POSITION, 1 NORMAL, 2 TEXCOORD_0, 3 indices, all without a view; the compressed data is view 0.
 GltfBuilder model(const DracoMesh& of) {
     DracoMesh mesh = of;
     Bytes data;
@@ -144,7 +144,7 @@ TEST(DracoKeep, ChangesNoValueAndNoRoundingOfWhatItEncodesAgain) {
 }
 
 TEST(Draco, DecodesWhatItEncodesVeryWell) {
-    // A flat grid of one normal: packed triangles would take fewer bytes than decoders believe.
+    // A flat grid with one normal: compressed triangles would take fewer bytes than decoders accept.
     constexpr std::uint32_t kSize = 100;
     DracoMesh mesh;
     std::vector<float> positions, normals;
@@ -186,7 +186,7 @@ TEST(DracoKeep, CarriesMorphTargetsOutsideOfTheData) {
     EXPECT_TRUE(readAccessor(outcome.after, primitive.targets.at(0).at(0).second).view.has_value());
 }
 
-/// Two primitives that share their vertices, the last of which none draws. Target 0 moves that one the farthest.
+/// Two primitives that share their vertices; no primitive uses the last vertex. Target 0 moves it the farthest.
 GltfBuilder sharedVertices() {
     GltfBuilder builder;
     builder.addFloats({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 9, 9, 9}, 3);
@@ -216,11 +216,11 @@ TEST(DracoPack, BoundsOfTargetsFollowTheVerticesThatStay) {
 
 TEST(DracoPack, TakesMeshesThatComeApartAndHaveVerticesThatNobodyDraws) {
     GltfBuilder builder = sharedVertices();
-    // Flat normals and a mirrored UV map give every corner a vertex of its own.
+    // Flat normals and a mirrored UV map give every corner a separate vertex.
     builder.json()["meshes"][0]["primitives"].erase(0);
     Json& primitive = builder.json()["meshes"][0]["primitives"][0];
     primitive.erase("targets");
-    builder.json()["accessors"][0]["count"] = 4;  // the last of which is in no triangle
+    builder.json()["accessors"][0]["count"] = 4;  // the last one is in no triangle
     builder.json()["accessors"][1]["count"] = 4;
     primitive["indices"] = builder.addAccessor(std::vector<std::uint16_t>{0, 1, 2, 2, 1, 0}, kU16, "SCALAR", 6);
     const CompressedRun outcome = generateAll(builder.glb(), {.compression = Compression::draco});
@@ -261,7 +261,7 @@ TEST(DracoKeep, UsesAndRenewsPlainDataBesideTheCompressedOnes) {
     builder.json().erase("extensionsRequired");
     const CompressedRun outcome = generateAll(builder.glb());
     EXPECT_TRUE(outcome.after.elements.empty()) << "plain data are there, so they are read";
-    // The compressed data hold the same mesh as the plain ones, tangents too.
+    // The compressed data contains the same mesh as the uncompressed data, including tangents.
     const Json& primitive = outcome.after.json["meshes"][0]["primitives"][0];
     const Json& packed = primitive["extensions"][kDraco];
     const BufferView data = readBufferView(outcome.after, packed["bufferView"].get<std::size_t>());
@@ -317,10 +317,10 @@ TEST(DracoHostile, RefusesDataThatAreCutShort) {
 TEST(DracoHostile, SurvivesEveryFlippedByte) { expectOrderWhateverByteIsChanged(model(grid())); }
 
 TEST(DracoHostile, RefusesCountsInTheDataBeforeAnyMemoryIsAskedFor) {
-    // Header, then the numbers of faces and points, as the library writes them; nothing follows.
+    // The header, then the numbers of faces and points as written by the library; nothing follows.
     for (const std::uint8_t method : {std::uint8_t{0}, std::uint8_t{1}}) {
         Bytes data = {'D', 'R', 'A', 'C', 'O', 2, 2, 1, method, 0, 0};
-        if (method == 1) data.push_back(0);  // the kind of traversal
+        if (method == 1) data.push_back(0);  // the type of traversal
         for (int i = 0; i < 2; ++i) data.insert(data.end(), {0xff, 0xff, 0xff, 0xff, 0x0f});
         DracoMesh mesh;
         const std::string fault = decodeDraco(data, {.corner_count = 300, .point_count = 100, .bytes = 10000}, mesh);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// generate with flip_green: normal maps of models, wherever they lie.
+// generate with flip_green: normal maps of models, wherever they are stored.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ const RgbImage& downMap() {
     return map;
 }
 
-/// A square over the whole image, with the tangents that glTF wants; material 0.
+/// A square over the whole image, with correct tangents for glTF; material 0.
 GltfBuilder square(float sign = 1) {
     GltfBuilder builder;
     const std::size_t indices = builder.addAccessor(std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}, 5125, "SCALAR", 6);
@@ -70,7 +70,7 @@ std::multiset<std::string> codes(const std::string& file) {
 }
 using Codes = std::multiset<std::string>;
 
-/// The bytes of an image that lies in a GLB.
+/// Returns the bytes of an image embedded in a GLB.
 Bytes imageOf(const std::string& file, std::size_t image) {
     const gltf::Document document = gltf::loadDocument(file, {});
     EXPECT_TRUE(document.json["images"][image].contains("bufferView"));
@@ -144,7 +144,7 @@ TEST(FlipMaps, LeavesMapsAloneThatInvertedSignsCancel) {
     EXPECT_EQ(codes(out), Codes{});
 }
 
-/// One mesh is made for the map as it is, the other is not: what renders right must not be made wrong.
+/// The map is correct for one mesh but not for the other: correct rendering must not be broken.
 TEST(FlipMaps, LeavesMapsAloneThatSomeMeshesAreMadeFor) {
     const TempFolder folder;
     GltfBuilder builder = square(-1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// generateFile on small documents made here: what is shared, split, widened, replaced in place, refused and
-// reported.
+// generateFile on small generated documents: sharing, splitting, wider indices, in-place replacement, rejected input,
+// and reports.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ TEST(GenerateGltf, AddsOnlyTangentsWhereNothingIsSplit) {
     EXPECT_EQ(outcome.after.json["bufferViews"].size(), 5u);
     EXPECT_EQ(outcome.after.json["bufferViews"][4]["target"], 34962);
     EXPECT_EQ(outcome.after.json["meshes"][0]["primitives"][0]["indices"], 3);
-    // u grows along x; v runs down in glTF, so B = w cross(N, T) points to where v shrinks: w = +1.
+    // u increases along x; v points down in glTF, so B = w cross(N, T) points to decreasing v: w = +1.
     for (const Vec4& tangent : readTangents(outcome.after, outcome.primitives[0]))
         EXPECT_EQ(tangent, (Vec4{1, 0, 0, 1}));
 }
@@ -40,11 +40,11 @@ TEST(GenerateGltf, SplitsAndCarriesEveryAttributeAlong) {
     for (std::size_t i = 0; i < joints.size(); ++i) joints[i] = ids[i] = static_cast<std::uint8_t>(i);
     const std::size_t joint = builder.addAccessor(joints, kU8, "VEC4", count);
     const std::size_t weight = builder.addFloats(std::vector<float>(count * 4, 0.25f), 4);
-    // Three bytes, four apart, and a custom name.
+    // Three bytes with a stride of four, and a custom name.
     const std::size_t custom = builder.addAccessor(ids, kU8, "VEC3", count);
     builder.json()["bufferViews"].back()["byteStride"] = 4;
     builder.json()["accessors"].back()["normalized"] = true;
-    // A morph target that is sparse over nothing.
+    // A morph target that is sparse without a base view.
     builder.addView(test::bytesOfValues<std::uint16_t>({7, 12}));
     builder.addView(test::bytesOfValues<float>({1, 2, 3, 4, 5, 6}));
     const std::size_t views = builder.json()["bufferViews"].size();
@@ -61,7 +61,7 @@ TEST(GenerateGltf, SplitsAndCarriesEveryAttributeAlong) {
     const PrimitiveReport& report = outcome.report.primitives.at(0);
     EXPECT_EQ(report.vertices_before, 25u);
     EXPECT_EQ(report.vertices_after, 30u) << "the middle column of 5 vertices is doubled";
-    // POSITION is also a morph target: both still name one accessor.
+    // POSITION is also a morph target: both still refer to one accessor.
     EXPECT_EQ(outcome.primitives[0].find("POSITION"), outcome.primitives[0].targets[1][0].second);
     EXPECT_EQ(outcome.after.json["accessors"].size(), outcome.before.json["accessors"].size() + 3)
         << "tangents and deltas of two targets; other entries are re-used";
@@ -179,7 +179,7 @@ TEST(GenerateGltf, LeavesNoOldBytesBehindWhenASplitReplacesThem) {
     const std::size_t vertices = outcome.report.primitives.at(0).vertices_after;
     EXPECT_GT(vertices, outcome.report.primitives.at(0).vertices_before);
     const std::size_t needed = vertices * (12 + 12 + 8 + 16) + outcome.primitives[0].corner_count * 2;
-    // Cuts are made in multiples of 8 bytes, so a little may stay at each of the five accessors.
+    // Cuts are multiples of 8 bytes, so a few bytes may remain at each of the five accessors.
     EXPECT_LT(outcome.after.buffers[0].bytes.size(), needed + 5 * 16);
 }
 
@@ -267,7 +267,7 @@ TEST(GenerateGltf, LeavesDataUrisDataUris) {
     EXPECT_EQ(after.style.indent, 1);
 }
 
-/// The grid as .gltf with its buffer and an image in files.
+/// Writes the grid as .gltf with its buffer and an image in files.
 void writeWithFiles(const TempFolder& folder, const std::string& name, GltfBuilder builder,
                     const char* image_uri = "tex/image.png") {
     folder.write("in/geo metry.bin", builder.bytes());
@@ -292,7 +292,7 @@ TEST(GenerateGltf, NeverChangesBufferFilesOfTheInput) {
     EXPECT_TRUE(std::filesystem::exists(folder.path("in/a.tspace.bin")));
     EXPECT_EQ(readFile(folder.path("in/geo metry.bin")), buffer);
     EXPECT_NE(readFile(folder.path("in/a.gltf")), model);
-    // A run with another method replaces the tangents inside the file that the first run made.
+    // A run with a different method replaces the tangents in the file that the first run wrote.
     const std::size_t own_bytes = readFile(folder.path("in/a.tspace.bin")).size();
     GenerateOptions other{.existing = ExistingTangents::replace};
     other.tangents.convention = conventions::opengl;
@@ -381,7 +381,7 @@ TEST(GenerateGltf, KeepsTheUriOfAMissingImageAndWarns) {
     }
 }
 
-/// Exporters name the folder of a texture that was never saved.
+/// Exporters write the folder of a texture that was never saved.
 TEST(GenerateGltf, TakesAFolderInPlaceOfAnImageForAMissingOne) {
     const TempFolder folder;
     writeWithFiles(folder, "a.gltf", gridModel(Grid(4)), "tex/.");
@@ -511,7 +511,7 @@ TEST(GenerateGltf, VerticesWithoutDataCostNoMemory) {
     EXPECT_TRUE(report) << "it has no UVs, so nothing is read";
 }
 
-/// The normal map may have been made for them.
+/// The normal map may have been created for these signs.
 TEST(GenerateGltf, SignsThatWereAllInvertedStaySoWhereNormalsAreMadeAnew) {
     GltfBuilder builder = gridModel(Grid(4, false));
     std::vector<float> tangents;
@@ -540,7 +540,7 @@ TEST(GenerateGltf, SignsThatWereAllInvertedStaySoWhereNormalsAreMadeAnew) {
     }
 }
 
-/// A grid on a slope at five million units, where floats are half a unit apart.
+/// A grid on a slope at five million units, where the spacing of floats is half a unit.
 GltfBuilder farGrid(bool has_normals) {
     Grid grid(8, false);
     for (std::size_t i = 0; i < grid.positions.size(); ++i)

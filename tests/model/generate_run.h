@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A small model, and generateFile on models made in a test.
+// A small model, and generateFile on models created in a test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,8 +17,7 @@ namespace tspace::test {
 
 inline constexpr int kU8 = 5121, kU16 = 5123, kU32 = 5125;
 
-/// A flat grid of quads with the UV map mirrored at the middle column, so that its vertices there must be
-/// split.
+/// A flat grid of quads with the UV map mirrored at the middle column, so that its vertices there must be split.
 class Grid {
   public:
     explicit Grid(std::size_t size, bool mirrored = true) : size_(size) {
@@ -89,7 +88,7 @@ struct GenerateRun {
     Bytes file;
 };
 
-/// Generates from `builder` as GLB, compares everything that must survive, and runs again.
+/// Generates from `builder` as GLB, compares everything that must be preserved, and runs again.
 inline GenerateRun run(const GltfBuilder& builder, GenerateOptions options = {},
                        const std::vector<gltf::ExtraChunk>& chunks = {}) {
     const TempFolder folder;

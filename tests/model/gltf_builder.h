@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small glTF documents made in the test itself.
+// Small glTF documents created in the test itself.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@
 
 namespace tspace {
 
-/// For the messages of tests.
+/// Prints JSON in messages of tests.
 inline std::ostream& operator<<(std::ostream& stream, const Json& json) { return stream << json.dump(); }
 
 }  // namespace tspace
@@ -30,12 +30,12 @@ template <class T, class Allocator = std::allocator<T>>
 Bytes bytesOfValues(const std::vector<T, Allocator>& values) {
     const auto* first = reinterpret_cast<const std::uint8_t*>(values.data());
     Bytes bytes(first, first + values.size() * sizeof(T));
-    // Vectors are lists of floats.
+    // Vectors consist of floats.
     turnLittleEndian(bytes, std::is_arithmetic_v<T> ? sizeof(T) : sizeof(float));
     return bytes;
 }
 
-/// A document with one buffer that grows by whole accessors.
+/// A document with one buffer, to which complete accessors are appended.
 class GltfBuilder {
   public:
     GltfBuilder() {
@@ -99,7 +99,7 @@ inline gltf::Document parse(const GltfBuilder& builder) {
     return gltf::parseDocument(toBytes(builder.gltfText()), "model.gltf", {});
 }
 
-/// The error that `body` ends with; code ok when it ends well.
+/// Returns the error that `body` throws; ErrorCode::ok if it succeeds.
 template <class Body>
 Error errorOf(Body&& body) {
     const Result<Done> result = atFileBorder([&]() -> Result<Done> {

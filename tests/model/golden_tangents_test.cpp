@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The glTF convention against tangents that other tools shipped: direction within 1 degree and the same sign
-// on every corner of the files for which this was measured to hold.
+// Compares the glTF convention with tangents shipped by other tools: direction within 1 degree and the same sign at
+// every corner of the files for which this was measured to be true.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,12 +19,12 @@ using test::shared;
 
 struct GoldenFile {
     const char* name;
-    float sign;  ///< shipped sign times ours
+    float sign;  ///< shipped sign times computed sign
 };
 
 void PrintTo(const GoldenFile& file, std::ostream* out) { *out << file.name; }
 
-// TwoSidedPlane stores the sign the other way round, against the specification.
+// TwoSidedPlane stores the opposite sign, contrary to the specification.
 constexpr GoldenFile kFiles[] = {
     {"khronos/TwoSidedPlane.glb", -1},
     {"khronos/SheenCloth.glb", 1},
@@ -47,7 +47,7 @@ TEST_P(ShippedTangents, AgreeWithOursOnEveryCorner) {
     GenerateOptions options;
     options.all = true;
     options.existing = ExistingTangents::replace;
-    // SheenCloth has a transform that mirrors, and its tangents follow the UVs before it.
+    // SheenCloth has a mirroring transform, and its tangents follow the untransformed UVs.
     options.texture_transform = TextureTransform::ignore;
     const auto report = generateFile(shared(name).string(), output, options);
     ASSERT_TRUE(report) << report.error().message;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What inspect says about needs: every use, transforms, variants, and how often a mesh is drawn.
+// Needs reported by inspect: every use of tangents, transforms, variants, and how often a mesh is drawn.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -80,7 +80,8 @@ TEST(InspectNeeds, CountsNodesAndInstances) {
     EXPECT_EQ(bad.error().place, "/nodes/2/extensions/EXT_mesh_gpu_instancing/attributes/TRANSLATION");
 }
 
-/// A wavy sheet of irregular triangles, five units wide, whose positions are whole numbers; stored as such, or as floats.
+/// Returns a wavy sheet of irregular triangles, five units wide, whose positions are integers; stored as integers or as
+/// floats.
 GltfBuilder roundedSheet(bool as_floats) {
     constexpr int kSide = 60;
     GltfBuilder builder;

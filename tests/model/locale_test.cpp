@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers have a point, whatever the locale of the program says: in options, in files, and in what is said about them.
+// Numbers have a decimal point in any locale: in options, files, and messages.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@
 namespace tspace::test {
 namespace {
 
-/// All that is asked, as text: the same in every locale.
+/// Returns all outputs as text, which must be equal in every locale.
 std::vector<std::string> answers() {
     std::vector<std::string> all;
     BakeFileOptions bake;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What in a primitive's materials asks for tangents, along which UVs.
+// Which parts of a primitive's materials need tangents, and for which UVs.
 #include "model/gltf/material_needs.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ using test::errorOf;
 using test::GltfBuilder;
 using test::parse;
 
-/// One primitive of material 0; `more` are the other materials.
+/// Returns one primitive with material 0; `more`: the other materials.
 GltfBuilder withMaterial(const std::string& material, const std::string& more = "",
                          const std::string& primitive_extensions = "{}") {
     GltfBuilder builder;

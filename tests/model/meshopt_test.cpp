@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Meshopt-compressed buffer views: what is read, what stays as it was, what is encoded anew, and what is refused.
+// Meshopt-compressed buffer views: decoding, unchanged data, encoding again, and rejected data.
 #include <gtest/gtest.h>
 #include <meshoptimizer.h>
 #include <rapidcheck/gtest.h>
@@ -43,10 +43,10 @@ class PackedModel {
         Json& json = builder_.json();
         json["buffers"] = Json::array({Json::object(), Json::object()});
         json["extensionsUsed"] = json["extensionsRequired"] = {extension_};
-        builder_.addView(Bytes(4, 0));  // a plain view in front, so that no offset is 0
+        builder_.addView(Bytes(4, 0));  // an uncompressed view first, so that no offset is 0
     }
 
-    /// `rows`: as before the filter.
+    /// `rows`: in the form before the filter.
     std::size_t addView(MeshoptCoding coding, const Bytes& rows, const char* mode, const char* filter = nullptr) {
         coding.stride = rows.size() / coding.count;
         coding.is_khr = extension_ == kKhrMeshopt;
@@ -130,7 +130,7 @@ RC_GTEST_PROP(Meshopt, ReadsRowsOfIndicesAsTheyWereEncoded, (std::vector<std::ui
 }
 
 TEST(Meshopt, ReadsTriangles) {
-    // A strip of triangles that each share an edge with the one before: the codec turns none of them.
+    // A strip of triangles, each sharing an edge with the previous one: the codec rotates none of them.
     std::vector<std::uint32_t> indices;
     for (std::uint32_t i = 0; i < 40; ++i) {
         const std::vector<std::uint32_t> fan = {0, i + 1, i + 2};
@@ -158,7 +158,7 @@ RC_GTEST_PROP(Meshopt, EncodesTrianglesSoThatNoCornerTurns, (std::vector<std::ui
     RC_ASSERT(decoded == rows);
 }
 
-/// Unit vectors and quaternions, four floats each.
+/// Returns unit vectors and quaternions, four floats each.
 std::vector<float> directions(std::size_t count) {
     std::vector<float> values;
     for (std::size_t i = 0; i < count; ++i) {
@@ -198,7 +198,7 @@ TEST(Meshopt, AppliesTheQuaternionFilter) {
     const Document document = model.load();
     const std::vector<Vec4> decoded = decodeVec4(document, readAccessor(document, accessor), "");
     for (std::size_t i = 0; i < kCount; ++i) {
-        // A quaternion and its negative are one rotation.
+        // A quaternion and its negative are the same rotation.
         const double dot = decoded[i].x * expected[i * 4] + decoded[i].y * expected[i * 4 + 1] +
                            decoded[i].z * expected[i * 4 + 2] + decoded[i].w * expected[i * 4 + 3];
         EXPECT_NEAR(std::abs(dot), 1, 0.001);
@@ -274,7 +274,7 @@ TEST(MeshoptKeep, EncodesSplitVerticesWithTheFilterThatTheyHad) {
 
 TEST(MeshoptPack, LeavesNoBufferEmpty) {
     const test::TempFolder folder;
-    // All of buffer 0 is packed into buffer 1.
+    // All of buffer 0 is compressed in buffer 1.
     Json json = Json::parse(R"({"asset":{"version":"2.0"},
         "accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3,"min":[0,0,0],"max":[1,1,0]},
                      {"bufferView":1,"componentType":5123,"type":"SCALAR","count":3}],
@@ -316,7 +316,7 @@ TEST(MeshoptKeep, MovesBetweenContainers) {
 }
 
 TEST(MeshoptKeep, RenewsPlainDataAndCompressedOnesWhereThereAreBoth) {
-    // The fallback becomes part of BIN.
+    // The fallback buffer becomes part of BIN.
     PackedModel model = packedGrid();
     const Document packed = model.load();
     const Bytes plain = packed.buffers[1].bytes.joined();
@@ -345,7 +345,7 @@ TEST(MeshoptKeep, RenewsPlainDataAndCompressedOnesWhereThereAreBoth) {
 
 TEST(MeshoptKeep, LeavesNoOldCompressedBytesBehind) {
     const CompressedRun outcome = generateAll(packedGrid().glb());
-    std::size_t compressed = 4;  // the plain view in front
+    std::size_t compressed = 4;  // the uncompressed view at the start
     for (std::size_t i = 1; i < outcome.after.json["bufferViews"].size(); ++i)
         compressed += readMeshoptView(outcome.after, i)->byte_count;
     EXPECT_LT(outcome.after.buffers[0].bytes.size(), compressed + 16 * 6) << "a little stays at each cut";
@@ -422,7 +422,7 @@ TEST(MeshoptHostile, NamesThePlaceOfEveryWrongMember) {
     expectRefused("count", 0);
     expectRefused("count", 24);
     expectRefused("count", 4294967295u);
-    expectRefused("count", 1537228672809129302ull);  // times 12 passes 2^64
+    expectRefused("count", 1537228672809129302ull);  // times 12 exceeds 2^64
     expectRefused("mode", "TRIANGLES");
     expectRefused("mode", "VERTICES");
     expectRefused("mode", 3);
@@ -440,7 +440,7 @@ TEST(MeshoptHostile, RefusesAFallbackBufferFarLargerThanItsViews) {
 }
 
 TEST(MeshoptHostile, RefusesViewsThatTogetherClaimTooMuch) {
-    // Each view alone is possible; all of them name the same few bytes.
+    // Each view is valid by itself, but all of them refer to the same few bytes.
     PackedModel model;
     const std::size_t view = model.addView({.count = 25600}, Bytes(25600 * 4, 7), "ATTRIBUTES");
     for (int i = 0; i < 200; ++i) model.json()["bufferViews"].push_back(Json(model.json()["bufferViews"][view]));

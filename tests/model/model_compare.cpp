@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The structural comparison of two glTF documents.
+// Structural comparison of two glTF documents.
 #include "model_compare.h"
 
 #include <algorithm>
@@ -40,13 +40,13 @@ class Comparison {
         if (!same && found_.size() < 20) found_.push_back(what);
     }
 
-    /// Members in order, without those that an edit may change.
+    /// Returns the members in order, without those that an edit may change.
     static Json without(Json object, const std::vector<std::string>& members) {
         for (const std::string& name : members) object.erase(name);
         return withoutCompression(std::move(object));
     }
 
-    /// How bytes are packed may change; what they unpack to is compared elsewhere.
+    /// Compression may change; decompressed data is compared elsewhere.
     static Json withoutCompression(Json object) {
         if (!object.is_object() || !object.contains("extensions")) return object;
         for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_draco_mesh_compression"})
@@ -117,7 +117,7 @@ class Comparison {
                 expect(withoutCompression(removed ? withoutTangents(old_json) : old_json) ==
                            withoutCompression(withoutNewDeltas(new_json, old_json)),
                        a.place() + " changed");
-                // Accessors that are still used must be untouched.
+                // Accessors that are still used must be unchanged.
                 const Primitive& kept = removed ? b : a;
                 for (const auto& [name, accessor] : kept.attributes) untouched_.insert(accessor);
                 for (const AttributeList& target : kept.targets) {
@@ -155,7 +155,7 @@ class Comparison {
         }
     }
 
-    /// Deltas of computed attributes are new, all others go with their corners.
+    /// Deltas of computed attributes are new; all others must match at their corners.
     void compareTarget(const AttributeList& a, const std::vector<std::uint32_t>& old_corners, const AttributeList& b,
                        const std::vector<std::uint32_t>& new_corners, bool normals_generated,
                        const std::string& place) {
@@ -199,7 +199,7 @@ class Comparison {
         }
     }
 
-    /// Accessors that a primitive does not use, and those of primitives that stay.
+    /// Compares accessors that no primitive uses, and those of unchanged primitives.
     void compareUntouchedAccessors() {
         std::set<std::size_t> by_primitives;
         for (const Primitive& primitive : readPrimitives(before_)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compares a model before and after generate: everything but the allowed edits must be the same.
+// Compares a model before and after generate: everything except the allowed edits must be equal.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace tspace::test {
 
-/// What differs and should not; empty when all is well. `report` says which primitives were computed. `is_repacked`:
-/// the lists of extensions may differ too. Compares the JSON with its order of members, every accessor of an untouched
-/// primitive by its bytes, every attribute and morph target of a changed primitive corner by corner, and every image by
-/// its bytes.
+/// Returns unexpected differences; empty if there are none. `report` tells which primitives were computed.
+/// `is_repacked`: the lists of extensions may differ too. Compares the JSON including its order of members, every
+/// accessor of an unchanged primitive by its bytes, every attribute and morph target of a changed primitive corner by
+/// corner, and every image by its bytes.
 std::vector<std::string> differences(const gltf::Document& before, const gltf::Document& after,
                                      const GenerateReport& report, bool is_repacked = false);
 

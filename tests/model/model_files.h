@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The models of the shared test data, as parameters for tests.
+// Models of the shared test data, as parameters for tests.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace tspace::test {
 
-/// .glb and .gltf files below a folder of the shared data, relative to it and sorted; one empty name where
-/// the folder is absent, so that a test can be skipped aloud.
+/// Returns the .glb and .gltf files below a folder of the shared data, relative to it and sorted; one empty name if the
+/// folder is absent, so that a test is reported as skipped.
 inline std::vector<std::string> modelFiles(const std::string& folder) {
     std::vector<std::string> names;
     const std::filesystem::path root = shared(folder);
@@ -30,7 +30,7 @@ inline std::vector<std::string> modelFiles(const std::string& folder) {
     return names;
 }
 
-/// A test name out of a file name.
+/// Returns a test name for a file name.
 inline std::string testName(std::string file) {
     for (char& c : file) {
         const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A model and its arrays: what is decoded once, what the budget is charged, and what a change makes anew.
+// A model and its arrays: caching, the charged budget, and recomputation after a change.
 #include "model/gltf/model.h"
 #include "model/gltf/load_document.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 using test::GltfBuilder;
 
-/// Two primitives with the same positions.
+/// Two primitives with shared positions.
 Model twoPrimitives(const FileOptions& options = {}) {
     GltfBuilder builder;
     builder.addFloats({0, 0, 0, 1, 0, 0, 0, 1, 0}, 3);

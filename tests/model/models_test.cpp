@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every model of the shared data through generateFile: what must survive survives, and a second run changes
-// no byte.
+// Runs generateFile on every model of the shared data: all other data is preserved, and a second run changes no byte.
 #include <gtest/gtest.h>
 #include <algorithm>
 
@@ -29,7 +28,7 @@ class Models : public testing::TestWithParam<std::string> {
         options.all = true;
         options.existing = ExistingTangents::replace;
         options.tangents.method = method;
-        // Lengyel's sums go by vertex index, so a split (which mending of signs may ask for) changes them.
+        // Lengyel's sums use vertex indices, so a split (which may be caused by repaired signs) changes them.
         options.sanitize = method != Method::lengyel;
         return options;
     }
@@ -85,7 +84,7 @@ TEST_P(Models, SurviveRepairAndStrip) {
     const auto report = generateFile(input_.string(), output, options);
     if (!report) GTEST_SKIP() << report.error().message;
     const auto before = gltf::loadDocument(input_, {}), after = gltf::loadDocument(output, {});
-    // Repair makes normals unit, and so writes other ones.
+    // Repair normalizes normals, and therefore changes them.
     const bool scales_normals = hasFinding(input_.string(), FindingCode::normalsNotUnit);
     for (const std::string& difference : test::differences(before, after, *report)) {
         if (!scales_normals || !difference.ends_with(" has other bytes")) ADD_FAILURE() << difference;
@@ -121,7 +120,7 @@ TEST_P(Models, StayAsTheyAreWithoutOverwriteWhereNothingIsMissing) {
     }
 }
 
-/// Small models are enough, and quick.
+/// Small models are sufficient, and fast.
 std::vector<std::filesystem::path> smallModels() {
     constexpr std::uintmax_t kSmall = 1u << 20;
     std::vector<std::filesystem::path> models;
@@ -134,7 +133,7 @@ std::vector<std::filesystem::path> smallModels() {
     return models;
 }
 
-/// A run over the output itself changes no byte.
+/// A run on the output itself changes no byte.
 void expectNoChangeAgain(const std::string& output, const GenerateOptions& options) {
     const Bytes first = readFile(output);
     const auto second = generateFile(output, output, options);
@@ -188,7 +187,7 @@ INSTANTIATE_TEST_SUITE_P(Small, EveryPacking,
                                          Packing{Compression::meshopt, VectorFormat::snorm8},
                                          Packing{Compression::draco, VectorFormat::snorm16}));
 
-/// Every method keeps its own output as it is. Small models are enough, and quick.
+/// Every method preserves its own output. Small models keep the test fast.
 class EveryMethod : public testing::TestWithParam<Method> {};
 
 TEST_P(EveryMethod, ChangesNothingTheSecondTime) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Morph targets of glTF files through generateFile: which get deltas, how these are stored, and what stays.
+// Morph targets of glTF files with generateFile: which ones get deltas, their storage, and preserved data.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ using gltf::Document;
 using gltf::Json;
 using namespace test;
 
-/// Offsets that lift the vertices for which `lifts(x, y)` holds, and shift them along y.
+/// Returns offsets that lift the vertices for which `lifts(x, y)` is true, and shift them along y.
 template <class Lifts>
 std::vector<float> lifted(const Grid& grid, Lifts&& lifts) {
     std::vector<float> offsets(grid.positions.size(), 0);
@@ -34,7 +34,7 @@ std::vector<float> allLifted(const Grid& grid) {
 }
 std::vector<float> noneLifted(const Grid& grid) { return std::vector<float>(grid.positions.size(), 0); }
 
-/// gridModel with one target of positions for each list.
+/// Returns gridModel with one target of positions per list.
 GltfBuilder morphModel(const Grid& grid, const std::vector<std::vector<float>>& targets) {
     GltfBuilder builder = gridModel(grid);
     for (const std::vector<float>& offsets : targets) {
@@ -65,7 +65,7 @@ TEST(MorphGltf, TangentsFollowGeneratedNormalsAsTheyAreWritten) {
     GltfBuilder builder = morphModel(grid, {lifted(grid, [](float x, float) { return x > 2; })});
     firstPrimitive(builder)["attributes"].erase("NORMAL");
     builder.json()["extensionsUsed"] = builder.json()["extensionsRequired"] = {"KHR_mesh_quantization"};
-    run(builder, {.format = VectorFormat::snorm16});  // a second run reads them, and must change nothing
+    run(builder, {.format = VectorFormat::snorm16});  // a second run reads the deltas, and must change nothing
     run(builder, {.format = VectorFormat::snorm8});
 }
 
@@ -86,7 +86,7 @@ TEST(MorphGltf, GivesDeltasToTargetsThatMoveTheSurfaceOnly) {
     EXPECT_EQ(outcome.report.primitives[0].morph_target_count, 4u);
     EXPECT_EQ(outcome.report.primitives[0].morph_deltas_computed, 3u);
     EXPECT_EQ(outcome.report.primitives[0].vertices_after, 30u);
-    // All is flat in v, and u is 0.25 per unit of x: so is T, whatever is lifted with y.
+    // Everything is flat in v, and u is 0.25 per unit of x: so is T, whatever is lifted with y.
     for (const Vec3& offset : offsetsOf(outcome, 0, "TANGENT")) EXPECT_LT(lengthOf(offset), 1e-6);
 }
 
@@ -109,7 +109,7 @@ TEST(MorphGltf, StoresDeltasSparselyWhereMostAreZero) {
         EXPECT_FALSE(view.contains("byteStride"));
     }
     const Json& none = accessorOf(outcome.after, 1, "TANGENT");
-    // Assimp refuses accessors that have neither a view nor sparse values.
+    // Assimp rejects accessors that have neither a view nor sparse values.
     ASSERT_TRUE(none.contains("sparse") && !none.contains("bufferView"));
     EXPECT_EQ(none["sparse"]["count"], 1);
     for (const Vec3& offset : offsetsOf(outcome, 1, "TANGENT")) EXPECT_EQ(lengthOf(offset), 0);
@@ -182,12 +182,12 @@ TEST(MorphGltf, KeepsSparseTargetsSparseThroughASplit) {
     ASSERT_TRUE(accessor.contains("sparse"));
     EXPECT_EQ(accessor["sparse"]["count"], 4) << "vertex 10 lies on the mirrored seam and was doubled";
     EXPECT_EQ(outcome.after.json["accessors"].size(), outcome.before.json["accessors"].size() + 2);
-    const std::size_t new_views = 1 + 2;  // tangents; places and values of their deltas
+    const std::size_t new_views = 1 + 2;  // tangents; indices and values of their deltas
     EXPECT_EQ(outcome.after.json["bufferViews"].size(), outcome.before.json["bufferViews"].size() + new_views)
         << "entries are re-used";
 }
 
-/// A model that was generated, without the deltas of its first target.
+/// Returns a generated model without the deltas of its first target.
 Document withoutFirstDeltas(const TempFolder& folder, const std::string& name) {
     const Grid grid(12);
     std::vector<float> wave = noneLifted(grid);
@@ -268,7 +268,7 @@ TEST(MorphGltf, ReadsQuantisedOffsets) {
     builder.json()["extensionsUsed"] = builder.json()["extensionsRequired"] = {"KHR_mesh_quantization"};
     firstPrimitive(builder)["targets"] = Json::array({Json{{"POSITION", accessor}}});
     const GenerateRun outcome = run(builder);
-    // Columns go up and down along y by one step of x, so at the left border T leans by 45 degrees.
+    // Columns alternate along y by one step of x, so at the left border T is rotated by 45 degrees.
     const std::vector<Vec3> deltas = offsetsOf(outcome, 0, "TANGENT");
     const std::vector<Vec4> tangents = readTangents(outcome.after, outcome.primitives[0]);
     EXPECT_NEAR(tangents[0].x + deltas[0].x, std::sqrt(0.5), 1e-6);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Normals of glTF files through generateFile: over the borders of primitives, made anew, and what targets add to them.
+// Normals of glTF files with generateFile: across borders of primitives, recomputed, and deltas of morph targets.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ double degreesBetween(const Vec3& a, const Vec3& b) {
     return std::acos(std::clamp(dots / (size(a) * size(b)), -1.0, 1.0)) * 180 / 3.14159265358979;
 }
 
-/// The triangles of `data` for which `takes(centre of the triangle)` holds, with the vertices that they use.
+/// Returns the triangles of `data` for which `takes(center of the triangle)` is true, with their vertices.
 template <class Takes>
 ModelData part(const ModelData& data, const Takes& takes) {
     ModelData result;
@@ -54,7 +54,7 @@ ModelData part(const ModelData& data, const Takes& takes) {
     return result;
 }
 
-/// A sheet that bends by `bend` of its length along x.
+/// Returns a sheet that bends by `bend` of its length along x.
 ModelData arch(int n, float bend) {
     ModelData sheet = bentSheet(n);
     for (Vec3& p : sheet.positions) p.z = bend * p.x * (1 - p.x) + 0.1f * p.y * p.x;
@@ -67,7 +67,7 @@ ModelData rightOf(const ModelData& data) {
     return part(data, [](float x) { return x > 0.5f; });
 }
 
-/// Adds a primitive with a normal map to mesh 0; normals too where `with_normals` says so.
+/// Adds a primitive with a normal map to mesh 0; with normals if `with_normals` is set.
 Json& addPart(GltfBuilder& builder, const ModelData& data, bool with_normals = false) {
     builder.json()["materials"] = Json::parse(R"([{"normalTexture":{"index":0}},{"name":"plain"}])");
     builder.json()["textures"] = Json::parse("[{}]");
@@ -90,7 +90,7 @@ struct Made {
     [[nodiscard]] std::vector<Vec3> vec3(std::size_t primitive, const char* name) const {
         return readVec3(document, primitives[primitive], name);
     }
-    /// The normals at each position of a primitive, as target `target` leaves them (-1: on the base).
+    /// Returns the normals at each position of a primitive, displaced by target `target` (-1: base shape).
     [[nodiscard]] std::map<Place, std::vector<Vec3>> normals(std::size_t primitive, int target = -1) const {
         const std::vector<Vec3> positions = vec3(primitive, "POSITION");
         std::vector<Vec3> normals = vec3(primitive, "NORMAL");
@@ -439,7 +439,7 @@ TEST(OverwriteNormals, SaysWhereTangentsThatSomebodyMayHaveDrawnGo) {
     EXPECT_FALSE(says(notes("{}", anew()), "drawn"));
 }
 
-/// A sheet that a target rolls up along x, with normals of the base that somebody has tilted along y.
+/// A sheet that a target rolls up along x, with authored base normals that are tilted along y.
 GltfBuilder rolling(const ModelData& data, bool with_offsets) {
     GltfBuilder builder;
     std::vector<float> offsets;
@@ -467,7 +467,7 @@ TEST(MorphNormals, NormalsTurnAsTheSurfaceDoes) {
             EXPECT_EQ(findAttribute(made.primitives[0].targets[0], "NORMAL").has_value(), with_offsets || is_new);
             if (!is_new) continue;
             for (const auto& [place, normals] : made.normals(0, 0)) {
-                const float x = std::clamp(place[0], 1.0f / 32, 31.0f / 32);  // one-sided at the rim
+                const float x = std::clamp(place[0], 1.0f / 32, 31.0f / 32);  // one-sided at the border
                 const Vec3 expected{-std::sin(x) * std::cos(tilt), std::sin(tilt), std::cos(x) * std::cos(tilt)};
                 EXPECT_LT(degreesBetween(normals[0], expected), 0.2) << place[0];
             }
@@ -475,7 +475,7 @@ TEST(MorphNormals, NormalsTurnAsTheSurfaceDoes) {
     }
 }
 
-/// `rolling` with the offsets of normals given.
+/// Returns `rolling` with the given offsets of normals.
 GltfBuilder rollingWith(const ModelData& data, const std::vector<float>& normals) {
     GltfBuilder builder = rolling(data, false);
     const std::size_t accessor = builder.addFloats(normals, 3);
@@ -517,7 +517,7 @@ TEST(MorphNormals, AreMadeWhereTangentsStayOrAreNotNeeded) {
     EXPECT_FALSE(without.primitives[0].find("TANGENT"));
     EXPECT_TRUE(findAttribute(without.primitives[0].targets[0], "NORMAL"));
 
-    // Tangents of a first run stay, and what targets add to them fits the new normals.
+    // Tangents of the first run are kept, and their deltas match the new normals.
     const Made first = make(rolling(data, true), {});
     GltfBuilder again;
     ModelData kept = data;

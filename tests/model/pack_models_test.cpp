@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bounds of pack.h on the frames of real models: as stored, and where there are only normals, with a basis.
+// The bounds of pack.h for the frames of real models: as stored, or for normals alone with a basis.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 namespace tspace::test {
 namespace {
 
-/// The frames of a primitive that can be compared: what is broken is left out, the rest made orthonormal.
+/// Returns the frames of a primitive that can be compared: invalid ones are skipped, the others are made orthonormal.
 FrameList framesOf(const ScenePrimitive& primitive) {
     FrameList frames;
     for (std::size_t i = 0; i < primitive.normals.size(); ++i) {
@@ -37,7 +37,7 @@ TEST(PackBounds, HoldForTheFramesOfAllModels) {
         try {
             scene = readScene(entry.path().string(), {}, false);
         } catch (const std::exception&) {
-            continue;  // some are broken on purpose
+            continue;  // some are intentionally invalid
         }
         for (const ScenePrimitive& primitive : scene.primitives) {
             const FrameList frames = framesOf(primitive);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// generateFile with packed frames: what the attributes hold, what stays beside them, and what a second run does.
+// generateFile with packed frames: the values of the attributes, other attributes, and a second run.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ Frames unpacked(const gltf::Document& document, const Primitive& primitive, Fram
     return frames;
 }
 
-/// Packed frames match NORMAL and TANGENT as stored, within the error bound of the format.
+/// Checks that packed frames match the stored NORMAL and TANGENT within the error bound of the format.
 void expectPacked(const gltf::Document& document, const Primitive& primitive, FrameFormat format) {
     ASSERT_TRUE(primitive.find("NORMAL") && primitive.find("TANGENT"));
     const Frames frames = unpacked(document, primitive, format);
@@ -50,7 +50,8 @@ void expectPacked(const gltf::Document& document, const Primitive& primitive, Fr
     const std::vector<Vec3> normals = readVec3(document, primitive, "NORMAL");
     const std::vector<Vec4> tangents = readTangents(document, primitive);
     for (std::size_t i = 0; i < normals.size(); ++i) {
-        constexpr double kDegrees = 180 / kPi, kFloats = 3e-5;  // the stored ones are unit and orthogonal to float
+        // the stored frames are unit and orthogonal to float precision
+        constexpr double kDegrees = 180 / kPi, kFloats = 3e-5;
         EXPECT_LE(angleBetween(toDouble(frames.normals[i]), toDouble(normals[i])) * kDegrees,
                   bound.normal_deg + kFloats);
         EXPECT_LE(angleBetween(toDouble(xyz(frames.tangents[i])), toDouble(xyz(tangents[i]))) * kDegrees,
@@ -59,7 +60,7 @@ void expectPacked(const gltf::Document& document, const Primitive& primitive, Fr
     }
 }
 
-/// A bent grid, so that frames are not those of axes.
+/// Returns a bent grid, so that frames are not axis-aligned.
 Grid bentGrid(std::size_t size = 6) {
     Grid grid(size);
     for (std::size_t i = 0; i < grid.vertexCount(); ++i) {
@@ -191,7 +192,7 @@ TEST(PackedGltf, MayStandInPlaceOfWhatItWasPackedFrom) {
         EXPECT_EQ(readPackedWords(document, primitive, layout),
                   readPackedWords(full, readPrimitives(full).at(0), layout));
 
-        // Neither a run like the first nor a plain one makes lesser frames in their place.
+        // Neither an equal run nor one without options replaces them by less accurate frames.
         const Bytes bytes = readFile(output);
         for (const GenerateOptions& again : {options, GenerateOptions{}}) {
             const auto second = generateFile(output, output, again);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Primitives: triangles out of every mode, and checks of counts.
+// Primitives: triangles of every mode, and checks of counts.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -51,7 +51,7 @@ TEST(Primitive, LeavesPointsLinesAndTooFewCornersWithoutTriangles) {
     }
 }
 
-/// Interleaved positions and UVs, `shift` bytes behind the begin of the buffer.
+/// Returns interleaved positions and UVs, starting `shift` bytes after the start of the buffer.
 GltfBuilder interleaved(std::size_t shift) {
     GltfBuilder builder;
     const std::vector<float> values = {1, 2, 3, 0.5f, 0.25f, 4, 5, 6, 0.75f, 1};
@@ -100,7 +100,7 @@ TEST(Primitive, LendsNothingThatIsNotPlainAlignedFloats) {
     builder.json()["accessors"][1]["componentType"] = 5123;
     builder.json()["accessors"][1]["normalized"] = true;
     EXPECT_EQ(lent(builder), std::pair(true, false));
-    builder.json()["accessors"][1]["componentType"] = 5125;  // as many bytes as floats, and a file may say so
+    builder.json()["accessors"][1]["componentType"] = 5125;  // same size as floats, and allowed by the file format
     EXPECT_EQ(lent(builder), std::pair(true, false));
     builder.json()["accessors"][0].erase("bufferView");  // all zero
     EXPECT_EQ(lent(builder), std::pair(false, false));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scene that check, diff and identify look at: what it holds is what the file says.
+// The scene that check, diff and identify examine equals the contents of the file.
 #include <gtest/gtest.h>
 
 #include "gltf_builder.h"
@@ -85,7 +85,7 @@ TEST(ReadScene, LeavesPointsAndLinesWithoutCorners) {
 
 TEST(ReadScene, RefusesArraysFarLargerThanTheFile) {
     GltfBuilder builder = oneTriangle();
-    // Each is within the limit for accessors without data; together they are not.
+    // Each one is within the limit for accessors without data; together they exceed it.
     for (int i = 0; i < 400; ++i) {
         builder.json()["accessors"].push_back({{"componentType", 5126}, {"count", 1000000}, {"type", "VEC3"}});
         builder.addPrimitive({{"POSITION", 4 + i}});

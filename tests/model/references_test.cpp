@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What edits rely on: who shares which bytes, and that closing gaps moves everything else along.
+// Preconditions of edits: which objects share bytes, and that closing gaps moves all other data.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -40,7 +40,7 @@ RC_GTEST_PROP(Overlaps, AgreesWithMarkingEveryByte, ()) {
     };
     bool common = false;
     for (std::size_t byte = 0; byte < 300; ++byte) common = common || (reads(a, byte) && reads(b, byte));
-    // Ends may interlock without a common byte; claiming an overlap there is allowed, missing one is not.
+    // Ends may interlock without a common byte; reporting an overlap there is allowed, missing one is not.
     RC_ASSERT(!common || overlaps(a, b));
 }
 
@@ -55,7 +55,7 @@ RC_GTEST_PROP(CutVacated, LeavesEveryOtherAccessorAsItWas, ()) {
         builder.addFloats(values, 2);
         expected.push_back(bytesOfValues(values));
         if (i > 0 && *rc::gen::arbitrary<bool>()) {
-            // Two accessors of one view, the second behind the first.
+            // Two accessors of one view, the second one after the first.
             Json& accessors = builder.json()["accessors"];
             const auto split = *rc::gen::inRange<std::size_t>(0, length);
             Json second = accessors.back();
@@ -78,7 +78,7 @@ RC_GTEST_PROP(CutVacated, LeavesEveryOtherAccessorAsItWas, ()) {
         const Accessor accessor = readAccessor(document, i);
         const Extent extent = extentOf(document, accessor);
         vacated.push_back({0, extent.begin, extent.end});
-        // As a stored replacement would: the entry points elsewhere.
+        // Same effect as a stored replacement: the entry refers to other bytes.
         document.json["accessors"][i] = {{"componentType", 5126}, {"count", 1}, {"type", "VEC2"}};
         gone[i] = true;
     }

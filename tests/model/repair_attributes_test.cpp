@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Attributes of a wrong type or number: findings of check whose remedies work.
+// Attributes of a wrong type or number: findings of check have remedies that work.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// --repair: good tangents stay, wrong ones are made anew.
+// --repair: correct tangents are kept, wrong ones are recomputed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,8 @@ using namespace test;
 
 const GenerateOptions kRepair = {.existing = ExistingTangents::repair};
 
-/// A model with good tangents in its GLB, made by `method`, and then changed: `harm` gets each vertex and its tangent.
+/// A model with correct tangents in its GLB, computed by `method`, and then changed: `harm` is called with each vertex
+/// and its tangent.
 class Model {
   public:
     explicit Model(const GltfBuilder& builder, Method method = Method::mikktspace) {
@@ -33,7 +34,7 @@ class Model {
 
     [[nodiscard]] std::string good() const { return folder_.path("good.glb").string(); }
 
-    /// Writes the model with harmed tangents and repairs it. Returns the report; `repaired` is read back below.
+    /// Writes the model with changed tangents and repairs it. Returns the report; `repaired` is read back below.
     GenerateReport repair(const std::function<void(std::size_t, Vec4&)>& harm, GenerateOptions options = kRepair) {
         Bytes file = readFile(good());
         const gltf::Document document = gltf::loadDocument(good(), {});
@@ -55,7 +56,7 @@ class Model {
 
     [[nodiscard]] std::string repaired() const { return folder_.path("repaired.glb").string(); }
 
-    /// The harm is detected, and undone to the bit.
+    /// Checks that the damage is detected, and that the repair restores the original bits.
     void expectRepaired(const std::string& words, const std::function<void(std::size_t, Vec4&)>& harm) {
         const PrimitiveReport report = repair(harm).primitives.at(0);
         EXPECT_EQ(report.action, PrimitiveAction::replaced);
@@ -93,7 +94,7 @@ TEST(Repair, ReplacesWrongSignsAndDirections) {
 }
 
 TEST(Repair, ReplacesWhatNoFileMayHaveEvenAtOneVertex) {
-    Model model(gridModel(Grid(40)));  // one vertex is less than a thousandth of it
+    Model model(gridModel(Grid(40)));  // one vertex is less than 0.1 % of it
     const auto at_one = [](const Vec4& value) {
         return [value](std::size_t i, Vec4& t) {
             if (i == 700) t = value;
@@ -117,8 +118,8 @@ TEST(Repair, ReplacesTangentsThatAreSharedAcrossAMirroredSeam) {
     EXPECT_EQ(outcome.report.primitives.at(0).mended_vertex_count, 7u) << "no other vertex got another tangent";
 }
 
-/// At vertices of a fold nearly any direction could be meant. Around them all are wrong, so they are too, and what is
-/// made anew must not meet what was left.
+/// At vertices of a fold nearly any direction could be intended. Their neighbors are all wrong, so they are too, and
+/// recomputed tangents must not be combined with remaining ones.
 TEST(Repair, MendsWhatCannotBeJudgedWithTheWrongDirectionsAroundIt) {
     Grid grid(64, false);
     const std::size_t folded = 32 * 65 + 32;
@@ -169,7 +170,7 @@ TEST(Repair, AddsDeltasOfMorphTargetsToGoodTangents) {
     EXPECT_EQ(outcome.primitives[0].targets.at(0).size(), 2u) << "POSITION and TANGENT";
 }
 
-/// Kept tangents were not computed along the transform.
+/// Kept tangents were not computed with the transform.
 TEST(Repair, DoesNotSayThatKeptTangentsFollowTheTransform) {
     GltfBuilder builder = gridModel(Grid(4, false));
     std::vector<float> tangents;
@@ -196,12 +197,13 @@ TEST(Repair, JudgesByTheUvsAfterTheTextureTransform) {
     EXPECT_EQ(model.repair([](std::size_t, Vec4&) {}, ignore).primitives.at(0).action, PrimitiveAction::replaced);
 }
 
-/// Tangents of the model in its GLB, by what is done to them.
+/// Tangents of the model in its GLB, before and after a change.
 struct Tangents {
     std::vector<Vec4> before = {}, after = {};
 };
 
-/// Good tangents by Lengyel, which are not the bits that a repair computes; `harm` some, and repair.
+/// Computes correct tangents by Lengyel, whose bits differ from those of a repair; damages some with `harm`, and
+/// repairs.
 Tangents repairHarmed(const std::function<void(std::size_t, Vec4&)>& harm) {
     GltfBuilder builder = gridModel(Grid(6, false));
     // Bent, so that methods differ.
@@ -262,7 +264,7 @@ TEST(Repair, MakesShortTangentsUnitInTheirDirection) {
     }
 }
 
-/// A grid with tangents, its normal map beside it.
+/// A grid with tangents, and its normal map in a separate file.
 struct MappedModel {
     TempFolder folder = {};
     GltfBuilder builder = gridModel(Grid(6, false));
@@ -276,7 +278,7 @@ struct MappedModel {
         if (!image.empty()) folder.write("normal.png", image);
     }
 
-    /// Whether --repair leaves every byte of it.
+    /// Returns whether --repair preserves every byte of the model.
     [[nodiscard]] bool isLeftAlone() const {
         const std::string input = folder.write("in.glb", builder.glb());
         const std::string output = folder.path("out.glb").string();
@@ -317,7 +319,7 @@ TEST(Repair, MendsWhatNoMapCancelsBesideInvertedSignsThatStay) {
     for (const Vec4& t : readTangents(document, readPrimitives(document).at(0))) EXPECT_EQ(t, (Vec4{1, 0, 0, -1}));
 }
 
-/// One primitive of two over the same vertices has a map that cancels what is an error in the other.
+/// Of two primitives over the same vertices, one has a map that cancels the error of the other.
 TEST(Repair, DecidesForEachPrimitiveOverSharedVertices) {
     MappedModel model(-1, pngFile(normalMapOf(256, bumps, true)));
     model.builder.json()["materials"].push_back(Json::parse(R"({"normalTexture":{"index":1}})"));
@@ -332,7 +334,7 @@ TEST(Repair, DecidesForEachPrimitiveOverSharedVertices) {
     EXPECT_EQ(readTangents(document, after[1])[0].w, 1);
 }
 
-/// A warning of `check`, and what is wrong nowhere.
+/// A warning of `check`, and cases without any finding.
 TEST(Repair, LeavesWhatIsNoError) {
     for (const float degrees : {20.0f, 40.0f}) {
         MappedModel model(1, pngFile(normalMapOf(256, bumps, false)));
@@ -470,7 +472,7 @@ TEST(Repair, MendsValuesInTheFormatThatTheyHave) {
     GltfBuilder builder = gridModel(Grid(4, false));
     const std::size_t accessor = builder.addAccessor(numbers, 5122, "VEC4", count);
     builder.json()["accessors"][accessor]["normalized"] = true;
-    // Of two primitives that share them a material needs the tangents of none.
+    // Of two primitives that share the tangents, one has a material that does not need them.
     firstPrimitive(builder)["material"] = 1;
     firstPrimitive(builder)["attributes"]["TANGENT"] = accessor;
     Json& primitives = builder.json()["meshes"][0]["primitives"];
@@ -487,7 +489,7 @@ TEST(Repair, MendsValuesInTheFormatThatTheyHave) {
     }
 }
 
-/// Tangents along the strokes of brushed metal are no matter of UVs.
+/// Tangents along the strokes of brushed metal do not depend on UVs.
 TEST(Repair, LeavesTangentsThatNoTextureIsReadWith) {
     for (const bool has_uvs : {true, false}) {
         GltfBuilder builder = gridModel(Grid(4, false));
@@ -519,7 +521,7 @@ TEST(Repair, SaysWhatWasLookedAtWhereTangentsStay) {
         return report.primitives.at(0).reason;
     };
     EXPECT_EQ(reasonOf(), "its tangents are correct");
-    for (std::size_t v = 0; v < 10; ++v) grid.uvs[v] = grid.uvs[v + 10];  // the first row has those of the second
+    for (std::size_t v = 0; v < 10; ++v) grid.uvs[v] = grid.uvs[v + 10];  // the first row has the UVs of the second one
     EXPECT_NE(reasonOf().find("on 25.0 % of the surface"), std::string::npos) << reasonOf();
     for (float& value : grid.uvs) value = 0;
     EXPECT_NE(reasonOf().find("only their values"), std::string::npos) << reasonOf();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// --strip: tangents that nobody needs go, with their data.
+// --strip: removes unneeded tangents with their data.
 #include <gtest/gtest.h>
 
 #include "generate_run.h"

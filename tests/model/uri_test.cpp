@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which files a model may name, and decoding of data URIs.
+// Files that a model may reference, and decoding of data URIs.
 #include <gtest/gtest.h>
 
 #include "gltf_builder.h"
@@ -30,7 +30,7 @@ TEST(DataUri, DecodesPercentsAndMissingPadding) {
     EXPECT_EQ(errorOf([] { decodeDataUri("data:;base64", "p"); }).code, ErrorCode::invalidFile);
 }
 
-/// Exporters break base64 into lines; browsers ignore that.
+/// Exporters break base64 into lines; browsers ignore line breaks.
 TEST(DataUri, IgnoresWhiteSpaceInBase64) {
     EXPECT_EQ(decodeDataUri("data:;base64,YWJj\nZGVm\r\n", "").bytes, test::toBytes("abcdef"));
     EXPECT_EQ(decodeDataUri("data:;base64,YW Jj\tZG%0AU=\n", "").bytes, test::toBytes("abcde"));

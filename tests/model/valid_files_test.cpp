@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every file in which the glTF validator finds no error loads, and every file that loads is processed.
+// Every file without errors in the glTF validator loads, and every file that loads is processed.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -18,11 +18,11 @@ namespace {
 
 using test::shared;
 
-/// Files without an error that are refused all the same, and why.
+/// Files without errors that are rejected nevertheless, and why.
 const std::map<std::string, ErrorCode> kRefused = {
     // A web address is never loaded.
     {"buffer/non_relative_uri.gltf", ErrorCode::forbiddenPath},
-    // It asks for a version after 2.0.
+    // Requires a version after 2.0.
     {"asset/min_version_valid.gltf", ErrorCode::unsupportedFile},
 };
 
@@ -49,7 +49,7 @@ TEST(ValidFiles, Load) {
     EXPECT_GT(count, 50);
 }
 
-/// A file that check can read is no file that generate refuses, whatever is asked for.
+/// generate must not reject a file that check can read, with any options.
 TEST(ReadableFiles, AreProcessed) {
     const std::string folder = "bad/gltf-validator";
     TSPACE_NEEDS_SHARED("bad/gltf-validator");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where tspace refuses a file of the Khronos validator's own tests, it gives one of the reasons that the validator's
-// report has, at the same place.
+// If tspace rejects a file of the Khronos validator's own tests, it reports one of the errors in the validator's
+// report, at the same location.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A code of the validator, and words of which one stands in our message.
+/// A code of the validator, and words of which our message contains at least one.
 using Words = std::vector<std::string>;
 const std::map<std::string, Words> kReasons = {
     {"ACCESSOR_SMALL_BYTESTRIDE", {"overlap at a stride"}},
@@ -55,9 +55,9 @@ const std::map<std::string, Words> kReasons = {
     {"VALUE_NOT_IN_RANGE", {"a number that is too large"}},
 };
 
-/// Files without an error for the validator, and why they are refused nevertheless.
+/// Files without an error in the validator, and why they are rejected nevertheless.
 const std::map<std::string, std::string> kRefusedBeyond = {
-    {"base/asset/min_version_valid.gltf", "needs glTF version '2.1'"},  // newer than what tspace reads
+    {"base/asset/min_version_valid.gltf", "needs glTF version '2.1'"},  // newer than the versions that tspace supports
     {"base/root/named_objects.gltf", "in a buffer without data"},       // geometry that is not in the file
     {"base/root/unused_objects.gltf", "in a buffer without data"},
     {"base/buffer/non_relative_uri.gltf", "never loaded"},  // a web address
@@ -68,19 +68,19 @@ bool hasWords(const std::string& message, const Words& words) {
                        [&](const std::string& part) { return message.find(part) != std::string::npos; });
 }
 
-/// One is the place of the other, or lies in it. Byte offsets count differently (before or behind the head) and are not
-/// compared; a parser that stops knows no pointer.
+/// Returns whether one location equals or contains the other. Byte offsets are counted differently (including the
+/// header or not) and are not compared; a parser that stops has no JSON pointer.
 bool isSamePlace(const std::string& ours, const std::string& theirs) {
     if (ours.empty() || theirs.empty() || ours[0] != '/' || theirs[0] != '/') return true;
     const auto isWithin = [](const std::string& inner, const std::string& outer) {
         return outer == "/" || inner == outer || inner.starts_with(outer + '/');
     };
-    // Lengths and strides stand in the view that an accessor names.
+    // Lengths and strides are members of the view that an accessor refers to.
     const bool is_stride = ours.ends_with("/byteStride") && theirs.starts_with("/accessors/");
     return is_stride || isWithin(ours, theirs) || isWithin(theirs, ours);
 }
 
-/// Fault of our reason; empty: none.
+/// Returns the fault of our error; empty if there is none.
 std::string faultOf(const Error& error, const nlohmann::json& report) {
     std::string seen;
     for (const nlohmann::json& message : report["issues"]["messages"]) {

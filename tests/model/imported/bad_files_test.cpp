@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The importer on broken files: those that others have collected, under the names of all formats, and damaged ones of
-// its own formats. Each is a model or an error, and takes no more than a file of its size may.
+// The importer on corrupt files: collections of other projects, under the names of all formats, and damaged files of
+// its own formats. Each gives a model or an error, and uses no more memory than its size allows.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr const char* kExtensions[] = {".3ds", ".ac",   ".b3d", ".blend", ".dae", ".dxf", ".fbx",
                                        ".lwo", ".ms3d", ".off", ".ply",   ".smd", ".stl", ".x"};
 
-/// Reads the file as tspace does.
+/// Reads the file like tspace.
 void expectModelOrError(const std::string& path, const std::string& from) {
     const Result<Inspection> result = inspectFile(path, {.importer = TSPACE_IMPORTER});
     if (result) return;
@@ -30,9 +30,9 @@ void expectModelOrError(const std::string& path, const std::string& from) {
     EXPECT_EQ(std::count(result.error().message.begin(), result.error().message.end(), '\n'), 0) << from;
 }
 
-/// What the importers of this process took at most. The limit of a small file is 192 MiB of addresses.
+/// Checks the peak memory of this process's importers. The limit of a small file is 192 MiB of address space.
 void expectLittleMemory() {
-#ifndef TSPACE_SANITIZED  // under which the importer has no such limit
+#ifndef TSPACE_SANITIZED  // with sanitizers the importer has no such limit
     rusage usage{};
     getrusage(RUSAGE_CHILDREN, &usage);
     EXPECT_LT(usage.ru_maxrss, 200 << 10) << "KiB";

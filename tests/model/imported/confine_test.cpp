@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a confined process can still do. Each attempt is made by a child of its own.
+// Capabilities of a confined process. Each attempt is made by a separate child.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -20,13 +20,13 @@
 namespace tspace::test {
 namespace {
 
-/// Exit code of a child whose kernel has neither.
+/// Exit code of a child whose kernel supports neither mechanism.
 constexpr int kHasNone = 77;
 
-/// Ends the process. Before _exit a sanitizer asks for the signal stack, which a confined process may not.
+/// Ends the process. Before _exit a sanitizer queries the signal stack, which a confined process must not do.
 void end(int status) { syscall(SYS_exit_group, status); }
 
-/// The status with which a child ends that is confined to `folder` and then makes the attempt: 0 where that was possible.
+/// Returns the exit status of a child that is confined to `folder` and then makes the attempt: 0 if it was possible.
 int tryConfined(const std::string& folder, const std::function<bool()>& attempt,
                 bool import::Confinement::*part = &import::Confinement::of_files) {
     const pid_t child = fork();
@@ -103,7 +103,7 @@ TEST(Confinement, NoProgramProcessConnectionOrSignal) {
             char name[] = "true";
             char* arguments[] = {name, nullptr};
             execv("/bin/true", arguments);
-            return false;  // a program that runs ends with 0, which is what is not wanted
+            return false;  // exit status 0 would mean that the program ran, which must not happen
         },
         [] { return kill(getppid(), 0) == 0; },
     };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bumpy sheets as files of formats that have more digits than floats.
+// Bumpy sheets as files of formats with more precision than floats.
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@
 
 namespace tspace::test {
 
-/// A part of a model: one solid of STL, one geometry and its node elsewhere.
+/// A part of a model: one solid of STL, or one geometry with its node in other formats.
 struct Part {
     std::vector<DVec3> positions = {};
     std::vector<std::array<int, 3>> faces = {};
     std::optional<DVec3> translation = {};  ///< translation of its node, in COLLADA and FBX
 };
 
-/// A sheet of `side` x `side` vertices, 0.15 apart, with its corner at `place`.
+/// Returns a sheet of `side` x `side` vertices, 0.15 apart, with its corner at `place`.
 Part sheet(int side, const DVec3& place);
 
 enum class FarFormat { stlText, collada, fbxText };
@@ -33,7 +33,7 @@ struct FileStyle {
 std::string extensionOf(FarFormat format);
 std::string fileOf(FarFormat format, const std::vector<Part>& parts, const FileStyle& style = {});
 
-/// STL in binary, which has floats.
+/// Returns a binary STL, which contains floats.
 std::string binaryStl(const Part& part);
 
 }  // namespace tspace::test

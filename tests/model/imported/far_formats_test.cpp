@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Files in meters of a map projection: STL with the shape that the file has in double, COLLADA and FBX with a warning that names what
-// floats lose.
+// Files in meters of a map projection: STL with the shape that the file has in double precision, COLLADA and FBX with a
+// warning about the loss of precision in floats.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ struct Made {
     [[nodiscard]] std::span<const Vec3> normals(std::size_t i = 0) const {
         return drawn.scene.primitives[i].normals.span();
     }
-    /// Of a vertex, in the world.
+    /// Returns the position of a vertex in world space.
     [[nodiscard]] DVec3 at(std::size_t placement, std::size_t vertex) const {
         const ScenePlacement& place = drawn.placements[placement];
         return place.to_world.point(toDouble(drawn.scene.primitives[place.primitive].positions[vertex]));
@@ -209,10 +209,10 @@ TEST(FarCollada, TheUnitCountsForPlacesOfNodes) {
 TEST(FarStl, FloatsOfBinaryFilesHaveTheSameNormalsNearTheOrigin) {
     constexpr DVec3 kWhole{456123, 5261789, 0};
     Part far = sheet(kSide, kWhole + DVec3{0.2, 0.2, 412}), near = far;
-    for (DVec3& p : far.positions) p = 8.0 * p;  // so that floats leave something of it
+    for (DVec3& p : far.positions) p = 8.0 * p;  // so that floats preserve a part of the shape
     for (std::size_t i = 0; i < far.positions.size(); ++i)
         near.positions[i] = toDouble(toFloat(far.positions[i])) - 8.0 * kWhole;
-    // Far from the origin the spacing of floats, and with it the automatic distance, is larger.
+    // Far from the origin the spacing of floats, and therefore the automatic distance, is larger.
     const Made made = make(".stl", binaryStl(far), false, 0), moved = make(".stl", binaryStl(near), false, 0);
     EXPECT_FALSE(made.hasOffset());
     EXPECT_TRUE(made.warns("no more digits"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Models in other formats become glTF with frames, and a broken one is only an error.
+// Models in other formats become glTF with frames, and a corrupt one only causes an error.
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@
 namespace tspace::test {
 namespace {
 
-/// A file in Assimp's format `format` with what the glTF file holds.
+/// Writes the contents of the glTF file in Assimp's format `format`.
 std::string exported(const TempFolder& folder, const std::string& gltf, const std::string& format,
                      const std::string& extension) {
     Assimp::Importer importer;
@@ -82,7 +82,7 @@ TEST_P(EachFormat, KeepsTheSurfaceAndGetsFrames) {
         return;
     }
     EXPECT_EQ(report->primitives[0].action, PrimitiveAction::generated);
-    // Text formats write few digits; the frames of the sheet are those of the glTF file all the same.
+    // Text formats write few digits; the frames of the sheet still equal those of the glTF file.
     const std::string direct = folder.path("direct.glb").string();
     ASSERT_TRUE(generate(original, direct).ok());
     const Result<FrameDiff> diff = diffFiles(direct, output);
@@ -113,7 +113,7 @@ TEST(Import, UnitsOfFbxBecomeMetres) {
     ASSERT_NE(text.find(key), std::string::npos) << text.substr(0, 3000);
     const std::size_t begin = text.find(key) + key.size();
     const std::size_t size = text.find('\n', begin) - begin;
-    // Centimetres in a unit. A unit below 0 is none.
+    // Centimeters per unit. Negative units are ignored.
     for (const auto& [unit, scale] : {std::pair("1", 0.01F), {"2.54", 0.0254F}, {"100", 1.0F}, {"-1", 1.0F}}) {
         folder.write("units.fbx", std::string{text}.replace(begin, size, unit));
         const std::string path = folder.path("units.fbx").string();
@@ -197,7 +197,8 @@ TEST(Import, WhatIsNotFiniteIsMendedAndReported) {
     EXPECT_EQ(scene.primitives[0].positions[0], (Vec3{0, 0, 0}));
 }
 
-/// A sheet of 3 x 3 vertices, `step` apart, with its corner at (x, y): as STL, whose text has more digits than floats.
+/// Returns a sheet of 3 x 3 vertices, `step` apart, with its corner at (x, y), as text STL, which has more digits than
+/// floats.
 std::string stlSheet(double x, double y, double step) {
     std::string text = "solid sheet\n";
     for (const int a : {0, 1, 3, 4}) {
@@ -212,7 +213,7 @@ std::string stlSheet(double x, double y, double step) {
     return text + "endsolid sheet\n";
 }
 
-/// The same as PLY. `type`: of the coordinates; `format`: "ascii", or binary with doubles.
+/// Returns the sheet as PLY. `type`: type of the coordinates; `format`: "ascii", or binary with doubles.
 std::string plySheet(double x, double y, double step, const std::string& format, const std::string& type = "double") {
     std::string text = "ply\nformat " + format + " 1.0\nelement vertex 9\nproperty uchar tag\n";
     for (const char* axis : {"x", "y", "z"}) text += "property " + type + " " + axis + "\n";
@@ -287,7 +288,7 @@ TEST(Import, PlyFarFromTheOriginKeepsItsShape) {
     EXPECT_TRUE(generate(near, folder.path("n.glb").string())->warnings.empty());
 }
 
-/// A triangle without UVs as COLLADA.
+/// Returns a triangle without UVs as COLLADA.
 std::string daeTriangle(const char* normals, const char* diffuse) {
     const auto source = [](const char* name, const char* values) {
         return "<source id='" + std::string(name) + "'><float_array id='" + name + "-a' count='9'>" + values +
@@ -340,7 +341,7 @@ constexpr const char* kTriangle =
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
     "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
-/// A scene of LightWave that takes its meshes from other files.
+/// Returns a LightWave scene that loads its meshes from other files.
 std::string sceneOfFiles(const TempFolder& folder, std::initializer_list<const char*> names) {
     std::string text = "LWSC\n3\n\n";
     for (const char* name : names) text += "LoadObjectLayer 1 " + std::string(name) + "\nShowObject 6 8421504\n\n";
@@ -410,7 +411,7 @@ TEST(Import, MemoryAndSizeAreLimited) {
     small_file.import_max_file_bytes = 1000;
     little_memory.import_max_memory_bytes = 24 << 20;
     EXPECT_EQ(codeOf(generate(path, folder.path("a.glb").string(), small_file)), ErrorCode::unsupportedFile);
-#ifndef TSPACE_SANITIZED  // under which the importer has no such limit
+#ifndef TSPACE_SANITIZED  // with sanitizers the importer has no such limit
     EXPECT_EQ(codeOf(generate(path, folder.path("a.glb").string(), little_memory)), ErrorCode::invalidFile);
 #endif
     EXPECT_EQ(codeOf(generate(path, folder.path("a.glb").string())), ErrorCode::ok);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The importer's process: what it may take, and that neither it nor a file of it outlives the tool.
+// The importer's process: its resource limits, and that neither the process nor its files outlive the tool.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// 58 bytes that Assimp 5 works on for minutes.
+/// 58 bytes that keep Assimp 5 busy for minutes.
 std::string endlessPly(const TempFolder& folder) {
     return folder.write("endless.ply", "ply\nformat ascii 1.0\nelement vertex 2147483647\nend_header\n");
 }
@@ -48,7 +48,7 @@ TEST(ImportProcess, FilesThatClaimMuchAreStoppedAfterTwoSeconds) {
     }
 }
 
-/// A program in place of the importer.
+/// Writes a program that replaces the importer.
 std::string script(const TempFolder& folder, const std::string& commands) {
     const std::string path = folder.write("importer", "#!/bin/sh\n" + commands);
     fs::permissions(path, fs::perms::owner_all);
@@ -113,7 +113,8 @@ std::string textOf(const fs::path& path) {
     return text.str();
 }
 
-/// Processes whose command line has both texts; those that have ended and wait for their parent have none.
+/// Returns the processes whose command line contains both texts; ended processes that wait for their parent have no
+/// command line.
 std::vector<pid_t> processesWith(const std::string& program, const std::string& path) {
     std::vector<pid_t> found;
     for (const auto& entry : fs::directory_iterator("/proc")) {
@@ -126,7 +127,7 @@ std::vector<pid_t> processesWith(const std::string& program, const std::string& 
     return found;
 }
 
-/// The tool at work on a file, with a folder of its own for temporary files.
+/// A tool that is processing a file, with a separate folder for temporary files.
 class RunningTool : public StartedTool {
   public:
     RunningTool(const TempFolder& folder, std::vector<std::string> arguments)
@@ -200,7 +201,7 @@ TEST(ImportProcess, IsConfinedBeforeItLooksAtTheModel) {
         return says("NoNewPrivs:\t1");
     };
     EXPECT_TRUE(soon(isConfined)) << status;
-#ifndef TSPACE_SANITIZED  // which needs more than a parser
+#ifndef TSPACE_SANITIZED  // sanitizers need more than the filter allows
     if (!says("Seccomp:")) GTEST_SKIP() << "this kernel has no filter of system calls";
     EXPECT_TRUE(soon([&] { return isConfined() && says("Seccomp:\t2"); })) << status;
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tangents of other formats: those of FBX are read, with their signs; where a format or the importer cannot give them,
+// Tangents of other formats: those of FBX are read, with their signs; if a format or the importer cannot provide them,
 // nothing claims that there are none.
 #include <gtest/gtest.h>
 
@@ -41,8 +41,8 @@ struct Stored {
     std::string bitangents = list(times("0,1,0", "0,1,0"));
 };
 
-/// Two squares side by side. The texture is mirrored on the second, and has a normal map. Text, as Autodesk's SDK writes
-/// it.
+/// Writes two adjacent squares. The texture is mirrored on the second one, and has a normal map. Text format, like
+/// Autodesk's SDK.
 std::string writeSquares(const TempFolder& folder, const Stored& stored) {
     std::string layers = layer("Normal", "Normals", list(times("0,0,1", "0,0,1")), 24);
     std::vector<std::string> kinds = {"Normal", "UV"};
@@ -188,7 +188,7 @@ TEST(ImportTangents, ThatWereNotReadAreNotComparedAndDiffSaysSo) {
     EXPECT_FALSE(diff->primitives.at(0).tangents_not_read_b);
 }
 
-/// A square in COLLADA, with what the exporters call texture tangents.
+/// Writes a square in COLLADA, with the attribute that exporters call texture tangents.
 std::string writeDae(const TempFolder& folder, const std::string& bitangent) {
     const auto source = [](const std::string& id, const std::string& values, int count, const std::string& names) {
         std::string params;

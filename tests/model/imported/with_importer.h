@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Options with the importer that is tested.
+// Options that select the tested importer.
 #pragma once
 
 #include "tspace/file_options.h"

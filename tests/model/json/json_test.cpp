@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Values of JSON, and that text comes out as the library spells it that also reads it.
+// JSON values, and formatting identical to that of the library that also parses.
 #include "model/json/json.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 using Oracle = nlohmann::ordered_json;
 
-/// Strings with every kind of byte; of valid UTF-8 unless `any_bytes`.
+/// Returns strings with every kind of byte; valid UTF-8 unless `any_bytes`.
 std::string randomText(bool any_bytes) {
     std::string text;
     for (const int kind : *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, any_bytes ? 7 : 6))) {
@@ -33,7 +33,7 @@ struct Twin {
 
 Twin randomTwin(int depth, bool any_bytes) {
     const auto same = [](const auto& value) { return Twin{value, value}; };
-    // Arrays and objects as often as all others, while they may be nested.
+    // Arrays and objects are as frequent as all other values, while nesting is allowed.
     const int kind = depth > 0 && *rc::gen::arbitrary<bool>() ? 7 + *rc::gen::arbitrary<bool>()
                                                               : *rc::gen::element(0, 1, 2, 3, 4, 5, 6);
     switch (kind) {
@@ -102,7 +102,7 @@ RC_GTEST_PROP(JsonText, IsRefusedExactlyWhereTheLibraryRefusesIt, ()) {
     try {
         static_cast<void>(Json::parse(text));
     } catch (const JsonError& error) {
-        if (error.repeated) return;  // the library takes the last one
+        if (error.repeated) return;  // the library uses the last one
         accepts = false;
     }
     RC_ASSERT(accepts == Oracle::accept(text));

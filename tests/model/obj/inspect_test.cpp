@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What inspectFile says about geometry.
+// Geometry reported by inspectFile.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace tspace::test {
 namespace {
 
-/// A square as two triangles, with its UVs; `u_sign` -1 mirrors the texture.
+/// A square of two triangles, with UVs; `u_sign` -1 mirrors the texture.
 struct Square {
     std::vector<Vec3> positions{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     std::vector<Vec2> uvs{{0, 0}, {1, 0}, {1, 1}, {0, 1}};

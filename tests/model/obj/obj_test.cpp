@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// OBJ in, glTF out: what is kept, what is made, and what is refused.
+// OBJ to glTF: preserved, computed, and rejected data.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,12 +23,12 @@ using gltf::Json;
 constexpr const char* kQuad =
     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
     "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
-/// Image data up to the size, which is two by one.
+/// PNG data up to the size, which is two by one.
 const std::string kPng("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\2\0\0\0\1 not really", 35);
 /// JPEG data up to the size.
 const std::string kJpeg("\xff\xd8\xff\xc0\0\x0b\x08\0\1\0\2\3 not really", 23);
 
-/// One pixel of a flat normal map: what map_bump names is decoded, to tell it from a height map.
+/// One pixel of a flat normal map: images of map_bump are decoded, to distinguish normal maps from height maps.
 std::string flatPng() {
     constexpr unsigned char kBytes[] = {
         0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00,
@@ -87,7 +87,7 @@ bool mentions(const std::vector<std::string>& sentences, const std::string& text
 TEST(Obj, KeepsPolygonsOfAnySizeUntilFramesAreComputed) {
     std::ostringstream obj;
     std::ostringstream face;
-    constexpr int kCorners = 400;  // more than fits the parser's own 8-bit counts
+    constexpr int kCorners = 400;  // more than the parser's own 8-bit counts can represent
     for (int i = 1; i <= kCorners; ++i) {
         const double a = i * 2 * 3.14159265358979 / kCorners;
         obj << "v " << std::cos(a) << ' ' << std::sin(a) << " 0\nvt " << std::cos(a) << ' ' << std::sin(a) << '\n';
@@ -171,7 +171,7 @@ TEST(Obj, EachShapeIsAMeshAndEachMaterialInItAPrimitive) {
     EXPECT_EQ(made.corners(0).size(), 6U) << "the object comes back later in the file";
 }
 
-/// Two quads at a right angle; the edge between them is vertices 2 and 3.
+/// Two quads at a right angle; the edge between them has vertices 2 and 3.
 std::string folded(const std::string& before_faces) {
     return std::string(kQuad) + "v 1 0 -1\nv 1 1 -1\nvt 2 0\nvt 2 1\n" + before_faces +
            "f 1/1 2/2 3/3 4/4\nf 2/2 5/5 6/6 3/3\n";
@@ -232,7 +232,7 @@ TEST(Obj, FacesWithoutTextureCoordinatesAreAPrimitiveOfTheirOwn) {
     EXPECT_TRUE(make(folder, std::string(kQuad) + "f 1 3 4\n", options).primitives[0].find("TANGENT"));
 }
 
-/// Every texture of every primitive's material is on a UV set that the primitive has.
+/// Checks that every texture of every primitive's material uses a UV set that the primitive has.
 void expectTexturesToHaveUvs(const Json& json) {
     for (const Json& mesh : json["meshes"]) {
         for (const Json& primitive : mesh["primitives"]) {
@@ -276,7 +276,7 @@ TEST(Obj, TangentsAreMadeWhereTheMaterialHasANormalMap) {
     }
 }
 
-/// -o, -s and -t take one, two or three numbers; the name of the file is no number.
+/// -o, -s and -t take one, two or three numbers; the file name is not a number.
 TEST(Obj, OptionsOfTexturesDoNotSwallowTheName) {
     for (const char* options :
          {"-s 2", "-s 2 2", "-s 2 2 1", "-o 0.5 -s 2 2", "-t .5", "-o -1e-1 +2. -bm 0.5", "-mm 0.1 -clamp on", "-s 1 1",
@@ -371,7 +371,7 @@ TEST(Obj, TexturesThatAreMissingForbiddenOrNoImagesAreLeftOutWithAWarning) {
     EXPECT_TRUE(made.document.json.contains("images"));
 }
 
-/// In Shift-JIS, GBK and Big5 the second byte of a character may be that of a backslash, which continues no line.
+/// In Shift-JIS, GBK and Big5 the second byte of a character may equal a backslash, which is then no line continuation.
 TEST(Obj, TextThatIsNotUtf8KeepsItsBytesAndGivesAWarning) {
     const TempFolder folder;
     folder.write("in/m.mtl", "newmtl \x94\xa7\nnorm \x94\xa7.png\n");
@@ -474,8 +474,7 @@ TEST(Obj, BrokenFilesAreRefusedWithThePlace) {
     }
 }
 
-/// Exporters do write such files: all normals left out but not their indices, or 0 for a normal that a corner
-/// lacks.
+/// Exporters do write such files: all normals missing but not their indices, or 0 for a missing normal of a corner.
 TEST(Obj, FacesThatNameUvsOrNormalsThatAreNotThereHaveNone) {
     const std::string vertices = std::string(kQuad) + "vn 0 0.6 0.8\nf 1/1/1 2/2/1 4/4/1\n";
     const std::string rest = "f 2/2/1 3/3/1 4/4/1\n";
@@ -508,7 +507,7 @@ TEST(Obj, OddFloatsDoNotUpsetTheParser) {
     }
 }
 
-/// Processor time in seconds of preparing a text of that many faces.
+/// Returns the processor seconds for preparing a text with this number of faces.
 double secondsToPrepare(int face_count) {
     std::string text;
     for (int f = 0; f < face_count; ++f) text += "f 1/1 2/2 3/3 4/4\n";
@@ -518,7 +517,7 @@ double secondsToPrepare(int face_count) {
 }
 
 TEST(ObjTime, GrowsLinearlyWithTheNumberOfFaces) {
-    // Ten times the faces take ten times the time; a search through the rest of the file took a hundred times.
+    // Ten times the faces take ten times the time; a search through the rest of the file would take a hundred times.
     EXPECT_LT(secondsToPrepare(400000), 40 * secondsToPrepare(40000) + 0.05);
 }
 
@@ -529,7 +528,7 @@ TEST(Obj, OnlyGlTfIsWritten) {
     EXPECT_EQ(folder.files(), std::set<std::string>{"a.obj"});
 }
 
-/// Every .obj below a folder of the shared data.
+/// Returns every .obj below a folder of the shared data.
 std::vector<std::string> sharedObjFiles(const std::string& relative) {
     std::vector<std::string> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(shared(relative))) {
