@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each command that check prints as a remedy is run, as a user would: its finding is gone then, and there is no new one.
+// Runs each command that check prints as a remedy, like a user: its finding must disappear, and no new one may appear.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,8 @@ using Places = std::set<std::pair<std::string, std::string>>;  // code, place
 
 std::string inQuotes(const std::string& path) { return "'" + path + "'"; }
 
-/// The findings of a file; nothing where it cannot be read. Every remedy must stand in the text as well.
+/// Returns the findings of a file; an empty list if it cannot be read. Every remedy must also be contained in the text
+/// output.
 Json findingsOf(const TempFolder& folder, const std::string& file) {
     const ToolRun run = runTool(folder, "check --json --fail-on error " + inQuotes(file));
     const Json report = Json::parse(run.out, nullptr, false);
@@ -37,12 +38,13 @@ Json findingsOf(const TempFolder& folder, const std::string& file) {
 /// A command of a remedy, without "tspace".
 struct NamedCommand {
     std::string line;
-    bool needs_more = false;  ///< it has a word for something that the file does not tell, such as the high poly
+    /// contains a placeholder for something that the file does not contain, such as the high poly
+    bool needs_more = false;
 
     bool operator<(const NamedCommand& other) const { return line < other.line; }
 };
 
-/// The commands of a finding; every command line in its remedy must be one of them.
+/// Returns the commands of a finding; every command line in its remedy must be one of them.
 std::vector<NamedCommand> commandsOf(const Json& finding) {
     const std::string start = "tspace ", remedy = finding["remedy"];
     std::vector<NamedCommand> commands;
@@ -61,8 +63,8 @@ std::vector<NamedCommand> commandsOf(const Json& finding) {
     return commands;
 }
 
-/// Without notes on what may be meant, which worse findings at the same place hide: normals that point to the back of their
-/// triangles are not compared with these.
+/// Removes notes on possible intentions, which are hidden by worse findings at the same place: normals that point to
+/// the back of their triangles are not compared with them.
 Json withoutHarmless(const Json& findings) {
     Json rest = Json::array();
     for (const Json& finding : findings) {
@@ -79,7 +81,7 @@ Places placesOf(const Json& findings, bool with_place) {
     return places;
 }
 
-/// How names of models begin that are made here.
+/// Prefix of the names of generated models.
 constexpr const char* kMade = "made/";
 
 class Advice : public testing::TestWithParam<std::string> {
@@ -102,7 +104,7 @@ class Advice : public testing::TestWithParam<std::string> {
         return run.exit_code == 0;
     }
 
-    /// Runs a command on each image that these findings are about, and puts the new images into a copy of the model.
+    /// Runs a command on each image that these findings are about, and stores the new images in a copy of the model.
     bool runOnImages(const std::string& command, const Json& findings) {
         ModelImages model(input_);
         model.copyFiles(folder_.path("out"));
@@ -145,10 +147,10 @@ TEST_P(Advice, MendsTheFindingThatItStandsBelowAndMakesNoNewOne) {
         const std::string& command = named.line;
         std::filesystem::create_directories(folder_.path("out"));
         const bool is_of_model = command.rfind("generate", 0) == 0;
-        // Materials of other formats name images in their own ways.
+        // Materials of other formats refer to images differently.
         if (!is_of_model && !is_gltf_) continue;
         if (is_of_model ? !runOnModel(command) : !runOnImages(command, findings)) continue;
-        // Other formats become glTF, which names other places.
+        // Other formats become glTF, in which places have different names.
         const Json after = findingsOf(folder_, output_);
         const Places old = placesOf(before, is_gltf_), now = placesOf(after, is_gltf_);
         for (const auto& [code, place] : placesOf(findings, is_gltf_))
@@ -160,7 +162,7 @@ TEST_P(Advice, MendsTheFindingThatItStandsBelowAndMakesNoNewOne) {
 }
 
 #ifdef TSPACE_EVERY_MODEL
-/// All models of the shared data.
+/// Returns all models of the shared data.
 std::vector<std::string> models() {
     std::vector<std::string> names;
     for (const std::string folder : {"models", "reports", "bad"}) {
@@ -177,7 +179,7 @@ std::vector<std::string> models() {
     return names;
 }
 #else
-/// Small models that have, together, each finding whose remedy is a command.
+/// Returns small models that together have each finding whose remedy is a command.
 std::vector<std::string> models() {
     std::vector<std::string> names;
     for (const std::string name : {

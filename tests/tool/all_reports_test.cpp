@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every command over all shared files, sound, strange and broken: whatever it says is as docs/schema says.
+// Runs every command on all shared files (valid, unusual and corrupt): all output conforms to docs/schema.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// That the document is as its schema says, runTool looks at.
+/// Returns a report; runTool validates it against its schema.
 Json reportOf(const TempFolder& folder, const std::string& arguments) {
     const ToolRun run = runTool(folder, arguments + " --json");
     const Json document = Json::parse(run.out, nullptr, false);
@@ -87,7 +87,7 @@ TEST(AllReports, OfDiff) {
     const TempFolder folder;
     const std::vector<std::string> files = sharedFiles({".glb", ".gltf", ".obj"});
     ASSERT_GT(files.size(), 400U);
-    // Each eighth with the next one: mostly other shapes; and with itself.
+    // Compares every eighth file with the next one (usually a different shape), and with itself.
     for (std::size_t i = 0; i + 1 < files.size(); i += 8) {
         reportOf(folder, "diff " + files[i] + ' ' + files[i + 1]);
         reportOf(folder, "diff " + files[i] + ' ' + files[i]);

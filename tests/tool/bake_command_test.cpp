@@ -19,7 +19,7 @@ TEST_F(BakeCommand, WritesAMapThatShowsTheHighPoly) {
     const FloatImage map = imageOf(folder, "out/normal.png");
     ASSERT_EQ(map.width, 64U);
     EXPECT_EQ(map.bits, 16U);
-    // The slope of the bumps at the middle of a texel, v downwards.
+    // The slope of the bumps at the center of a texel, with v pointing down.
     const double x = 20.5 / 64, y = 1 - 40.5 / 64;
     const double slope_x = 0.02 * 12 * std::cos(12 * x) * std::sin(9 * y),
                  slope_y = 0.02 * 9 * std::sin(12 * x) * std::cos(9 * y);
@@ -36,7 +36,7 @@ TEST_F(BakeCommand, WritesAMapThatShowsTheHighPoly) {
     EXPECT_EQ(imageOf(folder, "heat.png").width, 64U);
 }
 
-/// A flat sheet whose vertices are off by chance, evenly up to a fifth of a cell up or down.
+/// Returns a flat sheet whose vertices have random heights, uniformly up to a fifth of a cell.
 std::string noisySheet(int cells) {
     std::uint32_t state = 1;
     std::string text;
@@ -50,7 +50,7 @@ std::string noisySheet(int cells) {
     return text + flat.substr(flat.find("s 1\n"));
 }
 
-/// The mean square of what texels lean, of a map of something flat.
+/// Returns the mean square of the deviation of texels from flat, for a map of a flat surface.
 double leanOf(const FloatImage& map) {
     double sum = 0;
     for (const Vec3& texel : map.texels) {
@@ -109,7 +109,7 @@ TEST_F(BakeCommand, DirectxIsGreenTurnedRound) {
     for (std::size_t i = 0; i < gl.texels.size(); ++i) EXPECT_NEAR(gl.texels[i].y, 1 - dx.texels[i].y, 2e-5F);
 }
 
-/// The same OBJ text with all vertices moved.
+/// Returns the OBJ text with all vertices moved.
 std::string moved(const std::string& obj, double x, double y) {
     std::istringstream lines(obj);
     std::string text;
@@ -129,7 +129,7 @@ TEST_F(BakeCommand, FarFromTheOriginTheMapIsTheSame) {
     constexpr double kX = 456123, kY = 5261789;
     const std::string low = sheet(4, 0, true), high = sheet(40, 0.02, false);
     folder.write("far_low.obj", moved(low, kX, kY));
-    // Another sheet beside it, so that the offset that is taken out is another one.
+    // Another sheet next to it, so that a different offset is subtracted.
     folder.write("far_high.obj", moved(high, kX, kY) + moved(sheet(40, 0.02, false, "other", 0, 41 * 41), kX + 30, kY));
     ASSERT_EQ(runTool(folder, "generate -q far_high.obj -o far_high.glb").exit_code, 0);
     ASSERT_EQ(runTool(folder, "bake -q low.obj --high high.obj -o near.png --size 32 --bits 16").exit_code, 0);
@@ -150,7 +150,7 @@ TEST_F(BakeCommand, FarFromTheOriginTheMapIsTheSame) {
 }
 
 TEST_F(BakeCommand, MatchesMeshesByName) {
-    // Each sheet lies on the detail of the other.
+    // Each sheet is at the position of the other one's detail.
     folder.write("two_low.obj", sheet(4, 0, true, "a_low"));
     std::string high = sheet(40, 0.02, false, "a_high", 0.04);
     folder.write("one_high.obj", high);
@@ -161,7 +161,7 @@ TEST_F(BakeCommand, MatchesMeshesByName) {
 
 TEST_F(BakeCommand, WritesAFilePerTile) {
     std::string low = sheet(2, 0, true);
-    // The right half lies in the next tile.
+    // The right half is in the next tile.
     std::string moved;
     std::istringstream lines(low);
     for (std::string line; std::getline(lines, line);) {
@@ -179,7 +179,7 @@ TEST_F(BakeCommand, WritesAFilePerTile) {
     EXPECT_EQ(json["files"].size(), 2U) << json;
     EXPECT_EQ(imageOf(folder, "n.1001.png").width, 16U);
     EXPECT_EQ(imageOf(folder, "n.1002.png").width, 16U);
-    // Rays go as far for each as for the model as a whole, and each map can be measured alone.
+    // The ray distance is the same for each tile as for the whole model, and each map can be measured separately.
     const auto whole =
         nlohmann::json::parse(runTool(folder, "bake tiles.obj --high high.obj -o w.png --size 16 --json").out);
     for (std::size_t i = 0; i < 2; ++i) {
@@ -227,7 +227,7 @@ TEST_F(BakeCommand, AMapIsBakedForTheWayItsTextureWraps) {
     for (const int wrap : {33071, 33648}) {
         const double seam = seamOf(wrap, "");
         EXPECT_LT(seam, 0.5 * seamOf(10497, ""));
-        // The model that is written reads its map as it was baked.
+        // The written model reads its map as it was baked.
         EXPECT_EQ(seamOf(wrap, "--out-mesh new.gltf"), seam);
         const ToolRun run = runTool(folder, "map-error again.png new.gltf --high high.obj --json");
         EXPECT_NEAR(nlohmann::json::parse(run.out)["angles"]["seamMeanDeg"].get<double>(), seam, 1e-7);
@@ -324,7 +324,7 @@ TEST_F(BakeCommand, AnErrorNamesTheFileThatItIsAbout) {
     }
 }
 
-/// The low poly as a .gltf whose one material reads a normal map, with this transform.
+/// Writes the low poly as a .gltf whose only material uses a normal map with this transform.
 std::string withTransform(const TempFolder& folder, const nlohmann::json& transform) {
     EXPECT_EQ(runTool(folder, "generate low.obj -o plain.gltf --all").exit_code, 0);
     auto model = nlohmann::json::parse(folder.read("plain.gltf"));
@@ -421,7 +421,7 @@ TEST_F(BakeCommand, EachMaterialOfTheWrittenModelHasItsMap) {
     }
 }
 
-/// Every n-th of the bad models, in the order of their names.
+/// Returns `wanted` of the corrupt models, evenly distributed in the order of their names.
 std::vector<std::string> badModels(std::size_t wanted) {
     std::vector<std::string> all, some;
     const std::filesystem::path folder = std::filesystem::path(TSPACE_SHARED_DIR) / "bad";
@@ -443,7 +443,7 @@ TEST_F(BakeCommand, BadModelsAreOneLineAndLeaveNothing) {
                                           "low.obj --high high.obj --cage '" + model + "'"}) {
             const ToolRun run = runTool(folder, "bake " + inputs + " -q --size 8 -o n.png --out-mesh n.glb");
             EXPECT_TRUE(run.exit_code == 0 || run.exit_code == 1 || run.exit_code == 3 || run.exit_code == 4) << inputs;
-            // 1: the rays met little, or nothing; a line says so where there is no map.
+            // 1: the rays hit little or nothing; if there is no map, a line explains why.
             const bool is_written = run.exit_code == 1 && run.err.empty();
             if (run.exit_code == 0 || is_written) {
                 std::filesystem::remove(folder.path("n.png"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace bake --maps: names of files, what the report says of them, and the model that shows them.
+// tspace bake --maps: file names, their report, and the model that uses them.
 #include <nlohmann/json.hpp>
 
 #include "tool/baked_sheets.h"
@@ -14,7 +14,7 @@ class BakeMaps : public BakeCommand {
         EXPECT_EQ(run.exit_code, 0) << run.err;
         return nlohmann::json::parse(run.out, nullptr, false);
     }
-    /// The JSON chunk of a GLB.
+    /// Returns the JSON chunk of a GLB.
     [[nodiscard]] nlohmann::json modelIn(const std::string& name) const {
         const std::string bytes = folder.read(name);
         const std::size_t begin = bytes.find('{'), size = static_cast<unsigned char>(bytes[12]) |
@@ -22,7 +22,7 @@ class BakeMaps : public BakeCommand {
                                                           static_cast<unsigned char>(bytes[14]) << 16;
         return nlohmann::json::parse(bytes.substr(begin, size), nullptr, false);
     }
-    /// A high poly in two materials and two objects, each a sheet over half of the low one.
+    /// Writes a high poly with two materials and two objects, each a sheet over half of the low poly.
     void writeTwoSheets() const {
         folder.write("m.mtl",
                      "newmtl red\nKd 1 0 0\nPr 0.25\nPm 1\nKe 0 0 1\nnewmtl green\nKd 0 1 0\nPr 0.75\nKe 0 0 0\n");
@@ -145,10 +145,10 @@ TEST_F(BakeMaps, TheModelShowsAllOfThem) {
     EXPECT_EQ(material["emissiveFactor"], nlohmann::json({1, 1, 1}));
     EXPECT_EQ(model["images"].size(), 4U) << model["images"];
     EXPECT_EQ(runTool(folder, "check -q game.glb").exit_code, 0);
-    // What it does not show stands beside it all the same.
+    // Maps that the model does not use are written nevertheless.
     EXPECT_TRUE(folder.has("n_height.png"));
     EXPECT_TRUE(folder.has("n_ao.png"));
-    // Again, from the model itself: maps take the place of those before.
+    // Again from the model itself: the new maps replace the previous ones.
     ASSERT_EQ(runTool(folder,
                       "bake game.glb --high two.obj --size 16 -q -o n.png --samples 4 --out-mesh again.glb "
                       "--maps normal,ao,color,orm,emission")

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// tspace bake on models as they come: high polys with maps of their own, copies beside the UV map, halves that share texels.
+// tspace bake on typical models: high polys with their own maps, copies outside the UV map, mirrored halves that share
+// texels.
 #include "tool/baked_sheets.h"
 
 #include <cmath>
@@ -17,7 +18,7 @@ using nlohmann::json;
 
 class BakeModels : public BakeCommand {
   protected:
-    /// A sheet whose u runs along y and v along x, with a material that shows the map.
+    /// Writes a sheet whose u increases along y and v along x, with a material that uses the map.
     void writeMapped(const std::string& name, const std::string& map) const {
         std::string text = "mtllib " + name + ".mtl\n", faces = sheet(4, 0, true);
         std::istringstream lines(faces);
@@ -69,13 +70,13 @@ TEST_F(BakeModels, TheMapOfTheHighPolyIsBakedThroughOnOtherUvs) {
     writeMap("tilt.png", 8, [](double, double) { return DVec3{0.48, 0.36, 0.8}; });
     writeMapped("mapped", "tilt.png");
     const json report = bake("low.obj --high mapped.obj --size 32");
-    // u of the map runs along y, and v, upwards, along x.
+    // u of the map increases along y, and v, upward, along x.
     EXPECT_LT(degreesBetween(middleOf("out.png"), {0.36, 0.48, 0.8}), 0.02);
     ASSERT_EQ(report["highMaps"].size(), 1U);
     EXPECT_EQ(report["highMaps"][0]["image"], "tilt.png");
     EXPECT_EQ(report["highMaps"][0]["triangles"], 32);
     EXPECT_LT(report["files"][0]["error"]["maxDeg"], 0.02) << "the error counts the map";
-    // map-error has the same truth.
+    // map-error uses the same true normals.
     const ToolRun measured = runTool(folder, "map-error out.png low.obj --high mapped.obj --json");
     EXPECT_LT(json::parse(measured.out)["angles"]["maxDeg"], 0.02) << measured.out;
     const json without = bake("low.obj --high mapped.obj --size 32 --ignore-high-maps");
@@ -86,7 +87,7 @@ TEST_F(BakeModels, TheMapOfTheHighPolyIsBakedThroughOnOtherUvs) {
 TEST_F(BakeModels, GreenOfTheHighPolysMapIsSeenOrTold) {
     const auto slopes = [](double green) {
         return [green](double u, double v) {
-            // h = sin(12 u) sin(9 v'), v' upwards.
+            // h = sin(12 u) sin(9 v'), with v' pointing up.
             return DVec3{-0.6 * std::cos(12 * u) * std::sin(9 * (1 - v)),
                          -green * 0.45 * std::sin(12 * u) * std::cos(9 * (1 - v)), 1};
         };
@@ -116,7 +117,7 @@ TEST_F(BakeModels, AGreyMapOfTheHighPolyIsNoNormalMap) {
     EXPECT_LT(degreesBetween(middleOf("out.png"), {0, 0, 1}), 0.02);
 }
 
-/// A sheet, and beside it in space another whose UVs are moved by `by`.
+/// Returns a sheet, and another one next to it in space whose UVs are moved by `by`.
 std::string twoSheets(double by) {
     std::string text = sheet(4, 0, true, "a");
     std::istringstream lines(sheet(4, 0, true, "b", 0, 25));
@@ -132,7 +133,7 @@ std::string twoSheets(double by) {
     return text;
 }
 
-/// Detail over the first sheet, and another detail over the second.
+/// Returns detail over the first sheet, and different detail over the second.
 std::string twoDetails() {
     std::string text = sheet(40, 0.02, false, "a");
     std::istringstream lines(sheet(40, -0.02, false, "b", 0, 41 * 41));
@@ -205,7 +206,7 @@ TEST_F(BakeModels, AMapInObjectSpaceMayHaveZUp) {
     EXPECT_EQ(folder.read("z.png"), folder.read("same.png"));
     const DVec3 y = middleOf("y.png"), z = middleOf("z.png");
     EXPECT_LT(degreesBetween(z, {y.x, -y.z, y.y}), 0.02);
-    // Such a map is recognised, and both ways give one map in tangent space.
+    // Such a map is recognized, and both interpretations give one map in tangent space.
     const ToolRun run = runTool(folder, "map-error z.png low.obj --high high.obj --json");
     const json measured = json::parse(run.out);
     EXPECT_EQ(measured["readings"][0]["frames"], "object");
@@ -244,11 +245,12 @@ TEST_F(BakeModels, InstancesOfAMirroredHalfGetTheRayDistanceOfWhatTheyShow) {
     };
     const double alone = distanceOf("half.glb", "half.glb");
     EXPECT_DOUBLE_EQ(distanceOf(both, "half.glb"), alone);
-    // By the size of the whole, not by the half that the high poly has beyond the low poly's first instance.
+    // Depends on the size of the whole, not on the half by which the high poly extends beyond the low poly's first
+    // instance.
     EXPECT_LT(distanceOf(both, both), 1.5 * alone);
 }
 
-/// COLOR_0 names the UVs, which have too few components.
+/// COLOR_0 refers to the UVs, which have too few components.
 TEST_F(BakeModels, AnAttributeThatCannotBeReadCostsNoTexel) {
     ASSERT_EQ(runTool(folder, "generate --all low.obj -o low.glb").exit_code, 0);
     std::string bytes = folder.read("low.glb");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace bake and map-error: which surface rays meet, and which maps are told apart.
+// tspace bake and map-error: the surfaces that rays hit, and the maps that are distinguished.
 #include "tool/baked_sheets.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace tspace::test {
 namespace {
 
-/// Two sheets, far from each other, with the same UVs: one shows bumps, the other none.
+/// Two distant sheets with the same UVs: one has bumps, the other none.
 void writeTwoSheets(const TempFolder& folder) {
     folder.write("two.obj", "mtllib two.mtl\nusemtl first\n" + sheet(4, 0, true, "a_low") + "usemtl second\n" +
                                 sheet(4, 0, true, "b_low", 3, 25));
@@ -21,7 +21,7 @@ void writeTwoSheets(const TempFolder& folder) {
 
 TEST_F(BakeCommand, SeveralHighPolysBelongToOneLowPolyByName) {
     writeTwoSheets(folder);
-    // Of a: a base and a buckle above it. Of b: a sheet with detail that lies on a.
+    // For a: a base and a buckle above it. For b: a sheet with detail at the position of a.
     const auto high = [&](const std::string& third) {
         return sheet(40, 0, false, "a_high", 0) + sheet(40, 0.02, false, "a_high_buckle", 0.03, 41 * 41) +
                sheet(40, 0.05, false, third, 0.06, 2 * 41 * 41) + sheet(40, 0, false, "b_hp_001", 3, 3 * 41 * 41);
@@ -69,7 +69,7 @@ TEST_F(BakeCommand, AMapOfOneMaterialIsNotCalledThatOfAnotherModel) {
 }
 
 TEST_F(BakeCommand, NoMoreTexelsDisagreeThanSeveralTrianglesShow) {
-    // Some centres lie on diagonals, inside of no triangle.
+    // Some centers are on diagonals, inside no triangle.
     writeTwoSheets(folder);
     const ToolRun run = runTool(folder, "bake one.obj --high detail.obj -o n.png --size 32 --json");
     ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -97,11 +97,11 @@ TEST_F(BakeCommand, TrianglesOfStlAreSmooth) {
     folder.write("high.stl", stl + "endsolid sheet\n");
     if (runTool(folder, "inspect high.stl").exit_code != 0) GTEST_SKIP() << "there is no tspace-import";
     ASSERT_EQ(runTool(folder, "bake low.obj --high high.stl -o n.png --size 64").exit_code, 0);
-    // The normals in the file all point up, and do not count.
+    // The normals in the file all point up, and are ignored.
     EXPECT_LT(meanOf(runTool(folder, "map-error n.png low.obj --high high.obj --json").out, false), 0.5);
 }
 
-/// The OBJ text with each line changed.
+/// Returns the OBJ text with each line changed.
 template <class Change>
 std::string withLines(const std::string& obj, const Change& change) {
     std::istringstream lines(obj);
@@ -144,11 +144,11 @@ TEST_F(BakeCommand, ABakeThatMostlyMissesIsAFindingWithItsCause) {
         EXPECT_NE(finding.find(says), std::string::npos) << finding;
         EXPECT_NE(run.out.find("finding"), std::string::npos) << run.out;
         EXPECT_EQ(run.errorLines(), 1) << run.err;
-        // Nothing was met at all.
+        // No ray hit anything.
         EXPECT_FALSE(std::filesystem::exists(folder.path("n.png")));
         EXPECT_EQ(json["outputFiles"].size(), 0U);
     }
-    // Half of it is there.
+    // Only half of the high poly exists.
     folder.write("part.obj", withLines(high, [](const std::string& line) {
                      std::istringstream words(line);
                      std::string keyword;
@@ -160,7 +160,7 @@ TEST_F(BakeCommand, ABakeThatMostlyMissesIsAFindingWithItsCause) {
     EXPECT_TRUE(std::filesystem::exists(folder.path("n.png")));
 }
 
-/// The sheet of low.obj, and above it a small one that is a shell of its own.
+/// Returns the sheet of low.obj, with a small separate shell above it.
 std::string sheetWithShell() {
     std::istringstream lines(sheet(8, 0.002, false, "shell"));
     std::string shell;
@@ -172,7 +172,7 @@ std::string sheetWithShell() {
             line = "v " + std::to_string(0.3 + 0.4 * x) + " " + std::to_string(0.3 + 0.4 * y) + " " +
                    std::to_string(0.04 + 0.1 * x * x + z);
     }
-    // Its faces follow 41 * 41 vertices of the sheet below.
+    // Its faces follow the 41 * 41 vertices of the sheet below.
     std::istringstream again(shell);
     std::string moved_faces;
     for (std::string line; std::getline(again, line); moved_faces += line + "\n") {
@@ -230,7 +230,7 @@ TEST_F(BakeCommand, AFewTexelsDoNotMakeTwoChannels) {
                   .exit_code,
               0);
     FloatImage map = imageOf(folder, "dx.png");
-    // Blue below the middle, as at undercuts, in one of a hundred.
+    // One texel in a hundred has blue below the middle, as at undercuts.
     for (std::size_t i = 0; i < map.texels.size(); i += 100) map.texels[i].z = 1 - map.texels[i].z;
     const auto png = encodePng(map, 16);
     ASSERT_TRUE(png);
@@ -238,7 +238,7 @@ TEST_F(BakeCommand, AFewTexelsDoNotMakeTwoChannels) {
     const ToolRun run = runTool(folder, "map-error few.png low.obj --high high.obj");
     EXPECT_NE(run.out.find("made for green that points down"), std::string::npos) << run.out;
     EXPECT_EQ(run.out.find("two channels"), std::string::npos) << run.out;
-    // A map without blue is one of two.
+    // A map without blue is a two-channel map.
     for (Vec3& texel : map.texels) texel.z = 0;
     const auto without = encodePng(map, 16);
     folder.write("without.png", std::string(without->begin(), without->end()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sheets of bumps as low and high polys, and what the tests of tspace bake ask of its files.
+// Bumpy sheets as low and high polys, and helpers for tests of tspace bake.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +14,8 @@
 
 namespace tspace::test {
 
-/// A sheet of cells x cells quads over the unit square, lifted by bumps; with UVs or without. `before`: vertices of sheets before it.
+/// Returns a sheet of cells x cells quads over the unit square with bumps; with UVs or without. `before`: number of
+/// vertices of previous sheets.
 inline std::string sheet(int cells, double bump, bool with_uvs, const std::string& name = "sheet", double z = 0,
                          int before = 0) {
     std::string text = "o " + name + "\n";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Many files at once, as a user meets them: several at one time, shares, patterns, and a manifest to go on from.
+// Batches of files: parallel processing, shards, patterns, and resuming from a manifest.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -23,7 +23,7 @@ std::vector<Json> linesOf(const std::string& text) {
     return lines;
 }
 
-/// in/00.obj ... in/NN.obj in several folders.
+/// Writes in/00.obj ... in/NN.obj in several folders.
 void writeModels(const TempFolder& folder, int count) {
     for (int i = 0; i < count; ++i) {
         const std::string place = "in/" + std::string(i % 2 == 0 ? "even" : "odd") + "/";
@@ -31,7 +31,7 @@ void writeModels(const TempFolder& folder, int count) {
     }
 }
 
-/// What a run did to each input, from its JSON.
+/// Returns the action for each input, from the JSON of a run.
 std::map<std::string, std::string> doneBy(const ToolRun& run) {
     std::map<std::string, std::string> done;
     const Json document = Json::parse(run.out);
@@ -237,7 +237,7 @@ TEST(Batch, ResumeRemovesTemporaryFilesOfKilledRuns) {
     leaveTemporaryFile(folder, "out/even/deep/b.glb");
     leaveTemporaryFile(folder, "elsewhere/c.glb");
     EXPECT_EQ(folder.files("out").size(), 2U);
-    // Of this process, which is running, and of the user.
+    // One file of this running process, and one of the user.
     const std::string mine =
         std::filesystem::path(besideName(Path("out/even/d.glb"), kTemporaryEnding).string()).string();
     folder.write(mine, "at work");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace check of images without a model.
+// tspace check on images without a model.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,13 +39,13 @@ std::string pngWithAlpha(const RgbImage& image, const std::vector<float>& alpha)
 
 class CheckImage : public ::testing::Test {
   protected:
-    /// The report of one image.
+    /// Returns the report on one image.
     Json check(const std::string& name, const std::string& options = "") {
         const ToolRun run = runTool(folder_, "check --json " + options + " " + name);
         EXPECT_EQ(run.err, "") << name;
         return Json::parse(run.out)["files"][0];
     }
-    /// "warning greenFlipped" for each finding.
+    /// Returns a text such as "warning greenFlipped" for each finding.
     static std::vector<std::string> codes(const Json& report) {
         std::vector<std::string> found;
         for (const Json& finding : report["findings"])
@@ -125,12 +125,12 @@ TEST_F(CheckImage, SaysWhatTheChannelsHoldAndHowToConvertThem) {
         EXPECT_EQ(remedy.find("generate"), std::string::npos) << remedy;
         const std::size_t at = remedy.find("tspace convert-map ");
         ASSERT_NE(at, std::string::npos) << remedy;
-        // What stands behind a full stop is the other reading.
+        // The text after a full stop is the alternative interpretation.
         const std::string command = remedy.substr(at + 7);
         ASSERT_EQ(runTool(folder_, command.substr(0, command.find(". "))).exit_code, 0) << remedy;
         EXPECT_EQ(codes(check("OUT.png")), Codes{}) << remedy;
     }
-    // DXT5nm, and the same without the alpha that x was in.
+    // DXT5nm, and the same map without the alpha channel that contained x.
     const RgbImage dxt5nm = changed(map_, [](std::uint8_t* t) { t[0] = t[2] = 255; });
     std::vector<float> x;
     for (std::size_t i = 0; i < map_.rgb.size(); i += 3) x.push_back(static_cast<float>(map_.rgb[i]) / 255.0F);
@@ -186,7 +186,7 @@ TEST_F(CheckImage, GoesWithModelsPipesAndPages) {
     folder_.write("broken.png", folder_.read("n.png").substr(0, 60));
     EXPECT_EQ(runTool(folder_, "check broken.png").exit_code, 3);
     EXPECT_EQ(runTool(folder_, "check none.png").exit_code, 4);
-    // A few bytes that claim 4096 x 4096 texels.
+    // A few bytes that declare 4096 x 4096 texels.
     Ktx2Parts parts{.format = 37, .width = 4096, .height = 4096, .levels = {zstdOf(std::string(1 << 26, '\x80'))}};
     parts.unpacked = {std::uint64_t{1} << 26};
     parts.scheme = 2;
@@ -224,14 +224,14 @@ TEST_F(CheckImage, FindsImagesInFoldersWithoutModels) {
                                                   {"wood_color.png", {}}};
         EXPECT_EQ(found, wanted) << input << report;
     }
-    // Named alone, an image is judged in any case.
+    // An explicitly named image is always checked.
     EXPECT_EQ(codes(check("textures/wood_color.png")).size(), 1U);
     EXPECT_NE(runTool(folder_, "check textures").out.find("not a normal map"), std::string::npos);
     folder_.write("empty/readme.txt", "");
     const ToolRun empty = runTool(folder_, "check empty");
     EXPECT_EQ(empty.exit_code, 3);
     EXPECT_NE(empty.err.find("no model files and no images in this folder"), std::string::npos) << empty.err;
-    // Other commands want models, and so does a folder that has one.
+    // Other commands require models, and images are ignored in a folder that contains a model.
     EXPECT_EQ(runTool(folder_, "inspect textures").exit_code, 3);
     writeFoldedObj(folder_, "textures/folded.obj");
     EXPECT_EQ(Json::parse(runTool(folder_, "check --json textures").out)["files"].size(), 1U);

@@ -14,7 +14,7 @@ std::size_t countOf(const std::string& text, const std::string& part) {
     return count;
 }
 
-/// A square with a normal map, and a name that means harm.
+/// Writes a square with a normal map, and a malicious name.
 void writeSquare(const TempFolder& folder, const std::string& name, float sign) {
     SquareModel model;
     for (std::size_t i = 3; i < model.tangents.size(); i += 4) model.tangents[i] = sign;

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A map of gentle waves with 8 and with 16 bits.
+/// Writes a map of gentle waves with 8 and with 16 bits.
 void writeWaves(const TempFolder& folder) {
     constexpr std::uint32_t kSize = 96;
     FloatImage image{kSize, kSize, 16, {}, {}};
@@ -45,7 +45,7 @@ TEST(CompressMapCommand, GainsByTheBitsOfTheInput) {
     const TempFolder folder;
     writeWaves(folder);
     const Json coarse = reportOf(folder, "n8.png -o a.dds"), fine = reportOf(folder, "n16.png -o b.dds");
-    // 0.063; rounding to 8 bits alone is off by more than 0.1 degrees in the mean.
+    // Measured: 0.063; rounding to 8 bits alone has a mean error of more than 0.1 degrees.
     EXPECT_LT(fine["meanErrorDeg"].get<double>(), 0.07);
     EXPECT_EQ(fine["levels"], 7);
     EXPECT_EQ(coarse["bitsBefore"], 8);
@@ -62,7 +62,7 @@ TEST(CompressMapCommand, GainsByTheBitsOfTheInput) {
     EXPECT_LT(from("b.dds"), 0.6 * from("a.dds"));
 }
 
-/// One channel of a texel of a BC5 block, by the format's own formula.
+/// Returns one channel of a texel of a BC5 block, by the formula of the format.
 double bc4(const std::string& file, std::size_t block, std::size_t texel) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned>(static_cast<unsigned char>(file[block + i])); };
     const std::size_t bit = 3 * texel;
@@ -108,7 +108,7 @@ TEST(CompressMapCommand, TheErrorIsThatOfTheFileAsItIsDecodedAndFiltered) {
         sum += std::atan2(length(cross(shaded, packed)), dot(shaded, packed)) * 57.29577951308232;
     }
     const double mean = sum / (kSize * kSize * kPoints * kPoints);
-    // Other points than those of the tool: within 5 % of what it says.
+    // Uses different sample points than the tool: within 5 % of its report.
     EXPECT_NEAR(report["meanErrorDeg"].get<double>(), mean, 0.05 * mean);
 }
 
@@ -168,7 +168,7 @@ TEST(CompressMapCommand, PacksAstcByTheLibraryOrSaysThatItIsNotThere) {
     EXPECT_EQ(report["format"], "ASTC 4x4");
     EXPECT_EQ(report["levels"], 7);
     EXPECT_EQ(folder.read("a.ktx2"), folder.read("b.ktx2"));
-    // What it says is what the file holds, read as any other.
+    // The report matches the file's contents, as read by any other command.
     const Json error = Json::parse(runTool(folder, "map-error --json b.ktx2 --source n16.png").out);
     EXPECT_EQ(error["makesZ"], true);
     EXPECT_NEAR(report["meanErrorDeg"].get<double>(), error["meanErrorDeg"].get<double>(), 1e-6);
@@ -205,7 +205,7 @@ TEST(MapErrorCommand, SaysOfATextureBesideItsSourceWhatCompressMapSaid) {
         EXPECT_NEAR(report["p99ErrorDeg"].get<double>(), made["p99ErrorDeg"].get<double>(), 1e-4);
         EXPECT_EQ(report["makesZ"], true);
     }
-    // Three channels that only were rounded.
+    // Three channels that were only rounded.
     const Json rounded = Json::parse(runTool(folder, "map-error --json n8.png --source n16.png").out);
     EXPECT_EQ(rounded["makesZ"], false);
     EXPECT_LT(rounded["meanErrorDeg"], 0.2);
@@ -235,7 +235,7 @@ TEST(MapErrorCommand, SaysOfATextureWhatItsFigureDoesNot) {
     EXPECT_EQ(beside("n8.png")["warnings"].size(), 0u);
     ASSERT_EQ(beside("r.png")["warnings"].size(), 1u);
     EXPECT_NE(beside("r.png")["warnings"][0].get<std::string>().find("not a normal map"), std::string::npos);
-    // What it does not look at is refused, and errors name a file once.
+    // Options without an effect are rejected, and errors name a file once.
     for (const std::string arguments : {"--heat h.png", "--space object", "--material A", "--convention unreal"}) {
         const ToolRun run = runTool(folder, "map-error n8.png --source n16.png " + arguments);
         EXPECT_EQ(run.exit_code, 2) << arguments;
@@ -247,8 +247,8 @@ TEST(MapErrorCommand, SaysOfATextureWhatItsFigureDoesNot) {
               std::string::npos);
 }
 
-/// A sphere on nothing: alpha is 1 inside and 0 outside, where texels are black, or hold heights in all of alpha. `edge`: texels of
-/// half alpha around it, whose colors are multiplied by alpha.
+/// Returns a sphere without background: alpha is 1 inside and 0 outside, where texels are black; or alpha contains
+/// heights everywhere. `edge`: texels with alpha 0.5 around it, whose colors are multiplied by alpha.
 FloatImage sphereSprite(bool alpha_is_height, bool has_edge) {
     constexpr std::uint32_t kSize = 64;
     FloatImage image{kSize, kSize, 16, {}, {}};
@@ -266,7 +266,7 @@ FloatImage sphereSprite(bool alpha_is_height, bool has_edge) {
     return image;
 }
 
-/// Largest angle on a level between its texels and those of the sphere that is covered there, where any is.
+/// Returns the largest angle on a level between its texels and those of the covered part of the sphere.
 double mostOff(const TempFolder& folder, unsigned level) {
     std::string why;
     const auto image = decodeFloatImage(bytesOf(folder.read("out/s." + std::to_string(level) + ".png")), 1 << 20, why);
@@ -311,7 +311,7 @@ TEST(CompressMapCommand, AlphaIsCoverageWhereTheTexelsSaySo) {
     reportOf(folder, "s.png -o d.dds");
     EXPECT_EQ(folder.read("c.dds").size(), folder.read("d.dds").size());
     EXPECT_LT(Json::parse(runTool(folder, "map-error c.dds --source d.dds --json").out)["meanErrorDeg"], 0.6);
-    // Heights in alpha: nothing of them shows.
+    // Heights in alpha: they must not affect the result.
     write(sphereSprite(true, false));
     const Json heights = reportOf(folder, "s.png -o e.dds");
     EXPECT_NE(heights["warnings"].dump().find("set the option alpha to coverage"), std::string::npos) << heights;
@@ -368,7 +368,7 @@ TEST(CompressMapCommand, PacksLevelsOnceMore) {
     EXPECT_EQ(from_plain->texels, from_packed->texels);
 }
 
-/// Rows that lean up and down in turns, and an even roughness.
+/// Writes rows that lean up and down alternately, and a uniform roughness.
 void writeCorrugated(const TempFolder& folder, std::uint32_t size, std::uint32_t roughness_size) {
     FloatImage map{size, size, 16, {}, {}}, orm{roughness_size, roughness_size, 8, {}, {}};
     for (std::uint32_t i = 0; i < size * size; ++i)
@@ -423,11 +423,11 @@ TEST(CompressMapCommand, SaysWhatTwoChannelsDoNotHold) {
     const Json report = reportOf(folder, "n.png -o n.dds");
     EXPECT_EQ(report["belowHorizon"], 64);
     EXPECT_EQ(report["warnings"].size(), 2u) << report["warnings"];
-    // The error is that against the map as it is, as map-error says, and not against what was laid on the horizon.
+    // The error is relative to the original map, as in map-error, and not to the texels clamped to the horizon.
     EXPECT_NEAR(report["meanErrorDeg"].get<double>(), std::atan2(0.4, 0.9) * 57.29577951308232, 0.5);
     const Json beside = Json::parse(runTool(folder, "map-error --json n.dds --source n.png").out);
     EXPECT_NEAR(beside["meanErrorDeg"].get<double>(), report["meanErrorDeg"].get<double>(), 1e-6);
-    // PNGs have three channels, and say all.
+    // PNGs have three channels, and represent everything.
     const Json of_pngs = reportOf(folder, "n.png -o levels/");
     EXPECT_EQ(of_pngs["belowHorizon"], 64);
     EXPECT_EQ(of_pngs["warnings"].size(), 1u) << of_pngs["warnings"];
@@ -443,7 +443,7 @@ TEST(CompressMapCommand, SaysWhatTwoChannelsDoNotHold) {
     }
 }
 
-/// Texels that lean to all sides, as long as `sizes` says in turns.
+/// Writes texels that lean in all directions, with lengths alternating between `sizes`.
 std::string vectorsOfSizes(std::array<double, 2> sizes) {
     FloatImage image{64, 64, 8, {}, {}};
     for (std::uint32_t i = 0; i < 64 * 64; ++i) {

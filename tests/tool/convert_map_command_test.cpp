@@ -17,7 +17,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// bump.png, and a bent sheet with uneven UVs that shows it: a.glb with tangents, b.glb with those of another method.
+/// Writes bump.png, and a bent sheet with uneven UVs that uses it: a.glb with tangents, b.glb with those of another
+/// method.
 void writeSheet(const TempFolder& folder) {
     folder.write("sheet.mtl", "newmtl skin\nmap_Bump bump.png\n");
     folder.write("a.obj",
@@ -34,7 +35,7 @@ void writeSheet(const TempFolder& folder) {
     }
 }
 
-// Models of other formats are read here as everywhere.
+// Models of other formats are read here too.
 TEST(ConvertMapCommand, FindsTheImporter) {
     const TempFolder folder;
     writeSheet(folder);
@@ -135,7 +136,7 @@ TEST(ConvertMapCommand, ChoosesTheTrianglesOfAMaterial) {
 TEST(ConvertMapCommand, TakesTheTrianglesOfATile) {
     const TempFolder folder;
     writeSheet(folder);
-    // The right half again, alone and in the tile above the next.
+    // The right half again, by itself and in the tile above the next one.
     const std::string points =
         "v 1 0 0\nv 2 0 -1\nv 1 1 0\nv 2 1 -1\nvn 0.3 0 0.95\nvn 0.7 0 0.7\nvn 0.4 0.1 0.9\nvn 0.7 0.2 0.7\n";
     const std::string uvs = "vt 0.4 0\nvt 1 0\nvt 0.6 1\nvt 1 1\n", moved = "vt 1.4 1\nvt 2 1\nvt 1.6 2\nvt 2 2\n";
@@ -161,7 +162,7 @@ TEST(ConvertMapCommand, TakesTheTrianglesOfATile) {
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "5.png"));
 }
 
-/// The model as glTF, its nodes and material as `edit` leaves them.
+/// Writes the model as glTF, with nodes and material changed by `edit`.
 template <class Edit>
 void writeEdited(const TempFolder& folder, const std::string& model, const std::string& name, const Edit& edit) {
     ASSERT_EQ(runTool(folder, "generate -q " + model + " -o " + name).exit_code, 0);
@@ -176,14 +177,14 @@ DVec3 directionIn(const Vec3& texel) {
     return direction;
 }
 
-constexpr double kRounding = 6e-5;  // of 16 bits, twice
+constexpr double kRounding = 6e-5;  // twice the rounding of 16 bits
 
 TEST(ConvertMapCommand, TurnsWorldSpaceWithTheNodesOfTheMesh) {
     const TempFolder folder;
     writeSheet(folder);
     struct Case {
         Json node;
-        std::array<DVec3, 3> rows;  // world from object, for normals
+        std::array<DVec3, 3> rows;  // from object to world space, for normals
     };
     const double c = std::sqrt(0.5);
     const Case cases[] = {
@@ -260,7 +261,7 @@ TEST(ConvertMapCommand, HonoursTheScaleOfEitherMaterial) {
         for (std::size_t i = 0; i < before.texels.size(); ++i)
             EXPECT_LT(length(directionIn(before.texels[i]) - directionIn(after.texels[i])), most) << bits;
     }
-    // The same file on both sides: nothing to do, whatever the scale.
+    // The same file on both sides: no change, for any scale.
     ASSERT_EQ(runTool(folder, "convert-map -q bump.png --mesh a.gltf -o same.png").exit_code, 0);
     EXPECT_TRUE(imageIn(folder, "same.png").texels == imageIn(folder, "bump.png").texels);
     EXPECT_EQ(runTool(folder, "convert-map bump.png --mesh a.gltf --to-mesh none.gltf -o b.png").exit_code, 3);

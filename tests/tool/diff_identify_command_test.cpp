@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace diff and tspace identify as a user meets them.
+// tspace diff and tspace identify from a user's point of view.
 #include <gtest/gtest.h>
 
 #include "tool/run_tool.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Models with one attribute of a wrong type or number of elements, beside a primitive that has no fault.
+// Models with one attribute of a wrong type or number of elements, and a second primitive without a fault.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@ namespace tspace::test {
 struct FaultyModel {
     const char* name;       ///< of the test
     const char* attribute;  ///< the faulty attribute
-    int target;             ///< its morph target; -1: the primitive's own
+    int target;             ///< index of the morph target; -1: the primitive itself
     int component_count;
     int element_count;      ///< the primitive has kFaultyVertices vertices
     bool is_repairable;     ///< by a command
-    const char* also = "";  ///< another attribute that gets the same type and number of elements
+    const char* also = "";  ///< another attribute with the same type and number of elements
 };
 
 inline constexpr int kFaultyVertices = 4;
@@ -51,7 +51,7 @@ inline const std::vector<FaultyModel>& faultyModels() {
 /// Writes faulty.gltf and returns its path. Mesh 0 has no fault; mesh 1 has a skin, two morph targets and the fault.
 inline std::string writeFaulty(const TempFolder& folder, const FaultyModel& model) {
     using Json = nlohmann::json;
-    std::vector<float> bytes;  // all numbers are floats, but for joints and indices, which are zero or counted below
+    std::vector<float> bytes;  // all numbers are floats, except joints and indices, which are zero or consecutive
     Json gltf = {{"asset", {{"version", "2.0"}}}};
     const auto add = [&](const std::vector<float>& values, int components, int count, int type = 5126) {
         gltf["bufferViews"].push_back(
@@ -63,7 +63,8 @@ inline std::string writeFaulty(const TempFolder& folder, const FaultyModel& mode
                                      {"type", components == 1 ? "SCALAR" : "VEC" + std::to_string(components)}});
         return gltf["accessors"].size() - 1;
     };
-    /// Values of vertex v: `values(v)`, of another number of vertices and components where the fault is here.
+    /// Adds an attribute with values(v) for each vertex v; with a different number of vertices and components if it is
+    /// the faulty one.
     const auto attribute = [&](const std::string& name, int target, int components, const auto& values) {
         const bool is_here = model.target == target && (name == model.attribute || name == model.also);
         const int count = is_here ? model.element_count : kFaultyVertices;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace finish: what is right stays, what is wrong is mended, and a low poly gets all maps.
+// tspace finish: correct data is preserved, faults are repaired, and a low poly gets all maps.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -13,13 +13,13 @@ using Json = nlohmann::json;
 
 class Finish : public testing::Test {
   protected:
-    /// The report of a run that ends with `exit_code`.
+    /// Returns the report of a run that must end with `exit_code`.
     [[nodiscard]] Json report(const std::string& arguments, int exit_code = 0) const {
         const ToolRun run = runTool(folder, "finish --json " + arguments);
         EXPECT_EQ(run.exit_code, exit_code) << arguments << run.err;
         return Json::parse(run.out, nullptr, false);
     }
-    /// How often check finds something in a file.
+    /// Returns the number of findings of each kind in a file.
     [[nodiscard]] std::map<std::string, int> found(const std::string& name) const {
         const ToolRun run = runTool(folder, "check --json " + name);
         const Json json = Json::parse(run.out, nullptr, false);
@@ -36,7 +36,7 @@ class Finish : public testing::Test {
     const TempFolder folder;
 };
 
-/// Two triangles a cell over a unit square. Every eleventh triangle is turned; `fits`: its normals are turned with it.
+/// Returns two triangles per cell over a unit square. Every eleventh triangle is flipped; `fits`: so are its normals.
 std::string turnedSheet(int cells, bool with_normals, bool fits) {
     std::string text = "o sheet\n", faces;
     for (int y = 0; y <= cells; ++y) {

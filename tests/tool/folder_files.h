@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files that several tests of the tool lay into a folder, and images that they read from it.
+// Files that several tests of the tool write to a folder, and images that they read from it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 
 namespace tspace::test {
 
-/// The image of a file, which must be one.
+/// Decodes a file that must be an image.
 inline FloatImage imageIn(const TempFolder& folder, const std::string& name) {
     std::string why;
     const std::string file = folder.read(name);
@@ -26,15 +26,15 @@ inline FloatImage imageIn(const TempFolder& folder, const std::string& name) {
     return image.value_or(FloatImage{});
 }
 
-/// `name` with one error, signsInverted, since tangents of another convention are inverted signs to glTF; folded.obj with two
-/// notes, normalsMissing and tangentsMissing.
+/// Writes `name` with one error, signsInverted, because tangents of another convention have inverted signs for glTF;
+/// and folded.obj with two notes, normalsMissing and tangentsMissing.
 inline void writeInverted(const TempFolder& folder, const std::string& name) {
     writeFoldedObj(folder, "folded.obj");
     writeBumpMap(folder);
     ASSERT_EQ(runTool(folder, "generate folded.obj -q --convention opengl -o '" + name + "'").exit_code, 0);
 }
 
-/// Writes the file that a run on `target` would have left when it was killed.
+/// Writes the file that a run on `target` would have left if it was killed.
 inline void leaveTemporaryFile(const TempFolder& folder, const std::string& target) {
     const pid_t child = fork();
     if (child == 0) {

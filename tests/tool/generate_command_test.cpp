@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace generate as a user meets it.
+// tspace generate from a user's point of view.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -343,7 +343,7 @@ TEST(Generate, ThreadsChangeNoByte) {
     }
 }
 
-/// A tube of 40 x 120 squares whose points lie beside it by up to a fifth of an edge.
+/// Writes a tube of 40 x 120 squares whose points deviate by up to a fifth of an edge.
 void writeNoisyTube(const TempFolder& folder, const std::string& name, bool is_noisy) {
     constexpr int kSides = 40, kRows = 120;
     std::string text;

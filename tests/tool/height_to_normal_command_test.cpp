@@ -36,7 +36,7 @@ void writeHeights(const TempFolder& folder, unsigned bits) {
     folder.write("height.png", std::string(file->begin(), file->end()));
 }
 
-/// A square of two units, whose material has the height map.
+/// Writes a square of two units, whose material has the height map.
 void writeWall(const TempFolder& folder) {
     folder.write("wall.mtl", "newmtl a\nmap_bump -bm 0.1 height.png\n");
     folder.write("wall.obj",
@@ -44,7 +44,7 @@ void writeWall(const TempFolder& folder) {
                  "vn 0 0 1\nusemtl a\nf 1/1/1 2/2/1 3/3/1 4/4/1\n");
 }
 
-/// Mean degrees to the normals of the hill, white being as high as that in widths of the image.
+/// Returns the mean angle to the normals of the hill; `height`: height of white, in widths of the image.
 double errorOf(const std::string& file, double height) {
     std::string why;
     const auto image = decodeFloatImage(bytesOf(file), 1 << 22, why);
@@ -109,7 +109,7 @@ TEST(HeightToNormalCommand, SaysWhatIsOdd) {
     EXPECT_EQ(runTool(folder, "height-to-normal none.png -o n.png").exit_code, 4);
 }
 
-/// Heights of 1/8 m a texel to the right and 2 m a texel downwards, in bytes.
+/// Returns heights with 1/8 m per texel to the right and 2 m per texel downward, encoded in bytes.
 std::string terrainPng(bool is_terrarium) {
     RgbImage image{32, 16, {}};
     for (std::uint32_t i = 0; i < image.width * image.height; ++i) {
@@ -150,7 +150,7 @@ TEST(HeightToNormalCommand, ReadsTerrainInMeters) {
     EXPECT_EQ(runTool(folder, "height-to-normal height.png -o n.png --texel-size 0").exit_code, 2);
 }
 
-/// The image in the GLB that generate made.
+/// Returns the image in the GLB that generate wrote.
 std::string normalMapIn(const TempFolder& folder, const std::string& name) {
     const std::string glb = folder.read(name);
     const std::size_t json_size = static_cast<unsigned char>(glb[12]) + 256U * static_cast<unsigned char>(glb[13]);
@@ -174,13 +174,13 @@ TEST(HeightToNormalCommand, GenerateConvertsMapBumpOfObj) {
     EXPECT_NE(map["reason"].get<std::string>().find("it held heights"), std::string::npos);
     EXPECT_LT(errorOf(normalMapIn(folder, "wall.glb"), 0.05), 0.6);
     EXPECT_EQ(runTool(folder, "check wall.glb --fail-on note").exit_code, 0);
-    // A normal map that map_bump names stays.
+    // A normal map used as map_bump is preserved.
     folder.write("height.png", pngFile(normalMapOf(16, bumps)));
     ASSERT_EQ(runTool(folder, "generate -q wall.obj -o own.glb").exit_code, 0);
     EXPECT_NE(folder.read("own.glb").find(R"("uri":"height.png")"), std::string::npos);
 }
 
-/// Heights with a tint are heights, and a picture in colors is neither.
+/// Heights with a tint are still heights, and a colored picture is neither heights nor a normal map.
 TEST(HeightToNormalCommand, TakesMapBumpForHeightsOnlyWhereItIsGrey) {
     const TempFolder folder;
     writeWall(folder);
@@ -202,7 +202,7 @@ TEST(HeightToNormalCommand, TakesMapBumpForHeightsOnlyWhereItIsGrey) {
     EXPECT_NE(picture.out.find("it is a color image"), std::string::npos) << picture.out;
 }
 
-/// The picture of the OBJ is that of the GLB that generate makes of it.
+/// The picture of the OBJ equals that of the GLB that generate converts it to.
 TEST(HeightToNormalCommand, RenderShowsHeightsAsGenerateConvertsThem) {
     const TempFolder folder;
     writeHeights(folder, 8);

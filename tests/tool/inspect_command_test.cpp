@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace inspect as a user meets it.
+// tspace inspect from a user's point of view.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

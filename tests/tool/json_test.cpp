@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The JSON output is what docs/schema says. All other tests of the tool look at that too; here stand the documents that no other
-// test makes.
+// The JSON output conforms to docs/schema. All other tests of the tool check this too; this file tests the documents
+// that no other test covers.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// The document of a run. That it is as its schema says, runTool looks at.
+/// Returns the document of a run; runTool validates it against its schema.
 Json documentOf(const TempFolder& folder, const std::string& arguments, int exit_code) {
     const ToolRun run = runTool(folder, arguments + " --json");
     EXPECT_EQ(run.exit_code, exit_code) << run.err;
@@ -23,7 +23,7 @@ Json documentOf(const TempFolder& folder, const std::string& arguments, int exit
     return document;
 }
 
-/// A run over a good and a bad file.
+/// Runs the command on a valid and an invalid file.
 void expectBoth(const std::string& arguments) {
     const TempFolder folder;
     writeFoldedObj(folder, "in/a.obj");
@@ -91,7 +91,7 @@ TEST(JsonOutput, OfDiffIsThereForEqualAndDifferentAndMissingFiles) {
     documentOf(folder, "diff a.glb none.glb", 4);
 }
 
-/// A report that the schema allows, to be spoilt.
+/// Returns a valid report, to be made invalid.
 Json soundReport() {
     const TempFolder folder;
     writeFoldedObj(folder, "in/a.obj");

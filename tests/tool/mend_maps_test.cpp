@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each command that check names for a map is run, and then there is no finding left, and the right normals are there.
+// Runs each command that check names for a map; afterwards there is no finding left, and the normals are correct.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,7 +45,7 @@ double meanError(const FloatImage& a, const FloatImage& b) {
     return sum / static_cast<double>(a.texels.size());
 }
 
-/// A square that shows NAME.png, as NAME.gltf.
+/// Writes a square that uses NAME.png, as NAME.gltf.
 void writeSquare(const TempFolder& folder, const std::string& name) {
     folder.write(name + ".mtl", "newmtl a\nnorm " + name + ".png\n");
     folder.write(name + ".obj", "mtllib " + name +
@@ -61,8 +61,8 @@ Json findingsIn(const TempFolder& folder, const std::string& file) {
 
 struct Kind {
     const char* code;
-    const char* options;  ///< that the remedy names
-    const char* others;   ///< options for the relief turned inside out, where that looks the same; null: none
+    const char* options;  ///< options that the remedy names
+    const char* others;   ///< options for inverted relief, if it looks the same; null: none
     Vec3 (*store)(const Vec3& texel);
     float (*alpha)(const Vec3& texel) = nullptr;
 };
@@ -179,7 +179,7 @@ TEST(MendMaps, TexturesBecomePngsThatTheModelNamesPlainly) {
     }
 }
 
-/// Round bumps curve along x and along y apart, so that only one of the two can be x.
+/// Round bumps curve separately along x and along y, so that only one of the two channels can be x.
 double bumpsApart(double x, double y) {
     double h = 0;
     for (int i = 0; i < 36; ++i) {
@@ -377,7 +377,7 @@ TEST(MendMaps, WithoutImagesRepairKeepsInvertedSignsAndOverwriteReadsNone) {
     EXPECT_EQ(actionOf("--repair"), "replaced");
     EXPECT_EQ(actionOf("--repair --no-images"), "kept");
     EXPECT_EQ(runTool(folder, "generate inverted.glb -o out.glb --no-images --fix-maps").exit_code, 2);
-    // Overwriting does not open the map: it warns without it.
+    // Overwriting does not examine the map, and therefore warns.
     const ToolRun done = runTool(folder, "generate --json inverted.glb -o out.glb --overwrite");
     EXPECT_NE(done.out.find("Their normal maps were not examined"), std::string::npos) << done.out;
     EXPECT_NE(runTool(folder, "generate inverted.glb -o out.glb --overwrite --no-images")

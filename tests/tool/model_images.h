@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The images of a glTF file, read and replaced without the library.
+// Reads and replaces the images of a glTF file without the library.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace tspace::test {
 
-/// Of a .glb, .vrm or .gltf file whose images lie in its binary chunk, in files beside it or in data URIs.
+/// Supports .glb, .vrm and .gltf files whose images are in the binary chunk, in separate files or in data URIs.
 class ModelImages {
   public:
     explicit ModelImages(const std::filesystem::path& path) : folder_(path.parent_path()) {
@@ -28,7 +28,7 @@ class ModelImages {
         is_binary_ = true;
     }
 
-    /// The image of the texture reference at a JSON pointer.
+    /// Returns the image of the texture reference at a JSON pointer.
     [[nodiscard]] std::size_t imageAt(const std::string& pointer) const {
         const nlohmann::json& reference = json_.at(nlohmann::json::json_pointer(pointer));
         const nlohmann::json& texture = json_["textures"][reference["index"].get<std::size_t>()];
@@ -49,7 +49,7 @@ class ModelImages {
         return bytes.substr(view.value("byteOffset", std::size_t{0}), view["byteLength"]);
     }
 
-    /// Every texture that shows the image shows the PNG.
+    /// Makes every texture that uses the image use the PNG.
     void replace(std::size_t image, const std::string& png) {
         json_["images"][image] = {{"uri", "data:image/png;base64," + base64Of(png)}};
         for (nlohmann::json& texture : json_["textures"]) {
@@ -76,7 +76,7 @@ class ModelImages {
         return bytes + "JSON" + text + rest_;
     }
 
-    /// Copies the files that the model names.
+    /// Copies the files that the model references.
     void copyFiles(const std::filesystem::path& to) const {
         for (const char* list : {"buffers", "images"}) {
             if (!json_.contains(list)) continue;
@@ -131,7 +131,7 @@ class ModelImages {
 
     std::filesystem::path folder_;
     nlohmann::json json_ = {};
-    std::string rest_ = {};  ///< the chunks of a GLB behind its JSON
+    std::string rest_ = {};  ///< the chunks of a GLB after its JSON
     bool is_binary_ = false;
 };
 

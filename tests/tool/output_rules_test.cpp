@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What outputs of a run are to each other and to what the models name; names that are too long or no UTF-8; reports that
-// cannot be written; dry runs.
+// Conflicts of outputs with each other and with files that models reference; names that are too long or not UTF-8;
+// reports that cannot be written; dry runs.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -26,7 +26,7 @@ std::map<std::string, std::string> treeOf(const TempFolder& folder) {
     return contents;
 }
 
-/// A triangle whose buffer, and normal map where there is one, are files.
+/// Returns a triangle whose buffer and optional normal map are files.
 std::string triangle(const std::string& buffer, const std::string& image = "") {
     const std::string material =
         image.empty() ? ""
@@ -41,7 +41,7 @@ std::string triangle(const std::string& buffer, const std::string& image = "") {
            R"(}]}],"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0})";
 }
 
-/// 0 0 0, x 0 0, 0 x 0 and UVs, with x = 2.5 for '\x40'.
+/// Returns 0 0 0, x 0 0, 0 x 0 and UVs, with x = 2.5 for '\x40'.
 std::string triangleBytes(char byte = '\x40') {
     std::string buffer(60, '\0');
     buffer[15] = buffer[31] = byte;
@@ -135,7 +135,7 @@ TEST(LongNames, OnTheCommandLineCannotBeReadOrWritten) {
 TEST(NamesThatAreNoUtf8, AreKnownToTheManifest) {
     const TempFolder folder;
     const std::string data = triangleBytes();
-    // Two names that look alike once their bytes are replaced, and one that is written as the first is encoded.
+    // Two names that are equal once invalid bytes are replaced, and one that equals the encoding of the first.
     for (const char* name : {"b\xff", "b\xfe", "b%FF"}) {
         folder.write(std::string("in/") + name + ".bin", data);
         std::string uri = name;
@@ -153,10 +153,10 @@ TEST(NamesThatAreNoUtf8, AreKnownToTheManifest) {
     ToolRun again = runTool(folder, "generate in --all -o out/ --manifest m.jsonl --resume");
     EXPECT_EQ(again.exit_code, 0) << again.err;
     EXPECT_EQ(folder.read("m.jsonl"), first) << again.out;
-    // The one that changes is done again, and no other.
+    // Only the changed file is processed again.
     folder.write("in/b\xfe.bin", triangleBytes('\x41'));
     again = runTool(folder, "generate in -q --all -o out/ --manifest m.jsonl --resume");
-    EXPECT_EQ(again.exit_code, 4) << again.err;  // out/ has the old one
+    EXPECT_EQ(again.exit_code, 4) << again.err;  // out/ contains the old file
     fs::remove_all(folder.path("out"));
     ASSERT_EQ(runTool(folder, "generate in -q --all -o out/ --manifest m.jsonl --resume").exit_code, 0);
     const std::string second = folder.read("m.jsonl");
@@ -193,7 +193,7 @@ TEST(Reports, ThatCannotBeWrittenCostNothingElse) {
     folder.write("a.gltf", triangle("a.bin"));
     folder.write("file", "");
     ASSERT_EQ(runTool(folder, "generate a.gltf -q --all -o a.glb").exit_code, 0);
-    // A folder that cannot be made stands for all that can go wrong.
+    // A folder that cannot be created represents all possible errors.
     const std::string bake = "bake a.glb --high a.glb -q --size 4 ";
     struct Case {
         std::string command;
@@ -232,7 +232,7 @@ TEST(Reports, ThatCannotBeWrittenCostNothingElse) {
 }
 
 TEST(OneRun, BringsNoTwoFilesOfOneName) {
-    // a copies shared.bin, c.glb is taken apart into shared.gltf with a shared.bin of its own.
+    // a copies shared.bin; c.glb is split into shared.gltf and its own shared.bin.
     for (const char* order : {"p/a.gltf q/shared.glb", "q/shared.glb p/a.gltf"}) {
         const TempFolder folder;
         folder.write("p/shared.bin", triangleBytes());
@@ -242,7 +242,7 @@ TEST(OneRun, BringsNoTwoFilesOfOneName) {
         ASSERT_EQ(runTool(folder, "generate q/c.gltf --all -q -o q/shared.glb").exit_code, 0);
         for (const bool is_there : {false, true}) {
             fs::remove_all(folder.path("o"));
-            if (is_there) folder.write("o/shared.bin", triangleBytes());  // as p has it
+            if (is_there) folder.write("o/shared.bin", triangleBytes());  // same content as in p
             const ToolRun run = runTool(folder, std::string("generate -q -o o/ --container gltf --jobs 1 ") + order);
             EXPECT_EQ(run.exit_code, 4) << order << is_there << run.err;
             EXPECT_EQ(run.errorLines(), 1) << run.err;
@@ -262,7 +262,7 @@ TEST(OneRun, ChangesInPlaceWhatNoOtherModelNeeds) {
         const TempFolder folder;
         folder.write("x.bin", triangleBytes());
         folder.write("x.gltf", triangle("x.bin"));
-        // Both name a.tspace.bin, which is the buffer that a new a.gltf gets.
+        // Both refer to a.tspace.bin, which is the buffer name of a new a.gltf.
         ASSERT_EQ(runTool(folder, "generate x.gltf -q --all -o a.gltf").exit_code, 0);
         ASSERT_TRUE(folder.has("a.tspace.bin"));
         folder.write("b.gltf", folder.read("a.gltf"));
@@ -273,7 +273,7 @@ TEST(OneRun, ChangesInPlaceWhatNoOtherModelNeeds) {
         if (treeOf(folder).at("a.tspace.bin") != before.at("a.tspace.bin")) {
             EXPECT_EQ(run.exit_code, 4) << order << run.err;
         }
-        // Both fit their buffer: the reader finds what the JSON says.
+        // Both match their buffer: the reader finds the data that the JSON declares.
         for (const char* model : {"a.gltf", "b.gltf"}) {
             const ToolRun check = runTool(folder, std::string("check -q ") + model);
             EXPECT_LE(check.exit_code, 1) << order << model << check.err;
@@ -317,7 +317,7 @@ TEST(FilesThatAModelNames, AreInputsAlsoWhereTheyAreNotRead) {
         EXPECT_NE(run.err.find("it is an input"), std::string::npos) << command << run.err;
         EXPECT_TRUE(treeOf(folder) == before) << command;
     }
-    // What is not there yet can be made: a model may name the map that is to be baked for it.
+    // A missing file can be created: a model may refer to the map that is to be baked for it.
     folder.write("c.gltf", triangle("a.bin", "new.png"));
     EXPECT_EQ(runTool(folder, "bake c.gltf --high b.glb -q --size 4 -o new.png").exit_code, 0);
 }
@@ -341,13 +341,13 @@ TEST(FilesThatAModelNames, AreBakedAnewWhereTheyAreNotRead) {
     // Again over the map that was baked.
     EXPECT_EQ(runTool(folder, "bake a.gltf --high b.glb -q --ignore-high-maps --size 4 -o named.png").exit_code, 0);
     EXPECT_EQ(folder.read("named.png"), folder.read("fresh.png"));
-    // All other outputs stay away from it, also beside a map that may take its place.
+    // No other output may replace it, not even together with a map that may.
     for (const char* command : {"bake a.gltf --high b.glb -o n.png --report named.png",
                                 "bake a.gltf --high b.glb -o n.png --heat named.png --misses named.png",
                                 "bake a.gltf --high b.glb -o named.png --heat link.png",
                                 "bake a.gltf --high b.glb -o named.png --misses named.png",
                                 "bake a.gltf --high b.glb -o named.png --report named.png",
-                                // The model that is written takes its images over.
+                                // The written model copies its images.
                                 "bake a.gltf --high b.glb -o named.png --out-mesh new/new.gltf"}) {
         folder.write("named.png", folder.read("bump.png"));
         const ToolRun run = runTool(folder, command + std::string(" -q --size 4"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Outputs that are pointed at something that is there: inputs, links, pipes, devices; and programs without descriptors.
+// Outputs whose path already exists: inputs, links, pipes, devices; and programs without standard descriptors.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// plain.glb, made.glb, and separate.gltf with separate.bin and bump.png beside it.
+/// Writes plain.glb, made.glb, and separate.gltf with separate.bin and bump.png.
 void writeModels(const TempFolder& folder) {
     writeFoldedObj(folder, "folded.obj");
     writeBumpMap(folder);
@@ -105,7 +105,7 @@ TEST(Outputs, AReportIsNoFileThatBakingRead) {
 
 TEST(Outputs, OfModelsAtOneTimeKeepTheirOwnBuffers) {
     const TempFolder folder;
-    // Two triangles that differ in their buffers alone, which have one name.
+    // Two triangles that differ only in their buffers, which have the same name.
     for (const auto& [name, byte] : {std::pair("p/a.gltf", '\x3f'), std::pair("q/b.gltf", '\x40')}) {
         std::string buffer(36, '\0');
         buffer[15] = buffer[31] = byte;
@@ -153,7 +153,7 @@ TEST(Outputs, WhoseNamesAreMadeReplaceNoReportAndNoManifest) {
     struct Case {
         const char* command;
         const char* kept;
-        const char* other;  ///< what is not written then
+        const char* other;  ///< output that must then not be written
     };
     for (const Case& one : {Case{"generate plain.glb -o m.gltf --manifest m.bin", "m.bin", "m.gltf"},
                             Case{"generate folded.obj -o m.gltf --manifest m.bin", "m.bin", "m.gltf"}}) {
@@ -251,7 +251,7 @@ TEST(Outputs, GoIntoPipesAndDevicesAndLeaveThemThere) {
         EXPECT_EQ(folder.read("got").substr(0, std::string(one.begin).size()), one.begin) << one.command;
     }
     EXPECT_EQ(runTool(folder, "generate plain.glb -o pipe --container gltf").exit_code, 2);
-    // Links in /proc, whose text is no path.
+    // Links in /proc, whose text is not a path.
     for (const char* option : {"check plain.glb --html", "check plain.glb --sarif",
                                "bake plain.glb --high made.glb --size 16 -o n.png --report"}) {
         const ToolRun substituted =
@@ -265,7 +265,7 @@ TEST(Outputs, GoIntoPipesAndDevicesAndLeaveThemThere) {
         EXPECT_TRUE(folder.read("got").starts_with("<!doctype html>") || folder.read("got").starts_with("{")) << option;
         fs::remove(folder.path("got"));
     }
-    // As /dev/null, which nobody wants to lose.
+    // Like /dev/null, which must never be replaced.
     if (mknod(folder.path("null").c_str(), S_IFCHR | 0600, makedev(1, 3)) != 0) GTEST_SKIP() << "no device can be made";
     fs::create_symlink("null", folder.path("null.png"));
     for (const char* command : {"check plain.glb --html null --sarif null", "render plain.glb -o null.png",
@@ -317,7 +317,7 @@ TEST(Outputs, AreTheSameWithoutWaitingForTheDisk) {
 TEST(Names, ThatTurnTextAroundAreShownEscaped) {
     const TempFolder folder;
     writeModels(folder);
-    // A right-to-left override, a line separator, an isolate; a word in Persian keeps its joiner.
+    // A right-to-left override, a line separator, an isolate; a Persian word keeps its joiner.
     for (const std::string name : {"a\xe2\x80\xae"
                                    "blg.glb",
                                    "a\xe2\x80\xa8"

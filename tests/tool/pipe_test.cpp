@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Models through pipes, runs that write nothing, and outputs that would be a surprise.
+// Models in pipes, runs that write nothing, and unexpected outputs.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -9,7 +9,7 @@
 namespace tspace::test {
 namespace {
 
-/// folded.obj, and plain.glb made of it without tangents.
+/// Writes folded.obj, and plain.glb converted from it without tangents.
 void writePlain(const TempFolder& folder) {
     writeFoldedObj(folder, "folded.obj");
     writeBumpMap(folder);
@@ -39,12 +39,12 @@ TEST(Pipe, GivesTheBytesThatAFileGets) {
 TEST(Pipe, IsReadByTheCommandsThatOnlyRead) {
     const TempFolder folder;
     writePlain(folder);
-    std::filesystem::remove(folder.path() / "bump.png");  // which nobody can find beside a pipe
+    std::filesystem::remove(folder.path() / "bump.png");  // not available for a model in a pipe
     for (const std::string command : {"inspect", "check", "identify"}) {
         const ToolRun named = runTool(folder, command + " plain.glb");
         const ToolRun piped = runTool(folder, command + " -", "cat plain.glb |");
         EXPECT_EQ(piped.exit_code, named.exit_code) << piped.err;
-        if (command == "check") {  // tells a map that does not exist from one that cannot be looked for
+        if (command == "check") {  // distinguishes a missing map from one that cannot be searched for
             EXPECT_NE(named.out.find("it does not exist"), std::string::npos) << named.out;
             EXPECT_EQ(piped.out.find("it does not exist"), std::string::npos) << piped.out;
             continue;
@@ -176,7 +176,7 @@ TEST(WhatCannotBeOpened, SaysWhy) {
     const ToolRun diff = runTool(folder, "diff folder.glb file.glb");
     EXPECT_NE(diff.err.find("is a folder"), std::string::npos) << diff.err;
     std::filesystem::permissions(folder.path("file.glb"), std::filesystem::perms::none);
-    // Root may read everything; another user may not.
+    // Root may read everything, so the test switches to another user.
     const bool is_root = std::system("test $(id -u) = 0") == 0;
     if (is_root && std::system("command -v setpriv > /dev/null") != 0) GTEST_SKIP() << "setpriv is not there";
     std::filesystem::permissions(folder.path(), std::filesystem::perms::all);

@@ -55,7 +55,7 @@ TEST(RenderCommand, DrawsAllInstancesOfANode) {
     const TempFolder folder;
     const ToolRun run = runTool(
         folder, "render --json '" + shared("reports/second/negscale_instance.glb").string() + "' -o a.png --size 64");
-    // Two of 768 triangles each.
+    // Two models of 768 triangles each.
     EXPECT_EQ(nlohmann::json::parse(run.out)["triangles"], 1536) << run.err;
 }
 

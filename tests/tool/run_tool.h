@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs the built tool through the shell and keeps what it said.
+// Runs the built tool through the shell and captures its output.
 #pragma once
 
 #include <sys/wait.h>
@@ -25,8 +25,8 @@ struct ToolRun {
     [[nodiscard]] long errorLines() const { return std::count(err.begin(), err.end(), '\n'); }
 };
 
-/// Runs in `folder`. `arguments` is shell text; `runner` is a command that starts the tool. A report that is not as docs/schema
-/// says fails the test.
+/// Runs the tool in `folder`. `arguments`: shell text; `runner`: a command that starts the tool. Fails the test if a
+/// report does not conform to docs/schema.
 inline ToolRun runTool(const TempFolder& folder, const std::string& arguments, const std::string& runner = "") {
     const TempFolder output;
     const std::string command = "cd '" + folder.path().string() + "' && " + runner + " '" TSPACE_TOOL "' " + arguments +
@@ -39,10 +39,10 @@ inline ToolRun runTool(const TempFolder& folder, const std::string& arguments, c
     return run;
 }
 
-/// A runner whose standard output takes nothing.
+/// A runner whose standard output cannot be written.
 inline constexpr const char* kIntoFullDisk = R"(sh -c '"$0" "$@" > /dev/full')";
 
-/// The options that the help of a command names, without their values.
+/// Returns the options that the help of a command lists, without their values.
 inline std::set<std::string> optionsInHelp(const std::string& command) {
     std::set<std::string> names;
     std::istringstream lines(runTool(TempFolder(), command + " --help").out);
@@ -61,10 +61,10 @@ inline constexpr std::uint8_t kFlatPng[] = {
     0x0c, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0x68, 0x68, 0xf8, 0x0f, 0x00, 0x03, 0x83, 0x02, 0x00, 0x00,
     0xa5, 0xfb, 0x89, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
 
-/// The normal map that the folded model names.
+/// Writes the normal map that the folded model references.
 inline void writeBumpMap(const TempFolder& folder) { folder.write("bump.png", kFlatPng); }
 
-/// Two quads that meet at an edge, with UVs; the material has a normal map.
+/// Writes two quads that meet at an edge, with UVs; the material has a normal map.
 inline std::string writeFoldedObj(const TempFolder& folder, const std::string& name) {
     folder.write((std::filesystem::path(name).parent_path() / "folded.mtl").string(),
                  "newmtl skin\nmap_Bump bump.png\n");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The rules of the schema of SARIF 2.1.0 for what tspace writes: which members an object must have, which it may have,
-// and what they are. Its objects allow no others.
+// Rules of the schema of SARIF 2.1.0 for the output of tspace: required and optional members of each object, and their
+// types. Other members are not allowed.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace tspace::test {
 
 class SarifSchema {
   public:
-    /// Fails the test at each place of the log that breaks a rule.
+    /// Fails the test at each place of the log that violates a rule.
     void expectValid(const nlohmann::json& log) const { expect(log, "sarifLog", ""); }
 
   private:
@@ -23,7 +23,7 @@ class SarifSchema {
     struct Object {
         std::set<std::string> required;
         std::map<std::string, std::string>
-            members;  ///< name -> kind; "[kind]" is an array, "{kind}" one without repeats
+            members;  ///< name -> type; "[type]" is an array, "{type}" an array without duplicates
     };
 
     void expect(const Json& value, const std::string& kind, const std::string& place) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// KTX2 and DDS in the commands that read images: each says of a texture what it says of the PNG with the same numbers.
+// KTX2 and DDS in the commands that read images: the results equal those for a PNG with the same values.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A flat square that shows `map`, in front of bumps.
+/// Writes a flat square that uses `map`, in front of bumps.
 void writeModels(const TempFolder& folder, const std::string& map) {
     folder.write("low.mtl", "newmtl skin\nnorm " + map + "\n");
     folder.write("low.obj",
@@ -40,7 +40,7 @@ void writeModels(const TempFolder& folder, const std::string& map) {
     folder.write("high.obj", high);
 }
 
-/// The same map as a PNG, and x and y of it as textures.
+/// Writes a map as PNG, and its x and y as textures.
 void writeMaps(const TempFolder& folder) {
     const RgbImage map = normalMapOf(64, bumps);
     const std::string data = redAndGreen(map);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// TGA in the commands that read images: each says of one what it says of the PNG with the same numbers. glTF has none.
+// TGA in the commands that read images: the results equal those for a PNG with the same values. glTF does not support
+// TGA.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -17,7 +18,7 @@ using Json = nlohmann::json;
 
 std::string textOf(const std::vector<std::uint8_t>& bytes) { return {bytes.begin(), bytes.end()}; }
 
-/// A square with tangents to be computed, and normal maps of bumps whose green points down.
+/// A square without tangents, and normal maps of bumps whose green points down.
 class TgaFiles : public testing::Test {
   protected:
     TgaFiles() {

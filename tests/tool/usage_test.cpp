@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the tool says about itself, and what it says to a wrong command line.
+// Help of the tool, and messages for invalid command lines.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -302,7 +302,7 @@ TEST(Usage, HelpOfGenerateNamesEveryOptionUnitAndDefault) {
     }
 }
 
-/// Pairs of the long name of an option and the default that the help of a command gives for it.
+/// Returns pairs of an option's long name and the default stated in the help of a command.
 std::vector<std::pair<std::string, std::string>> defaultsInHelp(const std::string& command) {
     std::vector<std::pair<std::string, std::string>> found;
     std::istringstream lines(runTool(TempFolder(), command + " --help").out);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace view: one file of the page and a model. The page lies beside the tool, so the tool is copied beside one.
+// tspace view: one file with the page and a model. The page must be next to the tool, so the tool is copied.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder with an installed tool, and a page where there is one.
+/// A folder with an installed tool, and the page if it was built.
 class Installed {
   public:
     explicit Installed(const std::string& page) {
@@ -22,7 +22,7 @@ class Installed {
         writeFoldedObj(folder_, "a.obj");
         writeBumpMap(folder_);
     }
-    /// In place of the tool that was built, the copy.
+    /// Runs the copy instead of the built tool.
     [[nodiscard]] ToolRun run(const std::string& arguments) const {
         return runTool(folder_, arguments, R"(sh -c 'exec ./bin/tspace "$@"')");
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Avatars: a .vrm is a GLB by another name.
+// Avatars: a .vrm is a GLB with a different extension.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace tspace::test {
 namespace {
 
-/// What the extension says, spelled as no writer of JSON would spell it anew.
+/// The extension, formatted differently from the output of any JSON writer.
 constexpr const char* kAvatar =
     R"("VRMC_vrm":{"specVersion":"1.0","expressions":{"preset":{"blink":{"morphTargetBinds":[{"node":0,"index":3,"weight":1.0}]}}},"humanoid":{"humanBones":{}}})";
 
@@ -30,7 +30,7 @@ std::uint32_t wordAt(const std::string& bytes, std::size_t place) {
 
 std::string jsonOf(const std::string& glb) { return glb.substr(20, wordAt(glb, 12)); }
 
-/// An avatar without tangents that it needs.
+/// Writes an avatar that lacks required tangents.
 void writeAvatar(const TempFolder& folder, const std::string& name) {
     writeFoldedObj(folder, "made/folded.obj");
     folder.write("made/bump.png", kFlatPng);
@@ -89,7 +89,7 @@ TEST(Vrm, ItsExtensionsStayByteForByte) {
     EXPECT_NE(jsonOf(folder.read("out.vrm")).find(kAvatar), std::string::npos) << jsonOf(folder.read("out.vrm"));
 }
 
-/// VRM 0.x describes materials at the root, by numbers of textures, and its readers look there alone.
+/// VRM 0.x describes materials at the root, by texture indices, and its readers use only these.
 TEST(Vrm, OfVersion0ShowsTheMapThatWasBaked) {
     for (const bool shares_texture : {false, true}) {
         const TempFolder folder;
@@ -114,7 +114,7 @@ TEST(Vrm, OfVersion0ShowsTheMapThatWasBaked) {
         const auto& shown = after["extensions"]["VRM"]["materialProperties"][0];
         EXPECT_EQ(shown["textureProperties"]["_BumpMap"], after["materials"][0]["normalTexture"]["index"]);
         EXPECT_EQ(shown["keywordMap"]["_NORMALMAP"], true);
-        // What another property shows stays.
+        // Textures used by other properties are preserved.
         if (shares_texture) {
             EXPECT_NE(shown["textureProperties"]["_MainTex"], shown["textureProperties"]["_BumpMap"]);
             EXPECT_EQ(shown["textureProperties"]["_MainTex"], old);
