@@ -3,8 +3,8 @@
 
 HEAD = """\
 // SPDX-License-Identifier: MIT
-// Fields of the C structs and of their C++ twins. Written by scripts/api: fields that are not one number each are converted
-// where the struct is.
+// Conversion of the fields of C structs to and from their C++ counterparts. Written by scripts/api. Fields that are not
+// single numbers are converted where the struct is converted.
 #pragma once
 
 #include "core/c_api/c_convert.h"
@@ -34,7 +34,7 @@ def fields(headers):
             kinds = [(field, kind) for field, entity in members for kind in [_kind(entity, largest)] if kind]
             lines += ["", f"inline void copyFields(const {owner}& from, {twin}& to) {{",
                       *(f"    to.{field} = {kind.format('from.' + field)};" for field, kind in kinds), "}",
-                      "/// The first choice or flag that is above its largest value, or ok.",
+                      "/// Returns an error for the first enumerator or flag that exceeds its largest value, or ok.",
                       f"inline Error checkFields(const {owner}& options) {{",
                       f"    return firstError({(',' + chr(10) + 22 * ' ').join(_checks(members, largest))});", "}"]
     return "\n".join([*head, *lines, "", "}  // namespace tspace::c_api", ""])

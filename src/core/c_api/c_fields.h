@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Fields of the C structs and of their C++ twins. Written by scripts/api: fields that are not one number each are converted
-// where the struct is.
+// Conversion of the fields of C structs to and from their C++ counterparts. Written by scripts/api. Fields that are not
+// single numbers are converted where the struct is converted.
 #pragma once
 
 #include "core/c_api/c_convert.h"
@@ -103,7 +103,7 @@ inline void copyFields(const tspace_TangentOptions& from, TangentOptions& to) {
     to.refine = from.refine;
     to.normalize_normals = from.normalize_normals != 0;
 }
-/// The first choice or flag that is above its largest value, or ok.
+/// Returns an error for the first enumerator or flag that exceeds its largest value, or ok.
 inline Error checkFields(const tspace_TangentOptions& options) {
     return firstError([&] { return checkChoice(options.method, TSPACE_METHOD_BEST, "method"); },
                       [&] { return checkConvention(options.convention); },
@@ -139,7 +139,7 @@ inline void copyFields(const tspace_NormalOptions& from, NormalOptions& to) {
     to.denoise = from.denoise;
     to.weld_distance = from.weld_distance;
 }
-/// The first choice or flag that is above its largest value, or ok.
+/// Returns an error for the first enumerator or flag that exceeds its largest value, or ok.
 inline Error checkFields(const tspace_NormalOptions& options) {
     return firstError([&] { return checkChoice(options.weighting, TSPACE_NORMAL_WEIGHTING_BEST, "weighting"); },
                       [&] { return checkConvention(options.convention); },
@@ -171,7 +171,7 @@ inline tspace_PositionNoise toReport(const PositionNoise& from) {
 inline void copyFields(const tspace_SanitizeOptions& from, SanitizeOptions& to) {
     to.orthogonalize_all = from.orthogonalize_all != 0;
 }
-/// The first choice or flag that is above its largest value, or ok.
+/// Returns an error for the first enumerator or flag that exceeds its largest value, or ok.
 inline Error checkFields(const tspace_SanitizeOptions& options) {
     return firstError([&] { return checkChoice(options.orthogonalize_all, 1, "orthogonalize_all"); });
 }
@@ -200,7 +200,7 @@ inline void copyFields(const tspace_IndexedFramesOptions& from, IndexedFramesOpt
     to.sanitize = from.sanitize != 0;
     to.orthogonalize_all = from.orthogonalize_all != 0;
 }
-/// The first choice or flag that is above its largest value, or ok.
+/// Returns an error for the first enumerator or flag that exceeds its largest value, or ok.
 inline Error checkFields(const tspace_IndexedFramesOptions& options) {
     return firstError([&] { return checkChoice(options.make_normals, 1, "make_normals"); },
                       [&] { return checkChoice(options.sanitize, 1, "sanitize"); },
@@ -227,7 +227,7 @@ inline void copyFields(const tspace_WindingOptions& from, WindingOptions& to) {
     to.weld_positions = from.weld_positions != 0;
     to.weld_distance = from.weld_distance;
 }
-/// The first choice or flag that is above its largest value, or ok.
+/// Returns an error for the first enumerator or flag that exceeds its largest value, or ok.
 inline Error checkFields(const tspace_WindingOptions& options) {
     return firstError([&] { return checkConvention(options.convention); },
                       [&] { return checkChoice(options.use_normals, 1, "use_normals"); },

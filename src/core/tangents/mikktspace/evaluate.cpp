@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The evaluation half: tangents of a pose by a plan. For each group the weighted sums of its members' projected tangents,
-// bitangents and lengths, in ascending order of triangles; a group that splits has such sums for each member.
+// Evaluation: tangents of a pose by a plan. For each group it computes weighted sums of the members' projected
+// tangents, bitangents and lengths, in ascending order of triangles; a group that splits has such sums for each member.
 //
-// What a member adds, and with which weight, is in corner_terms.h: the angle weight of mikktspace, the weights of uniform,
-// angle and area. For fast and best the results of the estimators (estimators/) take the place of sums.
+// corner_terms.h defines the contribution and weight of a member: the angle weight of mikktspace, and the weights of
+// uniform, angle and area. For fast and best the results of the estimators (estimators/) replace the sums.
 #include <algorithm>
 #include <atomic>
 #include <bit>
@@ -19,10 +19,10 @@ namespace {
 
 constexpr std::size_t kGroupGrain = 8192, kWriteGrain = 8192;
 
-constexpr std::size_t kGroupsPerTask = 4096;  // at least: below, another thread costs more than it saves
+constexpr std::size_t kGroupsPerTask = 4096;  // minimum: below, another thread costs more than it saves
 
-/// A plan's triangles, as range lists and estimators read them. A group with kTopBit is no group there: the triangle adds
-/// nothing to it.
+/// Triangles of a plan, for range lists and estimators. A group with kTopBit counts as no group: the triangle does not
+/// contribute to it.
 class PlanTriangles final : public TriangleGroups {
   public:
     explicit PlanTriangles(const EvaluationPlan& plan) : TriangleGroups(plan.triangle_count), plan_(plan) {}
@@ -35,10 +35,10 @@ class PlanTriangles final : public TriangleGroups {
     const EvaluationPlan& plan_;
 };
 
-/// Sums of a range of groups, in the order of triangles.
+/// Computes the sums of a range of groups, in the order of triangles.
 void sumRange(const EvaluationPlan& plan, const CornerSource& source, CornerTermsFunction termsOf, GroupRange range,
               RangeLists::Batches triangles, GroupSums& sums) {
-    const bool are_known = !plan.terms.empty();  // then triangles come in whole blocks
+    const bool are_known = !plan.terms.empty();  // if so, triangles are read in whole blocks
     std::fill_n(sums.groups.data() + range.begin, range.size(), Vec3{});
     if (!sums.rest.empty()) std::fill_n(sums.rest.data() + range.begin, range.size(), GroupRest{});
     TriangleBatch batch;
@@ -63,7 +63,7 @@ void sumRange(const EvaluationPlan& plan, const CornerSource& source, CornerTerm
     }
 }
 
-/// Sums of all groups. A task owns a range of groups, as in node_sums.cpp.
+/// Computes the sums of all groups. A task owns a range of groups, as in node_sums.cpp.
 GroupSums sumGroups(const EvaluationPlan& plan, const CornerSource& source, CornerTermsFunction terms,
                     const Allocator* allocator, Parallel& parallel) {
     GroupSums sums = roomForSums(plan, source.tangents_only, allocator);
@@ -73,7 +73,7 @@ GroupSums sumGroups(const EvaluationPlan& plan, const CornerSource& source, Corn
     const std::size_t tasks =
         std::clamp<std::size_t>(groups / kGroupsPerTask, 1, std::max<std::size_t>(1, parallel.width()));
     const std::size_t size = std::bit_ceil((groups + tasks - 1) / tasks);
-    // One range needs no lists; where there are no threads the compiler then leaves listing out.
+    // A single range needs no lists; without threads the compiler then omits the listing.
     const RangeLists lists = plan.terms.empty() && tasks > 1
                                  ? RangeLists(triangles, kTermTriangles, groups, size, allocator, parallel)
                                  : RangeLists(kTermTriangles, groups, size);
@@ -132,7 +132,7 @@ class Evaluation {
                                    parallel_);
     }
 
-    /// Turns sums into results, in place.
+    /// Converts sums to results, in place.
     void finishGroups() {
         const bool replaces = !isMikktspace(plan_.method);
         if (replaces) replaced_ = Buffer<std::uint8_t>(allocator_, plan_.group_count, std::uint8_t{0});
@@ -140,7 +140,7 @@ class Evaluation {
             bool any_zero = false, all_finite = true;
             for (std::size_t g = begin; g < end; ++g) {
                 Tangents r = finished(g);
-                // A sum that vanishes stays zero in the reference, and in mikktspace; other methods write a default.
+                // A sum that vanishes remains zero in the reference, and in mikktspace; other methods write a default.
                 if (replaces && !notZero(r.s) && r.s.x == r.s.x) {
                     r = Tangents{};
                     replaced_[g] = 1;
@@ -199,14 +199,14 @@ class Evaluation {
         });
     }
 
-    /// Scratch for one group that splits.
+    /// Scratch memory for one group that splits.
     struct SplitScratch {
         CornerTerms* blocks;
         std::uint32_t vertices[kTermCorners] = {};
     };
 
-    /// Evaluates groups that split. Results of corners that have several are kept in members_, all others are written.
-    /// Quadratic in the size of a group, which the planner limits (kLargestSplitGroup).
+    /// Evaluates groups that split. Results of corners with several results are kept in members_, all others are
+    /// written. Quadratic in the size of a group, which the planner limits (kLargestSplitGroup).
     void evaluateSplits() {
         const std::size_t count = plan_.splits.size(), blocks = plan_.largest_split / kTermTriangles + 1;
         if (count == 0) return;
@@ -269,8 +269,8 @@ class Evaluation {
         }
     }
 
-    /// Merges the results of corners that have several: two in the reference (at a quad's diagonal), more in n-gons, merged
-    /// one after the other.
+    /// Merges the results of corners that have several: two in the reference (at a quad's diagonal), more in n-gons,
+    /// merged one by one.
     void mergeConflicts() {
         const auto result = [&](const Conflict& c) {
             return (c.source & kTopBit) != 0 ? members_[c.source & kValue] : resultOf(c.source);
@@ -284,12 +284,14 @@ class Evaluation {
                 for (++i; i < conflicts.size() && conflicts[i].corner == corner; ++i)
                     merge(merged, result(conflicts[i]));
                 if (!isFinite(merged.s)) finite_ = false;
-                if (is_first) sink_.write(corner, merged);  // else the thread with its first conflict writes it
+                // otherwise the thread that owns the corner's first conflict writes it
+                if (is_first) sink_.write(corner, merged);
             }
         });
     }
 
-    /// Counts the corners that have a default: those without a group, those of groups whose sum vanished, and their copies.
+    /// Returns the number of corners with a default: those without a group, those of groups whose sum vanished, and
+    /// their copies.
     [[nodiscard]] std::uint64_t countDefaults() {
         const bool are_marked = zero_ || !out_.has_tangent.empty();
         if (are_marked) defaults_.distinguish(plan_.corner_count, allocator_);
@@ -307,7 +309,7 @@ class Evaluation {
             const std::uint32_t slot = plan_.slotOf(h);
             if (isReplaced(plan_.groups[h] & kValue) && (slot & kTopBit) == 0) defaults_.add(slot);
         }
-        // A corner with several results has a default only where all of them are.
+        // A corner with several results has a default only if all of them are defaults.
         const Buffer<Conflict>& conflicts = plan_.conflicts;
         for (std::size_t i = 0; i < conflicts.size();) {
             const std::uint32_t corner = conflicts[i].corner;
@@ -340,8 +342,8 @@ class Evaluation {
     const Allocator* allocator_;
     Parallel& parallel_;
     GroupSums sums_;
-    Buffer<Tangents> members_;       // results of members of groups that split; empty where no corner has several
-    Buffer<std::uint8_t> replaced_;  // one per group: 1 when its sum vanished and a default replaced it
+    Buffer<Tangents> members_;       // results of members of groups that split; empty if no corner has several results
+    Buffer<std::uint8_t> replaced_;  // one per group: 1 if its sum vanished and was replaced by a default
     std::atomic<bool> zero_{false}, finite_{true};
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A plan, and what a pose makes of it: sums of groups, results, outputs.
+// Plan of a method with groups, and its evaluation: sums of groups, results, outputs.
 #pragma once
 
 #include <cfloat>
@@ -16,57 +16,57 @@
 
 namespace tspace::mikk {
 
-// The plan of a grouping method: where the data of each corner are, which sum it adds to, and which result each corner of
-// the mesh takes. plan.cpp has a table of its lists.
+// Plan of a method with groups: the location of each corner's data, the sum it contributes to, and the result of each
+// corner of the mesh. plan.cpp has a table of its lists.
 
-/// A group whose members do not all share one result (angular threshold).
+/// Group whose members do not all share one result (angular threshold).
 struct EvaluatedSplit {
-    std::uint32_t begin = 0, count = 0;  ///< its range in EvaluationPlan::members
+    std::uint32_t begin = 0, count = 0;  ///< range in EvaluationPlan::members
     std::size_t rows = 0;                ///< first word in split_rows: `count` rows of (count + 63) / 64 words
     bool positive = false;
 };
 
-/// One of several results for a corner of the mesh, which are averaged where they differ.
+/// One of several results for a corner of the mesh, which are averaged if they differ.
 struct Conflict {
     std::uint32_t corner = 0;
-    std::uint32_t source = 0;  ///< a group, or kTopBit | a place in EvaluationPlan::members
+    std::uint32_t source = 0;  ///< a group, or kTopBit | an index in EvaluationPlan::members
 };
 
 struct GroupSums;
 
 struct EvaluationPlan {
     Method method = Method::mikktspace;
-    std::uint32_t refine = 0;  ///< steps of `best`
+    std::uint32_t refine = 0;  ///< refinement steps of `best`
     Convention convention;
     std::size_t vertex_count = 0;
     std::size_t corner_count = 0;
     std::size_t triangle_count = 0;
     std::uint32_t group_count = 0;  ///< split groups are counted, but no half-edge refers to them
 
-    /// One per half-edge: the vertex whose data stand for its corner. A plan that is kept has the corner's own vertex,
-    /// because vertices that are equal on the mesh may come apart in a pose. Some more valid vertices follow at the end, so
-    /// that kernels can read whole blocks.
+    /// One per half-edge: the vertex that provides the data of its corner. A plan that is kept uses the corner's own
+    /// vertex, because vertices that are equal on the mesh may differ in a pose. Some additional valid vertices follow
+    /// at the end, so that kernels can read whole blocks.
     Buffer<std::uint32_t> vertices;
-    /// One per half-edge: the group it belongs to, with kTopBit if it adds nothing to it; kNone without one,
-    /// and for members of groups that split.
+    /// One per half-edge: its group, with kTopBit if it does not contribute to it; kNone without a group, and for
+    /// members of groups that split.
     Buffer<std::uint32_t> groups;
-    /// One per half-edge: its corner of the mesh, with kTopBit where that is among the conflicts. Empty: half-edges are corners.
+    /// One per half-edge: its corner of the mesh, with kTopBit if that has conflicts. Empty: half-edges are corners.
     Buffer<std::uint32_t> slots;
-    Buffer<std::uint32_t> triangles;      ///< numbers in the mesh, ascending; empty: the plan is of all nodes
+    Buffer<std::uint32_t> triangles;      ///< triangles of the mesh, ascending; empty: the plan includes all nodes
     Buffer<std::uint8_t> group_positive;  ///< one per group: its orientation
     Buffer<Vec2> uvs;                     ///< one per vertex; empty in a plan that is used once
-    Buffer<CornerTerms> terms;            ///< in a plan that is used once: what its triangles add
+    Buffer<CornerTerms> terms;            ///< in a plan that is used once: contributions of its triangles
 
     Buffer<EvaluatedSplit> splits;
     Buffer<std::uint32_t> members;     ///< half-edges of these groups
-    Buffer<std::uint64_t> split_rows;  ///< bit b of row a: member b counts for member a
+    Buffer<std::uint64_t> split_rows;  ///< bit b of row a: member b contributes to member a
     std::uint32_t largest_split = 0;
 
     Buffer<Conflict> conflicts;  ///< conflicts by corner, then in the order in which the reference writes them
     Buffer<std::uint32_t> default_corners;  ///< corners that no group reaches
-    Buffer<std::uint32_t> skipped_corners;  ///< corners of faces that are ignored: all outputs are 0
+    Buffer<std::uint32_t> skipped_corners;  ///< corners of ignored faces: all outputs are 0
     Buffer<Copy> copies;                    ///< corners of degenerate triangles
-    TangentReport report;                   ///< counts that need no pose
+    TangentReport report;                   ///< counts that do not depend on the pose
 
     [[nodiscard]] std::uint32_t slotOf(std::uint32_t half_edge) const {
         if (!slots.empty()) return slots[half_edge];
@@ -75,13 +75,15 @@ struct EvaluationPlan {
     [[nodiscard]] std::size_t memoryBytes() const;
 };
 
-/// Plans a validated mesh with normals and UVs and at most kMaxHalfEdges, to be kept. Throws OutOfMemory.
+/// Creates a plan to be kept. Requires a validated mesh with normals and UVs and at most kMaxHalfEdges. Throws
+/// OutOfMemory.
 EvaluationPlan planGrouped(const MeshView& mesh, const Call<TangentOptions>& options, Parallel& parallel,
                            PlanUse use = PlanUse::kept);
 
-/// Evaluates one pose into checked outputs and completes the plan's report. `uvs`: one per vertex. Scratch memory: 12
-/// bytes per group when only tangents are wanted, else 36, and core/base/range_lists.h where several threads sum. `estimates`: null, or the estimators' results for the groups
-/// (roomForSums), which are moved from. Throws OutOfMemory.
+/// Evaluates one pose into validated outputs and completes the plan's report. `uvs`: one per vertex. Scratch memory: 12
+/// bytes per group if only tangents are requested, otherwise 36, and core/base/range_lists.h if several threads compute
+/// sums. `estimates`: null, or the estimators' results for the groups (roomForSums), which are moved from. Throws
+/// OutOfMemory.
 TangentReport evaluateGroups(const EvaluationPlan& plan, const Pose& pose, const StridedSpan<const Vec2>& uvs,
                              const TangentOutput& out, const Execution& execution, Parallel& parallel,
                              GroupSums* estimates = nullptr);
@@ -90,18 +92,19 @@ TangentReport evaluateGroups(const EvaluationPlan& plan, const Pose& pose, const
 TangentReport generateGrouped(const MeshView& mesh, const Call<TangentOptions>& options, const TangentOutput& out,
                               Parallel& parallel);
 
-// Sums of a group, the result that they make, how several results of one corner are merged, and the outputs.
+// Sums of a group, their result, merging of several results of a corner, and the outputs.
 
-// The reference's rules for "not zero" and for normalising, which decide bits for tiny, zero and non-finite vectors.
+// The reference's rules for "not zero" and for normalization, which determine the bits for tiny, zero and non-finite
+// vectors.
 
-/// Subnormal numbers, zero and NaN count as zero; infinity does not.
+/// Returns whether x is not zero. Subnormal numbers and NaN count as zero; infinity does not.
 inline bool notZero(float x) { return std::fabs(x) > FLT_MIN; }
 inline bool notZero(const Vec3& v) { return notZero(v.x) || notZero(v.y) || notZero(v.z); }
 
-/// v divided by its length; a vector that counts as zero comes back as it is.
+/// Returns v divided by its length; a vector that counts as zero is returned unchanged.
 inline Vec3 unit(const Vec3& v) { return notZero(v) ? (1.0f / length(v)) * v : v; }
 
-/// The unit vector of v without its part along n. n is used as given, never normalised.
+/// Returns the unit vector of v without its component along n. n is used as given, without normalization.
 inline Vec3 flatten(const Vec3& n, const Vec3& v) { return unit(v - dot(n, v) * n); }
 
 inline bool wantsTangentsOnly(const TangentOutput& out) {
@@ -111,7 +114,8 @@ inline bool wantsTangentsOnly(const TangentOutput& out) {
     return out.bitangents.empty() && out.magnitudes_s.empty() && out.magnitudes_t.empty();
 }
 
-/// Estimators sum on their own (estimators/); for `fast` and `best` these kernels write marks alone.
+/// Returns the weighting of a method. Estimators compute their own sums (estimators/); for `fast` and `best` these
+/// kernels write only marks.
 inline Weighting weightingOf(Method method) {
     switch (method) {
         case Method::fast:
@@ -128,7 +132,7 @@ inline Weighting weightingOf(Method method) {
     }
 }
 
-/// `uvs` has one entry per vertex of the pose, of which there is at least one.
+/// `uvs` must be nonempty, with one entry per vertex of the pose.
 inline CornerSource cornerSource(const Pose& pose, const StridedSpan<const Vec2>& uvs, Method method,
                                  bool tangents_only) {
     return {vertexArrays(pose, uvs), weightingOf(method), tangents_only};
@@ -145,10 +149,10 @@ struct Tangents {
     bool positive = false;
 };
 
-/// A result without tangent and orientation, stored in the place of the sum.
+/// Returns a result without tangent and orientation, to be stored in place of the sum.
 inline GroupRest restOf(const Tangents& r) { return {{r.t.x, r.t.y, r.t.z, r.mag_s}, r.mag_t}; }
 
-/// The result of a group whose members' rows (corner_terms.h) add up to s and `rest`.
+/// Returns the result of a group whose members' rows (corner_terms.h) sum up to s and `rest`.
 inline Tangents meanOf(const Vec3& s, const GroupRest& rest, float weight, bool positive) {
     Tangents r{unit(s), unit(vectorOf(rest.t)), rest.t[3], rest.length_t, positive};
     if (weight > 0) {
@@ -162,8 +166,8 @@ inline bool sameResult(const Tangents& a, const Tangents& b) {
     return a.mag_s == b.mag_s && a.mag_t == b.mag_t && a.s == b.s && a.t == b.t;
 }
 
-/// The reference's rule for a corner that is written again: equal results stay (a NaN is never equal), others
-/// become the normalised mean. The orientation is the later one's.
+/// Merges results by the reference's rule for a corner that is written repeatedly: equal results are kept (a NaN is
+/// never equal), others become the normalized mean. The later orientation is used.
 inline void merge(Tangents& first, const Tangents& second) {
     first.positive = second.positive;
     if (sameResult(first, second)) return;
@@ -173,10 +177,10 @@ inline void merge(Tangents& first, const Tangents& second) {
     first.t = unit(first.t + second.t);
 }
 
-/// Writes the outputs that are wanted.
+/// Writes the requested outputs.
 class Sink {
   public:
-    /// The UV determinant speaks of the side that cross(P1-P0, P2-P0) points to; the sign must speak of N's side.
+    /// The UV determinant refers to the side to which cross(P1-P0, P2-P0) points; the sign must refer to N's side.
     Sink(const TangentOutput& out, Convention convention)
         : out_(out),
           sign_factor_(signFactor(convention) * normalFactor(convention)),
@@ -212,13 +216,13 @@ class Sink {
     float sign_factor_, bitangent_factor_;
 };
 
-/// The corners that get the default because no face gives them a tangent: counts each once, and clears its entry of
-/// TangentOutput::has_tangent, which is all 1 before the call.
+/// Corners that get the default because no face contributes to them: counts each once, and clears its entry of
+/// TangentOutput::has_tangent, which must be all 1 initially.
 class DefaultCorners {
   public:
     explicit DefaultCorners(const TangentOutput& out) : has_tangent_(out.has_tangent) {}
 
-    /// Needed before `has`, and before corners are added that may have been added already.
+    /// Required before `has`, and before corners are added that may have been added already.
     void distinguish(std::size_t corner_count, const Allocator* allocator) {
         if (!has_tangent_.empty()) return;
         own_ = Buffer<std::uint8_t>(allocator, corner_count, std::uint8_t{1});
@@ -248,16 +252,17 @@ inline void addRest(GroupRest& sum, const CornerTerms& terms, std::size_t t, std
 }
 
 struct GroupSums {
-    Buffer<Vec3> groups;     ///< weighted tangents: most of the memory that evaluation takes
-    Buffer<GroupRest> rest;  ///< empty when tangents_only
+    Buffer<Vec3> groups;     ///< weighted tangents: most of the memory of an evaluation
+    Buffer<GroupRest> rest;  ///< empty if tangents_only
 };
 
-/// Conflicts need bitangents and lengths too: whether two results of a corner are merged depends on all their parts.
+/// Conflicts need bitangents and lengths too: whether two results of a corner are merged depends on all their
+/// components.
 inline bool wantsOnlyTangents(const EvaluationPlan& plan, const TangentOutput& out) {
     return wantsTangentsOnly(out) && plan.conflicts.empty();
 }
 
-/// Memory for the sums or estimates of a plan's groups.
+/// Allocates memory for the sums or estimates of a plan's groups.
 GroupSums roomForSums(const EvaluationPlan& plan, bool tangents_only, const Allocator* allocator);
 /// Returns that memory in the form that estimators write to.
 estimators::GroupEstimates estimatesIn(GroupSums& sums);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The grouping itself: links, groups, and contested triangles. groups.h has the proofs.
+// Implementation of grouping: links, groups, and contested triangles. groups.h has the proofs.
 #include "core/tangents/mikktspace/groups.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace tspace::mikk {
 
 namespace {
 
-/// Whether the links between them make one path or ring, without a choice.
+/// Returns whether the links between the corners form a single path or ring, without ambiguity.
 bool areOneFan(std::span<const NodeCorner> around) {
     ManyPaths place;
     FanRoom room(&place);
@@ -25,7 +25,7 @@ bool areOneFan(std::span<const NodeCorner> around) {
     return fan.isOne();
 }
 
-/// Spreads a group from its first corner to both sides. joins(i): whether corner i may join it.
+/// Spreads a group from its first corner in both directions. joins(i): whether corner i may join it.
 template <class Joins>
 void spread(std::uint32_t seed, const CornerLinks& links, std::uint32_t* group, const Joins& joins) {
     for (const std::uint32_t* link : {links.left, links.right}) {
@@ -58,8 +58,8 @@ void linkSmall(std::span<const NodeCorner> around, const CornerLinks& links) {
     }
 }
 
-/// Sort keys: the neighbour in the high word; 2 * corner in the low one, plus 1 for the edge that leaves. Of one neighbour's
-/// half-edges those that wait all run in one direction, so the oldest is the partner of the next opposite one.
+/// Sort keys: the neighbor in the high word; 2 * corner in the low word, plus 1 for the leaving edge. All waiting
+/// half-edges of one neighbor have the same direction, so the oldest is the partner of the next opposite one.
 void linkLarge(std::span<const NodeCorner> around, const CornerLinks& links, std::uint64_t* half_edges) {
     const std::size_t count = 2 * around.size();
     for (std::size_t i = 0; i < around.size(); ++i) {
@@ -130,7 +130,7 @@ void Grouping::link(std::size_t place, const CornerLinks& links) {
     if (bucket_.concerns(chosen_[place])) applyBucket(around, links);
 }
 
-/// Replaces the links of half-edges that the reference pairs in another way (last_bucket.h).
+/// Replaces the links of half-edges that the reference pairs differently (last_bucket.h).
 void Grouping::applyBucket(std::span<const NodeCorner> around, const CornerLinks& links) const {
     const auto turn = [](std::uint32_t half_edge, std::uint32_t by) {
         return half_edge / 3 * 3 + (half_edge + by) % 3;
@@ -143,7 +143,8 @@ void Grouping::applyBucket(std::span<const NodeCorner> around, const CornerLinks
     };
     for (std::size_t i = 0; i < around.size(); ++i) {
         const std::uint32_t h = corners_.halfEdgeOf(around[i].half_edge);
-        // A partner runs the opposite way: across the leaving edge it arrives here, across the arriving edge it leaves.
+        // A partner has the opposite direction: across the leaving edge it arrives here, across the arriving edge it
+        // leaves.
         if (const std::uint32_t* partner = bucket_.partnerOf(h))
             links.left[i] = *partner == kNone ? kNone : placeOf(turn(*partner, 1));
         if (const std::uint32_t* partner = bucket_.partnerOf(turn(h, 2)))
@@ -151,8 +152,8 @@ void Grouping::applyBucket(std::span<const NodeCorner> around, const CornerLinks
     }
 }
 
-/// Marks contested triangles and their nodes. (A node of such a triangle that is not chosen has no groups, or its triangles
-/// are known to agree.)
+/// Marks contested triangles and their nodes. (A node of such a triangle that is not selected has no groups, or its
+/// triangles are known to have equal orientations.)
 void Grouping::findContested(const Allocator* allocator) {
     const auto add = [&](std::uint32_t place) {
         if (corners_.facing[place] == 0 || contested_of_[place] != kNone) return;
@@ -171,8 +172,8 @@ void Grouping::findContested(const Allocator* allocator) {
     }
 }
 
-/// Groups the nodes of contested triangles: links them first, then goes through all triangles in the reference's order. A
-/// cursor per node moves along its corners.
+/// Groups the nodes of contested triangles: first links them, then processes all triangles in the reference's order.
+/// Each node has a cursor that moves along its corners.
 void Grouping::spreadContested(const Allocator* allocator) {
     std::size_t size = 0;
     for (Contested& node : contested_) {
@@ -200,7 +201,8 @@ void Grouping::spreadContested(const Allocator* allocator) {
     }
 }
 
-/// A triangle that is not contested joins any group; a contested one takes the orientation of the first that asks.
+/// A triangle that is not contested joins any group; a contested one adopts the orientation of the first group that
+/// reaches it.
 bool Grouping::joinsContested(std::uint32_t triangle, std::uint32_t facing) {
     std::uint8_t& flags = corners_.flags[triangle];
     if ((flags & (kAny | kContested)) == kAny) return true;
@@ -208,21 +210,21 @@ bool Grouping::joinsContested(std::uint32_t triangle, std::uint32_t facing) {
     return (flags & kFacing) == facing;
 }
 
-// The angular threshold: quick tests that nothing splits, and the comparison of all members with all.
+// Angular threshold: fast tests that nothing splits, and the comparison of all pairs of members.
 
 namespace {
 
-/// Margins far above the rounding of a projection and three dot products: the sine of an angle from a plane, and a difference
-/// of cosines.
+/// Margins far above the rounding of a projection and three dot products: the sine of an angle to a plane, and a
+/// difference of cosines.
 constexpr float kOffPlane = 0.02f, kMargin = 1e-3f;
-constexpr float kLeastWeight = 1e-4f;    // below, rounding decides the direction of a corner's row
-constexpr std::size_t kFewMembers = 64;  // largest group of which the quick test compares all pairs
+constexpr float kLeastWeight = 1e-4f;    // below this, rounding determines the direction of a corner's row
+constexpr std::size_t kFewMembers = 64;  // largest group for which the fast test compares all pairs
 
-/// If all members lie within half the threshold of one direction, all pairs are within the threshold: the cosine of the
+/// If all members are within half the threshold of one direction, all pairs are within the threshold: the cosine of the
 /// half angle is sqrt((1 + c) / 2).
 float halfAngleLimit(float threshold_cosine) { return std::sqrt((1.0f + threshold_cosine) * 0.5f) + kOffPlane; }
 
-/// Whether all members lie near the direction of their sum.
+/// Returns whether all members are close to the direction of their sum.
 bool areNearSum(Members members, float limit) {
     Float4 s{}, t{};
     for (const NodeCorner& corner : members) {
@@ -240,7 +242,7 @@ bool areNearSum(Members members, float limit) {
     });
 }
 
-/// Whether all pairs of at most kFewMembers are well within the threshold.
+/// Returns whether all pairs of at most kFewMembers members are well within the threshold.
 bool areNearEachOther(Members members, float limit) {
     const float *s[kFewMembers], *t[kFewMembers];
     std::size_t count = 0;
@@ -259,7 +261,7 @@ bool areNearEachOther(Members members, float limit) {
     return true;
 }
 
-/// Directions of dP/du and dP/dv (zero when they have none).
+/// Computes the directions of dP/du and dP/dv (zero if they have none).
 void triangleDirections(const Vec3 (&p)[3], const Vec2 (&uv)[3], Vec3& s, Vec3& t) {
     const Vec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
     const Vec3 d1 = p[1] - p[0], d2 = p[2] - p[0];
@@ -273,7 +275,7 @@ void triangleDirections(const Vec3 (&p)[3], const Vec2 (&uv)[3], Vec3& s, Vec3& 
     if (notZero(length_t)) t = (facing / length_t) * along_v;
 }
 
-/// Taylor series; |r| <= pi/4 leaves an error below 2^-56.
+/// Computes the sine by Taylor series; for |r| <= pi/4 the error is below 2^-56.
 double sine(double r) {
     const double z = r * r;
     double p = 1.0 / 355687428096000.0;
@@ -296,12 +298,12 @@ double cosine(double r) {
 
 }  // namespace
 
-/// Without the C library, so that it has the same bits everywhere. Based on: Cody and Waite, "Software Manual for the
-/// Elementary Functions", 1980: pi/2 in two parts, so that what is taken away from the angle is exact.
+/// Does not use the C library, so that it has the same bits everywhere. Based on: Cody and Waite, "Software Manual for
+/// the Elementary Functions", 1980: pi/2 as two summands, so that the subtraction from the angle is exact.
 float thresholdCosine(float degrees) {
     if (degrees == 180.0f) return -1.0f;  // the default; the formula below gives this value too
     const double angle = std::fabs((degrees * 3.14159274f) / 180.0f);
-    if (!(angle < 1e6)) return std::nanf("");  // no two directions are within it
+    if (!(angle < 1e6)) return std::nanf("");  // no two directions are within this threshold
     const auto quarter_turns = static_cast<unsigned>(angle * 0x1.45f306dc9c883p-1 + 0.5);
     const double r = (angle - quarter_turns * 0x1.921fb544p+0) - quarter_turns * 0x1.0b4611a626331p-34;
     return static_cast<float>(std::array{cosine(r), -sine(r), -cosine(r), sine(r)}[quarter_turns % 4]);
@@ -333,7 +335,7 @@ SplitFinder::Direction SplitFinder::directionOf(const NodeCorner& corner, const 
     return {flatten(normal, direction.s), flatten(normal, direction.t)};
 }
 
-/// For groups above kLargestSplitGroup: whether all members lie near their mean direction.
+/// Returns, for groups above kLargestSplitGroup, whether all members are close to their mean direction.
 bool SplitFinder::isNarrow(Members members) const {
     Vec3 s, t;
     const auto forEach = [&](const auto& body) {
@@ -369,7 +371,7 @@ bool SplitFinder::splits(Members members, const Vec3& normal) {
     for (std::uint32_t a = 0; a < count; ++a) {
         const Direction& da = directions_[a];
         for (std::uint32_t b = 0; b < count; ++b) {
-            if (members[b].facing == 0) continue;  // it adds nothing to any subset
+            if (members[b].facing == 0) continue;  // it contributes to no subset
             const Direction& db = directions_[b];
             const bool together = members[a].facing == 0 || (dot(da.s, db.s) > cosine_ && dot(da.t, db.t) > cosine_) ||
                                   face(a) == face(b);

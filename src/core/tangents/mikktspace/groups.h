@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT
-// Links: which corner of a node lies across each of its edges, worked out for one node alone.
+// Links: the corner of a node across each of its edges, computed for each node independently.
 //
-// The reference sorts all edges by (lower end, higher end, triangle). Going through them in order, each
-// half-edge without a neighbour takes the first later one of the same edge that runs the opposite way and has
-// none. Claim: that equals going through the half-edges of an edge in order, each taking the oldest waiting
-// opposite one or waiting. Proof: waiters of one edge always run in one direction, else two of them would
-// have been linked. Say the first half-edge is linked to j by the reference: all between run its own way, so
-// it is still the oldest waiter when j comes, and j takes it. Take the pair out and repeat. An edge's
-// half-edges are seen completely from either of its ends, in one (ascending) order, so each node can work alone and both
-// ends find equal links. No edge table is needed.
+// The reference sorts all edges by (lower end, higher end, triangle). In this order, each half-edge without a neighbor
+// is linked with the first later half-edge of the same edge that has the opposite direction and no neighbor. Claim:
+// this is equivalent to processing the half-edges of an edge in order, where each is linked with the oldest waiting
+// opposite one, or waits. Proof: waiting half-edges of an edge always have the same direction, otherwise two of them
+// would have been linked. Suppose the reference links the first half-edge to j: all half-edges between have the
+// direction of the first, so it is still the oldest waiting one when j is processed, and j is linked with it. Remove
+// the pair and repeat. All half-edges of an edge are visible from either of its ends, in the same (ascending) order, so
+// each node can be processed independently and both ends find equal links. No edge table is needed.
 //
-// Groups: the corners of a node that share tangents. The links around a node form paths and rings. Going through a
-// node's corners in ascending order, each that has no group and a usable UV area opens one, which spreads along the links
-// to both sides until it meets the other orientation or another group. (The reference recurses from triangle to triangle;
-// on a path or ring that visits the same corners.)
+// Groups: the corners of a node that share tangents. The links around a node form paths and rings. The corners of a
+// node are processed in ascending order; each that has no group and a usable UV area starts a group, which spreads
+// along the links in both directions until it meets the other orientation or another group. (The reference recurses
+// from triangle to triangle; on a path or ring that visits the same corners.)
 //
-// A triangle without UV area takes the orientation of the first group that reaches it, at any of its nodes. Where all its
-// nodes have one orientation, the order of groups does not matter. Other such triangles are contested: their nodes are
-// grouped together, going through the triangles in the reference's order.
+// A triangle without UV area adopts the orientation of the first group that reaches it, at any of its nodes. If all its
+// nodes have the same orientation, the order of groups does not matter. Other such triangles are contested: their nodes
+// are grouped together, by processing the triangles in the reference's order.
 #pragma once
 
 #include <span>
@@ -27,11 +27,11 @@
 
 namespace tspace::mikk {
 
-/// Nodes of up to this many corners are paired by comparing all with all, on the stack.
+/// Nodes of up to this many corners are linked by comparing all pairs, on the stack.
 inline constexpr std::uint32_t kSmallNode = 64;
 
-/// For each corner of a node the corner across the edge that leaves the node, and across the edge that arrives: a position
-/// in the node's list of corners, or kNone.
+/// For each corner of a node: the corner across the edge that leaves the node, and across the edge that arrives, as an
+/// index in the node's list of corners, or kNone.
 struct CornerLinks {
     std::uint32_t* left;
     std::uint32_t* right;
@@ -40,10 +40,10 @@ struct CornerLinks {
 /// Links a node of at most kSmallNode corners, in quadratic time.
 void linkSmall(std::span<const NodeCorner> around, const CornerLinks& links);
 
-/// Links a node of any size by sorting `half_edges`, scratch for two numbers per corner. O(n log n).
+/// Links a node of any size by sorting `half_edges`, scratch memory for two numbers per corner. O(n log n).
 void linkLarge(std::span<const NodeCorner> around, const CornerLinks& links, std::uint64_t* half_edges);
 
-/// The corners of one node and their groups, which are numbered in the order in which the reference opens them.
+/// Corners of one node and their groups, which are numbered in the order in which the reference starts them.
 struct NodeGroups {
     std::span<const NodeCorner> corners;
     const std::uint32_t* group =
@@ -55,7 +55,7 @@ struct NodeGroups {
 
 class Grouping {
   public:
-    /// Gives contested triangles their orientation in corners.flags. The arguments must outlive this object.
+    /// Sets the orientation of contested triangles in corners.flags. The arguments must outlive the object.
     Grouping(const VertexPath& path, VertexCorners& corners);
 
     /// The result is valid until the next call.
@@ -77,27 +77,28 @@ class Grouping {
     const LastBucket& bucket_;
     VertexCorners& corners_;
     Buffer<std::uint32_t> scratch_;       // links and groups of one node
-    Buffer<std::uint64_t> half_edges_;    // scratch of linkLarge
+    Buffer<std::uint64_t> half_edges_;    // scratch memory of linkLarge
     Buffer<std::uint32_t> contested_of_;  // one per chosen node, and one more: its number in contested_, or kNone;
                                           // empty where no triangle is contested
     Growing<Contested> contested_;
     Buffer<std::uint32_t> contested_groups_;
 };
 
-// Splits. Inside a group only members whose tangents and bitangents differ by less than the angular threshold are
-// averaged; each member has a subset of the group of its own.
+// Splits. Only members of a group whose tangents and bitangents differ by less than the angular threshold are averaged;
+// each member has its own subset of the group.
 
-/// The cosine of an angular threshold of 0 to 360 degrees, in the reference's arithmetic.
+/// Returns the cosine of an angular threshold of 0 to 360 degrees, in the reference's arithmetic.
 float thresholdCosine(float degrees);
 
-/// Corners of one group, ascending, with those that add nothing.
+/// Corners of one group, ascending, including those that do not contribute.
 using Members = std::span<const NodeCorner>;
 
-/// A quick test: true only if every two members are within the threshold. False may also mean that it could not tell.
+/// Fast test: returns true only if every two members are within the threshold. False may also mean that this is
+/// unknown.
 bool areTogether(Members members, float threshold_cosine);
 
-/// Subsets are quadratic in the size of a group by definition: every member may have another one, and float
-/// sums cannot be shared. Above this size, groups that might split would take quadratic time here too.
+/// Subsets are quadratic in the size of a group by definition: each member may have a different one, and float sums
+/// cannot be shared. Above this size, groups that might split would also take quadratic time here.
 inline constexpr std::uint32_t kLargestSplitGroup = 4096;
 
 /// Compares all members of a group with each other, as the reference does.
@@ -106,12 +107,12 @@ class SplitFinder {
     SplitFinder(const WeldedMesh& welded, const VertexCorners& corners, float threshold_cosine,
                 const Allocator* allocator);
 
-    /// Returns whether the group splits; then rows of its members have been added. Groups of more than kLargestSplitGroup
-    /// members that might split stay whole.
+    /// Returns whether the group splits; the rows of its members have then been added. Groups of more than
+    /// kLargestSplitGroup members that might split are not split.
     bool splits(Members members, const Vec3& normal);
 
-    Growing<std::uint64_t> rows;  ///< bit b of row a: member b counts for member a
-    bool abandoned = false;       ///< some group above kLargestSplitGroup might split, and stayed whole
+    Growing<std::uint64_t> rows;  ///< bit b of row a: member b contributes to member a
+    bool abandoned = false;       ///< a group above kLargestSplitGroup might split, but was not split
 
   private:
     struct Direction {
