@@ -1,6 +1,6 @@
 #version 450
 // SPDX-License-Identifier: MIT
-// Every decoder once, for its operations to be counted.
+// Calls every decoder once, for counting its operations.
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 1) in;
 layout(std430, binding = 0) buffer Words { uvec4 words; vec4 result; };

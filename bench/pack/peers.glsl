@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// How engines and public code decode frames, written anew from their published formulas, to measure tspace's formats
-// against. GLSL, and C++ by way of tests/shaders/metal_shim: so what is counted is what is measured.
-// Based on: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", JCGT 3(2), 2014 (oct);
-// Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017; Frey and Herzeg, "Spherical Skinning with
-// Dual Quaternions and QTangents", SIGGRAPH 2011 talks.
+// Decoders of engines and public code, reimplemented from their published formulas, for comparison with tspace's
+// formats. GLSL, and C++ by way of tests/shaders/metal_shim, so that the counted code is the measured code.
+// Based on: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", JCGT 3(2), 2014
+// (oct); Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017; Frey and Herzeg, "Spherical Skinning
+// with Dual Quaternions and QTangents", SIGGRAPH 2011 talks.
 
 struct peer_Frame {
     vec3 normal;
@@ -16,14 +16,14 @@ peer_Frame peer_frame(vec3 normal, vec3 tangent, float mirrored) {
     return frame;
 }
 
-// A point of the unfolded octahedron, [-1, 1] both ways.
+// Returns the direction of a point of the unfolded octahedron, [-1, 1] in both directions.
 vec3 peer_octahedron(float x, float y) {
     float z = 1.0 - abs(x) - abs(y);
     float fold = max(-z, 0.0);
     return normalize(vec3(x >= 0.0 ? x - fold : x + fold, y >= 0.0 ? y - fold : y + fold, z));
 }
 
-// T at this angle in the basis of Duff et al., whose side comes from the rounded N.z.
+// Returns T at this angle in the basis of Duff et al., whose side comes from the rounded N.z.
 vec3 peer_atAngle(vec3 n, float angle) {
     float s = n.z >= 0.0 ? 1.0 : -1.0;
     float h = -1.0 / (s + n.z);
@@ -56,7 +56,7 @@ peer_Frame peer_unitQuaternion(float x, float y, float z, float w, float mirrore
     return peer_frame(n, t, mirrored);
 }
 
-// The three smaller components of the quaternion, 10 + 10 + 9, which is left out, and the sign.
+// The three smaller components of the quaternion, 10 + 10 + 9 bits; which one is omitted; and the sign.
 peer_Frame peer_smallestThree(uvec2 words) {
     uint word = words.x;
     float a = (float(word >> 22u) * (1.0 / 1023.0) * 2.0 - 1.0) * 0.70710678;
@@ -73,13 +73,13 @@ peer_Frame peer_smallestThree(uvec2 words) {
 
 float peer_short(uint bits) { return max(float(int(bits << 16u) >> 16u) * (1.0 / 32767.0), -1.0); }
 
-// The quaternion as four shorts, made neither unit nor nearest; its sign is that of w, which has a bias.
+// The quaternion as four shorts, neither normalized nor nearest; the sign is the sign of w, which has a bias.
 peer_Frame peer_qtangent16(uvec2 words) {
     float w = peer_short(words.y >> 16u);
     return peer_unitQuaternion(peer_short(words.x), peer_short(words.x >> 16u), peer_short(words.y), w, w);
 }
 
-// N and T as octahedra of 16 + 16 bits each; the sign is in which half of its range T's second number lies.
+// N and T as octahedra of 16 + 16 bits each; the sign is the half of the range of T's second number.
 peer_Frame peer_twoOct16(uvec2 words) {
     vec3 n = peer_octahedron(float(words.x & 65535u) * (1.0 / 65535.0) * 2.0 - 1.0, float(words.x >> 16u) * (1.0 / 65535.0) * 2.0 - 1.0);
     float half_y = float(words.y >> 16u) * (1.0 / 65535.0) * 2.0 - 1.0;

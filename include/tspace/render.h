@@ -27,7 +27,7 @@ enum class RenderShow : std::uint32_t {
     sign = 3,
     error = 4,   ///< angle between the stored frames and the frames of a method, as a heat map with a scale
     uv = 5,      ///< UV map: islands in different colors, mirrored ones striped
-    mapped = 6,  ///< the normal that `lit` shades, in the colours of `normals`
+    mapped = 6,  ///< the normal that `lit` shades, in the colors of `normals`
     both = 7,    ///< `lit` with the stored frames left of a line, with the frames of a method right of it
 };
 /// Returns the name of the enumerator: "lit", "normals", ...

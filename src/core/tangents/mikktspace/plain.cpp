@@ -101,8 +101,8 @@ struct Frame {
 float distanceSquared(Vec2 a, Vec2 b) { return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y); }
 float distanceSquared(Vec3 a, Vec3 b) { return dot(a - b, a - b); }
 
-/// Whether a quad is cut between its corners 1 and 3: along the diagonal that is shorter in UV space; if both are equal, along
-/// the diagonal that is shorter in space, and from corner 0 to 2 if those are equal too.
+/// Returns whether a quad is cut between its corners 1 and 3: along the diagonal that is shorter in UV space; if both
+/// are equal, along the diagonal that is shorter in space, and from corner 0 to 2 if those are equal too.
 bool isCutFrom1To3(const Corners& data, std::uint32_t c) {
     const float d02 = distanceSquared(data.uv(c), data.uv(c + 2)),
                 d13 = distanceSquared(data.uv(c + 1), data.uv(c + 3));
@@ -183,7 +183,8 @@ class Welding {
         }
     };
 
-    /// Conversion to int32 as on x86-64, where NaN and values out of range give the smallest integer and so the first cell.
+    /// Converts to int32 as on x86-64, where NaN and out-of-range values become the smallest integer and therefore the
+    /// first cell.
     static int cellOf(float q) { return q > 0 && q < 2147483648.0f ? std::min(static_cast<int>(q), 2047) : 0; }
 
     /// Splits the entries in place at the center of their longest axis, until positions do not differ or are not finite.
@@ -271,7 +272,8 @@ void computeFaceVectors(const Corners& data, Triangle& triangle) {
     triangle.has_no_direction = !isNotZero(triangle.length_s) || !isNotZero(triangle.length_t);
 }
 
-/// Gives both halves of a quad one orientation, that of the half with the larger UV area. Their directions stay.
+/// Assigns the orientation of the half with the larger UV area to both halves of a quad. Their directions are
+/// unchanged.
 void unifyQuads(std::vector<Triangle>& triangles) {
     for (std::size_t i = 1; i < triangles.size(); ++i) {
         Triangle &first = triangles[i - 1], &second = triangles[i];
@@ -439,7 +441,7 @@ Frame meanFrame(const Corners& data, const std::vector<Triangle>& triangles, con
     return {unit(s), unit(t), length_s, length_t, group.faces_up, true};
 }
 
-/// Whether two triangles of a group are averaged: their directions must differ by less than the threshold.
+/// Returns whether two triangles of a group are averaged: their directions must differ by less than the threshold.
 bool isAveraged(const Triangle& a, const Triangle& b, Vec3 n, float cosine) {
     if (a.has_no_direction || b.has_no_direction || a.face == b.face) return true;
     return dot(unitInPlane(n, a.s), unitInPlane(n, b.s)) > cosine &&
@@ -481,7 +483,7 @@ void averageGroup(const Corners& data, const std::vector<Triangle>& triangles, c
     }
 }
 
-/// In float but for the cosine itself, as the reference computes it. 180 degrees give exactly -1.
+/// Computed in float except for the cosine itself, as in the reference. 180 degrees give exactly -1.
 float thresholdCosine(float degrees) {
     return static_cast<float>(std::cos(static_cast<double>(degrees * 3.14159274f / 180.0f)));
 }
