@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One model at a time: what is asked of the worker, in which order, and what the views are told. What comes back for a model
-// that is no longer the current one is dropped.
+// Controls one model at a time: the order of requests to the worker, and the updates of the views. Results for a model
+// that is no longer current are dropped.
 import { Vector3 } from "three";
 import { LoaderError, loadModel } from "./model/load.js";
 import { imageOf, isMapName, surfaceWith } from "./model/lone_map.js";
@@ -357,7 +357,7 @@ export class App {
 
   async #loadMended(model: ModelFiles, isCurrent: () => boolean): Promise<boolean> {
     const { parts, motion } = await loadModel(model, this.work, this.#variant);
-    // What moves would have to move on both sides.
+    // An animated model would have to move on both sides.
     const scene = this.#hasOtherShape && !motion ? new Scene() : null;
     for (const [i, part] of scene ? parts.entries() : []) {
       if (triangleCount(part.arrays) > 0) scene!.add(i, part, await this.work.run("corners", { part: null, arrays: copyOf(part.arrays) }));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A model that the page's address names by `?model=`: nothing is asked for before a person says so, and nobody but its server (guard.js).
+// A model that the page's address names by `?model=`: nothing is requested before the user agrees, and only from its
+// server (guard.js).
 import { el } from "./dom.js";
 import { fileUris, kMostBytes, kMostFiles, Refusal, type Named } from "./files.js";
 
@@ -46,7 +47,7 @@ export async function filesAt(url: URL): Promise<Named[]> {
   if (!/\.gltf$/i.test(name)) return found;
   for (const uri of fileUris(bytes).slice(0, kMostFiles)) {
     const own = new URL(uri, url);
-    // What is elsewhere, or not there, is said as missing.
+    // Files on other servers, and files that do not exist, are reported as missing.
     if (own.origin === url.origin) await bytesAt(own).then((data) => found.push(asFile(decodeURIComponent(uri).replace(/^\.\//, ""), data))).catch(() => {});
   }
   return found;

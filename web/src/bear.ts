@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A bear as generators of meshes leave them: the zero surface of a field on a grid, vertices beside it by chance, and patches of
-// triangles wound against the others. Sums, products and roots alone, so each browser makes the same bytes.
+// A bear with the typical faults of generated meshes: the zero surface of a field on a grid, with randomly displaced
+// vertices, and patches of triangles with opposite winding. Uses only sums, products and square roots, so that every
+// browser computes the same bytes.
 import { GlbBuilder } from "./model/glb.js";
 
 /** Middle and radius. */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Colours that the picture and its legends share.
+// Colors shared by the picture and its legends.
 
 export type Rgb = readonly [number, number, number];
 

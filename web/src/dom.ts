@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Elements without markup: whatever comes from a model becomes a text node or an attribute, never HTML.
+// Creates elements without markup: data from a model becomes a text node or an attribute, never HTML.
 
 type Child = Node | string | null | undefined | false;
 type Properties = Record<string, unknown>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The model that `tspace view` put into the page: a block of data for each file, the model first.
+// The model that `tspace view` embeds in the page: a data block per file, the model first.
 import { fromBase64 } from "./base64.js";
 import type { ModelFiles } from "./files.js";
 

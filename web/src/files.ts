@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files that a person dropped or chose: which of them is the model, and how it finds the others.
+// Files that the user dropped or chose: determines the model, and the files that it references.
 import { unzipSync } from "fflate";
 import { isMapName } from "./model/lone_map.js";
 import type { CheckReport } from "tspace/gltf";
@@ -139,7 +139,7 @@ export function fileUris(bytes: Uint8Array): string[] {
     for (const uri of uris) decodeURIComponent(uri);
     return [...new Set(uris)];
   } catch {
-    return []; // what is wrong with it is said by its readers
+    return []; // the readers report the fault
   }
 }
 
@@ -166,7 +166,7 @@ export async function chooseModel(named: Named[], chosen?: string): Promise<Mode
     if (path !== models[0].path && path.startsWith(folder) && !(isGlb && kModel.test(path))) others.set(path.slice(folder.length), await read(file));
   }
   const model = { name: path.slice(folder.length), bytes: await read(models[0].file), others };
-  // What lies elsewhere than the model says is taken by its name, where that is the only one.
+  // A file at a different location than the model states is matched by its name, if only one file has it.
   for (const wanted of missingFiles(model)) {
     const own = named.filter(({ path }) => path.split("/").pop() === wanted.split("/").pop());
     if (own.length === 1) others.set(wanted, await read(own[0].file));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs before all else: the page may ask no server, or, where its address names a model by `?model=`, the one that has it.
+// Runs before all other scripts: the page must not contact any server except the one of a model in its address
+// (`?model=`).
 {
   let server = "";
   try {
@@ -7,7 +8,7 @@
     const url = named ? new URL(named, location.href) : null;
     if (url && /^https?:$/.test(url.protocol)) server = url.origin;
   } catch {
-    // No address: nobody is asked.
+    // No valid address: no server may be contacted.
   }
   const meta = document.createElement("meta");
   meta.httpEquiv = "Content-Security-Policy";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The lesson, which lies beside the page: which of its figures shows what a finding means.
+// Links to the lesson, which is next to the page: maps findings to the figures that explain them.
 import { el } from "./dom.js";
 import { pageOrigin } from "./embedded.js";
 

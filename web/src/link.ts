@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is seen as the end of the page's address, so that a result can be linked to: look, finding, side, camera.
+// Encodes the view in the page's address, so that a result can be linked to: look, finding, side, camera.
 import { looks, type Look } from "./picture/shader.js";
 import type { Stage } from "./views/stage.js";
 
@@ -68,7 +68,7 @@ export function keepLink(stage: Stage, finding: () => number | null, sample: () 
     if (chosen !== null) parts.push(`finding=${chosen}`);
     history.replaceState(history.state, "", `#${parts.join("&")}`);
   };
-  // Browsers allow few changes of the address in a second.
+  // Browsers limit how often the address may change.
   return () => {
     clearTimeout(timer);
     timer = window.setTimeout(write, 400);

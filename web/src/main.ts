@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page: its parts put together, and the ways a model comes in.
+// The page: assembles its parts, and handles all ways to open a model.
 import "./style.css";
 import { App } from "./app.js";
 import { el, replaceChildren } from "./dom.js";
@@ -30,8 +30,8 @@ import { UvMapView } from "./views/uv_map.js";
 import { Work } from "./worker/client.js";
 import type { CheckReport, GenerateReport } from "tspace/gltf";
 
-// The library is read and compiled by the worker while WebGL starts, which holds this thread up for longer than all else. Until
-// the worker runs, this thread reads the page's own sample: nobody has to say first whether that is sound.
+// The worker reads and compiles the library while WebGL starts, which blocks this thread longer than anything else.
+// Until the worker runs, this thread reads the page's own sample, which needs no check.
 const work = new Work();
 const own = embeddedModel(), asked = own ? null : askedModel(), first = linkedBy(location.hash || (pageOrigin()?.shown ?? ""));
 const sampleNamed = (name: string | undefined): Sample | undefined => samples.find(({ file }) => file === name);
@@ -39,7 +39,7 @@ const kept = own || asked || first.sample ? null : await keptModel();
 const firstSample = own || kept ? null : (sampleNamed(first.sample) ?? samples[0]);
 const firstFiles = firstSample && filesOf(firstSample);
 const firstRead = firstFiles && loadModel(firstFiles, work);
-firstRead?.catch(() => {}); // said where it would be drawn
+firstRead?.catch(() => {}); // reported where the model would be drawn
 await work.started;
 const largeMap = el("section", { class: "large-map", "aria-label": "UV map", hidden: true });
 let plan: Plan | null = null;
@@ -112,7 +112,7 @@ stage.viewport.onDrawn = () => document.documentElement.dataset.state === "ready
 function followLink(): void {
   const { look, finding, split, camera } = linked as typeof first, { check } = app.reports as { check?: CheckReport };
   linked = {};
-  // What one sees at once is the worst of it.
+  // The first view shows the worst finding.
   const worst = check && worstOf(check);
   const isDrawn = document.documentElement.dataset.picture === "drawn";
   if (worst && isDrawn && finding === undefined && split === undefined && !camera) place.aim(check!.findings.filter(({ code }) => code === worst.code));
@@ -234,7 +234,7 @@ addEventListener("drop", (event) => {
   event.preventDefault();
   document.body.classList.remove("dropping");
   const { dataTransfer } = event;
-  // Entries of a drop can be asked for only now, so the first await comes after that.
+  // Entries of a drop are only accessible now, so they are read before the first await.
   if (dataTransfer) {
     openFiles(droppedFiles(dataTransfer));
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// This page with a model inside, as one HTML file: what `tspace view` makes, made by the page itself.
+// Saves this page with an embedded model as one HTML file, like `tspace view`.
 import { toBase64 } from "./base64.js";
 import type { PageOrigin } from "./embedded.js";
 import type { ModelFiles } from "./files.js";
@@ -18,7 +18,7 @@ export async function pageWith(model: ModelFiles, shown: string): Promise<Blob> 
   const blocks: string[] = [];
   for (const [name, bytes] of filesOf(model)) blocks.push(`<script type="application/octet-stream" data-name="${escaped(name)}">${await toBase64(bytes)}</script>\n`);
   const origin: PageOrigin = { version: __VERSION__, date: new Date().toISOString().slice(0, 10), command: `tspace view ${model.name}`, shown };
-  // Scripts and styles are those of this very page, so that the hashes in its policy hold.
+  // Scripts and styles are copied from this page, so that the hashes in its policy remain valid.
   const own = [...document.querySelectorAll('script[type="module"], script:not([type])')].filter((script) => script.closest("body"));
   const parts = [
     `<!doctype html>\n<html lang="en"><head>${document.head.innerHTML}</head>\n<body>\n`,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The last model of a person's own in the browser's own storage (OPFS), so that it is there again after a reload. It never leaves the
-// computer, and one button removes it. Pages that were opened from disk have no such storage, and private windows may have none.
+// Stores the user's last model in the browser (OPFS), so that it is available after a reload. It never leaves the
+// computer, and one button removes it. Pages opened from disk have no such storage, and private windows may have none.
 import type { ModelFiles } from "./files.js";
 
 const kFolder = "model", kIndex = "index.json";
@@ -32,7 +32,7 @@ export async function keepModel({ name, bytes, others }: ModelFiles): Promise<bo
     const place = await folder(true), index: Index = { name, others: [...others.keys()] };
     await write(place, "0", bytes);
     for (const [i, path] of index.others.entries()) await write(place, String(i + 1), others.get(path)!);
-    await write(place, kIndex, JSON.stringify(index)); // last, so that a half-written model is none
+    await write(place, kIndex, JSON.stringify(index)); // written last, so that an incomplete model is ignored
     return true;
   } catch {
     return false;

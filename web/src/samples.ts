@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Models that scripts/web makes, and faults put into them. The page contains them, since it loads nothing later.
-// samples/pictures.mjs makes their pictures.
+// Models that scripts/web generates, and faults inserted into them. They are embedded, because the page loads nothing
+// later. samples/pictures.mjs renders their pictures.
 import { fromBase64 } from "./base64.js";
 import { bear } from "./bear.js";
 import ring from "../samples/ring-directx.glb?inline";
@@ -82,12 +82,12 @@ function wrongSet(): Uint8Array<ArrayBuffer> {
   const { bytes, read } = crateArrays(), view = new DataView(bytes.buffer), textBytes = view.getUint32(12, true);
   const json = JSON.parse(new TextDecoder().decode(bytes.subarray(20, 20 + textBytes)));
   const tangents = read("TANGENT", 4), normals = read("NORMAL", 3), uvs = read("TEXCOORD_0", 2);
-  // u of the second set runs along B of the first: T' = B = w cross(N, T).
+  // u of the second set increases along B of the first: T' = B = w cross(N, T).
   for (let v = 0; v < tangents.length / 4; ++v) {
     const [x, y, z, w] = tangents.subarray(4 * v, 4 * v + 4), [nx, ny, nz] = normals.subarray(3 * v, 3 * v + 3);
     tangents.set([w * (ny * z - nz * y), w * (nz * x - nx * z), w * (nx * y - ny * x)], 4 * v);
   }
-  // v of glTF runs down, B up.
+  // In glTF v points down, and B up.
   const second = Float32Array.from(uvs, (_, i) => (i % 2 === 0 ? 1 - uvs[i + 1] : uvs[i - 1]));
   const old = bytes.subarray(28 + textBytes);
   json.bufferViews.push({ buffer: 0, byteOffset: old.length, byteLength: second.byteLength });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The arrays of a geometry of three.js as plain numbers.
+// Converts the arrays of a three.js geometry to plain numbers.
 import type { BufferAttribute, BufferGeometry, InterleavedBufferAttribute, Matrix3 } from "three";
 import type { Arrays } from "../worker/protocol.js";
 

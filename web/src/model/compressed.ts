@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the loader of three.js gets compressed geometry: the worker decodes it.
+// Passes compressed geometry to the loader of three.js: the worker decodes it.
 import { BufferAttribute, BufferGeometry } from "three";
 import type { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import type { Work } from "../worker/client.js";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A mended GLB as the folder that the model came in: a .gltf with its buffer, and its images under their own names.
+// Converts a repaired GLB to the form of the original model: a .gltf with its buffer, and its images under their
+// original names.
 import { zipSync } from "fflate";
 import { fileUris, type ModelFiles } from "../files.js";
 
@@ -41,7 +42,7 @@ function renumber(value: unknown, numbers: readonly number[]): void {
 function without(json: Json, binary: Bytes, taken: ReadonlySet<number>): Bytes {
   const pieces: { at: number; bytes: Bytes }[] = [], numbers: number[] = [], kept: NonNullable<Json["bufferViews"]> = [];
   let size = 0;
-  // In the order of their bytes; views may share some, and then stay together.
+  // Sorted by position; views that share bytes are kept together.
   const views = json.bufferViews ?? [], order = [...views.keys()].filter((i) => !taken.has(i)).sort((a, b) => (views[a].byteOffset ?? 0) - (views[b].byteOffset ?? 0));
   const starts = new Map<number, number>();
   let end = 0, shift = 0;
@@ -49,7 +50,7 @@ function without(json: Json, binary: Bytes, taken: ReadonlySet<number>): Bytes {
     const { byteOffset = 0, byteLength } = views[i];
     if (byteOffset >= end) {
       size = 4 * Math.ceil(size / 4);
-      // Alignment to 16 bytes is kept, whatever asked for it.
+      // Preserves alignment to 16 bytes, which some readers may require.
       while (size % 16 !== byteOffset % 16) size += 4;
       shift = size - byteOffset;
     }
@@ -81,7 +82,7 @@ export function folderOf(mended: Bytes, source: ModelFiles): Map<string, Bytes> 
     const uri = before.images?.[i]?.uri, view = image.bufferView === undefined ? undefined : json.bufferViews?.[image.bufferView];
     if (!isFile(uri) || !view) continue;
     const bytes = binary.slice(view.byteOffset ?? 0, (view.byteOffset ?? 0) + view.byteLength), path = pathOf(uri), there = written.get(path);
-    // Two images of one file, of which one has changed, cannot have one name.
+    // If two images share a file and one of them has changed, they cannot have the same name.
     if (there && !isSame(there, bytes)) continue;
     written.set(path, bytes);
     files.set(path, bytes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes GLB. Plain JavaScript, since samples/make.mjs runs it in node as it is.
+// Writes GLB. Plain JavaScript, because samples/make.mjs runs it in node without compilation.
 
 const kFloat = 5126, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 

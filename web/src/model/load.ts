@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A model for the eye, by the loader of three.js. What it thinks of a file counts for the picture alone; verdicts are tspace's.
+// Loads a model for display with the loader of three.js. Its errors concern only the picture; verdicts come from
+// tspace.
 import { InstancedMesh, LoadingManager, Matrix3, Matrix4, Mesh, SkinnedMesh, Vector3, type Group, type Material, type MeshStandardMaterial, type Object3D, type Texture } from "three";
 import { GLTFLoader, type GLTF } from "three/examples/jsm/loaders/GLTFLoader.js";
 import type { ModelFiles } from "../files.js";
@@ -39,7 +40,7 @@ function managerFor(model: ModelFiles, urls: string[]): LoadingManager {
     if (/^(data|blob):/i.test(url)) return url;
     const path = decoded(url).replace(/^\.\//, "");
     const bytes = model.others.get(path);
-    if (!bytes) return "data:,"; // there is no such file here, and none is asked for elsewhere
+    if (!bytes) return "data:,"; // the file does not exist here, and is not requested elsewhere
     const type = types[path.slice(path.lastIndexOf(".") + 1).toLowerCase()] ?? "application/octet-stream";
     urls.push(URL.createObjectURL(new Blob([bytes], { type })));
     return urls[urls.length - 1];
@@ -75,7 +76,7 @@ function partOf(mesh: Mesh, where: Origin, materialIndex: number, normalImages: 
     material: materialIndex,
     arrays,
     normalMap,
-    // That of y is negated by the loader where there are no tangents.
+    // The loader negates y if there are no tangents.
     normalScale: material.normalScale?.x ?? 1,
     normalImage: normalImages[materialIndex] ?? -1,
     color: new Vector3(color.r, color.g, color.b),
@@ -116,7 +117,7 @@ function placesOf(mesh: Mesh): Matrix4[] {
 
 /** Shaders work in floats, so what stands far from the origin is shown near it: the picture has no origin to be seen. */
 function moveToOrigin(parts: Iterable<Part>): void {
-  const kFar = 1e4; // where a float's step is a thousandth
+  const kFar = 1e4; // where the spacing of floats is 0.001
   const all = [...parts], places = all.flatMap((part) => part.places);
   const { x, y, z } = new Vector3().setFromMatrixPosition(places[0] ?? new Matrix4());
   if (Math.hypot(x, y, z) < kFar) return;
@@ -133,7 +134,7 @@ function treeOf(roots: readonly Object3D[], drawnBy: Map<Object3D, TreeNode["dra
     return { name: object.name, draws: own ? [own] : [], children };
   };
   const tops = roots.map(nodeOf).filter((node) => node !== null);
-  // The scene itself is no node.
+  // The scene itself is not a node.
   return tops.flatMap((top) => (top.draws.length === 0 ? top.children : [top]));
 }
 
@@ -168,7 +169,7 @@ export async function loadModel(model: ModelFiles, work: Work, variant = -1): Pr
       root.traverse((object) => {
         const where = object instanceof Mesh ? originOf(object, gltf) : null;
         if (!(object instanceof Mesh) || !where) return;
-        // Each skinned mesh has a pose of its own.
+        // Each skinned mesh has a separate pose.
         const key = `${where.meshes}/${where.primitives}/${(object.material as Material).uuid}/${object instanceof SkinnedMesh ? object.uuid : ""}`;
         const known = parts.get(key) ?? partOf(object, where, materialIn(gltf, where, variant), normalImages);
         if (!known) return;

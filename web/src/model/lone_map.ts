@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A normal map without a model: a flat surface shows it, so that it can be lit, and so that everything that works on models works on it.
+// A normal map without a model: it is shown on a flat surface, so that it can be lit, and so that all functions for
+// models work.
 import { readGlb } from "./folder.js";
 import { GlbBuilder } from "./glb.js";
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What moves in a file: animations and morph weights, and the cameras that look at it. The picture's parts follow.
+// Motion in a file: animations, morph weights, and cameras. The parts of the picture follow it.
 import { AnimationMixer, Vector3, type AnimationClip, type Camera, type Mesh, type Object3D } from "three";
 import { poseOf } from "./pose.js";
 import type { Part } from "./part.js";

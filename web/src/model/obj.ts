@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An OBJ as the GLB that it becomes: corners as three.js reads them, colours and maps of the MTL file beside it.
+// Converts an OBJ to a GLB: corners as read by three.js, colors and maps of its MTL file.
 import { Mesh, type BufferGeometry, type Material } from "three";
 import { OBJLoader } from "three/examples/jsm/loaders/OBJLoader.js";
 import { Refusal, type ModelFiles } from "../files.js";
@@ -66,7 +66,7 @@ class ObjWriter {
   primitive(geometry: BufferGeometry, start: number, count: number, material: string): object {
     const part = (name: string, size: number) => (geometry.getAttribute(name)?.array as Float32Array | undefined)?.slice(size * start, size * (start + count));
     const normals = part("normal", 3), uvs = part("uv", 2);
-    // OBJ has v = 0 at the bottom, glTF at the top.
+    // v = 0 is at the bottom in OBJ, and at the top in glTF.
     if (uvs) for (let i = 1; i < uvs.length; i += 2) uvs[i] = 1 - uvs[i];
     const attributes = {
       POSITION: this.#builder.addAccessor(part("position", 3)!, "VEC3"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A primitive of a model, as the page shows it.
+// A primitive of a model in the page's representation.
 import type { BufferAttribute, InterleavedBufferAttribute, Material, Matrix4, Texture, Vector3 } from "three";
 import type { Motion } from "./motion.js";
 import type { Pose } from "./pose.js";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the bones and morph weights of a file put the vertices of a mesh: its rest pose.
+// Computes the rest pose of a mesh: its vertices after applying the bones and morph weights of the file.
 import { Matrix4, SkinnedMesh, Vector3, type BufferAttribute, type Mesh } from "three";
 import type { Arrays, Corners } from "../worker/protocol.js";
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Images of a file: which one a normal map is, and what happens to those that the picture cannot show.
+// Images of a file: identifies normal maps, and replaces images that the picture cannot show.
 import type { GLTF, GLTFLoader, GLTFParser } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { plural } from "../dom.js";
 import type { Work } from "../worker/client.js";

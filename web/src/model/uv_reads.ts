@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The UV maps of a part: each set of the file as its textures read it, through their transforms.
+// The UV maps of a part: each UV set of the file after the transforms of its textures.
 import { Matrix3, type Texture } from "three";
 import { uvName, uvsThrough } from "./arrays.js";
 import type { Part } from "./part.js";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// KHR_materials_variants: the materials that a file has for each of its variants, which the loader of three.js leaves out.
+// KHR_materials_variants: the materials of each variant of a file, which the loader of three.js ignores.
 import { Mesh, type Material, type Object3D } from "three";
 import type { GLTF } from "three/examples/jsm/loaders/GLTFLoader.js";
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The eye: where the camera is, what it looks at, and its flights from one place to another.
+// The camera: position, target, and animated transitions.
 import { PerspectiveCamera, Vector3 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Scene } from "./scene.js";
@@ -48,7 +48,7 @@ export class Eye {
     const distance = (radius / Math.sin(Math.atan(Math.tan(angle) * narrow))) * 1.08;
     const direction = (toward ?? this.camera.position.clone().sub(this.controls.target)).clone().normalize();
     if (direction.lengthSq() === 0 || !Number.isFinite(direction.x)) direction.set(0.5, 0.4, 1).normalize();
-    // Straight from above, "up" would have no direction.
+    // Looking straight down, the "up" direction would be undefined.
     if (Math.abs(direction.y) > 0.985) direction.set(0.12, Math.sign(direction.y), 0.12).normalize();
     return this.#flyTo(center, distance, direction, isInstant);
   }
@@ -84,7 +84,7 @@ export class Eye {
     const right = new Vector3(0, 1, 0).cross(toward).normalize(), up = toward.clone().cross(right);
     const middle = center.clone();
     let distance = (radius / across) * 1.5;
-    // What is near looks larger, so the middle and the distance depend on each other.
+    // In perspective closer points look larger, so center and distance depend on each other.
     for (let round = 0; round < 6 && points.length > 0; ++round) {
       const low = [Infinity, Infinity], high = [-Infinity, -Infinity], p = new Vector3();
       for (let i = 0; i < points.length; i += 3) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What surfaces mirror: a gray room with three lamps or other generated surroundings, or a panorama of a person's own.
+// Reflected environments: a gray room with three lamps, other generated environments, or a panorama provided by the
+// user.
 import { BackSide, BoxGeometry, Color, DataTexture, EquirectangularReflectionMapping, Float32BufferAttribute, LinearFilter, Mesh, MeshBasicMaterial, PMREMGenerator, RGBAFormat, Scene, SphereGeometry, type Texture, type TextureDataType, type WebGLRenderer } from "three";
 import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
 
@@ -15,12 +16,12 @@ interface Lamp {
 
 /** Colours from below to above, and lamps: their places, sizes and brightness. */
 const kinds: Record<Surroundings, { below: Color; level?: Color; above: Color; lamps: readonly Lamp[] }> = {
-  // The largest lamp is above and to the left, where the lamp of the page is at first.
+  // The largest lamp is above and to the left, like the initial lamp of the page.
   room: {
     below: new Color(0.16, 0.15, 0.14), above: new Color(0.62, 0.64, 0.68),
     lamps: [{ at: [-4, 6, 3], size: [4, 0.2, 4], light: 9 }, { at: [6, 2, 2], size: [0.2, 3, 3], light: 4 }, { at: [0, 1, -7], size: [6, 2, 0.2], light: 2 }],
   },
-  // Dark, with tall lamps at both sides and one above: rims and long highlights.
+  // Dark, with tall lamps on both sides and one above: rim light and long highlights.
   studio: {
     below: new Color(0.02, 0.02, 0.02), above: new Color(0.1, 0.1, 0.11),
     lamps: [{ at: [-7, 1, 1], size: [0.2, 9, 2], light: 14 }, { at: [7, 1, -1], size: [0.2, 9, 2], light: 9 }, { at: [0, 8, 1], size: [4, 0.2, 2], light: 8 }],

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The frame of a vertex under the matrix of its node: in GLSL for the shaders, and in TypeScript for lines and numbers beside them.
-// As in three.js and Khronos' glTF viewer, N goes by the inverse transpose and T by the matrix, both are normalized at the vertex, and
-// B = w * cross(N, T) is computed from these two: a scale of the node neither flattens nor exaggerates relief. Where the node mirrors
-// (determinant < 0), cross(N, T) turns over and the surface does not, so B takes the sign of the determinant. Those two viewers omit
-// that sign, and light tangents of mirrored nodes upside down along B.
+// The frame of a vertex under the matrix of its node: in GLSL for the shaders, and in TypeScript for lines and numbers.
+// As in three.js and Khronos' glTF viewer, N is transformed by the inverse transpose and T by the matrix, both are
+// normalized at the vertex, and B = w * cross(N, T) is computed from them: scaling a node neither flattens nor
+// exaggerates relief. If the node mirrors (determinant < 0), cross(N, T) is inverted but the surface is not, so B is
+// multiplied by the sign of the determinant. Those two viewers omit that sign, and light tangents of mirrored nodes
+// upside down along B.
 import { Matrix3, Vector3, type Matrix4 } from "three";
 
 export const frameGlsl = `

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Keys that turn, move and zoom the picture.
+// Keys that rotate, move and zoom the picture.
 import type { Eye } from "./camera.js";
 
 const kStep = Math.PI / 24;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What lies over the picture: T, B and N as lines, and the outlines of triangles that a finding names.
+// Overlays of the picture: T, B and N as lines, and outlines of triangles that a finding names.
 import { Box3, Box3Helper, BufferAttribute, BufferGeometry, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, Sphere, Vector3 } from "three";
 import { PlacedFrame } from "./frame.js";
 import type { Drawn, Scene } from "./scene.js";

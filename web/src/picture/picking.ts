@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is read back from the graphics card: the triangle at a place of the picture, and the UV map of a part.
+// Data read back from the GPU: the triangle at a position of the picture, and the UV map of a part.
 import { BufferAttribute, Color, NoBlending, Vector2, WebGLRenderTarget, type PerspectiveCamera, type Scene as ThreeScene, type WebGLRenderer } from "three";
 import type { Scene } from "./scene.js";
 import { setValues, type PictureValues } from "./shader.js";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the graphics card draws: the scene, another file right of the line, the lamp, its shadows and the surroundings.
+// Rendering on the GPU: the scene, another file to the right of the split line, the lamp, its shadows, and the
+// environment.
 import { DirectionalLight, NeutralToneMapping, Scene as ThreeScene, Vector2, WebGLRenderer, type PerspectiveCamera } from "three";
 import { environmentFor, environmentOf, type Surroundings } from "./environment.js";
 import type { Readable } from "./picking.js";
@@ -108,11 +109,11 @@ export class Picture {
   /** Draws, and says whether another picture has to follow: the first one does without the environment. */
   draw(camera: PerspectiveCamera, values: PictureValues & Settings, split: number): boolean {
     const { renderer } = this;
-    // Before the first model the canvas is empty, and the graphics card has enough to do.
+    // Before the first model the canvas is empty, and the GPU is busy with other work.
     if (!renderer || (this.scene.drawn.length === 0 && !this.#hasDrawn)) return false;
     for (const { material } of this.scene.drawn) setValues(material, values);
     this.#placeLamp(values);
-    // The first picture does not wait for the environment, which is blurred for each roughness.
+    // The first frame does not wait for the environment, which is blurred for each roughness level.
     const wantsSurface = values.look === "lit" && values.usesColors && !values.isWire, isSurface = wantsSurface && this.#hasDrawn;
     if (isSurface) this.#world.environment ??= this.#panorama ? environmentOf(renderer, this.#panorama) : environmentFor(renderer, values.surroundings);
     this.#world.environmentRotation.y = (values.turn * Math.PI) / 180;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The parts of a model as drawable objects. Each place of a part is an object of its own; all share one geometry.
+// The parts of a model as drawable objects. Each placement of a part is a separate object; all share one geometry.
 import { BufferAttribute, BufferGeometry, DataTexture, Group, Matrix4, Mesh, Sphere, Vector3, type Material, type RawShaderMaterial, type Texture } from "three";
 import { poseCorners, poseTangents } from "../model/pose.js";
 import type { Part } from "../model/part.js";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The shader of all looks but the surface. N and T are unit at the vertices (frame.ts) and not between them: only the shaded normal
-// is normalized, as bakers expect. The frames of the file are left of the split, those of the method right of it.
+// The shader of all looks except the surface. N and T are unit at the vertices (frame.ts) but not between them: only
+// the shading normal is normalized, as bakers expect. The frames of the file are to the left of the split line, those
+// of the chosen method to its right.
 import { GLSL3, RawShaderMaterial, type Texture, type Vector3 } from "three";
 import { glsl, heat, heatDegrees, noData, signMinus, signPlus, wrong } from "../color.js";
 import { frameGlsl } from "./frame.js";

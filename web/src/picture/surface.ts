@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A material of three.js whose normal map is read through our frames: those of the file left of the split, the right ones right
-// of it. All else of it (metal, roughness, alpha, emission, clearcoat, transmission) is as three.js has it.
+// A three.js material whose normal map uses our frames: those of the file to the left of the split line, correct ones
+// to its right. Everything else (metalness, roughness, alpha, emission, clearcoat, transmission) is unchanged.
 import type { Material, Texture } from "three";
 import { frameGlsl } from "./frame.js";
 
@@ -18,7 +18,7 @@ in vec4 fileTangent, right;
 out vec3 vOwnNormal, vFileTangent, vFileBitangent, vRightTangent, vRightBitangent;
 ${frameGlsl}`;
 
-// N and T are unit at the vertices and not between them: only the shaded normal is normalized, as bakers expect.
+// N and T are unit at the vertices but not between them: only the shading normal is normalized, as bakers expect.
 const vertexBody = `#include <normal_vertex>
 mat3 toEye = linearOf(modelViewMatrix);
 vOwnNormal = placedNormal(toEye, normal);
@@ -32,7 +32,7 @@ uniform bool uHasTangents, uHasRight, uRightGreen;
 uniform sampler2D uRightMap;
 in vec3 vOwnNormal, vFileTangent, vFileBitangent, vRightTangent, vRightBitangent;`;
 
-// Where there are no tangents three.js makes a frame whose B runs against v.
+// Without tangents, three.js computes a frame whose B points against v.
 const fragmentBody = `#ifdef USE_NORMALMAP_TANGENTSPACE
 if (uMap != 0) {
   bool isRight = gl_FragCoord.x >= uSplit;
@@ -59,7 +59,7 @@ function replaced(text: string, part: string, by: string): string {
 /** The material as the page draws it. Its textures are those of the source. */
 export function surfaceFor(source: Material, uniforms: SurfaceUniforms): Material {
   const surface = source.clone();
-  // Flat normals are in the geometry.
+  // Flat normals are part of the geometry.
   if ("flatShading" in surface) surface.flatShading = false;
   surface.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms);

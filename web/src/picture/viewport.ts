@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The picture: draws when something has changed and not otherwise. The eye is in camera.ts, what the graphics card draws in
-// renderer.ts, what is read back from it in picking.ts.
+// The picture: redraws only when something has changed. The camera is in camera.ts, rendering in renderer.ts, and
+// reading back in picking.ts.
 import { Vector3, WebGLRenderTarget, type Matrix4, type Object3D, type PerspectiveCamera } from "three";
 import { Eye } from "./camera.js";
 import { moveByKey } from "./keys.js";
@@ -137,7 +137,7 @@ export class Viewport {
   draw(): OffscreenCanvas | null {
     if (!this.hasPicture) return null;
     this.#draw();
-    // The canvas holds what was drawn until this task ends.
+    // The canvas keeps its content until this task ends.
     const copy = new OffscreenCanvas(this.canvas.width, this.canvas.height);
     copy.getContext("2d")!.drawImage(this.canvas, 0, 0);
     return copy;

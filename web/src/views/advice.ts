@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the findings of a model ask the fix to do, and why: the commands of their remedies, as the engine gives them.
+// Derives the options of the fix from the findings of a model: the commands of their remedies, as returned by the
+// engine.
 import { plural } from "../dom.js";
 import type { CheckReport, Finding } from "tspace/gltf";
 
@@ -25,13 +26,13 @@ const camel = (name: string): string => name.replace(/-./g, ([, letter]) => lett
 
 /** The switches for the first command of a remedy that works on the model, or null where this page has no switch for it. */
 export function remedyOptions({ code, commands }: Finding): Remedy | null {
-  // Where signs and green cancel out, the remedy has two commands: repair both or neither.
+  // If inverted signs and inverted green cancel out, the remedy has two commands: repair both or neither.
   if (code === "greenFlipped") return { flipGreen: true };
   const command = commands.find(({ verb }) => verb === "generate");
   if (!command) return null;
   const remedy: Remedy = command.options.length === 0 ? { tangents: "repair" } : {};
   for (const { name, value } of command.options) {
-    const option = camel(name).replace(/^fix(?=Maps|Winding)/, "mend"); // options renamed since the members were named
+    const option = camel(name).replace(/^fix(?=Maps|Winding)/, "mend"); // options renamed after the members were named
     if (option === "repair" || option === "overwrite") remedy.tangents = option;
     else if (flags.has(option)) Object.assign(remedy, { [option]: true });
     else if (option === "denoise" && value === "auto") remedy.denoise = true;
@@ -39,7 +40,7 @@ export function remedyOptions({ code, commands }: Finding): Remedy | null {
     else if (option === "morphNormals") remedy.morphNormals = value as "missing" | "all";
     else return null;
   }
-  // Normals without noise replace all others.
+  // Denoised normals replace all others.
   if (remedy.denoise) delete remedy.overwriteNormals;
   return remedy;
 }
@@ -104,10 +105,10 @@ export interface Plan {
 
 /** What one click does about all errors and warnings; null where it can do nothing about them. */
 export function planFor(report: CheckReport): Plan | null {
-  // Signs that cancel out with green render right.
+  // Signs that cancel out with inverted green render correctly.
   const serious = report.findings.filter(({ severity, code }) => severity !== "note" && !(code === "signsInverted" && cancels(report)));
   const remedies = serious.map(remedyOptions), wants = (tangents: Tangents, isError: boolean) => remedies.some((one, i) => one?.tangents === tangents && (!isError || serious[i].severity === "error"));
-  // All tangents are recomputed for errors alone, or where nothing else has to be repaired.
+  // All tangents are recomputed only for errors, or if nothing else has to be repaired.
   const tangents: Tangents = wants("overwrite", true) || (wants("overwrite", false) && !wants("repair", false)) ? "overwrite" : "repair";
   const { extras } = adviceFor(report, tangents, false), codes = (holds: (finding: Finding) => boolean) => new Set(serious.filter(holds).map(({ code }) => code)).size;
   const isMissing = serious.some(({ code }) => code === "tangentsMissing" || code === "tangentsIgnored");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is wrong, a kind of finding at a time: what one sees, why, how to fix it, and the places one after another. Also which tool
-// made the tangents.
+// Lists findings by kind: the visible effect, the cause, the fix, and each location. Also shows which tool computed the
+// tangents.
 import { count, el, plural, replaceChildren } from "../dom.js";
 import { remedyOptions } from "./advice.js";
 import { figureLink } from "../lesson.js";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The answer to "what is wrong, and what do I press": a sentence above the picture, and one large button beside the split line.
+// Summarizes what is wrong and how to fix it: a sentence above the picture, and a large button next to the split line.
 import { el, plural, replaceChildren } from "../dom.js";
 import { changeOfCounts, countsText, worstOf, type Plan } from "./advice.js";
 import type { CheckReport, Finding } from "tspace/gltf";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The samples as pictures to press.
+// Gallery of the samples as clickable pictures.
 import { el } from "../dom.js";
 import { samples, type Sample } from "../samples.js";
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the colors of the picture mean.
+// Legend of the colors in the picture.
 import { css, heatDegrees, heatGradient, noData, signMinus, signPlus, wrong, type Rgb } from "../color.js";
 import { el, replaceChildren } from "../dom.js";
 import type { Look } from "../picture/shader.js";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the model is looked at: the method of the right frames, the normal map, lines and edges.
+// Controls of the view: the method of the right frames, the normal map, lines and edges.
 import { checkbox, choice, count, el, replaceChildren, select, slider } from "../dom.js";
 import { frameLines, usualEdge, type Axis } from "../picture/overlays.js";
 import { surroundings } from "../picture/environment.js";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A canvas that shows a UV map, to be moved and zoomed. What it shows is drawn by its owner; this is its hands and its window.
+// A canvas that shows a UV map and can be moved and zoomed. Its owner draws the content; this class handles input and
+// the visible area.
 import { el } from "../dom.js";
 
 const kMostPixels = 1 << 21, kNearest = 2e5;
@@ -155,7 +156,7 @@ export class MapCanvas {
     const [other] = [...this.#pointers].filter(([id]) => id !== event.pointerId).map(([, place]) => place);
     if (Math.hypot(now.x - before.x, now.y - before.y) < 3 && !this.#hasMoved && !other) return;
     this.#hasMoved = true;
-    const share = other ? 0.5 : 1; // two fingers move it half each
+    const share = other ? 0.5 : 1; // with two fingers each contributes half of the motion
     this.#pan(share * (now.x - before.x), share * (now.y - before.y));
     if (other) {
       const apart = Math.hypot(before.x - other.x, before.y - other.y);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Fixes the model as `tspace generate` does: what to do, the same as a command line, what changed, and the file. Each model
-// begins with what its own findings ask for.
+// Fixes the model like `tspace generate`: options, the equivalent command line, the changes, and the file. Each model
+// starts with the options that its own findings require.
 import { folderOf, zipOf } from "../model/folder.js";
 import { checkbox, choice, count, el, plural, replaceChildren, select } from "../dom.js";
 import { fixedMapName, isMapName } from "../model/lone_map.js";
@@ -182,7 +182,7 @@ export class MendView {
 
   #refresh(): void {
     this.#takeAdvice();
-    // A repair would turn such signs back.
+    // A repair would undo such signs.
     this.#signsChoice.element.disabled = this.#tangents !== "overwrite";
     this.#unpacks.hidden = !this.#isCompressed;
     this.#button.disabled = this.#model === null;
@@ -237,7 +237,7 @@ export class MendView {
     this.told.done(mended, url, file.changed);
     const look = el("button", { type: "button", onclick: () => this.open(mended) }, "Open the fixed file");
     const sentence = verdictOf(mended, this.#checked);
-    // Only a file that is better than the one before is offered as what to take.
+    // Only a file that is better than the previous one is offered as the main download.
     const download = el("a", { class: sentence.isGood ? "button" : "button plain-link", href: url, download: mended.name }, `Download ${mended.name}`);
     replaceChildren(this.#result,
       el("p", { class: sentence.isGood ? "fine" : "quiet" }, sentence.what),

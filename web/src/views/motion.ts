@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Animations to play, morph weights to set, cameras to look through: there where a file has them.
+// Controls for animations, morph weights and cameras, shown if a file has them.
 import { el, replaceChildren, select } from "../dom.js";
 import { Motion } from "../model/motion.js";
 import type { Viewport } from "../picture/viewport.js";

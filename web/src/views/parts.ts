@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the file holds: numbers, its parts to show and hide, and its images with their channels.
+// Contents of the file: numbers, its parts to show and hide, and its images with their channels.
 import { checkbox, choice, count, el, plural, replaceChildren, select } from "../dom.js";
 import type { PageOrigin } from "../embedded.js";
 import { nameOfMap } from "../model/uv_reads.js";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shows findings in the picture: the look in which they are seen, outlines of all that they are about, and a flight to what is
-// only somewhere.
+// Shows findings in the picture: selects a suitable look, outlines all affected triangles, and moves the camera to
+// local findings.
 import { Group, Vector3, type Camera, type Object3D } from "three";
 import { bestDirection, facesOf, outlinePart, outlineTriangles, trianglesAt, type Place } from "../picture/overlays.js";
 import type { Drawn } from "../picture/scene.js";
@@ -101,7 +101,7 @@ export class PlaceView {
       if (!drawn) continue;
       seen += 1;
       const triangles = isOther ? [] : trianglesOf(drawn, finding);
-      // Without vertices the finding is about all of the primitive.
+      // A finding without vertices is about the whole primitive.
       isWhole = triangles.length === 0 && scene.drawn.length === 1;
       if (faces.length < kMostFaces) faces.push(...facesOf(drawn, triangles.slice(0, kMostFaces)));
       const place = triangles.length > 0 ? outlineTriangles(drawn, triangles) : { ...outlinePart(drawn), faces: [] };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is being done, how much of it is, and a button that ends it.
+// The current task, its progress, and a button that cancels it.
 import { el } from "../dom.js";
 
 export class Progress {

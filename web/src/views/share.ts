@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What one takes along: the findings as text, Markdown or JSON, and the picture with what it shows.
+// Exports: the findings as text, Markdown or JSON, and the picture.
 import { el, plural, select } from "../dom.js";
 import { heat, heatDegrees, css } from "../color.js";
 import type { Reports } from "../app.js";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The middle of the page: the picture, what is to be seen in it, the slider between both frames, and the light.
+// The center of the page: the picture, the choice of looks, the slider between both frames, and the light.
 import { choice, el } from "../dom.js";
 import type { Look } from "../picture/shader.js";
 import { hasSplit, Viewport } from "../picture/viewport.js";
@@ -53,12 +53,12 @@ export class Stage {
     this.viewport = new Viewport(this.canvas);
     this.#split.addEventListener("input", () => this.setSplit(Number(this.#split.value) / 1000));
     this.canvas.addEventListener("light", () => this.#showLight());
-    // The line takes the left button; all else goes on to the picture below it.
+    // The line handles the left button; other events are passed to the picture below it.
     this.#line.addEventListener("pointerdown", (event) => (event.button === 0 ? this.#line : this.canvas).setPointerCapture(event.pointerId));
     this.#line.addEventListener("pointermove", (event) => event.buttons & 1 && this.#dragLine(event));
     this.#line.addEventListener("contextmenu", (event) => event.preventDefault());
     this.#line.addEventListener("wheel", (event) => (event.preventDefault(), this.canvas.dispatchEvent(new WheelEvent("wheel", event))));
-    // Held, the key shows all of the picture by the right frames; let go, what was there before.
+    // While the key is held, the whole picture uses the right frames; on release the previous state is restored.
     addEventListener("keydown", (event) => event.key === "b" && !event.repeat && !isTyping(event) && this.#blink(true));
     addEventListener("keyup", (event) => event.key === "b" && this.#blink(false));
     addEventListener("blur", () => this.#blink(false));

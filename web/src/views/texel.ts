@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is under the pointer: the texel, its normal, the frame there, and the angle between both frames' results.
+// Information at the pointer: the texel, its normal, the frame there, and the angle between the results of both frames.
 import { Matrix4, Ray, Vector2, Vector3, type Texture } from "three";
 import { el, replaceChildren } from "../dom.js";
 import { PlacedFrame } from "../picture/frame.js";
@@ -35,7 +35,7 @@ class TexelReader {
     const wrap = (x: number) => x - Math.floor(x);
     const column = Math.min(image.width - 1, Math.floor(wrap(u) * image.width));
     const row = Math.min(image.height - 1, Math.floor(wrap(v) * image.height));
-    this.#context.globalCompositeOperation = "copy"; // not over the texel before
+    this.#context.globalCompositeOperation = "copy"; // replaces the previous texel instead of drawing over it
     this.#context.drawImage(texture.image as CanvasImageSource, column, row, 1, 1, 0, 0, 1, 1);
     const [r, g, b] = this.#context.getImageData(0, 0, 1, 1).data;
     return { column, row, rgb: [r, g, b] };
@@ -105,7 +105,7 @@ export class TexelView {
     const mixed = (data: Float32Array, size: number) => new Vector3(mix(data, size, 0), mix(data, size, 1), mix(data, size, 2));
     const { corners, frames, part } = drawn;
     const n = mixed(corners.normals, 3), frame = new PlacedFrame(place);
-    // As the shaders have it: a frame at each corner, interpolated.
+    // Like in the shaders: a frame at each corner, interpolated.
     const shaded = (tangents: Float32Array, { x, y, z }: Vector3) => [0, 1, 2].reduce((sum, k) => {
       const corner = 3 * triangle + k, weight = weights.getComponent(k);
       const normal = new Vector3().fromArray(corners.normals, 3 * corner), t = new Vector3().fromArray(tangents, 4 * corner);

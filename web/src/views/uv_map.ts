@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The UV map of a part, in the inspector or large beside the model: its islands over an image. What is pointed at in one of the two
-// is shown in the other.
+// The UV map of a part, in the inspector or large next to the model: its islands over an image. Pointing at one of the
+// two views highlights the same position in the other.
 import type { Object3D } from "three";
 import { checkbox, choice, el, plural, replaceChildren, select } from "../dom.js";
 import { uvReadsOf, type UvRead } from "../model/uv_reads.js";
@@ -229,7 +229,8 @@ export class UvMapView {
   #drawImage(context: CanvasRenderingContext2D, image: UvRead["images"][number]["image"], [su, sv, ou, ov]: Area): boolean {
     const { width, height } = context.canvas;
     if (Math.max(1 / su, 1 / sv) > kMostTiles) return false;
-    context.imageSmoothingEnabled = su * width < 3 * image.width; // texels are squares from three pixels on
+    // from three pixels per texel on, texels are drawn as squares
+    context.imageSmoothingEnabled = su * width < 3 * image.width;
     for (let row = Math.floor(-ov / sv); row < (1 - ov) / sv; ++row) {
       for (let column = Math.floor(-ou / su); column < (1 - ou) / su; ++column) {
         context.drawImage(image, (column * su + ou) * width, (row * sv + ov) * height, su * width, sv * height);

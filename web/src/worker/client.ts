@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The page's side of the worker. A call into WebAssembly cannot be interrupted, so to stop is to end the worker; the next call
-// starts a new one.
+// The page's side of the worker. A call into WebAssembly cannot be interrupted, so stopping means terminating the
+// worker; the next call starts a new one.
 import type { Answer, Call, Calls } from "./protocol.js";
 import Worker from "./worker.js?worker&inline";
 
@@ -39,7 +39,8 @@ export class Work {
   /** Makes way for another model: ends what is running, or else only forgets its parts. */
   forget(): void {
     if (this.#waiting.size > 0) this.stop();
-    else if (this.#worker) this.run("forget", {}).catch(() => {}); // stopped meanwhile: it has forgotten all
+    // if it was terminated meanwhile, nothing needs to be forgotten
+    else if (this.#worker) this.run("forget", {}).catch(() => {});
   }
 
   /** Ends all that is running. What the worker knew of parts is gone. */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Decoders of meshopt and Draco, for models that say they need them, and what the picture asks of them.
+// Decoders of meshopt and Draco, for models that require them, and for the picture.
 import createDraco, { type DracoModule } from "three/examples/jsm/libs/draco/gltf/draco_wasm_wrapper.js";
 import dracoWasm from "three/examples/jsm/libs/draco/gltf/draco_decoder.wasm?packed";
 import { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Primitives as lists of corners, islands of their UV maps, and frames with their distance from those of the file.
+// Primitives as lists of corners, islands of their UV maps, and frames with their deviation from those of the file.
 import { generateNormals, generateTangents, ready, type Mesh } from "tspace";
 import type { Arrays, Corners, Frames, MapCorners, Method } from "./protocol.js";
 
@@ -128,7 +128,7 @@ export async function computeFrames(arrays: Arrays, method: Method): Promise<Fra
   const vertices = cornerVertices(arrays);
   let mesh = meshOf(arrays, vertices);
   if (!mesh.normals) {
-    // Per corner, as the picture has them.
+    // Indexed per corner, like the picture.
     const own = Uint32Array.from(vertices, (_, corner) => corner);
     mesh = { positions: gather(arrays.positions, 3, vertices), normals: generateNormals(mesh, { weighting: "flat" }), uvs: arrays.uvs && gather(arrays.uvs, 2, vertices), indices: own };
   }
@@ -139,7 +139,7 @@ export async function computeFrames(arrays: Arrays, method: Method): Promise<Fra
 export function otherFrames(arrays: Arrays, others: Arrays): Frames | null {
   const vertices = cornerVertices(arrays), theirs = cornerVertices(others);
   if (!others.tangents || theirs.length !== vertices.length) return null;
-  // A triangle that was turned has its second and third corner exchanged.
+  // In a flipped triangle the second and third corner are exchanged.
   const isAt = (a: number, b: number) => [0, 1, 2].every((k) => arrays.positions[3 * vertices[a] + k] === others.positions[3 * theirs[b] + k]);
   for (let second = 1; second < theirs.length; second += 3) {
     const third = second + 1;

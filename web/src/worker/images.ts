@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pixels of normal maps, and files of them. PNG is read and written here, since browsers give 8 bits of it, and colours multiplied by
+// Decodes and encodes normal maps. PNG is handled here, because browsers decode it to 8 bits and multiply colors by
 // alpha; JPEG and WebP are left to the browser.
 import { convertIndexedToRgb, decode, encode } from "fast-png";
 import { decodeByCanvas, type ImageType, type Pixels, type PixelsToEncode } from "tspace/gltf";
@@ -41,7 +41,8 @@ async function fileByCanvas({ width, height, channels, data }: PixelsToEncode, t
   }
   const canvas = new OffscreenCanvas(width, height);
   canvas.getContext("2d")!.putImageData(image, 0, 0);
-  // The best quality: all below average colours, and so directions, over neighbours. A WebP is without loss then.
+  // The best quality: lower ones average colors, and therefore directions, over neighboring pixels. WebP is then
+  // lossless.
   const blob = await canvas.convertToBlob({ type, quality: 1 });
   if (blob.type !== type) throw new Error(`This browser writes no ${type.slice(6)}: tspace generate --flip-green does.`);
   return new Uint8Array(await blob.arrayBuffer());

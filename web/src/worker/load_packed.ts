@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// WebAssembly lies in the page as gzip does it, which is half as long as without.
+// The page embeds WebAssembly compressed with gzip, which halves its size.
 
 /** The bytes of a data URL that vite.config.ts has made. */
 export async function load(url: URL | string): Promise<ArrayBuffer> {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reports on model files, by the package's entry for glTF.
+// Reports on model files, computed by the package's entry for glTF.
 import { check, decodeImages, generate, identify, inspect, ready } from "tspace/gltf";
 import type { ModelFiles } from "../files.js";
 import { codecsFor } from "./codecs.js";

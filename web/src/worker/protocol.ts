@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the page and its worker say to each other.
+// Messages between the page and its worker.
 import type { ModelFiles } from "../files.js";
 
 export const methods = ["mikktspace", "best", "fast", "angle", "area", "uniform", "lengyel", "flat"] as const;

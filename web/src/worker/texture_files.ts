@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// KTX2 and DDS as pixels, by the package's decoders, which are loaded when a model has such an image.
+// Decodes KTX2 and DDS to pixels with the package's decoders, which are loaded when a model has such an image.
 import { unzlibSync } from "fflate";
 import { ZSTDDecoder } from "three/examples/jsm/libs/zstddec.module.js";
 import type { TexturePixels } from "./protocol.js";
@@ -26,7 +26,7 @@ export async function decodeTexture(file: Uint8Array<ArrayBuffer>): Promise<Text
   const unzstd = decoder && ((packed: Uint8Array, size: number) => decoder.decode(packed, size));
   const unzlib = (packed: Uint8Array, size: number) => unzlibSync(packed, { out: new Uint8Array(size) });
   try {
-    // As renderers read it: a map of two channels keeps its blue of 0.
+    // Decodes like a renderer: a map of two channels keeps blue = 0.
     const { width, height, rgba } = readTexture(file, { numbers: "uint8", vectors: false, unzstd, unzlib });
     return { width, height, rgba: rgba as Uint8ClampedArray<ArrayBuffer> };
   } catch (error) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Everything that takes time: reports on files, and frames of the parts that the page shows.
+// All expensive work: reports on files, and frames of the parts that the page shows.
 import { decodeDraco, decodeMeshopt, forgetCodecs } from "./codecs.js";
 import { computeFrames, cornersOf, mapCorners, otherFrames } from "./corners.js";
 import { decodeTexture } from "./texture_files.js";
