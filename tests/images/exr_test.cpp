@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// EXR as numbers: what is written comes back, and what is broken is refused.
+// EXR as numbers: round trips, and rejected corrupt files.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -80,7 +80,7 @@ TEST_F(Exr, WhatIsNotFiniteBecomesGrey) {
     }
 }
 
-/// The file with another number in the corner of its window: 0 to 3 for the first x and y and the last x and y.
+/// Returns the file with a changed corner of its data window: 0 to 3 for the first x and y and the last x and y.
 std::vector<std::uint8_t> withCorner(std::vector<std::uint8_t> file, std::size_t corner, std::int32_t value) {
     const std::string name("dataWindow\0box2i\0", 17);
     const auto found = std::search(file.begin(), file.end(), name.begin(), name.end());
@@ -111,7 +111,7 @@ TEST_F(Exr, RoundsWhereEightBitsAreAskedFor) {
     EXPECT_EQ(image->rgb.size(), 3U * 81);
 }
 
-/// Channels of a normal map: vectors as they are, or moved to 0 to 1.
+/// Channels of a normal map: vectors as stored, or mapped to 0 to 1.
 struct Vectors {
     std::vector<float> x = {}, y = {}, z = {};
 
@@ -158,7 +158,7 @@ TEST_F(Exr, VectorsFromMinusOneToOneAreMoved) {
     expectSame(image, moved, "tangent space");
     EXPECT_NE(image->range_text.find("read as vectors from -1 to 1"), std::string::npos) << image->range_text;
     expectSame(read(mapExr(as_they_are), nullptr, ImageUse::numbers), as_they_are, "numbers");
-    // All around, as in object space.
+    // All directions, as in object space.
     RgbImage around{kSide, kSide, {}};
     for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
         const double a = 0.37 * i, h = 1 - 2 * (i + 0.5) / (kSide * kSide), r = std::sqrt(1 - h * h);
@@ -182,7 +182,7 @@ TEST_F(Exr, VectorsFromMinusOneToOneAreMoved) {
 TEST_F(Exr, NumbersFromZeroToOneStay) {
     Vectors stored(normalMapOf(kSide, bumps), true);
     expectSame(read(mapExr(stored)), stored, "0 to 1");
-    // A filter that sharpens makes some a little less than 0.
+    // A sharpening filter makes some values slightly negative.
     stored.x[7] = -0.06F;
     stored.y[90] = -0.04F;
     const auto image = read(mapExr(stored));
@@ -219,7 +219,7 @@ TEST_F(Exr, ChannelsHaveManyNames) {
     for (ExrChannel& channel : unclear) channel.name = channel.name.replace(0, 6, channel.name.substr(0, 5));
     EXPECT_FALSE(read(exrFile(kSide, kSide, unclear), &why));
     EXPECT_NE(why.find("several of its layers"), std::string::npos) << why;
-    // x and y alone, as textures of two channels have them.
+    // Only x and y, as in textures with two channels.
     const auto two = read(exrFile(kSide, kSide, {{"R", v.x}, {"G", v.y}}));
     ASSERT_TRUE(two);
     EXPECT_EQ(two->texture.layout.z.channel, MapChannel::none);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Inverting green: what changes, what stays, and what is refused.
+// Inverting green: changed data, preserved data, and rejected input.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <spng.h>
@@ -21,7 +21,7 @@ namespace {
 using Bytes8 = std::vector<std::uint8_t>;
 constexpr std::uint8_t kGrey = 0, kRgb = 2, kPalette = 3, kRgba = 6;
 
-/// A PNG of raw samples, most significant byte first. `more` adds chunks.
+/// Returns a PNG of raw samples, most significant byte first. `more` adds chunks.
 Bytes8 makePng(
     spng_ihdr header, const Bytes8& samples, const std::function<void(spng_ctx*)>& more = [](spng_ctx*) {}) {
     spng_ctx* context = spng_ctx_new(SPNG_CTX_ENCODER);
@@ -109,7 +109,7 @@ std::optional<FloatImage> floatsOf(std::span<const std::uint8_t> file) {
     return decodeFloatImage(file, 1 << 22, why);
 }
 
-/// Green of all levels, that of the others by way of files that begin with them.
+/// Green of all levels; other formats are tested through files that start with them.
 TEST(FlipGreen, IsExactInTheBlocksOfATexture) {
     const Bytes8 random = noise(16 * 64);
     const std::string blocks(random.begin(), random.end());
@@ -256,7 +256,7 @@ TEST(FlipGreen, WritesJpegNearlyExactlyAndKeepsItsMetadata) {
     const RgbImage map = normalMapOf(64, bumps);
     std::string jpeg = jpegFile(map, 95);
     const std::string comment = std::string("\xff\xfe\x00\x07hello", 9);
-    jpeg.insert(2 + 18, comment);  // behind the mark of the beginning and the JFIF segment
+    jpeg.insert(2 + 18, comment);  // after the start marker and the JFIF segment
     std::string why;
     const std::optional<RgbImage> before = decodeImage(bytesOf(jpeg), 1 << 20, why);
     ASSERT_TRUE(before) << why;
@@ -314,7 +314,8 @@ TEST(FlipGreen, RefusesWhatHasNoGreenOrCannotBeRead) {
     EXPECT_EQ(whyNot(color, {.format = ImageFileFormat::jpeg}), ErrorCode::unsupportedFile);
     EXPECT_EQ(whyNot(color, {.jpeg_quality = 0}), ErrorCode::invalidOption);
     Bytes8 vast = color;
-    vast[16] = vast[20] = 0x10;  // width and height, of an interlaced image: all of it would have to be held
+    // width and height of an interlaced image, which would have to be kept in memory completely
+    vast[16] = vast[20] = 0x10;
     vast[28] = 1;
     EXPECT_EQ(whyNot(vast), ErrorCode::tooLarge);
 }
@@ -347,7 +348,7 @@ TEST(FlipGreenFile, WritesTheFormatOfTheNameAtOnceOrNothing) {
     EXPECT_FALSE(std::filesystem::exists(folder.path("b.png")));
 }
 
-/// The head of a PNG alone, as long as the file that has it.
+/// Returns only the header of a PNG, padded to the given file size.
 Bytes8 claimingPng(std::uint32_t width, std::uint32_t height, std::uint8_t bits, std::uint8_t color,
                    std::size_t bytes) {
     Bytes8 file = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0, 0, 0, 13, 'I', 'H', 'D', 'R'};

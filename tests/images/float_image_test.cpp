@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Images as numbers, to and from files.
+// Images as floats, read from and written to files.
 #include "images/float_image.h"
 #include "images/image.h"
 

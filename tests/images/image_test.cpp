@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Images that must not be trusted.
+// Untrusted images.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -44,7 +44,7 @@ TEST(DecodeImage, RefusesWebpThatItCannotTrust) {
     const std::string webp = webpFile(normalMapOf(64, bumps), true);
     EXPECT_EQ(whyNot(webp.substr(0, webp.size() / 2)), "it is a broken WebP");
     EXPECT_EQ(whyNot(webp, 1000), "it has more pixels than tspace reads");
-    // The head of a lossless image: 14 bits each of width - 1 and height - 1, behind a byte 0x2f.
+    // The header of a lossless image: 14 bits each of width - 1 and height - 1, after a byte 0x2f.
     std::string claims = webp;
     const std::size_t head = claims.find("VP8L");
     ASSERT_NE(head, std::string::npos);
@@ -77,7 +77,7 @@ TEST(DecodeImage, SaysWhyItDoesNotLook) {
     EXPECT_EQ(whyNot("DDS |"), "it is a broken DDS");
     EXPECT_EQ(whyNot(png.substr(0, png.size() / 2)), "it is a broken PNG");
     EXPECT_EQ(whyNot(jpeg.substr(0, 10)), "it is a broken JPEG");
-    // A head of four components.
+    // A header with four components.
     EXPECT_EQ(whyNot(bytesOfHex("ffd8ffc0001408000800080401110002110003110004110"
                                 "0ffda000e0401000200030004000003f000000")),
               "it is a JPEG for print (CMYK), which is not read");
@@ -85,7 +85,7 @@ TEST(DecodeImage, SaysWhyItDoesNotLook) {
 
 TEST(DecodeImage, RefusesAFewBytesThatClaimManyPixels) {
     std::string png = pngFile(normalMapOf(64, bumps));
-    // Width and height of the header, which then has a wrong checksum; either reason will do.
+    // Width and height of the header, whose checksum is then wrong; either reason is accepted.
     png[18] = png[22] = 0x20;
     EXPECT_NE(whyNot(png, std::uint64_t{1} << 40), "");
     std::string jpeg = jpegFile(normalMapOf(64, bumps), 90);
@@ -95,12 +95,12 @@ TEST(DecodeImage, RefusesAFewBytesThatClaimManyPixels) {
     EXPECT_EQ(whyNot(jpeg, std::uint64_t{1} << 40), "it claims far more pixels than its bytes can hold");
 }
 
-/// A table of codes has 256 at most; its 16 counts may say 4080.
+/// A code table has at most 256 entries; its 16 counts can declare 4080.
 TEST(DecodeImage, RefusesAJpegWhoseTableHasTooManyCodes) {
     std::string jpeg = jpegFile(normalMapOf(64, bumps), 90);
     const std::size_t table = jpeg.find("\xff\xc4");
     ASSERT_NE(table, std::string::npos);
-    constexpr std::size_t kCountsAt = 5, kCountsFrom9 = 8;  // 255 each of 9 to 16 bits are codes that there can be
+    constexpr std::size_t kCountsAt = 5, kCountsFrom9 = 8;  // 255 codes each of 9 to 16 bits are possible
     std::fill_n(jpeg.begin() + static_cast<std::ptrdiff_t>(table + kCountsAt + kCountsFrom9), 8, '\xff');
     EXPECT_EQ(whyNot(jpeg), "it is a broken JPEG");
 }

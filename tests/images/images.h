@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Normal maps made of heights, and their files.
+// Normal maps computed from heights, and their files.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace tspace::test {
 
-/// The normal map of a height field; x to the right, y upwards, both 0 to 1. Green up, unless `green_down`.
+/// Returns the normal map of a height field; x to the right, y upward, both 0 to 1. Green up, unless `green_down`.
 RgbImage normalMapOf(std::uint32_t size, const std::function<double(double, double)>& height, bool green_down = false);
 
 /// Bumps in every direction.
@@ -24,9 +24,9 @@ std::string webpFile(const RgbImage& image, bool lossless);
 struct ExrChannel {
     std::string name = {};
     std::vector<float> values = {};  ///< width * height
-    bool is_whole = false;           ///< stored as an unsigned integer, else as a float of 32 bits
+    bool is_whole = false;           ///< stored as an unsigned integer; otherwise as a 32-bit float
 };
-/// An EXR that is not packed. Channels are stored in the order of their names.
+/// Returns an uncompressed EXR. Channels are stored in alphabetical order.
 std::string exrFile(std::uint32_t width, std::uint32_t height, std::vector<ExrChannel> channels);
 
 inline std::span<const std::uint8_t> bytesOf(const std::string& file) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Texture files around levels.
+// Writing of texture files from levels.
 #include <gtest/gtest.h>
 
 #include <algorithm>

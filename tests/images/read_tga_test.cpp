@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// TGA as it is read: what the tool wrote, what others write, and what nobody should.
+// Reading TGA: files of the tool, of other programs, and invalid ones.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -17,7 +17,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::uint8_t kFromTheTop = 0x20, kFromTheRight = 0x10;
 
-/// A head without id and palette.
+/// Returns a header without ID and palette.
 Bytes head(std::uint8_t type, std::uint8_t width, std::uint8_t height, std::uint8_t bits, std::uint8_t descriptor) {
     return {0, 0, type, 0, 0, 0, 0, 0, 0, 0, 0, 0, width, 0, height, 0, bits, descriptor};
 }
@@ -41,7 +41,7 @@ std::string whyNot(ByteSpan file) {
 constexpr const char* kUnknown = "it is neither PNG, JPEG, WebP, KTX2, DDS nor TGA";
 constexpr const char* kBroken = "it is a broken TGA";
 
-/// Two rows of two: red, green; blue, grey.
+/// Two rows of two texels: red, green; blue, gray.
 const Bytes kFourTexels = {255, 0, 0, 0, 255, 0, 0, 0, 255, 10, 20, 30};
 const Bytes kFourStored = {0, 0, 255, 0, 255, 0, 255, 0, 0, 30, 20, 10};
 
@@ -124,7 +124,7 @@ TEST(ReadTga, ReadsAPalette) {
     }
 }
 
-/// Zeros where the head says that there is none are no alpha; other numbers are, since many writers say nothing.
+/// Zeros are not alpha if the header declares none; other values are, since many writers do not declare alpha.
 TEST(ReadTga, TakesAFourthByteForAlphaUnlessItIsAll0AndNotSaid) {
     EXPECT_EQ(decodeAlpha(head(2, 2, 1, 32, 0) + Bytes{1, 2, 3, 0, 4, 5, 6, 0}), Bytes());
     EXPECT_EQ(decodeAlpha(head(2, 2, 1, 32, 8) + Bytes{1, 2, 3, 0, 4, 5, 6, 0}), (Bytes{0, 0}));
@@ -164,7 +164,7 @@ TEST(ReadTga, IsToldByAHeadThatIsRightInEveryField) {
         EXPECT_EQ(whyNot(with(at, byte)), kUnknown) << at << ": " << int{byte};
     EXPECT_EQ(whyNot(Bytes(64)), kUnknown);
     EXPECT_EQ(whyNot(bytesOf("a text that is longer than the head of a TGA is")), kUnknown);
-    // A cursor of Windows, whose first bytes are those of a TGA of type 2.
+    // A Windows cursor, whose first bytes equal those of a TGA of type 2.
     EXPECT_EQ(whyNot(Bytes{0, 0, 2, 0, 1, 0, 16, 16, 0, 0, 1, 0, 1, 0, 1, 0, 24, 0} + Bytes(64)), kUnknown);
 }
 
@@ -193,7 +193,7 @@ TEST(ReadTga, ClaimsNoMorePixelsThanItsBytesCanHold) {
     huge[2] = 10;
     EXPECT_EQ(imageFormat(huge), ImageFormat::unknown);
     EXPECT_EQ(imageWorkBytes(huge), 0U);
-    // 128 pixels in 2 bytes are the most that runs give.
+    // 128 pixels in 2 bytes is the maximum compression of runs.
     Bytes runs = head(11, 0, 0, 8, 0);
     runs[13] = runs[15] = 4;  // 1024 x 1024
     for (std::size_t i = 0; i < (std::size_t{1} << 20) / 128; ++i) runs = std::move(runs) + Bytes{0xff, 9};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Texture files: every format by its formula or as other programs decode it, heads that lie, and where x, y and z are.
+// Texture files: every format compared with its formula or another decoder, invalid headers, and the channels of x, y
+// and z.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -41,7 +42,7 @@ std::string randomBytes(std::size_t count, std::uint32_t seed) {
 
 std::uint8_t byteAt(const std::string& data, std::size_t at) { return static_cast<std::uint8_t>(data[at]); }
 
-/// One channel of BC4: the formula in double precision.
+/// Returns one channel of BC4: the formula in double precision.
 double channelOf(const std::string& block, std::size_t at, std::size_t texel, bool is_signed) {
     const int first = is_signed ? std::bit_cast<std::int8_t>(block[at]) : byteAt(block, at);
     const int second = is_signed ? std::bit_cast<std::int8_t>(block[at + 1]) : byteAt(block, at + 1);
@@ -56,7 +57,7 @@ double channelOf(const std::string& block, std::size_t at, std::size_t texel, bo
     return ((6 - code) * a + (code - 1) * b) / 5;
 }
 
-/// Position of a texel in row-by-row blocks: the block, and the texel in it.
+/// Returns the position of a texel in row-by-row blocks: the block, and the texel in it.
 std::pair<std::size_t, std::size_t> placeOf(std::size_t x, std::size_t y, std::size_t width) {
     return {y / 4 * ((width + 3) / 4) + x / 4, y % 4 * 4 + x % 4};
 }
@@ -86,7 +87,8 @@ TEST(Texture, DecodesBc4AndBc5ByTheirFormulas) {
 }
 
 TEST(Texture, DecodesTheExampleOfTheSpecificationOfEac) {
-    // Base 103, table 13, multiplier 0 and code 3 are 818 of 2047: chapter ETC2 of the Khronos Data Format Specification.
+    // Base 103, table 13, multiplier 0 and code 3 give 818 of 2047: chapter ETC2 of the Khronos Data Format
+    // Specification.
     std::string block{103, 13};
     std::uint64_t codes = 0;
     for (int i = 0; i < 16; ++i) codes = codes << 3 | 3;
@@ -97,7 +99,7 @@ TEST(Texture, DecodesTheExampleOfTheSpecificationOfEac) {
 }
 
 TEST(Texture, DecodesEacByItsFormulas) {
-    // Of table 13 alone: that of the example.
+    // Only table 13, which the example uses.
     constexpr int kTable[] = {-1, -2, -3, -10, 0, 1, 2, 9};
     constexpr std::uint32_t kSize = 64;
     std::string data = randomBytes(16 * 256, 9);
@@ -167,7 +169,7 @@ TEST(Texture, DecodesEtc1sAsTheBasisTranscoderDoes) {
 }
 
 TEST(Texture, DecodesAstcOfOneColour) {
-    // A block of one colour (void extent) without coordinates: 0xdfc, ones, and four numbers of 16 bits.
+    // A block of one color (void extent) without coordinates: 0xdfc, ones, and four 16-bit numbers.
     const std::string block("\xfc\xfd\xff\xff\xff\xff\xff\xff\x00\x40\x00\x80\xff\xff\xff\xff", 16);
     Ktx2Parts parts{.format = 163, .width = 11, .height = 6};
     for (int i = 0; i < 4; ++i) parts.levels.resize(1), parts.levels[0] += block;
@@ -179,7 +181,7 @@ TEST(Texture, DecodesAstcOfOneColour) {
     EXPECT_EQ(image->texture.name, "ASTC 6x5 in a KTX2");
     ASSERT_EQ(image->texels.size(), 66u);
     for (const Vec3& texel : image->texels) {
-        // The library's numbers are half floats, as those of GPUs.
+        // The library decodes to half floats, like GPUs.
         EXPECT_NEAR(texel.x, 0x4000 / 65535.0, 1e-5);
         EXPECT_NEAR(texel.y, 0x8000 / 65535.0, 1e-5);
         EXPECT_EQ(texel.z, 1);
@@ -196,7 +198,7 @@ TEST(Texture, BrokenBlocksHaveTheColoursThatTheirFormatsName) {
 }
 
 TEST(Texture, DecodesBc1AndBc3) {
-    // Ends 31, 0, 0 (red) and 0, 63, 0 (green): codes 0 to 3, then the same with a block cut into three colours.
+    // Ends 31, 0, 0 (red) and 0, 63, 0 (green): codes 0 to 3, then the same codes in a block with three colors.
     const std::string full("\x00\xf8\xe0\x07\xe4\xe4\xe4\xe4", 8), cut("\xe0\x07\x00\xf8\xe4\xe4\xe4\xe4", 8);
     const auto image = decode(ddsFile(71, 8, 4, full + cut));
     ASSERT_TRUE(image);
@@ -274,7 +276,7 @@ TEST(Texture, UnpacksZstandardAndZlib) {
         ASSERT_TRUE(image);
         EXPECT_EQ(image->texels, wanted->texels);
         EXPECT_GE(imageWorkBytes(bytesOf(ktx2File(parts))), plain.size());
-        // Data that unpack to more or fewer bytes than the image has are broken, whatever the file declares.
+        // Data that decompresses to more or fewer bytes than the image has is corrupt, regardless of the declared size.
         for (const std::string& other : {plain + plain, plain.substr(2)}) {
             parts.levels = {scheme == 2 ? zstdOf(other) : zlibOf(other)};
             EXPECT_EQ(whyNot(ktx2File(parts)), "it is a broken KTX2");
@@ -356,7 +358,7 @@ TEST(Texture, SizesWhoseProductWith64BitsWouldBeZeroAreRefused) {
 }
 
 TEST(Texture, ReadsTheLevelThatIsAskedFor) {
-    // Red tells levels apart; 4 x 2, 2 x 1 and 1 x 1 texels of two bytes.
+    // Red distinguishes the levels; 4 x 2, 2 x 1 and 1 x 1 texels of two bytes.
     const std::vector<std::string> levels = {std::string(16, '\x10'), std::string(4, '\x20'), std::string(2, '\x30')};
     const std::string ktx2 = ktx2File({.format = 16, .width = 4, .height = 2, .levels = levels});
     for (std::size_t level = 0; level < levels.size(); ++level) {
@@ -374,7 +376,7 @@ TEST(Texture, ReadsTheLevelThatIsAskedFor) {
 }
 
 TEST(Texture, TurnsAndSwizzlesAsTheFileSays) {
-    const std::string data("\x10\x20\x30\x40\x50\x60\x70\x80", 8);  // 2 x 2 of two channels
+    const std::string data("\x10\x20\x30\x40\x50\x60\x70\x80", 8);  // 2 x 2 texels with two channels
     Ktx2Parts parts{.format = 16, .width = 2, .height = 2, .levels = {data}};
     const auto plain = decode(ktx2File(parts));
     parts.values = {{"KTXorientation", "ru"}};
@@ -400,7 +402,7 @@ TEST(Texture, SaysWhereXAndYAre) {
     EXPECT_EQ(bc5->texture.layout.z.channel, MapChannel::none);
     EXPECT_FALSE(bc5->texture.is_guessed);
     EXPECT_EQ(textureFacts(bytesOf(ddsFile(83, 32, 32, bc5Blocks(map))))->name, "BC5 in a DDS");
-    // Four channels: x alone in alpha, x in all colours and y in alpha, and x, y, z.
+    // Four channels: x only in alpha, x in all colors and y in alpha, and x, y, z.
     std::string alone, in_colors, normal;
     for (std::size_t i = 0; i < map.rgb.size(); i += 3) {
         const char x = static_cast<char>(map.rgb[i]), y = static_cast<char>(map.rgb[i + 1]);

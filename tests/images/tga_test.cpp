@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// TGA as it is written, byte by byte.
+// Written TGA files, byte by byte.
 #include "images/tga.h"
 
 #include <gtest/gtest.h>

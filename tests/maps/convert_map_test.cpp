@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a map shows on one set of frames, it shows on the other after conversion.
+// A converted map renders the same on the new frames as the original on the old ones.
 #include "tspace/maps.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 namespace tspace::test {
 namespace {
 
-/// A side that owns its corners.
+/// A conversion side that owns its corners.
 struct Corners {
     std::vector<Vec2> uvs = {};
     std::vector<Vec3> positions = {}, normals = {};
@@ -34,8 +34,8 @@ Vec3 unit(DVec3 v) {
     return toFloat(v);
 }
 
-/// A bent patch over UVs from `begin` to `end`, `cells` x `cells` quads. `twist`: how its tangents are turned about the normal,
-/// and `lean` how its normals lean, both smoothly different over the patch.
+/// A bent patch over UVs from `begin` to `end`, with `cells` x `cells` quads. `twist`: rotation of its tangents about
+/// the normal; `lean`: tilt of its normals; both vary smoothly over the patch.
 struct Patch {
     int cells = 4;
     float begin = 0.1f, end = 0.9f;
@@ -78,7 +78,7 @@ Corners cornersOf(const Patch& patch) {
     return corners;
 }
 
-/// Texels that lean by up to 30 degrees, of somewhat different lengths, with integers of `bits`.
+/// Returns texels that lean by up to 30 degrees, with slightly different lengths, as integers of `bits`.
 std::vector<Vec3> randomTexels(std::size_t count, unsigned bits, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> lean(-0.5, 0.5), size(0.85, 1.0);
@@ -112,7 +112,7 @@ std::vector<Vec3> converted(const std::vector<Vec3>& texels, const MapSide& from
     return out;
 }
 
-/// Direction at each texel's center; zero where there is no triangle.
+/// Returns the direction at each texel's center; zero if there is no triangle.
 std::vector<DVec3> shown(const std::vector<Vec3>& texels, const Corners& side) {
     std::vector<std::uint32_t> corners(side.uvs.size());
     for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(i);
@@ -225,7 +225,7 @@ TEST(ConvertMap, LeavesTheBackgroundAlone) {
     ConvertMapReport report;
     const auto out = converted(texels, from.side(), to.side(), {}, &report);
     const auto in_object = converted(texels, from.side(), {.space = MapSpace::object});
-    // Filtering between 0.3 * 64 and 0.6 * 64 reads columns 18 (whose centre is 0.7 away) to 38.
+    // Filtering between 0.3 * 64 and 0.6 * 64 reads columns 18 (whose center is 0.7 away) to 38.
     for (std::size_t i = 0; i < texels.size(); ++i) {
         const std::size_t x = i % 64, y = i / 64;
         const bool is_read = x >= 18 && x <= 38 && y >= 18 && y <= 38;
@@ -275,7 +275,7 @@ TEST(ConvertMap, GoesToObjectSpaceAndBack) {
     }
     EXPECT_LT(mostApart(shown(converted(in_object, object, mesh.side()), mesh), wanted), 0.004);
 
-    // An object that lies on its side: what is x in the map is y in the frames.
+    // A rotated object: x of the map is y of the frames.
     const std::vector<MapAxes> axes(mesh.uvs.size() / 3, MapAxes{{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}});
     MapSide turned = object;
     turned.axes = axes;
@@ -289,7 +289,7 @@ TEST(ConvertMap, GoesToObjectSpaceAndBack) {
     EXPECT_NEAR(decodeTexel(out[middle], {}).y, -decodeTexel(in_object[middle], {}).x, 1e-4);
 }
 
-// The filter mixes neighbours, which make good what one rounds off. No length changes by more than rounding does.
+// The filter mixes neighbors, which compensate for rounding errors. No length changes by more than rounding.
 double lengthOf(const Vec3& texel) { return length(2.0 * toDouble(texel) - DVec3{1, 1, 1}); }
 
 DVec3 directionOf(const Vec3& texel) { return (1 / lengthOf(texel)) * (2.0 * toDouble(texel) - DVec3{1, 1, 1}); }
@@ -322,7 +322,7 @@ TEST(ConvertMap, RoundsTogetherWhatComesFromObjectSpace) {
     EXPECT_LT(sum, 0.15 * plain_sum);
 }
 
-/// Texels of length 1 that lean by up to 20 degrees, neighbours nearly alike.
+/// Returns texels of length 1 that lean by up to 20 degrees, with nearly equal neighbors.
 std::vector<Vec3> gentleTexels() {
     std::vector<Vec3> texels;
     for (std::uint32_t i = 0; i < kSize * kSize; ++i) {
@@ -333,7 +333,7 @@ std::vector<Vec3> gentleTexels() {
     return texels;
 }
 
-/// The map as it is converted without rounding, then with each channel rounded alone to 8 bits.
+/// Returns the map converted without rounding, then with each channel independently rounded to 8 bits.
 std::vector<Vec3> roundedPlainly(const std::vector<Vec3>& texels, const Corners& from, const Corners& to) {
     auto rounded = converted(texels, from.side(), to.side(), {.bits = 32});
     const auto round = [](float part) { return std::floor(part * 255 + 0.5f) / 255; };
@@ -350,7 +350,7 @@ TEST(ConvertMap, TakesTheBestLengthsWithEightBits) {
     for (const Vec3& texel : best) EXPECT_GE(length(decodeTexel(texel, {})), 0.69);
 }
 
-/// Angles between the means of n x n texels of two maps, in the mean over those whose texels the mesh shows.
+/// Returns the mean angle between the means of n x n texels of two maps, over blocks whose texels the mesh covers.
 double meansApart(const std::vector<Vec3>& a, const std::vector<Vec3>& b, std::uint32_t n) {
     double sum = 0;
     int count = 0;
@@ -369,7 +369,7 @@ double meansApart(const std::vector<Vec3>& a, const std::vector<Vec3>& b, std::u
     return sum / count;
 }
 
-// As baked ones do: with 8 bits means of texels are what smaller levels show.
+// Like baked maps: with 8 bits, smaller levels show the means of texels.
 TEST(ConvertMap, EvenLengthsLeanLessInSmallerLevelsThanFreeOnes) {
     const Corners from = cornersOf({}), to = cornersOf({.twist = 0.3, .lean = 0.2});
     const auto texels = gentleTexels(), exact = converted(texels, from.side(), to.side(), {.bits = 32});
@@ -384,7 +384,7 @@ TEST(ConvertMap, EvenLengthsLeanLessInSmallerLevelsThanFreeOnes) {
     EXPECT_LT(meansApart(exact, free, 1), 0.8 * meansApart(exact, even, 1));
 }
 
-// Neighbours make good under the filter what is rounded off, whichever way vectors point.
+// Neighbors compensate for rounding errors under filtering, in every direction of the vectors.
 TEST(ConvertMap, ChoosesIntegersOfEightBitsTogether) {
     const MapAxes turns[] = {
         {}, {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}, {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, -1}, {0, 1, 0}, {1, 0, 0}}};
@@ -405,7 +405,8 @@ TEST(ConvertMap, ChoosesIntegersOfEightBitsTogether) {
     }
 }
 
-// Filtering weighs texels by their lengths: where neighbours point elsewhere, another length is an error between them.
+// Filtering weights texels by their lengths: if neighbors differ in direction, a changed length is an error between
+// them.
 TEST(ConvertMap, KeepsLengthsWithEightBitsWhereNeighboursPointElsewhere) {
     const Corners from = cornersOf({}), to = cornersOf({.twist = 0.3, .lean = 0.2});
     const auto texels = randomTexels(kSize * kSize, 16, 7);

@@ -26,7 +26,7 @@ class Noise {
     std::uint32_t state_;
 };
 
-/// Hills, and grooves of a few texels.
+/// Returns hills, and grooves of a few texels.
 NormalLevel reliefLevel(std::uint32_t width, std::uint32_t height, double steep = 1) {
     NormalLevel level{width, height, {}, {}};
     for (std::uint32_t y = 0; y < height; ++y) {
@@ -41,7 +41,7 @@ NormalLevel reliefLevel(std::uint32_t width, std::uint32_t height, double steep 
     return level;
 }
 
-/// Facets of 16 texels that lean by up to 40 degrees, with edges of one texel.
+/// Returns facets of 16 texels that lean by up to 40 degrees, with edges of one texel.
 NormalLevel facetLevel(std::uint32_t size) {
     NormalLevel level{size, size, {}, {}};
     Noise noise(3);
@@ -75,7 +75,7 @@ double meanError(const NormalLevel& level, const BlockOptions& options) {
     return measureFiltered(level, withoutZ(fitted.texels), true, oneThread()).mean_deg;
 }
 
-/// x and y of all texels, by the decoder that files are read with.
+/// Decodes x and y of all texels with the decoder that reads files.
 std::vector<Vec2> decodedTexels(const FittedLevel& fitted, const NormalLevel& level, const BlockOptions& options) {
     const bool is_bc5 = options.format == BlockFormat::bc5;
     const TexelFormat format = texelFormat(is_bc5 ? (options.is_signed ? TexelKind::bc5s : TexelKind::bc5)
@@ -132,7 +132,8 @@ TEST(FitBlocks, EveryQualityIsBetterThanTheOneBelow) {
     }
 }
 
-/// Of each block and channel the least sum of squares over all pairs of ends and both kinds of palettes, from the map's own numbers.
+/// Returns, for each block and channel, the least sum of squares over all pairs of ends and both palette types, from
+/// the original values.
 std::vector<Vec3> leastSquares(const NormalLevel& level) {
     std::vector<Vec3> texels(level.normals.size());
     for (std::size_t i = 0; i < level.normals.size() / 16 * 2; ++i) {
@@ -190,14 +191,14 @@ TEST(FitBlocks, SpreadsLittleOfWhatNoTexelsMakeGoodAtHardEdges) {
     };
     const FilteredError squares = errorOf(leastSquares(level));
     const FilteredError fast = errorOf(withoutZ(fitBlocks(level, {}, oneThread()).texels));
-    // An edge at every sixteenth texel: the flats take a little, the edges lose more.
+    // An edge at every sixteenth texel: flat areas lose slightly, edges gain more.
     EXPECT_LT(fast.mean_deg, 1.06 * squares.mean_deg);
     EXPECT_LT(fast.p99_deg, squares.p99_deg);
 }
 
 TEST(FitBlocks, HoldsFlatMapsWithinTheStepsBetweenTwoEnds) {
     NormalLevel flat{16, 16, std::vector<Vec3>(256, Vec3{0, 0, 1}), {}};
-    // Half of a step of 255 is not held exactly; with a sign 0 is.
+    // Half of 255 steps is not represented exactly; signed formats represent 0.
     EXPECT_LT(meanError(flat, {}), 0.045);
     EXPECT_EQ(meanError(flat, {.is_signed = true}), 0);
     EXPECT_EQ(meanError(flat, {.format = BlockFormat::eacRg11, .is_signed = true}), 0);

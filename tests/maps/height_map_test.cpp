@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// heightToNormal: against formulas, flat and on meshes.
+// heightToNormal compared with formulas, flat and on meshes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,7 +39,7 @@ Made make(const Height& height, const MapSide& mesh, HeightToNormalOptions optio
     return made;
 }
 
-/// Waves that repeat at the borders, from 0 to 1.
+/// Waves from 0 to 1 that repeat at the borders.
 double waves(double u, double v) {
     return .5 + .25 * std::sin(2 * std::numbers::pi * (2 * u + v)) + .25 * std::cos(2 * std::numbers::pi * (3 * v - u));
 }
@@ -53,7 +53,7 @@ double wavesV(double u, double v) {
 }
 
 TEST(HeightToNormal, IsExactForPlanesAndParabolasUpToTheBordersOfAClampedImage) {
-    // Per texel 1 to the right and 0.5 downwards; with a curvature of 1.5 besides.
+    // Slopes per texel: 1 to the right and 0.5 downward; also with a curvature of 1.5.
     for (const double curved : {0.0, 1.5}) {
         const auto height = [&](double u, double v) { return .5 * u + .25 * v + curved * (u * u - v * v + u * v); };
         const Made made = make(height, {}, {.strength = 128, .bits = 32}, TextureWrap::clamp);
@@ -66,7 +66,8 @@ TEST(HeightToNormal, IsExactForPlanesAndParabolasUpToTheBordersOfAClampedImage) 
     }
 }
 
-/// A tile's border is near that of the whole image that it was cut out of, and a mirrored or repeated one is not changed.
+/// The border of a tile is close to that of the whole image from which it was cut, and a mirrored or repeated border is
+/// unchanged.
 TEST(HeightToNormal, GivesTheSlopesOfWavesAtClampedBorders) {
     const Made made = make(waves, {}, {.strength = 10, .bits = 32}, TextureWrap::clamp);
     for (std::uint32_t i = 0; i < kSize; ++i) {
@@ -123,7 +124,8 @@ TEST(HeightToNormal, InvertsGreenAndHeights) {
     }
 }
 
-/// A parallelogram in space over the whole image, with exact frames. `mirror`: u runs the other way.
+/// A parallelogram in space that covers the whole image, with exact frames. `mirror`: u points in the opposite
+/// direction.
 struct Sheet {
     DVec3 along_u{3, 0, 0}, along_v{1, -2, 0};  // v runs down
     std::vector<Vec2> uvs = {};
@@ -145,7 +147,8 @@ struct Sheet {
     }
 };
 
-/// The strength is in units of the mesh, on skewed and mirrored UVs too: the normal is that of the surface raised by the heights.
+/// The strength is in units of the mesh, for skewed and mirrored UVs too: the normal is that of the surface displaced
+/// by the heights.
 TEST(HeightToNormal, GivesTheNormalsOfTheRaisedSurface) {
     for (const bool mirror : {false, true}) {
         const Sheet sheet(mirror);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Baked maps: how near they are to the surface, and what becomes of bad input.
+// Tests of baked maps: accuracy, and handling of invalid input.
 #include "tspace/maps.h"
 
 #include <gtest/gtest.h>
@@ -68,7 +68,7 @@ TEST_F(MapBake, SolvingHalvesTheErrorOfAReliefWith16Bits) {
 }
 
 TEST_F(MapBake, TheRimOfAnOpenSurfaceIsAsNearAsItsInside) {
-    // Lines beyond the rim meet nothing, and filters read the texels there.
+    // Rays beyond the rim hit nothing, but filters read the texels there.
     const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
     const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 512, true);
     const MapError solved = baked(low.view(), high.view(), sized(512)).error;
@@ -76,7 +76,7 @@ TEST_F(MapBake, TheRimOfAnOpenSurfaceIsAsNearAsItsInside) {
 }
 
 TEST_F(MapBake, FewerRaysOfLargeMapsCostNextToNothing) {
-    // Above 1024 x 1024 texels, four rays a texel and its centre say what nine rays say in smaller maps.
+    // Above 1024 x 1024 texels, four rays per texel and its center give the same result as nine rays in smaller maps.
     const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
     const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 400, true);
     const auto errorOf = [&](std::uint32_t height, unsigned bits) {
@@ -108,7 +108,7 @@ TEST_F(MapBake, GivesTheSameTexelsForAnyNumberOfThreads) {
     const LowMesh low = bench::makeLow(surfaceNamed("bumpy"), Charts::four);
     const HighMesh high = bench::makeHigh(surfaceNamed("bumpy"), 64, true);
     for (const unsigned bits : {8U, 16U}) {
-        // An odd size, so that rows are not all in pairs.
+        // An odd size, so that not all rows are in pairs.
         BakeOptions options = sized(61, bits);
         options.heat = true;
         const BakedMap one = baked(low.view(), high.view(), options);
@@ -177,7 +177,7 @@ TEST_F(MapBake, ReachDecidesHowFarItLooks) {
 TEST_F(MapBake, ACageSaysWhereRaysBegin) {
     LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
     HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 32, false);
-    // Another layer further out than the cage is by default, and than the nearest hit.
+    // An additional layer farther out than the default cage and than the nearest hit.
     const std::size_t count = high.positions.size(), corner_count = high.corners.size();
     for (std::size_t i = 0; i < count; ++i) {
         high.positions.push_back(high.positions[i] + Vec3{0, 0, 0.2F});
@@ -217,7 +217,8 @@ TEST_F(MapBake, GroupsSeeTheirOwnTrianglesAlone) {
     EXPECT_EQ(bakeMap(low_view, high_view, sized(16)).error().code, ErrorCode::countMismatch);
 }
 
-/// The mean angle between the directions of blocks of `side` texels of two maps, of blocks without background.
+/// Returns the mean angle between the directions of blocks of `side` texels of two maps, over blocks without
+/// background.
 double levelError(const BakedMap& map, const BakedMap& truth, std::uint32_t side) {
     double sum = 0;
     std::size_t count = 0;
@@ -348,7 +349,7 @@ TEST_F(MapBake, BrokenTrianglesLeaveNoNan) {
     }
 }
 
-/// A low poly whose UVs reach all edges of the image.
+/// Returns a low poly whose UVs reach all edges of the image.
 LowMesh stretchedLow(const char* surface) {
     LowMesh low = bench::makeLow(surfaceNamed(surface), Charts::one);
     Vec2 least = low.uvs.front(), most = least;
@@ -369,7 +370,7 @@ TEST_F(MapBake, AnImageThatDoesNotRepeatIsAsNearAtItsEdges) {
         options.wrap_u = options.wrap_v = TextureWrap::clamp;
         const BakedMap clamped = baked(low.view(), high.view(), options);
         EXPECT_LT(clamped.error.seam_mean_deg, 0.5 * repeated.seam_mean_deg) << "the other edge shows beside each";
-        // Half of a texel at the edge shows nothing but that texel.
+        // Half of a texel at the edge shows only that texel.
         options.fit = MapFit::texel;
         const MapError exact = baked(low.view(), high.view(), options).error;
         EXPECT_LT(clamped.error.seam_mean_deg, 0.9 * exact.seam_mean_deg);
@@ -413,7 +414,7 @@ TEST_F(MapBake, BeyondTheEdgeOfAClampedImageNothingIsAsked) {
     const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 64, true);
     BakeOptions options = sized(64);
     options.wrap_u = options.wrap_v = TextureWrap::clamp;
-    // Half of the surface lies outside.
+    // Half of the surface is outside the 0-1 UV range.
     for (Vec2& uv : low.uvs) uv = {2 * uv.x, uv.y};
     const BakedMap map = baked(low.view(), high.view(), options);
     EXPECT_EQ(map.overlap_count, 0U);
@@ -518,7 +519,7 @@ TEST_F(MapBake, HeatIsTheErrorOfEachTexel) {
 
 #ifdef TSPACE_HAS_TBB
 TEST_F(MapBake, LimitsOfAHostThatUsesTbbStayAsTheyAre) {
-    // Embree uses TBB too, and one number holds for the whole process.
+    // Embree uses TBB too, whose thread limit applies to the whole process.
     const auto limit = [] { return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism); };
     const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
     const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 64, false);
@@ -547,7 +548,7 @@ TEST_F(MapBake, ReachesAndPlacesMayBeOfAnySize) {
         EXPECT_GT(baked(low.view(), high.view(), options).hit_count, 0U) << reach;
         EXPECT_TRUE(measureMap(map, low.view(), high.view(), {.reach = reach})) << reach;
     }
-    // Nothing of the high poly is near: an error, as with any distance.
+    // The high poly is nowhere near: an error, at any distance.
     for (const float distance : {10.0F, 1e10F, 1.84e18F, 1.9e18F, 1e30F, 3e38F}) {
         HighMesh far = high;
         for (Vec3& position : far.positions) position.x += distance;

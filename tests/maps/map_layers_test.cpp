@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Maps beside the normal map, against formulas.
+// Maps other than the normal map, compared with formulas.
 #include "tspace/maps.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ struct Mesh {
 
     [[nodiscard]] HighPoly view() const { return {.positions = positions, .normals = normals, .corners = corners}; }
 
-    /// A grid of cells x cells quads; at(u, v) is where u and v from 0 to 1 lie.
+    /// Adds a grid of cells x cells quads; at(u, v) is the position for u and v from 0 to 1.
     template <class At>
     void addGrid(int cells, const At& at) {
         const auto first = static_cast<std::uint32_t>(positions.size());
@@ -37,7 +37,7 @@ struct Mesh {
             }
         }
     }
-    /// A flat square of this half side at a height, facing up or down.
+    /// Adds a flat square with the given half side at a height, facing up or down.
     void addSquare(double half, double z, int cells = 1, bool faces_up = true) {
         addGrid(cells, [&](double u, double v) {
             return DVec3{half * (2 * u - 1), half * (2 * (faces_up ? v : 1 - v) - 1), z};
@@ -87,7 +87,7 @@ class MapLayers : public testing::Test {
         return maps ? Error{} : maps.error();
     }
 
-    /// The middle of a texel of a square of `size` texels.
+    /// Returns the center of a texel of a square of `size` texels.
     static DVec3 middle(std::uint32_t x, std::uint32_t y, std::uint32_t size) {
         return {2 * (x + 0.5) / size - 1, 2 * (y + 0.5) / size - 1, 0};
     }
@@ -144,7 +144,7 @@ TEST_F(MapLayers, BesideAWallTheOpenDirectionsLeanAwayFromIt) {
     high.addGrid(1, [](double u, double v) { return DVec3{-1.001, 80 * (2 * u - 1), 80 * v}; });
     constexpr std::uint32_t kSize = 32;
     const BakedMaps maps = baked(high, {.layers = {MapLayer::bent, MapLayer::ao}, .ray_count = 1024}, sized(kSize));
-    // Half of the sky, whose mean over the half disc is 4 / (3 pi) aside and 2 / 3 upwards.
+    // Half of the sky, whose mean over the half disc is 4 / (3 pi) sideways and 2 / 3 upward.
     const std::size_t texel = 16 * kSize;
     const Vec3 bent{2 * maps.layers[0].values[3 * texel] - 1, 2 * maps.layers[0].values[3 * texel + 1] - 1,
                     2 * maps.layers[0].values[3 * texel + 2] - 1};
@@ -262,7 +262,7 @@ TEST(IdColor, NumbersDifferInEightBitsAndNoneIsBlack) {
     }
 }
 
-/// Curvature at the vertices of a torus that differ from the formula, as a part of the largest: root of the mean square.
+/// Returns the RMS error of the curvature at the vertices of a torus, relative to the largest curvature.
 double curvatureError(int cells) {
     constexpr double kLarge = 1, kSmall = 0.4;
     Mesh torus;
@@ -303,7 +303,7 @@ TEST(SurfaceCurvature, OfACoarseBallWithoutNormalsIsOneByItsRadius) {
 }
 
 TEST(SurfaceCurvature, AtPositionsThatAreEqualButForRoundingIsThatOfOnePoint) {
-    // A tube whose ends meet along a line of its own.
+    // A tube whose ends meet along a line with separate vertices.
     constexpr int kCells = 32;
     const auto curvature = [&](float nudge, float weld_distance) {
         Mesh tube;
@@ -488,7 +488,7 @@ TEST_F(MapLayers, MoreMemoryThanTheLimitIsRefusedBeforeAnyWork) {
 }
 
 TEST(ScrambledSobol, EachPartOfTheSquareHasOneOfThePointsOfATexelAndOfABlock) {
-    // Parts of 2^-i by 2^-(k - i), for all i.
+    // Cells of 2^-i by 2^-(k - i), for all i.
     const auto areSpread = [](const std::vector<std::array<double, 2>>& points, int k) {
         for (int i = 0; i <= k; ++i) {
             std::set<std::pair<int, int>> parts;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Why rays meet nothing: each cause is made, and found.
+// Causes of missing hits: each cause is created, and must be found.
 #include "maps/rays/missed_cause.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ class MissedCause : public testing::Test {
         Parallel parallel({});
         const auto rays = RaySurface::make(high_.view().positions, high_.corners, {}, parallel);
         if (!rays) GTEST_SKIP() << rays.error().message;
-        // Larger along one axis, so that no turn is its own inverse by chance.
+        // Larger along one axis, so that no rotation is accidentally its own inverse.
         for (Vec3& at : low_.positions) at.x *= 2;
         for (Vec3& normal : low_.normals) normal.x /= 2;
         for (Vec3& at : high_.positions) at.x *= 2;
@@ -54,7 +54,7 @@ class MissedCause : public testing::Test {
     HighMesh high_ = bench::makeHigh(saddle(), 64, false);
 };
 
-/// As the sentences say it: counter-clockwise about an axis.
+/// Rotates like the sentences describe it: counter-clockwise about an axis.
 Vec3 turned(const Vec3& at, int degrees, char axis) {
     const auto quarter = [&](const Vec3& v) {
         return axis == 'x' ? Vec3{v.x, -v.z, v.y} : axis == 'y' ? Vec3{v.z, v.y, -v.x} : Vec3{-v.y, v.x, v.z};
@@ -78,7 +78,7 @@ TEST_F(MissedCause, ATurnThatIsNamedBringsTheHighPolyBack) {
                 for (std::sregex_iterator at(cause.begin(), cause.end(), step), end; at != end; ++at)
                     steps.emplace_back(std::stoi((*at)[1]), (*at)[2].str()[0]);
                 ASSERT_FALSE(steps.empty()) << cause;
-                // Half a turn about the vertical leaves a saddle as it is.
+                // Half a turn about the vertical does not change a saddle.
                 const Vec3 probe = low_.positions[7];
                 Vec3 back = move(probe);
                 for (const auto& [degrees, axis] : steps) back = turned(back, degrees, axis);

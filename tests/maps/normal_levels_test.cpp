@@ -24,7 +24,8 @@ NormalLevel noiseLevel(std::uint32_t width, std::uint32_t height) {
     return level;
 }
 
-/// The mean of part(normal) over a texel of a level of that size, texel by texel in parts of the first level.
+/// Returns the mean of part(normal) over a texel of a level of this size, as a weighted sum over texels of the first
+/// level.
 template <class Part>
 auto meanOver(const NormalLevel& first, const NormalLevel& level, std::uint32_t x, std::uint32_t y, const Part& part) {
     decltype(part(DVec3{})) sum{};
@@ -87,7 +88,7 @@ TEST(NormalLevels, KnowHowFarTheNormalsThatTheyCoverSpread) {
     }
 }
 
-/// Texels are covered a quarter, or not at all, and hold a foreign direction there.
+/// Texels are covered by a quarter, or not at all, in which case they contain an unrelated direction.
 TEST(NormalLevels, AreMeansOfWhatIsCovered) {
     NormalLevel first = noiseLevel(13, 8);
     NormalLevel foreign = first;
@@ -108,10 +109,10 @@ TEST(NormalLevels, AreMeansOfWhatIsCovered) {
         mean = mean + static_cast<double>(first.coverage[i]) * toDouble(first.normals[i]);
     ASSERT_TRUE(normalize(mean));
     EXPECT_LT(length(toDouble(levels.back().normals.front()) - mean), 1e-5);
-    // What is not covered gets the direction of the next level.
+    // Uncovered texels get the direction of the next level.
     EXPECT_EQ(levels[0].normals[0], levels[1].normals[0]);
     EXPECT_EQ(levels[0].normals[5], first.normals[5]);
-    // All covered: as without.
+    // Full coverage: same result as without coverage.
     first.coverage.assign(first.normals.size(), 1.0F);
     const auto all = makeNormalLevels(first, parallel);
     first.coverage.clear();

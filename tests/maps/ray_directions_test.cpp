@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where rays go: hard edges, shells on flat faces, painted skew.
+// Ray directions: hard edges, shells on flat faces, painted skew.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 using bench::HighMesh;
 using bench::LowMesh;
 
-/// A point of a side of the box from -1 to 1, s and t from 0 to 1 to the right and up as seen from outside.
+/// Returns a point on a side of the box from -1 to 1, with s and t from 0 to 1 to the right and up, seen from outside.
 Vec3 onSide(int side, float s, float t) {
     const float a = 2 * s - 1, b = 2 * t - 1;
     const Vec3 at[6] = {{1, a, b}, {-1, -a, b}, {-a, 1, b}, {a, -1, b}, {a, b, 1}, {-a, b, -1}};
@@ -24,7 +24,7 @@ Vec3 onSide(int side, float s, float t) {
 
 constexpr Vec3 kSides[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
 
-/// A box with hard edges, a chart per side.
+/// Returns a box with hard edges and one chart per side.
 LowMesh box() {
     LowMesh low;
     for (int side = 0; side < 6; ++side) {
@@ -48,7 +48,7 @@ void addRound(HighMesh& high, const Vec3& centre, const Vec3& half, float radius
         const auto first = static_cast<std::uint32_t>(high.positions.size());
         for (std::uint32_t y = 0; y <= cells; ++y) {
             for (std::uint32_t x = 0; x <= cells; ++x) {
-                // Denser towards the edges, where the surface bends.
+                // Denser toward the edges, where the surface bends.
                 const auto spread = [&](std::uint32_t i) {
                     const float part = static_cast<float>(i) / static_cast<float>(cells);
                     return part * part * (3 - 2 * part);
@@ -76,7 +76,7 @@ void addRound(HighMesh& high, const Vec3& centre, const Vec3& half, float radius
 
 constexpr float kStudHeight = 0.12F;
 
-/// The box with round edges, and a stud on its top that is a shell of its own.
+/// Returns the box with round edges, and a stud on its top as a separate shell.
 HighMesh roundedBox(bool has_stud, float stud_at = 0) {
     HighMesh high;
     addRound(high, {}, {1, 1, 1}, 0.2F, 40);
@@ -101,7 +101,7 @@ class RayDirectionsTest : public testing::Test {
     static BakedMap baked(const HighMesh& high, const RayOptions& rays) {
         return baked(box().view(), high.view(), options(rays));
     }
-    /// How many texels inside of charts show something that leans by 30 degrees.
+    /// Returns the number of texels inside charts that lean by 30 degrees.
     static int leaningTexels(const BakedMap& map) {
         int count = 0;
         for (std::size_t i = 0; i < map.texels.size(); ++i)
@@ -110,7 +110,7 @@ class RayDirectionsTest : public testing::Test {
     }
 };
 
-/// Corners of one side that differ by rounding from those of its neighbors still meet them.
+/// Rays at corners whose positions differ only by rounding from those of adjacent sides still coincide.
 TEST_F(RayDirectionsTest, PositionsThatAreEqualButForRoundingAreOne) {
     const HighMesh high = roundedBox(false);
     LowMesh nudged = box();
@@ -151,7 +151,7 @@ TEST_F(RayDirectionsTest, ShellsOnAFaceAreSeenFromOutside) {
     const BakedMap plain = baked(roundedBox(false), {}), outermost = baked(high, {});
     const BakedMap nearest = baked(high, {.target = RayTarget::nearest});
     EXPECT_GT(leaningTexels(outermost), leaningTexels(plain) + 30) << "the sides of the stud";
-    // What hides it is the base below: the rays find it, and what is seen is another thing.
+    // The base below hides the surface: the rays find the surface, but a different one is visible.
     EXPECT_GT(nearest.error.mean_deg, 2 * nearest.own_error.mean_deg);
     EXPECT_LT(outermost.error.mean_deg, 0.8 * nearest.error.mean_deg);
     EXPECT_GT(nearest.own_error.hidden_count, 500U);
@@ -166,14 +166,14 @@ TEST_F(RayDirectionsTest, BeyondTheCageTheNearestFrontCounts) {
     EXPECT_GT(low.error.hidden_count, 500U);
     EXPECT_NEAR(low.error.cage_offset, 0.02, 1e-12);
     EXPECT_NEAR(whole.error.cage_offset, 0.2, 1e-12) << "as the reach";
-    // Nothing is inside of the cage where the high poly is larger.
+    // If the high poly is larger, nothing is inside the cage.
     HighMesh larger = roundedBox(false);
     for (Vec3& at : larger.positions) at = 1.1F * at;
     EXPECT_EQ(baked(larger, {.cage_offset = 0.02}).missed_count, 0U);
 }
 
 TEST_F(RayDirectionsTest, DetailOnFlatFacesDoesNotLean) {
-    // Far from the middle averaged rays lean by 30 degrees: they see one side of the stud, and not the other.
+    // Far from the center averaged rays lean by 30 degrees: they hit only one side of the stud.
     const HighMesh high = roundedBox(true, 0.5F);
     const int automatic = leaningTexels(baked(high, {})),
               averaged = leaningTexels(baked(high, {.directions = RayDirections::averaged})),
@@ -251,7 +251,7 @@ TEST_F(RayDirectionsTest, BothSidesOfALeafKeepTheirOwn) {
 
 TEST_F(RayDirectionsTest, PointsThatMissCountAsARightAngle) {
     HighMesh high = roundedBox(false);
-    // The flat part of the top is not there.
+    // The flat part of the top is missing.
     std::vector<std::uint32_t> kept;
     for (std::size_t i = 0; i < high.corners.size(); i += 3) {
         const bool is_top = high.normals[high.corners[i]].z > 0.99F;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays against all triangles one by one.
+// Rays compared with testing all triangles individually.
 #include "maps/rays/rays.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ Soup randomSoup(std::mt19937& random, float scale, float offset) {
     return soup;
 }
 
-/// The distances of all triangles whose fronts face `outward`.
+/// Returns the distances of all triangles whose fronts face `outward`.
 std::vector<double> frontsByHand(const Soup& soup, const DVec3& from, const DVec3& outward) {
     std::vector<double> distances;
     for (std::size_t i = 0; i < soup.corners.size(); i += 3) {
@@ -51,7 +51,7 @@ std::vector<double> frontsByHand(const Soup& soup, const DVec3& from, const DVec
     return distances;
 }
 
-/// The distance of the nearest front-facing triangle on both sides, or nothing.
+/// Returns the distance of the nearest front-facing triangle on either side, or infinity.
 double nearestByHand(const Soup& soup, const DVec3& from, const DVec3& outward, double reach) {
     double best = INFINITY;
     for (const double distance : frontsByHand(soup, from, outward)) {
@@ -78,7 +78,7 @@ TEST(Rays, FindTheNearestFrontFacingTriangleOnBothSides) {
             const double reach = scale * 0.7, expected = nearestByHand(soup, from, outward, reach);
             RayHit hit;
             const bool is_hit = (*rays)->nearest(from, outward, reach, 0, guess, hit);
-            // At the very edge of a triangle Embree may see one that lies beside.
+            // Exactly on an edge Embree may report the adjacent triangle.
             if (is_hit != std::isfinite(expected)) {
                 ++misses;
                 continue;
@@ -118,7 +118,7 @@ TEST(Rays, FindTheOutermostAndTheInnermostFront) {
         const bool is_hit = (*rays)->outermost(from, outward, -0.4, 0.7, 0, outer);
         EXPECT_EQ((*rays)->innermost(from, outward, -0.4, 0.7, 0, inner), is_hit);
         const RayCrossings crossings = (*rays)->crossings(from, outward, -0.4, 0.7, 0);
-        // At the very edge of a triangle Embree may see one that lies beside.
+        // Exactly on an edge Embree may report the adjacent triangle.
         wrong += crossings.fronts != in_reach.size() || crossings.backs != backs_in_reach.size() ? 1 : 0;
         if (in_reach.empty() || !is_hit) {
             wrong += is_hit != !in_reach.empty() ? 1 : 0;
@@ -132,7 +132,8 @@ TEST(Rays, FindTheOutermostAndTheInnermostFront) {
     EXPECT_LE(wrong, 6);
 }
 
-/// Lines that are asked for together, some beside each other, some through a soup anywhere, and one that ends before it begins.
+/// Returns lines that are traced together: some close to each other, some at random positions in a soup, and one that
+/// ends before it begins.
 std::vector<RayLine> linesTogether(std::mt19937& random, std::size_t count) {
     std::normal_distribution<double> direction(0, 1);
     const auto anywhere = [&] { return DVec3{direction(random), direction(random), direction(random)}; };
@@ -169,7 +170,7 @@ TEST(Rays, MeetTheSameTogetherAsOneByOne) {
             const RayLine& line = lines[i];
             const bool is_hit = (*rays)->outermost(line.from, line.outward, line.begin, line.end, line.group, alone);
             hits += is_hit ? 1 : 0;
-            // At the very edge of a triangle Embree may see one that lies beside.
+            // Exactly on an edge Embree may report the adjacent triangle.
             const bool is_same =
                 is_hit == ((met >> i & 1) != 0) &&
                 (!is_hit || (alone.triangle == together[i].triangle && alone.distance == together[i].distance &&
@@ -219,7 +220,7 @@ TEST(Rays, MissNothingThroughEdgesAndVertices) {
 }
 
 TEST(Rays, BeginAndEndAnywhere) {
-    // Embree ends the process where a ray begins beyond 1.844e18, in units of the surface.
+    // Embree terminates the process if a ray starts beyond 1.844e18, in units of the surface.
     for (const float size : {1.0F, 1e-30F, 1e30F}) {
         const std::vector<Vec3> positions = {{0, 0, 0}, {size, 0, 0}, {0, size, 0}};
         const std::vector<std::uint32_t> corners = {0, 1, 2};

@@ -8,7 +8,7 @@
 namespace tspace {
 namespace {
 
-/// Rows that lean left and right in turns, by `slope`.
+/// Returns rows that lean left and right alternately, by `slope`.
 NormalLevel corrugated(std::uint32_t width, std::uint32_t height, double slope) {
     NormalLevel level{width, height, {}, {}};
     for (std::uint32_t i = 0; i < width * height; ++i) {

@@ -14,7 +14,7 @@ namespace {
 double partOf() { return *rc::gen::inRange(-1000, 1001) / 1000.0; }
 Vec3 anyVector() { return {static_cast<float>(partOf()), static_cast<float>(partOf()), static_cast<float>(partOf())}; }
 
-/// Frames like those of a coarse mesh: N near z, T near x, of any lengths, one sign.
+/// Returns frames like those of a coarse mesh: N near z, T near x, of any lengths, with one sign.
 CornerFrames anyCorners() {
     CornerFrames corners;
     const float sign = *rc::gen::element(-1.0f, 1.0f);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Maps that are solved some rows at a time.
+// Maps that are solved in strips of rows.
 #include "maps/bake/solve_strips.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,8 @@ const accuracy::Surface& saddle() {
     return accuracy::surfaces().front();
 }
 
-/// The texels of a relief on a saddle, solved in strips of so many rows; with `shift` .5 its middle lies on both ends of the image.
+/// The texels of a relief on a saddle, solved in strips of the given number of rows; with `shift` 0.5 its center is at
+/// both ends of the image.
 class Relief {
   public:
     static constexpr std::uint32_t kSide = 200;
@@ -58,7 +59,7 @@ class Relief {
     bench::HighMesh high_;
 };
 
-/// How far the texels of two maps are apart in the mean, beside the edges of strips, and elsewhere.
+/// Mean difference between the texels of two maps, next to the edges of strips, and elsewhere.
 struct Apart {
     double at_edges = 0, elsewhere = 0;
 
@@ -83,7 +84,8 @@ TEST(SolveStrips, AreAsNearToAWholeMapAtTheirEdgesAsElsewhere) {
             const std::vector<Vec3> whole = relief.solved(Relief::kSide), strips = relief.solved(kRows);
             if (whole.empty()) GTEST_SKIP() << "no Embree";
             const Apart apart(whole, strips, kRows);
-            // Steps end by what is left of the whole, so not even elsewhere texels are quite the same.
+            // The number of steps depends on the residual of the whole system, so texels far from strip edges are not
+            // exactly equal either.
             EXPECT_GT(apart.elsewhere, 0);
             EXPECT_LT(apart.elsewhere, 5e-6) << "a sixth of a step of 16 bits";
             EXPECT_LT(apart.at_edges, 5e-6) << "without rows around them 1e-5 and more";
@@ -92,7 +94,8 @@ TEST(SolveStrips, AreAsNearToAWholeMapAtTheirEdgesAsElsewhere) {
 }
 
 TEST(SolveStrips, HaveNoLargerErrorsWithIntegersAtTheirEdges) {
-    // A smooth surface asks what the vectors were before integers were chosen: if not, the error is 5 % larger there.
+    // On a smooth surface the targets must be the vectors before integers were chosen; otherwise the error is 5 %
+    // larger there.
     const bench::LowMesh low = bench::makeLow(saddle(), bench::Charts::one);
     const bench::HighMesh high = bench::makeHigh(saddle(), 200, false, 4);
     const Result<BakedMap> map =
@@ -120,7 +123,7 @@ TEST(SolveStrips, AreTheSameForAnyNumberOfThreads) {
     }
 }
 
-/// The most memory that a call had at one time from this allocator.
+/// Peak memory of a call that uses this allocator.
 struct MemoryMeter {
     std::uint64_t now = 0, most = 0;
 

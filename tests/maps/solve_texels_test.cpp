@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Texels under the bilinear filter.
+// Texels under bilinear filtering.
 #include "maps/solve/solve_texels.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ struct Sample {
     Vec3 wanted = {};
 };
 
-/// 3 x 3 samples a texel of waves, over an image that repeats.
+/// Returns 3 x 3 samples per texel of waves, over an image that repeats.
 std::vector<Sample> waves(std::uint32_t width, std::uint32_t height) {
     std::vector<Sample> samples;
     for (std::uint32_t y = 0; y < height; ++y) {
@@ -45,7 +45,7 @@ TexelSystem systemOf(const std::vector<Sample>& samples, std::uint32_t width, st
     return system;
 }
 
-/// The mean of what is wrong at the samples.
+/// Returns the mean error at the samples.
 double errorOf(const TexelSystem& system, const std::vector<Sample>& samples, const std::vector<Vec3>& texels) {
     double sum = 0;
     for (const Sample& s : samples) {
@@ -105,7 +105,7 @@ TEST(SolveTexels, IntegersCancelEachOthersErrors) {
 }
 
 TEST(SolveTexels, IntegersBesideTheChosenOnesAreHardlyBetter) {
-    // The last texel of every second row is chosen when all around it are.
+    // The last texel of every second row is chosen after all of its neighbors.
     constexpr std::uint32_t kWidth = 5, kHeight = 400;
     const std::vector<Sample> samples = waves(kWidth, kHeight);
     const TexelSystem system = systemOf(samples, kWidth, kHeight, 0);
@@ -120,7 +120,7 @@ TEST(SolveTexels, IntegersBesideTheChosenOnesAreHardlyBetter) {
             return texels[std::size_t{line} * kWidth + column];
         }) - row.side;
         const Vec3 chosen = texels[std::size_t{y} * kWidth + x];
-        // Up to a constant: that of the best real numbers beside this z.
+        // Energy, up to a constant. The constant is the minimum over real x and y for this z.
         const auto energyOf = [&](double dx, double dy) {
             const DVec3 q{chosen.x + dx, chosen.y + dy, chosen.z};
             const SymmetricBlock& m = row.blocks[0];
@@ -143,7 +143,8 @@ TEST(SolveTexels, IntegersBesideTheChosenOnesAreHardlyBetter) {
 }
 
 TEST(SolveTexels, FreerLengthsAreNoWorseWhereDetailIsFine) {
-    // A few texels a wave: no vectors are right between them, and a short one leaves those beside it what it does not take.
+    // A few texels per wave: no vectors are correct between them, and a short vector leaves its neighbors the remaining
+    // error.
     constexpr std::uint32_t kWidth = 22, kHeight = 17;
     const std::vector<Sample> samples = waves(kWidth, kHeight);
     const TexelSystem system = systemOf(samples, kWidth, kHeight, 0);

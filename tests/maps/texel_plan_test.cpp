@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the map between texels follows from their centres.
+// Cells in which the map between texels follows from their centers.
 #include "maps/bake/texel_plan.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t kFieldSide = 40;
 
-/// A field over texels, all of which a triangle shows but those of the rim, which are read.
+/// A field over texels that a triangle covers, except those of the rim, which are only read.
 struct Field {
     TracedTexels traced = {};
     TexelTriangles triangles = {};
@@ -85,7 +85,7 @@ TEST(TexelPlan, TexelsThatSeveralTrianglesShowAreAsked) {
     EXPECT_EQ(field.plan(0.1F).cells[20 * kFieldSide + 20], TexelCell::rough);
 }
 
-/// The mean angle between the filtered texels and a field, away from the rim.
+/// Returns the mean angle between the filtered texels and a field, away from the rim.
 double waveErrorOf(std::span<const Vec3> texels) {
     double sum = 0;
     int count = 0;
@@ -125,7 +125,7 @@ TEST(SolveTexels, RoundedTexelsCancelEachOthersErrors) {
     roundTexels(together, kFieldSide, {.most = 4000, .keeps_lengths = true}, parallel, nullptr);
     roundTexels(of_any_length, kFieldSide, {.most = 4000}, parallel, nullptr);
     double plain_sum = 0, together_sum = 0, any_length_sum = 0;
-    // What the filter shows between four texels.
+    // The filtered value between four texels.
     for (std::size_t i = 0; i + kFieldSide + 1 < wanted.size(); ++i) {
         const auto mixed = [&](const std::vector<Vec3>& texels) {
             return 0.25F * ((texels[i] + texels[i + 1]) + (texels[i + kFieldSide] + texels[i + kFieldSide + 1]));

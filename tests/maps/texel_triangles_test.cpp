@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which triangle says what stands in a texel.
+// Determination of the triangle that covers each texel.
 #include "maps/layout/texel_triangles.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ UvMap randomMap(int least = -1200, int most = 1900) {
     return mapOf(uvs, wrap);
 }
 
-/// The point of the UV plane where the weights are, as the place of a texel in the image.
+/// Checks that the point of the UV plane at the stored weights is the center of the texel in the image.
 void expectCentre(const UvMap& map, const TexelTriangles& found, std::size_t texel) {
     const TexelPlace& place = found.places[texel];
     const auto uvs = cornerUvs(map.triangles(), place.triangle);
@@ -93,7 +93,7 @@ RC_GTEST_PROP(TexelTriangles, GiveTheCentreOfEachTexel, ()) {
     }
 }
 
-/// The distance of a texel's centre to the nearest triangle, wherever the image is repeated.
+/// Returns the distance of a texel's center to the nearest triangle, in any repetition of the image.
 double nearestOf(const UvMap& map, const TextureShape& shape, std::size_t texel) {
     double least = INFINITY;
     for (std::size_t i = 0; i < map.corners.size() / 3; ++i) {
@@ -119,7 +119,7 @@ double nearestOf(const UvMap& map, const TextureShape& shape, std::size_t texel)
 
 RC_GTEST_PROP(TexelTriangles, TakeTheNearestTriangleBesideThem, ()) {
     UvMap map = randomMap();
-    // Triangles beyond the edge of a clamped image do not reach into it.
+    // Triangles beyond the edge of a clamped image do not extend into it.
     if (map.wrap == TextureWrap::clamp) map.wrap = TextureWrap::repeat;
     const auto padding = *rc::gen::inRange<std::uint32_t>(1, 7);
     const TexelTriangles found = find(map, 14, 11, padding);

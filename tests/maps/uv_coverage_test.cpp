@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which texels triangles show.
+// Coverage of texels by triangles.
 #include "maps/layout/uv_coverage.h"
 
 #include <gtest/gtest.h>
@@ -69,7 +69,7 @@ TEST(UvCoverage, TakesNothingThatIsClearlyOutside) {
         for (Vec2& point : uv) point = {coordinate(), coordinate()};
         constexpr int kSize = 16;
         const TexelMask mask = cover({uv.begin(), uv.end()}, kSize, kSize);
-        // Distance to the triangle in texels, at every place that shows a texel.
+        // Distance to the triangle in texels, at every position that shows a texel.
         const auto edge = [&](int i, double x, double y) {
             const Vec2 &a = uv[i], &b = uv[(i + 1) % 3];
             const double dx = double{b.x} - a.x, dy = double{b.y} - a.y, length = std::hypot(dx, dy);
@@ -81,7 +81,7 @@ TEST(UvCoverage, TakesNothingThatIsClearlyOutside) {
         constexpr double kRounding = 0.02;
         for (int y = 0; y < kSize; ++y) {
             for (int x = 0; x < kSize; ++x) {
-                double best = -1e9;  // how far inside, at most
+                double best = -1e9;  // largest distance inside the triangle
                 for (int tile_y = -4; tile_y < 4; ++tile_y) {
                     for (int tile_x = -4; tile_x < 4; ++tile_x) {
                         const double u = tile_x + (x + 0.5) / kSize, v = tile_y + (y + 0.5) / kSize;
@@ -106,7 +106,7 @@ TEST(UvCoverage, LeavesOutUvsThatMeanNothing) {
 }
 
 TEST(UvCoverage, EndsSoonOnHostileUvs) {
-    // Slivers over all of the 64 repeats that are looked at, none of which fills a row.
+    // Slivers across all of the 64 repetitions that are examined, none of which fills a row.
     std::vector<Vec2> uvs;
     for (int i = 0; i < 20000; ++i) {
         const float u = static_cast<float>(i) * 1e-4f;

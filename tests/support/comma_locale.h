@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A program whose locale writes 0,5: German, made for the test where the machine has none.
+// Switches the program to a locale that writes 0,5: German, generated for the test if the machine has none.
 #pragma once
 
 #include <clocale>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fresh memory of a known content: what a call computes must not depend on it.
+// Fresh memory with known content, which must not affect the result of a call.
 #pragma once
 
 #include <cstring>
@@ -9,7 +9,7 @@
 
 namespace tspace::test {
 
-/// Hands out memory in which every byte is `byte`.
+/// Allocates memory in which every byte is `byte`.
 class FilledMemory {
   public:
     explicit FilledMemory(unsigned char byte) : byte_(byte) {}
@@ -32,7 +32,7 @@ class FilledMemory {
                             this};
 };
 
-/// As floats: 0, a small number, and NaN.
+/// Interpreted as floats: 0, a small number, and NaN.
 inline constexpr unsigned char kFillings[] = {0x00, 0x3c, 0xff};
 
 }  // namespace tspace::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reading the golden files of the MikkTSpace reference, as words. The layout is described beside the files.
+// Reads the golden files of the MikkTSpace reference as words. Their layout is described next to the files.
 #pragma once
 
 #include <algorithm>
@@ -15,16 +15,16 @@
 
 namespace tspace::test {
 
-/// Whether a value is one that `mikktspace` promises the reference's bits for: docs/concepts/methods/mikktspace.md leaves out
-/// meshes with values that are not finite or of 1.6e38 and more. The one place where tests say that rule.
+/// Returns whether `mikktspace` promises the reference's bits for a value: docs/concepts/methods/mikktspace.md excludes
+/// meshes with values that are not finite or at least 1.6e38. All tests use this function.
 inline bool hasPromisedBits(float value) { return std::fabs(value) < 1.6e38f; }
 
 struct GoldenFile {
-    static constexpr std::size_t kInputWords = 8;    ///< per corner: position, normal, uv
+    static constexpr std::size_t kInputWords = 8;    ///< per corner: position, normal, UV
     static constexpr std::size_t kResultWords = 10;  ///< tangent, bitangent, magnitudes, orientation, sign
 
     float angular_threshold_deg = 180;
-    std::uint32_t returned = 0;             ///< what the reference's function returned
+    std::uint32_t returned = 0;             ///< return value of the reference's function
     std::vector<std::uint32_t> face_sizes;  ///< empty: not a complete golden file
     std::vector<std::uint32_t> inputs, results;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Generators for property tests: sound vectors and garbage.
+// Generators for property tests: valid vectors and arbitrary values.
 #pragma once
 
 #include <rapidcheck.h>
@@ -13,10 +13,10 @@
 
 namespace tspace::test {
 
-/// A whole number in [low, high), spread over all of it from the first try on (RapidCheck begins near `low`).
+/// Returns an integer in [low, high), uniformly distributed from the first test case on (RapidCheck starts near `low`).
 inline int randomInt(int low, int high) { return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high)); }
 
-/// A float in [low, high] with 16 bits of resolution.
+/// Returns a float in [low, high] with 16 bits of resolution.
 inline float randomFloat(float low, float high) {
     const int step = randomInt(0, 65537);
     return low + (high - low) * (static_cast<float>(step) / 65536.0f);
@@ -39,7 +39,7 @@ inline Vec3 randomUnit() {
     return {static_cast<float>(v.x / l), static_cast<float>(v.y / l), static_cast<float>(v.z / l)};
 }
 
-/// Anything that a float can be: NaN, infinities, zeros, denormals, huge values, and ordinary ones.
+/// Returns any kind of float: NaN, infinities, zeros, subnormals, huge values, and ordinary ones.
 inline float randomGarbage() {
     switch (randomInt(0, 8)) {
         case 0:

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Reports against their JSON Schemas in docs/schema.
+// Validation of reports against their JSON Schemas in docs/schema.
 #pragma once
 
 #include <string>
 
 namespace tspace::test {
 
-/// What is wrong with a document that names a schema of tspace, a line each; empty: nothing, or it is no such document.
+/// Returns the faults of a document that names a tspace schema, one per line; empty if it is valid, or names no such
+/// schema.
 std::string reportFaults(const std::string& document);
 
 }  // namespace tspace::test

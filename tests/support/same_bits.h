@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lists compared bit by bit.
+// Bitwise comparison of lists.
 #pragma once
 
 #include <cstring>

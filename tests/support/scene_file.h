@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small models written to files, for the commands that read whole files.
+// Small models written to files, for commands that read whole files.
 #pragma once
 
 #include <cmath>
@@ -15,18 +15,18 @@
 
 namespace tspace::test {
 
-/// One primitive as plain arrays.
+/// One primitive as arrays.
 struct ModelData {
     std::string name = {};
     std::vector<Vec3> positions = {};
     std::vector<Vec3> normals = {};
     std::vector<Vec2> uvs = {};
-    std::vector<Vec2> other_uvs = {};  ///< TEXCOORD_1 when not empty
+    std::vector<Vec2> other_uvs = {};  ///< TEXCOORD_1 if not empty
     std::vector<Vec4> tangents = {};
     std::vector<std::uint32_t> indices = {};
 };
 
-/// A bent sheet of n x n cells, smooth normals, UVs with uneven stretch.
+/// Returns a bent sheet of n x n cells with smooth normals and unevenly stretched UVs.
 inline ModelData bentSheet(int n) {
     ModelData data{.name = "sheet"};
     for (int y = 0; y <= n; ++y) {
@@ -51,7 +51,7 @@ inline ModelData bentSheet(int n) {
     return data;
 }
 
-/// Every corner its own vertex.
+/// Gives every corner a separate vertex.
 inline ModelData unwelded(const ModelData& data) {
     ModelData result{.name = data.name};
     for (const std::uint32_t vertex : data.indices) {
@@ -65,7 +65,7 @@ inline ModelData unwelded(const ModelData& data) {
     return result;
 }
 
-/// One tangent per corner. Throws where there are none, which no test expects.
+/// Returns one tangent per corner. Throws if there are none, which no test expects.
 inline std::vector<Vec4> tangentsOf(const ModelData& data, const TangentOptions& options) {
     const MeshView mesh{.positions = std::span<const Vec3>(data.positions),
                         .normals = std::span<const Vec3>(data.normals),
@@ -79,8 +79,8 @@ inline std::vector<Vec4> tangentsOf(const ModelData& data, Method method) {
     return tangentsOf(data, TangentOptions{.method = method, .convention = conventions::opengl});
 }
 
-/// Unwelds (but for `lengyel`, which averages at vertex indices), and sets the tangents that a method gives;
-/// `sign_factor` -1 is glTF's.
+/// Unwelds vertices (except for `lengyel`, which averages by vertex index), and sets the tangents of a method;
+/// `sign_factor` -1 is that of glTF.
 inline ModelData withTangents(const ModelData& data, const TangentOptions& options, float sign_factor = -1) {
     ModelData result = options.method == Method::lengyel ? data : unwelded(data);
     const std::vector<Vec4> corners = tangentsOf(result, options);
@@ -99,7 +99,7 @@ std::vector<float> floatsOf(const std::vector<Vec>& values) {
     return {first, first + values.size() * (sizeof(Vec) / sizeof(float))};
 }
 
-/// One mesh per entry. Returns the path.
+/// Writes one mesh per entry. Returns the path.
 inline std::string writeModel(const TempFolder& folder, const std::string& name, const std::vector<ModelData>& models) {
     GltfBuilder builder;
     Json meshes = Json::array();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The mesh of all tests of the core: it owns its arrays. And cubes.
+// The mesh of all core tests, which owns its arrays; and cubes.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct SimpleMesh {
         uvs.push_back(uv);
         return static_cast<std::uint32_t>(positions.size() - 1);
     }
-    /// For meshes of triangles alone.
+    /// Adds a face to a mesh that contains only triangles.
     void addTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { indices.insert(indices.end(), {a, b, c}); }
     void addFace(std::initializer_list<std::uint32_t> vertices) {
         addFace(std::span(vertices.begin(), vertices.size()));
@@ -46,7 +46,7 @@ struct SimpleMesh {
     }
 };
 
-/// The cube [-1, 1]^3: vertex i has bit 0, 1, 2 of i as its x, y, z. Counter-clockwise from outside.
+/// The cube [-1, 1]^3: bits 0, 1, 2 of vertex index i determine its x, y, z. Counter-clockwise from outside.
 inline constexpr std::array<std::array<std::uint32_t, 4>, 6> kCubeFaces{
     {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
 inline constexpr std::array<Vec3, 6> kCubeNormals{
@@ -68,7 +68,7 @@ inline SimpleMesh quadCube() {
     return cube;
 }
 
-/// Twelve triangles; bit f of `diagonals` chooses how face f is cut.
+/// Returns twelve triangles; bit f of `diagonals` selects the diagonal of face f.
 inline SimpleMesh triangleCube(unsigned diagonals) {
     SimpleMesh cube;
     cube.positions = cubePositions();

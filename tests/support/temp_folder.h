@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A folder for one test, gone with it.
+// A temporary folder for one test, removed afterwards.
 #pragma once
 
 #include <stdlib.h>
@@ -30,12 +30,12 @@ class TempFolder {
     TempFolder(const TempFolder&) = delete;
     TempFolder& operator=(const TempFolder&) = delete;
 
-    /// The folder, or a path in it.
+    /// Returns the folder, or a path in it.
     [[nodiscard]] std::filesystem::path path(const std::string& relative = {}) const {
         return relative.empty() ? path_ : path_ / relative;
     }
 
-    /// Writes a file, with the folders above it, and returns its path.
+    /// Writes a file, creating its parent folders, and returns its path.
     std::string write(const std::string& relative, const std::string& bytes) const {
         const std::filesystem::path file = path_ / relative;
         std::filesystem::create_directories(file.parent_path());
@@ -52,7 +52,7 @@ class TempFolder {
     }
     [[nodiscard]] bool has(const std::string& relative) const { return std::filesystem::exists(path_ / relative); }
 
-    /// Relative paths of all files below `relative`.
+    /// Returns the relative paths of all files below `relative`.
     [[nodiscard]] std::set<std::string> files(const std::string& relative = ".") const {
         std::set<std::string> names;
         const std::filesystem::path folder = path_ / relative;
@@ -63,7 +63,7 @@ class TempFolder {
         return names;
     }
 
-    /// Files and folders below this one.
+    /// Returns the number of files and folders below this one.
     [[nodiscard]] std::size_t entryCount() const {
         const auto entries = std::filesystem::recursive_directory_iterator(path_);
         return static_cast<std::size_t>(std::distance(begin(entries), end(entries)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Threads for meshes so small that the library would start none: work of any size is cut for an executor.
+// Threads for meshes so small that the library would start none: with an executor, work of any size is divided.
 #pragma once
 
 #include <atomic>
@@ -11,7 +11,7 @@
 
 namespace tspace::test {
 
-/// Runs each loop on that many threads. Lives as long as the program.
+/// Returns an executor that runs each loop on this number of threads. Lives until the program ends.
 inline const Executor* threadTeam(unsigned threads) {
     static std::map<unsigned, Executor> teams;
     Executor& team = teams[threads];
