@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Progress callbacks come often enough to end a call within a second, and a call that they end has written nothing.
+// Progress callbacks are frequent enough to end a call within a second, and a canceled call writes nothing.
 #include <gtest/gtest.h>
 #include <time.h>
 
@@ -17,14 +17,14 @@
 namespace tspace::test {
 namespace {
 
-/// Processor time of this thread, which the load of the machine does not change.
+/// Returns the processor time of this thread, which does not depend on the load of the machine.
 double seconds() {
     timespec time{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// Runs call(progress) whole, then stops it at some of its callbacks.
+/// Runs call(progress) to its end, then stops it at some of its callbacks.
 void expectStops(const std::string& name, const TempFolder& folder,
                  const std::function<ErrorCode(const Progress&)>& call) {
     const std::set<std::string> inputs = folder.files();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// case_files write FOLDER FRAMES: the cases, for programs that are not C++, as N.case. case_files compare FOLDER FRAMES:
-// what they made of them, LANGUAGE.N.results (floats, little-endian). Exits with 1 if any is wrong, or all of a language
-// are not there.
+// case_files write FOLDER FRAMES: writes the cases as N.case, for programs that are not C++. case_files compare FOLDER
+// FRAMES: checks their results, LANGUAGE.N.results (floats, little-endian). Exits with 1 if any result is wrong, or all
+// results of a language are missing.
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -37,7 +37,8 @@ bool compare(const Case& c, const std::string& language, const std::vector<float
     return wrong.empty();
 }
 
-/// The frames of pixels are those of the first items of frameOfSteps, from derivatives, which have rounded.
+/// Compares the frames of pixels, which are those of the first items of frameOfSteps, computed from rounded
+/// derivatives.
 bool comparePixels(Case c, const std::vector<float>& results) {
     if (results.size() > c.expected.size()) return false;
     c.expected.resize(results.size());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Expected results come from the C++ decoder, or from geometry in double: not from the formulas of the shaders.
+// Expected results are computed with the C++ decoder, or with double-precision geometry: not with the formulas of the
+// shaders.
 #include "cases.h"
 
 #include <array>
@@ -21,7 +22,7 @@ namespace {
 
 using test::RandomBits;
 
-/// The words of one item, made number by number, and what is expected of it.
+/// The words of one item, generated number by number, and its expected result.
 struct Item {
     std::vector<std::uint32_t> words;
     std::array<double, kResultFloats> expected{};
@@ -46,7 +47,7 @@ void addFrame(Item& item, const DFrame& f) {
     item.add(f.sign);
 }
 
-/// As floats hold it, so that both sides begin with the same numbers.
+/// Rounds to float, so that both sides start with the same numbers.
 double rounded(double x) { return static_cast<float>(x); }
 DVec3 rounded(const DVec3& v) { return {rounded(v.x), rounded(v.y), rounded(v.z)}; }
 DVec3 unitOf(const DVec3& v) { return (1 / length(v)) * v; }
@@ -65,7 +66,7 @@ DFrame frameOf(RandomBits& random) {
 
 // ---- the formats
 
-/// Packed frames, then words of all kinds: random ones, and with few bits set or clear.
+/// Returns packed frames, then words of all kinds: random ones, and ones with few bits set or clear.
 std::vector<std::byte> someWords(FrameFormat format, std::size_t count) {
     RandomBits random(17);
     const std::size_t bytes = frameBytes(format), others = count / 10;
@@ -91,7 +92,7 @@ void setHeader(Case& c) {
     c.buffer.insert(c.buffer.begin(), std::begin(header), std::end(header));
 }
 
-/// Decoding `words` bytes; `spread` writes one per word, as integer attributes hold them.
+/// Creates a case that decodes `words` bytes; `spread` writes one byte per word, as in integer attributes.
 Case formatCase(std::string name, std::uint32_t number, FrameFormat format, std::size_t count, std::size_t unit_bytes) {
     const std::vector<std::byte> bytes = someWords(format, count);
     const std::size_t each = frameBytes(format), items = bytes.size() / each;
@@ -109,18 +110,18 @@ Case formatCase(std::string name, std::uint32_t number, FrameFormat format, std:
         const Vec4& t = frames.tangents[i];
         c.expected.insert(c.expected.end(), {n.x, n.y, n.z, 0, t.x, t.y, t.z, t.w});
     }
-    c.bound = 2 * 0x1p-23;  // two of the last places of 1
+    c.bound = 2 * 0x1p-23;  // two units in the last place of 1
     setHeader(c);
     return c;
 }
 
 // ---- the other functions, item by item
 
-/// Normalised attributes: as vertex fetch hands them over.
+/// Normalized attributes, in the form that vertex fetch provides.
 void quaternionItem(RandomBits& random, Item& item) {
     double q[4];
     for (double& component : q) component = number(random, -1, 1);
-    // A half turn: w is the least number that has a sign.
+    // A half turn: w is the smallest number that has a sign.
     if (random.next() % 64 == 0) q[3] = rounded((random.next() & 1) != 0 ? 1.0 / 32767 : -1.0 / 32767);
     double square = 0;
     for (const double component : q) {
@@ -128,7 +129,7 @@ void quaternionItem(RandomBits& random, Item& item) {
         square += component * component;
     }
     const double k = 1 / std::sqrt(square), x = k * q[0], y = k * q[1], z = k * q[2], w = k * q[3];
-    // What a rotation by q does to the axes z and x, by the formula for a vector: v + 2 u x (u x v + w v).
+    // The rotation of the axes z and x by q, by the formula for a vector: v + 2 u x (u x v + w v).
     const auto turned = [&](const DVec3& v) {
         const DVec3 u{x, y, z};
         return v + 2 * cross(u, cross(u, v) + w * v);
@@ -151,7 +152,7 @@ struct Matrix {
 };
 double determinant(const Matrix& m) { return dot(m.column[0], cross(m.column[1], m.column[2])); }
 
-/// Turns, scales of both signs and shears, none of them nearly flat.
+/// Returns rotations, scales of both signs and shears, none of them nearly singular.
 Matrix someMatrix(RandomBits& random) {
     for (;;) {
         const DVec3 a = vectorIn(random, 1.5), b = vectorIn(random, 1.5);
@@ -163,8 +164,8 @@ void addMatrix(Item& item, const Matrix& m) {
     for (const DVec3& column : m.column) item.add(column);
 }
 
-/// N is across what m makes of the surface, on the outer side of m's image; T goes along; the sign is that with which
-/// cross(N, T) points to where m brings the bitangent.
+/// N is perpendicular to the surface transformed by m, on the outer side; T is transformed by m; the sign makes
+/// cross(N, T) point to the transformed bitangent.
 void expectMoved(Item& item, const DFrame& f, const Matrix& m) {
     const DVec3 b = f.sign * cross(f.normal, f.tangent);
     const DVec3 across = cross(m * f.tangent, m * cross(f.normal, f.tangent));
@@ -172,7 +173,7 @@ void expectMoved(Item& item, const DFrame& f, const Matrix& m) {
     item.expect(n, t, dot(m * b, cross(n, t)) < 0 ? -1 : 1);
 }
 
-/// Flat to float rounding, which alone decides the sign of such a determinant.
+/// Returns a matrix that is singular within float rounding, which alone determines the sign of its determinant.
 Matrix someFlatMatrix(RandomBits& random) {
     const DVec3 a = vectorIn(random, 1.5), b = vectorIn(random, 1.5);
     const double x = random.number(), y = random.number();
@@ -189,7 +190,7 @@ void transformItem(RandomBits& random, Item& item) {
         addFrame(item, f);
         addMatrix(item, m);
         if (!is_flat) return expectMoved(item, f, m);
-        // N goes to the side of the plane to which the surface turns, as if the plane had a little thickness.
+        // N points to the side of the plane to which the surface faces, as if the plane had a small thickness.
         return item.expect(unitOf(across), unitOf(m * f.tangent), f.sign);
     }
 }
@@ -217,7 +218,7 @@ void skinItem(RandomBits& random, Item& item) {
 void morphItem(RandomBits& random, Item& item) {
     const DFrame f = frameOf(random);
     DVec3 normal_delta = vectorIn(random, 0.5), tangent_delta = vectorIn(random, 0.5);
-    if (random.next() % 64 == 0) normal_delta = rounded(-1.0 * f.normal);  // nothing is left: N stays
+    if (random.next() % 64 == 0) normal_delta = rounded(-1.0 * f.normal);  // the sum vanishes: N is unchanged
     if (random.next() % 64 == 0) tangent_delta = DVec3{};
     addFrame(item, f);
     item.add(normal_delta);
@@ -241,15 +242,15 @@ void stepsItem(RandomBits& random, Item& item) {
         item.add(p_dx);
         item.add(p_dy);
         for (const double x : {a, b, c, d}) item.add(x);
-        // Turned about the line of intersection until it lies across N, along_v keeps its side of T: that is the sign of
-        // the UVs as seen along N.
+        // Rotated about the line of intersection until it is perpendicular to N, along_v stays on its side of T: this
+        // is the sign of the UVs as seen along N.
         const double side = dot(cross(along_u, along_v), n);
         const DVec3 unit = unitOf(n);
         return item.expect(unit, unitOf(cross(across, unit)), side < 0 ? -1 : 1);
     }
 }
 
-/// As interpolated: shorter than 1, and N and T not quite at a right angle. w too is off in its last places.
+/// Interpolated frame: shorter than 1, and N and T not exactly orthogonal. w also deviates in its last bits.
 struct Interpolated {
     DVec3 normal, tangent, bitangent;
     double w, sign;
@@ -264,7 +265,7 @@ DVec3 someTexel(RandomBits& random) {
     const double x = number(random, -0.7, 0.7), y = number(random, -0.7, 0.7);
     return {x, y, number(random, 0.3, 1)};
 }
-/// Of a map that holds x and y only.
+/// Decodes a texel of a two-channel map.
 DVec3 unpackedTexel(double r, double g) {
     const double x = 2 * r - 1, y = 2 * g - 1;
     return {x, y, std::sqrt(std::fmax(0, 1 - x * x - y * y))};
@@ -292,7 +293,7 @@ void texelOfTwoItem(RandomBits& random, Item& item) {
     item.expect(unpackedTexel(r, g));
 }
 
-/// Per pixel or, with the bitangent of the vertices, not.
+/// Per pixel, or with the bitangents of the vertices.
 void mikktspaceItem(RandomBits& random, Item& item) {
     const Interpolated in = someInterpolated(random);
     const DVec3 texel = someTexel(random);
@@ -316,7 +317,7 @@ void threeItem(RandomBits& random, Item& item) {
     item.add(face);
     item.expect(face * unitOf(combined(texel, unitOf(in.tangent), unitOf(in.bitangent), unitOf(in.normal))));
 }
-/// After the channels of a map that holds x and y, (r, g).
+/// Adds the channels that follow (r, g) in a two-channel map.
 void addTwoChannelRest(RandomBits& random, Item& item, double r, double g) {
     const Interpolated in = someInterpolated(random);
     item.add(in.normal);
@@ -354,8 +355,8 @@ struct ItemCase {
     void (*make)(RandomBits&, Item&);
     double bound;
 };
-/// From number 9 on, but for the two of kAttributeCases. Bounds are some times what lavapipe shows: these functions divide
-/// by lengths down to 0.1.
+/// Cases from number 9 on, except the two of kAttributeCases. Bounds are a multiple of the errors of lavapipe: these
+/// functions divide by lengths down to 0.1.
 constexpr ItemCase kItemCases[] = {
     {"frameOfQuaternion", quaternionItem, 1e-6},
     {"frameOfVectors", vectorsItem, 5e-7},
@@ -397,7 +398,7 @@ std::size_t caseCount() { return kFirstItemCase + std::size(kItemCases); }
 
 Case makeCase(std::uint32_t number, std::size_t count) {
     if (number < kFirstItemCase) return formatCase(test::kFormatNames[number], number, FrameFormat{number}, count, 4);
-    // The helpers for attributes: a word for each byte or short.
+    // Helpers for attributes: one word per byte or short.
     if (number == kBytesCase) return formatCase("word", number, FrameFormat::frame32, count / 10, 1);
     if (number == kShortsCase) return formatCase("words", number, FrameFormat::frame64, count / 10, 2);
     return itemCase(number, kItemCases[number - kFirstItemCase], count / 10);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every shader language is asked, and what it must answer: each function of shaders/ on many items.
+// Inputs and expected results for every shader language: each function of shaders/ on many items.
 #pragma once
 
 #include <cstddef>
@@ -10,29 +10,30 @@
 
 namespace tspace::shaders {
 
-/// Of each item two vectors of four floats come out: (normal, 0) and the tangent, or (vector, 0) and zeros.
+/// Each item has two output vectors of four floats: (normal, 0) and the tangent, or (vector, 0) and zeros.
 inline constexpr std::size_t kResultFloats = 8;
-/// What the buffer of words begins with: number of the case, count of items, words of an item, 0.
+/// Header of the buffer of words: number of the case, number of items, words per item, 0.
 inline constexpr std::size_t kHeaderWords = 4;
 
 struct Case {
     std::string name;
     std::uint32_t number = 0;             ///< in the shaders
-    std::size_t item_words = 0;           ///< that a shader reads of an item
+    std::size_t item_words = 0;           ///< number of words per item that a shader reads
     std::vector<std::uint32_t> buffer{};  ///< the header, then the words of the items
-    std::vector<double> expected{};       ///< kResultFloats of each item
-    double bound = 0;                     ///< how far a component may be from what is expected
+    std::vector<double> expected{};       ///< kResultFloats values per item
+    double bound = 0;                     ///< maximum deviation of a component from its expected value
 
     [[nodiscard]] std::size_t count() const { return expected.size() / kResultFloats; }
 };
 
 std::size_t caseCount();
-/// Case `number` with about `count` items, the same ones on every machine. O(count).
+/// Creates case `number` with about `count` items, which are the same on every machine. O(count).
 Case makeCase(std::uint32_t number, std::size_t count);
 
-/// Empty if the results are right: all components within the bound, and the signs exact. Else what is wrong first.
+/// Returns an empty string if the results are right: all components within the bound, and exact signs. Otherwise
+/// describes the first fault.
 std::string whatIsWrong(const Case& c, std::span<const float> results);
-/// The greatest difference of a component.
+/// Returns the largest difference of a component.
 double worstDifference(const Case& c, std::span<const float> results);
 
 }  // namespace tspace::shaders

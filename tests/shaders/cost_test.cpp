@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the comments of the shaders say about costs is what the compiler counts.
+// The costs stated in the comments of the shaders equal the compiler's counts.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -12,7 +12,7 @@ namespace tspace::shaders {
 
 namespace {
 
-/// "// Cost: ..." by the function that follows.
+/// Returns the "// Cost: ..." comments, keyed by the function that follows.
 std::map<std::string, std::string> statedCosts(const std::string& file_name) {
     std::ifstream file(TSPACE_SHADER_FOLDER "/" + file_name);
     const std::regex stated("^// Cost: (.*)\\.$"), function("\\btspace_\\w+(?=\\()");

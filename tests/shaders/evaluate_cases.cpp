@@ -34,7 +34,7 @@ Vec3 vectorAt(const std::vector<std::uint32_t>& words, std::size_t at) {
     return {number(0), number(1), number(2)};
 }
 
-/// A turn about y that grows with x, and a wave: all triangles change their shape.
+/// Returns positions rotated about y by an angle that grows with x, and a wave: all triangles change their shape.
 std::vector<Vec3> bent(const std::vector<Vec3>& positions) {
     Vec3 low{1e30f, 1e30f, 1e30f}, high{-1e30f, -1e30f, -1e30f};
     for (const Vec3& p : positions) {
@@ -57,7 +57,7 @@ PosedMesh posed(std::string name, test::SimpleMesh mesh, float threshold_deg = 1
     return made;
 }
 
-/// A closed torus with seams in its UVs and unit normals.
+/// Returns a closed torus with UV seams and unit normals.
 test::SimpleMesh torus(std::uint32_t rings, std::uint32_t sides) {
     test::SimpleMesh mesh;
     for (std::uint32_t i = 0; i <= rings; ++i) {
@@ -136,7 +136,7 @@ double degreesBetween(const Vec4& a, const Vec4& b) {
     return std::atan2(std::sqrt(cx * cx + cy * cy + cz * cz), along) * 180 / std::numbers::pi;
 }
 
-/// Each number with a few other last bits.
+/// Returns each number with small changes in its last bits.
 std::vector<Vec3> nudged(const std::vector<Vec3>& vectors, std::uint32_t seed) {
     std::vector<Vec3> result = vectors;
     for (Vec3& v : result) {
@@ -208,7 +208,7 @@ class MeshRun {
     MeshRun(const PosedMesh& posed, const EvaluateOptions& options, Outcome& outcome)
         : posed_(posed), options_(options), outcome_(outcome) {}
 
-    /// Empty, or what failed.
+    /// Returns an empty string, or what failed.
     std::string run(const Evaluate& evaluate, const std::function<void(EvaluateBuffers&)>& spoil) {
         MeshView mesh = posed_.mesh.view();
         const TangentOptions tangents{.method = options_.method,
@@ -235,7 +235,7 @@ class MeshRun {
     }
 
   private:
-    /// The mesh as vertices per corner, with the normals that the library makes, as makeIndexedFrames does.
+    /// Converts the mesh to vertices per corner, with normals computed by the library, as by makeIndexedFrames.
     std::string makeFrames(MeshView& mesh, const TangentOptions& tangents, IndexedFrames& frames,
                            PlanBufferOptions& buffers) {
         corner_normals_.resize(mesh.cornerCount());
@@ -302,7 +302,8 @@ class MeshRun {
                 outcome_.normals.add(tries[0], std::span(tries).subspan(1), withSign(normals[r], 1), placeOf(r));
             }
         }
-        // With the shader's normals: where a tangent is nearly along the normal, its last bits turn the tangent by degrees.
+        // With the shader's normals: if a tangent is nearly parallel to the normal, the last bits of the normal rotate
+        // it by degrees.
         std::vector<std::vector<Vec4>> expected(kTries, std::vector<Vec4>(plan.outputCount()));
         for (std::uint32_t i = 0; i < kTries; ++i) {
             const std::vector<Vec3> p = i == 0 ? positions : nudged(positions, i),
@@ -320,7 +321,7 @@ class MeshRun {
         return {};
     }
 
-    static constexpr std::uint32_t kTries = 4;  ///< the pose, and others whose last bits differ
+    static constexpr std::uint32_t kTries = 4;  ///< the pose, and others that differ in their last bits
     static Vec4 withSign(const Vec3& v, float sign) { return {v.x, v.y, v.z, sign}; }
 
     const PosedMesh& posed_;
@@ -340,10 +341,10 @@ Outcome evaluateAll(const std::vector<PosedMesh>& meshes, const EvaluateOptions&
         const bool has_polygons =
             !mesh.mesh.face_sizes.empty() && std::any_of(mesh.mesh.face_sizes.begin(), mesh.mesh.face_sizes.end(),
                                                          [](std::uint32_t size) { return size != 3; });
-        // Where a triangle is degenerate the library looks at all others around the point, which the shader does not have.
+        // If a triangle is degenerate, the library uses all others around the point, which the shader does not know.
         const bool has_edges = options.crease_angle_deg < 180 || options.weighting == NormalWeighting::flat;
         if (options.makes_normals && has_edges && mesh.collapses) continue;
-        // Sums of UV derivatives far apart are what rounding leaves.
+        // Sums of UV derivatives with very different magnitudes are dominated by rounding.
         const bool has_usual_uvs = std::all_of(mesh.mesh.uvs.begin(), mesh.mesh.uvs.end(), [](const Vec2& uv) {
             return std::fabs(uv.x) < 1e6f && std::fabs(uv.y) < 1e6f;
         });

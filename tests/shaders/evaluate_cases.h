@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Poses for shaders/tspace_evaluate.*, and how far their results are from those of the library.
+// Poses for shaders/tspace_evaluate.*, and the differences between their results and those of the library.
 #pragma once
 
 #include <array>
@@ -21,10 +21,10 @@ struct EvaluateBuffers {
     std::size_t result_count = 0;
 };
 
-/// Runs the shader; empty, or what failed.
+/// Runs the shader; returns an empty string, or what failed.
 using Evaluate = std::function<std::string(EvaluateBuffers&)>;
 
-/// Places of words in the settings.
+/// Positions of words in the settings.
 enum Setting : std::size_t {
     position_format,
     position_offset,
@@ -48,46 +48,47 @@ enum Setting : std::size_t {
     setting_count = 32
 };
 
-/// A mesh with positions of other poses.
+/// A mesh with the positions of other poses.
 struct PosedMesh {
     std::string name;
     test::SimpleMesh mesh;  ///< with normals and UVs
     float angular_threshold_deg = 180;
     std::vector<std::vector<Vec3>> poses;
-    bool collapses = false;  ///< it has triangles without area
+    bool collapses = false;  ///< has triangles without area
 };
 
-/// Regular and degenerate meshes, some with NaN and huge values.
+/// Returns regular and degenerate meshes, some with NaN and huge values.
 std::vector<PosedMesh> generatedMeshes();
-/// The meshes of shared test data, in their own pose and a bent one; empty where they are not there.
+/// Returns the meshes of the shared test data, in their own pose and a bent one; empty if the data is absent.
 std::vector<PosedMesh> sharedMeshes();
 
-/// What became of the results of many poses. Those that are not finite in the library do not count.
+/// Differences of many poses. Results that are not finite in the library are ignored.
 struct Differences {
     std::size_t count = 0, wrong_signs = 0, not_finite = 0, not_zero = 0;
     std::size_t unstable =
-        0;  ///< left out: changing each coordinate by its last bit turns the library's result by kUnstable
+        0;  ///< skipped, because changing each coordinate by its last bit rotates the library's result by kUnstable
     static constexpr double kUnstable = 0.0002;  ///< degrees
-    std::string failure;                         ///< of the shader, or of the library
-    std::string where;                           ///< of the largest difference
+    std::string failure;                         ///< failure of the shader, or of the library
+    std::string where;                           ///< location of the largest difference
     float worst_deg = 0;
     std::vector<float> degrees;
 
-    /// `nearby`: results of the library for other last bits of the pose.
+    /// `nearby`: results of the library for poses with different last bits.
     void add(const Vec4& expected, std::span<const Vec4> nearby, const Vec4& found, const std::string& place);
-    /// The difference that a share of all do not exceed.
+    /// Returns the difference that the given share of all results does not exceed.
     [[nodiscard]] float percentile(double share);
     [[nodiscard]] std::string text();
 };
 
 struct EvaluateOptions {
     Method method = Method::mikktspace;
-    bool makes_normals = false;  ///< with the vertices of makeIndexedFrames; for meshes of triangles
+    bool makes_normals = false;  ///< with the vertices of makeIndexedFrames; for triangle meshes
     NormalWeighting weighting = NormalWeighting::angle;
     float crease_angle_deg = 180;
 };
 
-/// Tangents, and normals where the plan makes them, of all poses. `spoil`: changes the buffers before they are used.
+/// Differences of tangents, and of normals if the plan computes them, over all poses. `spoil`: changes the buffers
+/// before they are used.
 struct Outcome {
     Differences tangents, normals;
     std::size_t plan_words = 0, triangles = 0;
@@ -95,7 +96,7 @@ struct Outcome {
 Outcome evaluateAll(const std::vector<PosedMesh>& meshes, const EvaluateOptions& options, const Evaluate& evaluate,
                     const std::function<void(EvaluateBuffers&)>& spoil = {});
 
-/// The settings of float positions, normals and tangents that lie side by side.
+/// Returns the settings for contiguous float positions, normals and tangents.
 std::vector<std::uint32_t> plainSettings(bool writes_normals);
 
 }  // namespace tspace::shaders

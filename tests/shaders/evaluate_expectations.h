@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How near results of shaders/tspace_evaluate.* must be to those of the library.
+// Tolerances of the results of shaders/tspace_evaluate.* relative to the library.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,7 +15,8 @@ namespace tspace::shaders {
 inline constexpr Method kMethods[] = {Method::mikktspace, Method::uniform, Method::angle,
                                       Method::area,       Method::lengyel, Method::fast};
 inline constexpr float kMostUsual = 0.0005f,
-                       kMost = 0.01f;  // degrees: 9,999 of 10,000 (999 of 1,000 where there are few), and all
+                       // degrees: for 9,999 of 10,000 results (999 of 1,000 if there are few), and for all
+    kMost = 0.01f;
 
 inline void expectNear(Differences found, const std::string& what) {
     std::cout << what << ": " << found.text() << '\n';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The buffers of a plan against evaluateTangents and generateNormals: shaders/tspace_evaluate.metal as C++ (metal_shim) is the
-// plain loop over them.
+// Compares the buffers of a plan with evaluateTangents and generateNormals: shaders/tspace_evaluate.metal, compiled as
+// C++ (metal_shim), is a simple loop over them.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -11,7 +11,7 @@
 #include "evaluate_expectations.h"
 #include "tspace/pack.h"
 
-// Last, as it has macros.
+// Included last because it defines macros.
 #include <metal_stdlib>
 
 namespace tspace::shaders {
@@ -39,7 +39,7 @@ TEST(PlanBuffers, GiveTheTangentsOfSharedMeshes) {
     if (meshes.empty()) GTEST_SKIP() << "the shared test data are not there";
     for (const Method method : {Method::mikktspace, Method::uniform, Method::angle, Method::area})
         expectNear(evaluateAll(meshes, {.method = method}, evaluateByLoop).tangents, methodName(method));
-    // These meshes have UVs nearly on a line and needles, whose derivatives and weights are what rounding leaves.
+    // These meshes have nearly collinear UVs and needles, whose derivatives and weights are dominated by rounding.
     for (const Method method : {Method::lengyel, Method::fast}) {
         Differences found = evaluateAll(meshes, {.method = method}, evaluateByLoop).tangents;
         std::cout << methodName(method) << ": " << found.text() << ", p99 " << found.percentile(0.99) << '\n';
@@ -50,7 +50,7 @@ TEST(PlanBuffers, GiveTheTangentsOfSharedMeshes) {
     }
 }
 
-/// A grid whose normals are made, and its buffers in the plan's own pose.
+/// A grid whose normals are computed, and its buffers in the plan's own pose.
 struct Grid {
     PosedMesh posed = generatedMeshes()[0];
     PlanBuffers plan;
@@ -131,7 +131,7 @@ TEST(PlanBuffers, MorphAndSkinPositions) {
     Grid deformed, plain;
     const std::vector<Vec3>& positions = plain.posed.mesh.positions;
     const std::size_t count = positions.size();
-    // One target of weight 0.5; two joints, the second of which turns about x and moves.
+    // One target of weight 0.5; two joints, the second of which rotates about x and moves.
     const float matrices[2][12] = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0},
                                    {1, 0, 0, 2, 0, 0.6f, -0.8f, 1, 0, 0.8f, 0.6f, 0}};
     std::vector<std::uint32_t> deform{std::bit_cast<std::uint32_t>(0.5f)}, moved;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Metal code run as C++, on the types of metal_shim: that which is written by hand, and what spirv-cross makes of the
-// other languages.
+// Metal code compiled as C++ with the types of metal_shim: the hand-written shaders, and the output of spirv-cross for
+// the other languages.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -8,7 +8,7 @@
 #include "cases.h"
 #include "core/pack/frame_list.h"
 
-// Last, as it has macros.
+// Included last because it defines macros.
 #include <metal_stdlib>
 
 namespace tspace::shaders {
@@ -40,7 +40,7 @@ void runByHand(const Case& c, std::vector<float>& results) {
     }
 }
 
-/// The kernel's structs are one element of an array each, as spirv-cross writes arrays of no given length.
+/// The kernel's structs contain an array with one element, as spirv-cross writes runtime-sized arrays.
 template <class Words, class Results>
 void runKernel(void (*run)(const Words&, Results&, uint3), const Case& c, std::vector<float>& results) {
     for (uint i = 0; i < c.count(); ++i) {
@@ -48,7 +48,7 @@ void runKernel(void (*run)(const Words&, Results&, uint3), const Case& c, std::v
     }
 }
 
-/// TSPACE_FRAMES sets other numbers of frames.
+/// Runs all cases; TSPACE_FRAMES overrides the number of frames.
 void expectRight(void (*run)(const Case&, std::vector<float>&), long default_frames) {
     const auto frames = static_cast<std::size_t>(test::frameCount(default_frames));
     for (std::uint32_t number = 0; number < caseCount(); ++number) {

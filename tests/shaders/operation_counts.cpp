@@ -97,7 +97,7 @@ class Counter {
                 choices_[in[1]] = true;
                 return;
             case kStore:
-                // The value that one side of ?: gives; the other side is the same choice.
+                // The value on one side of ?:; both sides belong to the same selection.
                 if (is_in_choice_) functions_[current_].own.operations += sizeOf(in[1]);
                 is_in_choice_ = false;
                 return;
@@ -105,7 +105,7 @@ class Counter {
                 break;
         }
         if (in.size() < 2) return;
-        types_[in[1]] = in[0];  // of most instructions that give a value
+        types_[in[1]] = in[0];  // true for most instructions with a result
         if (current_ != 0) count(op, in, functions_[current_].own);
     }
 
@@ -146,7 +146,7 @@ class Counter {
                 return;
             default:
                 to.operations += size;
-                return;  // absolute values, smaller and larger ones
+                return;  // absolute values, minima and maxima
         }
     }
 
@@ -171,7 +171,7 @@ class Counter {
     }
 
     std::map<std::uint32_t, std::string> names_;
-    std::map<std::uint32_t, std::uint32_t> components_, types_;  // of types; types of values
+    std::map<std::uint32_t, std::uint32_t> components_, types_;  // components of types; types of values
     std::map<std::uint32_t, Function> functions_;
     std::map<std::uint32_t, bool> choices_;
     std::uint32_t current_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the functions of a shader cost, counted in its SPIR-V as the compiler writes it down, before it is optimised.
+// Cost of the functions of a shader, counted in its SPIR-V before optimization.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +9,18 @@
 
 namespace tspace::shaders {
 
-/// Scalar operations: a vector's count once for each component; a choice (?:), a comparison and a conversion are one each;
-/// a division of whole numbers is two, since divisors are constants (high product and shift). Loads, stores and moves
-/// are not counted.
+/// Number of scalar operations: vector operations count once per component; a selection (?:), a comparison and a
+/// conversion count as one each; an integer division counts as two, because divisors are constants (high product and
+/// shift). Loads, stores and moves are not counted.
 struct OperationCount {
     unsigned operations = 0, roots = 0, divisions = 0, sines = 0;  ///< cosines too
-    /// "94 operations, 2 roots, 1 division"
+    /// Returns a text such as "94 operations, 2 roots, 1 division".
     [[nodiscard]] std::string text() const;
     bool operator==(const OperationCount&) const = default;
 };
 
-/// By the names of the functions, with what they call. Functions whose instructions are not known are left out.
+/// Returns the counts of all functions, including the functions that they call, keyed by name. Functions with unknown
+/// instructions are skipped.
 std::map<std::string, OperationCount> countOperations(std::span<const std::uint32_t> spirv);
 
 }  // namespace tspace::shaders

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The modules that the build made of the shaders.
+// SPIR-V modules that the build compiled from the shaders.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace tspace::shaders {
 
-/// Empty if it is not there.
+/// Reads a SPIR-V file; returns an empty vector if it does not exist.
 inline std::vector<std::uint32_t> readSpirv(const std::string& name) {
     std::ifstream file(TSPACE_SPIRV_DIR "/" + name + ".spv", std::ios::binary);
     std::vector<std::uint32_t> words;

@@ -12,7 +12,7 @@ namespace tspace::shaders {
 
 namespace {
 
-/// Calls what is to be destroyed, in reverse order, when it goes.
+/// Calls destroy functions in reverse order in its destructor.
 class Owned {
   public:
     ~Owned() {
@@ -139,7 +139,7 @@ class Device final : public VulkanCompute {
         vkGetDeviceQueue(device_, family_, 0, &queue_);
     }
 
-    /// A kind of memory that this machine reads and writes as its own.
+    /// Returns a memory type that the host can access coherently.
     std::uint32_t memoryKind(std::uint32_t allowed) const {
         constexpr VkMemoryPropertyFlags kWanted =
             VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
@@ -265,7 +265,7 @@ class Device final : public VulkanCompute {
         VkPipeline pipeline = VK_NULL_HANDLE;
     };
 
-    /// The last one is kept: software devices take seconds to compile a shader.
+    /// Keeps the last program, because software devices take seconds to compile a shader.
     const Program& programOf(std::span<const std::uint32_t> spirv, const char* entry, std::size_t buffer_count) {
         if (program_ != nullptr &&
             std::equal(spirv.begin(), spirv.end(), program_->spirv.begin(), program_->spirv.end()))

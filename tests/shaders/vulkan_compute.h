@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs a compute shader on a Vulkan device, a software one where there is one.
+// Runs a compute shader on a Vulkan device, preferably a software device.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace tspace::shaders {
 
 class VulkanCompute {
   public:
-    /// Null, and why, where there is no device.
+    /// Returns null and the reason if there is no device.
     static std::unique_ptr<VulkanCompute> open(std::string& why);
     virtual ~VulkanCompute() = default;
 
@@ -21,8 +21,8 @@ class VulkanCompute {
     /// `results` has. Empty, or what failed.
     virtual std::string run(std::span<const std::uint32_t> spirv, std::span<const std::uint32_t> words,
                             std::size_t items, std::vector<float>& results) = 0;
-    /// Dispatches `entry` of `spirv` for so many groups, with one storage buffer per array, which take what was written.
-    /// No array may be empty. Empty, or what failed.
+    /// Dispatches `entry` of `spirv` with the given number of groups, with one storage buffer per array, which receives
+    /// the written data. No array may be empty. Returns an empty string, or what failed.
     virtual std::string runBuffers(std::span<const std::uint32_t> spirv, const char* entry, std::uint32_t groups,
                                    std::span<std::vector<std::uint32_t>> arrays) = 0;
 };

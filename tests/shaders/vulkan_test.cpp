@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The shaders on a Vulkan device, lavapipe where it is installed, against the C++ decoder and geometry.
+// Compares the shaders on a Vulkan device (lavapipe if installed) with the C++ decoder and geometry.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -13,14 +13,14 @@ namespace tspace::shaders {
 
 namespace {
 
-/// Frames of each format, fewer where code of a compiler is compiled; TSPACE_FRAMES sets others. The other functions get
-/// a tenth of that.
+/// Returns the number of frames per format, fewer for generated code; TSPACE_FRAMES overrides it. The other functions
+/// get a tenth of that.
 std::size_t framesFor(const std::string& language) {
     const bool is_as_written = language.find("_as_") == std::string::npos;
     return static_cast<std::size_t>(test::frameCount(is_as_written ? 1'000'000 : 100'000));
 }
 
-/// A way to SPIR-V: which language, and what it was turned into on the way.
+/// The source language of the SPIR-V, and its conversions.
 class ShaderLanguage : public testing::TestWithParam<const char*> {};
 
 TEST_P(ShaderLanguage, GivesTheFramesOfTheLibrary) {

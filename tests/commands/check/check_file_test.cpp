@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// checkFile: findings of a whole file, their places and order.
+// checkFile: findings of a whole file, their locations and order.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ void addPatch(GltfBuilder& builder, const ScenePrimitive& patch) {
     primitive["material"] = 0;
 }
 
-/// A model with a normal map in a file beside it.
+/// A model with a normal map in a separate file.
 struct TestModel {
     TempFolder folder = {};
     GltfBuilder builder = {};
@@ -77,7 +77,7 @@ std::multiset<std::string> codes(const CheckReport& report) {
 
 using CodeCounts = std::multiset<std::string>;
 
-/// Frames belong to the mesh's own space.
+/// Frames are relative to the mesh's own space.
 TEST(CheckFile, DoesNotLookAtNodesThatMoveScaleOrMirror) {
     const TestModel still;
     TestModel moved;
@@ -146,7 +146,7 @@ TEST(CheckFile, NamesTheFormatOfAnImageThatIsNotRead) {
     EXPECT_NE(report.findings[0].message.find("it is a broken KTX2"), std::string::npos);
 }
 
-/// A map of x, y and z, packed by Zstandard.
+/// Returns a map of x, y and z, compressed with Zstandard.
 std::string plainKtx2(bool green_down) {
     const RgbImage map = normalMapOf(256, bumps, green_down);
     const std::string data(map.rgb.begin(), map.rgb.end());
@@ -171,7 +171,7 @@ TEST(CheckFile, LooksAtKtx2AndDds) {
     model.folder.write("normal.png", ddsFile(83, 256, 256, bc5Blocks(normalMapOf(256, bumps, true))));
     EXPECT_EQ(codes(model.check()),
               (CodeCounts{"warning normalMapTwoChannels", "warning greenFlipped", "note normalMapLevels"}));
-    // A sampler that reads the largest level alone misses none.
+    // A sampler that reads only the largest level needs no other levels.
     model.builder.json()["textures"][0]["sampler"] = 0;
     for (const auto& [filter, reads_levels] : {std::pair(9729, false), std::pair(9987, true)}) {
         model.builder.json()["samplers"] = Json::array({{{"minFilter", filter}}});
@@ -180,13 +180,13 @@ TEST(CheckFile, LooksAtKtx2AndDds) {
     }
 }
 
-/// Error in degrees that a finding states for the texels.
+/// Returns the error in degrees that a finding states for the texels.
 double degreesIn(const Finding& finding) {
     const std::size_t at = finding.message.find("about ");
     return at == std::string::npos ? 0 : std::atof(finding.message.c_str() + at + 6);
 }
 
-/// Root of the mean square of the angle between the texels of a file and normalMapOf(size, bumps).
+/// Returns the RMS angle between the texels of a file and normalMapOf(size, bumps).
 double degreesOff(const std::string& file, std::uint32_t size) {
     std::string why;
     const std::optional<RgbImage> packed = decodeImage(bytesOf(file), 1 << 20, why);
@@ -247,7 +247,7 @@ TEST(CheckFile, FindsATextureThatClaimsTheSrgbCurveOfLinearNumbers) {
 }
 
 TEST(CheckFile, FindsXAndYInOtherChannelsOfATexture) {
-    // Waves along both axes tell x from y, where their products do not.
+    // Waves along both axes distinguish x from y, whereas products of them do not.
     const RgbImage map = normalMapOf(256, [](double x, double y) {
         return 0.012 * std::sin(50 * x) + 0.01 * std::cos(43 * y) + 0.006 * std::cos(30 * x) * std::sin(31 * y);
     });
@@ -288,7 +288,7 @@ TEST(CheckFile, LooksAtWebp) {
     EXPECT_EQ(codes(model.check()), (CodeCounts{"warning greenFlipped", "note normalMapLossy"}));
 }
 
-/// A map whose left half points up and whose right half points down.
+/// Returns a map whose left half has green up and whose right half has green down.
 RgbImage halfFlipped() {
     RgbImage map = normalMapOf(512, bumps);
     for (std::size_t y = 0; y < 512; ++y) {
@@ -297,7 +297,7 @@ RgbImage halfFlipped() {
     return map;
 }
 
-/// Half of a square, left or right, with UVs of the same half of the image, moved by whole repeats.
+/// Adds half of a square, left or right, with UVs of the same half of the image, moved by whole repeats.
 void addHalf(GltfBuilder& builder, bool is_right, float move = 0) {
     const float left = is_right ? 0.5f : 0, right = left + 0.5f;
     std::vector<float> normals, tangents;
@@ -375,7 +375,7 @@ TEST(CheckFile, LeavesOpenWhatAMapThatItCannotReadWouldCancel) {
     EXPECT_EQ(codes(TestModel(false, true).check({.images = false})), CodeCounts{"warning signsInverted"});
 }
 
-/// Who names another convention says which signs are right.
+/// An explicitly requested convention determines which signs are right.
 TEST(CheckFile, LeavesNothingOpenWhereAnotherConventionIsAskedFor) {
     TestModel model;
     model.folder.write("normal.png", "no image");
@@ -428,7 +428,7 @@ TEST(CheckFile, SaysOnceThatTangentsAreNotNeeded) {
     EXPECT_NE(report.findings[1].remedy.find("tspace generate --strip"), std::string::npos);
 }
 
-/// An empty target is not allowed, so its tangents cannot go.
+/// An empty target is not allowed, so its tangents cannot be removed.
 TEST(CheckFile, AdvisesNothingThatCannotBeDone) {
     TestModel model;
     Json& primitive = model.builder.json()["meshes"][0]["primitives"][0];
@@ -451,7 +451,7 @@ TEST(CheckFile, LooksAtNothingThatAnUnlitMaterialDoesNotUse) {
     EXPECT_EQ(codes(model.check()), CodeCounts{"note tangentsUnused"});
 }
 
-/// KHR_materials_unlit is the fallback for readers that do not know the other extension.
+/// KHR_materials_unlit is the fallback for readers without the other extension.
 TEST(CheckFile, GivesOneVerdictWithAndWithoutAnUnlitFallback) {
     const auto verdict = [](const char* extension, const char* content, bool has_fallback) {
         TestModel model(false, true);
@@ -467,7 +467,7 @@ TEST(CheckFile, GivesOneVerdictWithAndWithoutAnUnlitFallback) {
         EXPECT_EQ(verdict(extension, content, false), CodeCounts{"error signsInverted"}) << content;
         EXPECT_EQ(verdict(extension, content, true), CodeCounts{"error signsInverted"}) << content;
     }
-    // An extension that is unknown may read the tangents, so they do not count as unused.
+    // An unknown extension may read the tangents, so they are not reported as unused.
     for (const char* content : {R"({"normalScale":1})", R"({"baseTexture":{"index":0}})"})
         EXPECT_EQ(verdict("EXT_toon", content, true), CodeCounts{}) << content;
     EXPECT_EQ(verdict("KHR_materials_clearcoat", R"({"clearcoatNormalTexture":{"index":0}})", true),

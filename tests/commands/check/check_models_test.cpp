@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Real models: what is known to be wrong in them is found, what is fine has no error, and what tspace writes has none.
+// Real models: known faults are found, correct models have no error, and neither does the output of tspace.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -96,7 +96,8 @@ TEST_P(Models, HaveNoErrorAfterGenerate) {
     if (!report && report.error().code == ErrorCode::unsupportedFile) GTEST_SKIP() << report.error().message;
     ASSERT_TRUE(report) << report.error().message;
     CheckReport rest = *report;
-    // generate keeps the normals of a file. Those of this one have lengths from 1.1 to 1.7; the glTF validator reports them too.
+    // generate keeps the normals of a file. This file has normals of length 1.1 to 1.7, which the glTF validator
+    // reports too.
     if (GetParam() == "features/meshopt-fallback/meshopt-fallback.gltf") {
         const auto is_own = [](const Finding& finding) { return finding.code == FindingCode::normalsNotUnit; };
         EXPECT_EQ(std::erase_if(rest.findings, is_own), 2u);
@@ -107,7 +108,7 @@ TEST_P(Models, HaveNoErrorAfterGenerate) {
 INSTANTIATE_TEST_SUITE_P(All, Models, testing::ValuesIn(modelFiles("models")),
                          [](const auto& model) { return testName(model.param); });
 
-/// Every broken file gives a report or an error, and never more.
+/// Every corrupt file gives a report or an error.
 TEST(CheckBadFiles, EndWell) {
     TSPACE_NEEDS_SHARED("bad");
     std::size_t files = 0, refused = 0;

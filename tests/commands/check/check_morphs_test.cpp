@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tangent deltas of morph targets: missing, wrong, and those of what a target collapses.
+// Tangent deltas of morph targets: missing, wrong, and for triangles that a target collapses.
 #include <gtest/gtest.h>
 
 #include "commands/check/patch.h"
@@ -9,7 +9,7 @@ namespace {
 
 using Codes = std::set<std::string>;
 
-/// Bends the patch: turns every vertex round the x axis by an angle that grows with y.
+/// Bends the patch: rotates every vertex about the x axis by an angle that grows with y.
 SceneMorphTarget bend(const ScenePrimitive& patch, double most) {
     std::vector<Vec3> positions, normals, tangents;
     const auto delta = [](const Vec3& v, double angle) {
@@ -80,7 +80,7 @@ TEST(CheckMorphs, FindsMorphTangentsThatDoNotFitBesideWhatCollapses) {
     EXPECT_EQ(codesOf(patch), Codes{"error morphTangentsWrong"});
 }
 
-/// Against the right direction, gone, and along the normal.
+/// Opposite to the right direction, zero, and parallel to the normal.
 TEST(CheckMorphs, FindsEveryWayInWhichMorphTangentsAreWrong) {
     for (const double share : {-2.0, -1.0, 0.0}) {
         ScenePrimitive patch = goodPatch();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Normals far from their triangles, seams between primitives, and normals that targets leave behind.
+// Normals that deviate strongly from their triangles, seams between primitives, and normals that targets do not update.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -16,7 +16,8 @@ bool has(const std::vector<Finding>& findings, FindingCode code) {
     return std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) { return finding.code == code; });
 }
 
-/// A box of 8 vertices, whose normals point from its centre; or of 24, each with the normal of its side.
+/// Returns a box of 8 vertices whose normals point away from its center, or of 24 vertices with the normals of the
+/// sides.
 ScenePrimitive box(bool is_smooth) {
     std::vector<Vec3> positions, normals;
     std::vector<std::uint32_t> corners;
@@ -54,8 +55,8 @@ TEST(CheckNormals, FindsNormalsThatAreFarFromAllTheirTriangles) {
     EXPECT_FALSE(has(*checkPrimitive(goodPatch(), {}, true), FindingCode::normalsFarFromFaces));
 }
 
-/// A strip of a cylinder from angle `first` on, `count` steps of `step` degrees, with the normals of its own triangles or those
-/// of the cylinder.
+/// Returns a strip of a cylinder, starting at angle `first`, with `count` steps of `step` degrees, with the normals of
+/// its own triangles or those of the cylinder.
 ScenePrimitive strip(std::uint32_t number, double first, int count, double step, bool is_own) {
     std::vector<Vec3> positions, normals;
     std::vector<std::uint32_t> corners;
@@ -109,7 +110,7 @@ TEST(CheckSeams, SaysNothingWhereAnEdgeMayBeMeantOrTheSurfaceIsSmooth) {
     auto other = strip(1, 48, 6, 8, true);
     other.mesh = 1;
     EXPECT_TRUE(seamsOf({strip(0, 0, 6, 8, true), other}).empty()) << "meshes move apart";
-    // The bend at the border is sharper than what is smooth elsewhere.
+    // The angle at the border is larger than the smooth angles elsewhere.
     ScenePrimitive sharp = strip(1, 48, 6, 8, true);
     std::vector<Vec3> positions(sharp.positions.begin(), sharp.positions.end()),
         normals(sharp.normals.begin(), sharp.normals.end());
@@ -129,7 +130,7 @@ TEST(CheckSeams, SaysNothingWhereAnEdgeMayBeMeantOrTheSurfaceIsSmooth) {
     EXPECT_TRUE(seamsOf({strip(0, 0, 6, 8, true), sharp}).empty()) << "a hard edge";
 }
 
-/// Rolls a flat patch up; `how` is what the target adds to normals, of what the surface's turn adds.
+/// Rolls up a flat patch; `how`: deltas of normals relative to the rotation of the surface.
 ScenePrimitive rolled(double how, bool has_normals = true) {
     constexpr std::uint32_t side = 17;
     std::vector<Vec3> positions, normals, offsets, turns;
@@ -174,8 +175,8 @@ TEST(CheckMorphNormals, FindsWhatIsMissingAndWhatIsWrong) {
     EXPECT_TRUE(checkPrimitive(unlit, {}, true)->empty());
 }
 
-/// A target that mirrors a piece turns its triangles over, and exporters write the normals of the mirrored piece. On the way
-/// all of them collapse, so neither answer is wrong.
+/// A target that mirrors a part flips its triangles, and exporters write the normals of the mirrored part. In between
+/// all triangles collapse, so neither result is wrong.
 TEST(CheckMorphNormals, DoesNotJudgeWhereTrianglesAreFlipped) {
     for (const float turn : {-2.0f, 0.0f, -1.9f}) {
         ScenePrimitive mirrored = rolled(1);
@@ -185,7 +186,7 @@ TEST(CheckMorphNormals, DoesNotJudgeWhereTrianglesAreFlipped) {
         mirrored.morph_targets[0].normals = std::vector<Vec3>(offsets.size(), Vec3{0.2f, 0, turn});
         EXPECT_TRUE(checkPrimitive(mirrored, {}, true)->empty()) << turn;
     }
-    // Normals beside folded triangles are still checked.
+    // Normals next to folded triangles are still checked.
     ScenePrimitive folded = rolled(-1);
     edit(folded.morph_targets[0].positions, [&](auto& offsets) { offsets[40] = {0.5f, 0, 0}; });
     EXPECT_EQ(checkPrimitive(folded, {}, true)->front().code, FindingCode::morphNormalsWrong);
@@ -201,9 +202,9 @@ TEST(CheckMorphNormals, LooksAtTheChangeAndNotAtTheNormals) {
     EXPECT_TRUE(checkPrimitive(tilted, {}, true)->empty());
 }
 
-// Exporters such as Blender compute the normals of a target anew.
+// Exporters such as Blender recompute the normals of a target.
 
-/// A square of two triangles, one unit above x = `left`, facing z.
+/// Returns a square of two triangles, one unit above x = `left`, facing z.
 ScenePrimitive squareFrom(float left) {
     ScenePrimitive square;
     square.place = "/meshes/0/primitives/0";
@@ -213,7 +214,7 @@ ScenePrimitive squareFrom(float left) {
     return square;
 }
 
-/// A target that moves vertices and gives them these normals.
+/// Returns a target that moves vertices and assigns these normals.
 SceneMorphTarget targetOf(std::vector<Vec3> offsets, const std::vector<Vec3>& normals) {
     std::vector<Vec3> turns;
     for (const Vec3& normal : normals) turns.push_back(normal - Vec3{0, 0, 1});
@@ -251,7 +252,7 @@ TEST(CheckMorphNormals, AtBordersAreThoseOfTheWholeMesh) {
     }
     raise({0, 0.95F, 0.3F});
     for (const ScenePrimitive& side : roof) EXPECT_EQ(wrongNormals(side, roof), 1u);
-    // Another mesh at the same place is no part of the surface.
+    // A different mesh at the same position is not part of the surface.
     raise(ridge);
     roof[1].mesh = 1;
     EXPECT_EQ(wrongNormals(roof[0], roof), 1u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// checkFile on packed frames: what it says of good ones, which others it finds, and that its advice mends them.
+// checkFile on packed frames: verdicts on correct ones, detected faults, and remedies that work.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -44,7 +44,7 @@ const Finding* find(const CheckReport& report, FindingCode code) {
     return nullptr;
 }
 
-/// A grid with tangents and _FRAME32, changed by `edit` after it was packed. Tangents need not be written: -T is.
+/// A grid with tangents and _FRAME32, changed by `edit` after packing. Writing tangents is optional: -T is used.
 class PackedGrid {
   public:
     explicit PackedGrid(const std::function<void(GltfBuilder&)>& edit) {

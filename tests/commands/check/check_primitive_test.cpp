@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A good primitive has no findings; with one thing broken it has the finding of that thing, and what must come with it.
+// A correct primitive has no findings; with one fault it has the corresponding finding, and its consequences.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -148,7 +148,7 @@ TEST(Check, SaysNoMoreOfTangentsThatNobodyNeeds) {
     EXPECT_EQ(codesOf(patch), Codes{"note tangentsUnused"});
 }
 
-/// glTF lights points that have tangents by the normal map of their material.
+/// In glTF, points with tangents are lit with the normal map of their material.
 TEST(Check, LeavesTangentsToPointsThatHaveANormalMap) {
     ScenePrimitive patch = goodPatch();
     patch.corners = {};
@@ -170,7 +170,7 @@ TEST(Check, MakesANoteOfNormalsThatUnlitMaterialsDoNotUse) {
     EXPECT_EQ(codesOf(patch).count("error normalsAgainstWinding"), 1u);
 }
 
-/// Foliage often has the normals of the whole tree.
+/// Foliage often uses the normals of the whole tree.
 TEST(Check, WarnsOfNormalsAgainstTheWindingWhereBothSidesAreShown) {
     ScenePrimitive patch = goodPatch();
     edit(patch.corners, [](auto& corners) {
@@ -271,7 +271,7 @@ void averageSeam(ScenePrimitive& patch) {
     edit(patch.tangents, [&](auto& tangents) {
         for (std::size_t row = 0; row < kSide; ++row) {
             Vec4 &a = tangents[seamVertex(0, row)], &b = tangents[seamVertex(1, row)];
-            // Off the exact middle, where opposite tangents would leave nothing.
+            // Not the exact mean, where opposite tangents would cancel.
             DVec3 mean = toDouble(xyz(a)) + 0.8 * toDouble(xyz(b)) + DVec3{0, 0.1, 0};
             const DVec3 normal = toDouble(patch.normals[seamVertex(0, row)]);
             mean = mean - dot(mean, normal) * normal;
@@ -314,8 +314,8 @@ TEST(Check, FindsDirectionsThatAreOff) {
     EXPECT_NEAR(findingsOf(off(60))[0].worst_deg, 60, 3);
 }
 
-/// Shrinks the UVs of a patch to a point but for one column of its first half: the triangles there are the only ones
-/// that know what is right.
+/// Collapses the UVs of a patch to a point except for one column of its first half: only the triangles there determine
+/// the right direction.
 TEST(Check, LetsTrianglesWithoutUvAreaVoteInNothing) {
     ScenePrimitive patch = goodPatch();
     edit(patch.uv_sets[0], [](auto& uvs) {
@@ -345,7 +345,7 @@ TEST(Check, HoldsNothingAgainstWhatGenerateGives) {
         edit(patch.uv_sets[0], [](auto& uvs) {
             for (Vec2& uv : uvs) uv = {static_cast<float>(anyInt(0, 3)) / 3, static_cast<float>(anyInt(0, 3)) / 3};
         });
-        // Every corner a vertex of its own: no tangent is averaged by welding.
+        // Every corner is a separate vertex, so that no tangent is averaged by welding.
         std::vector<Vec3> positions, normals;
         std::vector<Vec2> uvs;
         std::vector<std::uint32_t> corners;
@@ -368,7 +368,7 @@ TEST(Check, HoldsNothingAgainstWhatGenerateGives) {
     }));
 }
 
-/// A mesh of text with a second set that nobody unwrapped.
+/// A mesh of text whose second UV set was never unwrapped.
 TEST(Check, ExplainsNothingByAUvSetWithoutArea) {
     ScenePrimitive patch = goodPatch();
     edit(patch.tangents, [](auto& tangents) {
@@ -376,7 +376,8 @@ TEST(Check, ExplainsNothingByAUvSetWithoutArea) {
     });
     patch.uv_sets.push_back(std::vector<Vec2>(patch.positions.size()));
     EXPECT_EQ(codesOf(patch), Codes{"error directionsWrong"});
-    // A set with UV area only in a corner of the surface, where the tangents happen to follow it, is no explanation either.
+    // A set that has UV area only in a corner of the surface, which the tangents follow by chance, is not an
+    // explanation either.
     edit(patch.uv_sets[1], [&](auto& uvs) {
         for (std::size_t v = 0; v < 2 * kSide; ++v) {
             uvs[v] = {-patch.uv_sets[0][v].x, -patch.uv_sets[0][v].y};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cones of directions: what lies between is inside, and nothing else.
+// Cones of directions contain exactly the directions between those added.
 #include <gtest/gtest.h>
 
 #include "commands/check/direction_cones.h"

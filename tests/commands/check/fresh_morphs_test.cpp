@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What generate has just written, check does not fault: morph targets of small meshes in which triangles are
-// degenerate, collapse and open.
+// check reports no fault in the output of generate: morph targets of small meshes in which triangles are degenerate,
+// collapse and open.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace tspace::test {
 namespace {
 
-/// `count` vectors of small whole numbers, now and then next to them.
+/// Returns `count` vectors of small integers, sometimes with small deviations.
 std::vector<float> anyVectors(std::size_t count, std::size_t components) {
     const auto vectors = *rc::gen::container<std::vector<int>>(count * components, rc::gen::inRange(-100, 101));
     std::vector<float> numbers;
@@ -23,7 +23,7 @@ std::vector<float> anyVectors(std::size_t count, std::size_t components) {
     return numbers;
 }
 
-/// Along the axes and between them.
+/// Returns normals along the axes and between them.
 std::vector<float> anyNormals(std::size_t count) {
     std::vector<float> normals;
     for (std::size_t i = 0; i < count; ++i) {

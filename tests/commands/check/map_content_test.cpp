@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an image holds that is used as a normal map: each kind is told, and sound maps are none of them.
+// Content of an image that is used as a normal map: each kind is detected, and valid maps are not misclassified.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -24,7 +24,7 @@ MapLook lookAt(const RgbImage& image, std::span<const std::uint8_t> alpha = {},
     return lookAtTexels(sampleTexels(image, alpha, all), !alpha.empty(), surface);
 }
 
-/// change(texel) is called for the three bytes of each texel.
+/// Calls change(texel) with the three bytes of each texel.
 template <class Change>
 RgbImage changed(RgbImage image, const Change& change) {
     for (std::size_t i = 0; i < image.rgb.size(); i += 3) change(image.rgb.data() + i);
@@ -71,7 +71,7 @@ TEST(MapContent, IsNormalsForLengthsThatFilteringShortened) {
     }
 }
 
-/// Flat but for a few texels: blue is constant nearly everywhere.
+/// Flat except for a few texels: blue is constant nearly everywhere.
 TEST(MapContent, IsNormalsForMapsThatAreFlatNearlyEverywhere) {
     const auto rivet = [](double x, double y) {
         return 0.02 * std::exp(-900 * ((x - .5) * (x - .5) + (y - .5) * (y - .5)));
@@ -164,7 +164,7 @@ TEST(MapContent, TellsColors) {
     EXPECT_EQ(off.layout.curve, MapCurve::linearised);
 }
 
-/// A map of the normals of a ball, as they are and with other axes.
+/// A map of the normals of a sphere, unchanged and with different axes.
 TEST(MapContent, TellsObjectSpaceByTheMesh) {
     constexpr std::uint32_t kSize = 64;
     for (const bool is_z_up : {false, true}) {
@@ -218,7 +218,7 @@ Shown shownBy(const NormalOf& normalOf, const TexelOf& texelOf) {
 
 MapLook lookAt(const Shown& shown) { return lookAt(shown.map, {}, shown.surface); }
 
-/// Relief of the shape of the mesh goes with its normals, and is in tangent space all the same.
+/// Relief with the shape of the mesh correlates with its normals, but is in tangent space nevertheless.
 TEST(MapContent, IsNormalsForABulgeOnABulge) {
     const auto bulge = [](double half) {
         return [half](double u, double) { return DVec3{std::sin(half * u), 0, std::cos(half * u)}; };
@@ -248,12 +248,12 @@ TEST(MapContent, IsInObjectSpaceOnlyWhereItFollowsTheMesh) {
         EXPECT_EQ(look.content, MapContent::objectSpace);
         EXPECT_TRUE(look.follows_mesh);
     }
-    // Green and blue exchanged, on hills that face y as the vectors do.
+    // Green and blue exchanged, on hills that face y like the vectors.
     const auto weak = [](double u, double v) { return DVec3{0.07 * std::sin(40 * u), 0.995, 0.07 * std::sin(37 * v)}; };
     EXPECT_EQ(lookAt(shownBy(turned, weak)).content, MapContent::exchanged);
 }
 
-/// Terrain that leans by 20 degrees at most, and relief on it by over 40, which hides it from single texels.
+/// Terrain that leans by at most 20 degrees, with relief of over 40 degrees, which hides it in single texels.
 TEST(MapContent, IsInObjectSpaceUnderStrongReliefToo) {
     const auto leaning = [](double x, double y) {
         const double size = std::sqrt(x * x + y * y + 1);
@@ -291,7 +291,7 @@ TEST(MapContent, IsInObjectSpaceUnderStrongReliefToo) {
     EXPECT_EQ(lookAt(shownBy(turned(of_mesh), turned(in_tangent_space))).content, MapContent::exchanged);
 }
 
-/// colorOf(u, v, random) gives red, green and blue from 0 to 1.
+/// colorOf(u, v, random) returns red, green and blue from 0 to 1.
 template <class ColorOf>
 RgbImage painted(const ColorOf& colorOf) {
     RgbImage image{64, 64, {}};
@@ -358,7 +358,7 @@ TEST(MapContent, TellsHeightsWithATint) {
     }
 }
 
-/// Sound maps, and those that have findings of their own.
+/// Valid maps, and maps with other findings.
 TEST(MapContent, IsNoPictureWhereItMayBeVectors) {
     for (const TexelBytes& color :
          {TexelBytes{0, 0, 255, 255}, TexelBytes{128, 128, 255, 255}, TexelBytes{200, 90, 10, 255}}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What slopes show of a map: its encoding and the order of its channels, but never bumps apart from dents.
+// Properties of a map that its slopes reveal: encoding and channel order, but never bumps versus dents.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ double rings(double x, double y) { return 0.004 * std::cos(120 * std::hypot(x - 
 
 const std::vector<Height> kReliefs = {bumps, roundBumps, waves, rings};
 
-/// change(r, g, b) gets the components of each texel, from -1 to 1.
+/// Calls change(r, g, b) with the components of each texel, from -1 to 1.
 template <class Change>
 RgbImage stored(const Height& height, const Change& change) {
     RgbImage image = normalMapOf(128, height);
@@ -92,7 +92,8 @@ TEST(MapSlopes, TellHemiOctahedralMapsInAlphaAndGreen) {
     EXPECT_EQ(look.layout.x.channel, MapChannel::alpha);
 }
 
-/// The slopes of another height in green are as little those of one height as any unknown encoding is.
+/// If green contains the slopes of a different height field, the map matches a single height field as little as an
+/// unknown encoding.
 TEST(MapSlopes, DoubtTwoChannelsThatAreTheSlopesOfNoHeight) {
     const RgbImage other = normalMapOf(256, rings);
     RgbImage map = normalMapOf(256, roundBumps);
@@ -108,7 +109,7 @@ TEST(MapSlopes, DoubtTwoChannelsThatAreTheSlopesOfNoHeight) {
 TEST(MapSlopes, KnowImagesThatWereTurnedWithoutTheirVectors) {
     for (const bool is_clockwise : {false, true}) {
         const RgbImage map = stored(roundBumps, [&](double& x, double& y, double&) {
-            // The vectors of the turned relief are correct, so take the turn back from them.
+            // The vectors of the rotated relief are correct, so the rotation is undone.
             const double old_x = x;
             x = is_clockwise ? -y : y;
             y = is_clockwise ? old_x : -old_x;

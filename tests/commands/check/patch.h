@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A good primitive, to break one thing of: two square halves of a bent surface that meet in a seam.
+// A correct primitive, to which tests add one fault: two square halves of a bent surface that meet at a seam.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,17 +18,18 @@
 
 namespace tspace::test {
 
-/// How the UVs of the second half continue those of the first.
+/// Relation of the UVs of the second half to those of the first.
 enum class Seam {
     none,      ///< continuous, without a seam
     mirrored,  ///< mirrored texels
-    turned     ///< an island of its own, a quarter turn off
+    turned     ///< a separate island, rotated by 90 degrees
 };
 
 inline constexpr std::size_t kSide = 9;              ///< vertices along each side of a half
 inline constexpr std::size_t kHalf = kSide * kSide;  ///< vertices of a half
 
-/// Vertex in row `row` (0 to kSide - 1) of the seam; `half` 0 or 1. Both have the same position and normal.
+/// Returns the vertex in row `row` (0 to kSide - 1) of the seam; `half`: 0 or 1. Both have the same position and
+/// normal.
 inline std::uint32_t seamVertex(std::size_t half, std::size_t row) {
     return static_cast<std::uint32_t>(half * kHalf + row * kSide + (half == 0 ? kSide - 1 : 0));
 }
@@ -41,7 +42,7 @@ inline TangentView viewOf(const ScenePrimitive& primitive) {
             .corners = primitive.corners.span()};
 }
 
-/// Tangents by a method, one per vertex: no vertex of a patch needs two.
+/// Returns tangents of a method, one per vertex: no vertex of a patch needs two.
 inline std::vector<Vec4> tangentsOf(const ScenePrimitive& primitive, Method method = Method::mikktspace) {
     const MeshView mesh = primitive.view(primitive.uv_sets[0].span());
     std::vector<Vec4> corners(primitive.corners.size()), tangents(primitive.positions.size());
@@ -50,7 +51,7 @@ inline std::vector<Vec4> tangentsOf(const ScenePrimitive& primitive, Method meth
     return tangents;
 }
 
-/// A piece of a torus with MikkTSpace's tangents and a material that has a normal map. Nothing is wrong with it.
+/// Returns a part of a torus with MikkTSpace's tangents and a material that has a normal map, without any fault.
 inline ScenePrimitive goodPatch(Seam seam = Seam::none) {
     std::vector<Vec3> positions, normals;
     std::vector<Vec2> uvs;
@@ -60,7 +61,7 @@ inline ScenePrimitive goodPatch(Seam seam = Seam::none) {
             for (std::size_t column = 0; column < kSide; ++column) {
                 const double a = static_cast<double>(column + half * (kSide - 1)) / (kSide - 1) - 1;  // -1 to 1
                 const double b = static_cast<double>(row) / (kSide - 1);
-                // From the first half to the second at the same place: no bit may differ.
+                // Both halves compute the same value at the seam: all bits must be equal.
                 const DVec3 n{std::cos(b) * std::sin(a), std::sin(b), std::cos(b) * std::cos(a)};
                 const DVec3 ring{2 * std::sin(a), 0, 2 * std::cos(a)};
                 positions.push_back(toFloat(ring + n));
@@ -92,7 +93,7 @@ inline ScenePrimitive goodPatch(Seam seam = Seam::none) {
     return patch;
 }
 
-/// Changes an array that is shared and so cannot be written.
+/// Changes a shared array by replacing it.
 template <class T, class Change>
 void edit(SharedArray<T>& array, Change&& change) {
     std::vector<T> values(array.begin(), array.end());
@@ -100,7 +101,7 @@ void edit(SharedArray<T>& array, Change&& change) {
     array = std::move(values);
 }
 
-/// Turns a tangent round its normal.
+/// Rotates a tangent about its normal.
 inline Vec4 turned(const Vec4& tangent, const Vec3& normal, double degrees) {
     const double angle = degrees * std::numbers::pi / 180;
     const DVec3 t = toDouble(xyz(tangent)), n = toDouble(normal);
@@ -119,7 +120,7 @@ inline const Finding& only(const std::vector<Finding>& findings, FindingCode cod
     return *found;
 }
 
-/// For properties: a whole number from low to high, and a float between.
+/// For property tests: returns an integer from low to high, or a float in between.
 inline int anyInt(int low, int high) { return *rc::gen::inRange(low, high + 1); }
 inline double anyNumber(double low, double high) { return low + (high - low) * anyInt(0, 1 << 20) / (1 << 20); }
 

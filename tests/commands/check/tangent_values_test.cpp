@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a tangent must be whatever the UVs say, and what is no fault of tangents: authored ones, rounded positions.
+// Requirements on tangents that do not depend on UVs, and cases that are no fault of tangents: authored ones, rounded
+// positions.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -13,7 +14,7 @@ namespace {
 using Codes = std::set<std::string>;
 constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
 
-/// The second half without UV area, and tangents in its surface.
+/// Returns a patch whose second half has no UV area, with tangents in its surface.
 ScenePrimitive halfWithoutUvArea() {
     ScenePrimitive patch = goodPatch();
     edit(patch.uv_sets[0], [](auto& uvs) {
@@ -137,7 +138,8 @@ ScenePrimitive roundedPatch(double step) {
     return patch;
 }
 
-/// To decimals, to a binary fraction, and to fractions of some box; edges are half a step to three steps long.
+/// Rounded to decimals, to a binary fraction, and to fractions of a bounding box; edges are half a step to three steps
+/// long.
 TEST(Check, BlamesPositionsThatWereRoundedNearTheOrigin) {
     for (const double step : {0.1, 0.125, 0.2, 0.25, 0.3, 7.0 / 65535 * 2000}) {
         EXPECT_EQ(codesOf(roundedPatch(step)), Codes{"warning positionsRounded"}) << step;
@@ -152,14 +154,14 @@ TEST(Check, BlamesPositionsThatWereRoundedNearTheOrigin) {
     EXPECT_EQ(codesOf(bare).count("warning positionsRounded"), 0u) << "no tangents, and none are needed";
 }
 
-/// Built on a grid, and not rounded to it: its triangles go with its UVs, and wrong tangents are wrong.
+/// Modeled on a grid, and not rounded to it: its triangles match its UVs, and wrong tangents are reported.
 TEST(Check, TakesModelsBuiltOnAGridForExact) {
     for (const float step : {1.0F, 0.1F}) {
         ScenePrimitive grid = goodPatch();
         edit(grid.positions, [&](auto& positions) {
             for (std::size_t v = 0; v < positions.size(); ++v) {
                 const std::size_t half = v / kHalf, row = v % kHalf / kSide, column = v % kSide + half * (kSide - 1);
-                // A slope that rises by as much as it goes, along v.
+                // A slope of 45 degrees along v.
                 positions[v] = {step * static_cast<float>(column), step * static_cast<float>(row),
                                 -step * static_cast<float>(row)};
             }
@@ -178,7 +180,7 @@ TEST(Check, TakesModelsBuiltOnAGridForExact) {
     }
 }
 
-/// Terrain in steps of a metre, in metres of a map.
+/// Terrain in steps of one meter, in meters of a map projection.
 TEST(Check, TakesRastersFarFromTheOriginForExact) {
     ScenePrimitive terrain = goodPatch();
     edit(terrain.positions, [&](auto& positions) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two models are compared where they show the same surface, however they are stored.
+// Tests that diff matches the surfaces of two models, however they are stored.
 #include "tspace/inspect.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ FrameDiff diffOf(const std::vector<ModelData>& a, const std::vector<ModelData>& 
     return diff ? *diff : FrameDiff{};
 }
 
-/// T turned about N.
+/// Returns T rotated about N.
 Vec4 turned(const Vec4& t, const Vec3& n, double degrees) {
     const double c = std::cos(degrees * kPi / 180), s = std::sin(degrees * kPi / 180);
     const Vec3 b = {n.y * t.z - n.z * t.y, n.z * t.x - n.x * t.z, n.x * t.y - n.y * t.x};
@@ -32,7 +32,7 @@ Vec4 turned(const Vec4& t, const Vec3& n, double degrees) {
 
 ModelData sheet() { return withTangents(bentSheet(6), Method::mikktspace); }
 
-/// Triangles in another order, each beginning with another corner, vertices shuffled.
+/// Returns the triangles in a different order, starting at different corners, with shuffled vertices.
 ModelData shuffled(const ModelData& data, unsigned seed) {
     std::mt19937 random(seed);
     std::vector<std::uint32_t> new_place(data.positions.size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Normals that do not have length 1, through the commands that read files; and made normals where positions are equal but for
-// rounding.
+// Normals whose length is not 1, in the commands that read files; and computed normals at positions that are equal
+// except for rounding.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -61,7 +61,7 @@ std::size_t warningsOnLengths(const Report& report) {
                       [](const std::string& warning) { return warning.rfind(kNormalLengths, 0) == 0; }));
 }
 
-/// A bent sheet with a normal map, all of whose normals have this length.
+/// Returns a bent sheet with a normal map, all of whose normals have this length.
 GltfBuilder sheetOf(float length) {
     ModelData sheet = bentSheet(6);
     for (Vec3& n : sheet.normals) n = {n.x * length, n.y * length, n.z * length};
@@ -105,7 +105,7 @@ TEST(NormalLengths, TangentsAreThoseOfUnitNormals) {
         const std::vector<Vec3> normals = after.normals();
         const std::vector<Vec4> tangents = after.tangents();
         EXPECT_EQ(normals, before.normals()) << name;
-        // Integers tell directions of normals within half a degree.
+        // Integers represent directions of normals within half a degree.
         for (std::size_t v = 0; v < normals.size(); ++v)
             EXPECT_NEAR(degreesBetween(normals[v], {tangents[v].x, tangents[v].y, tangents[v].z}), 90, 0.01) << name;
     }
@@ -227,7 +227,7 @@ TEST(NormalLengths, AreAnErrorOfCheckThatItsRemedyRemoves) {
     }
 }
 
-/// Tangents that fit the directions of the normals are right, and stay.
+/// Tangents that match the directions of the normals are right, and are kept.
 TEST(NormalLengths, RepairKeepsTangentsThatAreRight) {
     const Files files;
     generated(files.input(sheetOf(1)), files.output());
@@ -239,7 +239,7 @@ TEST(NormalLengths, RepairKeepsTangentsThatAreRight) {
     EXPECT_EQ(Stored(output).tangents(), right);
 }
 
-/// Base and offsets are scaled alike, so that the normal has the same direction at any weight.
+/// Base and offsets are scaled equally, so that the normal has the same direction for any weight.
 TEST(NormalLengths, OffsetsOfMorphTargetsAreScaledWithTheNormals) {
     const auto build = [](float length) {
         GltfBuilder builder = sheetOf(length);
@@ -271,7 +271,7 @@ TEST(NormalLengths, OffsetsOfMorphTargetsAreScaledWithTheNormals) {
         EXPECT_NEAR(offset.x, 0.3f, 1e-6);
 }
 
-// Made normals at positions that are equal but for rounding.
+// Computed normals at positions that are equal except for rounding.
 
 double worstAcross(const std::string& path) {
     const Stored made(path);

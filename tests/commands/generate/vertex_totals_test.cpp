@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sums of vertices over primitives that share their vertices.
+// Sums of vertices over primitives that share vertices.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -21,7 +21,7 @@ report::VertexTotals verticesOf(const std::string& input) {
     return report ? report::totalsOf(*report).vertices : report::VertexTotals{};
 }
 
-/// Number of distinct vertex lists in inspectFile's report.
+/// Returns the number of distinct vertex lists in inspectFile's report.
 std::size_t listCount(const std::string& input) {
     const auto inspection = inspectFile(input);
     EXPECT_TRUE(inspection) << inspection.error().message;
@@ -30,7 +30,8 @@ std::size_t listCount(const std::string& input) {
     return lists.size();
 }
 
-/// Primitives that each draw the whole sheet, with one material each: those of the second half follow other UVs.
+/// Returns primitives that each draw the whole sheet, with one material each: those of the second half follow other
+/// UVs.
 GltfBuilder sheets(std::size_t count, bool share_vertices) {
     const ModelData sheet = bentSheet(6);
     GltfBuilder builder;

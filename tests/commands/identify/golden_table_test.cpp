@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The measured table of shipped tangents against the reference implementation: `identify` finds each row, and `diff`
-// against what `generate` writes does too.
+// The measured table of shipped tangents compared with the reference implementation: `identify` reproduces each row,
+// and so does `diff` with the output of `generate`.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -16,7 +16,7 @@
 namespace tspace::test {
 namespace {
 
-/// One file, shares in percent of its corners. The table feeds raw UVs, so "flipped" is what glTF wants.
+/// One file, with shares in percent of its corners. The table uses raw UVs, so "flipped" is correct for glTF.
 struct Row {
     std::string file = {};
     std::uint64_t corner_count = 0;
@@ -40,8 +40,8 @@ std::vector<Row> readTable() {
     return rows;
 }
 
-/// The table has one digit behind the point. Its angles are those of float arithmetic, in which one degree is a cosine
-/// of a few last digits: up to 0.46 % of the corners fall on the other side of a limit.
+/// The table has one decimal. Its angles were computed in float arithmetic, in which one degree corresponds to the last
+/// few bits of a cosine: up to 0.46 % of the corners are on the other side of a limit.
 constexpr double kSignSlack = 0.15, kAngleSlack = 0.5;
 
 double percentOf(std::uint64_t count, std::uint64_t total) {
@@ -58,7 +58,7 @@ TEST(GoldenTable, IsWhatIdentifyFinds) {
         std::uint64_t corners = 0, undecided = 0, near = 0, gltf = 0, inverted = 0;
         for (const PrimitiveIdentity& primitive : result->primitives) {
             for (const Explanation& entry : primitive.explanations) {
-                // The table follows TEXCOORD_0 as it is stored, whatever the textures read.
+                // The table uses TEXCOORD_0 as stored, regardless of the textures.
                 if (entry.method != Method::mikktspace || entry.uv_set != 0 || entry.is_transformed) continue;
                 if (entry.faces != Faces::triangles) continue;
                 corners += entry.corner_count;
@@ -68,7 +68,8 @@ TEST(GoldenTable, IsWhatIdentifyFinds) {
                 inverted += entry.inverted_sign_count;
             }
         }
-        // The table counts every corner. Those whose UVs say nothing count here in nothing, whatever they are there.
+        // The table counts every corner. Corners with indeterminate UVs are ignored here, whatever their state in the
+        // table.
         EXPECT_LE(corners + undecided, row.corner_count) << row.file;
         const std::uint64_t left_out = row.corner_count - corners;
         const auto expectAllBut = [&](std::uint64_t count, double percent, double slack) {
@@ -78,7 +79,7 @@ TEST(GoldenTable, IsWhatIdentifyFinds) {
         expectAllBut(near, row.within_1_deg, kAngleSlack);
         expectAllBut(gltf, row.sign_flipped, kSignSlack);
         expectAllBut(inverted, row.sign_same, kSignSlack);
-        // Primitives without any UV area are not looked at, and so not counted at all.
+        // Primitives without any UV area are skipped, and therefore not counted at all.
         EXPECT_TRUE(undecided != 0 || corners == 0 || corners == row.corner_count) << row.file;
     }
 }
@@ -105,7 +106,7 @@ TEST(GoldenTable, IsWhatDiffFinds) {
         const Result<FrameDiff> diff = diffFiles(input, output);
         ASSERT_TRUE(diff) << row.file << ": " << diff.error().message;
         EXPECT_EQ(diff->unpaired_triangle_count, 0u) << row.file;
-        // The table is of TEXCOORD_0 alone.
+        // The table contains only TEXCOORD_0.
         if (!follows_set_0) continue;
         std::uint64_t corners = 0, within_1 = 0, within_10 = 0, changes = 0;
         for (const PrimitiveDiff& primitive : diff->primitives) {

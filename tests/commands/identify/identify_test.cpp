@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The method and the convention that made tangents are found again.
+// identify finds the method and the convention that computed tangents.
 #include "tspace/generate.h"
 #include "tspace/inspect.h"
 
@@ -21,8 +21,8 @@ Identification identityOf(const std::vector<ModelData>& models, const IdentifyOp
 }
 
 TEST(Identify, FindsTheMethodThatMadeTheTangents) {
-    // Far from isometric, so that the methods differ by more than the tolerance. flat is not among them: on vertices
-    // that no triangles share it is what lengyel gives.
+    // Strongly distorted UVs, so that the methods differ by more than the tolerance. flat is left out: without shared
+    // vertices it equals lengyel.
     for (const Method method : {Method::mikktspace, Method::area, Method::uniform, Method::lengyel}) {
         ModelData data = bentSheet(5);
         for (Vec2& uv : data.uvs) uv = {uv.x * uv.x + 2 * uv.y, uv.y * uv.y - uv.x};
@@ -46,7 +46,7 @@ TEST(Identify, FindsBestWithAnyNumberOfSteps) {
     }
 }
 
-/// Stored as whole numbers, what a method's floats are off by is nothing.
+/// Stored as integers, differences between the floats of methods vanish.
 TEST(Identify, NamesAllMethodsThatFitTangentsOfEightBits) {
     const TempFolder folder;
     ModelData data = bentSheet(6);
@@ -88,7 +88,7 @@ TEST(Identify, SeesThatOneCornerServesAWholeVertex) {
     EXPECT_EQ(best.near_any_count, best.corner_count);
 }
 
-/// A sheet whose normal map has this transform, with mikktspace tangents for other UVs.
+/// Returns the identification of a sheet whose normal map has this transform, with mikktspace tangents for other UVs.
 Identification identityWithTransform(const ModelData& data, const Json& transform) {
     const TempFolder folder;
     GltfBuilder builder;
@@ -193,7 +193,7 @@ TEST(Identify, CountsThePrimitivesOnTrianglesWithThoseOnQuads) {
 
 TEST(Identify, LetsCornersWithoutUvAreaVoteInNothing) {
     ModelData data = withTangents(bentSheet(6), Method::mikktspace);
-    // Adds as many triangles whose UVs are one point, with meaningless tangents and signs.
+    // Adds as many triangles whose UVs are a single point, with meaningless tangents and signs.
     ModelData flat = unwelded(bentSheet(6));
     const auto first = static_cast<std::uint32_t>(data.positions.size());
     for (std::size_t v = 0; v < flat.positions.size(); ++v) {
@@ -215,7 +215,7 @@ TEST(Identify, LetsCornersWithoutUvAreaVoteInNothing) {
 TEST(Identify, FollowsNoUvSetThatHasNoArea) {
     ModelData data = withTangents(bentSheet(5), Method::mikktspace);
     data.other_uvs.assign(data.uvs.size(), Vec2{0.25F, 0.75F});
-    // What a method gives where there is nothing to follow, against growing u of the real set.
+    // The default tangent of a method without UV direction, opposite to increasing u of the real set.
     for (Vec4& tangent : data.tangents) tangent = {-tangent.x, -tangent.y, -tangent.z, tangent.w};
     const Identification result = identityOf({data});
     for (const Explanation& entry : result.primitives[0].explanations) EXPECT_EQ(entry.uv_set, 0);
@@ -234,7 +234,7 @@ TEST(Identify, SaysWhichMethodsMadeWhichPrimitives) {
 }
 
 TEST(Identify, PutsMethodsOfTheWorldBeforeThoseThatOnlyTspaceHas) {
-    // Nine of ten tangents are those of all methods, and the rest those of `best`.
+    // Nine of ten tangents are those of all methods, and the others are those of `best`.
     ModelData flat = bentSheet(12);
     for (std::size_t v = 0; v < flat.positions.size(); ++v) {
         flat.positions[v].z = 0;
@@ -293,12 +293,12 @@ TEST(Identify, ThreadsChangeNothing) {
 struct Known {
     const char* file;
     Method method;
-    double least, most;  ///< share of near corners, in percent, measured with the reference itself
+    double least, most;  ///< share of close corners, in percent, measured with the reference itself
     SignReading signs;
 };
 
-/// The shares of mikktspace are those that the reference implementation reached on these files, among the corners whose
-/// UVs say something (four fifths of Ghost's); the others were measured once, far above what chance gives.
+/// The shares of mikktspace are those of the reference implementation on these files, among the corners with
+/// determinate UVs (four fifths of Ghost's); the others were measured once, and are far above chance.
 TEST(Identify, AgreesWithTheReferenceOnPublicModels) {
     const Known known[] = {
         {"khronos/TwoSidedPlane.glb", Method::mikktspace, 100, 100, SignReading::inverted},

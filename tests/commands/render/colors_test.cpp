@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Light and the bytes of pictures.
+// Conversion between linear light and the bytes of pictures.
 #include "commands/shared/picture/colors.h"
 
 #include <gtest/gtest.h>

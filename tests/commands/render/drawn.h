@@ -27,7 +27,7 @@ struct Drawn {
     [[nodiscard]] Pixel centre() const { return at(image.width / 2, image.height / 2); }
 };
 
-/// A PNG, as renderFile gives it to a sink.
+/// Renders a PNG, as renderFile passes it to a sink.
 inline Result<RenderReport> renderTo(std::vector<std::uint8_t>& png, std::span<const std::uint8_t> model,
                                      RenderOptions options) {
     options.file.content = model;
@@ -38,7 +38,8 @@ inline Result<RenderReport> renderTo(std::vector<std::uint8_t>& png, std::span<c
     return renderFile("model.glb", "picture.png", options);
 }
 
-/// One sample in the middle of each pixel, from the front, without perspective and without a legend.
+/// Returns options with one sample in the center of each pixel, from the front, without perspective and without a
+/// legend.
 inline RenderOptions plainView(RenderShow show, std::uint32_t size = 64) {
     RenderOptions options;
     options.show = show;
@@ -62,8 +63,8 @@ inline Drawn draw(const GltfBuilder& model, const RenderOptions& options) {
     return drawn;
 }
 
-/// The square from (-1, -1, 0) to (1, 1, 0), which faces +z, with the tangents that glTF wants and one material. The
-/// texture's upper left corner is the square's.
+/// The square from (-1, -1, 0) to (1, 1, 0), which faces +z, with correct tangents for glTF and one material. The
+/// texture's upper left corner is that of the square.
 struct SquareModel {
     std::vector<float> positions = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
     std::vector<float> normals = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
@@ -86,7 +87,7 @@ struct SquareModel {
     }
 };
 
-/// Adds a texture of one colour, and returns its number.
+/// Adds a texture of one color, and returns its index.
 inline std::size_t addTexture(GltfBuilder& builder, const RgbImage& image) {
     Json& json = builder.json();
     for (const char* name : {"images", "textures"}) {

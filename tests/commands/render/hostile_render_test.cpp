@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Models that mean harm, or nothing.
+// Malicious or empty models.
 #include <cmath>
 #include <limits>
 
@@ -52,7 +52,7 @@ TEST(HostileRender, NodesInCirclesAreNotFollowed) {
 }
 
 TEST(HostileRender, TrianglesWithoutEndAreRefused) {
-    // Each as large as the picture, drawn by a few thousand nodes from the back to the front.
+    // Each is as large as the picture, drawn by a few thousand nodes from back to front.
     SquareModel model;
     for (int i = 0; i < 2000; ++i) model.indices.insert(model.indices.end(), {0, 1, 2, 0, 2, 3});
     GltfBuilder builder = model.build();

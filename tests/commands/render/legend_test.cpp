@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What stands under pictures.
+// Legends below pictures.
 #include "commands/shared/picture/legend.h"
 
 #include "commands/render/drawn.h"
@@ -30,7 +30,7 @@ TEST(RenderLegend, StandsUnderEveryViewAndLeavesThePictureAsItIs) {
         options.legend = RenderOptions{}.legend;
         const RgbImage with = draw(model, options).image;
         ASSERT_EQ(with.height, 512U) << renderShowName(show);
-        // Of one to three lines of two pixels a dot, with a scale or without.
+        // One to three lines of two pixels per dot, with or without a scale.
         options.legend = false;
         std::uint32_t fitting = 0;
         for (const std::uint32_t dots : {17U, 28U, 39U, 37U, 48U, 59U}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Normal maps on nodes that squeeze what they hold.
+// Normal maps on nodes with nonuniform scale.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -9,7 +9,7 @@
 namespace tspace::test {
 namespace {
 
-/// A triangle that leans, with frames that differ at its corners.
+/// An inclined triangle whose frames differ at its corners.
 struct Leaning {
     std::array<std::uint32_t, 3> corners = {0, 1, 2};
     std::array<Vec3, 3> normals = {{{0.48F, 0.6F, 0.64F}, {0.6F, 0.48F, 0.64F}, {0, 0.6F, 0.8F}}};
@@ -30,8 +30,8 @@ DVec3 unit(DVec3 v) {
     return v;
 }
 
-/// What the shaders of three.js and of Khronos' viewer write: N by the inverse transpose and T by the matrix, unit at each
-/// vertex, interpolated; B = w cross(N, T).
+/// Returns the shading normal of the shaders of three.js and of Khronos' viewer: N by the inverse transpose and T by
+/// the matrix, normalized at each vertex, interpolated; B = w cross(N, T).
 DVec3 shaderNormal(const Leaning& mesh, const DVec3& scale, const std::array<double, 3>& weights) {
     DVec3 normal{}, tangent{};
     for (std::size_t i = 0; i < 3; ++i) {

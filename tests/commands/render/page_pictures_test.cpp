@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures of pages: the angles between two models, and places of findings after what their remedies name.
+// Pictures of pages: the angles between two models, and locations of findings after their remedies.
 #include <cmath>
 
 #include "commands/check/remedy.h"
@@ -24,7 +24,7 @@ FileOptions inMemory(const Bytes& file) {
     return options;
 }
 
-/// The square with T turned by an angle, and this sign.
+/// Returns the square with T rotated by an angle, and the given sign.
 SquareModel turnedSquare(double degrees, float sign = 1) {
     SquareModel model;
     const double a = degrees * M_PI / 180;
@@ -36,17 +36,19 @@ SquareModel turnedSquare(double degrees, float sign = 1) {
     return model;
 }
 
-/// The colour in the middle of the heat map of two models, from 0 to 1, made as bright as the colour of `degrees`.
+/// Checks the color in the center of the heat map of two models, from 0 to 1, scaled to the brightness of the color of
+/// `degrees`.
 void expectHeat(const SquareModel& a, const SquareModel& b, float degrees) {
     const Bytes file_a = a.build().glb(), file_b = b.build().glb();
     DiffOptions options{.file = inMemory(file_a), .file_b = inMemory(file_b)};
     DiffPictures pictures("a.glb", "b.glb", options);
     const RgbImage image = decoded(pictures.heatMap(DiffPictures::Side::front));
     ASSERT_EQ(image.width, DiffPictures::kHeatWidth);
-    // The scale takes some rows at the bottom; the square is symmetric, and so is around the middle of the rest.
+    // The scale takes some rows at the bottom; the square is symmetric, and so is the picture around the center of the
+    // rest.
     const std::size_t i = 3 * (std::size_t{image.height / 2 - 10} * image.width + image.width / 2);
     const Vec3 expected = heatColor(degrees);
-    // Surfaces are darker where they turn away: all channels by one factor.
+    // Inclined surfaces are darker: all channels by the same factor.
     const double factor = image.rgb[i + 2] / (255.0 * expected.z);
     EXPECT_GT(factor, 0.7);
     EXPECT_LE(factor, 1.01);
@@ -129,7 +131,7 @@ FindingPicture pictureOf(const Bytes& file, const Finding& finding) {
     return FindingPictures("a.glb", inMemory(file)).draw(finding);
 }
 
-/// Pixels of two pictures that differ by more than is seen.
+/// Returns the number of pixels in which two pictures differ visibly.
 std::size_t differingPixels(const RgbImage& a, const RgbImage& b) {
     std::size_t count = 0;
     for (std::size_t i = 0; i + 2 < std::min(a.rgb.size(), b.rgb.size()); i += 3) {
@@ -141,7 +143,7 @@ std::size_t differingPixels(const RgbImage& a, const RgbImage& b) {
 }
 
 TEST(FindingPictures, ShowWhatRepairChanges) {
-    // T is turned a little, which no check holds against it: repair turns the sign alone.
+    // T is rotated slightly, which is not a finding: repair changes only the sign.
     const Finding finding = findingAt(FindingCode::signsInverted, {0, 1, 2, 3});
     const FindingPicture picture = pictureOf(mapped(turnedSquare(8, -1)), finding);
     EXPECT_EQ(picture.command, "tspace generate --repair");
@@ -170,7 +172,7 @@ TEST(FindingPictures, LeaveOutColorsThatHideTheDifference) {
 }
 
 TEST(FindingPictures, PlacesAreSeenWhereSomethingStandsInFront) {
-    // A square behind a plate that faces it, and is ten times as large: only without the plate it is seen.
+    // A square behind a plate that faces it, and is ten times as large: the square is visible only without the plate.
     GltfBuilder builder = turnedSquare(0).build();
     SquareModel plate;
     for (std::size_t i = 0; i < plate.positions.size(); i += 3) {

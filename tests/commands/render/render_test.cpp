@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What pictures show, pixel by pixel.
+// Contents of pictures, pixel by pixel.
 #include <cmath>
 
 #include "commands/render/drawn.h"
@@ -16,7 +16,7 @@ bool isNearTo(const Pixel& a, const Pixel& b, int most) {
 int brightness(const Pixel& p) { return p[0] + p[1] + p[2]; }
 constexpr Pixel kBackgroundPixel{236, 238, 241};
 
-/// Latitudes and longitudes; N is the position.
+/// Returns a sphere of latitudes and longitudes; N is the position.
 SquareModel sphere(std::uint32_t rings) {
     SquareModel model;
     model.positions.clear();
@@ -89,7 +89,7 @@ TEST(Render, TangentsAreColoured) {
     EXPECT_TRUE(isNearTo(draw(SquareModel().build(), plainView(RenderShow::tangents)).centre(), {255, 128, 128}, 1));
 }
 
-/// The left half mirrored.
+/// Returns a pair of squares; the left one is mirrored.
 SquareModel mirroredPair() {
     SquareModel model;
     model.positions = {-2, -1, 0, 0, -1, 0, 0, 1, 0, -2, 1, 0, 0, -1, 0, 2, -1, 0, 2, 1, 0, 0, 1, 0};
@@ -105,7 +105,7 @@ SquareModel mirroredPair() {
     return model;
 }
 
-/// Number of pixels of a row with the color.
+/// Returns the number of pixels of a row with the color.
 int countOf(const Drawn& drawn, std::uint32_t begin, std::uint32_t end, bool (*is_it)(const Pixel&)) {
     int count = 0;
     for (std::uint32_t x = begin; x < end; ++x) count += is_it(drawn.at(x, drawn.image.height / 2));
@@ -130,7 +130,7 @@ TEST(Render, AMirroredHalfShowsTheOtherSign) {
     EXPECT_EQ(countOf(wrong, 34, 64, isRed), 0);
 }
 
-/// A square whose normal map leans upwards (green up) or downwards.
+/// Returns a square whose normal map leans upward (green up) or downward.
 GltfBuilder leaning(std::uint8_t green) {
     GltfBuilder builder = SquareModel().build();
     const std::size_t map = addTexture(builder, plainImage(128, green, 218));
@@ -146,7 +146,7 @@ TEST(Render, FlippedGreenIsLitFromTheOtherSide) {
     };
     EXPECT_GT(lit(218, 1), lit(218, -1) + 100);
     EXPECT_GT(lit(38, -1), lit(38, 1) + 100);
-    // A program whose green points down sees the first as glTF sees the second.
+    // A program with green down renders the first map like glTF renders the second one.
     options.reading = *findMapReading("directx");
     EXPECT_GT(lit(218, -1), lit(218, 1) + 100);
 }
@@ -169,12 +169,13 @@ TEST(Render, TexturesLieAsGltfSays) {
     material["extensions"]["KHR_materials_unlit"] = Json::object();
     const RenderOptions options = plainView(RenderShow::lit);
     const Drawn drawn = draw(builder, options);
-    // The nearest pixels to texel centres lie a little beside them, and a little light is much in sRGB.
+    // The pixels nearest to texel centers are slightly off-center, and a small difference in linear light is large in
+    // sRGB.
     EXPECT_TRUE(isNearTo(drawn.at(16, 16), {255, 0, 0}, 60));
     EXPECT_TRUE(isNearTo(drawn.at(47, 16), {0, 255, 0}, 60));
     EXPECT_TRUE(isNearTo(drawn.at(16, 47), {0, 0, 255}, 60));
     EXPECT_TRUE(isNearTo(drawn.at(47, 47), {255, 255, 255}, 60));
-    // A transform that moves it half of its width shows the other column.
+    // A transform that moves the image by half of its width shows the other column.
     material["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]["KHR_texture_transform"]["offset"] = {0.5, 0};
     EXPECT_TRUE(isNearTo(draw(builder, options).at(16, 16), {0, 255, 0}, 60));
 }
@@ -187,7 +188,7 @@ TEST(Render, AFlatGreySquareHasTheLightOfLambert) {
         options.to_light = to_light;
         return draw(builder, options).centre()[0];
     };
-    // Light 0.5 is 188 in sRGB; 0.5 * (0.12 + 0.88 * 0.5) is 145; 0.06 is 69.
+    // Linear 0.5 is 188 in sRGB; 0.5 * (0.12 + 0.88 * 0.5) is 145; 0.06 is 69.
     EXPECT_EQ(grey({0, 0, 3}), 188);
     EXPECT_NEAR(grey({std::sqrt(3.0f), 0, 1}), 145, 1);
     EXPECT_NEAR(grey({0, 0, -1}), 69, 1);
@@ -214,7 +215,7 @@ TEST(Render, MaskedTexelsAreNotThere) {
 
 TEST(Render, NodesPlaceTheMesh) {
     GltfBuilder builder = SquareModel().build();
-    // Twice: one turned by a quarter about y, so that its edge is seen, the other mirrored and moved.
+    // Drawn twice: once rotated by 90 degrees about y, so that its edge is visible, and once mirrored and moved.
     builder.json()["nodes"] = Json::parse(
         R"([{"children":[1,2],"translation":[5,0,0]},{"mesh":0,"rotation":[0,0.70710678,0,0.70710678]},
             {"mesh":0,"scale":[-1,1,1],"translation":[1,0,0]}])");
@@ -229,7 +230,7 @@ TEST(Render, NodesPlaceTheMesh) {
 
 TEST(Render, ASkinStandsAsItWasBound) {
     GltfBuilder builder = SquareModel().build();
-    // The joint moves by (3, 0, 0), and the mesh was bound there: it stays. The node's own scale counts for nothing.
+    // The joint moves by (3, 0, 0), and the mesh was bound there, so it does not move. The node's own scale is ignored.
     const std::size_t bind =
         builder.addAccessor(std::vector<float>{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0, 3, 0, 1}, 5126, "MAT4", 1);
     builder.json()["nodes"] = Json::parse(R"([{"mesh":0,"skin":0,"scale":[1,1,-1]},{"translation":[3,0,0]}])");

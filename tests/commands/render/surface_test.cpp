@@ -25,7 +25,7 @@ TEST(RenderSurface, ColoursOfVerticesAreMultipliedWithThatOfTheMaterial) {
     EXPECT_TRUE(isNear(draw(builder, plainView(RenderShow::lit)).centre(), {255, 0, 128}, 1));
 }
 
-/// Two squares, of these colours; the second is nearer to the camera.
+/// Returns two squares with these colors; the second one is closer to the camera.
 GltfBuilder twoSquares(const std::vector<double>& far, const std::vector<double>& near, bool is_near_first) {
     GltfBuilder builder = unlitSquare(far);
     Json& json = builder.json();
@@ -65,7 +65,7 @@ TEST(RenderSurface, ABlendedSurfaceIsDrawnWhereItsAlphaIsAtLeastHalfOfTheMateria
 TEST(RenderSurface, WeightsOfMorphTargetsMoveTheSurface) {
     GltfBuilder builder = SquareModel().build();
     Json& mesh = builder.json()["meshes"][0];
-    // The square turned by a quarter about y, where N is +x: halfway it leans by 45 degrees.
+    // The square rotated by 90 degrees about y, where N is +x: halfway it leans by 45 degrees.
     const std::size_t normals = builder.addFloats(std::vector<float>{1, 0, -1, 1, 0, -1, 1, 0, -1, 1, 0, -1}, 3);
     mesh["primitives"][0]["targets"] = Json::array({Json{{"NORMAL", normals}}});
     mesh["weights"] = Json::array({0});
@@ -75,7 +75,7 @@ TEST(RenderSurface, WeightsOfMorphTargetsMoveTheSurface) {
     EXPECT_TRUE(isNear(draw(builder, options).centre(), {128, 128, 255}, 1));
     mesh["weights"] = Json::array({0.5});
     EXPECT_TRUE(isNear(draw(builder, options).centre(), {218, 128, 218}, 1));
-    // A node's own weights go first.
+    // A node's own weights have priority.
     builder.json()["nodes"][0]["weights"] = Json::array({0});
     EXPECT_TRUE(isNear(draw(builder, options).centre(), {128, 128, 255}, 1));
 }
@@ -87,7 +87,7 @@ TEST(RenderSurface, BonesTurnFramesAndTheNodeOfASkinnedMeshHasNoPartInIt) {
         std::vector<std::uint16_t>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 5123, "VEC4", 4);
     attributes["WEIGHTS_0"] =
         builder.addFloats(std::vector<float>{1, 0, 0, 0, 0.5f, 0, 0, 0, 0.5f, 0, 0, 0, 1, 0, 0, 0}, 4);
-    // The second joint turns x to y. Weights count as if their sum were 1.
+    // The second joint rotates x to y. Weights are normalized to the sum 1.
     builder.json()["nodes"] = Json::parse(
         R"([{"mesh":0,"skin":0,"scale":[1,1,-1],"translation":[9,0,0]},{},{"rotation":[0,0,0.70710678,0.70710678]}])");
     builder.json()["skins"] = Json::array({Json{{"joints", {1, 2}}}});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Neighbours leave no gap; what is nearer is seen.
+// Adjacent triangles leave no gap; the nearest triangle is visible.
 #include "commands/shared/picture/visible_triangles.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ Camera cameraFor(const std::vector<Vec3>& points, double field_of_view_deg, cons
 
 float someNumber(int least, int end) { return 0.01f * static_cast<float>(*rc::gen::inRange(least, end)); }
 
-/// A square cut into a fan around a point in it, its corners shared.
+/// A square divided into a fan around a point in it, with shared corners.
 RC_GTEST_PROP(VisibleTriangles, NeighboursLeaveNoGapAndNoSampleTwice, ()) {
     const Vec3 inner{someNumber(-90, 90), someNumber(-90, 90), 0};
     const std::vector<Vec3> points = {inner, {-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
@@ -38,7 +38,7 @@ RC_GTEST_PROP(VisibleTriangles, NeighboursLeaveNoGapAndNoSampleTwice, ()) {
             for (std::uint32_t x = 0; x < kSize; ++x) seen[y * kSize + x] += visible.row(y)[x] == 0;
         }
     }
-    // The picture's margin is 3 %, so 2 samples are free at each side.
+    // The picture's margin is 3 %, so 2 samples are free on each side.
     for (std::uint32_t y = 0; y < kSize; ++y) {
         for (std::uint32_t x = 0; x < kSize; ++x) {
             const bool is_inside = x >= 2 && x < 62 && y >= 2 && y < 62;
@@ -47,7 +47,7 @@ RC_GTEST_PROP(VisibleTriangles, NeighboursLeaveNoGapAndNoSampleTwice, ()) {
     }
 }
 
-/// Each sample sees the first triangle on its ray.
+/// Each sample shows the first triangle on its ray.
 RC_GTEST_PROP(VisibleTriangles, TheNearestTriangleIsSeen, ()) {
     std::vector<Vec3> points;
     const int count = *rc::gen::inRange(1, 8);
@@ -61,7 +61,8 @@ RC_GTEST_PROP(VisibleTriangles, TheNearestTriangleIsSeen, ()) {
     const VisibleTriangles visible(std::span(&mesh, 1), camera, kSize, kSize, effort);
     for (std::uint32_t y = 0; y < kSize; y += 3) {
         for (std::uint32_t x = 0; x < kSize; x += 3) {
-            // Depths at the sample, by areas in the plane of the picture. Near edges rounding decides.
+            // Depths at the sample, computed from areas in the picture plane. Near edges the result depends on
+            // rounding.
             double nearest = -HUGE_VAL, seen = -HUGE_VAL;
             bool is_doubtful = false;
             for (std::size_t t = 0; t < static_cast<std::size_t>(count); ++t) {
@@ -86,7 +87,7 @@ RC_GTEST_PROP(VisibleTriangles, TheNearestTriangleIsSeen, ()) {
     }
 }
 
-/// Smallest sine of the angles of a triangle in the picture.
+/// Returns the smallest sine of the angles of a triangle in the picture.
 double leastSine(const std::vector<Vec3>& points, const Camera& camera) {
     DVec3 seen[3];
     for (std::size_t k = 0; k < 3; ++k) {
@@ -112,8 +113,8 @@ RC_GTEST_PROP(VisibleTriangles, WeightsLeadToTheSample, ()) {
     Effort effort(1 << 20);
     const VisibleTriangles visible(std::span(&mesh, 1), camera, kSize, kSize, effort);
     const SeenTriangle seen = visible.seen({0, 0});
-    // Corners are rounded to 1/256, by at most sqrt(2) / 512 = 0.0028. A sample that lies beside an edge therefore is moved to it along the line to the corner
-    // behind, which is the longer the narrower the triangle is.
+    // Corners are rounded to 1/256, by at most sqrt(2) / 512 = 0.0028. A sample next to an edge is therefore moved to
+    // it along the line to the opposite corner; the distance increases for narrow triangles.
     const double most = 0.003 / leastSine(points, camera);
     for (std::uint32_t y = 0; y < kSize; ++y) {
         for (std::uint32_t x = 0; x < kSize; ++x) {
@@ -129,7 +130,7 @@ RC_GTEST_PROP(VisibleTriangles, WeightsLeadToTheSample, ()) {
 }
 
 TEST(VisibleTriangles, WhatReachesBehindTheCameraIsCut) {
-    // A floor through the camera's own place, which looks at a small part of it.
+    // A floor through the camera position; the camera looks at a small part of it.
     const std::vector<Vec3> points = {{-100, -1, 100}, {100, -1, 100}, {100, -1, -100}, {-100, -1, -100}};
     const std::vector<std::uint32_t> corners = {0, 1, 2, 0, 2, 3};
     const DrawnMesh mesh{.positions = points, .corners = corners, .is_double_sided = true};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The page that Chromium opens: runs the shaders on each case and posts the results to /results/LANGUAGE/CASE. Where WebGPU
-// does not start it posts the reason to /without/wgsl.
+// The page that Chromium opens: runs the shaders on each case and posts the results to /results/LANGUAGE/CASE. If
+// WebGPU does not start, it posts the reason to /without/wgsl.
 import { openWebGl, pixelFrames } from "./webgl.mjs";
 import { openWebGpu } from "./webgpu.mjs";
 

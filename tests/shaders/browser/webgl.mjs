@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs cases by WebGL 2: words are texels, items are pixels, and results come back as the bits of floats.
+// Runs cases with WebGL 2: words are stored in texels, items are pixels, and results are returned as the bits of
+// floats.
 const WORDS_WIDE = 4096, ITEMS_WIDE = 2048;
 
 const VERTICES = `#version 300 es
@@ -24,7 +25,7 @@ void main() {
 }
 `;
 
-/// Position and UV change from pixel to pixel by what an item of frameOfSteps holds.
+/// Position and UV change from pixel to pixel by the values of an item of frameOfSteps.
 const pixelShader = (shader) => `#version 300 es
 #define TSPACE_FRAGMENT
 ${shader}
@@ -70,7 +71,8 @@ function makeTexture(gl, format, width, height, layout, data) {
     return texture;
 }
 
-/// Two targets of four words a pixel; `draw` fills them. Returns the words of each pixel, first and second.
+/// Renders to two targets with four words per pixel; `draw` fills them. Returns the words of each pixel, first and
+/// second target.
 function drawAndRead(gl, width, height, draw) {
     const targets = [0, 1].map(() => makeTexture(gl, gl.RGBA32UI, width, height, gl.RGBA_INTEGER, null));
     const frame = gl.createFramebuffer();
@@ -119,7 +121,7 @@ export function openWebGl(sources) {
     return { run, name: `WebGL 2 (${gl.getParameter(gl.VERSION)})` };
 }
 
-/// The frames of tspace_frameOfPixel on the first items of the case frameOfSteps.
+/// Returns the frames of tspace_frameOfPixel for the first items of the case frameOfSteps.
 export function pixelFrames(shader, words) {
     const gl = makeContext(), program = makeProgram(gl, pixelShader(shader)), items = 200;
     const floats = new Float32Array(words.buffer, 16), item_words = words[2];
