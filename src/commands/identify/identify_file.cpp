@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// identifyFile: every primitive against every method, and the sums over the file; its report as JSON.
+// identifyFile: compares every primitive with every method, and sums the results over the file; its report as JSON.
 #include <algorithm>
 
 #include "commands/identify/identify_report.h"
@@ -41,8 +41,8 @@ bool hasTwoReadings(const PrimitiveIdentity& primitive) {
            (turned->near_count != plain->near_count || turned->gltf_sign_count != plain->gltf_sign_count);
 }
 
-/// The explanation by a method, along the texture's set in the reading that explains more; on quads where they are asked for
-/// and win.
+/// Returns the explanation by a method along the UV set of the texture, in the interpretation that explains more; on
+/// quads if requested and if they explain more.
 const Explanation* partOf(const PrimitiveIdentity& primitive, Method method, Faces faces) {
     const Explanation* part = nullptr;
     for (const Explanation& entry : primitive.explanations) {
@@ -54,7 +54,8 @@ const Explanation* partOf(const PrimitiveIdentity& primitive, Method method, Fac
     return part;
 }
 
-/// A sum on quads has the triangles of the primitives where quads do not win. It is there where it wins itself.
+/// Sums explanations over all primitives. The sum on quads uses the triangles of primitives where quads do not explain
+/// more. It is added only if quads explain more in some primitive.
 std::vector<Explanation> overAllPrimitives(const std::vector<PrimitiveIdentity>& primitives) {
     std::vector<Explanation> sums;
     const auto add = [&](Method method, Faces faces) {
@@ -86,7 +87,7 @@ PrimitiveIdentity identify(const ScenePrimitive& primitive, const IdentifyOption
     if (identity.explanations.empty()) identity.skipped = "its UVs have no area";
     sortExplanations(identity.explanations);
     identity.has_two_readings = hasTwoReadings(identity);
-    // Of two readings with equally many close corners, the one whose signs fit is first.
+    // Of two interpretations with equally many near corners, the one whose signs fit is first.
     const auto follows =
         std::find_if(identity.explanations.begin(), identity.explanations.end(), [&](const Explanation& entry) {
             return entry.is_textures_set && entry.is_transformed == followsTransform(identity);

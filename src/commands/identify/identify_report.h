@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tspace identify reports.
+// Reports of tspace identify.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Results of tspace identify as text.
+// Reports of tspace identify as text.
 #include <fmt/format.h>
 
 #include "commands/identify/identify_report.h"

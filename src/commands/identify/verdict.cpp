@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which method made the tangents, with which signs, along which UVs; and the sentences that say so.
+// Determines which method computed the tangents, with which signs and along which UVs, and describes the result in
+// sentences.
 #include "commands/identify/verdict.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 
 namespace tspace {
 
-// Runs a method on the primitive's own data and counts how many of the stored tangents it gives.
+// Runs a method on the data of the primitive and counts the stored tangents that it reproduces.
 
 namespace {
 
@@ -27,7 +28,8 @@ std::size_t texturesSet(const ScenePrimitive& primitive) {
     return set;
 }
 
-/// Every set as it is stored. The texture's set comes before that as its transform makes it, where that changes frames.
+/// Returns every UV set as stored. If the texture transform changes frames, the transformed set of the texture precedes
+/// its stored set.
 std::vector<UvReading> readingsOf(const ScenePrimitive& primitive) {
     std::vector<UvReading> readings;
     for (std::size_t set = 0; set < primitive.uv_sets.size(); ++set) {
@@ -41,7 +43,7 @@ std::vector<UvReading> readingsOf(const ScenePrimitive& primitive) {
     return readings;
 }
 
-/// Whether all tangents can have been stored as whole numbers of 8 or 16 bits.
+/// Returns whether all tangents can have been stored as integers of 8 or 16 bits.
 bool areQuantized(std::span<const Vec4> tangents) {
     const auto areMultiples = [&](double steps) {
         const double slack = 1e-6 * steps;
@@ -55,10 +57,10 @@ bool areQuantized(std::span<const Vec4> tangents) {
     return areMultiples(127) || areMultiples(32767);
 }
 
-/// `computed` has the raw sign, one per corner.
+/// Compares stored and computed tangents. `computed` has the raw sign, one entry per corner.
 void compare(const ScenePrimitive& primitive, std::span<const std::uint8_t> votes, std::span<const Vec4> computed,
              double tolerance_deg, Explanation& explanation) {
-    // The float error of a method is negligible beside a step of whole numbers.
+    // The rounding error of a method in floats is negligible compared with an integer step.
     constexpr double kRoundingDeg = 1e-4;
     const double nothing_deg = areQuantized(primitive.tangents.span()) ? kRoundingDeg : 0;
     std::vector<char> is_near_at(primitive.positions.size(), 0);
@@ -83,7 +85,7 @@ void compare(const ScenePrimitive& primitive, std::span<const std::uint8_t> vote
             ++explanation.near_count;
             is_near_at[vertex] = 1;
         }
-        // glTF's v runs down, so it wants the opposite of the raw orientation.
+        // In glTF v increases downward, so the stored sign is the opposite of the raw orientation.
         explanation.gltf_sign_count += stored.w * computed[c].w < 0;
         explanation.inverted_sign_count += stored.w * computed[c].w > 0;
     }
@@ -93,7 +95,7 @@ void compare(const ScenePrimitive& primitive, std::span<const std::uint8_t> vote
         explanation.near_any_count += static_cast<unsigned char>(is_near_at[vertex]);
 }
 
-/// Explanations along one reading of the UVs.
+/// Explanations along one interpretation of the UVs.
 class Explainer {
   public:
     Explainer(const ScenePrimitive& primitive, const UvReading& reading, const IdentifyOptions& options)
@@ -117,7 +119,7 @@ class Explainer {
     }
 
   private:
-    /// `best` with as many steps as explain most.
+    /// Tries `best` with each number of refinement steps, and keeps the one that explains most.
     Result<Done> tryMethod(Method method, std::span<Vec4> computed, std::vector<Explanation>& explanations) const {
         Explanation most;
         for (const std::uint32_t refine : {1u, 0u, 2u}) {
@@ -158,8 +160,9 @@ class Explainer {
     std::vector<std::uint8_t> votes_;
 };
 
-/// Near corners, and half of those that are near to another corner of their vertex; less what a method that only tspace
-/// has must be better by. Among the corners of a vertex `flat` has so many directions that one is near by chance.
+/// Returns the score of a method: the near corners, plus half of the corners that are near to another corner of their
+/// vertex, minus a margin for methods that only tspace implements. The weight is half because `flat` has so many
+/// directions at a vertex that one is near by chance.
 double scoreOf(const Explanation& entry) {
     constexpr double kOwnMethodsShare = 0.05;
     const bool is_own = entry.method == Method::fast || entry.method == Method::best;
@@ -191,7 +194,7 @@ Result<std::vector<Explanation>> explainTangents(const ScenePrimitive& primitive
 }
 
 bool isCloser(const Explanation& a, const Explanation& b) {
-    // 0: the very bits of the file, at every corner.
+    // A mean of 0 means equal bits at every corner.
     if (a.mean_deg == 0) return b.mean_deg > 0;
     constexpr double kRoundingDeg = 0.001;
     return b.mean_deg > 2 * a.mean_deg + kRoundingDeg;
@@ -203,7 +206,7 @@ void sortExplanations(std::vector<Explanation>& explanations) {
         const double score_a = scoreOf(a), score_b = scoreOf(b);
         return score_a != score_b ? score_a > score_b : a.near_count > b.near_count;
     });
-    // A method that gives the stored bits is no coincidence, whatever else comes near to them.
+    // A method that reproduces the stored bits is not a coincidence, even if other methods are near.
     auto top = explanations.begin();
     for (auto entry = top + 1; entry != explanations.end(); ++entry) {
         const bool is_same_reading =
@@ -242,9 +245,9 @@ bool followsTransform(const PrimitiveIdentity& primitive) {
 
 namespace {
 
-/// A method that explains this share of the corners made them.
+/// Share of corners from which a method is reported as the one that made them.
 constexpr double kSureShare = 0.95;
-/// A method that explains this share is the likely one.
+/// Share of corners from which a method is reported as likely.
 constexpr double kLikelyShare = 0.5;
 /// Minimum share by which another UV set, or another method in a part of the file, must be better to be named.
 constexpr double kClearlyMore = 0.25;
@@ -280,7 +283,7 @@ class NameCounts {
     }
     [[nodiscard]] std::size_t size() const { return counts_.size(); }
 
-    /// "A in 3 primitives, B in 1"
+    /// Returns a text such as "A in 3 primitives, B in 1".
     [[nodiscard]] std::string text() const {
         std::string text;
         for (const auto& [name, count] : counts_) {
@@ -294,8 +297,8 @@ class NameCounts {
     std::vector<std::pair<std::string, std::size_t>> counts_ = {};
 };
 
-/// The methods of single primitives, where no method explains the file but each primitive has one that explains it. Empty
-/// otherwise.
+/// Returns the methods of single primitives if no method explains the whole file but each primitive is explained by
+/// one, and otherwise an empty string.
 std::string differentMakers(const Identification& result) {
     if (result.explanations.front().nearShare() >= kSureShare) return "";
     NameCounts makers;
@@ -312,7 +315,7 @@ std::string differentMakers(const Identification& result) {
     return covers && makers.size() > 1 ? makers.text() : "";
 }
 
-/// Methods that explain about as much as the best. On quads and on triangles they may differ in few corners.
+/// Returns methods that explain about as much as the best. On quads and on triangles they may differ at few corners.
 std::string tiesOf(const std::vector<Explanation>& explanations) {
     const Explanation& best = explanations.front();
     std::string ties;
@@ -323,7 +326,7 @@ std::string tiesOf(const std::vector<Explanation>& explanations) {
     return ties.empty() ? "" : " (so do " + ties + ")";
 }
 
-/// Whether one of the tangents that it gives to a vertex's corners is there nearly everywhere.
+/// Returns whether, at nearly every vertex, the stored tangent equals the computed tangent of one of its corners.
 bool keptOnePerVertex(const Explanation& entry) {
     return entry.nearAnyShare() >= kSureShare && entry.method != Method::flat;
 }
@@ -349,7 +352,7 @@ std::string makerSentence(const Identification& result) {
            " of the corners.";
 }
 
-/// Single primitives that a method explains which is not the file's.
+/// Describes single primitives that are explained by a method other than that of the file.
 std::string exceptionsSentence(const Identification& result) {
     if (!differentMakers(result).empty()) return "";
     const Explanation& best = result.explanations.front();
@@ -400,7 +403,7 @@ std::string signSentence(const Identification& result) {
            " of the corners have the sign of glTF.";
 }
 
-/// Other UV sets that explain a primitive better than the texture's by far.
+/// Describes other UV sets that explain a primitive far better than the UV set of the texture.
 std::string uvSetSentence(const std::vector<PrimitiveIdentity>& primitives) {
     std::size_t count = 0;
     for (const PrimitiveIdentity& primitive : primitives) {
@@ -413,7 +416,7 @@ std::string uvSetSentence(const std::vector<PrimitiveIdentity>& primitives) {
             share = std::max(share, entry.nearShare());
             corner_count = entry.corner_count;
         }
-        // A set with an area on a few triangles only is no rival to one that covers the mesh.
+        // A UV set with area on a few triangles is not compared with one that covers the mesh.
         if (2 * best->corner_count < corner_count) continue;
         count += share + kClearlyMore < best->nearShare() ? 1 : 0;
     }
@@ -421,7 +424,7 @@ std::string uvSetSentence(const std::vector<PrimitiveIdentity>& primitives) {
     return " In " + primitivesText(count) + " the tangents follow a different UV set than the texture uses.";
 }
 
-/// Names the reading of texture transforms that the tangents follow.
+/// Names the interpretation of texture transforms that the tangents follow.
 std::string transformSentence(const std::vector<PrimitiveIdentity>& primitives) {
     std::size_t after = 0, before = 0;
     for (const PrimitiveIdentity& primitive : primitives) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One primitive against every method, and the verdict on the explanations of a file, in sentences for a person.
+// Compares one primitive with every method, and describes the explanations of a file in sentences.
 #pragma once
 
 #include <string>
@@ -12,30 +12,30 @@ namespace tspace {
 
 // One primitive against every method.
 
-/// Methods this near to the best, as a share of the corners, cannot be told apart from it.
+/// Methods whose share of corners is this close to the best are considered equal to it.
 inline constexpr double kTieShare = 0.005;
 
-/// The methods that are tried, the best known first.
+/// Returns the methods that are tried, the best-known first.
 std::vector<Method> knownMethods();
 
-/// Whether the stored tangents are so much nearer to those of `a` that it is no matter of rounding: by less than half of
-/// the angle in the mean.
+/// Returns whether the stored tangents are closer to those of `a` by more than rounding: the mean angle is less than
+/// half.
 bool isCloser(const Explanation& a, const Explanation& b);
 
-/// Every method with every UV set that has an area, in that order; then mikktspace on quads where that wins. The
-/// primitive has triangles, normals, tangents and a UV set.
+/// Explains the tangents by every method with every UV set that has area, in that order, and by mikktspace on quads if
+/// that explains more. The primitive must have triangles, normals, tangents and a UV set.
 Result<std::vector<Explanation>> explainTangents(const ScenePrimitive& primitive, const IdentifyOptions& options);
 
-/// The best first: most near corners, where one that is near to another corner of its vertex counts half; then the order
-/// they came in. First of all comes, of those that cannot be told apart from the best, by their corners or by isCloser, one
-/// along the texture's set, and of these the best known.
+/// Sorts explanations by score: near corners, where a corner that is near to another corner of its vertex counts half;
+/// ties keep their order. Among explanations that are equal to the best (by corners, or by isCloser), one along the UV
+/// set of the texture is first, and among these the best-known method.
 void sortExplanations(std::vector<Explanation>& explanations);
 
-/// The best explanation along the texture's set, in one of its two readings; null: there is none.
+/// Returns the best explanation along the UV set of the texture, with or without its transform; null: none.
 const Explanation* bestReading(const PrimitiveIdentity& primitive, bool is_transformed);
 
-/// Whether the texture's transform explains more corners than the UVs as they are. Signs count: a transform may mirror,
-/// and leave every direction in place.
+/// Returns whether the transformed UVs explain more corners than the stored UVs. Signs are compared too, because a
+/// transform that mirrors may keep every direction.
 bool followsTransform(const PrimitiveIdentity& primitive);
 
 /// Value of PrimitiveIdentity::skipped for data that an importer cannot read.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// inspectFile: what is in a glTF or an OBJ file; its report as JSON.
+// inspectFile: lists the contents of a glTF or OBJ file; its report as JSON.
 #include <algorithm>
 #include <set>
 #include <vector>
@@ -23,7 +23,7 @@
 
 namespace tspace {
 
-// UV islands, and the orientation of each.
+// UV islands and their orientation.
 
 void describeUvMap(std::span<const std::uint32_t> corners, std::span<const Vec3> positions, std::span<const Vec2> uvs,
                    bool v_runs_down, PrimitiveInfo& info) {
@@ -42,7 +42,7 @@ void describeUvMap(std::span<const std::uint32_t> corners, std::span<const Vec3>
     for (std::size_t i = 0; i < triangle_count; ++i) {
         const double area =
             signedUvArea(uvs[corners[3 * i]], uvs[corners[3 * i + 1]], uvs[corners[3 * i + 2]], v_runs_down);
-        // NaN and infinity count as "no area" too, since they give no direction.
+        // NaN and infinity count as no area too, because they define no direction.
         if (!(area < 0 || area > 0) || area - area != 0) {
             ++info.degenerate_uv_count;
             continue;
@@ -120,7 +120,7 @@ void describeAttributes(const Document& document, const Primitive& primitive, Pr
     while (primitive.find("TEXCOORD_" + std::to_string(info.uv_set_count))) ++info.uv_set_count;
 }
 
-/// False where the data is compressed in a way that this build cannot decode, or not in the file at all.
+/// Returns false if the data uses a compression that this build cannot decode, or is not in the file.
 bool hasTriangleData(const Document& document, const Primitive& primitive, const PrimitiveInfo& info) {
     if (!hasTriangles(primitive.mode) || !primitive.find("POSITION")) return false;
     std::vector<std::size_t> needed = {*primitive.find("POSITION")};
@@ -130,13 +130,13 @@ bool hasTriangleData(const Document& document, const Primitive& primitive, const
                        [&](std::size_t accessor) { return hasData(document, readAccessor(document, accessor)); });
 }
 
-/// Counts over the triangles; nothing where there is no data.
+/// Fills the counts of triangles, if there is triangle data.
 void describeTriangles(const Document& document, const Primitive& primitive, bool is_mirrored, PrimitiveInfo& info) {
     if (!hasTriangleData(document, primitive, info)) return;
     const std::uint64_t bytes =
         std::uint64_t{72} * primitive.triangleCount() + std::uint64_t{64} * primitive.vertex_count;
     document.memory->require(bytes, primitive.place());
-    // Positions first: they fail before a number of vertices without data costs any memory.
+    // Positions are read first: reading fails before a claimed number of vertices without data allocates memory.
     const std::vector<Vec3> positions = readVec3(document, primitive, "POSITION");
     const std::vector<std::uint32_t> corners = readTriangleCorners(document, primitive);
     info.triangle_count = corners.size() / 3;
@@ -190,7 +190,7 @@ PrimitiveInfo describePrimitive(const Document& document, const Primitive& primi
     return info;
 }
 
-/// Number of nodes that draw each mesh, and number of times they draw it.
+/// Number of nodes that draw a mesh, and number of times they draw it.
 struct MeshDraws {
     std::uint32_t node_count = 0;
     std::uint64_t instance_count = 0;
@@ -266,7 +266,7 @@ Inspection inspectGltf(const std::string& input, const FileOptions& options) {
     return result;
 }
 
-// Contents of an OBJ file, described like the glTF made from it.
+// Contents of an OBJ file, described like the glTF that is made from it.
 
 using namespace obj;
 
@@ -298,7 +298,7 @@ PrimitiveInfo describePrimitive(const obj::Model& model, const ObjPrimitive& pri
     const std::vector<std::uint32_t> corners = triangleCorners(mesh);
     info.triangle_count = corners.size() / 3;
     describeUvMap(corners, mesh.positions, mesh.uvs, true, info);
-    MeshView cut;  // triangulated like in check
+    MeshView cut;  // triangulated as in check
     cut.positions = std::span(mesh.positions);
     cut.indices = IndexView(std::span(corners));
     if (model.memory->has(noteMemory(cut))) info.position_noise = notedNoise(cut, 0);

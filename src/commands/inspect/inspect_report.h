@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tspace inspect reports.
+// Reports of tspace inspect.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ using InspectOutcome = Outcome<Inspection>;
 std::string inspectJson(const std::vector<InspectOutcome>& outcomes, ExitCode exit_code);
 std::string inspectText(const InspectOutcome& outcome);
 
-/// The names of the formats of packed frames that a primitive has.
+/// Returns the names of the packed frame formats of a primitive.
 std::vector<std::string> packedNames(const PrimitiveInfo& primitive);
 
 }  // namespace tspace::report

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Results of tspace inspect as text.
+// Reports of tspace inspect as text.
 #include <fmt/format.h>
 
 #include <set>
@@ -28,7 +28,7 @@ std::string needText(const PrimitiveInfo& primitive) {
                        primitive.needed_by, primitive.tangent_uses[0].only_in_variant ? " of a variant" : "");
 }
 
-/// Describes a texture transform except for its offset; empty: identity.
+/// Describes a texture transform without its offset; empty: identity.
 std::string transformText(const TangentUseInfo& use) {
     std::string text;
     if (use.uv_rotation_rad != 0) text += fmt::format(", turned by {:.6g} degrees", use.uv_rotation_rad * 180 / kPi);
@@ -37,7 +37,7 @@ std::string transformText(const TangentUseInfo& use) {
     return text;
 }
 
-/// A row for each use, unless the row "tangents" has said it all.
+/// Adds a row for each use, unless the row "tangents" already contains it.
 void addUseRows(const PrimitiveInfo& primitive, Table& table) {
     const std::vector<TangentUseInfo>& uses = primitive.tangent_uses;
     if (uses.empty() || (uses.size() == 1 && transformText(uses[0]).empty())) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// mapErrorFile: reads a map and both models, measures; its report as JSON.
+// mapErrorFile: reads a map and both models, and measures the error; its report as JSON.
 #include <algorithm>
 #include <charconv>
 
@@ -18,15 +18,15 @@
 namespace tspace {
 namespace {
 
-/// A map fits another reading where its error is below this part of the asked one, and lower by at least this angle; less is
-/// chance.
+/// Another interpretation is reported if its error is below this fraction of the requested one, and lower by at least
+/// this angle; smaller differences may be random.
 constexpr double kMuchBetter = 0.7, kLeastGainDeg = 0.02;
-/// Above this no reading explains a map.
+/// If the errors of all interpretations exceed this angle, none explains the map.
 constexpr double kUnexplainedDeg = 5;
 
 struct TriedFrames {
     std::string name = {};
-    std::vector<Vec4> tangents = {};  ///< empty: those of the low poly
+    std::vector<Vec4> tangents = {};  ///< empty: tangents of the low poly
 };
 
 struct TriedRays {
@@ -35,7 +35,7 @@ struct TriedRays {
     MapError error = {};
 };
 
-/// All images of a model, or the part that the options select, as one.
+/// Merges all images of a model, or the part selected by the options, into one.
 LowModel::Image shownPart(const LowModel& model, const MapErrorFileOptions& options) {
     LowModel::Image shown;
     for (const LowModel::Image& image : model.images) {
@@ -117,7 +117,7 @@ class FileMeasuring {
             });
         };
         takeErrors(measure(candidates_, options_.map));
-        // The first reading is the requested one.
+        // The first interpretation is the requested one.
         report_.error = report_.readings.front().error;
         tryRays(measure);
         if (other_rays_) {
@@ -133,7 +133,7 @@ class FileMeasuring {
     }
 
   private:
-    /// The frames that the map may have been made for.
+    /// Lists the frames for which the map may have been baked.
     void listFrames(const std::string& low, const LowModel& known) {
         frames_.push_back({"file"});
         struct Tried {
@@ -179,7 +179,7 @@ class FileMeasuring {
             }
         }
         for (const Green green : {Green::up, Green::down}) {
-            // If nearly all texels agree either way, the two readings cannot be distinguished.
+            // If nearly all texels agree in both cases, the two interpretations cannot be distinguished.
             if (in_object || !blueMatters()) break;
             MapReading reading = asked;
             reading.green = green;
@@ -195,7 +195,8 @@ class FileMeasuring {
         for (std::size_t i = 0; i < errors.size(); ++i) report_.readings[i].error = errors[i];
     }
 
-    /// Whether z of the texels differs from the z that follows from x and y, in more than a few of the tilted ones.
+    /// Returns whether z of the texels differs from the z reconstructed from x and y, in more than a few of the tilted
+    /// texels.
     [[nodiscard]] bool blueMatters() const {
         constexpr double kLeanDeg = 5, kOtherDeg = 2;
         constexpr std::size_t kOneOf = 20;
@@ -246,11 +247,11 @@ class FileMeasuring {
                 {{rays.options.target, rays.options.directions, !rays.options.skew.texels.empty()}, rays.error});
     }
 
-    /// The rays that were asked for first, then others. A cage is tried nearer and further away too.
+    /// Lists the requested rays first, then others. A cage is also tried with a smaller and a larger reach.
     void listRays(const RayOptions& asked) {
         const double reach = options_.map.reach;
         tried_.push_back({asked, reach});
-        // Of rays with the same hits, the first is named.
+        // Among rays with the same hits, the first is reported.
         for (const double factor : {1.0, 0.25, 3.0}) {
             for (const RayTarget target : {RayTarget::outermost, RayTarget::nearest}) {
                 for (const RayDirections directions :
@@ -268,9 +269,9 @@ class FileMeasuring {
         return better < kMuchBetter * than && than - better > kLeastGainDeg;
     }
 
-    /// `asked` is a copy: the list is sorted.
+    /// Sorts the interpretations and judges the best. `asked` is a copy, because the list is sorted.
     void judge(const ExplainedReading asked) {
-        // Among readings with indistinguishable errors, the one nearest to the asked one.
+        // Among interpretations with indistinguishable errors, the one closest to the requested one is chosen.
         constexpr double kTie = 1.02;
         const auto differences = [&](const ExplainedReading& reading) {
             return (reading.frames != asked.frames ? 1 : 0) + (reading.axes == asked.axes ? 0 : 1) +
@@ -278,7 +279,7 @@ class FileMeasuring {
                    (reading.reading.bitangent != asked.reading.bitangent ? 1 : 0) +
                    (reading.reading.two_channels != asked.reading.two_channels ? 1 : 0);
         };
-        // All readings miss at the same samples, so misses do not distinguish them.
+        // All interpretations miss at the same samples, so misses do not distinguish them.
         std::stable_sort(report_.readings.begin(), report_.readings.end(),
                          [](const auto& a, const auto& b) { return a.error.met_mean_deg < b.error.met_mean_deg; });
         const double tie = kTie * report_.readings.front().error.met_mean_deg;
@@ -343,7 +344,7 @@ class FileMeasuring {
         return "rays along the stored normals" + which;
     }
 
-    /// Describes what the map was made for, if it differs from this model.
+    /// Describes the conditions that the map was baked for, if they differ from this model.
     static std::string difference(const ExplainedReading& asked, const ExplainedReading& best) {
         if (best.frames == "object")
             return best.axes == kMapAxesZUp ? "object space with z up, as in Blender (convert-map --from object --axes "
@@ -391,9 +392,9 @@ class FileMeasuring {
     FloatImage image_ = {};
     std::vector<TriedFrames> frames_ = {};
     std::vector<MapCandidate> candidates_ = {};
-    std::vector<TriedRays> tried_ = {};  ///< the best first
-    bool other_rays_ = false;            ///< others than those asked for explain the map much better
-    bool shows_several_ = false;         ///< materials
+    std::vector<TriedRays> tried_ = {};  ///< sorted, the best first
+    bool other_rays_ = false;            ///< rays other than the requested ones explain the map much better
+    bool shows_several_ = false;         ///< several materials are shown
     MapErrorFileReport report_ = {};
 };
 

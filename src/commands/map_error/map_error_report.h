@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tspace map-error reports.
+// Reports of tspace map-error.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a normal map is off, and what it fits, as text.
+// Error of a normal map and its best interpretation as text.
 #include <fmt/format.h>
 
 #include <algorithm>

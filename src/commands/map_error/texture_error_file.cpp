@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// textureErrorFile: a texture beside the map that it was made of. Its report as JSON.
+// textureErrorFile: compares a texture with its source map. Its report as JSON.
 #include <cmath>
 
 #include "commands/map_error/map_error_report.h"
@@ -13,7 +13,7 @@
 namespace tspace {
 namespace {
 
-/// Errors name the source: those of a call are printed with the name of the texture.
+/// Reads the source. Errors name it, because errors of this call are printed with the name of the texture.
 FloatImage readSource(const std::string& path, const FileOptions& file) {
     try {
         return readMapImage(path, {}, file);
@@ -27,7 +27,7 @@ std::string sizeText(const FloatImage& image) {
     return std::to_string(image.width) + " x " + std::to_string(image.height);
 }
 
-/// Adds warnings about the texture that the error figures do not show.
+/// Adds warnings about properties of the texture that the measured errors do not show.
 void addWarnings(const FloatImage& packed, std::vector<std::string>& warnings) {
     if (packed.texture.is_srgb)
         warnings.emplace_back(

@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* kNothingToSee = "The fix changes nothing that this picture shows.";
 
-/// The first command of a finding that works on the model; nothing where there is none.
+/// Returns the first command of a finding that operates on the model, or null.
 const RemedyCommand* modelCommand(const Finding& finding) {
     const auto found = std::find_if(finding.commands.begin(), finding.commands.end(),
                                     [](const RemedyCommand& command) { return command.verb == "generate"; });
@@ -60,7 +60,7 @@ struct FindingPictures::Model {
         std::vector<PrimitivePair> pairs;
     };
 
-    /// A command that was run: a model, or why there is none.
+    /// The result of running a command: a model, or the reason why there is none.
     struct Mending {
         std::unique_ptr<MendedModel> model = {};
         std::string why_not = {};
@@ -68,7 +68,7 @@ struct FindingPictures::Model {
 
     Model(std::string path, const FileOptions& options) : input(std::move(path)), file(options), before(input, file) {}
 
-    /// `line`: the command with these options.
+    /// Returns the result of a command, which is run once. `line`: the command line with these options.
     Mending& mendedBy(const std::string& line, const GenerateOptions& command) {
         const auto [mending, is_new] = mended.try_emplace(line);
         if (is_new) run(command, mending->second);
@@ -175,8 +175,8 @@ std::string figuresOf(const FindingPicture& picture) {
     return figures + noFigureHtml(why);
 }
 
-/// Pictures of one file, as long as there is room; nothing where they cannot be had. The file is read when the first is
-/// asked for.
+/// Pictures of one file, until the size limit is reached; none if the file cannot be drawn. The file is read when the
+/// first picture is requested.
 class PictureSource {
   public:
     PictureSource(std::string input, const FileOptions& file, std::size_t room, const Progress& progress)
@@ -211,7 +211,7 @@ class PictureSource {
     bool is_over_ = false;
 };
 
-/// `pictures`: null: without.
+/// `pictures`: null: no pictures.
 std::string findingHtml(const Finding& finding, PictureSource* pictures) {
     std::string html = "<article class=\"" + std::string(severityName(finding.severity)) + "\">\n<h3><b>" +
                        severityName(finding.severity) + "</b> " + findingName(finding.code) + "</h3>\n";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Findings as a page for people, with pictures of their places before and after the remedy.
+// HTML report of check, with pictures of the findings before and after the fix.
 #pragma once
 
 #include <cstdint>
@@ -21,27 +21,27 @@ namespace tspace {
 
 // Runs the command of a remedy in memory.
 
-/// Options of a generate command; nothing if it leaves a choice open.
+/// Returns the options of a generate command, or nothing if it has placeholders.
 std::optional<GenerateOptions> optionsOf(const RemedyCommand& command);
 
-/// Result of a command on a model, with its images, as a scene to draw. `file`: how `input` is opened. Throws FileError.
+/// Returns the result of a command on a model, with its images, as a scene to draw. `file`: options for reading
+/// `input`. Throws FileError.
 DrawnScene mendedScene(const std::string& input, const FileOptions& file, GenerateOptions options);
 
-// Pictures of the places that findings are about.
+// Pictures of the locations of findings.
 
 struct FindingPicture {
-    std::vector<std::uint8_t> before =
-        {};  ///< a PNG of the place as the file is; empty: there is none, and nothing else
+    std::vector<std::uint8_t> before = {};  ///< PNG of the location in the original file; empty: no pictures
     std::vector<std::uint8_t> after =
-        {};  ///< a PNG of that place after the remedy's command, where it shows a difference
-    std::vector<std::uint8_t> difference = {};  ///< a PNG of the difference; `caption` says how it is to be read
+        {};  ///< PNG of the location after the command of the remedy, if there is a visible difference
+    std::vector<std::uint8_t> difference = {};  ///< PNG of the difference; `caption` explains it
     std::string caption = {};
-    std::string command = {};       ///< the remedy's command; empty: it names none
-    std::string why_no_after = {};  ///< if there is a command without a picture: the reason, a sentence
-    bool is_clay = false;           ///< base colors are left out, because they would hide the difference
+    std::string command = {};       ///< command of the remedy; empty: none
+    std::string why_no_after = {};  ///< if there is a command without a picture: the reason, as a sentence
+    bool is_clay = false;           ///< base colors are omitted, because they would hide the difference
 };
 
-/// A model that was checked.
+/// Draws the findings of a checked model.
 class FindingPictures {
   public:
     /// Throws FileError.
@@ -50,10 +50,10 @@ class FindingPictures {
     FindingPictures(const FindingPictures&) = delete;
     FindingPictures& operator=(const FindingPictures&) = delete;
 
-    /// With a picture after the command, camera and light are those that show the difference best (drawPair); else the camera
-    /// stands over the triangles of the finding's vertices, or sees all of a primitive where it names none. No
-    /// picture where the file's scene does not draw it, or where the command changes nothing that can be seen. A command is run once for
-    /// all findings that name it. Throws FileError.
+    /// Draws the location of a finding. If there is a picture after the command, camera and light show the difference
+    /// best (drawPair); otherwise the camera is above the triangles of the finding's vertices, or shows the whole
+    /// primitive if there are none. There is no picture if the scene does not draw the primitive, or if the command
+    /// changes nothing visible. Each command is run once for all findings that name it. Throws FileError.
     FindingPicture draw(const Finding& finding);
 
   private:
@@ -66,18 +66,18 @@ class FindingPictures {
     std::unique_ptr<Model> model_;
 };
 
-/// The part of a page about one file, under a heading. `room`: for pictures, in bytes.
+/// Returns the section of a page about one file, with a heading. `room`: limit for pictures, in bytes.
 std::string checkedFileHtml(const report::CheckOutcome& outcome, std::size_t number, const FileOptions& file,
                             std::size_t room, const Progress& progress = {});
 
-/// One HTML file that needs nothing else: a summary, an overview where there are several files, and of each file its
-/// findings, with pictures of their places before and after the remedy where that can be shown. Files are read once more
-/// for the pictures, as `file` says; of one that cannot be, such as stdin, there are none. All text from files is
-/// escaped. Pictures of one file take 1.5 MB at most, and of all 12 MB; then findings come without.
+/// Returns a self-contained HTML page: a summary, an overview if there are several files, and the findings of each
+/// file, with pictures of their locations before and after the fix where possible. Files are read again for the
+/// pictures, with the options `file`; files that cannot be read again, such as stdin, have none. All text from files is
+/// escaped. Pictures take at most 1.5 MB per file and 12 MB per page; further findings have none.
 std::string checkPage(const std::vector<report::CheckOutcome>& outcomes, const FileOptions& file,
                       const PageOrigin& origin, const Progress& progress = {});
 
-/// The part of such a page about one file, without pictures.
+/// Returns the section of such a page about one file, without pictures.
 std::string findingsHtml(const report::CheckOutcome& outcome);
 
 }  // namespace tspace

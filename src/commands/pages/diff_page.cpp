@@ -12,11 +12,11 @@
 namespace tspace {
 namespace {
 
-/// The parts of the frames that both primitives of a pair have, at the corners of A.
+/// Returns the frames of B at the corners of A, as far as both primitives of a pair have them.
 OtherFrames framesAtCorners(const ScenePrimitive& a, const ScenePrimitive& b, const PrimitivePair& pair) {
     OtherFrames frames;
     const bool has_normals = !a.normals.empty() && !b.normals.empty();
-    // Tangents that only one of them has cannot be compared.
+    // Tangents that only one of the primitives has cannot be compared.
     if (has_normals) frames.normals.resize(a.corners.size());
     if (!a.tangents.empty() || !b.tangents.empty()) frames.tangents.resize(a.corners.size());
     for (const TrianglePair& two : pair.triangles) {
@@ -99,7 +99,7 @@ std::string histogramHtml(const AngleStatistics& tangents) {
     std::string html = "<h2>T, degrees and corners</h2>\n" + std::string(kWideTable) + "\n";
     for (std::size_t i = 0; i < kAngleBins.size(); ++i) {
         const std::uint64_t count = tangents.histogram[i];
-        // In thousandths of the longest bar, a thousandth at least.
+        // Lengths are in thousandths of the longest bar, and at least one thousandth.
         const std::uint64_t length = count == 0 ? 0 : std::max<std::uint64_t>(1, 1000 * count / most);
         html += "<tr><td>" + report::binText(i) + "</td><td>" + std::to_string(count) +
                 "</td><td class=\"wide\"><span class=\"bar\" style=\"width:" + std::to_string(length / 10) + "." +
@@ -108,10 +108,10 @@ std::string histogramHtml(const AngleStatistics& tangents) {
     return html + "</table></div>\n";
 }
 
-/// Figures as long as there is room.
+/// Limits the total size of figures.
 class Room {
   public:
-    /// `figures`, or nothing once they do not fit.
+    /// Returns `figures`, or nothing once the limit is exceeded.
     std::string take(std::string figures) {
         if (figures.size() > left_) left_ = 0;
         if (left_ == 0) return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A comparison as a page for people, with pictures of how two models differ.
+// HTML report of diff, with pictures of the differences.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace tspace {
 
-// Pictures of how two models differ.
+// Pictures of the differences of two models.
 
 class DiffPictures {
   public:
@@ -22,15 +22,15 @@ class DiffPictures {
     DiffPictures(const std::string& a, const std::string& b, const DiffOptions& options);
 
     enum class Side { front, back };
-    /// A PNG of all of A, each point in the colour of the largest angle between its frame and that of B, and the scale
-    /// of the colours. Empty where its scene draws nothing. Throws FileError.
+    /// Returns a PNG of all of A, colored by the largest angle between its frames and those of B, with the color scale.
+    /// Empty if the scene draws nothing. Throws FileError.
     [[nodiscard]] std::vector<std::uint8_t> heatMap(Side side);
 
     struct Place {
         std::vector<std::uint8_t> a = {}, b = {}, angle = {};
     };
-    /// PNGs of the triangles at a vertex, outlined: in A and in B, lit, and in the colours of heatMap; empty where that is
-    /// not drawn. Throws FileError.
+    /// Returns PNGs of the triangles at a vertex, outlined: in A and in B, lit, and in the colors of heatMap; empty if
+    /// they are not drawn. Throws FileError.
     [[nodiscard]] Place place(const FrameDifference& difference);
 
   private:
@@ -43,10 +43,10 @@ class DiffPictures {
     std::unique_ptr<ModelPicture> heat_ = {};
 };
 
-/// One HTML file that needs nothing else: the summary, a heat map of the largest angle between the frames on the surface of
-/// A, the tables of the text, and the worst places in A and in B. Both files are read once more for the pictures, as
-/// `options` says; where one cannot be, or is not drawn, they are missing and a sentence says why. All text from files is
-/// escaped. Pictures take 1.5 MB at most.
+/// Returns a self-contained HTML page: the summary, a heat map of the largest angle between the frames on the surface
+/// of A, the tables of the text report, and the worst corners in A and in B. Both files are read again for the
+/// pictures, with `options`; if a file cannot be read again or drawn, a sentence replaces its pictures. All text from
+/// files is escaped. Pictures take at most 1.5 MB.
 std::string diffPage(const std::string& a, const std::string& b, const FrameDiff& diff, const DiffOptions& options,
                      const PageOrigin& origin);
 

@@ -16,10 +16,10 @@ namespace tspace {
 namespace {
 
 constexpr PictureSize kTrial{80, 60, 1}, kWhole{kPlaceWidth, kPlaceHeight, 2};
-/// A difference of a channel, of 255, that is seen.
+/// Difference of a channel, from 0 to 255, from which it is visible.
 constexpr int kSeenStep = 12;
 
-/// One side of a comparison: all meshes of its model, or the primitive's alone.
+/// One side of a comparison: all meshes of its model, or only the primitive.
 struct Side {
     const ModelPicture& model;
     std::size_t number = 0;  ///< index in the primitive's mesh
@@ -30,7 +30,7 @@ struct Side {
     }
 };
 
-/// Surfaces without base colors. Those with holes keep theirs, which says where they are.
+/// Surfaces without base colors. Surfaces with holes keep their base color, whose alpha defines the holes.
 class Clay {
   public:
     explicit Clay(std::span<const ShownSurface* const> surfaces) {
@@ -52,7 +52,7 @@ class Clay {
 };
 
 DVec3 ringLight(const Camera& camera, int number) {
-    // Two rings about the view: grazing lights show relief, steeper ones whole faces.
+    // Lights on two rings around the viewing direction: grazing lights show relief, steeper ones whole faces.
     constexpr int kPerRing = 8;
     const SineCosine around = sineCosine(2 * kPi * (number % kPerRing) / kPerRing);
     const double back = number < kPerRing ? 0.35 : 1.1;
@@ -62,18 +62,18 @@ DVec3 ringLight(const Camera& camera, int number) {
 }
 constexpr int kLights = 16;
 
-/// The normal that a pixel of RenderShow::mapped shows.
+/// Returns the normal that a pixel of RenderShow::mapped encodes.
 DVec3 pixelNormal(const RgbImage& image, std::size_t pixel) {
     const auto component = [&](std::size_t c) { return image.rgb[3 * pixel + c] / 127.5 - 1; };
     return {component(0), component(1), component(2)};
 }
 
-/// A camera and a light, and the mean difference of what they show, 0 to 1.
+/// A camera and a light, and the mean difference of the two pictures, from 0 to 1.
 struct Trial {
     PlaceView view = {};
     DVec3 to_light = {};
     double difference = 0;
-    std::size_t pixel = 0;  ///< in the middle of the largest difference
+    std::size_t pixel = 0;  ///< at the center of the largest difference
 };
 
 class PairSearch {
@@ -104,7 +104,7 @@ class PairSearch {
         return best;
     }
 
-    /// The triangles around the largest difference of a view that sees the primitive alone.
+    /// Returns the triangles around the largest difference of a view that shows only the primitive.
     [[nodiscard]] std::vector<std::size_t> trianglesAt(const Trial& trial) const {
         Effort effort(std::uint64_t{1} << 30);
         const std::span<const DrawnMesh> meshes = before_.model.meshes().subspan(before_.number, 1);
@@ -116,7 +116,7 @@ class PairSearch {
     }
 
   private:
-    /// The middle of the block of pixels with the largest sum.
+    /// Returns the center of the block of pixels with the largest sum.
     static std::size_t densestPixel(std::span<const double> differences) {
         constexpr std::uint32_t kBlock = 10;
         double most = -1;
@@ -141,7 +141,7 @@ class PairSearch {
         return pixel;
     }
 
-    /// Triangles within a seventh of the size of the mesh.
+    /// Returns triangles within a seventh of the size of the mesh.
     static std::vector<std::size_t> trianglesNear(const DrawnMesh& mesh, std::size_t triangle) {
         const auto centre = [&](std::size_t i) {
             DVec3 sum;
@@ -169,7 +169,7 @@ class PairSearch {
     const Side& after_;
 };
 
-/// The camera and light of the largest difference.
+/// Returns the camera and light with the largest difference.
 Trial bestTrial(const Side& before, const Side& after, std::span<const std::size_t> triangles) {
     constexpr ViewAngles kSides[] = {{35, 20}, {215, 20}, {125, 20}, {-55, 20}, {35, 70}, {35, -70}};
     const PairSearch search(before, after);
@@ -235,7 +235,8 @@ std::optional<Side> sideOf(const PicturedPrimitive& pictured) {
 PicturePair drawPair(const PicturedPrimitive& before, std::span<const std::size_t> triangles,
                      const PicturedPrimitive& after) {
     constexpr double kLeastShare = 0.002;
-    // A base color hides the difference that takes less than this part of what clay shows.
+    // A base color hides the difference if the visible difference is below this fraction of the difference without base
+    // color.
     constexpr double kHidden = 0.7;
     PicturePair pair;
     const std::optional<Side> a = sideOf(before), b = sideOf(after);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two pictures of one place, before and after a change, with the camera and the light that show the difference best.
+// Two pictures of one location, before and after a change, with the camera and the light that show the difference best.
 #pragma once
 
 #include <cstddef>
@@ -11,24 +11,25 @@
 
 namespace tspace {
 
-/// PNGs of one size. Empty where no camera and light shows a difference.
+/// PNGs of equal size. Empty if no camera and light shows a difference.
 struct PicturePair {
     std::vector<std::uint8_t> before = {}, after = {};
-    std::vector<std::uint8_t> difference = {};  ///< brightness: the largest difference of a channel, times `gain`
+    std::vector<std::uint8_t> difference = {};  ///< brightness: the largest difference of any channel, times `gain`
     unsigned gain = 1;
     double differing_share = 0;  ///< share of the pixels that differ
-    bool is_clay = false;        ///< without base colors, which would hide the difference
+    bool is_clay = false;        ///< base colors are omitted, because they would hide the difference
 };
 
-/// A primitive of a model, which was prepared for RenderShow::lit.
+/// A primitive of a model that was prepared for RenderShow::lit.
 struct PicturedPrimitive {
     const ModelPicture& model;
     std::size_t primitive = 0;
 };
 
-/// Tries, in this order, cameras over `triangles` of the primitive before the change, from six sides of all of it, and over the
-/// place where these differ most, each with lights from all around; the largest difference wins, and the place itself where it
-/// shows half of that. A frame marks the place, beside it. The same bytes on every machine. Throws FileError.
+/// Tries, in this order, cameras above `triangles` of the primitive before the change, cameras from six sides of the
+/// whole primitive, and cameras above the location with the largest difference, each with lights from all directions.
+/// The largest difference is chosen, and the given location if it shows half of that. A frame around the location marks
+/// it. The bytes are the same on every machine. Throws FileError.
 PicturePair drawPair(const PicturedPrimitive& before, std::span<const std::size_t> triangles,
                      const PicturedPrimitive& after);
 

@@ -23,7 +23,7 @@ DVec3 placeOfCorner(const DrawnMesh& mesh, std::size_t corner) {
     return mesh.to_world.point(toDouble(mesh.positions[mesh.corners[corner]]));
 }
 
-/// From where a direction is looked at.
+/// Returns the view angles of a camera in this direction.
 ViewAngles anglesOf(DVec3 direction) {
     if (!normalize(direction)) return {35, 20};
     const double flat = std::sqrt(direction.x * direction.x + direction.z * direction.z);
@@ -122,7 +122,7 @@ void drawFrame(RgbImage& image, const Camera& camera, const PlacePoints& place) 
     right = std::floor(std::clamp(right + wide, 0.0, image.width - 1.0));
     top = std::floor(std::clamp(top - high, 0.0, image.height - 1.0));
     bottom = std::floor(std::clamp(bottom + high, 0.0, image.height - 1.0));
-    // A frame around everything marks nothing.
+    // A frame around nearly the whole picture is omitted.
     if (!(right - left < kMostPart * image.width) && !(bottom - top < kMostPart * image.height)) return;
     const auto x = static_cast<std::int64_t>(left), y = static_cast<std::int64_t>(top),
                width = static_cast<std::int64_t>(right - left) + 1,

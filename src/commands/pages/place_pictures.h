@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures of places on models.
+// Pictures of locations on models.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace tspace {
 
-/// A model that was read for pictures. How it is lit is prepared when it is first asked for.
+/// A model that was read for pictures. The lit surfaces are prepared when they are first requested.
 class PicturedModel {
   public:
     /// Throws FileError.
@@ -25,7 +25,7 @@ class PicturedModel {
 
     [[nodiscard]] const Scene& scene() const { return drawn_.scene; }
     [[nodiscard]] const DrawnScene& drawn() const { return drawn_; }
-    /// `frames`: not computed. Throws FileError.
+    /// `frames`: not `computed`. Throws FileError.
     const ModelPicture& lit(RenderFrames frames);
 
   private:
@@ -34,16 +34,16 @@ class PicturedModel {
     std::unique_ptr<ModelPicture> lit_[2] = {};
 };
 
-/// Number of a primitive in a scene; kNoPrimitive: it is not there.
+/// Returns the index of a primitive in a scene, or kNoPrimitive.
 std::size_t findPrimitive(const Scene& scene, std::uint32_t mesh, std::uint32_t primitive);
 
-/// Triangles of a primitive that have one of a few vertices, in their order.
+/// Returns the triangles of a primitive that use one of a few vertices, in order.
 std::vector<std::size_t> trianglesAt(const ScenePrimitive& primitive, std::span<const std::uint32_t> vertices);
 
-/// Partners of triangles of A; those without one are left out.
+/// Returns the partners of triangles of A; triangles without a partner are omitted.
 std::vector<std::size_t> partnersOf(const PrimitivePair& pair, std::span<const std::size_t> triangles);
 
-/// Corners of triangles in the world, and the sum of their normals.
+/// Corners of triangles in world space, and the sum of their normals.
 struct PlacePoints {
     PlacePoints() = default;
     PlacePoints(const DrawnMesh& mesh, std::span<const std::size_t> triangles);
@@ -52,34 +52,37 @@ struct PlacePoints {
     DVec3 normal = {};
 };
 
-/// The view of a place.
+/// A view of a location.
 struct PlaceView {
     PlacePoints points = {};
     ViewAngles angles = {35, 20};
-    double around = 1;  ///< scales the points about their center, so that some of what surrounds them is in the picture
-    bool is_alone = false;  ///< without other meshes, which hide it from every side
-    bool is_place = false;  ///< a part of a primitive
+    double around = 1;  ///< scales the points about their center, so that the picture shows some of the surroundings
+    bool is_alone = false;  ///< without other meshes, which hide the location from every side
+    bool is_place = false;  ///< part of a primitive, not all of it
 
     [[nodiscard]] Camera camera(const PictureSize& size) const;
 };
 
-/// A camera over triangles of a mesh, sorted, a little aside, so that relief is seen; farther aside where other triangles hide them.
+/// Returns a camera above triangles of a mesh, which are sorted; slightly oblique, so that relief is visible, and more
+/// oblique if other triangles hide them.
 PlaceView viewOver(std::span<const DrawnMesh> meshes, std::size_t mesh, std::span<const std::size_t> triangles);
 
-/// Number of the first mesh that draws a primitive; nothing where the scene does not draw it.
+/// Returns the index of the first mesh that draws a primitive, or nothing if the scene does not draw it.
 std::optional<std::size_t> meshOf(const ModelPicture& model, std::size_t primitive);
 
-/// Draws all meshes or, where the view is alone, the one with this number.
+/// Draws all meshes, or only the mesh with this index if the view is for it alone.
 RgbImage drawView(RenderShow show, std::span<const DrawnMesh> meshes, std::span<const ShownSurface* const> surfaces,
                   std::size_t mesh, const PlaceView& view, const PictureSize& size, const DVec3& to_light);
 
-/// Draws a rectangle around a place into a picture of kPlaceWidth by kPlaceHeight pixels, beside it, so that it hides nothing of it.
-/// Nothing where the place fills the picture. `camera`: of two samples per pixel.
+/// Draws a rectangle around a location into a picture of kPlaceWidth by kPlaceHeight pixels, with a margin so that it
+/// covers no part of the location. Draws nothing if the location fills the picture. `camera`: camera for two samples
+/// per pixel.
 void drawFrame(RgbImage& image, const Camera& camera, const PlacePoints& place);
 
-/// A PNG of kPlaceWidth by kPlaceHeight pixels that shows what `model` was made for, with a frame around the triangles. The camera stands over them,
-/// where they are seen best; other meshes are left out where they hide them from every side. Without triangles it sees all
-/// of the primitive. Empty where the scene does not draw it. Throws FileError.
+/// Returns a PNG of kPlaceWidth by kPlaceHeight pixels that shows the view for which `model` was made, with a frame
+/// around the triangles. The camera is above them, where they are most visible; other meshes are omitted if they hide
+/// the triangles from every side. Without triangles it shows the whole primitive. Empty if the scene does not draw it.
+/// Throws FileError.
 std::vector<std::uint8_t> drawPlace(const ModelPicture& model, RenderShow show, std::size_t primitive,
                                     std::span<const std::size_t> triangles);
 

@@ -25,7 +25,7 @@
 namespace tspace {
 namespace {
 
-/// One unit normal per corner; zero where the triangle has no area.
+/// Returns one unit normal per corner; zero if the triangle has no area.
 std::vector<Vec3> flatNormals(std::span<const Vec3> positions, std::span<const std::uint32_t> corners) {
     std::vector<Vec3> normals;
     normals.reserve(corners.size());
@@ -36,7 +36,7 @@ std::vector<Vec3> flatNormals(std::span<const Vec3> positions, std::span<const s
     return normals;
 }
 
-/// The UVs that tangents follow.
+/// Returns the UVs that tangents follow.
 UvReading tangentReading(const ScenePrimitive& primitive) {
     if (!primitive.uses.empty()) return readingOf(primitive, primitive.uses.front());
     std::size_t set = 0;
@@ -52,7 +52,7 @@ std::vector<T> unrolled(std::span<const T> values, std::span<const std::uint32_t
     return result;
 }
 
-/// Finds triangles with a mirrored texture: v runs down, so unmirrored ones have a negative determinant.
+/// Finds triangles with a mirrored texture: v increases downward, so unmirrored triangles have a negative determinant.
 std::vector<UvSide> sidesOf(const ScenePrimitive& primitive, const CornerValues<Vec3>& normals,
                             std::span<const Vec2> uvs) {
     const Surface surface =
@@ -68,20 +68,20 @@ std::vector<UvSide> sidesOf(const ScenePrimitive& primitive, const CornerValues<
     return sides;
 }
 
-/// The smallest alpha at which a surface is drawn. In `lit` a blended surface is drawn where its alpha is at least half of the
-/// material's factor: nothing shows through it, but glass is seen and leaves keep their shape.
+/// Returns the smallest alpha at which a surface is drawn. In `lit` a blended surface is drawn where its alpha is at
+/// least half of the material's factor: it is then opaque, so that glass is visible and leaves keep their shape.
 float alphaCutoff(const SurfaceLook& look, RenderShow show) {
     if (show != RenderShow::lit || !look.is_blended) return static_cast<float>(look.alpha_cutoff);
     return std::max(0.5f * look.base_color[3], std::numeric_limits<float>::min());
 }
 
-/// A PNG of 16 bits a channel.
+/// Returns whether the file is a PNG with 16 bits per channel.
 bool isDeepPng(ByteSpan bytes) {
     constexpr std::size_t kBitsAt = 24;
     return imageFormat(bytes) == ImageFormat::png && bytes.size() > kBitsAt && bytes[kBitsAt] == 16;
 }
 
-/// A file that may have more than 8 bits a channel, or another layout of channels than glTF.
+/// Returns whether the file may have more than 8 bits per channel, or a channel layout other than glTF's.
 bool isTextureFile(ByteSpan bytes) {
     const ImageFormat format = imageFormat(bytes);
     return format == ImageFormat::ktx2 || format == ImageFormat::dds || format == ImageFormat::exr;
@@ -91,7 +91,7 @@ ImageUse imageUse(ModelTextures::Use use) {
     return use == ModelTextures::Use::normals ? ImageUse::vectors : ImageUse::numbers;
 }
 
-/// `how_read`: of a normal map, a sentence where it needs one.
+/// `how_read`: for a normal map, receives a sentence on its channels if they differ from glTF's.
 std::optional<PictureTexture> decodeDeep(ByteSpan bytes, std::uint64_t most_pixels, ModelTextures::Use use,
                                          std::string& why, std::string& how_read) {
     std::optional<FloatImage> image = decodeFloatImage(bytes, most_pixels, why, imageUse(use));
@@ -280,7 +280,7 @@ void ModelPicture::prepareFrames(std::size_t primitive) {
         return;
     }
     if (!choice_.always && shown.normal_map.image == nullptr) return;
-    // Tangents without normals count as absent, as glTF says.
+    // Tangents without normals count as absent, as glTF specifies.
     const bool has_stored = !source.tangents.empty() && !source.normals.empty();
     const bool shows_stored = has_stored && choice_.frames != RenderFrames::computed;
     const bool may_compute = choice_.frames != RenderFrames::stored;
@@ -327,7 +327,7 @@ void ModelPicture::place() {
             continue;
         }
         const PosedSurface& surface = pose(primitive, *posed);
-        // Bones lead into the world; the node of the mesh has no part in that.
+        // Bone matrices transform to world space; the node of a skinned mesh has no effect.
         addShown(primitive, surface.shown, surface.positions, posed->bones.empty() ? placement.to_world : Affine{});
     }
 }
@@ -377,7 +377,8 @@ const PosedSurface& ModelPicture::pose(std::size_t primitive, const ScenePose& p
 
 namespace {
 
-/// For turns about the vertical axis: a cylinder around all points, which every picture sees alike.
+/// Visits points of a cylinder around the model, so that all pictures of a rotation about the vertical axis have the
+/// same camera distance.
 void visitCylinder(const ModelPicture& model, Effort& effort, double yaw_deg,
                    const std::function<void(const DVec3&)>& visit) {
     DVec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
@@ -406,7 +407,7 @@ void visitCylinder(const ModelPicture& model, Effort& effort, double yaw_deg,
     }
 }
 
-/// Twice: for the camera's direction, and for its distance.
+/// Visits all points of the picture; called twice, for the direction and the distance of the camera.
 void visitPoints(const ModelPicture& model, Effort& effort, bool is_uv,
                  const std::function<void(const DVec3&)>& visit) {
     for (const DrawnMesh& mesh : model.meshes()) {

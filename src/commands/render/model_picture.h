@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A model made ready for pictures: its surfaces, their frames and textures, its height maps as normal maps; and drawing it.
+// A model prepared for pictures: its surfaces, their frames and textures, and height maps converted to normal maps.
+// Also draws it.
 #pragma once
 
 #include <compare>
@@ -19,7 +20,7 @@
 
 namespace tspace {
 
-/// Frames that those of a primitive are compared with, one per corner; zero: there is none. Empty: nothing is compared.
+/// Frames with which those of a primitive are compared, one per corner; zero: none. Empty: no comparison.
 struct OtherFrames {
     std::vector<Vec3> normals = {};
     std::vector<Vec4> tangents = {};
@@ -29,15 +30,16 @@ struct OtherFrames {
 struct FrameChoice {
     RenderFrames frames = RenderFrames::automatic;
     Method method = Method::mikktspace;
-    bool always = false;   ///< also where no normal map is read with them
-    bool compare = false;  ///< also use those of the method
-    /// One per primitive, or none. What `error` compares with, in place of those of the method.
+    bool always = false;   ///< even if no normal map uses them
+    bool compare = false;  ///< the tangents of the method are needed too
+    /// One entry per primitive, or empty. `error` compares with these frames instead of those of the method.
     std::span<const OtherFrames> others = {};
     Execution execution = {};
 };
 
-/// Tangents of `method` for a primitive, one per corner, as a glTF file has them: along the UVs of the texture that needs
-/// them, mended. Empty where it has none. `normals`: of the primitive. Throws FileError.
+/// Computes tangents by `method` for a primitive, one per corner, as a glTF file stores them: along the UVs of the
+/// texture that needs them, sanitized. Empty if the primitive has none. `normals`: normals of the primitive. Throws
+/// FileError.
 std::vector<Vec4> computeCornerTangents(const ScenePrimitive& primitive, const CornerValues<Vec3>& normals,
                                         Method method, const Execution& execution);
 
@@ -48,7 +50,7 @@ class ModelTextures {
 
     enum class Use : std::uint8_t {
         normals,
-        color,   ///< stored as sRGB, and made linear
+        color,   ///< stored as sRGB, converted to linear
         factors  ///< roughness and metalness
     };
     struct Wanted {
@@ -58,7 +60,7 @@ class ModelTextures {
 
         auto operator<=>(const Wanted&) const = default;
     };
-    /// Null where it cannot be shown; a warning then says why.
+    /// Returns null if the texture cannot be used; a warning then states the reason.
     const PictureTexture* read(const Wanted& wanted);
     /// Returns the texture of a material without its UVs, which follow from its transform (textureUvs). It has no image if
     /// there is none, or if the primitive lacks its UV set.
@@ -75,9 +77,9 @@ class ModelTextures {
     std::map<Wanted, std::optional<PictureTexture>> images_ = {};
 };
 
-/// One primitive, and its computed frames and textures.
+/// One primitive with its computed frames and textures.
 struct ModelSurface {
-    std::vector<Vec3> flat_normals = {};  ///< one per corner, where the file has none
+    std::vector<Vec3> flat_normals = {};  ///< one per corner, if the file has no normals
     std::vector<Vec4> computed = {};      ///< one per corner
     std::vector<Vec2> base_uvs = {}, normal_uvs = {};
     std::vector<UvSide> sides = {};
@@ -86,11 +88,11 @@ struct ModelSurface {
     ShownSurface shown = {};
 };
 
-/// A primitive as one of its nodes poses it.
+/// A primitive in the pose of one of its nodes.
 struct PosedSurface {
     std::vector<Vec3> positions = {};
-    std::vector<Vec3> normals = {};                  ///< one per vertex, or per corner where the file has none
-    std::vector<Vec4> tangents = {}, expected = {};  ///< as in the rest pose
+    std::vector<Vec3> normals = {};                  ///< one per vertex, or per corner if the file has no normals
+    std::vector<Vec4> tangents = {}, expected = {};  ///< layout as in the rest pose
     ShownSurface shown = {};
 };
 
@@ -102,9 +104,9 @@ class ModelPicture {
                  ModelTextures* textures, std::span<const ScenePose> poses = {});
 
     [[nodiscard]] std::span<const DrawnMesh> meshes() const { return meshes_; }
-    /// One per mesh.
+    /// Surfaces, one per mesh.
     [[nodiscard]] std::span<const ShownSurface* const> surfaces() const { return shown_; }
-    /// Corners in the file, each primitive once.
+    /// Returns the number of corners in the file, counting each primitive once.
     [[nodiscard]] std::uint64_t cornerCount() const;
     [[nodiscard]] const ModelSurface& surfaceOf(std::size_t primitive) const { return surfaces_[primitive]; }
     [[nodiscard]] TangentSources tangentSources() const;
@@ -131,20 +133,21 @@ class ModelPicture {
 
 // A whole model in a picture.
 
-/// Size, camera, light and execution are those of `options`; options.show is what `model` was made for. With options.legend
-/// that takes the lowest rows. Throws FileError (tooLarge).
+/// Draws a model. Size, camera, light and execution are those of `options`; options.show must be the view for which
+/// `model` was made. With options.legend the legend occupies the lowest rows. Throws FileError (tooLarge).
 SurfacePicture drawModel(const ModelPicture& model, const RenderOptions& options);
 
-/// The first picture left of a line, the second right of it. Both are of one size.
+/// Joins two pictures of equal size with a line between them.
 RgbImage besideEachOther(const RgbImage& left, const RgbImage& right);
 
-/// A PNG of 8 bits. Throws FileError (unsupportedFile) where this build writes none.
+/// Encodes an 8-bit PNG. Throws FileError (unsupportedFile) if this build cannot write PNG.
 std::vector<std::uint8_t> encodePicture(const RgbImage& image);
 
 // Height maps of OBJ (map_bump) as pictures show them: as the normal maps that generate makes of them.
 
-/// Puts normal maps that are made of heights into `drawn`. A map of which none can be made is left out, and a warning says so.
-/// `method`: whose tangents they are read with. Throws FileError.
+/// Replaces height maps of OBJ (map_bump) in `drawn` by normal maps, as generate does. Height maps that cannot be
+/// converted are omitted, with a warning. `method`: method of the tangents with which the maps are used. Throws
+/// FileError.
 std::vector<std::string> showHeights(Method method, const Execution& execution, DrawnScene& drawn);
 
 }  // namespace tspace

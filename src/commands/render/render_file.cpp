@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// renderFile: reads a model, draws it, writes the picture; its report as JSON.
+// renderFile: reads a model, draws it, and writes the picture; its report as JSON.
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -42,7 +42,7 @@ bool showsTangents(RenderShow show) {
     return show == RenderShow::tangents || show == RenderShow::sign || show == RenderShow::error;
 }
 
-/// The pictures of one model: its surfaces by each choice of frames that the view needs.
+/// Pictures of one model: its surfaces with each choice of frames that the view needs.
 class ModelPictures {
   public:
     ModelPictures(const PosedScene& posed, ModelTextures* textures, const RenderOptions& options) : options_(options) {
@@ -65,10 +65,10 @@ class ModelPictures {
         }
     }
 
-    /// The model whose frames the report counts.
+    /// Returns the model whose frames the report counts.
     [[nodiscard]] const ModelPicture& counted() const { return models_.back(); }
 
-    /// The picture of a turn by `yaw_deg`.
+    /// Returns the picture with the camera rotated by `yaw_deg`.
     [[nodiscard]] SurfacePicture draw(double yaw_deg) const {
         RenderOptions options = options_;
         options.yaw_deg = yaw_deg;
@@ -91,7 +91,7 @@ class ModelPictures {
     std::deque<ModelPicture> models_ = {};
 };
 
-/// "turn.png" as "turn_007.png".
+/// Returns "turn_007.png" for "turn.png" and 7.
 std::string numbered(const std::string& output, std::uint32_t number) {
     const std::size_t dot = output.rfind('.');
     std::string digits = std::to_string(number);

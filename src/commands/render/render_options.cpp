@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a picture shows, and from where.
+// Options of tspace render: view, camera and light.
 #include <array>
 #include <cstdlib>
 
@@ -26,10 +26,10 @@ struct NamedView {
 };
 constexpr NamedView kViews[] = {{"front", 0, 0}, {"back", 180, 0},   {"left", -90, 0},         {"right", 90, 0},
                                 {"top", 0, 90},  {"bottom", 0, -90}, {"three-quarter", 35, 20}};
-/// Readings of normal maps that findMapReading knows.
+/// Names of the interpretations of normal maps that findMapReading accepts.
 constexpr const char* kReadings[] = {"gltf", "opengl", "directx", "unreal", "unity", "blender", "godot", "three"};
 
-/// Numbers with commas between them, and nothing else.
+/// Parses exactly `count` numbers, separated by commas.
 template <std::size_t count>
 bool parseNumbers(const std::string& text, std::array<double, count>& numbers) {
     std::size_t begin = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tspace render reports.
+// Reports of tspace render.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace tspace::report {
 
 std::string renderJson(const Outcome<RenderReport>& outcome, ExitCode exit_code);
-/// `method`: whose tangents were asked for.
+/// `method`: the requested method of tangents.
 std::string renderText(const Outcome<RenderReport>& outcome, Method method);
 
 }  // namespace tspace::report

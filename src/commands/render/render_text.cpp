@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture that was drawn, as text.
+// Report of tspace render as text.
 #include <fmt/format.h>
 
 #include "commands/render/render_report.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The files of a model as blocks of data in the page, what it shows where no script runs, and the report as JSON. Browsers do
-// not run a script whose type is no language.
+// Embeds the files of a model as blocks of data in the page, adds the content that is shown without scripts, and writes
+// the report as JSON. Browsers do not execute a script element whose type is not a script language.
 #include "commands/view/view_report.h"
 
 #include <filesystem>
@@ -34,7 +34,7 @@ struct EmbeddedFile {
     Bytes bytes;
 };
 
-/// The model, then each file that it names. Making a GLB of the model opens all of them.
+/// Returns the model, then each file that it references. Converting the model to GLB opens all of them.
 std::vector<EmbeddedFile> filesOf(const Path& input, const FileOptions& options, InputFiles& inputs) {
     if (!isGltfName(input) && lowerExtension(input) != ".obj") {
         failFile(ErrorCode::unsupportedFile,
@@ -54,7 +54,7 @@ std::vector<EmbeddedFile> filesOf(const Path& input, const FileOptions& options,
         if (file != path)
             named.insert(Path(fs::path(Path(file)).lexically_normal().lexically_relative(folder)).string());
     };
-    ask.file.named = {};  // opened is told
+    ask.file.named = {};  // `opened` receives them
     ask.sink = [](std::span<const std::uint8_t>) { return true; };
     valueOrThrow(generateFile(path, "view.glb", ask));
     std::vector<EmbeddedFile> files;
@@ -63,7 +63,7 @@ std::vector<EmbeddedFile> filesOf(const Path& input, const FileOptions& options,
     return files;
 }
 
-/// Lit, from the front; empty where nothing can be drawn.
+/// Returns a lit picture from the front; empty if nothing can be drawn.
 std::string pictureHtml(const Path& input, const FileOptions& options) {
     const RenderOptions render{.width = 480, .height = 360, .legend = false};
     try {
@@ -78,7 +78,7 @@ std::string pictureHtml(const Path& input, const FileOptions& options) {
     }
 }
 
-/// For readers that run no script: mail, previews, text browsers.
+/// Returns the content for readers that execute no script: mail, previews, text browsers.
 std::string stillHtml(const Path& input, const FileOptions& options, const PageOrigin& origin) {
     const std::string name = fileNameOf(input.string());
     return "<noscript><div class=\"still\">\n" + originHtml(origin) + pictureHtml(input, options) +
@@ -86,7 +86,7 @@ std::string stillHtml(const Path& input, const FileOptions& options, const PageO
            "</div></noscript>\n";
 }
 
-/// Origin of the page, for its scripts.
+/// Returns the origin of the page as a data block for its scripts.
 std::string originBlock(const PageOrigin& origin) {
     const Json json = {{"version", TSPACE_VERSION_STRING}, {"date", origin.date}, {"command", origin.command}};
     std::string html = "<script type=\"application/json\" id=\"origin\">";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One HTML file that shows a model: the page of web/, with the model and the files that it names inside; and what tspace view
-// reports.
+// One HTML file that shows a model: the page of web/, with the model and the files that it references embedded; and the
+// reports of tspace view.
 #pragma once
 
 #include <cstdint>
@@ -18,16 +18,15 @@ namespace tspace {
 // One HTML file that shows a model: the page of web/, with the model and the files that it names inside.
 
 struct ViewReport {
-    std::vector<std::string> files = {};  ///< the files in the page: the model, then those that it names
+    std::vector<std::string> files = {};  ///< the embedded files: the model, then the files that it references
     std::uint64_t output_bytes = 0;
 };
 
-/// Writes `output` from the page that scripts/web builds and a model (GLB, glTF or OBJ), whose files go in as they are. Where
-/// no script runs, the page shows a picture of the model and what checkFile finds.
-/// page      in it stands "<!-- model -->" where all of that goes
-/// options   content and find_file must be empty
-/// Errors: cannotRead (the page or the model), invalidFile, unsupportedFile (another format, or `page` has no place for a
-/// model), tooLarge, cannotWrite. Nothing has changed then.
+/// Writes `output` from the page that scripts/web builds and a model (GLB, glTF or OBJ), whose files are embedded
+/// unchanged. Without scripts, the page shows a picture of the model and the findings of checkFile. `page` contains
+/// "<!-- model -->" where the data is inserted. `options`: content and find_file must be empty. Errors: cannotRead (the
+/// page or the model), invalidFile, unsupportedFile (another format, or `page` without the marker), tooLarge,
+/// cannotWrite; then no file has changed.
 Result<ViewReport> writeViewPage(const Path& input, const Path& output, const Path& page, const FileOptions& options,
                                  const PageOrigin& origin);
 

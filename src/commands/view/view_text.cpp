@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A page with a model in it, as text.
+// Report of tspace view as text.
 #include <fmt/format.h>
 
 #include "commands/shared/text.h"
