@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: MIT
-// Bakes and finished models by the C API, against the tool: same files, same JSON, same errors.
+// Compares baking and finishing with the C API with the tool: equal files, JSON, and errors.
 #include "api/made_bytes.h"
 #include "tool/baked_sheets.h"
 
 namespace tspace::test {
 namespace {
 
-/// In the folder of the sheets.
+/// Runs in the folder of the sheets.
 class CFilesBake : public BakeCommand {
   protected:
     void SetUp() override {
         BakeCommand::SetUp();
         std::filesystem::current_path(folder.path());
     }
-    /// The names of all files of the folder.
+    /// Returns the names of all files in the folder.
     [[nodiscard]] std::set<std::string> names() const {
         std::set<std::string> found;
         for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
             found.insert(entry.path().filename().string());
         return found;
     }
-    /// What a run of the tool wrote, which is then removed.
+    /// Returns the files that a run of the tool wrote, and removes them.
     [[nodiscard]] std::map<std::string, std::string> taken(const std::vector<std::string>& outputs) const {
         std::map<std::string, std::string> bytes;
         for (const std::string& output : outputs) {
@@ -76,7 +76,7 @@ TEST_F(CFilesBake, AFinishedModelWithItsMapsIsThatOfTheTool) {
         TSPACE_OK)
         << error.message;
     expectWritten(bytes);
-    // The page is one file more.
+    // The page is an additional file.
     const auto ofTool = nlohmann::json::parse(run.out), made = nlohmann::json::parse(report.text());
     for (const char* member :
          {"schema", "exitCode", "input", "low", "output", "models", "check", "outputBytes", "remarks"})

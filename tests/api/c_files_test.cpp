@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The C API of files against the tool: same bytes, same JSON, same sentences; and what goes wrong in memory.
+// Compares the C file API with the tool: equal bytes, JSON, and messages; and errors for models in memory.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -32,7 +32,7 @@ class MemoryModel {
         return model;
     }
 
-    /// Valid as long as this stays where it is.
+    /// Valid as long as this object is not moved.
     [[nodiscard]] tspace_Model view(bool with_files = true) {
         tspace_Model model;
         TSPACE_INIT(model);
@@ -170,14 +170,14 @@ TEST(CFiles, AnObjAndItsMaterialsAndMapsComeFromMemory) {
     tspace_Error error;
     ASSERT_EQ(tspace_generateBytes(&view, nullptr, &output.bytes, nullptr, &error), TSPACE_OK) << error.message;
     EXPECT_TRUE(output.text() == folder.read("folder/out.glb"));
-    // Without its materials it is a model all the same.
+    // It is a valid model even without its materials.
     const tspace_Model alone = model.view(false);
     Made plain;
     EXPECT_EQ(tspace_generateBytes(&alone, R"({"all": true})", &plain.bytes, nullptr, &error), TSPACE_OK)
         << error.message;
 }
 
-/// One triangle; its buffer is "b/the bytes.bin", and it has a normal map if `image` is not empty.
+/// Returns one triangle; its buffer is "b/the bytes.bin", and it has a normal map if `image` is not empty.
 std::string triangleModel(const std::string& buffer_uri, const std::string& image = "") {
     std::string text = R"({"asset": {"version": "2.0"}, "buffers": [{"uri": ")" + buffer_uri + R"(", "byteLength": 96}],
         "bufferViews": [{"buffer": 0, "byteLength": 96}],
@@ -411,7 +411,8 @@ TEST(CFilesDiff, SaysWhichModelIsAtFault) {
     EXPECT_EQ(error.element, 0u);
 }
 
-/// A function that makes out.png of bump.png gives the bytes and the report of the tool's `command`, and says what is wrong.
+/// Checks that a function that writes out.png from bump.png gives the same bytes and report as the tool's `command`,
+/// and reports errors.
 template <class Function>
 void expectFilesOfTheTool(Function* make, const std::string& command, const char* options, const char* unknown) {
     const TempFolder folder;
@@ -442,7 +443,8 @@ TEST(CFilesConvertMap, FilesAreThoseOfTheTool) {
 }
 
 TEST(CFilesConvertMap, OptionsThatMeanSomethingTogetherAreApplied) {
-    // Both channels are inverted once all options are known; a model to show the map on needs the one it was made for.
+    // Both channels are inverted after all options are known; a model that will use the map requires the original
+    // model.
     expectFilesOfTheTool(tspace_convertMapFile, "convert-map bump.png -o out.png --flip-green --flip-red",
                          R"({"flip-green":true,"flip-red":true})", R"({"to-mesh":"wall.obj"})");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What calls of the C API of files gave.
+// Results of calls of the C file API.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 
 namespace tspace::test {
 
-/// Bytes of the library, freed with this.
+/// Owns bytes of the library, and frees them.
 struct Made {
     tspace_Bytes bytes = {};
     Made() = default;
@@ -27,7 +27,7 @@ struct Made {
     [[nodiscard]] bool isEmpty() const { return bytes.data == nullptr && bytes.size == 0; }
 };
 
-/// The seconds that something took are the only thing that differs from run to run.
+/// Removes durations, the only difference between runs.
 inline std::string withoutSeconds(const std::string& json) {
     return std::regex_replace(json, std::regex("\"seconds\": [0-9.e+-]+"), "\"seconds\": 0");
 }

@@ -10,7 +10,7 @@ import sys
 import bpy
 import numpy
 
-# Debian's Blender 3.4 says numpy.bool, which Debian's numpy has no more.
+# Debian's Blender 3.4 uses numpy.bool, which Debian's numpy no longer has.
 numpy.bool = bool
 
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// shading_normals MODEL OUT SIZE: the normals that `tspace render` shades, read as three.js reads normal maps, from the
-// front without perspective: SIZE x SIZE pixels of four floats, the last of which is 1 where there is a surface. Corners of
-// triangles are rounded as Chromium's rasteriser in software rounds them, so that the same points of a surface are compared.
+// shading_normals MODEL OUT SIZE: writes the normals that `tspace render` shades, with normal maps interpreted like in
+// three.js, from the front without perspective: SIZE x SIZE pixels of four floats, the last of which is 1 where there
+// is a surface. Corners of triangles are rounded like in Chromium's software rasterizer, so that the same points of a
+// surface are compared.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -15,10 +16,10 @@ using namespace tspace;  // NOLINT: a small program
 
 namespace {
 
-/// SUBPIXEL_BITS of SwiftShader is 4. Where eight texels lie under a pixel, this alone moves normals by 0.2 degrees.
+/// SUBPIXEL_BITS of SwiftShader is 4. If eight texels are below one pixel, this alone changes normals by 0.2 degrees.
 constexpr double kPixelParts = 16;
 
-/// A triangle as that rasteriser sees it, without perspective.
+/// Returns a triangle as seen by that rasterizer, without perspective.
 SeenTriangle roundedTriangle(const DrawnMesh& mesh, std::size_t triangle, const Camera& camera) {
     std::array<SeenPoint, 3> points;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -55,7 +56,7 @@ std::vector<float> normalsOf(const std::string& path, std::uint32_t size) {
             const VisibleTriangles::Place place = visible.placeOf(number);
             const DrawnMesh& mesh = model.meshes()[place.mesh];
             const SeenTriangle rounded = roundedTriangle(mesh, place.triangle, camera);
-            // Rounding leaves nothing of the thinnest.
+            // Rounding removes the thinnest triangles.
             const SeenTriangle seen = rounded.isSeen() ? rounded : visible.seen(place);
             const Affine& to_world = mesh.to_world;
             const SurfacePoint point{.triangle = place.triangle,

@@ -10,7 +10,7 @@ import sys
 import zlib
 
 WIDTH, HEIGHT = 64, 48
-MOST = 4  # of 255: a step of a block, and what the search moves texels for the filter
+MOST = 4  # of 255: a step of a block, plus the change of texels by the search for the filter
 
 
 def write(path, numbers):

@@ -20,7 +20,7 @@ function readJson(bytes) {
     return JSON.parse(String(isGlb ? bytes.subarray(20, 20 + bytes.readUInt32LE(12)) : bytes).replace(/^\uFEFF/, ""));
 }
 
-/// Uses of each accessor: index -> set of "POSITION", "target NORMAL", "indices", ...
+/// Returns the uses of each accessor: index -> set of "POSITION", "target NORMAL", "indices", ...
 function accessorUses(gltf) {
     const uses = new Map();
     const add = (accessor, use) => uses.set(accessor, (uses.get(accessor) ?? new Set()).add(use));
@@ -53,7 +53,7 @@ async function findings(file) {
     return found;
 }
 
-/// Errors at a TANGENT, of a primitive or of a morph target, or at an accessor that is one.
+/// Returns the errors at a TANGENT of a primitive or morph target, or at an accessor used as one.
 async function tangentErrors(file) {
     const bytes = readFileSync(file);
     let report;
@@ -65,9 +65,9 @@ async function tangentErrors(file) {
                 new Uint8Array(readFileSync(path.join(path.dirname(file), decodeURIComponent(uri)))),
         });
     } catch (error) {
-        return []; // no JSON, or no glTF 2.0
+        return []; // not JSON, or not glTF 2.0
     }
-    // Declared bounds that are off are no fault of the tangents: they stay with tangents that stay.
+    // Wrong declared bounds are not a fault of the tangents: they are kept with kept tangents.
     const isOfBounds = /^ACCESSOR_(M(IN|AX)_MISMATCH|ELEMENT_OUT_OF_M(IN|AX)_BOUND)$/;
     const errors = report.issues.messages.filter(({ severity, code }) => severity === 0 && !isOfBounds.test(code));
     if (errors.length === 0) return [];

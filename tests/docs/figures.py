@@ -14,7 +14,8 @@ SOURCE = "docs/evidence/performance.md"
 
 # The columns of the table "Beside others".
 LOOP, REFERENCE, MESHOPT, ONE, TWO, CORRECTED = range(1, 7)
-# (page, pattern whose groups are figures, their sources). A source is (row, column) of a table of SOURCE, or a pattern with one group.
+# (page, pattern whose groups are figures, their sources). A source is (row, column) of a table of SOURCE, or a pattern
+# with one group.
 MILLION = "torus, 1 million"
 CLAIMS = [
     ("README.md", r"\| 1 million triangles, one thread \| \*\*(\d+) ms\*\* \| (\d+) ms \| (\d+) ms",
@@ -40,11 +41,12 @@ CLAIMS = [
     ("docs/guides/from-meshoptimizer.md", r"\*\*(\d+) KB; less than (\d+) s\*\* \| (\d+) KB; (\d+) s of processor",
      [r"meshoptimizer's file (\d+) KB", r"the others less than (\d+) s", r"`generateTangents` with all methods adds (\d+) KB", r"two-files\.md\) (\d+) s of"]),
 ]
-# Differing corners of SOURCE that pages state as equal ones: 97 % differ, 3 % are equal.
+# Shares of different corners in SOURCE that pages state as shares of equal ones: 97 % differ, 3 % are equal.
 COMPLEMENTS = {("0.1", "99.9"), ("3", "97")}
-# Figures that are properties of a format or measured where they stand, with the command beside them.
+# Figures that are properties of a format, or whose measurement and command are stated on the page itself.
 OWN = {
-    "docs/problems/file-became-larger.md": {"23.0 MB", "32.6 MB", "25.5 MB", "13.0 MB"},  # sizes of one model, with the command beside them
+    # sizes of one model; the page states the command
+    "docs/problems/file-became-larger.md": {"23.0 MB", "32.6 MB", "25.5 MB", "13.0 MB"},
     "README.md": {"33.3 %", "100.0 %"},  # output of commands on the demo model
     "docs/guides/from-mikktspace.md": {"8 MB"},  # the size of a thread's stack
     "docs/guides/from-meshoptimizer.md": {"100 %"},  # `identify` on three models

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A folder of models, and calls of which each allocation fails in turn.
+// A folder of models, and calls in which each allocation fails in turn.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -29,19 +29,21 @@ ErrorCode codeOf(const Result<Value>& result) {
     return result.error().code;
 }
 
-/// After an allocation failed inside of Embree, the process refuses to call it: its locks may stay locked.
+/// Returns whether the process refuses to call Embree: after a failed allocation inside Embree its locks may stay
+/// locked.
 inline bool isEmbreeRefused() {
     return std::string_view(last_message.data()).starts_with("Embree ran out of memory earlier");
 }
 
-/// Calls call() with an allocation that fails, the first, the second and so on, until one comes back that needed fewer; once
-/// with that one alone, once with all that follow. call() gives an ErrorCode; look(k) is asked after each.
+/// Calls call() with a failing allocation (the first, the second etc.) until a call succeeds because it needs fewer;
+/// each time once with only that allocation failing, and once with all further ones failing too. call() returns an
+/// ErrorCode; look(k) is called after each.
 template <class Call, class Look>
 void failEachAllocation(const char* name, const Call& call, const Look& look) {
     for (const bool all_after : {false, true}) {
         constexpr long kMost = 200000;
         long k = 1, failures = 0;
-        // Beyond so many not every one, for time's sake: the calls make up to 10,000.
+        // Beyond a limit not every allocation is tested, to save time: the calls make up to 10,000.
         for (; k < kMost; k += 1 + k / TSPACE_EVERY_ALLOCATION_UP_TO) {
             failAllocation(k, all_after);
             const ErrorCode code = call();
@@ -54,8 +56,8 @@ void failEachAllocation(const char* name, const Call& call, const Look& look) {
                 break;
             }
             failures += code != ErrorCode::ok;
-            // What one can do without is left out; nothing else than memory may be blamed.
-            // Embree does not always know why it fails.
+            // Optional data is skipped; the only permitted error is a lack of memory. Embree does not always know the
+            // reason of its failures.
             const bool is_embree =
                 code == ErrorCode::internal && std::string_view(last_message.data()).starts_with("Embree");
             ASSERT_TRUE(code == ErrorCode::ok || code == ErrorCode::outOfMemory || is_embree)
@@ -64,7 +66,7 @@ void failEachAllocation(const char* name, const Call& call, const Look& look) {
             if (::testing::Test::HasFailure()) return;
         }
         EXPECT_LT(k, kMost) << name;
-        // Small meshes of the C API find room in what a thread keeps.
+        // Small meshes of the C API fit into the memory that a thread keeps.
         EXPECT_TRUE(failures > 0 || k == 1) << name << ": no allocation failed";
     }
 }
@@ -86,13 +88,13 @@ class FailingMemory : public ::testing::Test {
         all.existing = ExistingTangents::replace;
         EXPECT_TRUE(generateFile(at("plain.glb"), at("other.glb"), all));
     }
-    /// Takes memory the first time only. `name` is short enough to take none.
+    /// Allocates only on the first call. `name` is short enough to need no allocation.
     const std::string& at(const std::string& name) {
         const auto known = paths_.find(name);
         return known != paths_.end() ? known->second : paths_.emplace(name, folder_.path(name).string()).first->second;
     }
 
-    /// The call must change no file, and leave none.
+    /// The call must change no file, and must leave no file.
     template <class Call>
     void onlyReads(const char* name, const Call& call) {
         const std::set<std::string> files = folder_.files();
@@ -102,7 +104,7 @@ class FailingMemory : public ::testing::Test {
         failEachAllocation(name, call,
                            [&](long k, ErrorCode) { EXPECT_EQ(folder_.files(), files) << name << " " << k; });
     }
-    /// The call writes the file `output` alone, whole or not at all.
+    /// The call writes only the file `output`, completely or not at all.
     template <class Call>
     void writesOne(const char* name, const std::string& output, const Call& call) {
         std::filesystem::remove(at(output));

@@ -30,7 +30,7 @@ long numberOf(const char* name) {
     return text == nullptr ? 0 : std::atol(text);
 }
 
-/// Counts a call; true where it is the one that fails.
+/// Counts a call; returns whether it is the one that fails.
 bool fails(int why) {
     static const long failing = numberOf("TSPACE_FAIL_CALL");
     if (++call_count != failing) return false;
@@ -49,7 +49,7 @@ bool allocations_fail_after = false, is_started = false;
     is_started = true;
 }
 
-/// Libraries start before this one. That of C++ takes its reserve, 73 KB, in one piece.
+/// Libraries are initialized before this one. The C++ library allocates its reserve, 73 KB, in one block.
 bool isReserve(size_t bytes) {
     constexpr size_t kLarge = 32768;
     return !is_started && bytes > kLarge && std::getenv("TSPACE_NO_RESERVE") != nullptr;
@@ -96,7 +96,7 @@ int posix_memalign(void** memory, size_t alignment, size_t bytes) {
 }
 #endif
 
-// open and openat have no fixed number of arguments.
+// open and openat have a variable number of arguments.
 int open(const char* path, int flags, ...) {
     if (fails(EIO)) return -1;
     va_list more;
@@ -139,7 +139,7 @@ TSPACE_FAILING(int, -1, EIO, lstat, (const char* path, struct stat* status), (pa
 TSPACE_FAILING(int, -1, EIO, fstat, (int number, struct stat* status), (number, status))
 
 int fclose(FILE* file) {
-    // The system closes it all the same.
+    // The system closes the file nevertheless.
     const bool is_failing = fails(EIO);
     const int done = real<int(FILE*)>("fclose")(file);
     if (!is_failing) return done;

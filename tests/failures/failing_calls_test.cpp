@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tool where a call of the system fails, where a signal comes, and where no thread can be started.
+// The tool when a system call fails, when a signal arrives, and when no thread can be started.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -10,7 +10,7 @@
 namespace tspace::test {
 namespace {
 
-/// A runner that sets what failing_calls does.
+/// Returns a runner that sets the variables of failing_calls.
 std::string with(const std::string& settings) { return settings + " LD_PRELOAD='" TSPACE_FAILING_CALLS "'"; }
 
 std::string writeModel(const TempFolder& folder) {
@@ -21,7 +21,7 @@ std::string writeModel(const TempFolder& folder) {
     return folder.read("plain.glb");
 }
 
-/// Calls try_one(k) for each call of the system that the run has, or every so many, until one has fewer.
+/// Calls try_one(k) for each system call of the run, or for a subset, until a run has fewer calls.
 template <class TryOne>
 void failEachCall(const TempFolder& folder, const std::string& arguments, const TryOne& try_one, int every = 1) {
     constexpr int kMostCalls = 3000;
@@ -40,7 +40,7 @@ void failEachCall(const TempFolder& folder, const std::string& arguments, const 
     EXPECT_LE(k, kMostCalls);
 }
 
-/// Where only the words about it cannot be said, the files are there.
+/// If only the messages cannot be printed, the files exist.
 bool hasWritten(const ToolRun& run) {
     return run.exit_code == 0 || run.err.find("standard output: cannot write") != std::string::npos;
 }
@@ -93,11 +93,11 @@ TEST(FailingCalls, OfACheckAreSaidAndLeaveNoHalfPage) {
     failEachCall(folder, command, [&](int k, const ToolRun& run) {
         EXPECT_EQ(folder.files(), files) << "call " << k << ": " << run.err;
         const std::string found = folder.read("page.html");
-        // Its pictures are drawn of the model read anew.
+        // The pictures are rendered from the model, which is read again.
         EXPECT_TRUE(found == "old" || found.ends_with(page_end)) << "call " << k;
         if (run.exit_code == whole.exit_code) {
             EXPECT_NE(found, "old") << "call " << k << run.err;
-            // An image that cannot be read is a remark, since the frames can be judged without it.
+            // An unreadable image causes a remark, since frames can be checked without it.
             EXPECT_TRUE(run.out == whole.out || run.out.find("fileRemark") != std::string::npos)
                 << "call " << k << run.err << run.out;
         }
@@ -105,7 +105,7 @@ TEST(FailingCalls, OfACheckAreSaidAndLeaveNoHalfPage) {
     });
 }
 
-/// Command lines over the files of writeModel, and what each writes.
+/// Command lines for the files of writeModel, and their outputs.
 struct Writing {
     std::string command = {};
     std::vector<std::string> outputs = {};
@@ -129,7 +129,7 @@ std::vector<Writing> writings() {
     };
 }
 
-/// Runs it where nothing fails. False: this build lacks what it needs.
+/// Runs the command without failures. Returns false if this build lacks a required feature.
 bool isThere(const TempFolder& folder, const Writing& writing) {
     const ToolRun run = runTool(folder, writing.command);
     if (run.exit_code <= 1) return true;
@@ -138,13 +138,13 @@ bool isThere(const TempFolder& folder, const Writing& writing) {
     return false;
 }
 
-/// A page may leave a picture out, and SARIF say what could not be read.
+/// A page may lack a picture, and SARIF may contain what could not be read.
 bool isWholeReport(const std::string& name, const std::string& text) {
     return (name.ends_with(".html") && text.ends_with("</html>\n")) ||
            (name.ends_with(".sarif") && text.ends_with("}\n"));
 }
 
-// SOURCE_DATE_EPOCH: pages say when they were made.
+// SOURCE_DATE_EPOCH: pages contain the time of their creation.
 TEST(FailingCalls, OfAnyCommandLeaveItsOldFilesOrItsNewOnes) {
     const TempFolder folder;
     writeModel(folder);
@@ -170,12 +170,12 @@ TEST(FailingCalls, OfAnyCommandLeaveItsOldFilesOrItsNewOnes) {
                 folder.write(name, "old");
             }
             const bool has_written = run.exit_code == 1 || hasWritten(run);
-            // SARIF is written of what cannot be read, too.
+            // SARIF is also written for files that cannot be read.
             if (!after.contains("new.sarif")) {
                 EXPECT_EQ(new_count, has_written ? after.size() : 0) << where;
             }
         };
-        // Each of 1,000 calls takes 95 s of processor; tests that may take long have all of them.
+        // Testing each of 1,000 calls takes 95 s of processor time; only long test runs include all of them.
         failEachCall(folder, writing.command, look, TSPACE_EVERY_FAILING_CALL);
         for (const std::string& name : writing.outputs) std::filesystem::remove(folder.path(name));
     }
@@ -210,8 +210,8 @@ TEST(Signals, LeaveNoTemporaryFileInAnyCommand) {
     }
 }
 
-/// Runs a command with allocations of the C library failing. Memory alone may be blamed, and outputs are there exactly where
-/// the exit code says so.
+/// Runs a command with failing allocations of the C library. The only permitted error is a lack of memory, and outputs
+/// must exist exactly if the exit code says so.
 class FailingMallocs {
   public:
     FailingMallocs(const TempFolder& folder, const Writing& writing) : folder_(folder), writing_(writing) {
@@ -225,14 +225,14 @@ class FailingMallocs {
     FailingMallocs(const FailingMallocs&) = delete;
     FailingMallocs& operator=(const FailingMallocs&) = delete;
 
-    /// Each allocation, or every so many.
+    /// Lets each allocation fail, or a subset.
     void failEach() {
         for (const char* const mode : {"0", "1"}) {
             for (int k = 1; is_there_ && fail(k, mode); k += 1 + k / TSPACE_EVERY_MALLOC_UP_TO) {
             }
         }
     }
-    /// The last ones, where reports are prepared and outputs put in place.
+    /// Lets the last allocations fail, when reports are prepared and outputs put in place.
     void failLast() {
         if (!is_there_) return;
         fail(kNone, "0");
@@ -241,7 +241,7 @@ class FailingMallocs {
     }
 
   private:
-    /// False where there are fewer allocations, or the test has failed.
+    /// Returns false if there are fewer allocations, or the test has failed.
     bool fail(int k, const char* mode) {
         const std::string settings =
             "TSPACE_FAIL_MARK=mark TSPACE_FAIL_MALLOC=" + std::to_string(k) + " TSPACE_FAIL_MALLOC_AFTER=" + mode;
@@ -260,7 +260,7 @@ class FailingMallocs {
         return was_reached && !::testing::Test::HasFailure();
     }
 
-    static constexpr int kNone = -1;  ///< no allocation fails, and they are counted
+    static constexpr int kNone = -1;  ///< no allocation fails, but all are counted
 
     const TempFolder& folder_;
     const Writing& writing_;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Memory of this program that ends when a test says so.
+// Makes allocations of this program fail on request.
 #pragma once
 
 namespace tspace::test {
 
-/// From now on operator new fails at its Kth call, and where `all_after` at all further ones.
+/// From now on the Kth call of operator new fails, and with `all_after` all further ones.
 void failAllocation(long k, bool all_after);
-/// No more. Whether one failed.
+/// Stops failing. Returns whether an allocation failed.
 bool stopFailing();
 
 }  // namespace tspace::test

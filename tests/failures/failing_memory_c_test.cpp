@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Memory ends at each allocation of each C function in turn.
+// Lets each allocation of each C function fail in turn.
 #include <array>
 #include <vector>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Memory ends at each allocation in turn, and callbacks throw: every call comes back with an error, and files are the old
-// ones or the new ones.
+// Lets each allocation fail in turn, and callbacks throw: every call returns an error, and files are either all old or
+// all new.
 #include <new>
 #include <stdexcept>
 

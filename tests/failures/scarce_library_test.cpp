@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The library in a process with little address space (RLIMIT_AS): each function works or says that it is out of memory.
+// The library in a process with little address space (RLIMIT_AS): each function succeeds or reports that it is out of
+// memory.
 #include <gtest/gtest.h>
 
 #include <sys/resource.h>
@@ -29,7 +30,8 @@ namespace {
 
 constexpr int kDone = 0, kOutOfMemory = 5, kOther = 3;
 
-/// Returns the exit code of a child that calls call() with `megabytes` of address space, or the negative signal that ended it.
+/// Returns the exit code of a child that calls call() with `megabytes` of address space, or the negated signal that
+/// ended it.
 int exitWithin(std::uint64_t megabytes, const std::function<ErrorCode()>& call) {
     const pid_t child = fork();
     if (child == 0) {
@@ -41,7 +43,7 @@ int exitWithin(std::uint64_t megabytes, const std::function<ErrorCode()>& call) 
         try {
             code = call();
         } catch (const std::bad_alloc&) {
-            // From the vectors of this test, or from the constructor of Arena.
+            // Thrown by vectors of this test, or by the constructor of Arena.
         }
         _exit(code == ErrorCode::ok ? kDone : code == ErrorCode::outOfMemory ? kOutOfMemory : kOther);
     }
@@ -132,7 +134,7 @@ TEST(ScarceAddresses, EndNoFunctionOfTheLibraryBySignal) {
         {"bakeFile", [&] { return codeOf(bakeFile(glb, glb, map, small)); }},
     };
     for (const Named& each : calls) {
-        // A build without images or Embree bakes nothing.
+        // A build without images or Embree cannot bake.
         const int unlimited = exitWithin(1 << 20, each.call);
         const auto removeOutputs = [&] {
             for (const char* name : {"new.glb", "new.png"}) std::filesystem::remove(folder.path(name));

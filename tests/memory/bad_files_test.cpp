@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every broken or hostile file that others have collected stays below the ceiling.
+// Every corrupt or malicious file collected by other projects stays below the memory limit.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The file, and the buffers and images that lie where it says. What is no JSON names none.
+/// Returns the size of the file with the buffers and images that it references. A file that is not JSON references
+/// none.
 std::uint64_t bytesWithNamedFiles(const fs::path& model) {
     std::vector<fs::path> files = {model};
     std::ifstream stream(model, std::ios::binary);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The ceiling: a command holds at most 16 times the bytes of its files, and 64 MB.
+// The memory limit: a command uses at most 16 times the size of its files, plus 64 MB.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,18 +18,19 @@ namespace tspace::test {
 constexpr std::uint64_t kCeilingBase = std::uint64_t{64} << 20;
 constexpr std::uint64_t kCeilingRatio = 16;
 
-/// Size of the model with the files beside it that it names, as the caller knows them.
+/// Returns the size of the model and of the files that it references, as listed by the caller.
 inline std::uint64_t bytesOf(const std::vector<std::filesystem::path>& files) {
     std::uint64_t sum = 0;
     for (const std::filesystem::path& file : files) sum += std::filesystem::file_size(file);
     return sum;
 }
 
-/// Runs every command on `model`. Each ends soon, with success or with one line, and stays below the ceiling for
-/// `file_bytes`. Says how many commands refused it.
+/// Runs every command on `model`. Each one must end soon, with success or with one line, and stay below the limit for
+/// `file_bytes`. Returns the number of commands that rejected the model.
 inline int expectBounded(const std::filesystem::path& model, std::uint64_t file_bytes,
                          const std::vector<std::string>& more_options = {}) {
-    // Work that grows with a claim takes hours. Where fresh pages are dear, as on some virtual machines, 40 s were measured.
+    // Work proportional to a declared size would take hours. If fresh pages are expensive, as on some virtual machines,
+    // 40 s were measured.
     constexpr double kMostSeconds = 100;
     const TempFolder scratch;
     const std::string out = scratch.path(model.extension() == ".gltf" ? "out/out.gltf" : "out/out.glb").string();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small glTF files whose geometry claims, or is made to be, far more than their bytes.
+// Small glTF files whose geometry is, or is declared to be, far larger than the file.
 #include <gtest/gtest.h>
 
 #include "expect_bounded.h"
@@ -27,7 +27,7 @@ std::size_t addPlain(GltfBuilder& builder, std::size_t view, int component, cons
     return builder.json()["accessors"].size() - 1;
 }
 
-/// A bumpy row of n x n vertices with normals and UVs, as {POSITION, NORMAL, TEXCOORD_0}, and its triangles.
+/// A bumpy sheet of n x n vertices with normals and UVs, as {POSITION, NORMAL, TEXCOORD_0}, and its triangles.
 struct Sheet {
     Json attributes = {};
     std::size_t indices = 0;
@@ -192,7 +192,8 @@ TEST(MemoryCeiling, HoldsForCustomAttributesOfSharedVertices) {
     expectBounded(folder, builder);
 }
 
-/// The ceiling of compressed data counts what they unpack to, and that has limits of its own; a small file stays small.
+/// The limit for compressed data depends on its decompressed size, which has separate limits; a small file still has a
+/// small limit.
 TEST(MemoryCeiling, HoldsForMeshoptViewsOverOneStream) {
     const TempFolder folder;
     GltfBuilder builder;
@@ -242,7 +243,7 @@ TEST(MemoryCeiling, HoldsForDracoHeadersThatClaimMuch) {
         for (const int method : {0, 1}) {
             const TempFolder folder;
             GltfBuilder builder;
-            // Name, version 2.2, a mesh, the method, flags, and counts of seven bits a byte; then nothing that fits.
+            // Name, version 2.2, a mesh, the method, flags, and counts with seven bits per byte; then invalid data.
             Bytes data = {'D', 'R', 'A', 'C', 'O', 2, 2, 1, static_cast<std::uint8_t>(method), 0, 0};
             for (int i = 0; i < 2; ++i) {
                 std::size_t rest = count / 2;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Images that claim, or hold, far more pixels than their bytes: `check` decodes normal maps.
+// Images that declare or contain far more pixels than their file size justifies: `check` decodes normal maps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using test::GltfBuilder;
 using test::Json;
 using test::TempFolder;
 
-/// A triangle with `count` materials and normal maps, each an image of its own over the same bytes.
+/// Tests a triangle with `count` materials and normal maps, each a separate image with the same bytes.
 void expectImageBounded(const std::string& image, int count, bool says_so) {
     const TempFolder folder;
     GltfBuilder builder;
@@ -56,7 +56,7 @@ std::string claiming(std::string file, std::size_t width_at, std::size_t bytes_e
 }
 
 TEST(MemoryCeiling, HoldsForPngThatClaimsFourBillionPixels) {
-    // The checksum of the head no longer fits; decoders look at sizes first, or refuse.
+    // The checksum of the header is then wrong; decoders check sizes first, or reject the file.
     expectImageBounded(claiming(test::pngFile(flatImage(16)), 16, 4, 65535, 65535), 1, true);
     expectImageBounded(claiming(test::pngFile(flatImage(16)), 16, 4, 0xffffffffu, 0xffffffffu), 1, true);
 }
@@ -74,7 +74,8 @@ TEST(MemoryCeiling, HoldsForManyFlatImagesOfManyPixels) {
     expectImageBounded(test::jpegFile(flatImage(2048), 50), 100, false);
 }
 
-/// One byte, `count` times, packed by Zstandard (RFC 8878) without holding them: the memory of this process counts too.
+/// Returns one byte, repeated `count` times, compressed with Zstandard (RFC 8878) without storing it: the memory of
+/// this process counts too.
 std::string zstdRun(char byte, std::size_t count) {
     constexpr std::size_t kMostOfBlock = std::size_t{1} << 17;
     const auto put = [](std::string& to, std::size_t number, int bytes) {
@@ -93,7 +94,7 @@ std::string zstdRun(char byte, std::size_t count) {
 }
 
 TEST(MemoryCeiling, HoldsForTexturesThatUnpackToManyPixels) {
-    // 16 million pixels of one colour in a few kilobytes, and a file that claims four times as many.
+    // 16 million pixels of one color in a few kilobytes, and a file that declares four times as many.
     constexpr std::size_t kBytes = std::size_t{2} << 24;
     test::Ktx2Parts parts{.format = 16, .width = 4096, .height = 4096, .levels = {zstdRun('\x80', kBytes)}};
     parts.unpacked = {kBytes};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// --memory-limit: good files that take more memory than their size explains, and the user's own ceiling.
+// --memory-limit: valid files that need more memory than their size justifies, and the user's limit.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -15,7 +15,7 @@ using test::GltfBuilder;
 using test::MeasuredRun;
 using test::TempFolder;
 
-/// Four vertices, drawn as a strip of a million triangles with indices of one byte.
+/// Writes four vertices, drawn as a strip of a million triangles with 1-byte indices.
 std::string writeLongStrip(const TempFolder& folder) {
     constexpr int kU8 = 5121, kTriangleStrip = 5;
     GltfBuilder builder;
@@ -30,7 +30,7 @@ std::string writeLongStrip(const TempFolder& folder) {
     return folder.write("strip.glb", std::span<const std::uint8_t>(builder.glb()));
 }
 
-/// A file, and what a command says to it with a limit; an empty one is not given.
+/// A file, and the output of a command with a limit; an empty limit is not passed.
 class LongStrip : public testing::Test {
   protected:
     MeasuredRun run(const std::string& command, const std::string& limit = "") {
@@ -66,7 +66,7 @@ TEST_F(LongStrip, TakesNoMoreThanTheLimit) {
     }
 }
 
-/// Whoever gives what the line says is asked for more a few times at most, as the work goes on.
+/// A user who passes the limit in the message is asked for more only a few times, as the work progresses.
 TEST_F(LongStrip, IsTakenWithTheMemoryThatTheLineNames) {
     int exit_code = run("generate").exit_code;
     for (int tries = 0; exit_code == 3 && tries < 4; ++tries) {

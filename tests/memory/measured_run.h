@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs the built tool and measures the most memory that it held at once.
+// Runs the built tool and measures its peak memory.
 #pragma once
 
 #include <fcntl.h>
@@ -18,7 +18,7 @@
 namespace tspace::test {
 
 struct MeasuredRun {
-    int exit_code = -1;  ///< 128 + the signal when one ended it
+    int exit_code = -1;  ///< 128 plus the signal that ended it, if any
     std::uint64_t peak_bytes = 0;
     double processor_seconds = 0;
 };
@@ -31,7 +31,8 @@ inline void limitAddressSpace() {
     setrlimit(RLIMIT_AS, &limit);
 }
 
-/// Its peak is never less than what this process held when it started the tool: tests keep little in memory.
+/// The measured peak is never less than the memory of this process when it started the tool, so tests keep little data
+/// in memory.
 inline MeasuredRun runMeasured(const std::vector<std::string>& arguments, const std::filesystem::path& messages) {
     limitAddressSpace();
     std::vector<std::string> words = {TSPACE_TOOL};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small texts that become much: JSON values, OBJ faces, MTL libraries.
+// Small texts that expand to large data: JSON values, OBJ faces, MTL libraries.
 #include <gtest/gtest.h>
 
 #include "expect_bounded.h"
@@ -97,7 +97,7 @@ TEST(MemoryCeiling, HoldsForMaterialsOfFewBytes) {
     expectBounded(path, test::bytesOf({path, library}));
 }
 
-/// Other formats are read by a library in a process of its own, whose address space has a limit.
+/// Other formats are read by a library in a separate process, whose address space is limited.
 void expectImportBounded(const std::string& name, const std::string& text) {
     const TempFolder folder;
     const std::string path = folder.write(name, text);

@@ -17,8 +17,8 @@ class VulkanCompute {
     virtual ~VulkanCompute() = default;
 
     [[nodiscard]] virtual std::string device() const = 0;
-    /// Dispatches main of `spirv`, local size 64, for `items`: buffer 0 holds the words, buffer 1 takes as many floats as
-    /// `results` has. Empty, or what failed.
+    /// Dispatches main of `spirv`, with local size 64, for `items`: buffer 0 contains the words, buffer 1 receives as
+    /// many floats as `results` has. Returns an empty string, or what failed.
     virtual std::string run(std::span<const std::uint32_t> spirv, std::span<const std::uint32_t> words,
                             std::size_t items, std::vector<float>& results) = 0;
     /// Dispatches `entry` of `spirv` with the given number of groups, with one storage buffer per array, which receives

@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: MIT
-// What a picture of NormalTangentTest says. The model is a grid of square cells, three pairs a row. The left cell of a
-// pair is a dome of triangles; the right one is a flat square with a normal map of such a dome, and its UVs are turned
-// by another angle in each row. Where the frames are right, both cells of a pair are lit on the same side.
+// Evaluates a picture of NormalTangentTest. The model is a grid of square cells, three pairs per row. The left cell of
+// a pair is a dome of triangles; the right one is a flat square with a normal map of such a dome, and its UVs are
+// rotated by a different angle in each row. If the frames are right, both cells of a pair are lit on the same side.
 
-/// The part of the model's front that is rendered: x and y from -half to half, in size by size pixels.
+/// The rendered part of the model's front: x and y from -half to half, in size by size pixels.
 export const VIEW = { half: 1.25, size: 600 };
 
-/// Where the light comes from, beside from the front. One light would not do: a frame of the wrong sign mirrors the dome
-/// along its tangent, and the lit side stays what it was when that is where the light is.
+/// Light directions, in addition to the front. One light is insufficient: a frame with a wrong sign mirrors the dome
+/// along its tangent, which does not change the lit side if the light has that direction.
 export const LIGHTS = { right: [1, 0], top: [0, 1] };
 
 const ROWS = [0.8, 0.4, 0, -0.4, -0.8];
-const PAIRS = [-0.96, -0.16, 0.64]; // x of the dome of triangles; the mapped cell stands beside it
+const PAIRS = [-0.96, -0.16, 0.64]; // x of the dome of triangles; the mapped cell is next to it
 const PAIR_DISTANCE = 0.32;
 const DOME_RADIUS = 0.1;
 
 export const MAPPED_CELLS = ROWS.length * PAIRS.length;
 
-const MOST_DEGREES = 20; // between the lit sides of the two cells of a pair
-const LEAST_CONTRAST = 0.5; // of a mapped cell, relative to its dome: a normal map that is not used gives none
-const LEAST_DOME_CONTRAST = 5; // of a dome, of 255; it is about 19 here
+const MOST_DEGREES = 20; // maximum angle between the lit sides of the two cells of a pair
+// minimum contrast of a mapped cell relative to its dome: an unused normal map has no contrast
+const LEAST_CONTRAST = 0.5;
+const LEAST_DOME_CONTRAST = 5; // minimum contrast of a dome, of 255; it is about 19 here
 
-/// Brightness moves towards the lit side by this much: a vector. Pixels are RGBA, from the bottom row upwards.
+/// Returns the direction of increasing brightness, scaled by its amount. Pixels are RGBA, starting with the bottom row.
 function litSide(pixels, centre_x, centre_y) {
     const scale = VIEW.size / (2 * VIEW.half);
     const x0 = (centre_x + VIEW.half) * scale, y0 = (centre_y + VIEW.half) * scale, radius = DOME_RADIUS * scale;
@@ -42,7 +43,7 @@ function litSide(pixels, centre_x, centre_y) {
 
 const degreesBetween = ([ax, ay], [bx, by]) => Math.abs(Math.atan2(ax * by - ay * bx, ax * bx + ay * by)) * (180 / Math.PI);
 
-/// One entry per pair of cells and light: how far the mapped cell is from its dome.
+/// Returns one entry per pair of cells and light: the deviation of the mapped cell from its dome.
 export function comparePairs(pixels_of_lights) {
     const compared = [];
     for (const [row, y] of ROWS.entries()) {
@@ -63,13 +64,14 @@ export function comparePairs(pixels_of_lights) {
     return compared;
 }
 
-/// The entries whose dome of triangles is not there, or not lit from where the light is: then the picture is no good.
+/// Returns the entries whose dome of triangles is missing, or not lit from the light direction: then the picture is
+/// invalid.
 export const missingDomes = (compared) =>
     compared.filter((entry) => !(entry.dome_degrees <= MOST_DEGREES && entry.dome_contrast >= LEAST_DOME_CONTRAST));
 
-/// The entries whose mapped cell does not look like its dome. Written so that NaN is wrong.
+/// Returns the entries whose mapped cell differs from its dome. NaN counts as wrong.
 export const wrongOf = (compared) =>
     compared.filter((entry) => !(entry.degrees <= MOST_DEGREES && entry.contrast >= LEAST_CONTRAST));
 
-/// The cells among them, each once.
+/// Returns the distinct cells of the entries.
 export const cellsOf = (compared) => new Set(compared.map(({ row, pair }) => `row ${row + 1}, pair ${pair + 1}`));

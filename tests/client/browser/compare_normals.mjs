@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// compare_normals.mjs CHROMIUM THREE SIZE NAME=MODEL=NORMALS...: three.js renders each model, and the normals that it
-// shades are compared with those in the file NORMALS (shading_normals.cpp). Fails where they differ by more than 0.1 degrees
-// in the mean, away from edges.
+// compare_normals.mjs CHROMIUM THREE SIZE NAME=MODEL=NORMALS...: three.js renders each model, and its shading normals
+// are compared with those in the file NORMALS (shading_normals.cpp). Fails if the mean difference exceeds 0.1 degrees,
+// away from edges.
 import { readFileSync } from "node:fs";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
 import { openPage } from "./open_page.mjs";
 
 const MOST_MEAN_DEGREES = 0.1;
-const EDGE_DEGREES = 20; // beside a pixel whose neighbours turn by more, rounding decides which surface is seen
-const LEAST_SHARE = 0.25; // of the surface that is compared; less would say nothing
+const EDGE_DEGREES = 20; // next to a pixel whose neighbors differ by more, the visible surface depends on rounding
+const LEAST_SHARE = 0.25; // minimum share of the surface that is compared
 
 const page_folder = path.dirname(fileURLToPath(import.meta.url));
 const [chromium, three_folder, size_text, ...tasks] = process.argv.slice(2);
@@ -39,7 +39,7 @@ const degrees = (a, b) => {
     return Math.atan2(cross, a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) * (180 / Math.PI);
 };
 
-/// Of three.js: rows from the bottom, colours 0.5 n + 0.5.
+/// Decodes a pixel of three.js: rows from the bottom, colors 0.5 n + 0.5.
 function normalOfThree(pixels, x, y) {
     const at = 4 * ((size - 1 - y) * size + x);
     return pixels[at + 3] === 0 ? undefined : [0, 1, 2].map((k) => 2 * pixels[at + k] - 1);
@@ -49,7 +49,7 @@ function normalOfOurs(pixels, x, y) {
     return pixels[at + 3] === 0 ? undefined : [pixels[at], pixels[at + 1], pixels[at + 2]];
 }
 
-/// Neighbours of one picture that turn away, or are not there.
+/// Returns whether neighbors in one picture differ strongly, or are missing.
 function isEdge(normalOf, pixels, x, y) {
     const centre = normalOf(pixels, x, y);
     for (let dy = -1; dy <= 1; ++dy) {

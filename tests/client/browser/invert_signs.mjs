@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// invert_signs.mjs IN.glb OUT.glb: negates w of every tangent, as a program does that feeds glTF's UVs to MikkTSpace as
-// they are. Float tangents in the GLB's own buffer only.
+// invert_signs.mjs IN.glb OUT.glb: negates w of every tangent, like a program that passes glTF's UVs to MikkTSpace
+// unchanged. Supports only float tangents in the GLB's own buffer.
 import { readFileSync, writeFileSync } from "node:fs";
 
 const FLOAT = 5126;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The page that Chromium opens: the normals that three.js shades, of each model of /list, from the front without
-// perspective, as floats.
+// The page that Chromium opens: renders the normals that three.js shades for each model of /list, from the front
+// without perspective, as floats.
 import * as THREE from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
@@ -9,7 +9,7 @@ const send = async (address, body) => {
     if (!answer.ok) throw new Error(`${address}: ${answer.status}`);
 };
 
-/// The normal in the colours of MeshNormalMaterial, with the model's normal maps, read bilinearly.
+/// Shows normals in the colors of MeshNormalMaterial, with the model's normal maps, bilinearly filtered.
 function showNormals(root) {
     root.traverse((mesh) => {
         if (!mesh.isMesh) return;
@@ -18,14 +18,14 @@ function showNormals(root) {
             Object.assign(normalMap, { minFilter: THREE.LinearFilter, magFilter: THREE.LinearFilter, generateMipmaps: false });
             normalMap.needsUpdate = true;
         }
-        // Of geometry without normals three.js shades the faces.
+        // three.js uses face normals for geometry without normals.
         const flatShading = mesh.geometry.attributes.normal === undefined;
         mesh.material = new THREE.MeshNormalMaterial({ normalMap, normalScale, side, flatShading });
         if (mesh.morphTargetInfluences) mesh.morphTargetInfluences.fill(0);
     });
 }
 
-/// As Camera::around of src/commands/shared/picture holds a model: 94 % of the picture.
+/// Frames a model like Camera::around in src/commands/shared/picture: 94 % of the picture.
 function cameraFor(model, size) {
     model.updateMatrixWorld(true);
     const box = new THREE.Box3().setFromObject(model, true);

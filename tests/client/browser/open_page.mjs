@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// openPage: a page in headless Chromium, with its own little server on this machine, which takes what the page posts. No
-// network, no driver: the server is all that the two need to talk.
+// openPage: opens a page in headless Chromium, served by a local HTTP server that also receives the page's posts. Needs
+// no network and no WebDriver.
 import { spawn } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import http from "node:http";
@@ -31,22 +31,23 @@ function startServer(answer, received) {
     return new Promise((done) => server.listen(0, "127.0.0.1", () => done(server)));
 }
 
-/// A Chromium whose files all lie in `home`. Software rendering, so that any machine gives the same picture.
+/// Starts Chromium with all of its files in `home`. Uses software rendering, so that all machines give the same
+/// picture.
 function startChromium(chromium, more_flags, address, home) {
     const flags = [
         "--headless", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist",
-        "--no-sandbox", // root may not have one, and the page is ours
+        "--no-sandbox", // root may not have a sandbox, and the page is trusted
         "--disable-dev-shm-usage", // /dev/shm is small in containers
         "--no-first-run", "--no-proxy-server", "--disable-background-networking", "--disable-component-update",
         "--disable-extensions", "--disable-sync", "--disable-crash-reporter", "--disable-breakpad", "--mute-audio",
         `--user-data-dir=${home}/profile`, `--crash-dumps-dir=${home}/crashes`,
     ];
     const env = { ...process.env, HOME: home, TMPDIR: home, XDG_CONFIG_HOME: home, XDG_CACHE_HOME: home, XDG_RUNTIME_DIR: home };
-    // A process group of its own: ending the group ends all of Chromium's processes.
+    // A separate process group: ending it ends all processes of Chromium.
     return spawn(chromium, [...flags, ...more_flags, address], { env, detached: true, stdio: ["ignore", "ignore", "pipe"] });
 }
 
-/// Ends the group. What does not go within two seconds is killed.
+/// Ends the group. Processes that remain after two seconds are killed.
 async function stopGroup(pid) {
     const there = (signal) => { try { return process.kill(-pid, signal); } catch { return false; } };
     there("SIGTERM");
@@ -56,8 +57,9 @@ async function stopGroup(pid) {
     }
 }
 
-/// Opens `page`, an address on the server, and returns what it posts to /done; an error if it posts to /failed or nothing.
-/// answer(parts of an address): { file: path }, { json: value } or undefined; received(parts, bytes) gets other posts.
+/// Opens `page`, an address on the server, and returns the data that it posts to /done; throws if it posts to /failed
+/// or nothing. answer(parts of an address): { file: path }, { json: value } or undefined; received(parts, bytes)
+/// receives other posts.
 export async function openPage({ chromium, flags = [], page, answer, received, timeout_ms }) {
     const home = mkdtempSync(path.join(os.tmpdir(), "tspace-chromium-"));
     const outcome = {};

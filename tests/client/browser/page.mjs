@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The page that Chromium opens: renders each model of /list with three.js, once for each light, and sends the pixels and
-// a picture back to the server. See render.mjs for the addresses.
+// The page that Chromium opens: renders each model of /list with three.js, once per light, and sends the pixels and a
+// picture to the server. See render.mjs for the addresses.
 import * as THREE from "three";
 import { MeshoptDecoder } from "three/addons/libs/meshopt_decoder.module.js";
 import { DRACOLoader } from "three/addons/loaders/DRACOLoader.js";
@@ -12,7 +12,7 @@ const send = async (address, body) => {
     if (!answer.ok) throw new Error(`${address}: ${answer.status}`);
 };
 
-/// No shine and no environment, so that the lit side alone makes the difference. Normal map and tangents stay as loaded.
+/// Removes gloss and environment, so that only the lit side matters. Normal map and tangents are unchanged.
 function makeMatte(root) {
     root.traverse(({ material }) => {
         if (!material) return;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// renderModels: opens page.html, which renders models with three.js, and returns what it sends back.
+// renderModels: opens page.html, which renders models with three.js, and returns its results.
 import path from "node:path";
 import { fileURLToPath } from "node:url";
 import { openPage } from "./open_page.mjs";
 
 const page_folder = path.dirname(fileURLToPath(import.meta.url));
 
-/// models: name -> path of a GLB. Returns { by: what rendered, pixels: name -> side -> bytes, pictures: the same, PNG }.
+/// models: name -> path of a GLB. Returns { by: renderer, pixels: name -> side -> bytes, pictures: the same as PNG }.
 export async function renderModels({ chromium, three_folder, models, timeout_ms }) {
     const result = { pixels: {}, pictures: {} };
     /// Addresses below /page and /three are files; /models/NAME is models[NAME].

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// show_textures.mjs CHROMIUM THREE NUMBERS KTX2...: three.js shows these textures as the map of which NUMBERS are x and y (texture_maps.py),
-// where its graphics know their format.
+// show_textures.mjs CHROMIUM THREE NUMBERS KTX2...: three.js shows these textures, whose x and y must equal those of
+// the map NUMBERS (texture_maps.py), if the GPU supports their format.
 import { readFileSync } from "node:fs";
 import path from "node:path";
 import { fileURLToPath } from "node:url";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// texture_heads.mjs THREE KTX2...: ktx-parse, as it comes with three.js, reads these files, and finds the format, levels, orientation and
-// data format descriptor that compress-map should have written, by the names of the files.
+// texture_heads.mjs THREE KTX2...: checks with ktx-parse (shipped with three.js) that these files have the format,
+// levels, orientation and data format descriptor that their names imply.
 import { readFileSync } from "node:fs";
 import path from "node:path";
 import { pathToFileURL } from "node:url";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The page that Chromium opens: three.js shows the first level of each texture of /list, a texel a pixel; its numbers are sent as bytes.
+// The page that Chromium opens: three.js shows the first level of each texture of /list, one texel per pixel; its
+// values are sent as bytes.
 import * as THREE from "three";
 import { KTX2Loader } from "three/addons/loaders/KTX2Loader.js";
 
