@@ -17,11 +17,11 @@ fail() {
     exit 1
 }
 pages=$(dirname "$page")
-grep -q 'Tangents for a mesh in one call' "$pages/namespacetspace.html" || fail "generateTangents has no page"
-grep -q 'Tangents for a mesh in one call' "$pages/tspace_8h.html" || fail "tspace_generateTangents has no page"
+grep -q 'Computes the tangents of a mesh in one call' "$pages/namespacetspace.html" || fail "generateTangents has no page"
+grep -q 'Computes the tangents of a mesh in one call' "$pages/tspace_8h.html" || fail "tspace_generateTangents has no page"
 grep -q 'paramname.>execution</td>' "$pages/namespacetspace.html" || fail "parameters are no table"
 
-sed -i 's|^/// mesh       positions; normals (all|/// meshes     positions; normals (all|' "$folder/include/tspace/tangents.h"
+sed -i 's|^/// mesh       positions; unit normals|/// meshes     positions; unit normals|' "$folder/include/tspace/tangents.h"
 ! cmp -s include/tspace/tangents.h "$folder/include/tspace/tangents.h" || fail "tangents.h has no such line any more"
 ! "$folder/scripts/reference" >"$folder/printed" 2>&1 || fail "a parameter that is not there is no error"
 grep -q meshes "$folder/printed" || fail "it fails for another reason: $(<"$folder/printed")"
