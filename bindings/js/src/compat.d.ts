@@ -8,7 +8,8 @@ export const isReady: boolean;
 export type NumberArray = ArrayLike<number>;
 
 /**
- * The call of npm's mikktspace 1.1.1, with its bits: unindexed triangles in, four numbers per vertex out. The sign is the one for v
- * upwards; callers turn it over for glTF. (three.js's module has another pairing of edges: `tspace/three` has the bits of that.)
+ * The function of npm's mikktspace 1.1.1, with the same bits: takes unindexed triangles, returns four numbers per
+ * vertex. The sign is for v pointing up; callers negate it for glTF. (three.js's module pairs edges differently:
+ * `tspace/three` has its bits.)
  */
 export function generateTangents(positions: NumberArray, normals: NumberArray, uvs: NumberArray): NewFloat32Array;

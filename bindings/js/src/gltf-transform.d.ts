@@ -5,13 +5,13 @@ import type { IndexedFramesOptions } from "./index.js";
 export const ready: Promise<void>;
 
 export interface TransformOptions extends Omit<IndexedFramesOptions, "convention"> {
-  /** Also for primitives that have tangents. */
+  /** Recompute existing tangents. */
   overwrite?: boolean;
 }
 
 /**
- * A transform for `document.transform(...)`: triangles with UVs get an index, TANGENT (and NORMAL, where it was missing), and
- * vertices whose corners disagree are split, morph targets with them, which get TANGENT too. What nothing refers to any more is
- * for `prune()`.
+ * Returns a transform for `document.transform(...)`: triangles with UVs get an index, TANGENT and missing NORMAL, and
+ * vertices whose corners differ are split, including morph targets, which get TANGENT too. Use `prune()` to remove
+ * unreferenced data.
  */
 export function tspaceTangents(options?: TransformOptions): (document: Document) => Promise<void>;

@@ -4,41 +4,47 @@ import type { CheckFileOptions, DiffFileOptions, FileOptions, GenerateFileOption
 import type { NewUint8Array } from "./types.js";
 
 export { TspaceError } from "./types.js";
-/** Reports are the entries of the tool's JSON (docs/reference/json.md) for one file, with the exit code; that of diff is all of it. */
+/**
+ * Reports are the entries of the tool's JSON (docs/reference/json.md) for one file, with the exit code; the report of
+ * diff is the whole document.
+ */
 export * from "./reports.js";
 export type Report = GenerateReport | CheckReport | InspectReport | IdentifyReport;
 
-/** Resolves when calls can be made. */
+/** Resolves when the module is ready for calls. */
 export const ready: Promise<void>;
 
-/** Gives the module's memory back. The next call starts with little memory. */
+/** Releases the module's memory. The next call starts with little memory. */
 export function release(): void;
 
-/** A file: .glb, .vrm, .gltf or, where `name` ends in .obj, OBJ. Read during the call only, and never changed. */
+/** A file: .glb, .vrm, .gltf or, if `name` ends in .obj, OBJ. It is read only during the call, and never changed. */
 export type Bytes = Uint8Array | ArrayBuffer;
 
 /**
- * The files that a model names, by their paths relative to it ("textures/normal.png"). Paths that lead out of the model's folder
- * are never asked for. Without a buffer (.bin) the call fails; without an image it goes on.
+ * The files that a model references, by their paths relative to it ("textures/normal.png"). Paths that leave the
+ * model's folder are never requested. The call fails if a buffer (.bin) is missing, but not if an image is.
  */
 export type Resources =
   | Readonly<Record<string, Bytes>>
   | ReadonlyMap<string, Bytes>
   | ((path: string) => Bytes | null | undefined);
 
-/** MeshoptDecoder and MeshoptEncoder of npm's meshoptimizer, both ready. */
+/** MeshoptDecoder and MeshoptEncoder of npm's meshoptimizer; both must be ready. */
 export interface Meshopt {
   decoder: { decodeGltfBuffer(target: Uint8Array, count: number, size: number, source: Uint8Array, mode: string, filter?: string): void };
   encoder?: { encodeGltfBuffer(source: Uint8Array, count: number, size: number, mode: string, version?: number): Uint8Array };
 }
 
-/** What `createDecoderModule` and `createEncoderModule` of npm's draco3d resolve to. */
+/** The resolved values of `createDecoderModule` and `createEncoderModule` of npm's draco3d. */
 export interface Draco {
   decoder: object;
   encoder?: object;
 }
 
-/** Four numbers for each pixel, the top row first: as the file has them, neither multiplied by alpha nor changed by a colour profile. */
+/**
+ * Four numbers per pixel, top row first, as stored in the file: without premultiplied alpha and without color profile
+ * conversion.
+ */
 export interface Pixels {
   width: number;
   height: number;
@@ -46,26 +52,28 @@ export interface Pixels {
   rgba: Uint8Array | Uint8ClampedArray | Uint16Array;
 }
 
-/** What an image becomes that is written. */
+/** Pixels of an image to be encoded. */
 export interface PixelsToEncode {
   width: number;
   height: number;
-  /** Numbers for each pixel. The file must have as many, and as many bits. */
+  /** Numbers per pixel. The encoded file must have the same number of channels and bits. */
   channels: 3 | 4;
   bits: 8 | 16;
   data: Uint8Array | Uint16Array;
-  /** Of a JPEG: 1 to 100. */
+  /** JPEG quality: 1 to 100. */
   quality: number;
 }
 
-/** How far a call is: `done` of `total` steps of what it does ("reading", "computing tangents"). 0 of 0: nobody knows. */
+/**
+ * Progress of a call: `done` of `total` steps of the current stage ("reading", "computing tangents"). 0 of 0: unknown.
+ */
 export interface Progress {
   what: string;
   done: number;
   total: number;
 }
 
-/** An AbortSignal, or anything that says so: it is looked at while a call runs, many times a second. */
+/** An AbortSignal, or an object with this property, which is checked many times per second during a call. */
 export interface StopSignal {
   readonly aborted: boolean;
   readonly reason?: unknown;
@@ -75,35 +83,35 @@ export type ImageType = "image/png" | "image/jpeg" | "image/webp";
 
 /** Options are those of the tool (docs/reference/tool.md), in camelCase: --memory-limit is memoryLimit. */
 export interface ModelOptions extends FileOptions {
-  /** What reports call the model. OBJ is told by its ending. */
+  /** Name of the model in reports. OBJ is recognized by its extension. */
   name?: string;
   resources?: Resources;
-  /** For models compressed by meshopt; `generate` needs the encoder too where the output is compressed. */
+  /** For models compressed with meshopt; `generate` also needs the encoder if the output is compressed. */
   meshopt?: Meshopt;
-  /** For models compressed by Draco, in the same way. */
+  /** For models compressed with Draco; `generate` also needs the encoder if the output is compressed. */
   draco?: Draco;
   /**
-   * Ends the call: it throws `signal.reason`, or a TspaceError with the code "stopped". Events are not heard while a call runs, so a
-   * signal of another thread has to go through shared memory (docs/reference/javascript.md).
+   * Stops the call, which then throws `signal.reason`, or a TspaceError with the code "stopped". Events are not
+   * processed during a call, so a signal from another thread must use shared memory (docs/reference/javascript.md).
    */
   signal?: StopSignal;
 }
 
-/** Nothing, or an error thrown: the image is not looked at, and the report says so. */
+/** If it returns nothing or throws, the image is not examined, which is stated in the report. */
 export type DecodeImage = (file: Uint8Array, type: ImageType) => Pixels | null | undefined;
 
 export interface WatchOptions {
-  /** What it throws ends the call. */
+  /** An exception from this callback ends the call. */
   onProgress?: (progress: Progress) => void;
 }
 
 export interface ImageOptions {
-  /** Decodes normal maps, at once. {@link decodeImages} makes one of a function that takes its time. */
+  /** Decodes normal maps synchronously. {@link decodeImages} converts an asynchronous function. */
   decodeImage?: DecodeImage;
 }
 
 export interface GenerateOptions extends ModelOptions, ImageOptions, WatchOptions, GenerateFileOptions {
-  /** The image as a file of this type, without loss but for a JPEG. */
+  /** Encodes the image as a file of this type; lossless except for JPEG. */
   encodeImage?: (pixels: PixelsToEncode, type: ImageType) => Uint8Array;
 }
 
@@ -116,31 +124,34 @@ export interface DiffOptions extends Omit<ModelOptions, "name">, DiffFileOptions
 export type Severity = "error" | "warning" | "note";
 
 /**
- * Adds normals and tangents where materials need them, or mends them.
- * @returns the bytes of a .glb with everything in it, none after `dryRun`; and what was done
+ * Adds normals and tangents where materials need them, or repairs existing ones.
+ * @returns the bytes of a .glb with all data embedded (empty after `dryRun`), and the report
  */
 export function generate(model: Bytes, options?: GenerateOptions): { bytes: NewUint8Array; report: GenerateReport };
 
-/** Says what is wrong with the frames of a model: inverted signs, averaged seams, the wrong UV set, and more. */
+/** Finds faults in the frames of a model: inverted signs, averaged seams, a wrong UV set, and more. */
 export function check(model: Bytes, options?: CheckOptions): CheckReport;
 
-/** The remedy of a finding with calls of this module in place of command lines: `generate(model, { repair: true })`. */
+/**
+ * Returns the remedy of a finding, with calls of this module instead of command lines: `generate(model, { repair: true
+ * })`.
+ */
 export function remedyText(finding: Finding): string;
 
-/** Says what is in a model: meshes, attributes, materials that need tangents. */
+/** Describes the contents of a model: meshes, attributes, materials that need tangents. */
 export function inspect(model: Bytes, options?: ModelOptions): InspectReport;
 
-/** Says which method and convention made the tangents of a model. */
+/** Identifies the method and convention that computed the tangents of a model. */
 export function identify(model: Bytes, options?: IdentifyOptions): IdentifyReport;
 
-/** Compares the frames of two models that show the same surface. Resources are those of both. */
+/** Compares the frames of two models that show the same surface. `resources` applies to both. */
 export function diff(a: Bytes, b: Bytes, options?: DiffOptions): DiffReport;
 
 /**
- * Decodes the normal maps of a model by a function that may give promises, before a call that cannot wait for them:
- * `check(model, { decodeImage: await decodeImages(model, decodeByCanvas) })`.
- * @param options those of the call; `resources`, `meshopt`, `draco`, `allowExternal` and `memoryLimit` count
- * @returns the option decodeImage of calls with this model
+ * Decodes the normal maps of a model with a function that may return promises, before a synchronous call: `check(model,
+ * { decodeImage: await decodeImages(model, decodeByCanvas) })`.
+ * @param options options of the call; `resources`, `meshopt`, `draco`, `allowExternal` and `memoryLimit` are used
+ * @returns the option decodeImage for calls with this model
  */
 export function decodeImages(
   model: Bytes,
@@ -148,5 +159,8 @@ export function decodeImages(
   options?: ModelOptions & Record<string, unknown>,
 ): Promise<DecodeImage>;
 
-/** Decodes by what browsers and their workers have (createImageBitmap, OffscreenCanvas): 8 bits a channel, exact where nothing is transparent. */
+/**
+ * Decodes with browser features (createImageBitmap, OffscreenCanvas), also in workers: 8 bits per channel, exact for
+ * opaque pixels.
+ */
 export function decodeByCanvas(file: Uint8Array, type: ImageType): Promise<Pixels>;

@@ -8,16 +8,16 @@ export { conventions, ready, release, sanitizeTangents, splitVertices, TspaceErr
 export type * from "./types.js";
 
 export interface TangentOptions extends Omit<MikktspaceOptions, "method"> {
-  /** How tangents are computed; `mikktspace`, bit for bit as the reference, unless given. */
+  /** Tangent method. Default: `mikktspace`, bit-identical to the reference. */
   method?: "mikktspace" | "lengyel" | "uniform" | "angle" | "area" | "flat" | "basis" | "fast" | "best";
-  /** `symmetric`: T lies between dP/du and the direction across dP/dv. Not for mikktspace and basis. */
+  /** `symmetric`: T is the bisector of dP/du and the direction perpendicular to dP/dv. Not for mikktspace and basis. */
   frame?: "gramSchmidt" | "symmetric";
-  /** 0, 1 (the default) or 2 steps after the fit of `best`. */
+  /** Number of refinement steps of `best` after its fit. Default: 1. */
   refine?: 0 | 1 | 2;
 }
 
 /**
- * Tangents of a mesh.
+ * Computes the tangents of a mesh.
  * @returns four numbers per corner: the tangent and its sign, `B = sign * cross(N, T)`
  */
 export function generateTangents(mesh: Mesh, options: TangentOptions): NewFloat32Array;
@@ -29,8 +29,9 @@ export interface MeshJob {
 }
 
 /**
- * Tangents of many meshes, one mesh after the other, in memory that the module reuses.
- * @returns one entry per job: what generateTangents returns for it, or the error that it throws. A job that fails does not affect the others.
+ * Computes the tangents of many meshes, one after the other, in memory that the module reuses.
+ * @returns one entry per job: the result of generateTangents, or the error that it throws. A failed job does not affect
+ * the others.
  */
 export function generateTangentsOfMeshes(jobs: readonly MeshJob[]): (NewFloat32Array | TspaceError | TypeError)[];
 
@@ -38,36 +39,42 @@ export interface NormalReport {
   faceCount: number;
   /** Faces without a normal: zero area or not finite. */
   degenerateFaceCount: number;
-  /** Corners whose mean vanished and that got a substitute. */
+  /** Corners whose weighted mean is zero and that got a fallback. */
   fallbackCornerCount: number;
-  /** Noise of positions that `denoise` removed: standard deviation in mean edge lengths; 0: none. */
+  /** Position noise that `denoise` removed: standard deviation in mean edge lengths; 0: none. */
   noise: number;
-  /** The angle that edges were held against: as given, or what "auto" found. */
+  /** The crease angle used: the given one, or the one that "auto" determined. */
   creaseAngle: number;
-  /** Options that were given and that the weighting does not read, such as `refine` for `angle`. */
+  /** Given options that the weighting does not use, such as `refine` for `angle`. */
   ignoredOptions?: string[];
 }
 
 export interface NormalOptions {
-  /** How much a face counts at a corner; `angle` unless given. */
+  /** Weight of a face at a corner. Default: `angle`. */
   weighting?: "flat" | "uniform" | "area" | "angle" | "angleArea" | "max" | "best";
-  /** Degrees, 0 to 180, 180 unless given: edges whose faces differ by more are hard. "auto", an angle by the mesh: of "tspace/normals". */
+  /**
+   * Degrees from 0 to 180: edges where face normals differ by more are hard. Default: 180. "auto" (only
+   * "tspace/normals"): derived from the mesh.
+   */
   creaseAngle?: number | "auto";
-  /** One number per face: faces are smooth together only when their numbers are equal and not 0. */
+  /** One number per face: two faces are smoothed only if their numbers are equal and not 0. */
   smoothingGroups?: Indices | null;
-  /** Or, with true, when they have a bit in common. */
+  /** true: two faces are smoothed if their numbers share a bit. */
   smoothingGroupsAreMasks?: boolean;
-  /** true (the default): vertices at one position are one point. false: only equal indices are. */
+  /** true (the default): vertices at the same position are welded. false: only by index. */
   weldPositions?: boolean;
-  /** With weldPositions: positions that differ by no more than this (0 unless given) in each coordinate are one. "auto": by the spacing of floats. */
+  /**
+   * With weldPositions: positions that differ by at most this in each coordinate are welded. Default: 0. "auto":
+   * derived from the spacing of floats.
+   */
   weldDistance?: number | "auto";
-  /** Handedness and winding say which side is out; counter-clockwise from outside, right-handed, unless given. */
+  /** Its handedness and winding define the outside. Default: right-handed, counter-clockwise from outside. */
   convention?: ConventionName | Convention;
-  /** 0, 1 or 2 (the default) steps after the fit of `best`. */
+  /** Number of refinement steps of `best` after its fit. Default: 2. */
   refine?: 0 | 1 | 2;
   /**
-   * Of "tspace/normals", for `best` on noisy positions: normals by more of the surface around. "auto": as much as is measured, and nothing where
-   * that is shape; 0 (the default) to 4: so many times the noise that is measured, also where it looks like shape.
+   * Only "tspace/normals", for `best` on noisy positions: uses a larger neighborhood. "auto": the measured noise, or 0
+   * if it is detected as shape; 0 (the default) to 4: multiple of the measured noise, even if it looks like shape.
    */
   denoise?: number | "auto";
   report?: Partial<NormalReport>;
@@ -75,53 +82,56 @@ export interface NormalOptions {
 
 /** Triangles of a polygon mesh. */
 export interface Triangles {
-  /** Three corners of the mesh (not vertices) per triangle, winding kept. */
+  /** Three corners of the mesh (not vertices) per triangle, with the original winding. */
   corners: NewUint32Array;
-  /** The face that each triangle was cut from. */
+  /** The original face of each triangle. */
   faces: NewUint32Array;
 }
 
 /**
- * Cuts faces of 4 and more corners into triangles: quads along the diagonal that MikkTSpace takes, for which it looks at `uvs` too,
- * where they are given; n-gons by clipping ears. Faces of fewer than 3 corners give nothing. `normals` are not looked at, and
- * `uvIndices` are refused.
+ * Splits faces with 4 or more corners into triangles: quads along the diagonal that MikkTSpace chooses, which also
+ * depends on `uvs` if given; n-gons by ear clipping. Faces with fewer than 3 corners are skipped. `normals` are
+ * ignored, and `uvIndices` are rejected.
  * @example
  * const { corners } = triangulate(mesh);
  * const indices = corners.map((corner) => mesh.indices[corner]);
  */
 export function triangulate(mesh: Mesh): Triangles;
 
-/** Normals of a mesh, of which positions, indices and face sizes are used: three numbers per corner, unit. */
+/** Computes normals of a mesh from its positions, indices and face sizes: three numbers per corner, unit. */
 export function generateNormals(mesh: Mesh, options?: NormalOptions): NewFloat32Array;
 
-/** What each step met; null: the step was left out. */
+/** Reports of the steps; null if a step was skipped. */
 export interface IndexedFramesReport {
   normals: NormalReport | null;
   tangents: TangentReport;
   sanitize: SanitizeReport | null;
-  /** Options that were given and have no effect, such as `refine` for `mikktspace` or `normals.weighting` where no normals are made. */
+  /**
+   * Given options without an effect, such as `refine` for `mikktspace`, or `normals.weighting` if no normals are
+   * computed.
+   */
   ignoredOptions?: string[];
 }
 
 export interface IndexedFramesOptions extends Omit<TangentOptions, keyof TangentOutputs> {
-  /** Make normals also where the mesh has them; where it has none they are made anyway. */
+  /** Recompute existing normals; missing normals are always computed. */
   makeNormals?: boolean;
-  /** How normals are made. */
+  /** Options of computed normals. */
   normals?: Omit<NormalOptions, "convention" | "report">;
-  /** Mend tangents that are broken; true unless given. */
+  /** Repair invalid tangents. Default: true. */
   sanitize?: boolean;
-  /** Also make every sound tangent unit and orthogonal to its normal. */
+  /** Also make every valid tangent unit and orthogonal to its normal. */
   orthogonalizeAll?: boolean;
   report?: Partial<IndexedFramesReport>;
 }
 
-/** A mesh with the faces of the given one. */
+/** Indexed mesh with the same faces as the input. */
 export interface IndexedFrames {
   /** The new vertex of each corner. */
   indices: NewUint32Array;
-  /** The entry of `positions` that each new vertex copies. Gather every other attribute and morph target through it. */
+  /** The entry of `positions` that each new vertex copies; use it to gather other attributes and morph targets. */
   sourceVertices: NewUint32Array;
-  /** The first corner of each new vertex; 4294967295 for one that no corner uses. */
+  /** The first corner of each new vertex; 4294967295 if no corner uses it. */
   sourceCorners: NewUint32Array;
   /** Three numbers per new vertex. */
   normals: NewFloat32Array;
@@ -130,39 +140,48 @@ export interface IndexedFrames {
   report: IndexedFramesReport;
 }
 
-/** The usual case in one call: normals where they are missing, tangents, mended and split into an indexed mesh. */
+/**
+ * The common case in one call: computes missing normals, then tangents, repairs them, and splits vertices into an
+ * indexed mesh.
+ */
 export function makeIndexedFrames(mesh: Mesh, options: IndexedFramesOptions): IndexedFrames;
 
-/** What of a mesh stays while it deforms. It lies in the module's memory: destroy it, or leave that to the collector. */
+/**
+ * Data of a mesh that does not change while it deforms. It uses the module's memory: call destroy, or rely on the
+ * garbage collector.
+ */
 export class Plan {
   constructor(mesh: Mesh, options: Omit<TangentOptions, keyof TangentOutputs>);
   readonly vertexCount: number;
   readonly cornerCount: number;
-  /** Memory that the plan holds. */
+  /** Memory of the plan in bytes. */
   readonly memoryBytes: number;
-  /** Options that were given and that the method does not read. */
+  /** Given options that the method does not use. */
   readonly ignoredOptions: readonly string[];
-  /** The tangents of a pose, four numbers per corner: those that generateTangents gives for it, with the groups of the plan. */
+  /** Computes the tangents of a pose, four numbers per corner, like generateTangents with the groups of the plan. */
   evaluate(pose: { positions: Float32Array; normals: Float32Array }, options?: TangentOutputs): NewFloat32Array;
   destroy(): void;
 }
 
 export interface PlanBufferOptions {
-  /** The vertex of each corner in the arrays of a pose, as `makeIndexedFrames(...).indices`; unless given, those of the plan's mesh. */
+  /**
+   * The vertex of each corner in the arrays of a pose, such as `makeIndexedFrames(...).indices`. Default: those of the
+   * plan's mesh.
+   */
   indices?: Indices | null;
-  /** The corner of each result, as `makeIndexedFrames(...).sourceCorners`; unless given, there is one result per corner. */
+  /** The corner of each result, such as `makeIndexedFrames(...).sourceCorners`. Default: one result per corner. */
   sourceCorners?: Uint32Array | null;
-  /** The plan's mesh: the shader then computes normals too. Unless given, a pose brings its normals. */
+  /** The plan's mesh: the shader then also computes normals. Default: normals are an input of each pose. */
   mesh?: Mesh | null;
-  /** How the normals of `mesh` are computed: every weighting but `best`, without `denoise`. */
+  /** Options of the normals of `mesh`: any weighting except `best`, without `denoise`. */
   normals?: Omit<NormalOptions, "report">;
 }
 
-/** A plan as 32-bit words for compute shaders. The arrays are views of `words`; docs/guides/gpu.md describes them. */
+/** A plan as 32-bit words for compute shaders. The arrays are views of `words`; see docs/guides/gpu.md. */
 export interface PlanBuffers {
   /** A header of 12 words, then results, entries and triangles. */
   readonly words: NewUint32Array;
-  /** Three words per result: the first entry, the count of entries with flags, the own corner. */
+  /** Three words per result: first entry, number of entries with flags, own corner. */
   readonly results: NewUint32Array;
   /** Corners of triangles in the order of summation, with flags. */
   readonly entries: NewUint32Array;
@@ -174,8 +193,11 @@ export interface PlanBuffers {
   readonly makesNormals: boolean;
 }
 
-/** Writes a plan as arrays, from which a compute shader evaluates each pose on a GPU: see "tspace/webgpu". */
+/** Exports a plan as arrays, with which a compute shader evaluates each pose on a GPU: see "tspace/webgpu". */
 export function planBuffers(plan: Plan, options?: PlanBufferOptions): PlanBuffers;
 
-/** Memory of the module in bytes: it grows to what the largest call and all plans need, and is 0 after release(). */
+/**
+ * Returns the memory of the module in bytes: it grows to the size that the largest call and all plans need, and is 0
+ * after release().
+ */
 export function memoryBytes(): number;

@@ -5,7 +5,7 @@ export { conventions, ready, release, sanitizeTangents, splitVertices, TspaceErr
 export type * from "./types.js";
 
 /**
- * Bit for bit the tangents of the MikkTSpace reference.
+ * Computes tangents bit-identical to the MikkTSpace reference.
  * @returns four numbers per corner: the tangent and its sign, `B = sign * cross(N, T)`
  */
 export function generateTangents(mesh: Mesh, options: MikktspaceOptions): NewFloat32Array;

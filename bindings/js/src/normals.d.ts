@@ -6,41 +6,50 @@ export { conventions, TspaceError } from "./types.js";
 export type * from "./types.js";
 export type { NormalOptions, NormalReport } from "./index.js";
 
-/** Resolves when calls can be made. */
+/** Resolves when the module is ready for calls. */
 export const ready: Promise<void>;
 
-/** Gives the module's memory back. The next call starts with little memory. */
+/** Releases the module's memory. The next call starts with little memory. */
 export function release(): void;
 
-/** As that of "tspace", with `denoise` and `creaseAngle: "auto"`. */
+/** Like generateNormals of "tspace", with `denoise` and `creaseAngle: "auto"`. */
 export function generateNormals(mesh: Mesh, options?: NormalOptions): NewFloat32Array;
 
-/** Lengths are parts of `meanEdge`. */
+/** Measured noise of positions. Lengths are relative to `meanEdge`. */
 export interface PositionNoise {
-  /** How far positions lie from a smooth surface through their neighbours: the standard deviation along the normal. */
+  /** Distance of positions from a smooth surface through their neighbors: standard deviation along the normal. */
   sigma: number;
-  /** Of how normals differ along an edge, the part that no smooth surface has: the median, 0 to 1. */
+  /** Median part of the normal difference along an edge that no smooth surface has, 0 to 1. */
   kinkShare: number;
-  /** What of `sigma` is noise, and `denoise: "auto"` removes; 0: positions are not noisy. */
+  /** The part of `sigma` that is noise, which `denoise: "auto"` removes; 0: positions are not noisy. */
   noise: number;
   meanEdge: number;
 }
 
-/** How noisy positions are, by samples. UVs and normals are not looked at. */
+/** Measures the noise of positions from samples. UVs and normals are ignored. */
 export function measurePositionNoise(mesh: Mesh): PositionNoise;
 
 export interface WindingOptions {
-  /** true (the default): normals of the mesh, where it has some, say which side is out, if they agree among themselves. */
+  /** true (the default): the mesh's normals, if consistent, define the outside. */
   useNormals?: boolean;
-  /** true (the default): vertices at one position are one point. false: only equal indices are. */
+  /** true (the default): vertices at the same position are welded. false: only by index. */
   weldPositions?: boolean;
-  /** With weldPositions: positions that differ by no more than this (0 unless given) in each coordinate are one. "auto": by the spacing of floats. */
+  /**
+   * With weldPositions: positions that differ by at most this in each coordinate are welded. Default: 0. "auto":
+   * derived from the spacing of floats.
+   */
   weldDistance?: number | "auto";
-  /** Handedness and winding say which order of corners is right; counter-clockwise from outside, right-handed, unless given. */
+  /**
+   * Its handedness and winding define the correct order of corners. Default: right-handed, counter-clockwise from
+   * outside.
+   */
   convention?: ConventionName | Convention;
 }
 
-/** A component is what hangs together over pairs of faces at edges; a conflict is a pair that runs through its edge the same way. */
+/**
+ * A component consists of faces connected by edges; a conflict is a pair of faces that traverse their common edge in
+ * the same direction.
+ */
 export interface WindingReport {
   /** Faces with at least 3 corners. */
   faceCount: number;
@@ -48,25 +57,25 @@ export interface WindingReport {
   conflictCountBefore: number;
   conflictCountAfter: number;
   componentCount: number;
-  /** Components of which more than half of the faces were turned. */
+  /** Components with more than half of their faces flipped. */
   turnedComponentCount: number;
-  /** Components decided by normals of the mesh; so on, how the others were. */
+  /** Components oriented by normals of the mesh; the following counts are for the other criteria. */
   byNormalsCount: number;
   byVolumeCount: number;
   byNestingCount: number;
   byWindingNumberCount: number;
   byMajorityCount: number;
-  /** Components of fewer than 4 faces, which are left alone. */
+  /** Components with fewer than 4 faces, which are not changed. */
   smallCount: number;
-  /** Components that have one side only, as a Moebius band, and are left alone. */
+  /** One-sided components, such as a Moebius strip, which are not changed. */
   oneSidedCount: number;
 }
 
-/** Turns faces that are wound against their neighbours, and parts that are inside out as a whole. UVs are not looked at. */
+/** Flips faces whose winding differs from their neighbors, and components that are inside out. UVs are ignored. */
 export function mendWinding(mesh: Mesh, options?: WindingOptions): {
-  /** The mesh's own, in another order within faces that were turned. */
+  /** The mesh's indices, reordered within flipped faces. */
   indices: NewUint32Array;
-  /** One per face: 1 where it was turned. */
+  /** One per face: 1 if it was flipped. */
   turned: NewUint8Array;
   report: WindingReport;
 };

@@ -4,25 +4,25 @@ import type { NewFloat32Array, NewUint8Array } from "./types.js";
 export { TspaceError } from "./types.js";
 export type { NewFloat32Array, NewUint8Array };
 
-/** Resolves when calls can be made. */
+/** Resolves when the module is ready for calls. */
 export const ready: Promise<void>;
 
-/** Gives the module's memory back. The next call starts with little memory. */
+/** Releases the module's memory. The next call starts with little memory. */
 export function release(): void;
 
 /**
- * How a frame is stored, and how far N and T are from what was packed at most, in degrees: "frame32" 4 bytes, 0.135 and
- * 0.135; "frame48" 6, 0.0037 and 0.0042; "frame64" 8, 0.0001 and 0.00015; "oct32" 4, 0.15 and 0.165; "qtangent64" 8, 0.004 and
- * 0.004; vectors as snorm numbers: "snorm8_pair" 8 bytes, "snorm16_pair" 16, "gltf_snorm8" 7, "gltf_snorm16" 14. Signs are
- * always exact.
+ * Storage format of a frame, with its size and the maximum error of N and T in degrees: "frame32" 4 bytes, 0.135 and
+ * 0.135; "frame48" 6, 0.0037 and 0.0042; "frame64" 8, 0.0001 and 0.00015; "oct32" 4, 0.15 and 0.165; "qtangent64" 8,
+ * 0.004 and 0.004; vectors as snorm numbers: "snorm8_pair" 8 bytes, "snorm16_pair" 16, "gltf_snorm8" 7, "gltf_snorm16"
+ * 14. Signs are always exact.
  */
 export type FrameFormat =
   | "frame32" | "frame48" | "frame64" | "oct32" | "qtangent64" | "snorm8_pair" | "snorm16_pair" | "gltf_snorm8" | "gltf_snorm16";
 
-/** All of them. */
+/** All formats. */
 export const frameFormats: readonly FrameFormat[];
 
-/** Frames that were mended before they were packed, by cause. */
+/** Frames repaired before packing, by cause. */
 export interface PackReport {
   badNormalCount?: number;
   notFiniteCount?: number;
@@ -34,19 +34,19 @@ export interface PackReport {
   mendedCount?: number;
 }
 
-/** Bytes of one frame. */
+/** Returns the bytes of one frame. */
 export function frameBytes(format: FrameFormat): number;
 
 /**
- * Packs frames, each by itself. Any input is packed: what is broken is mended and counted.
+ * Packs frames independently of each other. Accepts any input: invalid frames are repaired and counted.
  * @param normals three numbers per frame, unit
- * @param tangents four numbers per frame, unit and across the normal, and the sign
- * @param options `report`: an object that gets the counts
+ * @param tangents four numbers per frame: unit, orthogonal to the normal, and the sign
+ * @param options `report`: an object that receives the counts
  * @returns `frameBytes(format)` bytes per frame, for the shaders of tspace or unpackFrames
  */
 export function packFrames(
   normals: Float32Array, tangents: Float32Array, format: FrameFormat, options?: { report?: PackReport },
 ): NewUint8Array;
 
-/** Unpacks frames: any bytes are frames, finite and unit. */
+/** Unpacks frames: all bytes are valid frames, finite and unit. */
 export function unpackFrames(frames: Uint8Array, format: FrameFormat): { normals: NewFloat32Array; tangents: NewFloat32Array };

@@ -4,51 +4,53 @@
 export interface Mesh {
   /** Three numbers per vertex. */
   positions: Float32Array;
-  /** Three numbers per vertex, used as given. All methods but those of normals need them. */
+  /** Three numbers per vertex, used as given. Required by all tangent methods. */
   normals?: Float32Array | null;
-  /** Two numbers per vertex. All methods but `basis` need them. */
+  /** Two numbers per vertex. Required by all methods except `basis`. */
   uvs?: Float32Array | null;
-  /** The vertex of each corner; without them corner c uses vertex c. */
+  /** The vertex of each corner. Default: corner c uses vertex c. */
   indices?: Indices | null;
-  /** The normal of each corner; without them that of its vertex. */
+  /** The normal of each corner. Default: the normal of its vertex. */
   normalIndices?: Indices | null;
-  /** The UV of each corner; without them that of its vertex. */
+  /** The UV of each corner. Default: the UV of its vertex. */
   uvIndices?: Indices | null;
-  /** Corners of each face; without them all faces are triangles. Faces of fewer than 3 corners are ignored. */
+  /** Number of corners of each face. Default: triangles. Faces with fewer than 3 corners are ignored. */
   faceSizes?: Indices | null;
 }
 
 export type Indices = Uint32Array | Uint16Array | Uint8Array;
 
-/** Arrays that calls make: from TypeScript 5.7 on `Float32Array<ArrayBuffer>`, whose buffers can be transferred. */
+/** Arrays that calls return: from TypeScript 5.7 on `Float32Array<ArrayBuffer>`, whose buffers can be transferred. */
 export type NewFloat32Array = ReturnType<typeof Float32Array.of>;
 export type NewUint32Array = ReturnType<typeof Uint32Array.of>;
 export type NewUint8Array = ReturnType<typeof Uint8Array.of>;
 
-/** What the sign of a tangent means and which side of a face is out. */
+/** Meaning of the tangent sign, and the outside of a face. */
 export interface Convention {
   /** Whether v = 0 is the bottom row of the image (up) or the top row (down). */
   vAxis: "up" | "down";
-  /** What a large green value in a normal map means: towards the top row (up, the default), or the bottom row. */
+  /**
+   * Direction of large green values in a normal map: toward the top row (up, the default), or toward the bottom row.
+   */
   green?: "up" | "down";
-  /** Whether signs are stored as they are (the default) or negated. */
+  /** Whether signs are stored unchanged (the default) or negated. */
   storedSign?: "asIs" | "negated";
   handedness?: "right" | "left";
-  /** Order of a face's vertices as seen from outside. */
+  /** Order of a face's vertices seen from outside. */
   winding?: "counterClockwise" | "clockwise";
 }
 
 export type ConventionName = "gltf" | "opengl" | "directx" | "unreal" | "unity" | "blender" | "godot";
 
-/** Presets by the name of a format or an engine. */
+/** Presets, keyed by the name of a format or an engine. */
 export const conventions: Readonly<Record<ConventionName, Convention>>;
 
 export interface TangentReport {
-  /** Triangles computed with, after cutting quads and n-gons. */
+  /** Triangles after triangulation of quads and n-gons. */
   triangleCount: number;
   /** Two corners at the same position. */
   degenerateTriangleCount: number;
-  /** Triangles without UV area: they take their neighbours' frame. */
+  /** Triangles without UV area: they use the frame of their neighbors. */
   degenerateUvCount: number;
   /** Triangles with negative UV area. */
   mirroredCount: number;
@@ -56,41 +58,47 @@ export interface TangentReport {
   skippedFaceCount: number;
   /** Sets of corners that share one tangent. */
   groupCount: number;
-  /** Corners that no face gives a tangent: the method's default. */
+  /** Corners to which no face contributes: the method's default. */
   defaultCornerCount: number;
-  /** Tangents with a NaN or infinity. */
+  /** Tangents that contain NaN or infinity. */
   notFiniteCount: number;
-  /** 1: the input drives the reference itself into quadratic time, so its last step was left out. */
+  /** 1: the reference would take quadratic time for this input, so its last step was skipped. */
   referenceOrderAbandoned: number;
-  /** Options that were given and that the method does not read, such as `refine` for `mikktspace`. */
+  /** Given options that the method does not use, such as `refine` for `mikktspace`. */
   ignoredOptions?: string[];
 }
 
 /** Outputs that the caller provides. */
 export interface TangentOutputs {
   /**
-   * One entry per corner: 1 where at least one face gives the corner a tangent, 0 where none does and the method's default was
-   * written (`defaultCornerCount` of the report), and at corners of skipped faces.
+   * One entry per corner: 1 if at least one face contributes to the corner, 0 if none does and the method's default was
+   * written (`defaultCornerCount` of the report), and for corners of skipped faces.
    */
   hasTangent?: Uint8Array | null;
-  /** Gets counts of what was met. */
+  /** Receives the counts of the report. */
   report?: Partial<TangentReport>;
 }
 
 export interface MikktspaceOptions extends TangentOutputs {
   method?: "mikktspace";
-  /** What the tangents are for: a preset's name, or each part of it. There is no default: a wrong one turns every sign over. */
+  /**
+   * Convention of the tangents: a preset's name, or an object. There is no default, because a wrong convention inverts
+   * all signs.
+   */
   convention: ConventionName | Convention;
-  /** Degrees from 0 to 360, 180 unless given: faces whose tangents differ by this or more are not averaged. */
+  /** Degrees from 0 to 360: tangents of faces that differ by this or more are not averaged. Default: 180. */
   threshold?: number;
-  /** `reference` (the default): with the reference's defect in its last bucket of edges. `corrected`: without. */
+  /** `reference` (the default): with the reference's defect in its last bucket of edges. `corrected`: without it. */
   pairing?: "reference" | "corrected";
   /**
-   * `triangulate` cuts faces of five corners and more, and is the default of "tspace"; `skip` gives them zeros, as the reference
-   * does, and is all that "tspace/mikktspace" has.
+   * `triangulate` splits faces with five or more corners, and is the default of "tspace"; `skip` gives them zeros, like
+   * the reference, and is the only choice of "tspace/mikktspace".
    */
   ngons?: "triangulate" | "skip";
-  /** true: normals whose length is further from 1 than 0.00674 are scaled to length 1 first. false (the default): they are used as given. */
+  /**
+   * true: normals whose length differs from 1 by more than 0.00674 are normalized first. false (the default): they are
+   * used as given.
+   */
   normalizeNormals?: boolean;
 }
 
@@ -107,12 +115,12 @@ export interface SanitizeReport {
   fromNeighborCount: number;
   fromBasisCount: number;
   badNormalCount: number;
-  /** All corners that were written. */
+  /** All repaired corners. */
   mendedCount: number;
 }
 
 export interface SanitizeOptions {
-  /** Also make every sound tangent unit and orthogonal to its normal. */
+  /** Also make every valid tangent unit and orthogonal to its normal. */
   orthogonalizeAll?: boolean;
   report?: Partial<SanitizeReport>;
 }
@@ -122,20 +130,26 @@ export interface CornerAttribute {
   data: Float32Array;
   /** 1 to 16. */
   size: number;
-  /** 0 (the default): corners are equal only when all bits are. Else how much each number may differ. */
+  /** 0 (the default): corners are equal only if all bits are equal. Otherwise: maximum difference of each number. */
   tolerance?: number;
 }
 
 export interface Split {
   /** The new vertex of each corner. */
   indices: NewUint32Array;
-  /** The old vertex that each new one copies: old ones keep their place, copies come after them. Gather every attribute through it. */
+  /**
+   * The old vertex that each new one copies: old vertices keep their positions, copies are appended. Use it to gather
+   * other attributes.
+   */
   sourceVertices: NewUint32Array;
-  /** The corner whose values belong to each new vertex; 4294967295 for one that no corner uses. */
+  /** A corner whose values each new vertex has; 4294967295 if no corner uses it. */
   sourceCorners: NewUint32Array;
 }
 
-/** Why a call failed. The module can be used afterwards. Wrong types, and options that do not exist, are instances of TypeError too. */
+/**
+ * Error of a failed call. The module can be used afterwards. Errors for wrong types and unknown options are also
+ * instances of TypeError.
+ */
 export class TspaceError extends Error {
   /**
    * Stable: wrongType, detached, notReady, or one of the library: nullData, countMismatch, indexOutOfRange, tooLarge,
