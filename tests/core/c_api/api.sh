@@ -29,8 +29,8 @@ finds() {
     ! "$folder/scripts/api" --check --pages "" >"$folder/printed" 2>&1 || fail "not found: $2 with \"$4\""
     grep -qF -- "$1" "$folder/printed" || fail "$2 with \"$4\" is found, but not for \"$1\": $(<"$folder/printed")"
 }
-finds "+/* How tangents are estimated." tangents.h "How tangents are computed" "How tangents are estimated"
-finds "+/* How tangents are computed." tspace.h "How tangents are computed" "How tangents are estimated"
+finds "+/* Method of estimating tangents." tangents.h "Method of computing tangents" "Method of estimating tangents"
+finds "+/* Method of computing tangents." tspace.h "Method of computing tangents" "Method of estimating tangents"
 finds "methodTitle has no twin in C" tangents.h "^const char\* methodName(.*" "&\nconst char* methodTitle(Method method);"
 finds "tspace_methodTitle has no twin in C++" tspace.h "^const char\* tspace_methodName(.*" "&\nconst char* tspace_methodTitle(tspace_Method method) TSPACE_NOEXCEPT;"
 finds "+    options->refine = 3" tangents.h "refine = 1" "refine = 3"
