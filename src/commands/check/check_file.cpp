@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// checkFile: reads a scene, judges it, and puts the findings in order; its report as JSON.
+// checkFile: reads a scene, checks it and sorts the findings; its report as JSON.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -27,14 +27,14 @@ void checkOptions(const CheckOptions& options) {
     }
 }
 
-/// Whether `generate --strip` would take the tangents away: not where a morph target moves nothing else.
+/// Returns whether `generate --strip` would remove the tangents. It keeps them if a morph target moves only tangents.
 bool canStrip(const ScenePrimitive& primitive) {
     return std::none_of(primitive.morph_targets.begin(), primitive.morph_targets.end(), [](const auto& target) {
         return !target.tangents.empty() && target.positions.empty() && target.normals.empty();
     });
 }
 
-/// One note for all unused tangents of the file, in place of one per primitive.
+/// Reports all unused tangents of the file in one note, instead of one note per primitive.
 void joinUnused(const Scene& scene, std::span<PrimitiveJudgement> judgements, std::vector<Finding>& findings) {
     std::vector<Finding> unused;
     std::uint64_t total = 0;
@@ -57,13 +57,13 @@ void joinUnused(const Scene& scene, std::span<PrimitiveJudgement> judgements, st
                                        " do not need them: none of their materials reads a texture in tangent space"));
 }
 
-/// The warnings of reading. They are about the file, so no primitive is named.
+/// Makes a finding of a warning from reading the file. It concerns the file, so it names no primitive.
 Finding fileRemark(const std::string& warning) {
     const Tally one{.count = 1, .total = 1};
     return makeFinding(FindingCode::fileRemark, Severity::note, one, "files", warning);
 }
 
-/// Sorts, counts and spells the findings.
+/// Sorts and counts the findings, and writes their remedies as text.
 void finishFindings(CheckReport& report) {
     spellRemedies(report.findings);
     sortStably(report.findings.begin(), report.findings.end(),
@@ -116,7 +116,7 @@ CheckReport check(const std::string& input, const CheckOptions& options) {
     for (Finding& finding : images.findings) report.findings.push_back(std::move(finding));
     for (Finding& finding : checkMapScales(scene)) report.findings.push_back(std::move(finding));
     for (const std::string& warning : scene.warnings) {
-        // A finding about their primitives says it.
+        // Normal lengths are already reported by a finding on the primitives concerned.
         if (warning.rfind(kNormalLengths, 0) != 0) report.findings.push_back(fileRemark(warning));
     }
     finishFindings(report);

@@ -60,7 +60,7 @@ const char* greenName(GreenVerdict verdict) {
 }
 
 std::string texelText(const std::uint8_t* rgb) {
-    // GCC 12 warns of "(" + std::to_string().
+    // GCC 12 warns about "(" + std::to_string().
     std::string text = "(";
     for (std::size_t i = 0; i < 3; ++i) text.append(i == 0 ? "" : ", ").append(std::to_string(rgb[i]));
     return text + ")";
@@ -75,7 +75,7 @@ Finding noteOn(FindingCode code, std::uint64_t count, std::uint64_t total, std::
     return makeFinding(code, Severity::note, {.count = count, .total = total}, "texels", std::move(message));
 }
 
-/// Texels of one color: flat, or no normal map.
+/// Reports an image of a single color: either a flat map, or not a normal map.
 std::optional<Finding> constantFinding(const std::string& name, const RgbImage& image) {
     const std::uint8_t* const first = image.rgb.data();
     const std::size_t count = image.rgb.size() / 3;
@@ -93,7 +93,7 @@ std::optional<Finding> constantFinding(const std::string& name, const RgbImage& 
     return finding;
 }
 
-/// Lengths of vectors far from 1.
+/// Reports vectors whose lengths are far from 1.
 std::optional<Finding> lengthFinding(const std::string& name, const RgbImage& image) {
     constexpr double kOff = 0.1, kLeastShare = 0.1;
     constexpr int kBlack = 8, kWhite = 247;
@@ -116,7 +116,7 @@ std::optional<Finding> lengthFinding(const std::string& name, const RgbImage& im
                       shortNumber(sum / static_cast<double>(total)));
 }
 
-/// Flat parts of 8 bits whose x and y are 127: half a step below 0, as 128 is half a step above.
+/// Reports flat areas of 8-bit maps whose x and y are 127, which is half a step below 0 (128 is half a step above).
 std::optional<Finding> zeroFinding(const std::string& name, const RgbImage& image) {
     constexpr double kLeastShare = 0.05;
     const std::size_t total = image.rgb.size() / 3;
@@ -136,7 +136,8 @@ std::optional<Finding> zeroFinding(const std::string& name, const RgbImage& imag
 }  // namespace
 
 bool isImageInput(const std::string& input, ByteSpan content) {
-    const bool is_named = isImageName(input) || lowerExtension(input) == ".avif";  // its error names the format
+    // reading an AVIF file fails with an error that names the format
+    const bool is_named = isImageName(input) || lowerExtension(input) == ".avif";
     if (content.data() == nullptr) return is_named;
     const ImageFormat format = imageFormat(content);
     return format != ImageFormat::unknown && (format != ImageFormat::tga || is_named);
@@ -184,7 +185,7 @@ CheckReport checkImageFile(const std::string& input, const CheckOptions& options
     Scene scene;
     scene.images.push_back({.bytes = {bytes.begin(), bytes.end()}});
     scene.images[0].uri = input;
-    constexpr std::uint64_t kPixelBytes = 8;  // two copies of 3 bytes, masks, alpha
+    constexpr std::uint64_t kPixelBytes = 8;  // two copies with 3 bytes each, masks, alpha
     scene.memory = imageBudget(bytes, options.file);
     scene.memory->require(imageNeed(bytes, kPixelBytes), {});
     LoneMap map = checkLoneMap(scene, options);
@@ -206,7 +207,7 @@ CheckReport checkImageFile(const std::string& input, const CheckOptions& options
     for (Finding& finding : report.findings) {
         const bool is_layout =
             finding.code == FindingCode::normalMapTwoChannels || finding.code == FindingCode::normalMapChannels;
-        // Engines read what the format says, so only glTF's viewers are wrong.
+        // Engines use the layout that the format declares, so only viewers of plain glTF are wrong.
         if (is_declared && is_layout) finding.severity = Severity::note;
     }
     if (map.look.content != MapContent::normals) return report;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A normal map that is checked without a model.
+// Checks of a normal map without a model.
 #pragma once
 
 #include <string>
@@ -9,14 +9,15 @@
 
 namespace tspace {
 
-/// Whether the input is an image: by the first bytes of `content` where it has data, else by the extension.
+/// Returns whether the input is an image: decided by the first bytes of `content` if it has data, otherwise by the
+/// extension.
 bool isImageInput(const std::string& input, ByteSpan content);
 
-/// Judges the image by the tests of a model's normal maps, and by those for which an image alone is asked. Findings are not counted.
+/// Checks the image as a normal map of a model, and with further tests for single images. Findings are not counted yet.
 /// Throws FileError.
 CheckReport checkImageFile(const std::string& input, const CheckOptions& options);
 
-/// Describes a checked image (CheckReport::image) in a sentence without a full stop.
+/// Describes a checked image (CheckReport::image) in a sentence without a trailing period.
 std::string imageText(const CheckReport& report);
 
 }  // namespace tspace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What normal maps hold, and green channels that point down, throughout or in parts.
+// Content of normal maps, and green channels that point down in all or part of a map.
 #include "commands/check/scene_checks.h"
 
 #include <array>
@@ -25,15 +25,15 @@
 namespace tspace {
 namespace {
 
-/// Triangles that show a part of an image, and the primitives that have them.
+/// Triangles that show a part of an image, and the primitives that contain them.
 struct MapPart {
-    const ScenePrimitive* primitive = nullptr;  ///< the first
+    const ScenePrimitive* primitive = nullptr;  ///< first primitive that shows the part
     const TangentUse* use = nullptr;
-    std::vector<std::size_t> followers = {};  ///< primitives whose tangents are for this use
+    std::vector<std::size_t> followers = {};  ///< primitives whose tangents are meant for this use
     GreenTest test = {};
 };
 
-/// A normal map, and what shows it.
+/// A normal map, and the parts of the scene that show it.
 struct NormalMap {
     std::size_t image = 0;
     std::vector<MapPart> parts = {};
@@ -43,7 +43,7 @@ struct NormalMap {
     double packing_deg = 0;  ///< approximate error of the vectors of an image with lossy color compression
 };
 
-/// Parts with one key show the same texels.
+/// Parts with equal keys show the same texels.
 using PartKey = std::tuple<std::size_t, const void*, const void*, std::array<double, 5>, TextureWrap, TextureWrap>;
 
 PartKey keyOf(const ScenePrimitive& primitive, const TangentUse& use) {
@@ -76,7 +76,8 @@ std::vector<NormalMap> collectNormalMaps(const Scene& scene) {
     return maps;
 }
 
-/// A primitive without triangles or UVs shows nothing. False: the steps ran out.
+/// Marks the texels that a part shows: none if the primitive has no triangles or no UVs. Returns false if the step
+/// limit was reached.
 bool cover(const MapPart& part, TexelMask& mask, std::uint64_t& steps) {
     const ScenePrimitive& primitive = *part.primitive;
     const std::size_t set = part.use->uv_set;
@@ -96,9 +97,9 @@ std::uint64_t workBytes(const Scene& scene, const NormalMap& map) {
            GreenBlocks::bytesOf(size.width, size.height) + sizeof(Vec2) * vertices;
 }
 
-/// `mask`: scratch of as many texels as the image has.
+/// Tests green for each part. `mask`: scratch memory with the size of the image.
 void lookAtParts(const GreenBlocks& blocks, TexelMask&& mask, NormalMap& map) {
-    // In files with more, or with hostile UVs, the remaining parts get the answer of the whole map.
+    // If there are more parts, or UVs are hostile, the remaining parts get the verdict of the whole map.
     constexpr std::size_t kMostParts = 4096;
     std::uint64_t steps = kCoverSteps;
     bool is_exact = map.parts.size() > 1;
@@ -110,10 +111,10 @@ void lookAtParts(const GreenBlocks& blocks, TexelMask&& mask, NormalMap& map) {
     }
 }
 
-/// Whether green of the file is green of the normals: then inverting the one inverts the other.
+/// Returns whether the green channel stores y linearly, so that inverting the channel inverts y of the normals.
 bool hasOwnGreen(const MapLayout& layout) { return layout.y == MapLayout{}.y && layout.curve == MapCurve::none; }
 
-/// Samples the map on a triangle, with the normal there.
+/// Samples the map at a point of a triangle, with the mesh normal at that point.
 void showPoint(const ScenePrimitive& primitive, const MapPart& part, std::span<const Vec2> uvs, const RgbImage& image,
                const std::uint32_t* corners, const std::array<double, 3>& weights, double area,
                std::vector<TexelOnSurface>& surface) {
@@ -133,7 +134,7 @@ void showPoint(const ScenePrimitive& primitive, const MapPart& part, std::span<c
     surface.push_back({toFloat(normal), {rgb[0], rgb[1], rgb[2], 255}, area, uv});
 }
 
-/// Samples the map on the triangles of a part, with the normals there.
+/// Samples the map on the triangles of a part, with the mesh normals.
 void showPoints(const MapPart& part, const RgbImage& image, std::vector<TexelOnSurface>& surface) {
     constexpr std::size_t kMostOfAPart = 4096, kMostRows = 32;
     const ScenePrimitive& primitive = *part.primitive;
@@ -141,7 +142,7 @@ void showPoints(const MapPart& part, const RgbImage& image, std::vector<TexelOnS
     if (set >= primitive.uv_sets.size() || primitive.uv_sets[set].empty() || primitive.normals.empty()) return;
     const std::vector<Vec2> uvs = textureUvs(primitive.uv_sets[set].span(), part.use->transform);
     const std::size_t triangles = primitive.corners.size() / 3, step = triangles / kMostOfAPart + 1;
-    // Few triangles give many points each, since relief hides what single points say.
+    // If there are few triangles, takes many samples of each, because relief hides what single samples show.
     std::uint32_t rows = 1;
     while (rows < kMostRows && triangles / step * rows * rows < kMostOfAPart) ++rows;
     for (std::size_t t = step / 2; t < triangles; t += step) {
@@ -158,7 +159,7 @@ void showPoints(const MapPart& part, const RgbImage& image, std::vector<TexelOnS
     }
 }
 
-/// Whether a place turns directions, beside what offsets and sizes do.
+/// Returns whether a transform changes directions, as opposed to only translating and scaling.
 bool turns(const Affine& place) {
     constexpr double kLeast = 1e-4;
     for (const DVec3& axis : {DVec3{1, 0, 0}, DVec3{0, 1, 0}, DVec3{0, 0, 1}}) {
@@ -168,8 +169,8 @@ bool turns(const Affine& place) {
     return false;
 }
 
-/// The same points with the normals that the scene shows, at the first place of each primitive that turns it. `parts`:
-/// where the points of each begin. Empty where no place turns anything.
+/// Returns the points with their normals in world space, using the first transform of each primitive that changes
+/// directions. `parts`: index of the first point of each part. Empty if no transform changes directions.
 std::vector<TexelOnSurface> placedInWorld(const NormalMap& map, std::span<const std::size_t> parts,
                                           std::span<const TexelOnSurface> surface) {
     std::vector<TexelOnSurface> in_world;
@@ -184,7 +185,7 @@ std::vector<TexelOnSurface> placedInWorld(const NormalMap& map, std::span<const 
     return in_world;
 }
 
-/// Decodes alpha only where x or y may be in it.
+/// Decodes alpha only if it may contain x or y.
 std::vector<std::uint8_t> alphaOf(const Scene& scene, const SceneImage& image, std::span<const TexelBytes> texels,
                                   bool is_texture) {
     if (!is_texture && !mayHaveXInAlpha(texels)) return {};
@@ -193,7 +194,7 @@ std::vector<std::uint8_t> alphaOf(const Scene& scene, const SceneImage& image, s
     return decodeAlpha(image.bytes);
 }
 
-/// Finds out what the image holds, and makes it one that glTF reads.
+/// Detects what the image contains, and converts it to the channel layout of glTF.
 void lookAtContent(const Scene& scene, const TexelMask& inside, NormalMap& map, RgbImage& image) {
     const std::optional<TextureFacts> facts = textureFacts(scene.images[map.image].bytes);
     const std::vector<std::uint8_t> alpha =
@@ -212,9 +213,9 @@ void lookAtContent(const Scene& scene, const TexelMask& inside, NormalMap& map, 
 
 bool isEtc1s(const std::optional<TextureFacts>& facts) { return facts && facts->name.starts_with("ETC1S"); }
 
-/// Root mean square of the angle by which vectors that were packed as WebP are off, about: errors are as large along a vector as in each of
-/// the two directions across it, and along it a unit vector shows them. Of five kinds of maps, at qualities of 50 to 98, it is 0.67 to 1.10
-/// of the true one.
+/// Returns the approximate RMS angular error, in degrees, of vectors compressed as lossy WebP. The error along a vector
+/// is visible as a deviation from unit length, and the errors in the two directions across it are equally large. On
+/// five kinds of maps, at qualities of 50 to 98, the estimate is 0.67 to 1.10 times the true error.
 double webpDegrees(const RgbImage& image) {
     double sum = 0;
     for (std::size_t i = 0; i + 2 < image.rgb.size(); i += 3) {
@@ -225,9 +226,10 @@ double webpDegrees(const RgbImage& image) {
     return 180 / kPi * std::sqrt(2 * sum / std::max(1.0, static_cast<double>(image.rgb.size() / 3)));
 }
 
-/// The same of ETC1S: a block is one color, made lighter or darker, so of x and y of its texels only the sum varies. Where relief leans to all
-/// sides alike with the variance s, it keeps g = 2/3 s of x + y, and loses 10/9 s. To that comes the rounding of the color to 5 bits, 0.9
-/// degrees on flats. Of ten kinds of maps, packed by basisu at two qualities, it is 0.77 to 1.05 of the true one.
+/// Returns the approximate RMS angular error, in degrees, of vectors compressed as ETC1S. A block has one color at
+/// several brightnesses, so only the sum x + y varies within it. For isotropic relief with variance s, x + y keeps g =
+/// 2/3 s, and 10/9 s is lost. Rounding the color to 5 bits adds 0.9 degrees on flat areas. On ten kinds of maps,
+/// compressed by basisu at two qualities, the estimate is 0.77 to 1.05 times the true error.
 double etc1sDegrees(const RgbImage& image) {
     constexpr std::size_t kBlock = 4;
     constexpr double kLostOfKept = 10.0 / 9 / (2.0 / 3), kRoundedDeg = 0.9;
@@ -289,7 +291,7 @@ std::string rectText(const TexelRect& rect) {
     return "columns " + range(rect.left, rect.right) + ", rows " + range(rect.top, rect.bottom);
 }
 
-/// The part of the map that a finding is about: where green points down, the first that shows some of it.
+/// Returns the part of the map that a finding names: the first part that shows green pointing down.
 const MapPart& partOf(const NormalMap& map) {
     for (const MapPart& part : map.parts) {
         if (part.test.verdict == GreenVerdict::down || part.test.verdict == GreenVerdict::mixed) return part;
@@ -311,7 +313,7 @@ Finding flipped(const std::string& name, const GreenTest& test) {
                            countText(blocks, "blocks") + " of 16 x 16 pixels with relief");
 }
 
-/// Without a model there is nothing that generate could do.
+/// Remedy for an image without a model, to which generate does not apply.
 Remedy loneGreenRemedy(const NamedImage& image) {
     return {
         "If the map was made for DirectX and is read as glTF or OpenGL, invert green: {}. If bumps look like dents "
@@ -337,7 +339,7 @@ NamedImage namedImage(const Scene& scene, const NormalMap& map) {
 
 bool isDown(const NormalMap& map) { return map.test && map.test->verdict == GreenVerdict::down; }
 
-/// Readers of the file know that green points down, and turn it.
+/// Returns whether all uses of the map declare that green points down, so that readers of the file invert it.
 bool isDeclared(const NormalMap& map) {
     return !map.parts.empty() && std::all_of(map.parts.begin(), map.parts.end(),
                                              [](const MapPart& part) { return part.use->is_declared_down; });
@@ -352,7 +354,7 @@ bool readsLevels(const NormalMap& map) {
     return std::any_of(map.parts.begin(), map.parts.end(), [](const MapPart& part) { return part.use->reads_levels; });
 }
 
-/// How the file stores the map: what is lost, what it says of its numbers, and its levels.
+/// Reports how the file stores the map: lossy compression, declared sRGB, and missing mip levels.
 void describeStorage(const Scene& scene, const NormalMap& map, const std::string& name,
                      std::vector<Finding>& findings) {
     const SceneImage& image = scene.images[map.image];
@@ -394,7 +396,7 @@ void describeStorage(const Scene& scene, const NormalMap& map, const std::string
                 "the relief flickers in the distance");
 }
 
-/// Findings on what the channels hold, and on green.
+/// Returns the findings on the content of the channels and on green.
 std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
     const std::string name = imageName(scene, map.image);
     std::vector<Finding> findings;

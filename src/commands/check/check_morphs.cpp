@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The checks of morph targets: their values, the normals and the tangents that they give.
+// Checks of morph targets: their values, and the resulting normals and tangents.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -18,18 +18,18 @@
 namespace tspace {
 namespace {
 
-// Morph targets of a primitive that share a fault, and the one finding about them.
+// Collects the morph targets of a primitive that share a fault into one finding.
 
-/// Offsets that come from a formula or a finer mesh are off in places beside coarse triangles. So a target counts only from
-/// this part on of the surface that turns.
+/// Offsets that come from a formula or a finer mesh deviate near coarse triangles. So a target is reported only if at
+/// least this share of the rotating surface is off.
 inline constexpr double kOffShare = 0.25;
 
 struct MorphFault {
-    Tally targets = {};    ///< vertices of the first; count and total in targets
+    Tally targets = {};    ///< vertices of the first faulty target; `count` and `total` are numbers of targets
     double far_share = 0;  ///< largest share of the surface that is off by more than error_deg
     std::size_t first = 0;
 
-    /// A target that has it. `far_area`: of vertices that are off by more than error_deg.
+    /// Adds a target that has the fault. `far_area`: area at vertices that are off by more than error_deg.
     void addTarget(std::size_t number, const Tally& vertices, double far_area, double whole_area) {
         if (targets.count++ == 0) {
             first = number;
@@ -40,8 +40,8 @@ struct MorphFault {
         if (whole_area > 0) far_share = std::max(far_share, far_area / whole_area);
     }
 
-    /// Adds nothing if no target has the fault. `what`: the sentence without the angle of these vectors ("normals",
-    /// "tangents").
+    /// Adds a finding if any target has the fault. `what`: the message without the error angle. `vectors`: "normals" or
+    /// "tangents".
     void report(PrimitiveFacts& facts, FindingCode code, Severity severity, const std::string& what,
                 const char* vectors) const {
         if (targets.count == 0) return;
@@ -52,13 +52,14 @@ struct MorphFault {
     }
 };
 
-// Morph targets: whether what they add is finite, and leaves normals a length. A single vertex counts.
+// Checks that the offsets of morph targets are finite, and that they do not cancel the normals. A single faulty vertex
+// is reported.
 
-/// The first target that has a fault, and how many more do.
+/// The first target that has a fault, and the number of targets that have it.
 struct FaultyTargets {
     Tally vertices = {};  ///< vertices of the first faulty target
     std::size_t first = 0, count = 0;
-    bool all_move = true;  ///< positions, so that the surface says how normals turn
+    bool all_move = true;  ///< all faulty targets also move positions, so normals can be computed from the surface
 };
 
 class MorphValues {
@@ -67,11 +68,11 @@ class MorphValues {
         for (const std::uint32_t vertex : facts.mesh.corners) used_[vertex] = true;
     }
 
-    /// Used vertices of whose offset in one array of the targets `is_faulty` says so.
+    /// Finds targets whose offsets in one array are faulty at a used vertex, according to `is_faulty`.
     template <class Test>
     FaultyTargets find(SharedArray<Vec3> SceneMorphTarget::*array, const Test& is_faulty) const {
         FaultyTargets result;
-        // A file may name the same array any number of times.
+        // A file may reference the same array any number of times.
         std::map<const Vec3*, bool> known;
         const auto& targets = facts_.primitive.morph_targets;
         for (std::size_t i = 0; i < targets.size(); ++i) {
@@ -90,7 +91,8 @@ class MorphValues {
         return result;
     }
 
-    /// "the offsets of morph target 2 for the normals of 1 of 525 vertices <what>; the same fault is in 3 more targets"
+    /// Reports "the offsets of morph target 2 for the normals of 1 of 525 vertices <what>; the same fault is in 3 more
+    /// targets".
     void report(FindingCode code, const FaultyTargets& faulty, const char* attribute, const std::string& what) {
         if (faulty.count == 0) return;
         const std::size_t more = faulty.count - 1;
@@ -142,11 +144,12 @@ void checkMorphValues(PrimitiveFacts& facts) {
                   "cancel the normals, so shaders get NaN at full weight");
 }
 
-// Morph targets: whether base plus delta is still a normal of the morphed surface.
+// Checks that base normals plus offsets are still normals of the morphed surface.
 
 namespace {
 
-/// A vertex is off where its normal is further from where the surface turns it than this part of the turn, and direction_deg.
+/// A normal is off if its angle to the base normal rotated with the surface exceeds both this fraction of the rotation
+/// and direction_deg.
 constexpr double kOfTurn = 0.5;
 
 bool addsNothing(const SharedArray<Vec3>& offsets) { return std::all_of(offsets.begin(), offsets.end(), isZero); }
@@ -156,8 +159,8 @@ class MorphNormalsChecker {
     explicit MorphNormalsChecker(PrimitiveFacts& facts)
         : facts_(facts), turns_(facts.mesh.positions, facts.mesh.normals, facts.mesh.corners) {}
 
-    /// The normal of the base is turned as the surface turns: exporters weight triangles in other ways, and normals of the
-    /// base may be somebody's choice, but how they change is the surface's.
+    /// Compares the morphed normal with the base normal rotated with the surface. Only the change is compared, because
+    /// exporters weight triangles differently, and base normals may be authored.
     void check(std::size_t number, const SceneMorphTarget& target) {
         const bool is_missing = addsNothing(target.normals);
         MorphFault& fault = is_missing ? missing_ : wrong_;
@@ -205,11 +208,11 @@ class MorphNormalsChecker {
     }
 
   private:
-    /// A vertex whose normal does not turn with the triangles around it.
+    /// A vertex whose normal does not rotate with the adjacent triangles.
     struct OffNormal {
         std::uint32_t vertex = 0;
         double error_deg = 0;
-        DVec3 was = {}, is = {};  ///< unit
+        DVec3 was = {}, is = {};  ///< unit normals before and after
     };
 
     [[nodiscard]] Tally tallyOf(const std::vector<OffNormal>& off) const {
@@ -223,9 +226,10 @@ class MorphNormalsChecker {
         return tally.count != 0 && tally.area >= kOffShare * turning_area;
     }
 
-    /// Drops the normals that fit the moved surface although they turn otherwise: exporters such as Blender compute those of
-    /// a target anew, over borders of materials, over whole polygons, and with hard edges by the angles of the target. Normals
-    /// that lean from their faces on the base may lean the other way, since the turn does not say how a face spins.
+    /// Drops normals that fit the moved surface although they do not rotate with it. Exporters such as Blender
+    /// recompute the normals of a target: across material borders, over whole polygons, and with hard edges by the
+    /// angles of the target. A normal that is tilted against its faces on the base may be tilted in another direction
+    /// after the change, because a rotation of a normal does not define how the face rotates about it.
     void dropPlausible(std::size_t number, const std::vector<VertexTurn>& turns, std::vector<OffNormal>& off) const {
         std::vector<std::uint32_t> vertices;
         for (const OffNormal& one : off) vertices.push_back(one.vertex);
@@ -252,10 +256,10 @@ void checkMorphNormals(PrimitiveFacts& facts) {
     const auto& targets = facts.primitive.morph_targets;
     if (facts.mesh.normals.empty() || targets.empty() || facts.primitive.is_unlit) return;
     MorphNormalsChecker checker(facts);
-    // A file may name the same arrays any number of times.
+    // A file may reference the same arrays any number of times.
     std::set<std::array<const Vec3*, 2>> seen;
     for (std::size_t i = 0; i < targets.size(); ++i) {
-        if (targets[i].positions.empty()) continue;  // targets that move normals alone are authored
+        if (targets[i].positions.empty()) continue;  // targets that change only normals are authored
         if (seen.insert({targets[i].positions.data(), targets[i].normals.data()}).second) checker.check(i, targets[i]);
     }
     checker.report();
@@ -289,8 +293,8 @@ void applyTarget(const TangentView& base, const SceneMorphTarget& target, Morphe
     morphed.view.corners = base.corners;
 }
 
-/// How wrong each vertex's tangent is, in degrees: its direction in the surface (`distances`), or its lean
-/// out of it.
+/// Returns the error of each vertex's tangent in degrees: the larger of its direction error in the surface
+/// (`distances`) and its tilt out of the surface.
 std::vector<float> frameErrors(const TangentView& mesh, std::vector<float> distances) {
     std::vector<float> errors = std::move(distances);
     for (std::size_t v = 0; v < errors.size(); ++v) {
@@ -308,8 +312,8 @@ double turnDegrees(const Vec4& from, const Vec4& to) {
     return normalize(a) && normalize(b) ? angleBetween(a, b) * 180 / kPi : 0;
 }
 
-/// Vertices whose frame on the base is known and good. A frame that is wrong on the base is found there already. Where no
-/// triangle determines the tangent, its direction is arbitrary, and no target can be compared with it.
+/// Returns the vertices whose base frame is known to be good. A frame that is wrong on the base is already reported. If
+/// no triangle determines the tangent, its direction is arbitrary, and targets cannot be compared with it.
 std::vector<bool> goodVertices(const PrimitiveFacts& facts) {
     const double limit = facts.options.direction_deg;
     const std::vector<float> distances = directionDistances(facts.mesh, facts.surface, limit);
@@ -319,7 +323,7 @@ std::vector<bool> goodVertices(const PrimitiveFacts& facts) {
     return good;
 }
 
-/// Whether the triangle is degenerate: its area, beside its longest edge, is that of rounding.
+/// Returns whether the triangle is degenerate: its area relative to its longest edge is within rounding.
 bool isThin(const TangentView& mesh, std::size_t face, float area) {
     constexpr double kThin = 1e-6;
     const auto square = [&](std::size_t k) {
@@ -330,12 +334,13 @@ bool isThin(const TangentView& mesh, std::size_t face, float area) {
     return area <= kThin * std::max({square(0), square(1), square(2)});
 }
 
-/// Takes out the vertices of triangles that are degenerate either before or after, and vertices equal to them. The groups
-/// are those of the base, so a triangle that collapses still counts in them, with an arbitrary direction, and one that
-/// opens does not. One that is flipped collapses on the way there. Triangles that are degenerate before and after change nothing.
+/// Excludes vertices of triangles that are degenerate either before or after the change, and vertices equal to them.
+/// The groups are computed on the base, so a triangle that collapses still belongs to them, with an arbitrary
+/// direction, and a triangle that opens does not. A triangle that is flipped collapses in between. Triangles that are
+/// degenerate before and after change nothing.
 void forgetCollapsed(const TangentView& mesh, const Surface& base, const TangentView& morphed_mesh,
                      const Surface& morphed, const EqualVertices& equal, std::vector<bool>& good) {
-    constexpr float kCollapsed = 1e-4f;            // share of the area: one percent of each side
+    constexpr float kCollapsed = 1e-4f;            // area ratio: 1 percent along each side
     constexpr double kFlipped = -0.8660254037844;  // cosine of 150 degrees, as in SurfaceTurns
     std::vector<bool> is_out(equal.class_count, false);
     for (std::size_t f = 0; f < base.faces.size(); ++f) {
@@ -418,7 +423,7 @@ void checkMorphTargets(PrimitiveFacts& facts) {
         return;
     }
     MorphChecker checker(facts);
-    // A file may name the same arrays any number of times.
+    // A file may reference the same arrays any number of times.
     std::set<std::array<const Vec3*, 3>> seen;
     for (std::size_t i = 0; i < facts.primitive.morph_targets.size(); ++i) {
         const SceneMorphTarget& target = facts.primitive.morph_targets[i];

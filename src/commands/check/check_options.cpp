@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a check looks at, and which findings count.
+// Options of a check: what is examined, and which findings are reported.
 #include <algorithm>
 
 #include "commands/shared/file_options.h"
@@ -13,7 +13,7 @@ constexpr Named<Severity> kSeverities[] = {
     {"warning", Severity::warning},
     {"error", Severity::error},
 };
-/// One code, or several with commas between them.
+/// An option whose value is one code, or several separated by commas.
 Option ignoreOption(std::vector<FindingCode>& ignored) {
     const auto take = [&ignored](const std::string& name) {
         for (std::uint32_t code = 0; code < kFindingCodeCount; ++code) {

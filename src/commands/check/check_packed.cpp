@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Packed frames against the normals and tangents that they were packed from. Packing mends frames first, so packed ones are
-// compared with the frame that the finest format makes of normal and tangent: packing anew then mends every finding.
+// Compares packed frames with the normals and tangents that they were packed from. Packing sanitizes frames first. So
+// packed frames are compared with normals and tangents that were packed in the finest format, and packing again fixes
+// every finding.
 #include "commands/check/scene_checks.h"
 
 #include <algorithm>
@@ -21,9 +22,9 @@ namespace tspace {
 namespace {
 
 constexpr FrameFormat kFinest = FrameFormat::frame64;
-/// Frames that are compared at a time.
+/// Number of frames that are compared at a time.
 constexpr std::size_t kChunk = 256;
-/// Differences from here on can be seen; 8 bits in each number take 0.4 degrees.
+/// Differences from this angle on are visible; storage with 8 bits per component takes 0.4 degrees.
 constexpr double kVisible_deg = 1;
 
 struct PackedErrors {
@@ -76,7 +77,7 @@ PackedErrors comparePacked(const ScenePrimitive& primitive, const ScenePacked& p
     return errors;
 }
 
-/// "0.135": up to four digits behind the point, without zeros at the end and without the locale.
+/// Formats degrees such as "0.135": at most four decimals, no trailing zeros, independent of the locale.
 std::string degreesText(double degrees) {
     const auto parts = static_cast<std::uint64_t>(degrees * 10000 + 0.5);
     std::string digits = std::to_string(parts % 10000 + 10000).substr(1);
@@ -99,7 +100,7 @@ Remedy packAgain(FrameFormat format) {
     return {"Pack them again: {}.", {withOption(toCommand("generate"), "pack", frameFormatName(format))}};
 }
 
-/// Whether generate has frames to pack, or makes some.
+/// Returns whether generate has frames to pack, or can compute them.
 bool canPack(const ScenePrimitive& primitive) {
     if (!primitive.normals.empty() && !primitive.tangents.empty()) return true;
     return primitive.packedAlone() == nullptr && canCompute(primitive);
@@ -124,11 +125,11 @@ Finding differingPacking(const ScenePacked& packed, const PackedErrors& errors) 
     return finding;
 }
 
-/// The attributes of one format of one primitive.
+/// Packed frames of one primitive in one format.
 struct PackedEntry {
     const ScenePrimitive* primitive = nullptr;
     const ScenePacked* packed = nullptr;
-    std::size_t comparison = 0;  ///< index of the comparison for it, if it was compared
+    std::size_t comparison = 0;  ///< index of the comparison, if the frames were compared
 
     [[nodiscard]] bool isCompared() const {
         return packed->fault.empty() && !primitive->normals.empty() && !primitive->tangents.empty();
@@ -136,7 +137,8 @@ struct PackedEntry {
     [[nodiscard]] std::string place() const { return primitive->place + "/attributes/" + packed->attribute; }
 };
 
-/// All packed frames of a scene. Of those with one comparison number the first is compared.
+/// Returns all packed frames of a scene. Entries with equal comparison numbers are compared once, for the first of
+/// them.
 std::vector<PackedEntry> packedEntries(const Scene& scene) {
     std::vector<PackedEntry> entries;
     std::map<std::tuple<const void*, const void*, const void*, FrameFormat>, std::size_t> known;

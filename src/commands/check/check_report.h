@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tspace check reports. As a page it is in pages/check_page.h.
+// Reports of tspace check as JSON, SARIF and text. pages/check_page.h declares the HTML report.
 #pragma once
 
 #include <string>
@@ -12,14 +12,14 @@ namespace tspace::report {
 
 using CheckOutcome = Outcome<CheckReport>;
 
-/// JSON of one file in the report.
+/// Returns the JSON of one file in the report.
 Json checkedFileJson(const CheckOutcome& outcome);
 std::string checkJson(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code, Severity fail_on);
-/// Report as SARIF 2.1.0, for CI systems. `docs_url`: location of docs/, which each rule links to.
+/// Returns the report as SARIF 2.1.0, for CI systems. `docs_url`: location of docs/, which each rule links to.
 std::string checkSarif(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code, const std::string& docs_url);
 
 std::string checkText(const CheckOutcome& outcome, bool in_color);
-/// Totals over several files, and a line for each code that was found.
+/// Returns totals over several files, and one line for each code that was found.
 std::string checkSummary(const std::vector<CheckOutcome>& outcomes, bool in_color);
 
 }  // namespace tspace::report

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Mesh by mesh: edges that pieces of one surface share, and the normals at both of their ends on both sides.
+// For each mesh, finds edges that primitives of one smooth surface share, and compares the normals on both sides at
+// both ends.
 #include "commands/check/scene_checks.h"
 
 #include <algorithm>
@@ -18,27 +19,30 @@ namespace tspace {
 namespace {
 
 constexpr double kToDegrees = 180 / kPi;
-/// Normals that differ by less make no seam that is seen.
+/// Normals that differ by less than this angle make no visible seam.
 constexpr double kLeastSeamDeg = 2;
-/// Normals count as the mean of the own triangles, under any weighting, within rounding to 8 bits.
+/// Normals within this angle of the mean of the primitive's own triangles, by any weighting, are equal to it. The
+/// tolerance covers rounding to 8 bits.
 constexpr double kOwnDeg = 1;
-/// A border may bend by so much more than what nearly all smooth edges of the two sides do.
+/// A border is smooth if its bend is at most kMoreBend times that of the smooth edges on both sides, at the quantile
+/// kSmoothPart.
 constexpr double kMoreBend = 1.25, kSmoothPart = 0.9;
-/// The part of the places where normals differ that must look like a seam, and how many places there must be.
+/// Minimum share of the points with differing normals that must look like a seam, and their minimum number.
 constexpr double kMostPlaces = 0.8;
 constexpr std::size_t kLeastPlaces = 3;
 
-/// Memory of comparing the primitives of a mesh, roughly; it is freed afterwards.
+/// Approximate memory for comparing the primitives of a mesh; freed afterwards.
 constexpr std::uint64_t kBytesPerVertex = 200, kBytesPerCorner = 100;
 
-/// A triangle's normal, and how it counts at its corners by three weightings: 1, its area, its angle.
+/// Normal of a triangle and its weights at its corners. Three weightings are used: equal, by area and by angle.
 struct Face {
     DVec3 normal = {};
     double area = 0;
     std::array<double, 3> angles = {};
 };
 
-/// The smoothing of one primitive: the means of the triangles around each vertex, over vertices with its position and normal.
+/// Smoothing of one primitive: the mean normals of the triangles around each group of vertices with equal positions and
+/// normals.
 class SmoothPiece {
   public:
     SmoothPiece(const ScenePrimitive& primitive, const JoinedPieces& joined, std::uint32_t piece)
@@ -51,7 +55,7 @@ class SmoothPiece {
     }
 
     [[nodiscard]] const DVec3& faceNormal(std::uint32_t triangle) const { return faces_[triangle].normal; }
-    /// Whether the vertex has the mean of the primitive's own triangles, which are not one plane.
+    /// Returns whether the vertex normal equals a mean of the normals of the primitive's own triangles.
     [[nodiscard]] bool isOwn(std::uint32_t vertex) const {
         DVec3 normal = toDouble(primitive_.normals[vertex]);
         if (!normalize(normal)) return false;
@@ -79,7 +83,7 @@ class SmoothPiece {
         }
     }
 
-    /// Angles at inner edges, smooth and hard ones apart.
+    /// Measures the angles at inner edges, separately for smooth and hard edges.
     void bends(const JoinedPieces& joined, std::uint32_t piece) {
         struct Edge {
             std::array<std::uint32_t, 2> points, classes;
@@ -119,7 +123,8 @@ class SmoothPiece {
 };
 
 struct Seam {
-    std::set<std::uint32_t> places = {}, likely = {};  // points where normals differ, and where for that reason
+    // `places`: points where normals differ; `likely`: those where it is a seam
+    std::set<std::uint32_t> places = {}, likely = {};
     double worst_deg = 0;
     std::vector<std::uint32_t> vertices = {};
 };
@@ -212,7 +217,7 @@ Finding notCompared(const ScenePrimitive& first, const std::string& why) {
         makeFinding(FindingCode::fileRemark, Severity::note, one, "meshes",
                     "normals at the borders of the primitives of this mesh were not compared: comparing them " + why);
     placeAt(first, first.place, finding);
-    finding.material_name.clear();  // it is about all of the mesh
+    finding.material_name.clear();  // the finding concerns the whole mesh
     return finding;
 }
 
@@ -222,7 +227,7 @@ std::vector<Finding> checkSeams(const Scene& scene, const CheckOptions& options)
     std::vector<Finding> findings;
     for (std::size_t first = 0, past = 0; first < scene.primitives.size(); first = past) {
         std::vector<const ScenePrimitive*> primitives;
-        // A file may name the same arrays any number of times.
+        // A file may reference the same arrays any number of times.
         std::set<std::pair<const Vec3*, const std::uint32_t*>> seen;
         std::uint64_t bytes = 0;
         for (; past < scene.primitives.size() && scene.primitives[past].mesh == scene.primitives[first].mesh; ++past) {

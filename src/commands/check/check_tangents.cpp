@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether tangents are there when they are needed, and whether they are good along the UVs that they should follow;
-// else, whether they are on quads, in other axes, or along other UVs.
+// Checks whether needed tangents exist, and whether they are correct for the UVs that they should follow. If they are
+// not, tests whether they fit quads, other axes or other UVs.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +17,7 @@
 namespace tspace {
 namespace {
 
-/// Whether there are findings that another pairing of quads could explain.
+/// Returns whether there are faults that another pairing of quads could explain.
 bool hasFaults(const FrameHealth& health) {
     for (const Tally* tally : {&health.signs_mixed, &health.signs_wrong, &health.mirrored_seams, &health.uv_seams,
                                &health.directions_wrong, &health.frames_differ}) {
@@ -31,7 +31,8 @@ double uvArea(const TangentView& mesh, std::size_t triangle) {
     return std::fabs(signedUvArea(uv(0), uv(1), uv(2), false));
 }
 
-/// The orientation of a quad, as in the reference: where it is folded in the UV map, its larger half decides.
+/// Gives both halves of a quad one orientation, as the MikkTSpace reference does: if the quad is folded in the UV map,
+/// the larger half decides.
 void giveFacesOneOrientation(const TangentView& mesh, std::span<const std::uint32_t> faces, Surface& surface) {
     for (std::size_t t = 0; t + 1 < faces.size(); ++t) {
         SurfaceFrame &first = surface.faces[t], &second = surface.faces[t + 1];
@@ -83,11 +84,11 @@ Result<std::optional<QuadReading>> findQuads(const TangentView& mesh, const Fram
 
 namespace {
 
-// Tangents that are wrong because they were not turned along with their mesh, as from Z up to Y up.
+// Detects tangents that were not rotated with their mesh, for example from Z up to Y up.
 
-/// Share of the surface with tangents that lean out of it, from which other axes are looked for.
+/// Other axes are tried if tangents are tilted out of at least this share of the surface.
 constexpr double kClearlyLeaning = 0.2;
-/// Share of leaning tangents, and of wrong directions, that may remain in the right axes.
+/// Maximum share of tilted tangents, and of wrong directions, in the correct axes.
 constexpr double kMostWrong = 0.02;
 
 /// Component i of the result is `sign[i]` times component `from[i]`.
@@ -129,8 +130,9 @@ double wrongShare(const PrimitiveFacts& facts, std::span<const Vec4> tangents) {
     return wrong / facts.surface.known_area;
 }
 
-/// The axes in which the tangents fit nearly everywhere, where they lie in the surface nearly nowhere as they are:
-/// "x, z, -y" of what is stored. Empty: there are none. Each of the 47 ways to exchange and negate axes is tried.
+/// Finds axes in which the tangents fit nearly everywhere, if many stored tangents are tilted out of the surface.
+/// Returns the axes in terms of the stored vectors ("x, z, -y"), or an empty string if there are none. All 48 signed
+/// permutations of the axes are tried.
 std::string findOtherAxes(const PrimitiveFacts& facts, const FrameHealth& health) {
     if (facts.mesh.uvs.empty() || !(facts.surface.known_area > 0)) return {};
     if (health.not_orthogonal.surface_share + health.parallel.surface_share < kClearlyLeaning ||
@@ -149,22 +151,23 @@ std::string findOtherAxes(const PrimitiveFacts& facts, const FrameHealth& health
     return {};
 }
 
-// Tangents that are wrong along the UVs they should follow may be right along others.
+// Tangents that are wrong for the UVs that they should follow may be correct for others.
 
 struct OtherReading {
     UvReading reading = {};
     Surface surface = {};
     FrameHealth health = {};
-    /// A use of the primitive that reads its texture like this, if any: then tangents along these UVs are a choice.
+    /// Index of a use of the primitive that samples its texture with these UVs, if any: then tangents along them may be
+    /// intended.
     std::optional<std::size_t> use = {};
 };
 
-/// All shares are of the surface with UV area.
+/// All shares are relative to the surface with UV area.
 constexpr double kClearlyWrong = 0.2;
-/// Wrong signs without wrong directions can be explained only by the own transform, which mirrors or does not.
+/// Wrong signs without wrong directions are explained only by the primitive's own texture transform, which may mirror.
 constexpr double kSomeSigns = 0.1;
 constexpr double kExplained = 0.02;
-/// Share of the surface with own UV area on which the other UVs must have area too.
+/// Minimum share of the surface with UV area on which the other UVs must have area too.
 constexpr double kCovered = 0.95;
 
 struct Faults {
@@ -181,7 +184,7 @@ Faults faultsOf(const FrameHealth& health, const Surface& surface) {
             health.wrong_sign_share};
 }
 
-/// Share of the surface with UV area in `own` that also has UV area in `other`.
+/// Returns the share of the surface with UV area in `own` that also has UV area in `other`.
 double coverage(const Surface& own, const Surface& other) {
     double covered = 0;
     for (std::size_t f = 0; f < own.faces.size(); ++f) {
@@ -198,7 +201,7 @@ class Search {
   public:
     Search(const PrimitiveFacts& facts, const Faults& now) : facts_(facts), now_(now) {}
 
-    /// Whether the reading explains it; then `found` is filled.
+    /// Returns whether the interpretation explains the tangents; if so, fills `found`.
     Result<bool> test(UvReading&& reading, bool is_own_set, OtherReading& found) const {
         if (reading.uvs.empty()) return false;
         TangentView mesh = facts_.mesh;
@@ -222,15 +225,15 @@ class Search {
     Faults now_;
 };
 
-/// Whether another reading has to explain directions, and not only signs.
+/// Returns whether another interpretation must explain wrong directions, and not only wrong signs.
 bool areDirectionsWrong(const FrameHealth& health, const Surface& surface) {
     return faultsOf(health, surface).directions > kClearlyWrong;
 }
 
-/// The first reading that the tangents fit: the same set without its transform, then the other sets, then those of the
-/// primitive's further textures. Strict, since a coincidence is likelier than it seems: those UVs have area nearly
-/// everywhere the own ones have, the tangents follow them nearly everywhere, and clearly not the own ones. `health`:
-/// along facts.reading. Fails as examineTangents does.
+/// Returns the first interpretation that the tangents fit: the same set without its transform, then other sets, then
+/// those of further textures of the primitive. The test is strict, because coincidences are common: the other UVs must
+/// have area nearly everywhere the own UVs have it, and the tangents must follow them nearly everywhere and clearly not
+/// follow the own UVs. `health`: result for facts.reading. Fails as examineTangents does.
 Result<std::optional<OtherReading>> findOtherReading(const PrimitiveFacts& facts, const FrameHealth& health) {
     const ScenePrimitive& primitive = facts.primitive;
     const Faults now = faultsOf(health, facts.surface);
@@ -265,8 +268,8 @@ Result<std::optional<OtherReading>> findOtherReading(const PrimitiveFacts& facts
     return none;
 }
 
-/// The tangents fit other UVs. That is an error only where it would be one without this explanation, and where no
-/// other texture of the primitive is read like that.
+/// Reports that the tangents fit other UVs. This is an error only if it would be one without the explanation, and if no
+/// other texture of the primitive uses these UVs.
 void addExplanation(PrimitiveFacts& facts, const FrameHealth& health, const OtherReading& other) {
     const std::string set = "TEXCOORD_" + std::to_string(facts.reading.uv_set);
     const Tally& wrong = areDirectionsWrong(health, facts.surface) ? health.directions_wrong : health.signs_wrong;
@@ -283,7 +286,7 @@ void addExplanation(PrimitiveFacts& facts, const FrameHealth& health, const Othe
     }
     if (other.use) message += "; " + facts.primitive.uses[*other.use].needed_by + " uses these UVs";
     facts.add(code, severity, wrong, "vertices", message);
-    // Readings that agree do not make the tangents better.
+    // A texture that uses these UVs does not make the tangents correct.
     for (const std::uint32_t vertex : facts.mesh.corners) facts.faults[vertex] |= faultBit(code);
 }
 
@@ -320,7 +323,7 @@ void checkTangentsMissing(PrimitiveFacts& facts) {
                   : user + " needs tangents, but they " + state + "; tspace generate writes a glTF file with tangents");
 }
 
-/// Replaces the triangles by the quads on which the tangents were made, if they were made on quads.
+/// Replaces the triangles by the quads on which the tangents were computed, if any.
 Result<Done> readOnQuads(PrimitiveFacts& facts, FrameHealth& health) {
     Result<std::optional<QuadReading>> quads = findQuads(facts.mesh, health, facts.options);
     if (!quads) return std::move(quads).error();
@@ -344,7 +347,7 @@ Result<Done> checkTangents(PrimitiveFacts& facts) {
     }
     Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
     if (facts.primitive.uses.empty() && !facts.primitive.hasFreeTangents()) {
-        // No material reads these tangents, so their faults are not seen.
+        // No material reads these tangents, so faults in them are invisible.
         facts.add(FindingCode::tangentsUnused, Severity::note, all, "vertices",
                   "the file is larger than necessary: the primitive has tangents, but its material needs none");
         return Done{};
@@ -375,7 +378,7 @@ Result<Done> checkTangents(PrimitiveFacts& facts) {
     }
     const std::string axes = *other ? std::string() : findOtherAxes(facts, *health);
     if (!axes.empty()) {
-        // All of them are wrong for one reason, also those that happen to be near the right ones.
+        // All tangents are wrong for one reason, including tangents that are close to the correct ones by chance.
         for (const std::uint32_t vertex : facts.mesh.corners) facts.fault(vertex, FindingCode::directionsWrong);
     }
     for (Finding& finding : tangentFindings(*health, facts.options)) {
@@ -384,7 +387,7 @@ Result<Done> checkTangents(PrimitiveFacts& facts) {
                 "; as (" + axes +
                 ") of the stored vectors they fit, so the mesh was rotated to other axes without its tangents";
         }
-        // Without a texture the side on which v grows is seldom seen.
+        // Without a texture, the direction in which v increases is seldom visible.
         if (finding.code == FindingCode::signsMixed && facts.primitive.hasFreeTangents())
             finding.severity = Severity::warning;
         facts.findings.push_back(std::move(finding));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Results of tspace check as text, and as SARIF.
+// Results of tspace check as text and as SARIF.
 #include <filesystem>
 #include <map>
 
@@ -13,14 +13,14 @@
 namespace tspace::report {
 namespace {
 
-/// Places listed of one kind of finding; the JSON has all of them.
+/// Maximum number of locations listed per kind of finding; the JSON contains all.
 constexpr std::size_t kMostPlaces = 5;
 
 std::string countsText(std::uint64_t errors, std::uint64_t warnings, std::uint64_t notes) {
     return fmt::format("{}, {}, {}", counted(errors, "error"), counted(warnings, "warning"), counted(notes, "note"));
 }
 
-/// Lists the tests that the normal maps were examined with. Flat maps have no relief that shows the direction of green.
+/// Lists the tests that normal maps were examined with. Flat maps have no relief that shows the direction of green.
 std::string lookedText(const CheckReport& report) {
     if (report.image_count == 0) return {};
     std::string text = fmt::format("; examined {}: channel contents", counted(report.image_count, "normal map"));
@@ -40,7 +40,7 @@ std::string summaryLine(const CheckOutcome& outcome) {
     return text + lookedText(report) + "\n";
 }
 
-/// The error of packed frames of one format, over all primitives that could be compared.
+/// Returns the largest error of packed frames of one format, over all primitives that could be compared.
 std::string packedText(std::span<const PackedFramesInfo> all, FrameFormat format) {
     PackedFramesInfo worst;
     std::uint64_t primitives = 0, compared = 0;
@@ -93,7 +93,7 @@ std::string verticesText(const Finding& finding) {
                        fmt::join(finding.vertices, ", "));
 }
 
-/// The findings of one code, severity and remedy.
+/// Formats findings with equal code, severity and remedy.
 std::string groupText(std::span<const Finding* const> group, bool in_color) {
     const Finding& first = *group.front();
     std::string text = fmt::format("\n  {}  {}", severityText(first.severity, in_color), findingName(first.code));
@@ -103,7 +103,7 @@ std::string groupText(std::span<const Finding* const> group, bool in_color) {
     for (std::size_t i = 0; i < group.size() && i < kMostPlaces; ++i) {
         if (!group[i]->place.empty())
             text += fmt::format("      {} (at {})\n", whereText(*group[i]), unbroken(group[i]->place));
-        // A sentence that the next places share is printed once, below the last of them.
+        // A message shared by consecutive locations is printed once, below the last of them.
         const bool is_shared = i + 1 < std::min(group.size(), kMostPlaces) &&
                                group[i + 1]->message == group[i]->message && !group[i]->place.empty();
         if (!is_shared) text += fmt::format("        {}\n", printable(group[i]->message));
@@ -117,7 +117,7 @@ std::string groupText(std::span<const Finding* const> group, bool in_color) {
 
 std::string checkText(const CheckOutcome& outcome, bool in_color) {
     std::string text = summaryLine(outcome) + packedLines(outcome.result->packed_frames);
-    // Sorted by severity, then by code in the order of first occurrence.
+    // Groups are sorted by severity, then by code in the order of first occurrence.
     std::vector<std::vector<const Finding*>> groups;
     for (const Finding& finding : outcome.result->findings) {
         const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& candidate) {
@@ -140,7 +140,7 @@ std::string checkSummary(const std::vector<CheckOutcome>& outcomes, bool in_colo
         std::uint64_t file_count = 0, finding_count = 0;
         const CheckOutcome* last_file = nullptr;
     };
-    std::map<std::pair<int, FindingCode>, Occurrence> codes;  // worst first
+    std::map<std::pair<int, FindingCode>, Occurrence> codes;  // most severe first
     for (const CheckOutcome& outcome : outcomes) {
         if (!outcome.result) {
             ++unread;
@@ -169,13 +169,13 @@ std::string checkSummary(const std::vector<CheckOutcome>& outcomes, bool in_colo
     return text;
 }
 
-// Findings of tspace check in SARIF 2.1.0 (Static Analysis Results Interchange Format, OASIS 2020). docs/reference/check.md says
-// what stands where.
+// Findings of tspace check in SARIF 2.1.0 (Static Analysis Results Interchange Format, OASIS 2020).
+// docs/reference/check.md describes the mapping.
 
 namespace {
 
-/// Bytes that may not stand in a path of a URI (RFC 3986) as "%xx". A colon too: before the first slash it would end a
-/// scheme.
+/// Encodes bytes that are not allowed in the path of a URI (RFC 3986) as "%xx". Colons are encoded too: before the
+/// first slash, a colon would end a scheme.
 std::string percentEncoded(const std::string& path) {
     constexpr const char* kDigits = "0123456789ABCDEF";
     std::string uri;
@@ -191,16 +191,16 @@ std::string percentEncoded(const std::string& path) {
     return uri;
 }
 
-/// Relative paths stay relative, so that a CI system finds the file in its checkout.
+/// Relative paths are kept relative, so that a CI system finds the file in its checkout.
 Json artifactLocation(const std::string& input) {
     const std::filesystem::path path = std::filesystem::path(Path(input)).lexically_normal();
     const std::string text = Path(path).string();
-    // file:///C:/model.glb
+    // Windows paths lack the leading slash: file:///C:/model.glb
     if (path.is_absolute()) return {{"uri", (text.starts_with('/') ? "file://" : "file:///") + percentEncoded(text)}};
     return {{"uri", percentEncoded(text)}, {"uriBaseId", "%SRCROOT%"}};
 }
 
-/// A model has no lines. CI systems want one, and 1 is where they show what concerns the whole file.
+/// Models have no lines, but CI systems require one. They show findings about a whole file at line 1.
 Json physicalLocation(const std::string& input) {
     return {{"artifactLocation", artifactLocation(input)}, {"region", {{"startLine", 1}}}};
 }
@@ -245,7 +245,7 @@ Json resultJson(const std::string& input, const Finding& finding) {
     };
 }
 
-/// A file that could not be read.
+/// Describes a file that could not be read.
 Json notificationJson(const CheckOutcome& outcome) {
     const Error& error = outcome.result.error();
     std::string text = error.message;

@@ -15,17 +15,19 @@ namespace {
 constexpr double kTurn = 2 * kPi;
 constexpr double kDegrees = 180 / kPi;
 
-/// A tangent within 6 degrees of N has no reliable direction in the plane.
+/// Minimum length of a unit tangent projected to the plane of N. Tangents within 6 degrees of N have no reliable
+/// direction there.
 constexpr double kLeastInPlane = 0.1;
-/// Methods weight the directions of triangles regardless of this length, so nearly all of them count. Shorter ones are
-/// rounding.
+/// Minimum projected length of a triangle's unit direction. Methods weight directions regardless of this length, so
+/// nearly all are used; shorter ones are rounding errors.
 constexpr double kLeastOfTriangle = 1e-6;
-/// An edge along N has no direction in the plane.
+/// Minimum projected length of a unit edge. An edge along N has no direction in the plane.
 constexpr double kLeastOfEdge = 1e-4;
 
 double signedAngle(double x, double y) { return y < 0 ? -polarAngle(x, -y) : polarAngle(x, y); }
 
-/// The part of v in the plane perpendicular to the unit vector n, made unit.
+/// Projects v to the plane perpendicular to the unit vector n, and normalizes it. Returns false if the projection of
+/// the unit vector is shorter than `least`.
 bool projectUnit(const DVec3& n, DVec3& v, double least) {
     if (!normalize(v)) return false;
     v = v - dot(n, v) * n;
@@ -46,7 +48,8 @@ double angleInPlane(const Vec3& normal, const Vec3& v, double least, bool& found
 
 double withinTurn(double angle) { return angle > kPi ? angle - kTurn : angle < -kPi ? angle + kTurn : angle; }
 
-/// Radians by which rounding of the positions may turn a triangle's direction in the plane of n; pi: to any direction.
+/// Returns by how much rounding of the positions may rotate a triangle's direction in the plane of n, in radians; pi
+/// means by any angle.
 double errorInPlane(const DVec3& n, const SurfaceFrame& face) {
     if (face.tangent_error == 0) return 0;
     const double part = length(cross(n, toDouble(face.tangent)));
@@ -54,10 +57,10 @@ double errorInPlane(const DVec3& n, const SurfaceFrame& face) {
     return sine < 1 ? polarAngle(std::sqrt(1 - sine * sine), sine) : kPi;
 }
 
-/// Whether the corner spans an angle, seen along N, that is more than the rounding of floats. A method that
-/// weights by this angle, as MikkTSpace does, gives other corners no weight, or an arbitrary one.
+/// Returns whether the angle at the corner, seen along N, exceeds the rounding error of floats. Methods that weight by
+/// this angle, such as MikkTSpace, give other corners no weight or an arbitrary one.
 bool spansAngle(const TangentView& mesh, std::size_t corner) {
-    constexpr double kLeastAngle = 1e-3;  // the arc cosine of a float that is one step below 1 is 3.5e-4
+    constexpr double kLeastAngle = 1e-3;  // the arc cosine of the largest float below 1 is 3.5e-4
     const std::size_t face = corner / 3 * 3, place = corner - face;
     const auto position = [&](std::size_t k) { return toDouble(mesh.positions[mesh.corners[face + k % 3]]); };
     DVec3 n = toDouble(mesh.normals[mesh.corners[corner]]);
@@ -66,8 +69,8 @@ bool spansAngle(const TangentView& mesh, std::size_t corner) {
     return dot(a, b) < 0 || length(cross(a, b)) > kLeastAngle;
 }
 
-/// Vertices beyond the tolerance where no triangle with a direction spans an angle: methods that weight by it
-/// make up a direction there.
+/// Sets distances beyond the tolerance to unknown if no triangle with a direction spans an angle at the vertex: the
+/// result of methods that weight by this angle is arbitrary there.
 void forgetThinCorners(const TangentView& mesh, const Surface& surface, double tolerance_deg,
                        std::vector<float>& distances) {
     std::vector<bool> spans(distances.size(), false);
@@ -81,7 +84,7 @@ void forgetThinCorners(const TangentView& mesh, const Surface& surface, double t
     }
 }
 
-/// The nearest directions on either side of each vertex's tangent, among the triangles that use it.
+/// For each vertex, the nearest directions of its triangles on both sides of its tangent.
 class NearestDirections {
   public:
     explicit NearestDirections(const TangentView& mesh)
@@ -93,7 +96,7 @@ class NearestDirections {
         DVec3 d = toDouble(face.tangent);
         if (!normalize(n) || !projectUnit(n, t, kLeastInPlane)) return;
         if (!projectUnit(n, d, kLeastOfTriangle)) {
-            // The rounding error of a direction along N points anywhere, and counts as much as the others.
+            // The rounding error of a direction along N may point anywhere, and methods weight it like the others.
             if (face.tangent != Vec3{}) addAngle(vertex, 0);
             return;
         }
@@ -101,7 +104,7 @@ class NearestDirections {
         addArc(vertex, signedAngle(dot(t, d), dot(cross(n, t), d)), off);
         if (face.orientation == 0) addArc(vertex, signedAngle(-dot(t, d), -dot(cross(n, t), d)), off);
     }
-    /// Every direction within `off` of an angle.
+    /// Adds all directions within `off` of an angle.
     void addArc(std::uint32_t vertex, double angle, double off) {
         if (off >= std::fabs(angle)) addAngle(vertex, 0);
         addAngle(vertex, static_cast<float>(angle));
@@ -113,11 +116,11 @@ class NearestDirections {
         if (angle >= 0) left_[vertex] = std::min(left_[vertex], angle);
         if (angle <= 0) right_[vertex] = std::min(right_[vertex], -angle);
     }
-    /// Degrees.
+    /// Returns the distance in degrees.
     [[nodiscard]] float distance(std::size_t vertex) const {
         const float left = left_[vertex], right = right_[vertex];
         if (left == kNone && right == kNone) return kUnknownDirection;
-        // Between two directions that are less than half a turn apart.
+        // The tangent is between two directions that are less than 180 degrees apart.
         if (left + right < static_cast<float>(kPi)) return 0;
         return static_cast<float>(std::min(left, right) * kDegrees);
     }
@@ -129,7 +132,7 @@ class NearestDirections {
     std::vector<float> left_, right_;
 };
 
-/// Narrows the distances of vertices beyond the tolerance by what equal vertices know, unless those are of the other
+/// For vertices beyond the tolerance, also uses the triangles around equal vertices, except those of the opposite
 /// orientation.
 void considerEqualVertices(const TangentView& mesh, const Surface& surface, double tolerance_deg,
                            std::vector<float>& distances) {
@@ -171,7 +174,7 @@ DirectionCone coneAround(std::span<double> angles) {
     if (angles.empty()) return {};
     sortList(angles.begin(), angles.end());
     double largest = angles.front() + kTurn - angles.back();
-    std::size_t behind = 0;  // the first angle after the largest gap
+    std::size_t behind = 0;  // index of the first angle after the largest gap
     for (std::size_t i = 1; i < angles.size(); ++i) {
         if (angles[i] - angles[i - 1] <= largest) continue;
         largest = angles[i] - angles[i - 1];
@@ -213,7 +216,7 @@ std::vector<DirectionCone> conesOfClasses(const TangentView& mesh, const Surface
         const auto add = [&](double at) {
             entries.push_back({class_of_vertex[vertex], at});
             if (off == 0) return;
-            // If a direction is undetermined, the cone is the whole circle.
+            // If the direction is undetermined, these angles widen the cone to the full circle.
             for (const double part : {-1.0, -0.5, 0.5, 1.0})
                 entries.push_back({class_of_vertex[vertex], withinTurn(at + part * off)});
         };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a person sees in the picture when a finding is true: the symptom, where remedy.cpp has the cause and the remedy.
+// Visible effects of findings: the symptom that a user sees in a picture. remedy.cpp has causes and remedies.
 #include <array>
 
 #include "tspace/check.h"

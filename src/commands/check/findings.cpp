@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Findings out of tallies, their texts; the findings about tangents.
+// Makes findings from tallies, formats their texts, and makes the findings on tangents.
 #include "commands/check/findings.h"
 
 #include <cmath>
@@ -98,7 +98,7 @@ Severity onShare(Severity severity, double surface_share, const CheckOptions& op
 }
 
 std::string decimalText(double value) {
-    // One digit behind the point, without the locale.
+    // One decimal, independent of the locale.
     const auto tenths = static_cast<std::uint64_t>(std::llround(value * 10));
     return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10);
 }
@@ -130,7 +130,7 @@ std::string shareText(double share) {
     return decimalText(share * 100) + " %";
 }
 
-// The findings on the tangents of one mesh.
+// Findings on the tangents of one mesh.
 
 namespace {
 
@@ -149,7 +149,7 @@ class FindingList {
             makeFinding(code, onShare(severity, tally.surface_share, options_), tally, unit, std::move(message)));
     }
 
-    /// A finding that counts vertices, on however little of the surface.
+    /// Adds a finding for any number of vertices, regardless of their share of the surface.
     void addWhole(FindingCode code, Severity severity, const Tally& tally, std::string message) {
         if (tally.count != 0) findings.push_back(makeFinding(code, severity, tally, kVertices, std::move(message)));
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The examinations of tangents, a step each, in the order in which they run: values, signs, directions, and vertices that
-// are equal but for their tangents; what generate itself would give is in no finding.
+// Examines tangents in these steps: values, signs, directions, and vertices that differ only in their tangents.
+// Tangents that generate itself would compute are not reported.
 #include "commands/check/frame_health.h"
 
 #include <algorithm>
@@ -25,10 +25,10 @@ namespace {
 
 // Finds connected vertices.
 
-/// Vertices that triangles connect, by their indices. Near-linear.
+/// Sets of vertices that triangles connect by index. Near-linear time.
 class VertexPatches {
   public:
-    /// `connects(v)`: whether the triangle with the corners v[0], v[1] and v[2] does.
+    /// `connects(v)`: returns whether the triangle with the vertices v[0], v[1] and v[2] connects them.
     template <class Connects>
     VertexPatches(std::size_t vertex_count, std::span<const std::uint32_t> corners, const Connects& connects)
         : parents_(vertex_count) {
@@ -40,25 +40,24 @@ class VertexPatches {
         }
     }
 
-    /// The lowest vertex of the patch.
+    /// Returns the lowest vertex of the patch.
     std::uint32_t of(std::uint32_t vertex) { return rootOf(parents_.data(), vertex); }
 
   private:
     std::vector<std::uint32_t> parents_;
 };
 
-// Requirements that do not depend on UVs. Tangents are finite, unit, in the plane of the surface, with a sign of +1 or -1 that
-// all corners of a triangle share.
+// Requirements that do not depend on UVs: tangents are finite, have unit length, lie in the plane of the surface, and
+// have a sign of +1 or -1 that is equal at all corners of a triangle.
 
-/// Lengths so far off that the normalisation of renderers does not hide the fault.
-
+/// Tilt out of the tangent plane, in degrees, above which a tangent is parallel to N.
 constexpr double kParallel = 90 - kParallelDeg;
-/// Beyond this lean a single vertex is a finding.
+/// Tilt above which even a single vertex is reported.
 constexpr double kNoFrame = 89;
 
 void examineMixedSigns(const TangentView& mesh, const Surface& surface, FrameHealth& health) {
     for (std::size_t f = 0; f < surface.faces.size(); ++f) {
-        // The texture shows one texel there, and no sign is right: MikkTSpace itself mixes them.
+        // A triangle without UV area shows a single texel, and no sign is correct: MikkTSpace itself mixes signs there.
         if (!mesh.uvs.empty() && surface.faces[f].orientation == 0) continue;
         const std::uint32_t* corner = mesh.corners.data() + 3 * f;
         if (!mesh.normals.empty() && !(facesNormal(surface.faces[f], mesh.normals[corner[0]]) &&
@@ -79,10 +78,10 @@ void examineMixedSigns(const TangentView& mesh, const Surface& surface, FrameHea
 }
 
 void examineValues(const TangentView& mesh, const Surface& surface, const CheckOptions& options, FrameHealth& health) {
-    // Vertices that no triangle uses have no pixel, but the format forbids broken values there too.
+    // Unused vertices are not rendered, but the format forbids invalid values in them too.
     std::vector<bool> used(mesh.positions.size(), false);
-    // Where no triangle has UV area, the texture shows a single texel, so a tilt distorts nothing visible; but a valid frame is
-    // required.
+    // If no triangle at a vertex has UV area, the texture shows a single texel, so a tilt has no visible effect; but a
+    // valid frame is required.
     std::vector<bool> knows_direction(mesh.positions.size(), false);
     for (std::size_t c = 0; c < surface.faces.size() * 3; ++c) {
         used[mesh.corners[c]] = true;
@@ -129,12 +128,12 @@ void examineValues(const TangentView& mesh, const Surface& surface, const CheckO
     examineMixedSigns(mesh, surface, health);
 }
 
-// Signs against the orientation of the UVs.
+// Compares signs with the orientation of the UVs.
 
-/// Share of the surface above which wrong signs mean a wrong convention rather than single faults.
+/// If wrong signs cover a larger share of the surface, the convention is wrong rather than single signs.
 constexpr double kEverySign = 0.95;
 
-/// Areas of the triangles around each vertex, by the sign that their UVs ask for.
+/// Area of the triangles around each vertex, by the sign that their UVs require.
 struct SignAreas {
     std::vector<float> plus, minus;
 };
@@ -152,11 +151,12 @@ SignAreas sumAreas(const TangentView& mesh, const Surface& surface, const Conven
     return areas;
 }
 
-/// Where nearly all signs are inverted, the undecided ones of a patch count as inverted too, whatever their triangles ask for:
-/// a folded quad, for one, has triangles of both orientations and one sign. So do those of patches without a decided sign.
-/// In a patch where most signs are right, they count as right.
+/// If nearly all signs are inverted, undecided signs are treated as inverted too if most signs of their patch are, or
+/// if no sign of the patch is decided. This is independent of their own triangles: a folded quad, for example, has
+/// triangles of both orientations and one sign. If most signs of a patch are correct, its undecided signs are treated
+/// as correct.
 void findUndecided(const TangentView& mesh, const SignAreas& areas, FrameHealth& health) {
-    // Only triangles with one sign at all corners count.
+    // Only triangles with equal signs at all corners connect vertices.
     VertexPatches patches(mesh.positions.size(), mesh.corners, [&](const std::uint32_t* v) {
         const bool positive = mesh.tangents[v[0]].w > 0;
         return (mesh.tangents[v[1]].w > 0) == positive && (mesh.tangents[v[2]].w > 0) == positive;
@@ -170,7 +170,7 @@ void findUndecided(const TangentView& mesh, const SignAreas& areas, FrameHealth&
     for (const std::uint32_t vertex : mesh.corners) {
         const float fits = mesh.tangents[vertex].w > 0 ? areas.plus[vertex] : areas.minus[vertex];
         const float other = mesh.tangents[vertex].w > 0 ? areas.minus[vertex] : areas.plus[vertex];
-        if (fits > 0 && other == 0) continue;  // its own triangles say that it is right
+        if (fits > 0 && other == 0) continue;  // its own triangles show that it is correct
         const std::uint32_t patch = patches.of(vertex);
         if (wrong[patch] >= right[patch]) health.addFaults(vertex, kUndecidedSign, right.size());
     }
@@ -192,7 +192,7 @@ void examineSigns(const TangentView& mesh, const Surface& surface, const CheckOp
             health.fault(v, FindingCode::mirroredSeamAveraged, count);
             continue;
         }
-        // Tangents that point elsewhere follow other UVs, whose orientation is unknown.
+        // Tangents in other directions follow other UVs, whose orientation is unknown.
         if (!std::isfinite(sign) || sign == 0 || directions[v] > options.error_deg) continue;
         ++health.signs_wrong.total;
         judged += plus + minus;
@@ -207,22 +207,23 @@ void examineSigns(const TangentView& mesh, const Surface& surface, const CheckOp
     if (health.all_signs_wrong) findUndecided(mesh, areas, health);
 }
 
-// Directions against the UVs, and the usual cause: one mean over a seam.
+// Compares directions with the UVs, and detects the most common cause of wrong ones: averaging across a seam.
 
-/// A mean lies inside the cone of its terms, but for rounding and quantised storage.
+/// Tolerance in degrees. A mean lies inside the cone of its terms, except for rounding and quantized storage.
 constexpr double kInsideDeg = 2;
-/// Tangents that somebody computed once and gave to several vertices.
+/// Tangents within this angle, in degrees, are copies of one result.
 constexpr double kSameDeg = 1;
-/// Most vertices at one point that a vertex is compared with. Poles have more, and one is enough.
+/// Maximum number of vertices at one point that a vertex is compared with. Poles have more, but one match is
+/// sufficient.
 constexpr std::size_t kMostCompared = 64;
-/// Share of the surface from which all directions count as wrong.
+/// Share of the surface from which all directions are treated as wrong.
 constexpr double kNothingRight = 0.95;
 constexpr double kMostly = 0.5;
 
 enum class Cause { unknown, uvSeam, mirroredSeam };
 
-/// Finds out why tangents are outside their cones: whether they are the mean of all triangles at the point, of which
-/// some lie on the other side of a seam.
+/// Finds the cause of tangents outside their cones: whether they are the mean of all triangles at the point, some of
+/// which lie on the other side of a seam.
 class SeamFinder {
   public:
     SeamFinder(const TangentView& mesh, const Surface& surface, std::span<const std::uint32_t> far)
@@ -259,7 +260,7 @@ class SeamFinder {
         return Cause::unknown;
     }
 
-    /// Mirrored and other triangles use the vertex itself.
+    /// Returns whether both mirrored and unmirrored triangles use the vertex.
     [[nodiscard]] bool isShared(std::uint32_t vertex) const { return orientations_[vertex] == 3; }
 
   private:
@@ -275,9 +276,9 @@ class SeamFinder {
     std::vector<DirectionCone> cones_ = {};
 };
 
-/// Where nearly all directions of a patch are wrong, the remaining ones count as wrong too: cones are wide where triangles
-/// fold, and nearly any direction lies inside. Mending some without the others would leave seams. In a patch where most are
-/// right, the remaining ones count as right.
+/// If nearly all directions of a patch are wrong, the remaining ones are treated as wrong too: cones are wide where
+/// triangles fold, so nearly any direction lies inside. Fixing only some of them would leave seams. If most directions
+/// of a patch are correct, the remaining ones are treated as correct.
 void findUndecided(const TangentView& mesh, const Surface& surface, std::span<const float> directions,
                    std::span<const std::uint32_t> far, FrameHealth& health) {
     const std::size_t count = mesh.positions.size();
@@ -297,7 +298,7 @@ void findUndecided(const TangentView& mesh, const Surface& surface, std::span<co
     for (std::uint32_t v = 0; v < count; ++v) {
         if (directions[v] == kUnknownDirection || health.isSettled(v)) continue;
         const std::uint32_t patch = patches.of(v);
-        // If most are wrong, tangents outside of their cones by less than the tolerance count as wrong too.
+        // If most are wrong, tangents outside their cones by less than the tolerance are also treated as wrong.
         const double least = directions[v] > kInsideDeg ? kMostly : share;
         if (wrong[patch] > 0 && wrong[patch] >= least * judged[patch])
             health.fault(v, FindingCode::directionsWrong, count);
@@ -318,7 +319,7 @@ void examineDirections(const TangentView& mesh, const Surface& surface, const Ch
     for (const std::uint32_t v : far) {
         const double area = surface.known_areas[v];
         if (directions[v] > options.error_deg) health.far_directions += area;
-        // Vertices that triangles of both orientations use were counted with the signs.
+        // Vertices used by triangles of both orientations were counted with the signs.
         if (seams.isShared(v)) continue;
         const Cause cause = seams.causeOf(v);
         Tally& tally = cause == Cause::mirroredSeam ? health.mirrored_seams
@@ -334,13 +335,13 @@ void examineDirections(const TangentView& mesh, const Surface& surface, const Ch
     findUndecided(mesh, surface, directions, far, health);
 }
 
-// Which vertices have the tangents that `generate` would give them. The checks have rules of their own, but bakers and
-// renderers expect the tangents of the reference, so these vertices are in no finding.
+// Finds vertices whose tangents equal those that `generate` would compute. The checks have rules of their own, but
+// bakers and renderers expect the tangents of the reference, so these vertices are not reported.
 
-/// Degrees that storing in 8 bits and welding of equal tangents may take.
+/// Tolerance in degrees for storage in 8 bits and welding of equal tangents.
 constexpr double kSettledDeg = 1;
 
-/// One per corner, mended as `generate` does.
+/// Computes one tangent per corner, sanitized as `generate` does it.
 Result<std::vector<Vec4>> expectedTangents(const TangentView& mesh, const TangentOptions& options) {
     const MeshView view = mesh.triangles();
     std::vector<Vec4> tangents(mesh.corners.size());
@@ -356,7 +357,7 @@ bool isSame(const Vec4& stored, const Vec4& expected, float factor) {
     return angleBetween(toDouble(xyz(stored)), toDouble(xyz(expected))) * 180 / kPi <= kSettledDeg;
 }
 
-/// Settles vertices at all of whose corners with UV area one method gives the stored tangents.
+/// Marks vertices as settled if the method computes the stored tangent at all their corners with UV area.
 Result<Done> settleBy(const TangentOptions& how, const TangentView& mesh, const Surface& surface, FrameHealth& health) {
     const Result<std::vector<Vec4>> expected = expectedTangents(mesh, how);
     if (!expected) return expected.error();
@@ -373,7 +374,7 @@ Result<Done> settleBy(const TangentOptions& how, const TangentView& mesh, const 
     return Done{};
 }
 
-/// Fills FrameHealth::settled. Returns whether that changes what was found.
+/// Fills FrameHealth::settled. Returns whether that changes any finding.
 Result<bool> settleVertices(const TangentView& mesh, const Surface& surface, const CheckOptions& options,
                             FrameHealth& health) {
     const bool only_signs = health.all_signs_wrong && health.mirrored_seams.count == 0;
@@ -381,12 +382,12 @@ Result<bool> settleVertices(const TangentView& mesh, const Surface& surface, con
                                    health.mirrored_seams.count + health.uv_seams.count + health.directions_wrong.count +
                                    health.frames_differ.count + (only_signs ? 0 : health.signs_wrong.count);
     if (doubtful == 0) return false;
-    // If nearly all signs are inverted, report it once and compare the rest with flipped signs.
+    // If nearly all signs are inverted, this is reported once, and the rest is compared with flipped signs.
     health.settled_sign = health.all_signs_wrong ? -1.0f : 1.0f;
     health.settled.assign(mesh.positions.size(), false);
     TangentOptions how{.convention = options.convention};
     if (Result<Done> done = settleBy(how, mesh, surface, health); !done) return done.error();
-    // Tangents of fitting methods may lie a little outside of all triangles around.
+    // Tangents of fitting methods may lie slightly outside the cone of the adjacent triangles.
     how.method = Method::best;
     for (how.refine = 0; how.refine <= 2 && health.directions_wrong.count != 0; ++how.refine) {
         if (Result<Done> done = settleBy(how, mesh, surface, health); !done) return done.error();
@@ -397,8 +398,8 @@ Result<bool> settleVertices(const TangentView& mesh, const Surface& surface, con
     return false;
 }
 
-// Vertices that are equal but for their tangents. Some must differ: MikkTSpace separates triangles that do not touch in
-// a fan, or whose orientations differ. So its result decides which should be equal.
+// Finds vertices that differ only in their tangents. Some must differ: MikkTSpace separates triangles that are not
+// connected in a fan, or whose orientations differ. So its result decides which tangents should be equal.
 
 bool areFar(const Vec4& a, const Vec4& b, double tolerance_deg) {
     return (a.w > 0) != (b.w > 0) || angleBetween(toDouble(xyz(a)), toDouble(xyz(b))) * 180 / kPi > tolerance_deg;
@@ -420,7 +421,8 @@ bool doAnyDiffer(const TangentView& mesh, const EqualVertices& equal, double tol
     return false;
 }
 
-/// Opposite triangles can cancel out. The tangent that a tool then gives depends on more than the vertex.
+/// Returns whether the tangent has nearly unit length. Opposite triangles can cancel out, and then the tangent that a
+/// tool stores depends on more than the vertex.
 bool isSound(const Vec4& tangent) {
     const float size = length(xyz(tangent));
     return size > 0.9f && size < 1.1f;
@@ -442,7 +444,7 @@ Result<Done> examineSplits(const TangentView& mesh, const Surface& surface, cons
     if (equal.class_count == mesh.positions.size() || !doAnyDiffer(mesh, equal, options.split_deg)) return Done{};
     const Result<std::vector<Vec4>> reference = referenceTangents(mesh);
     if (!reference) return reference.error();
-    // Corners of one class with the same reference tangent share a group of it.
+    // Corners with equal class and equal reference tangent belong to one group.
     UniqueIndex<std::array<std::uint32_t, 5>> groups(mesh.positions.size());
     std::vector<std::uint32_t> first_vertex;
     std::vector<bool> counted(mesh.positions.size(), false);

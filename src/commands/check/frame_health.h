@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether the tangents of one mesh are good, and why not. No file is known here: `check` makes findings of the result, and
-// repair decides by it which tangents to keep.
+// Examines the tangents of one mesh, and finds the causes of wrong ones. Independent of files: `check` converts the
+// result to findings, and repair uses it to decide which tangents to keep.
 #pragma once
 
 #include <cstdint>
@@ -14,26 +14,26 @@
 
 namespace tspace {
 
-/// The bit of a finding in FrameHealth::faults. Only codes below greenFlipped are about vertices.
+/// Returns the bit of a finding in FrameHealth::faults. Only codes below greenFlipped concern vertices.
 inline constexpr std::uint32_t faultBit(FindingCode code) { return 1u << static_cast<std::uint32_t>(code); }
 
-/// A further bit: the sign is undecided, in a patch of inverted ones.
+/// Further bit: the sign is undecided, in a patch of inverted signs.
 inline constexpr std::uint32_t kUndecidedSign = 1u << 31;
 
-/// A further bit: the tangent is nearly parallel to N.
+/// Further bit: the tangent is nearly parallel to N.
 inline constexpr std::uint32_t kParallelTangent = 1u << 30;
 
-/// Lengths of normals and tangents that are further from 1 are wrong, and not rounded.
+/// Lengths of normals and tangents that deviate from 1 by more are wrong, rather than rounded.
 inline constexpr double kFarFromUnit = 0.1;
 
 struct FrameHealth {
-    /// Per vertex the bits of the findings that count it below; empty: there are none. Wrong signs have the bit of
-    /// signsWrong, however many there are; where that is nearly all, others of the same patches have kUndecidedSign.
-    /// Where nearly all directions are wrong, others of the same patches have the bit of directionsWrong too.
+    /// Per vertex, the bits of the findings below that count it; empty: none. Vertices with wrong signs have the bit of
+    /// signsWrong; if nearly all signs are wrong, others of the same patches have kUndecidedSign. If nearly all
+    /// directions are wrong, others of the same patches also have the bit of directionsWrong.
     std::vector<std::uint32_t> faults = {};
-    /// Vertices with the tangents that `generate` would give them, which no finding below counts; may be empty.
+    /// Vertices whose tangents equal those that `generate` would compute; no finding below counts them. May be empty.
     std::vector<bool> settled = {};
-    float settled_sign = 1;  ///< -1: but for the sign, which is the opposite
+    float settled_sign = 1;  ///< -1: settled tangents have the opposite sign
 
     void fault(std::uint32_t vertex, FindingCode code, std::size_t vertex_count) {
         addFaults(vertex, faultBit(code), vertex_count);
@@ -44,39 +44,41 @@ struct FrameHealth {
     }
     [[nodiscard]] bool isSettled(std::uint32_t vertex) const { return !settled.empty() && settled[vertex]; }
 
-    // Values on their own. Counted: all vertices, and for directions those that triangles use. Flags: of the latter.
-    Tally not_finite;             ///< tangent or w
-    bool has_not_finite = false;  ///< some
-    Tally not_unit;               ///< not unit, but finite
+    // Values of single tangents. Tallies count all vertices; those of directions count only vertices that triangles
+    // use. Flags concern used vertices.
+    Tally not_finite;             ///< x, y, z or w is not finite
+    bool has_not_finite = false;  ///< some are not finite
+    Tally not_unit;               ///< finite, but not of unit length
     double far_from_unit = 0;     ///< share of the surface with lengths below 0.9 or above 1.1
-    bool has_zero = false;        ///< some have no length at all
+    bool has_zero = false;        ///< some have zero length
     Tally not_orthogonal;         ///< finite, not zero, with a usable N
-    Tally parallel;  ///< within 5 degrees of N or its opposite, so that there is no frame; not counted in the others
-    /// Their surface is so small that other leaning tangents are a warning of their own: only these have the bit of
-    /// tangentsNotOrthogonal.
-    bool has_no_frame = false;  ///< some are within 1 degree of N or its opposite
+    Tally parallel;  ///< within 5 degrees of N or -N, so that there is no frame; not counted in the other tallies
+    bool has_no_frame = false;  ///< some are within 1 degree of N or -N
+    /// Tangents parallel to N cover so little surface that other tilted tangents are a separate warning: only parallel
+    /// ones have the bit of tangentsNotOrthogonal.
     bool parallel_apart = false;
     Tally sign_not_one;
     bool sign_vanishes = false;  ///< some |w| is below 0.5
-    Tally signs_mixed;           ///< triangles that have UV area
+    Tally signs_mixed;           ///< triangles with mixed signs; with UVs, only those with UV area
 
-    // Against the UVs. All zero where there are none.
+    // Compared with the UVs. All zero without UVs.
     Tally signs_wrong;             ///< vertices whose triangles agree with each other, but not with w
-    double wrong_sign_share = 0;   ///< share of the surface whose signs were examined
-    bool all_signs_wrong = false;  ///< on nearly all of it
-    Tally mirrored_seams;          ///< vertices where mirrored and other triangles share a tangent
+    double wrong_sign_share = 0;   ///< share of the examined surface with wrong signs
+    bool all_signs_wrong = false;  ///< wrong on nearly all of the examined surface
+    Tally mirrored_seams;          ///< vertices where mirrored and unmirrored triangles share a tangent
     Tally uv_seams;                ///< vertices with the mean tangent of both sides of a UV seam
-    Tally directions_wrong;        ///< the other vertices whose tangents are off by more than direction_deg
+    Tally directions_wrong;        ///< other vertices whose tangents are off by more than direction_deg
     double far_directions = 0;     ///< share of the surface where a direction is off by more than error_deg
-    Tally frames_differ;  ///< vertices equal to another but for the tangent, which MikkTSpace would give the same
+    /// vertices that differ from another only in the tangent, and to which MikkTSpace would give one tangent
+    Tally frames_differ;
 };
 
-/// Looks at tangents that follow mesh.uvs. Without normals or UVs nothing is looked at but values. Triangles without UV
-/// area say nothing. What `generate` gives on this very mesh is never wrong.
-/// Expected near-linear time. Fails where generateTangents does, which is for lack of memory.
+/// Examines tangents that should follow mesh.uvs. Without normals or UVs only values are examined. Triangles without UV
+/// area are ignored. Tangents that `generate` would compute on this mesh are never wrong. Expected near-linear time.
+/// Fails if generateTangents fails, which happens only if memory runs out.
 Result<FrameHealth> examineTangents(const TangentView& mesh, const CheckOptions& options);
 
-/// Like the overload above, with a surface of the mesh that the caller has already computed.
+/// Overload with a surface of the mesh that the caller has already computed.
 Result<FrameHealth> examineTangents(const TangentView& mesh, const Surface& surface, const CheckOptions& options);
 
 }  // namespace tspace

@@ -15,12 +15,12 @@ namespace {
 
 /// Maximum deviation from 1 of an 8-bit vector's length after compression and filtering.
 constexpr double kLengthSlack = 0.1;
-/// A channel that varies less (root of the mean square, of 255) is constant: compression adds as much.
+/// A channel with a smaller standard deviation (of 255) is constant: compression adds as much.
 constexpr double kConstant = 2.5;
-/// x^2 + y^2 of texels that lean: by 11 degrees or more.
+/// Minimum x^2 + y^2 of tilted texels, which is a tilt of 11 degrees.
 constexpr double kLeastLean = 0.04;
 constexpr double kStep = 1.0 / 127.5;
-/// Maximum mean of x and y of a map, unless more is known.
+/// Maximum absolute mean of x and of y in a map, unless more is known.
 constexpr double kMostMean = 0.25;
 
 double signedValue(std::uint8_t channel) { return static_cast<double>(channel) * kStep - 1; }
@@ -47,7 +47,7 @@ double shareOf(std::span<const TexelBytes> texels, const Test& test) {
     return static_cast<double>(std::count_if(texels.begin(), texels.end(), test)) / static_cast<double>(texels.size());
 }
 
-/// Texels as a layout reads them. Each of the 256 values of a channel is computed once.
+/// Decodes texels by a layout. Each of the 256 values of a channel is decoded once.
 class LayoutReader {
   public:
     explicit LayoutReader(const MapLayout& layout) : layout_(layout) {
@@ -75,12 +75,11 @@ class LayoutReader {
     std::array<double, 256> values_ = {};
 };
 
-/// How well texels are unit vectors, and where those that are unit point. Texels that were never painted or baked have no
-/// say.
+/// Share of texels that are unit vectors, and directions of these.
 struct Fit {
     double unit_share = 0;
     DVec3 mean = {};
-    std::array<double, 3> below_share = {};  ///< for each component, the share of unit vectors where it is negative
+    std::array<double, 3> below_share = {};  ///< per component: share of unit vectors where it is negative
 };
 
 Fit fitOf(std::span<const TexelBytes> texels, const MapLayout& layout) {
@@ -93,7 +92,7 @@ Fit fitOf(std::span<const TexelBytes> texels, const MapLayout& layout) {
         if (std::fabs(length(v) - 1) >= kLengthSlack) continue;
         ++unit;
         fit.mean = fit.mean + v;
-        // A step of rounding below 0 is none.
+        // One rounding step below 0 is not negative.
         below[0] += v.x < -kStep;
         below[1] += v.y < -kStep;
         below[2] += v.z < -kStep;
@@ -110,17 +109,17 @@ bool pointsUp(const Fit& fit) {
     return fit.mean.z > 0.5 && std::fabs(fit.mean.x) < kMostMean && std::fabs(fit.mean.y) < kMostMean;
 }
 
-/// x^2 + y^2 of two channels.
+/// Returns x^2 + y^2 of two channels.
 double squareOf(const TexelBytes& texel, std::size_t x, std::size_t y) {
     const double a = signedValue(texel[x]), b = signedValue(texel[y]);
     return a * a + b * b;
 }
 
-/// z of a unit vector with x and y in red and green.
+/// Returns z of a unit vector with x in red and y in green.
 double expectedZ(const TexelBytes& texel) { return std::sqrt(std::max(0.0, 1 - squareOf(texel, 0, 1))); }
 
-/// Whether two channels can be x and y of unit vectors: nearly nowhere are they longer than 1, and in the mean they are 0,
-/// or about 0.
+/// Returns whether two channels can be x and y of unit vectors: nearly no texel is longer than 1, and both means are
+/// near 0.
 bool canBeXy(std::span<const TexelBytes> texels, std::size_t x, std::size_t y, double most_mean = kMostMean,
              double most_long = 0.01) {
     constexpr double kLongest = 1.03;
@@ -131,7 +130,7 @@ bool canBeXy(std::span<const TexelBytes> texels, std::size_t x, std::size_t y, d
            std::fabs(meanOf(x)) < most_mean && std::fabs(meanOf(y)) < most_mean;
 }
 
-/// Red, green and blue of texels, of 255.
+/// Returns a function that returns red, green and blue of a texel (0 to 255).
 auto colorsOf(std::span<const TexelBytes> texels) {
     return [texels](std::size_t i) {
         const TexelBytes& texel = texels[i];
@@ -142,7 +141,7 @@ auto colorsOf(std::span<const TexelBytes> texels) {
 
 bool isGreyTexels(std::span<const TexelBytes> texels) { return isGrey(texels.size(), colorsOf(texels)); }
 
-/// All but black and white texels, which are those that were never painted or baked.
+/// Returns all texels except black and white ones, which were never painted or baked.
 std::vector<TexelBytes> paintedOf(std::span<const TexelBytes> texels) {
     constexpr int kBlack = 8, kWhite = 247;
     std::vector<TexelBytes> painted;
@@ -189,8 +188,8 @@ class Looker {
                (channels_[0].deviation <= kConstant || isGreyTexels(texels_));
     }
 
-    /// Red says nothing (it is constant, or a copy of green), and alpha varies as x does. Grey with any other alpha is a
-    /// height map with a mask.
+    /// Detects x in alpha: red is constant or a copy of green, and alpha varies like x. A gray image with another alpha
+    /// channel is a height map with a mask.
     [[nodiscard]] std::optional<MapLook> xInAlpha() const {
         if (!mayBeXInAlpha() || plain_.unit_share > 0.5 || !canBeXy(texels_, 3, 1)) return {};
         MapLayout layout;
@@ -199,7 +198,7 @@ class Looker {
         return made(MapContent::xInAlpha, layout, 1);
     }
 
-    /// Red and blue are the same everywhere, with a red that is x of nothing, and green varies as y does.
+    /// Detects a lost x: red and blue are constant, red is not a possible mean of x, and green varies like y.
     [[nodiscard]] std::optional<MapLook> lostX() const {
         constexpr double kFarX = 0.9, kFewUnit = 0.1;
         const auto isConstant = [&](std::size_t i) { return channels_[i].deviation <= kConstant; };
@@ -212,8 +211,9 @@ class Looker {
         return look;
     }
 
-    /// Blue is the same everywhere, and not what z would be: over all texels, or over those that lean. Maps that are flat
-    /// nearly everywhere are left alone: Khronos' Lantern has one with blue 255, which is 0.15 degrees off in the mean.
+    /// Detects two channels: blue is constant and differs from the expected z, on all texels or on tilted ones. Maps
+    /// that are flat nearly everywhere are not reported: Khronos' Lantern has one with blue = 255, which is wrong by
+    /// only 0.15 degrees on average.
     [[nodiscard]] std::optional<MapLook> twoChannels(double most_mean) const {
         constexpr double kFar = 0.3, kNearlyConstant = 16, kMostCorrelation = 0.5;
         constexpr double kSeenDeg = 0.5, kMostTogether = 0.9;
@@ -221,7 +221,7 @@ class Looker {
         const Spread& blue = channels_[2];
         if (blue.deviation > kNearlyConstant) return {};
         if (!canBeXy(texels_, 0, 1, most_mean)) return {};
-        // Light and shadow let red and green go together, and blue a little.
+        // Shading correlates red with green, and slightly with blue.
         if (blue.deviation > kConstant && channelCorrelations(texels_.size(), colorsOf(texels_))[0] > kMostTogether)
             return {};
         double off = 0, wanted = 0, error = 0, product = 0, angle = 0;
@@ -238,7 +238,7 @@ class Looker {
             off += (texel[2] - blue.mean) * (texel[2] - blue.mean);
             wanted += (127.5 * (z + 1) - blue.mean) * (127.5 * (z + 1) - blue.mean);
         }
-        // Blue is far from z and does not correlate with it: it varies by compression alone.
+        // Blue is far from z and does not correlate with it: it varies only by compression.
         const auto total = static_cast<double>(texels_.size());
         const bool goes_with_z =
             blue.deviation > kConstant && std::fabs(product) > kMostCorrelation * total * blue.deviation * up.deviation;
@@ -252,7 +252,7 @@ class Looker {
         return made(MapContent::twoChannels, layout, 1);
     }
 
-    /// In maps whose blue is constant, relief may lean to one side.
+    /// In maps with a constant blue channel, the relief may be tilted to one side.
     [[nodiscard]] std::optional<MapLook> leaningTwoChannels() const {
         constexpr double kLeaning = 0.6;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -271,7 +271,7 @@ class Looker {
         return {};
     }
 
-    /// The axis that the vectors point along in the mean, 0 to 2, and to which side; nothing where they do not.
+    /// Axis (0 to 2) and sign of the mean direction of the vectors; none if they have no main axis.
     struct Up {
         std::size_t axis = 2;
         bool is_inverted = false;
@@ -288,7 +288,7 @@ class Looker {
         return {};
     }
 
-    /// How well vectors point along the normals: their mean cosine, 0 where they do not.
+    /// Agreement of the map's vectors with normals: the mean cosine; 0 if they do not follow the normals.
     struct Followed {
         MapLayout layout = {};
         double agreement = 0;
@@ -307,10 +307,11 @@ class Looker {
         return made(MapContent::exchanged, layout, up->is_inverted ? below : 1 - below);
     }
 
-    /// Over leaning texels blue has a slope of 1 against z, not of 1/2, and is much nearer to z than to (z + 1) / 2.
+    /// Detects z stored without sign: over tilted texels the slope of blue against z is about 1, not 1/2, and blue is
+    /// much nearer to z than to (z + 1) / 2.
     [[nodiscard]] std::optional<MapLook> unsignedZ() const {
         constexpr std::uint64_t kLeastCount = 64;
-        constexpr double kMostLong = 0.05;  // JPEG puts much into red and green where blue changes as much as they do
+        constexpr double kMostLong = 0.05;  // JPEG adds to red and green if blue changes as much as they do
         if (!canBeXy(texels_, 0, 1, kMostMean, kMostLong)) return {};
         double z = 0, b = 0, zz = 0, zb = 0, bb = 0, off = 0, off_signed = 0;
         std::uint64_t count = 0;
@@ -340,7 +341,8 @@ class Looker {
         return look;
     }
 
-    /// The share of unit vectors; with a curve only where they then point up.
+    /// Returns the share of unit vectors, by the best transfer curve. A curve is used only if the decoded vectors then
+    /// point up.
     [[nodiscard]] static double unitShareOf(std::span<const TexelBytes> texels) {
         double share = fitOf(texels, {}).unit_share;
         for (const MapCurve curve : {MapCurve::srgb, MapCurve::linearised}) {
@@ -350,18 +352,19 @@ class Looker {
         return share;
     }
 
-    /// Whether blue can be z, as it is or as a constant beside x and y.
+    /// Returns whether blue can be z: stored as z, or constant in addition to x and y.
     [[nodiscard]] bool mayPointUp(std::span<const TexelBytes> texels, const DVec3& mean) const {
         constexpr double kLeastUp = 0.7, kMostBelow = 0.1;
-        constexpr std::uint8_t kZero = 127 - 16;  // lost in compression
+        constexpr std::uint8_t kZero = 127 - 16;  // tolerance for compression errors
         const double below = shareOf(texels, [](const TexelBytes& texel) { return texel[2] < kZero; });
         return (mean.z > kLeastUp && below < kMostBelow) ||
                (channels_[2].deviation <= kConstant && canBeXy(texels, 0, 1));
     }
 
-    /// Colors that are few unit vectors, and do not point up or grow and fall together, as light makes them. Light greys and
-    /// dark ones are unit vectors by chance: along a diagonal, where vectors that turn cannot grow together. Nothing is said
-    /// of an image that has one color or few texels, or whose texels are x and y and something else.
+    /// Detects pictures: few colors are unit vectors, and either they do not point up, or the channels rise and fall
+    /// together, as shading makes them. Light and dark grays are unit vectors by chance, along a diagonal; the
+    /// components of rotating vectors cannot all increase together. Images with one color or few texels, and images
+    /// with x and y plus another channel, are not classified.
     [[nodiscard]] std::optional<MapLook> picture() const {
         constexpr double kMostUnit = 0.7, kFewUnit = 0.5, kTogether = 0.5, kMuchTogether = 0.8, kLeastDiagonal = 0.35,
                          kOneWay = 0.75;
@@ -379,7 +382,8 @@ class Looker {
         const auto [weakest, strongest] = std::minmax({together[0], together[1], together[2]});
         const double least = std::min({mean.x, mean.y, mean.z}), most = std::max({mean.x, mean.y, mean.z});
         const bool is_diagonal = weakest >= kTogether && (least > kLeastDiagonal || most < -kLeastDiagonal);
-        // Vectors that point one way, and that no axis: those of a wall in object space do not grow together.
+        // Vectors with one main direction that is not an axis. The vectors of a wall in object space do not correlate
+        // like this.
         const bool is_aside = strongest >= kMuchTogether && !upAxis() && length(plain_.mean) > kOneWay;
         const double unit = unitShareOf(painted);
         const double most_unit = !mayPointUp(painted, mean) ? kMostUnit : weakest >= kTogether ? kFewUnit : 0;
@@ -413,17 +417,17 @@ Moments momentsOf(std::span<const TexelOnSurface> surface) {
     return moments;
 }
 
-/// How the map's directions go with the mesh's normals: the slope of the regression of the ones on the others, which is
-/// about 1 in object space and 0 where a map knows nothing of the mesh. Relief of the shape of the mesh (a bulge on a bulge)
-/// goes with it too; so `bent` is what is left once all that is linear in u and v is taken out.
+/// Correlation of the map's vectors with the mesh normals: the slope of the regression of vectors on normals. It is
+/// about 1 in object space, and 0 for a map that is unrelated to the mesh. Relief that resembles the mesh (a bulge on a
+/// bulge) correlates too, so the `bent` values are computed after removing all that is linear in u and v.
 struct Following {
-    double spread = 0;  ///< spread of the normals: mean squared distance from their mean
+    double spread = 0;  ///< mean squared distance of the normals from their mean
     double slope = 0;
     double bent_share = 0, bent_slope = 0;
 };
 
 Following followingOf(std::span<const TexelOnSurface> surface, const MapLayout& layout) {
-    // Sums of products of 1, u, v, the normal and the direction.
+    // Sums of products of 1, u, v, the normal and the vector of the map.
     std::array<std::array<double, 9>, 9> sums{};
     const LayoutReader reader(layout);
     for (const TexelOnSurface& point : surface) {
@@ -458,8 +462,8 @@ Following followingOf(std::span<const TexelOnSurface> surface, const MapLayout& 
     return following;
 }
 
-/// Whether vectors point where the mesh's normals do because they are these. `may_be_tangent`: they can be a map in tangent
-/// space too, so that in doubt they are.
+/// Returns whether the vectors are the normals of the mesh. `may_be_tangent`: they can also be in tangent space, which
+/// is assumed in doubtful cases.
 bool isOfMesh(std::span<const TexelOnSurface> surface, const MapLayout& layout, bool may_be_tangent) {
     constexpr double kFlat = 0.002, kLeastSlope = 0.5, kLeastBent = 0.25;
     const Following following = followingOf(surface, layout);
@@ -468,8 +472,8 @@ bool isOfMesh(std::span<const TexelOnSurface> surface, const MapLayout& layout, 
            following.bent_slope > kLeastSlope;
 }
 
-/// As above, under relief that hides the mesh from single vectors and makes slopes smaller. A correlation by chance does not
-/// show in every quarter of the mesh.
+/// Variant of isOfMesh for strong relief, which hides the mesh in single vectors and lowers slopes. All quarters of the
+/// mesh must correlate, because a correlation by chance does not occur in each of them.
 bool isOfMeshUnderRelief(std::span<const TexelOnSurface> surface, const MapLayout& layout, bool may_be_tangent) {
     constexpr std::size_t kQuarters = 4, kManyPoints = 1024;
     constexpr double kFlat = 0.002, kLeastSlope = 0.4, kLeastOfQuarter = 0.25, kLeastBent = 0.25;
@@ -491,14 +495,14 @@ Looker::Followed Looker::followed(std::span<const TexelOnSurface> surface, const
     const Moments moments = momentsOf(surface);
     if (surface.size() < kLeastPoints || !(moments.weight > 0)) return {};
     const bool is_up = up && up->axis == 2 && !up->is_inverted;
-    // The mesh's own axes, as they are, or in other channels.
+    // Agreement with the mesh's own axes, unchanged (`plain`) or with permuted channels (`axes`).
     const double plain = (moments.sum[0][0] + moments.sum[1][1] + moments.sum[2][2]) / moments.weight;
     const Axes axes = bestAxes(moments);
     const std::array<double, 3> mean{plain_.mean.x, plain_.mean.y, plain_.mean.z};
     const double constant = std::fabs(up ? mean[up->axis] : plain_.mean.z);
     const bool is_plain = plain >= kLeastAgreement && plain > axes.agreement - 0.05;
     const double agreement = is_plain ? plain : axes.agreement;
-    // A rotation that fits better comes from the axes of another program, which are not known here.
+    // A rotation that agrees better stems from the axes of another program, which are unknown here.
     const bool is_clear = agreement >= kLeastAgreement && agreement >= kOfTheBest * bestAgreement(moments) &&
                           1 - agreement < kOfTheRest * (1 - constant);
     const bool is_wall = !is_up && up && is_plain && plain >= kSureAgreement;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The finding on what a normal map holds, in words, with the commands that make a normal map of it.
+// Finding on the content of a normal map, with the commands that convert it to a normal map.
 #include <optional>
 #include <string>
 #include <utility>
@@ -133,8 +133,8 @@ RemedyCommand withLayout(RemedyCommand command, const MapLayout& layout) {
     return command;
 }
 
-/// `behind` follows the command for the image, to which it may add one. No full stop stands behind the last command, since it
-/// would be copied along.
+/// Returns a remedy with commands for the model and for the image alone. `behind`: text after the command for the
+/// image; `more`: a command in it. No period follows the last command, because it would be copied with the command.
 Remedy inModelOrAlone(const NamedImage& image, bool flips_green, RemedyCommand convert, const std::string& behind = {},
                       std::optional<RemedyCommand> more = {}) {
     Remedy remedy{"Convert it: {}" + behind, {}};
@@ -195,7 +195,7 @@ Remedy remedyOf(const NamedImage& image, const MapLook& look, bool green_is_down
             {withLayout(convert, left), withLayout(convert, invertedRelief(left))}};
     }
     if ((look.content == MapContent::exchanged && !look.is_declared) || (green_is_down && !has_own_green)) {
-        // Slopes cannot tell these readings apart.
+        // Slopes cannot distinguish these interpretations.
         return inModelOrAlone(image, green_is_down, withLayout(convert, layout),
                               ". Slopes cannot tell bumps from dents; if bumps look like dents afterwards, convert the "
                               "original image with {}",

@@ -12,7 +12,7 @@
 namespace tspace {
 namespace {
 
-/// The image as a reader of the layout sees it.
+/// Returns the image decoded by the layout.
 RgbImage readAs(const DecodedMap& map, const MapLayout& layout) {
     RgbImage read = map.image;
     readByLayout(read, map.alpha, layout);
@@ -27,15 +27,15 @@ MapLayout exchanged(MapLayout layout) {
     return layout;
 }
 
-/// Chooses which of the two channels beside z is x.
+/// Decides which of the two channels other than z is x.
 void chooseXAndY(const DecodedMap& map, MapLayout& layout) {
     constexpr double kClear = 0.2;
     const double agreement = std::fabs(slopesOf(map, layout).correlation);
     if (std::fabs(slopesOf(map, exchanged(layout)).correlation) > agreement + kClear) layout = exchanged(layout);
 }
 
-/// The layout that the texels of an image with alpha suggest. Green and alpha may as well hold x and y where all colors are
-/// equal.
+/// Returns the layout that the texels of an image with alpha suggest. If all colors are equal, green and alpha may also
+/// hold x and y in reverse.
 MapLayout guessedLayout(const DecodedMap& map, std::span<const TexelBytes> texels) {
     LayoutGuess guess;
     for (const TexelBytes& texel : texels) {
@@ -49,19 +49,20 @@ MapLayout guessedLayout(const DecodedMap& map, std::span<const TexelBytes> texel
 
 bool hasSide(const GreenTest& test) { return test.verdict == GreenVerdict::up || test.verdict == GreenVerdict::down; }
 
-/// Whether the slopes fit `other` well.
+/// Returns whether slopes fit an interpretation well.
 bool fitsWell(const GreenTest& other) {
     constexpr double kLeast = 0.8;
     return hasSide(other) && std::fabs(other.correlation) > kLeast;
 }
 
-/// Whether red and green are exchanged. Relief that curves along x as it does along y, as a product of waves, does not tell.
+/// Returns whether red and green are exchanged. Relief whose curvature along x equals that along y, such as a product
+/// of waves, does not show it.
 bool areXAndYExchanged(const DecodedMap& map) {
     constexpr double kMost = 0.5;
     return std::fabs(slopesOf(map.image, map).correlation) <= kMost && fitsWell(slopesOf(map, exchanged({})));
 }
 
-/// Decodes the channels that the layout has as x and y from hemi-octahedral encoding.
+/// Decodes hemi-octahedral encoding from the channels that the layout assigns to x and y.
 RgbImage decodeHemiOctahedral(const DecodedMap& map, const MapLayout& layout) {
     RgbImage read = readAs(map, layout);
     const auto byteOf = [](double value) {
@@ -78,8 +79,8 @@ RgbImage decodeHemiOctahedral(const DecodedMap& map, const MapLayout& layout) {
     return read;
 }
 
-/// Tests by slopes whether two channels are x and y. Of a periodic height h, the products h_xx h_yy and h_xy h_xy have the
-/// same mean; so where x + y and x - y are taken for x and y, nothing correlates.
+/// Tests by slopes whether two channels are x and y. For a periodic height h, the products h_xx h_yy and h_xy h_xy have
+/// equal means. So if the channels hold x + y and x - y, their derivatives do not correlate as those of x and y.
 void testTwoChannels(const DecodedMap& map, MapLook& look) {
     constexpr std::uint64_t kManyBlocks = 32;
     constexpr double kNoCorrelation = 0.1, kClear = 0.3;
@@ -92,7 +93,7 @@ void testTwoChannels(const DecodedMap& map, MapLook& look) {
                        plain.block_count >= kManyBlocks && std::fabs(plain.correlation) < kNoCorrelation;
 }
 
-/// Replaces the look by the layout that a texture file declares, or that its texels suggest.
+/// Replaces the result by the layout that a texture file declares, or that its texels suggest.
 void lookAtTexture(const DecodedMap& map, std::span<const TexelBytes> texels, MapLook& look) {
     const bool is_guessed = *map.declared == MapLayout{} && !map.alpha.empty();
     const MapLayout layout = is_guessed ? guessedLayout(map, texels) : *map.declared;
@@ -119,13 +120,13 @@ MapLook lookAtMap(const DecodedMap& map, std::span<const TexelOnSurface> surface
         look.content = MapContent::exchanged;
         look.layout = exchanged({});
     }
-    // In grey images with alpha only slopes tell whether x is in the colors or in alpha.
+    // In gray images with alpha, only slopes show whether x is in the colors or in alpha.
     if (map.declared == nullptr && look.content == MapContent::xInAlpha) {
         const MapLayout guess = guessedLayout(map, texels);
         if (!(guess == MapLayout{})) look.layout = guess;
     }
     if (map.declared != nullptr) lookAtTexture(map, texels, look);
-    // Steep relief in hemi-octahedral encoding is longer than any x and y, and gentle relief looks flat.
+    // In hemi-octahedral encoding, steep relief exceeds the length of any x and y, and gentle relief looks flat.
     const bool has_two = look.content == MapContent::twoChannels || look.content == MapContent::xInAlpha;
     const bool may_have_two = look.content == MapContent::normals || look.content == MapContent::picture;
     if (has_two || (may_have_two && isBlueConstant(texels))) testTwoChannels(map, look);

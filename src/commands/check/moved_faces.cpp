@@ -11,10 +11,11 @@ namespace tspace {
 namespace {
 
 constexpr std::uint32_t kNoPoint = 0xffffffffu;
-/// Maximum triangles of a polygon, and directions around a point, that are examined, so that the time stays linear.
+/// Maximum number of triangles per polygon, and of directions around a point, that are examined. They keep the time
+/// linear.
 constexpr std::size_t kMostOfPolygon = 64, kMostFaces = 64;
 
-/// A primitive under one of its targets.
+/// A primitive and the offsets of one of its targets.
 struct MovedPrimitive {
     const ScenePrimitive& primitive;
     std::span<const Vec3> offsets;
@@ -25,14 +26,14 @@ struct MovedPrimitive {
         const DVec3 base = toDouble(primitive.positions[vertex]);
         return is_moved ? base + toDouble(offsets[vertex]) : base;
     }
-    /// Twice the area long.
+    /// Returns the normal of a triangle with twice its area as length.
     [[nodiscard]] DVec3 crossOf(std::size_t triangle, bool is_moved) const {
         const auto at = [&](std::size_t k) { return positionAt(vertexAt(3 * triangle + k), is_moved); };
         return cross(at(1) - at(0), at(2) - at(0));
     }
 };
 
-/// Vertices at one position that a target moves alike are one point.
+/// Returns a key: vertices with equal positions and equal offsets are one point.
 std::array<std::uint32_t, 6> pointKey(const MovedPrimitive& moved, std::uint32_t vertex) {
     const Vec3 &p = moved.primitive.positions[vertex], &o = moved.offsets[vertex];
     return {weldBits(p.x), weldBits(p.y), weldBits(p.z), weldBits(o.x), weldBits(o.y), weldBits(o.z)};
@@ -50,7 +51,8 @@ struct Box {
     }
 };
 
-/// Whether two triangles that follow one another are of one flat polygon: exporters write its triangles in a row.
+/// Returns whether two consecutive triangles belong to one flat polygon: exporters write the triangles of a polygon
+/// consecutively.
 bool isOnePolygon(const MovedPrimitive& moved, std::size_t a, std::size_t b) {
     constexpr double kFlat = 0.9998;  // cosine of about 1 degree
     int common = 0;
@@ -72,7 +74,7 @@ MovedFaces::MovedFaces(const ScenePrimitive& primitive, std::span<const ScenePri
         box.add(primitive.positions[vertex]);
     }
     faces_.resize(points.size());
-    // Faces of one direction count once, so that the middle of all does not depend on how they are cut.
+    // Faces with equal directions are added once, so that the mean does not depend on the triangulation.
     const auto addFace = [&](const MovedPrimitive& moved, std::size_t triangle, std::uint32_t point) {
         constexpr double kSame = 0.9998, kCollapsed = 1e-4;
         Face face{moved.crossOf(triangle, false), moved.crossOf(triangle, true)};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The integrability test, and the axes of a map.
+// Integrability test of normal maps, and axes of a map.
 #include "commands/check/normal_map.h"
 
 #include <algorithm>
@@ -10,14 +10,14 @@
 namespace tspace {
 namespace {
 
-/// Steeper normals are borders of islands, or no normals at all.
+/// Minimum z. Steeper normals are island borders, or no normals.
 constexpr float kLeastUp = 0.25f;
-/// Larger derivatives are jumps between islands.
+/// Larger derivatives are discontinuities between islands.
 constexpr float kMostDerivative = 0.25f;
-/// Mean square of a derivative in a block below which it is rounding to 8 bits (2.6e-6) and what compression adds.
+/// Minimum mean square of a derivative in a block. Rounding to 8 bits (2.6e-6) and compression artifacts are below it.
 constexpr float kLeastRelief = 4e-5f;
 
-/// Slopes p and q of a texel; false if its normal does not point out of the surface.
+/// Computes the slopes p and q of a texel. Returns false if its normal does not point out of the surface.
 bool slopes(const std::uint8_t* texel, float& p, float& q) {
     const float nz = static_cast<float>(texel[2]) / 127.5f - 1;
     if (nz < kLeastUp) return false;
@@ -26,7 +26,7 @@ bool slopes(const std::uint8_t* texel, float& p, float& q) {
     return true;
 }
 
-/// The mean over a square of texels; false where one of them has no slope.
+/// Computes the mean slopes of a square of texels. Returns false if a texel has no slope.
 bool slopesOfSquare(const RgbImage& image, const TexelMask& inside, std::uint32_t left, std::uint32_t top,
                     std::uint32_t side, float& p, float& q) {
     p = q = 0;
@@ -44,8 +44,8 @@ bool slopesOfSquare(const RgbImage& image, const TexelMask& inside, std::uint32_
     return true;
 }
 
-/// dq/dx and dp/drow between the squares around the one at (x, y), none of them beyond the border; false where one says
-/// nothing.
+/// Computes dq/dx and dp/drow from the squares around the square at (x, y), all of which must lie in the image. Returns
+/// false if one of them has no slopes.
 bool derivatives(const RgbImage& image, const TexelMask& inside, std::uint32_t x, std::uint32_t y, std::uint32_t side,
                  float& a, float& b) {
     for (std::uint32_t i = 0; i < side * side; ++i) {
@@ -63,7 +63,7 @@ bool derivatives(const RgbImage& image, const TexelMask& inside, std::uint32_t x
     return true;
 }
 
-/// Agreement of the blocks on one side.
+/// Votes of blocks, and their agreement.
 struct Votes {
     double ab = 0, aa = 0, bb = 0;
     std::uint64_t count = 0, down_count = 0;
@@ -76,7 +76,7 @@ struct Votes {
         down_count += block_ab > 0;
     }
     [[nodiscard]] double correlation() const { return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0; }
-    /// +1 down, -1 up, 0: neither.
+    /// Returns +1 for down, -1 for up, 0 for undecided.
     [[nodiscard]] int side(double least_correlation, double least_agreement) const {
         if (count == 0) return 0;
         const double down = static_cast<double>(down_count) / static_cast<double>(count);
@@ -88,10 +88,10 @@ struct Votes {
 constexpr std::uint64_t kLeastBlocks = 16;
 /// Thresholds for a whole map, or for the texels that one primitive shows.
 constexpr double kLeastCorrelation = 0.1, kLeastAgreement = 0.65;
-/// Thresholds for a part that contradicts another part of its map, and for means where single texels give no verdict. They
-/// are strict, since chance and unusual relief must not make such a part.
+/// Thresholds for a part that contradicts another part of its map, and for means if single texels give no verdict. They
+/// are strict, so that chance and unusual relief do not produce such a part.
 constexpr double kPartCorrelation = 0.3, kPartAgreement = 0.8;
-/// A part has this many blocks, and this share of all that vote.
+/// Minimum number of blocks in a part, and their minimum share of all voting blocks.
 constexpr std::uint64_t kLeastPartBlocks = 16;
 constexpr double kLeastPartShare = 0.02;
 
@@ -145,7 +145,7 @@ TexelRect GreenBlocks::rectOf(std::size_t block) const {
     return {left, top, std::min(left + kBlock, width_), std::min(top + kBlock, height_)};
 }
 
-/// Direction that a block and its neighbors lean to; 0 if they disagree or have no vote.
+/// Returns the direction of a block and its neighbors; 0 if they disagree or have too few votes.
 int GreenBlocks::leaningOf(std::size_t block) const {
     constexpr std::uint64_t kLeastAround = 3;
     const auto column = static_cast<std::uint32_t>(block % columns_),
@@ -160,7 +160,7 @@ int GreenBlocks::leaningOf(std::size_t block) const {
     return votes.count < kLeastAround ? 0 : votes.side(kPartCorrelation, 0.5);
 }
 
-/// Adjacent blocks that lean to one side are a part, where they are many and agree.
+/// Groups adjacent blocks with equal directions into parts, if they are many and agree.
 void GreenBlocks::findParts() {
     const auto voting = static_cast<double>(
         std::count_if(blocks_.begin(), blocks_.end(), [](const Block& block) { return block.votes; }));
@@ -212,7 +212,7 @@ GreenTest GreenBlocks::judge(const IsChosen& isChosen) const {
     test.block_count = all.count;
     test.down_block_count = all.down_count;
     test.correlation = all.correlation();
-    std::uint32_t down_part = 0, up_part = 0;  // the largest of each side; 0: none
+    std::uint32_t down_part = 0, up_part = 0;  // the largest part of each side; 0: none
     sizes[0] = 0;
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
         const Block& block = blocks_[i];
@@ -238,8 +238,9 @@ GreenTest GreenBlocks::judge(const IsChosen& isChosen) const {
     return test;
 }
 
-/// Compression and noise blur single texels more than means of texels. Where both lean to one side the means decide: +1 down,
-/// -1 up, 0: neither. The test then has the votes of the means.
+/// Decides by means of texels, which compression and noise blur less than single texels. Returns +1 for down, -1 for
+/// up, and 0 if undecided or if the single texels lean to the other side. If decided, `test` receives the votes of the
+/// means.
 template <class IsChosen>
 int GreenBlocks::sideOfMeans(const IsChosen& isChosen, GreenTest& test) const {
     Votes votes;
@@ -270,7 +271,7 @@ GreenTest GreenBlocks::within(const TexelMask& part) const {
 }
 
 double bestAgreement(const Moments& moments) {
-    // The eigenvalues of the symmetric matrix S = M^T M, by the roots of its characteristic polynomial (Smith 1961).
+    // Eigenvalues of the symmetric matrix S = M^T M, as roots of its characteristic polynomial (Smith 1961).
     std::array<std::array<double, 3>, 3> s{};
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t k = 0; k < 3; ++k) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which way green points in a normal map, or in parts of it, and which axes of a map are those of a mesh.
+// Direction of green in a normal map or in parts of it, and axes of a map relative to those of a mesh.
 #pragma once
 
 #include <array>
@@ -18,39 +18,39 @@ struct GreenTest {
     /// Correlation of the two mixed derivatives over all blocks: -1 for a perfect height field with green up, +1 with
     /// green down.
     double correlation = 0;
-    std::uint64_t block_count = 0;       ///< blocks that have enough relief to say something
-    std::uint64_t down_block_count = 0;  ///< those that say "down"
-    /// In a mixed map: the blocks of the largest part where green points down, and where that part lies.
+    std::uint64_t block_count = 0;       ///< number of blocks with enough relief to vote
+    std::uint64_t down_block_count = 0;  ///< number of blocks that vote for green down
+    /// In a mixed map: number of blocks of the largest part where green points down, and its bounding rectangle.
     std::uint64_t down_part_blocks = 0;
     TexelRect down_part = {};
-    std::uint64_t up_part_blocks = 0;  ///< blocks of the largest part where green points up
+    std::uint64_t up_part_blocks = 0;  ///< number of blocks of the largest part where green points up
     TexelRect up_part = {};
 
-    /// Confidence of the verdict: how many of the blocks agree beyond an even split, 0 to 1.
+    /// Confidence of the verdict, 0 to 1: share of agreeing blocks beyond an even split.
     [[nodiscard]] double confidence() const;
 };
 
-/// A normal map is the slope of some height h: p = -nx/nz = dh/dx, and q = -ny/nz = dh/dy with y upwards. The order of
-/// derivatives does not matter, so dq/dx = dp/dy. Where green points down, q has the wrong sign, and dq/dx = -dp/dy.
-/// All of this is along the axes of the image, so it does not matter whether an island of the UV map is turned or
-/// mirrored: the tangents that belong to it are too.
+/// Determines the direction of green from the integrability of the map. A normal map contains the slopes of a height h:
+/// p = -nx/nz = dh/dx, and q = -ny/nz = dh/dy with y pointing up. Mixed derivatives are equal, so dq/dx = dp/dy. If
+/// green points down, q has the wrong sign, and dq/dx = -dp/dy. All of this is along the axes of the image, so rotated
+/// or mirrored islands of the UV map do not matter: their tangents are rotated and mirrored too.
 ///
-/// Real maps are not perfect height fields (baked over seams, painted over, compressed), so blocks of texels vote. Flat
-/// maps, and those with relief along one axis only, get no verdict.
+/// Real maps are not perfect height fields (baked across seams, painted over, compressed), so blocks of texels vote.
+/// Flat maps, and maps with relief along one axis only, get no verdict.
 class GreenBlocks {
   public:
     static constexpr std::uint32_t kBlock = 16;  ///< texels along each side of a block
 
-    /// Reads the texels in `inside`, a mask of the image's size: those that some triangle shows.
+    /// Uses the texels in `inside`, a mask of the size of the image: the texels that triangles show.
     GreenBlocks(const RgbImage& image, const TexelMask& inside);
 
-    /// All blocks.
+    /// Returns the result for all blocks.
     [[nodiscard]] GreenTest all() const;
-    /// The blocks of which `part` covers a quarter or more. Where they are too few to say anything, but the whole map is
-    /// one way throughout, they are taken to be so too.
+    /// Returns the result for the blocks of which `part` covers at least a quarter. If these are too few for a verdict,
+    /// and the whole map has one direction, the result is that direction.
     [[nodiscard]] GreenTest within(const TexelMask& part) const;
 
-    /// Its memory.
+    /// Returns its memory in bytes.
     static std::uint64_t bytesOf(std::uint64_t width, std::uint64_t height) {
         return 2 * (width / kBlock + 1) * (height / kBlock + 1) * sizeof(Block);
     }
@@ -62,12 +62,12 @@ class GreenBlocks {
         std::int8_t side = 0;    ///< side of its part: -1 up, +1 down
         std::uint32_t part = 0;  ///< from 1; 0: none
     };
-    /// isChosen(block): whether it counts.
+    /// `isChosen(block)`: returns whether the block is used.
     template <class IsChosen>
     [[nodiscard]] GreenTest judge(const IsChosen& isChosen) const;
     template <class IsChosen>
     int sideOfMeans(const IsChosen& isChosen, GreenTest& test) const;
-    /// Sums of all blocks, by squares of `side` texels a side.
+    /// Returns the sums of all blocks, from squares of `side` x `side` texels.
     [[nodiscard]] std::vector<Block> measured(const RgbImage& image, const TexelMask& inside, std::uint32_t side) const;
     [[nodiscard]] TexelRect rectOf(std::size_t block) const;
     [[nodiscard]] int leaningOf(std::size_t block) const;
@@ -81,15 +81,17 @@ class GreenBlocks {
     std::uint32_t part_count_ = 0;
 };
 
-// Finds the axes of a map relative to those of a mesh: the rotation or exchange of channels that maps directions to normals.
+// Finds the axes of a map relative to those of a mesh: the rotation or permutation of channels that maps directions to
+// normals.
 
-/// The mean of n v^T over the surface; n is the mesh's normal, v the direction in the map.
+/// Mean of n v^T over the surface, where n is the normal of the mesh and v the direction in the map.
 struct Moments {
     std::array<std::array<double, 3>, 3> sum = {};
     double weight = 0;
 };
 
-/// The largest mean cosine that any rotation or reflection of the map's axes gives: the sum of the singular values.
+/// Returns the largest mean cosine that any rotation or reflection of the map's axes achieves: the sum of the singular
+/// values.
 double bestAgreement(const Moments& moments);
 
 /// Signed channels that hold the mesh's x, y and z, and the resulting mean cosine between its normals and the map's.
