@@ -45,7 +45,7 @@ class BadInput(unittest.TestCase):
                 {},
             ):
                 self.refuses_tangents(TypeError, name, **{name: value})
-        self.refuses_tangents(TypeError, "positions is None", positions=None)
+        self.refuses_tangents(TypeError, "positions must be an array, not None", positions=None)
         for value in ("text", self.indices.astype(float), self.indices > 0, [0.5, 1, 2], object(), 1j):
             self.refuses_tangents(TypeError, "indices", indices=value)
         for value in ("text", 1.5, [1.5], object()):

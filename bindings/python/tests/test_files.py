@@ -336,7 +336,7 @@ class Look(Files):
         self.assertIn("meshes", dir(report))
 
     def test_reports_say_what_they_have(self):
-        with self.assertRaisesRegex(AttributeError, "no colour.*verdict"):
+        with self.assertRaisesRegex(AttributeError, "no member .colour.*verdict"):
             tspace.identify(self.framed).colour
 
 
@@ -376,10 +376,10 @@ class Refused(Files):
                 error = self.refuses(ValueError, "", tspace.generate_bytes, self.plain, **options)
                 self.assertEqual(error.code, "invalidOption")
         for call in (tspace.generate_bytes, tspace.check, tspace.identify, tspace.inspect):
-            error = self.refuses(TypeError, "no option 'treshold': .*memory_limit", call, self.plain, treshold=1)
+            error = self.refuses(TypeError, "unknown option .treshold.; .*memory_limit", call, self.plain, treshold=1)
             self.assertEqual(error.code, "invalidOption")
         self.refuses(tspace.InputError, "treshold.*worst", tspace.diff, self.plain, self.plain, treshold=1)
-        self.refuses(TypeError, "options are", tspace.generate_bytes, self.plain, method=object())
+        self.refuses(TypeError, "values of options", tspace.generate_bytes, self.plain, method=object())
 
     def test_broken_bytes(self):
         error = self.refuses(tspace.FileError, "", tspace.check, b"no model")

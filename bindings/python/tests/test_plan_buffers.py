@@ -88,8 +88,8 @@ class PlanBuffers(unittest.TestCase):
             (tspace.IndexRangeError, "source corner", dict(source_corners=[36])),
             (tspace.InputError, "best", dict(mesh=mesh, normals=dict(weighting="best"))),
             (tspace.InputError, "weighting", dict(mesh=mesh, normals=dict(weighting="heavy"))),
-            (TypeError, "known are", dict(mesh=mesh, normals=dict(weight="area"))),
-            (TypeError, "known are", dict(mesh=dict(position=shape.positions))),
+            (TypeError, "known options are", dict(mesh=mesh, normals=dict(weight="area"))),
+            (TypeError, "known options are", dict(mesh=dict(position=shape.positions))),
             (TypeError, "must be a dict", dict(mesh=shape.positions)),
             (tspace.InputError, "not the plan's", dict(mesh=dict(positions=shape.positions[:3]))),
         ):

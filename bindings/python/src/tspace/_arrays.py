@@ -37,11 +37,11 @@ def shape_text(shape: Sequence[int]) -> str:
 
 def _as_array(name: str, value: Any) -> numpy.ndarray:
     if value is None:
-        raise TypeError(f"{name} is None: an array is needed")
+        raise TypeError(f"{name} must be an array, not None")
     try:
         return numpy.asarray(value)
     except Exception as error:
-        raise TypeError(f"{name} is not an array of numbers: {error}") from error
+        raise TypeError(f"{name} must be an array of numbers: {error}") from error
 
 
 def _converted_to_float32(name: str, value: numpy.ndarray) -> numpy.ndarray:
@@ -54,7 +54,7 @@ def _converted_to_float32(name: str, value: numpy.ndarray) -> numpy.ndarray:
         where = tuple(int(i[0]) for i in numpy.nonzero(bad))
         place = "[" + ", ".join(str(i) for i in where) + "]"
         raise InputError(
-            f"{name}{place} is {value[where]}, which does not fit into float32", element=where[0]
+            f"{name}{place} is {value[where]}, which is out of the range of float32", element=where[0]
         ) from None
 
 
@@ -96,7 +96,7 @@ def output_array(out: Optional[numpy.ndarray], count: int, components: int) -> n
     if not out.flags.writeable:
         raise InputError("out is read-only")
     if out.size and (out.strides[1] != 4 or out.strides[0] < 4 * components or (out.strides[0] | out.ctypes.data) & 3):
-        raise InputError("out must have its rows in order and each row's numbers side by side", "strideTooSmall")
+        raise InputError("out must be C-contiguous within each row, with its rows in increasing order", "strideTooSmall")
     return out
 
 
@@ -143,7 +143,7 @@ def uint32_array(name: str, value: Any) -> numpy.ndarray:
     if array.dtype != UINT32:
         bad = _first_outside(array, 2**32)
         if bad is not None:
-            raise InputError(f"{name}[{bad}] is {array[bad]}, which does not fit into uint32", "invalidOption", bad)
+            raise InputError(f"{name}[{bad}] is {array[bad]}, which is out of the range of uint32", "invalidOption", bad)
     return numpy.require(array, UINT32, ("C", "A"))
 
 

@@ -75,7 +75,7 @@ class _Call:
         except TypeError:
             raise TypeError(f"{name} must be a path, not {type(value).__name__}") from None
         if b"\0" in path:
-            raise InputError(f"{name} has a 0 in it")
+            raise InputError(f"{name} must not contain a null character")
         (self.outputs if name == "output" else self.paths).append(path)
         return path
 
@@ -119,7 +119,7 @@ class _Call:
                 content = find(os.fsdecode(path))
                 if content is None:
                     return _CANNOT_READ
-                view = self.buffer(f"what find_file gives for {os.fsdecode(path)!r}", content)
+                view = self.buffer(f"the result of find_file({os.fsdecode(path)!r})", content)
             except (FileNotFoundError, KeyError):
                 return _CANNOT_READ
             except BaseException as error:  # pylint: disable=broad-except
@@ -157,7 +157,7 @@ def _check_names(function: str, options: Mapping[str, Any]) -> None:
     known = OPTIONS[verb]
     for name in options:
         if name not in known:
-            raise UnknownOptionError(f"there is no option {name!r}: known are {', '.join(known)}", "invalidOption")
+            raise UnknownOptionError(f"unknown option {name!r}; known options are {', '.join(known)}", "invalidOption")
 
 
 def _plain(value: Any) -> Any:
@@ -165,7 +165,7 @@ def _plain(value: Any) -> Any:
         return value.item()
     if isinstance(value, os.PathLike):
         return os.fspath(value)
-    raise TypeError(f"options are numbers, text, True and False, not {type(value).__name__}")
+    raise TypeError(f"the values of options must be numbers, text, True or False, not {type(value).__name__}")
 
 
 def _is_path(value: Any) -> bool:
@@ -179,7 +179,7 @@ def _ask(
     call = _Call()
     if _is_path(model):
         if find_file is not None or name is not None:
-            raise TypeError("name and find_file are for models in memory")
+            raise TypeError("name and find_file can only be used with a model in memory")
         document = call.run(f"tspace_{verb}File", call.path("model", model), options=options)
     else:
         struct = call.model("model", model, name, find_file)
@@ -299,10 +299,10 @@ def diff(
     """
     call = _Call()
     if _is_path(a) != _is_path(b):
-        raise TypeError("a and b must both be paths, or both bytes")
+        raise TypeError("a and b must both be paths or both be bytes")
     if _is_path(a):
         if find_file is not None:
-            raise TypeError("find_file is for models in memory")
+            raise TypeError("find_file can only be used with models in memory")
         return DiffReport(call.run("tspace_diffFiles", call.path("a", a), call.path("b", b), options=options))
     models = call.model("a", a, "a", find_file), call.model("b", b, "b", find_file)
     return DiffReport(call.run("tspace_diffBytes", *map(byref, models), options=options))

@@ -117,7 +117,7 @@ class Mesh:
             return _abi.Indices(None, 0, _abi.INDEX_TYPES["corners"])
         array = index_array(name, value)
         if array.size != self.corner_count:
-            raise InputError(f"{name} has {array.size} entries, corners are {self.corner_count}", "countMismatch")
+            raise InputError(f"{name} has {array.size} entries, but the mesh has {self.corner_count} corners", "countMismatch")
         shapes = [(array.size,), (array.size, 1)]
         if self._list_shape is not None and len(self._list_shape) == 2:
             shapes.append(self._list_shape)
@@ -140,14 +140,14 @@ def _face_indices(indices: numpy.ndarray) -> numpy.ndarray:
         return indices[:, 0]
     if columns == 2:
         raise InputError(
-            f"indices of shape {shape_text(indices.shape)} are faces of 2 corners: they must have shape (corners,), or "
+            f"indices of shape {shape_text(indices.shape)} would be faces of 2 corners; use shape (corners,), or "
             "(faces, k) with 3 corners or more",
             "countMismatch",
         )
     if rows == 1 and columns > 4:
         raise InputError(
-            f"indices of shape {shape_text(indices.shape)} are one face of {columns} corners: triangles have shape "
-            f"(corners,) or (faces, 3); for this one face give shape ({columns},) and face_sizes={columns}",
+            f"indices of shape {shape_text(indices.shape)} would be a single face of {columns} corners. For triangles use shape "
+            f"(corners,) or (faces, 3); for this one face use shape ({columns},) and face_sizes={columns}",
             "countMismatch",
         )
     return indices
@@ -157,9 +157,9 @@ def _face_size(indices: Optional[numpy.ndarray], face_sizes: Any) -> Optional[in
     """Returns the number of corners of every face; None if `face_sizes` is an array."""
     if indices is not None and indices.ndim == 2:
         if face_sizes is not None:
-            raise InputError("indices of shape (faces, k) say how many corners faces have: leave face_sizes out")
+            raise InputError("face_sizes cannot be used with indices of shape (faces, k), which determines the number of corners per face")
         if indices.shape[1] == 0:
-            raise InputError("indices has shape (n, 0): faces without corners")
+            raise InputError("indices of shape (n, 0) have no corners per face")
         return indices.shape[1]
     if indices is not None and indices.ndim != 1:
         raise InputError(
@@ -169,6 +169,6 @@ def _face_size(indices: Optional[numpy.ndarray], face_sizes: Any) -> Optional[in
         return 3
     if isinstance(face_sizes, numbers.Integral):
         if isinstance(face_sizes, bool) or not 1 <= int(face_sizes) <= _abi.MAX_CORNERS:
-            raise InputError(f"face_sizes is {face_sizes}; faces must have 1 corner or more", "invalidOption")
+            raise InputError(f"face_sizes is {face_sizes}; faces must have at least 1 corner", "invalidOption")
         return int(face_sizes)
     return None

@@ -21,7 +21,7 @@ def named(option: str, name: Any, table: Dict[str, int]) -> int:
         known = ", ".join(repr(known) for known in table)
         if not isinstance(name, str):
             raise TypeError(f"{option} must be one of {known}, not {shown(name)}")
-        raise InputError(f"{option} is {shown(name)}, which is none of {known}", "invalidOption")
+        raise InputError(f"{option} is {shown(name)}; it must be one of {known}", "invalidOption")
     return number
 
 
@@ -68,7 +68,7 @@ def _convention_struct(convention: Any) -> _abi.Convention:
             setattr(struct, field, named(field, getattr(convention, field), table))
         return struct
     if convention not in _abi.CONVENTIONS:
-        raise InputError(f"convention is {shown(convention)}, which is none of {_PRESETS}", "invalidOption")
+        raise InputError(f"convention is {shown(convention)}; it must be one of {_PRESETS}", "invalidOption")
     error = _abi.Error()
     if _abi.library.tspace_findConvention(convention.encode(), byref(struct), byref(error)):
         raise_error(error)
@@ -103,7 +103,7 @@ def real(option: str, value: Any) -> float:
     if not isinstance(value, numbers.Real) or isinstance(value, bool):
         raise TypeError(f"{option} must be a real number, not {shown(value)}")
     if math.isnan(value):
-        raise InputError(f"{option} is not a number", "invalidOption")
+        raise InputError(f"{option} must not be NaN", "invalidOption")
     return float(value)
 
 
@@ -115,7 +115,7 @@ def real_or_auto(option: str, value: Any) -> float:
 def small_number(option: str, value: Any) -> int:
     """Checks an integer that fits a uint32; the library checks its range."""
     if not isinstance(value, numbers.Integral) or isinstance(value, bool):
-        raise TypeError(f"{option} must be a whole number, not {shown(value)}")
+        raise TypeError(f"{option} must be an integer, not {shown(value)}")
     number = int(value)
     if not 0 <= number < 2**32:
         raise InputError(f"{option} is {value}, which is out of range", "invalidOption")

@@ -52,7 +52,7 @@ def pack_frames(
     normals = float_array("normals", normals, 3)
     tangents = float_array("tangents", tangents, 4)
     if len(normals) != len(tangents):
-        raise InputError(f"normals has {len(normals)} rows, tangents has {len(tangents)}", "countMismatch")
+        raise InputError(f"normals has {len(normals)} rows, but tangents has {len(tangents)}", "countMismatch")
     normals_span, normals = read_span("normals", normals)
     tangents_span, tangents = read_span("tangents", tangents)
     frames = numpy.empty((len(normals), _library.tspace_frameBytes(number)), numpy.uint8)
@@ -84,7 +84,7 @@ def unpack_frames(
         raise TypeError(f"frames must be bytes or an array of uint8, not {kind}")
     frames = numpy.ascontiguousarray(frames)
     if frames.size % size:
-        raise InputError(f"frames has {frames.size} bytes, which is no multiple of {size}", "countMismatch")
+        raise InputError(f"frames has {frames.size} bytes, which is not a multiple of {size}", "countMismatch")
     count = frames.size // size
     normals, tangents = numpy.empty((count, 3), FLOAT32), numpy.empty((count, 4), FLOAT32)
     error = _abi.Error()

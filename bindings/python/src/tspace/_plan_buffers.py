@@ -59,7 +59,7 @@ def _check_names(argument: str, given: Any, known: Any) -> None:
         raise TypeError(f"{argument} must be a dict, not {type(given).__name__}")
     for name in given:
         if name not in known:
-            raise TypeError(f"{argument}[{name!r}] is unknown: known are {', '.join(known)}")
+            raise TypeError(f"{argument}[{name!r}] is not a known option; known options are {', '.join(known)}")
 
 
 _NORMAL_DEFAULTS = {

@@ -24,7 +24,7 @@ class Report:
         first, *rest = name.split("_")
         member = first + "".join(word.capitalize() for word in rest)
         if name.startswith("_") or member not in self.json:
-            raise AttributeError(f"the report has no {name}; it has {', '.join(dir(self))}")
+            raise AttributeError(f"the report has no member {name!r}; its members are {', '.join(dir(self))}")
         own_class: Any = type(self)
         return _wrapped(self.json[member], _kinds(own_class).get(name, Report))
 

@@ -88,7 +88,7 @@ def sanitize(
     source = float_array("tangents", tangents, 4)
     mesh = Mesh(positions, normals, None, indices, face_sizes, normal_indices)
     if len(source) != mesh.corner_count:
-        raise InputError(f"tangents has {len(source)} rows, the mesh has {mesh.corner_count} corners", "countMismatch")
+        raise InputError(f"tangents has {len(source)} rows, but the mesh has {mesh.corner_count} corners", "countMismatch")
     result = output_array(out, mesh.corner_count, 4)
     check_apart(out, mesh.arrays)
     if result is not source:

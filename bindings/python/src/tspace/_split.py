@@ -34,19 +34,19 @@ def corner_attributes(
 ) -> Tuple[Any, List[numpy.ndarray]]:
     """Returns the C structs for arrays of shape (corners, k), and the arrays that must outlive them."""
     if isinstance(attributes, (numpy.ndarray, str, bytes)) or not isinstance(attributes, Iterable):
-        raise TypeError(f"{name} must be a list of arrays: [tangents], not tangents")
+        raise TypeError(f"{name} must be a list of arrays, such as [tangents], not an array")
     tolerance = real("tolerance", tolerance)
     if not 0 <= tolerance < math.inf:
-        raise InputError(f"tolerance is {tolerance}; it must be 0 or more, and finite", "invalidOption")
+        raise InputError(f"tolerance is {tolerance}; it must be finite and not negative", "invalidOption")
     arrays: List[numpy.ndarray] = []
     for attribute in attributes:
         place = f"{name}[{len(arrays)}]"
         array = numpy.asarray(attribute)
         array = float_array(place, array, array.shape[1] if array.ndim == 2 else 1)
         if len(array) != corner_count:
-            raise InputError(f"{place} has {len(array)} rows, there are {corner_count} corners", "countMismatch")
+            raise InputError(f"{place} has {len(array)} rows, but there are {corner_count} corners", "countMismatch")
         if not 1 <= array.shape[1] <= _MOST_COLUMNS:
-            raise InputError(f"{place} has {array.shape[1]} columns, not 1 to {_MOST_COLUMNS}", "invalidOption")
+            raise InputError(f"{place} has {array.shape[1]} columns; it must have 1 to {_MOST_COLUMNS}", "invalidOption")
         arrays.append(array)
     rows = (_abi.CornerAttribute * len(arrays))()
     for number, array in enumerate(arrays):
@@ -87,7 +87,7 @@ def split(
     if not isinstance(vertex_count, (int, numpy.integer)) or isinstance(vertex_count, bool):
         raise TypeError(f"vertex_count must be a number, not {shown(vertex_count)}")
     if not 0 <= vertex_count <= _abi.MAX_CORNERS:
-        raise InputError(f"vertex_count is {vertex_count}; it must be 0 to {_abi.MAX_CORNERS}", "tooLarge")
+        raise InputError(f"vertex_count is {vertex_count}; it must be from 0 to {_abi.MAX_CORNERS}", "tooLarge")
     struct, corner_count, index_list = NO_INDICES, int(vertex_count), None
     if indices is not None:
         given = index_array("indices", indices)

@@ -326,7 +326,7 @@ def tangents_of_meshes(
     jobs = list(jobs)
     for job in jobs:
         if not isinstance(job, MeshJob):
-            raise TypeError(f"jobs must be of tspace.MeshJob, not {type(job).__name__}")
+            raise TypeError(f"jobs must contain only tspace.MeshJob, not {type(job).__name__}")
     run = execution(threads)
     outputs = [_output(*job._outputs) for job in jobs]
     counts = [_new_report() for _ in jobs]
@@ -441,7 +441,7 @@ class Plan:
         counts = self._info.vertex_count, self._normal_count
         for name, array, count in zip(("positions", "normals"), (positions, normals), counts):
             if len(array) != count:
-                raise InputError(f"{name} has {len(array)} entries, the plan's mesh has {count}", "planMismatch")
+                raise InputError(f"{name} has {len(array)} entries, but the mesh of the plan has {count}", "planMismatch")
         positions_span, positions = read_span("positions", positions)
         normals_span, normals = read_span("normals", normals)
         pose = _abi.Pose(ctypes.sizeof(_abi.Pose), 0, positions_span, normals_span)
@@ -481,7 +481,7 @@ class Plan:
         return self._info.memory_bytes
 
     def __reduce__(self) -> Any:
-        raise TypeError("a Plan cannot be copied or pickled: make another one from the mesh")
+        raise TypeError("a Plan cannot be copied or pickled; create another one from the mesh")
 
     def __repr__(self) -> str:
         return f"<tspace.Plan: {self.method}, {self.vertex_count} vertices, {self.corner_count} corners>"
