@@ -80,6 +80,35 @@ export interface MapPixels {
 /** Pixels, the bytes of a KTX2 or DDS, or with `decodeImage` of any other image. */
 export type MapImage = MapPixels | Uint8Array | ArrayBuffer;
 
+export interface ConvertMapOptions extends Unpackers {
+  /** Channels that hold x, y and z, as `tspace convert-map --channels` reads them: "rg", "ag", "bgr"; a capital letter inverts a channel; with two letters z is computed. Default: the layout of the file. */
+  channels?: string | null;
+  /** "srgb" removes an sRGB encoding, "linearised" reapplies it. Default: "none". */
+  curve?: "none" | "srgb" | "linearised";
+  /** Inverts x. */
+  flipRed?: boolean;
+  /** Inverts y: DirectX to OpenGL and back. */
+  flipGreen?: boolean;
+  /** Returns the pixels of images that are neither KTX2 nor DDS. */
+  decodeImage?: ((file: Uint8Array, mimeType: string) => MapPixels | null | undefined) | null;
+}
+
+export interface ConvertedMap {
+  width: number;
+  height: number;
+  /** Bits of a channel of the input. */
+  bitsBefore: number;
+  /** A sentence that says how a texture with two channels was read; empty for other images. */
+  howRead: string;
+  /** "uint8" where an image of 8 bits is flipped and nothing else, because that is exact. */
+  numbers: "uint8" | "uint16";
+  /** Four numbers for each pixel, the top row first. */
+  rgba: ReturnType<typeof Uint8ClampedArray.of> | ReturnType<typeof Uint16Array.of>;
+}
+
+/** Converts a normal map as `tspace convert-map` does without a mesh, and returns the same numbers. */
+export function convertMap(image: MapImage, options?: ConvertMapOptions): ConvertedMap;
+
 export interface CompressMapOptions extends Unpackers {
   /** "bc5" for desktops and consoles, "eac-rg11" for phones, "rg8" is uncompressed. */
   format?: "bc5" | "eac-rg11" | "rg8";

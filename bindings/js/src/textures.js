@@ -76,6 +76,24 @@ export function readTexture(file, options = {}) {
   });
 }
 
+const curves = ["none", "srgb", "linearised"];
+
+export function convertMap(image, options = {}) {
+  object(options, "options", ["channels", "curve", "flipRed", "flipGreen", "decodeImage", ...unpacking]);
+  const { channels, decodeImage } = options;
+  checkFunction(decodeImage, "decodeImage");
+  if (!isMissing(channels) && typeof channels !== "string") failType(channels, "channels", "a string");
+  const curve = choice(options.curve ?? "none", "curve", curves);
+  const flipsRed = boolean(options.flipRed ?? false, "flipRed"), flipsGreen = boolean(options.flipGreen ?? false, "flipGreen");
+  const map = imageOf(image, "the map", decodeImage);
+  return run(options, (call) => {
+    const exports = call.wasm, letters = isMissing(channels) ? 0 : call.put(new TextEncoder().encode(`${channels}\0`));
+    call.check(exports.convertMap(putImage(call, map), letters, curve, flipsRed, flipsGreen));
+    const words = call.get(Uint32Array, exports.textureWords(), 16), [width, height] = words, [howRead, pixels, made] = words.slice(13);
+    return { width, height, bitsBefore: words[4], howRead: textAt(exports, howRead), numbers: numberKinds[made], rgba: call.get(arrayTypes[made], pixels, 4 * width * height) };
+  });
+}
+
 /** In the order of the tool's enumerations. */
 const formats = ["bc5", "eac-rg11", "rg8", "astc-4x4"];
 const qualities = ["fast", "best", "quick"];

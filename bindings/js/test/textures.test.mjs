@@ -7,7 +7,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, describe, it } from "node:test";
 import { deflateSync, inflateSync } from "node:zlib";
-import { compressMap, readTexture, ready, TspaceError } from "tspace/textures";
+import { compressMap, convertMap, readTexture, ready, TspaceError } from "tspace/textures";
 import { ofTool, shared, tool } from "./tool.mjs";
 
 await ready;
@@ -145,6 +145,41 @@ describe("compressMap", () => {
       assert.match(report.warnings.join(), /not unit vectors/);
       assert.ok(Number.isFinite(report.meanErrorDeg));
     }
+  });
+});
+
+describe("convertMap", () => {
+  it("gives the numbers of the tool for layouts, curves and flips", { skip: noTool }, () => {
+    const cases = [
+      [{ channels: "rg" }, ["--channels", "rg"]], [{ channels: "bgr" }, ["--channels", "bgr"]], [{ channels: "rG" }, ["--channels", "rG"]],
+      [{ curve: "srgb" }, ["--srgb"]], [{ curve: "linearised", channels: "rg" }, ["--linearised", "--channels", "rg"]],
+      [{ flipGreen: true }, ["--flip-green"]], [{ flipRed: true, flipGreen: true }, ["--flip-red", "--flip-green"]],
+    ];
+    for (const most of [255, 65535]) {
+      const image = waves(37, 20, most);
+      writePng("n.png", image);
+      for (const [options, args] of cases) {
+        const isByte = most === 255 && !options.channels && !options.curve && !options.flipRed;
+        run("convert-map", at("n.png"), "-o", at("c.png"), ...args, "--bits", isByte ? "8" : "16", "-q");
+        const { data } = pngjs.PNG.sync.read(readFileSync(at("c.png")), { skipRescale: true }), made = convertMap(image, options);
+        assert.deepEqual([made.width, made.height, made.bitsBefore, made.numbers], [37, 20, most === 255 ? 8 : 16, isByte ? "uint8" : "uint16"]);
+        assert.deepEqual(Array.from(made.rgba), Array.from(data), JSON.stringify(options));
+      }
+    }
+  });
+
+  it("reads x from alpha, two channels of textures, and refuses what cannot be", () => {
+    const { width, height, rgba } = waves(16, 16), alpha = rgba.slice();
+    for (let i = 0; i < rgba.length; i += 4) alpha.set([9, rgba[i + 1], 9, rgba[i]], i);
+    const made = convertMap({ width, height, rgba: alpha }, { channels: "ag" });
+    for (let i = 0; i < rgba.length; i += 4) assert.deepEqual([made.rgba[i], made.rgba[i + 1], made.rgba[i + 3]], [257 * rgba[i], 257 * rgba[i + 1], 65535]);
+    const { bytes } = compressMap({ width, height, rgba }), three = convertMap(bytes), read = readTexture(bytes);
+    assert.deepEqual([three.numbers, three.howRead], ["uint16", read.howRead]);
+    assert.deepEqual(three.rgba, read.rgba);
+    assert.deepEqual(convertMap(bytes, { channels: "rg" }).rgba, read.rgba);
+    refuses("invalidOption", /channels must be two or three of/, () => convertMap({ width, height, rgba }, { channels: "rr" }));
+    refuses("invalidOption", /read from alpha, which the image does not have/, () => convertMap({ width, height, rgba }, { channels: "ag" }));
+    refuses("wrongType", /channels/, () => convertMap({ width, height, rgba }, { channels: 3 }));
   });
 });
 

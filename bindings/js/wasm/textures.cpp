@@ -208,6 +208,40 @@ std::uint32_t readTexture(const std::uint8_t* data, std::size_t size, std::size_
     words.pixels = made.data();
     return 0;
 }
+
+/// What `tspace convert-map` does without a mesh. `channels`: the value of --channels, or null; `curve`: the number of a MapCurve. The
+/// pixels are in textureWords(): of 16 bits, or of 8 where those of the input are kept.
+TSPACE_JS_EXPORT(convertMap)
+std::uint32_t convertMap(const ImageWords* given, const char* channels, std::uint32_t curve, bool flips_red,
+                         bool flips_green) {
+    Result<FloatImage> image = imageOf(*given, ImageUse::vectors);
+    if (!image) return codeOf(image);
+    MapLayout layout{.curve = static_cast<MapCurve>(curve)};
+    if (channels != nullptr) {
+        if (const std::string wrong = takeChannels(channels, layout); !wrong.empty())
+            return fail(ErrorCode::invalidOption, "channels " + wrong);
+    }
+    if (flips_red) layout.x.is_inverted = !layout.x.is_inverted;
+    text.clear();
+    if (layout == MapLayout{}) {
+        text = readTextureVectors(*image);
+    } else {
+        if (readsAlpha(layout) && image->alpha.empty())
+            return fail(ErrorCode::invalidOption, "a channel is read from alpha, which the image does not have");
+        readTexels(layout, *image);
+    }
+    if (flips_green) {
+        for (Vec3& texel : image->texels) texel.y = 1 - texel.y;
+    }
+    const bool is_byte = image->bits == 8 && layout == MapLayout{} && text.empty();
+    if (is_byte) putNumbers<std::uint8_t>(*image, 255);
+    if (!is_byte) putNumbers<std::uint16_t>(*image, 65535);
+    words = {.width = image->width, .height = image->height, .bits = image->bits};
+    words.how_read = text.c_str();
+    words.number_kind = is_byte ? 0 : 1;
+    words.pixels = made.data();
+    return 0;
+}
 TSPACE_JS_EXPORT(textureWords) const TextureWords* textureWords() { return &words; }
 
 /// `roughness`: null, or the image whose levels are also computed. `format` and `quality`: numbers of the enumerations.

@@ -3,7 +3,6 @@
 // and its report as JSON.
 #include <charconv>
 #include <optional>
-#include <string_view>
 
 #include "commands/compress_map/pack_texture.h"
 #include "commands/convert_map/convert_map_report.h"
@@ -205,14 +204,10 @@ unsigned outputBits(ImageFormat format, unsigned bits) {
 /// and otherwise an empty vector.
 std::vector<Vec3> applyLayout(const MapLayout& layout, FloatImage& image) {
     if (layout == MapLayout{}) return {};
-    const bool takes_alpha = layout.x.channel == MapChannel::alpha || layout.y.channel == MapChannel::alpha ||
-                             layout.z.channel == MapChannel::alpha;
-    if (takes_alpha && image.alpha.empty())
+    if (readsAlpha(layout) && image.alpha.empty())
         failFile(ErrorCode::invalidOption, "a channel is read from alpha, which the image does not have");
     std::vector<Vec3> before = image.texels;
-    for (std::size_t i = 0; i < before.size(); ++i)
-        image.texels[i] = readTexel(before[i], image.alpha.empty() ? 1 : image.alpha[i], layout);
-    if (takes_alpha) image.alpha.clear();
+    readTexels(layout, image);
     return before;
 }
 
@@ -356,23 +351,6 @@ constexpr Named<BitangentPlace> kBitangents[] = {
     {"vertex", BitangentPlace::perVertex},
 };
 constexpr Named<unsigned> kBitCounts[] = {{"8", 8}, {"16", 16}, {"32", 32}};
-
-/// Parses a layout such as "bgr" (z, y and x). A capital letter is an inverted channel. With two letters z is
-/// reconstructed.
-std::string takeChannels(const std::string& letters, MapLayout& layout) {
-    constexpr const char* kWrong =
-        "must be two or three of r, g, b and a, such as rg, ag or bgr; a capital letter inverts a channel";
-    constexpr std::string_view kLetters = "rgbaRGBAxyzwXYZW";
-    if (letters.size() != 2 && letters.size() != 3) return kWrong;
-    MapComponent* const components[] = {&layout.x, &layout.y, &layout.z};
-    layout.z = {MapChannel::none, false};
-    for (std::size_t i = 0; i < letters.size(); ++i) {
-        const std::size_t at = kLetters.find(letters[i]);
-        if (at == std::string_view::npos || letters.find(letters[i], i + 1) != std::string::npos) return kWrong;
-        *components[i] = {static_cast<MapChannel>(at % 4), at % 8 >= 4};
-    }
-    return {};
-}
 
 }  // namespace
 

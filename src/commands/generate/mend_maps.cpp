@@ -6,6 +6,7 @@
 
 #include "commands/check/map_slopes.h"
 #include "commands/shared/map_image_file.h"
+#include "commands/shared/texture_vectors.h"
 #include "model/io/file_error.h"
 #include "tspace/maps.h"
 
@@ -111,9 +112,7 @@ Bytes mendMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options
     if (!image) return {};
     MapLayout layout = map.look.layout;
     layout.y.is_inverted = layout.y.is_inverted != map.is_y_inverted;
-    for (std::size_t i = 0; i < image->texels.size(); ++i)
-        image->texels[i] = readTexel(image->texels[i], image->alpha.empty() ? 1 : image->alpha[i], layout);
-    if (layout.x.channel == MapChannel::alpha) image->alpha.clear();
+    readTexels(layout, *image);
     if (map.look.content == MapContent::objectSpace) toTangentSpace(scene, map.image, options, *image);
     constexpr unsigned kMostBits = 16;  // maximum bits of a PNG
     const auto file = encodePng(*image, std::min(image->bits, kMostBits));
