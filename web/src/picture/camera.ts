@@ -56,13 +56,18 @@ export class Eye {
   #flyTo(center: Vector3, distance: number, direction: Vector3, isInstant: boolean): PerspectiveCamera {
     const to = center.clone().addScaledVector(direction, distance);
     const isCalm = isInstant || matchMedia("(prefers-reduced-motion: reduce)").matches;
-    this.#flight = { from: this.camera.position.clone(), to, fromTarget: this.controls.target.clone(), toTarget: center.clone(), start: isCalm ? -Infinity : performance.now() };
+    this.#flight = isCalm ? null : { from: this.camera.position.clone(), to, fromTarget: this.controls.target.clone(), toTarget: center.clone(), start: performance.now() };
     const size = this.sceneNow().sphere();
     const far = size.radius + size.center.distanceTo(center) + distance;
     this.camera.near = Math.max(far / 5000, distance / 200);
     this.camera.far = far * 3;
     this.controls.maxDistance = far * 2;
     this.camera.updateProjectionMatrix();
+    if (isCalm) { // at once, because the next flight begins where this one ends
+      this.camera.position.copy(to);
+      this.controls.target.copy(center);
+      this.controls.update();
+    }
     this.ask();
     const there = this.camera.clone();
     there.position.copy(to);
