@@ -18,7 +18,7 @@ import type { Progress } from "./views/progress.js";
 import type { Stage } from "./views/stage.js";
 import type { UvMapView } from "./views/uv_map.js";
 import { WorkError, type Work } from "./worker/client.js";
-import { isFile, nameOf, type Arrays, type Calls, type OtherFile, type Right } from "./worker/protocol.js";
+import { isFile, nameOf, type Arrays, type Calls, type ConvertedMap, type MapReading, type MapTarget, type OtherFile, type Right } from "./worker/protocol.js";
 
 export interface Views {
   stage: Stage;
@@ -64,6 +64,8 @@ function plainly(error: unknown): string {
 }
 /** A lone map is seen from nearly straight ahead. */
 const kMapDirection = new Vector3(0.2, 0.12, 1).normalize();
+/** What the worker calls the first part of a file to compare with. */
+const kFirstOtherPart = 1_000_000;
 const copyOf = (arrays: Arrays): Arrays => structuredClone(arrays);
 
 export class App {
@@ -90,20 +92,32 @@ export class App {
 
   constructor(readonly work: Work, private views: Views) {}
 
-  /** Tests and style sheets read it: loading, ready, failed or stopped. */
-  #state(state: "loading" | "ready" | "failed" | "stopped"): void {
+  /** Tests and style sheets read it. */
+  #state(state: "loading" | "ready" | "failed" | "stopped" | "closed"): void {
     document.documentElement.dataset.state = state;
   }
 
   fail(message: string): void {
-    this.#generation += 1;
     this.work.forget();
-    this.model = null;
-    this.#clear();
+    this.#leave("failed");
     this.views.findings.fail(message);
+  }
+
+  /** Returns the memory of the model: that of the page, of the graphics card, and of the worker, which ends. */
+  close(): void {
+    this.work.stop();
+    this.#leave("closed");
+    this.views.findings.wait("Open a model to see its findings.");
+  }
+
+  #leave(state: "failed" | "closed"): void {
+    this.#generation += 1;
+    this.model = this.#before = null;
+    this.reports = {};
+    this.#clear();
     this.views.progress.done("");
     this.views.opened(null, null);
-    this.#state("failed");
+    this.#state(state);
   }
 
   stop(): void {
@@ -188,7 +202,7 @@ export class App {
   /** A normal map on a surface, with what `check` says of the image. */
   async #onSurface({ name, bytes }: ModelFiles): Promise<ModelFiles> {
     const { report, image } = await this.work.run("image", { model: { name, bytes, others: new Map() } });
-    return { name, bytes: surfaceWith(name, image), others: new Map(), loneMap: report as CheckReport };
+    return { name, bytes: surfaceWith(name, image), others: new Map(), loneMap: { file: bytes, check: report as CheckReport } };
   }
 
   async #inspect(model: ModelFiles, isCurrent: () => boolean): Promise<void> {
@@ -274,7 +288,7 @@ export class App {
     await this.compare(look.right, 0.3, 0.6);
     if (!isCurrent()) return;
     progress.at("Checking", 0.6);
-    const check = (this.reports.check = model.loneMap ?? ((await this.work.run("report", { verb: "check", model })) as CheckReport));
+    const check = (this.reports.check = model.loneMap?.check ?? ((await this.work.run("report", { verb: "check", model })) as CheckReport));
     if (!isCurrent()) return;
     findings.show(check);
     this.views.checked(check);
@@ -323,6 +337,12 @@ export class App {
     }
   }
 
+  /** A lone normal map as another file. */
+  convertMap({ name, loneMap }: ModelFiles, reading: MapReading, to: MapTarget): Promise<ConvertedMap> {
+    if (!loneMap) throw new Error("There is no normal map.");
+    return this.work.run("convertMap", { name, file: loneMap.file, reading, to });
+  }
+
   async generate(model: ModelFiles, options: Record<string, unknown>): Promise<{ report: unknown; bytes: Uint8Array<ArrayBuffer> }> {
     const { progress } = this.views;
     progress.at("Fixing", 0.5);
@@ -347,7 +367,7 @@ export class App {
   async compareWith(choose: () => Promise<ModelFiles>): Promise<{ name: string; check: CheckReport } | null> {
     const generation = this.#generation, chosen = await choose(), isObj = /\.obj$/i.test(chosen.name);
     const other = isObj ? glbOfObj(chosen) : isMapName(chosen.name) ? await this.#onSurface(chosen) : chosen;
-    const check = other.loneMap ?? ((await this.work.run("report", { verb: "check", model: other })) as CheckReport);
+    const check = other.loneMap?.check ?? ((await this.work.run("report", { verb: "check", model: other })) as CheckReport);
     if (generation !== this.#generation || !this.model) return null;
     const names = [this.model.name, other.name] as const;
     await this.showMended(other, true, "other");
@@ -360,7 +380,7 @@ export class App {
     // An animated model would have to move on both sides.
     const scene = this.#hasOtherShape && !motion ? new Scene() : null;
     for (const [i, part] of scene ? parts.entries() : []) {
-      if (triangleCount(part.arrays) > 0) scene!.add(i, part, await this.work.run("corners", { part: null, arrays: copyOf(part.arrays) }));
+      if (triangleCount(part.arrays) > 0) scene!.add(kFirstOtherPart + i, part, await this.work.run("corners", { part: null, arrays: copyOf(part.arrays) }));
     }
     if (!isCurrent()) return false;
     this.#mended = parts;
@@ -391,11 +411,22 @@ export class App {
       scene.setRight(drawn, frames, (mended ?? drawn.part).normalMap, !isFile(right));
       stage.viewport.ask();
     }
+    if (right === "other" && this.#mendedScene && !(await this.#compareBack(this.#mendedScene, scene))) return;
     stage.viewport.showRight(isFile(right) ? this.#mendedScene : null);
     this.#showGreen();
     look.showFigures();
     look.showLines();
     void uvMap.draw();
+  }
+
+  /** In a picture of its own the other file too shows how far this one is from it. False: another model was opened meanwhile. */
+  async #compareBack(other: Scene, scene: Scene): Promise<boolean> {
+    for (const drawn of other.drawn) {
+      const part = scene.find(drawn.part.mesh, drawn.part.primitive)?.part, frames = part ? await this.#frames(drawn, "other", part) : null;
+      if (scene !== this.views.stage.viewport.scene || other !== this.#mendedScene) return false;
+      other.setRight(drawn, frames, part?.normalMap ?? drawn.part.normalMap, false);
+    }
+    return true;
   }
 
   /** A stopped worker has forgotten its parts: they are told once more. A part without frames has none. */

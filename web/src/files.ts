@@ -10,8 +10,8 @@ export interface ModelFiles {
   bytes: Uint8Array<ArrayBuffer>;
   /** Files that the model may name, by their path below the model's folder. */
   others: Map<string, Uint8Array<ArrayBuffer>>;
-  /** What `check` says of a normal map that came without a model; `bytes` is then a surface that shows it. */
-  loneMap?: CheckReport;
+  /** A normal map that came without a model, and what `check` says of it; `bytes` is then a surface that shows it. */
+  loneMap?: { file: Uint8Array<ArrayBuffer>; check: CheckReport };
 }
 
 /** A sentence for the person. */

@@ -29,10 +29,12 @@ export function linkedBy(hash: string): Linked {
 }
 
 /** Each model lies in memory, so only some are kept; of others the address knows samples. */
-const kMostVisited = 6;
+const kMostVisited = 6, kMostVisitedBytes = 400 << 20;
 
 /** Models of this visit by places of the browser's history, so that its Back and Forward go through them. */
 export class Visited<Model> {
+  constructor(private bytesOf: (model: Model) => number) {}
+
   #models = new Map<string, Model>();
 
   /** What this place of the history calls its model. */
@@ -51,7 +53,13 @@ export class Visited<Model> {
     if (this.#models.size === 0 || this.#name === undefined) history.replaceState(state, "");
     else history.pushState(state, "", "#");
     this.#models.set(state.model, model);
-    if (this.#models.size > kMostVisited) this.#models.delete(this.#models.keys().next().value!);
+    const bytes = () => [...this.#models.values()].reduce((sum, one) => sum + this.bytesOf(one), 0);
+    while (this.#models.size > 1 && (this.#models.size > kMostVisited || bytes() > kMostVisitedBytes)) this.#models.delete(this.#models.keys().next().value!);
+  }
+
+  /** Returns the memory of all models. */
+  clear(): void {
+    this.#models.clear();
   }
 }
 

@@ -12,8 +12,9 @@ import { forgetModel, keepModel, keptModel } from "./own_store.js";
 import { askedModel, askFirst, filesAt } from "./asked.js";
 import { samples, type Sample } from "./samples.js";
 import { loadModel } from "./model/load.js";
-import { imageOf, mapType } from "./model/lone_map.js";
-import { planFor, worstOf, type Plan } from "./views/advice.js";
+import { imageOf, mapType, surfaceWith } from "./model/lone_map.js";
+import { mapReading, planFor, worstOf, type Plan } from "./views/advice.js";
+import { ConvertView } from "./views/convert.js";
 import { FindingsView } from "./views/findings.js";
 import { FixView } from "./views/fix.js";
 import { GalleryView } from "./views/gallery.js";
@@ -53,19 +54,21 @@ const findings = new FindingsView({
 const progress = new Progress(() => app.stop());
 const look = new LookView(stage, (right) => void app.setRight(right), (variant) => void app.setVariant(variant));
 const uvMap = new UvMapView(stage.viewport, work, largeMap);
+const convert = new ConvertView((model, reading, to) => app.convertMap(model, reading, to));
 const parts = new PartsView(stage.viewport, pageOrigin()), motion = new MotionView(stage.viewport);
 const texel = new TexelView(stage.viewport, (spot) => uvMap.point(spot));
 const title = el("p", { class: "model-name" });
 const back = el("button", { type: "button", class: "back", hidden: true, title: "Key: Backspace", onclick: () => app.back() });
+const close = el("button", { type: "button", class: "close", hidden: true, "aria-label": "Close the model", title: "Close the model and return its memory", onclick: closeModel }, "×");
 const mend = new MendView(
   async (options): Promise<Mended> => {
     const { model } = app;
     if (!model) throw new Error("There is no model.");
-    const { report, bytes } = await app.generate(model, options);
-    const mended = { name: mendedName(model.name), bytes, others: model.others };
-    const checked = await app.checkMended(mended), download = model.loneMap && { bytes: imageOf(bytes), type: mapType(model.name) };
+    const { name, report, bytes } = (await convertedMap(model)) ?? { name: mendedName(model.name), ...(await app.generate(model, options)) };
+    const mended = { name, bytes, others: model.others };
+    const checked = await app.checkMended(mended), download = model.loneMap && { bytes: imageOf(bytes), type: mapType(name) };
     void app.showMended(mended, changesShape(report as GenerateReport)).catch((error: Error) => stage.say(`The fixed file cannot be drawn: ${error.message}`));
-    return { report, checked, download, ...mended, ...(model.loneMap && checked && { loneMap: checked }) };
+    return { report, checked, download, ...mended, ...(download && checked && { loneMap: { file: download.bytes, check: checked } }) };
   },
   ({ name, bytes, others, loneMap }) => void app.openMended({ name, bytes, others, loneMap }),
   { started: () => fix.working(), failed: (message) => fix.failed(message), done: showFixed },
@@ -74,6 +77,15 @@ const app: App = new App(work, {
   stage, findings, look, uvMap, place, parts, motion, progress, opened: showName, offered: (variants) => look.offerVariants(variants), checked, ready: followLink,
   inspected: ({ primitives }) => mend.setCompressed(primitives.some(({ compression }) => compression !== "none")),
 });
+
+/** A lone normal map whose channels are not those of glTF, as a PNG whose channels are; null for all else. */
+async function convertedMap(model: ModelFiles): Promise<{ name: string; report: unknown; bytes: Uint8Array<ArrayBuffer> } | null> {
+  const reading = model.loneMap && mapReading(model.loneMap.check)?.reading;
+  if (!reading || !(reading.channels || reading.curve)) return null;
+  const name = mendedName(model.name).replace(/\.[^.]*$/, ".png"), { bytes, notes } = await app.convertMap(model, reading, "png");
+  const map = { image: 0, name: model.name, flipped: reading.flipGreen, mended: true, reason: "its channels were not those of glTF" };
+  return { name, bytes: surfaceWith(name, bytes), report: { changed: true, inputBytes: model.loneMap!.file.length, outputBytes: bytes.length, primitives: [], normalMaps: [map], warnings: notes } };
+}
 
 const share = new ShareView({
   report: (kind) => (app.fixed?.check ? reportAs(kind, app.fixed.model.name, { check: app.fixed.check }) : reportAs(kind, app.model?.name ?? "no model", app.reports)),
@@ -89,6 +101,7 @@ function checked(report: CheckReport): void {
   mend.advise(report);
   plan = planFor(report);
   fix.offer(report, plan);
+  convert.show(app.model);
 }
 
 /** List, look, picture and counts follow a fix: they are about the fixed file, right of the line. */
@@ -123,7 +136,7 @@ function followLink(): void {
 }
 
 /** Models that were shown, what each was mended from, and the files that came with it. */
-const visited = new Visited<{ model: ModelFiles; before: ModelFiles | null; pile: Pile }>();
+const visited = new Visited<{ model: ModelFiles; before: ModelFiles | null; pile: Pile }>(({ model }) => model.bytes.length);
 addEventListener("popstate", () => {
   linked = linkedBy(location.hash);
   const { current } = visited, sample = current ? undefined : sampleNamed(linked.sample);
@@ -138,14 +151,24 @@ addEventListener("popstate", () => {
 function showName(model: ModelFiles | null, before: ModelFiles | null): void {
   if (model && visited.current?.model !== model) visited.add({ model, before, pile });
   mend.reset(model);
+  convert.show(null);
   plan = null;
   fix.wait();
   texel.reset();
   replaceChildren(title, model ? model.name : "");
   back.hidden = before === null;
+  close.hidden = model === null;
   back.textContent = before ? `Back to ${before.name}` : "";
   document.title = model ? `${model.name} – tspace view` : "tspace view";
   gallery.mark(model?.name ?? null);
+}
+
+/** Nothing is left of the model, and of those before it, in memory. */
+function closeModel(): void {
+  visited.clear();
+  pile = new Pile();
+  others.hidden = true;
+  app.close();
 }
 
 let pile = new Pile();
@@ -207,8 +230,8 @@ const header = el("header", { class: "bar" },
   el("h1", {}, "Drop a model: see where its bumps are lit inside out, and fix it. ", el("span", {}, asked ? `Nothing is uploaded; only ${asked.host} is asked.` : "Nothing is uploaded.")),
   el("div", { class: "open" }, picker("Open model…", { accept: ".glb,.vrm,.gltf,.obj,.zip,.bin,.mtl,image/*,.ktx2,.dds", "aria-label": "Open model" }), picker("Folder…", { webkitdirectory: true, "aria-label": "Open folder" }),
     picker("Compare with…", { accept: ".glb,.vrm,.gltf,.obj,.zip,.bin,.mtl,image/*,.ktx2,.dds", "aria-label": "Compare with another version" }, (files) => void compare(files))),
-  others, title, back);
-const inspector = el("aside", { class: "inspector", "aria-label": "Inspector" }, look.element, texel.element, uvMap.element, motion.element, parts.element, mend.element, share.element);
+  others, title, close, back);
+const inspector = el("aside", { class: "inspector", "aria-label": "Inspector" }, convert.element, look.element, texel.element, uvMap.element, motion.element, parts.element, mend.element, share.element);
 const main = el("main", {}, gallery.element, findings.element, stage.element, inspector);
 const keptLine = el("p", { class: "kept row" });
 const footer = el("footer", {}, progress.element, keptLine, el("span", { class: "quiet" }, "Drop a .glb, .vrm, .obj or .zip, a folder with a .gltf, or a normal map (PNG, JPEG, WebP, KTX2, DDS) anywhere on the page."), lessonLink() || null);

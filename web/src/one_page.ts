@@ -3,15 +3,11 @@
 import { toBase64 } from "./base64.js";
 import type { PageOrigin } from "./embedded.js";
 import type { ModelFiles } from "./files.js";
-import { imageOf } from "./model/lone_map.js";
 
 const escaped = (text: string): string => text.replaceAll("&", "&amp;").replaceAll('"', "&quot;").replaceAll("<", "&lt;");
 
-/** A lone normal map goes into the page as the image that it is, KTX2 and DDS as the PNG that was made of them. */
-function filesOf(model: ModelFiles): [string, Uint8Array<ArrayBuffer>][] {
-  if (model.loneMap) return [[model.name.replace(/\.(ktx2|dds)$/i, ".png"), imageOf(model.bytes)]];
-  return [[model.name, model.bytes], ...model.others];
-}
+/** A lone normal map goes into the page as the image that it is. */
+const filesOf = ({ name, bytes, others, loneMap }: ModelFiles): [string, Uint8Array<ArrayBuffer>][] => [[name, loneMap?.file ?? bytes], ...others];
 
 /** `shown`: the end of the address that says what is seen. */
 export async function pageWith(model: ModelFiles, shown: string): Promise<Blob> {

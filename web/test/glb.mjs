@@ -9,6 +9,15 @@ const kReaders = {
 };
 const padded = (bytes, fill) => Buffer.concat([bytes, Buffer.alloc((4 - (bytes.length % 4)) % 4, fill)]);
 
+/** `size`: of all pieces of the buffer. */
+function glbOf(json, pieces, size) {
+  const text = padded(Buffer.from(JSON.stringify(json)), 0x20), head = Buffer.alloc(20), binaryHead = Buffer.alloc(8);
+  [0x46546c67, 2, 28 + text.length + size, text.length, 0x4e4f534a].forEach((word, i) => head.writeUInt32LE(word, 4 * i));
+  binaryHead.writeUInt32LE(size);
+  binaryHead.writeUInt32LE(0x004e4942, 4);
+  return Buffer.concat([head, text, binaryHead, ...pieces]);
+}
+
 export class Glb {
   #pieces;
   #size;
@@ -69,12 +78,7 @@ export class Glb {
 
   finish() {
     this.json.buffers = [{ byteLength: this.#size }];
-    const text = padded(Buffer.from(JSON.stringify(this.json)), 0x20);
-    const head = Buffer.alloc(20), binaryHead = Buffer.alloc(8);
-    [0x46546c67, 2, 28 + text.length + this.#size, text.length, 0x4e4f534a].forEach((word, i) => head.writeUInt32LE(word, 4 * i));
-    binaryHead.writeUInt32LE(this.#size);
-    binaryHead.writeUInt32LE(0x004e4942, 4);
-    return Buffer.concat([head, text, binaryHead, ...this.#pieces]);
+    return glbOf(this.json, this.#pieces, this.#size);
   }
 
   /** All that is in its buffer. */
@@ -82,4 +86,33 @@ export class Glb {
     if (this.#pieces.length > 1) this.#pieces = [Buffer.concat(this.#pieces)];
     return this.#pieces[0];
   }
+}
+
+/** A wavy square of about that many vertices, 96 bytes each with its triangles: normals, tangents, two UV sets and colors. */
+export function gridGlb(vertices) {
+  const side = Math.ceil(Math.sqrt(vertices)), count = side * side, cells = side - 1;
+  const widths = { POSITION: 3, NORMAL: 3, TANGENT: 4, TEXCOORD_0: 2, TEXCOORD_1: 2, COLOR_0: 4 }, arrays = Object.fromEntries(Object.entries(widths).map(([name, width]) => [name, new Float32Array(width * count)]));
+  for (let i = 0; i < count; ++i) {
+    const u = (i % side) / cells, v = Math.floor(i / side) / cells, slope = 0.5 * Math.cos(20 * u), length = Math.hypot(slope, 1);
+    arrays.POSITION.set([u, 0.025 * Math.sin(20 * u), v], 3 * i);
+    arrays.NORMAL.set([-slope / length, 1 / length, 0], 3 * i);
+    arrays.TANGENT.set([1 / length, slope / length, 0, 1], 4 * i);
+    arrays.TEXCOORD_0.set([u, v], 2 * i);
+    arrays.TEXCOORD_1.set([v, u], 2 * i);
+    arrays.COLOR_0.set([u, v, 0.5, 1], 4 * i);
+  }
+  const indices = new Uint32Array(6 * cells * cells);
+  for (let i = 0; i < cells * cells; ++i) {
+    const a = Math.floor(i / cells) * side + (i % cells);
+    indices.set([a, a + side, a + 1, a + 1, a + side, a + side + 1], 6 * i);
+  }
+  const pieces = [...Object.values(arrays), indices].map(({ buffer }) => Buffer.from(buffer));
+  let byteOffset = 0;
+  const bufferViews = pieces.map(({ length: byteLength }) => ({ buffer: 0, byteOffset: (byteOffset += byteLength) - byteLength, byteLength }));
+  const accessors = Object.values(widths).map((width, i) => ({ bufferView: i, componentType: 5126, count, type: width === 2 ? "VEC2" : width === 3 ? "VEC3" : "VEC4" }));
+  Object.assign(accessors[0], { min: [0, -0.025, 0], max: [1, 0.025, 1] });
+  accessors.push({ bufferView: pieces.length - 1, componentType: 5125, count: indices.length, type: "SCALAR" });
+  const attributes = Object.fromEntries(Object.keys(widths).map((name, i) => [name, i]));
+  const json = { asset: { version: "2.0" }, scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }], meshes: [{ primitives: [{ attributes, indices: pieces.length - 1 }] }], buffers: [{ byteLength: byteOffset }], bufferViews, accessors };
+  return glbOf(json, pieces, byteOffset);
 }

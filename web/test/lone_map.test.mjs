@@ -6,7 +6,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
-import { decode } from "fast-png";
+import { decode, encode } from "fast-png";
 import { Glb } from "./glb.mjs";
 import { farApart, missing, noShared, noTool, openSample, pixelsOf, settled, shareOf, shoot, tool, withPage } from "./support.mjs";
 
@@ -72,6 +72,71 @@ test("DDS and KTX2 are judged by their texels", { skip: noTool }, async () => {
       assert.match(await looked(tab), /256 x 256 texels/);
       assert.equal(await tab.evaluate(() => document.documentElement.dataset.picture), "drawn");
     }
+  }));
+});
+
+/** Presses a conversion and gives the file. */
+async function converted(tab, name, folder) {
+  const [download] = await Promise.all([tab.waitForEvent("download"), tab.locator(".convert button", { hasText: name }).click()]);
+  const path = join(folder, download.suggestedFilename());
+  await download.saveAs(path);
+  return path;
+}
+const judged = (path) => JSON.parse(execFileSync(tool, ["check", "--json", path])).files[0].image;
+const pixels = (path) => {
+  const { width, height, depth, channels, data } = decode(readFileSync(path));
+  return { width, height, depth, rgb: Array.from({ length: 3 * width * height }, (_, i) => data[channels * Math.floor(i / 3) + (i % 3)]) };
+};
+
+test("each conversion of a lone map is one click, and has the numbers of the tool", { skip: noTool }, async () => {
+  await inFolder((folder) => withPage(async (tab) => {
+    const path = await ringMap(tab, folder), wanted = join(folder, "wanted.png"), up = join(folder, "up.png");
+    await openMap(tab, path);
+    execFileSync(tool, ["convert-map", path, "-o", up, "--flip-green", "--bits", "8", "--quiet"]);
+    const glTF = await converted(tab, "PNG, green up", folder);
+    assert.equal(glTF, join(folder, "bricks-gltf.png"));
+    assert.deepEqual(pixels(glTF), pixels(up));
+    assert.equal(judged(glTF).green, "up");
+    assert.deepEqual(pixels(await converted(tab, "PNG, green down", folder)), pixels(path), "the map is a map for DirectX already");
+    for (const [name, file, args] of [
+      ["KTX2, two channels", "bricks-gltf.ktx2", []], ["KTX2 for phones", "bricks-gltf-eac.ktx2", ["--format", "eac-rg11"]], ["DDS, green up", "bricks-gltf.dds", []],
+    ]) {
+      const made = await converted(tab, name, folder), byTool = join(folder, `tool${file.slice(file.lastIndexOf("."))}`);
+      assert.equal(made, join(folder, file));
+      execFileSync(tool, ["compress-map", up, "-o", byTool, "--quiet", ...args]);
+      assert.ok(readFileSync(made).equals(readFileSync(byTool)), file);
+      assert.deepEqual([judged(made).green, judged(made).content], ["up", "twoChannels"]);
+    }
+    assert.equal(judged(await converted(tab, "DDS, green down", folder)).green, "down");
+    // And back: two channels of a texture become the three of a PNG.
+    for (const file of ["bricks-gltf.ktx2", "bricks-directx.dds"]) {
+      assert.equal(await openMap(tab, join(folder, file)), "ready");
+      const back = await converted(tab, "PNG, green up", folder), args = file.includes("directx") ? ["--flip-green"] : [];
+      execFileSync(tool, ["convert-map", join(folder, file), "-o", wanted, "--quiet", ...args]);
+      assert.deepEqual(pixels(back), pixels(wanted), file);
+      assert.deepEqual([judged(back).green, judged(back).content], ["up", "normals"]);
+    }
+    await shoot(tab, "lone-map-convert");
+  }));
+});
+
+test("a PNG with x and y alone gets its z by one click", { skip: noTool }, async () => {
+  await inFolder((folder) => withPage(async (tab) => {
+    const path = await ringMap(tab, folder), two = join(folder, "two.png"), wanted = join(folder, "wanted.png");
+    const { width, height, channels, depth, data } = decode(readFileSync(path));
+    writeFileSync(two, encode({ width, height, channels, depth, data: data.map((c, i) => (i % channels === 2 ? 0 : c)) }));
+    await openMap(tab, two);
+    assert.match(await looked(tab), /a normal map with x and y alone/);
+    assert.match(await tab.locator(".fix button").textContent(), /put x, y and z into red, green and blue, flip green/);
+    assert.match(await tab.locator(".mend .command").textContent(), /^tspace convert-map two.png -o two-fixed.png --channels rg --flip-green$/);
+    await tab.locator(".fix button.large").click();
+    await tab.waitForSelector(".fix a.large");
+    const [download] = await Promise.all([tab.waitForEvent("download"), tab.locator(".fix a.large").click()]);
+    const fixed = join(folder, download.suggestedFilename());
+    await download.saveAs(fixed);
+    execFileSync(tool, ["convert-map", two, "-o", wanted, "--channels", "rg", "--flip-green", "--quiet"]);
+    assert.deepEqual(pixels(fixed), pixels(wanted));
+    assert.match(await tab.locator(".seen").textContent(), /^Fixed:/);
   }));
 });
 

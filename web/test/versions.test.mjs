@@ -7,7 +7,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
 import { pathToFileURL } from "node:url";
-import { choose, drawn, missing, openSample, page, settled, shoot, withPage } from "./support.mjs";
+import { choose, drawn, farApart, missing, openSample, page, pixelsOf, settled, shareOf, shoot, withPage } from "./support.mjs";
 
 const bytesOf = async (tab) => Buffer.from(await tab.evaluate(() => [...window.tspaceView.model.bytes]));
 const inFolder = async (act) => {
@@ -36,6 +36,62 @@ test("two versions stand left and right of the line, with the degrees between th
     await shoot(tab, "two-versions");
     await openSample(tab, "crate.glb");
     assert.equal(await tab.locator(".side.left").textContent(), "as the file is");
+  }));
+});
+
+/** Both halves of the picture, without what lies over it. */
+async function halves(tab) {
+  const { width, height, channels, data } = await pixelsOf(tab), half = Math.floor(width / 2), take = (from) => {
+    const out = { width: half, height, channels, data: new Uint8Array(channels * half * height) };
+    for (let y = 0; y < height; ++y) out.data.set(data.subarray(channels * (y * width + from), channels * (y * width + from + half)), channels * y * half);
+    return out;
+  };
+  return [take(0), take(width - half)];
+}
+const apart = (one, other) => shareOf(one, (i) => farApart(one.data, i, other.data, i) > 12);
+
+test("side by side both files have a picture of their own, seen by one camera, and both show the degrees between them", { skip: missing }, async () => {
+  await inFolder((folder) => withPage(async (tab) => {
+    const right = join(folder, "right.glb"), beside = tab.locator(".stage .check", { hasText: "Side by side" });
+    await openSample(tab, "crate.glb");
+    assert.equal(await beside.isVisible(), false, "it is for two files");
+    writeFileSync(right, await bytesOf(tab));
+    const compare = async () => {
+      await tab.locator(".picker input").last().setInputFiles(right);
+      await tab.locator(".seen", { hasText: "Two versions" }).waitFor();
+      await tab.locator(".figures", { hasText: "the other file" }).waitFor();
+      await beside.locator("input").check();
+    };
+    // A file beside itself: what both pictures show is the same, however the camera is moved.
+    await compare();
+    const [first, second] = await halves(tab);
+    assert.ok(shareOf(first, (i) => farApart(first.data, i, first.data, 0) > 20) > 0.1, "the model is there");
+    assert.ok(apart(first, second) < 0.01, `${apart(first, second)}`);
+    await tab.locator(".frame canvas").focus();
+    for (const key of ["ArrowLeft", "ArrowLeft", "ArrowUp", "+", "Shift+ArrowRight"]) await tab.keyboard.press(key);
+    const [turned, other] = await halves(tab);
+    assert.ok(apart(first, turned) > 0.05, "the camera was moved");
+    assert.ok(apart(turned, other) < 0.01, `${apart(turned, other)}`);
+    // Two versions: as each file is, and the degrees between them in both pictures.
+    await openSample(tab, "crate-signs-lost.glb");
+    assert.deepEqual(await tab.evaluate(() => window.tspaceView.views.stage.viewport.settings.isBeside), false);
+    await compare();
+    assert.deepEqual(await tab.locator(".side:visible").allTextContents(), ["crate-signs-lost.glb", "right.glb"]);
+    await choose(tab, "Signs");
+    const signs = await halves(tab);
+    assert.ok(apart(...signs) > 0.02, "each picture has the signs of its own file");
+    await choose(tab, "Difference");
+    const [mine, theirs] = await halves(tab), isHot = ({ data }) => (i) => data[i] > data[i + 2] + 60;
+    assert.ok(shareOf(mine, isHot(mine)) > 0.01, "the first file shows where they differ");
+    assert.ok(Math.abs(shareOf(mine, isHot(mine)) - shareOf(theirs, isHot(theirs))) < 0.01, "so does the second, there");
+    await shoot(tab, "side-by-side");
+    // The left file is under the pointer in both pictures.
+    const triangle = (x) => tab.evaluate((x) => {
+      const { viewport } = window.tspaceView.views.stage, { width, height } = viewport.canvas.getBoundingClientRect();
+      return viewport.pick(width * x, height / 2);
+    }, x);
+    assert.ok((await triangle(0.25)) >= 0);
+    assert.equal(await triangle(0.25), await triangle(0.75));
   }));
 });
 

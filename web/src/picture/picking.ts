@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Data read back from the GPU: the triangle at a position of the picture, and the UV map of a part.
-import { BufferAttribute, Color, NoBlending, Vector2, WebGLRenderTarget, type PerspectiveCamera, type Scene as ThreeScene, type WebGLRenderer } from "three";
+import { BufferAttribute, Color, NoBlending, WebGLRenderTarget, type PerspectiveCamera, type Scene as ThreeScene, type Vector2, type WebGLRenderer } from "three";
 import type { Scene } from "./scene.js";
 import { setValues, type PictureValues } from "./shader.js";
 import type { MapCorners } from "../worker/protocol.js";
@@ -19,6 +19,8 @@ export interface Readable {
   world: ThreeScene;
   scene: Scene;
   camera: PerspectiveCamera;
+  /** Of the picture, in CSS pixels. */
+  size: Vector2;
 }
 
 function setUniforms(scene: Scene, change: (uniforms: Record<string, { value: unknown }>) => void): void {
@@ -30,8 +32,8 @@ function setUniforms(scene: Scene, change: (uniforms: Record<string, { value: un
 }
 
 /** The number of the triangle at a place of the canvas, in CSS pixels, or -1. */
-export async function pickTriangle({ renderer, world, scene, camera }: Readable, target: WebGLRenderTarget, x: number, y: number): Promise<number> {
-  const ratio = renderer.getPixelRatio(), size = renderer.getSize(new Vector2());
+export async function pickTriangle({ renderer, world, scene, camera, size }: Readable, target: WebGLRenderTarget, x: number, y: number): Promise<number> {
+  const ratio = renderer.getPixelRatio();
   setUniforms(scene, (u) => ((u.uIsPick.value = true), (u.uAlphaTest.value = 0)));
   camera.setViewOffset(size.x * ratio, size.y * ratio, Math.floor(x * ratio), Math.floor(y * ratio), 1, 1);
   renderer.setRenderTarget(target);

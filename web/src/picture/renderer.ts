@@ -10,6 +10,9 @@ import { setValues, type Look, type PictureValues } from "./shader.js";
 /** Looks with two sides. */
 export const hasSplit = (look: Look): boolean => look === "lit" || look === "normals" || look === "signs";
 
+/** Width of each of two pictures beside each other, in whole pixels, so that both have the same ones. */
+export const halfOf = (width: number): number => Math.floor(width / 2);
+
 export interface Settings {
   look: Look;
   map: 0 | 1 | 2;
@@ -17,6 +20,8 @@ export interface Settings {
   usesColors: boolean;
   /** 0 to 1 from the left: where frames of the file end and right ones begin. */
   split: number;
+  /** Two pictures beside each other, by one camera: the file, and what else stands right of the line. */
+  isBeside: boolean;
   /** What surfaces mirror. */
   surroundings: Surroundings;
   /** Whether parts keep the lamp off others. */
@@ -56,8 +61,11 @@ export class Picture {
     this.#world.add(this.#lamp, this.#lamp.target);
   }
 
-  readable(camera: PerspectiveCamera): Readable | null {
-    return this.renderer && { renderer: this.renderer, world: this.#world, scene: this.scene, camera };
+  /** `isBeside`: the left one of two pictures is read. */
+  readable(camera: PerspectiveCamera, isBeside = false): Readable | null {
+    const size = this.renderer?.getSize(new Vector2());
+    if (isBeside && size) size.x = halfOf(size.x);
+    return this.renderer && { renderer: this.renderer, world: this.#world, scene: this.scene, camera, size: size! };
   }
 
   show(scene: Scene): void {
@@ -119,9 +127,12 @@ export class Picture {
     this.#world.environmentRotation.y = (values.turn * Math.PI) / 180;
     renderer.toneMappingExposure = 2 ** values.stops;
     renderer.clear();
-    if (this.#right && hasSplit(values.look)) this.#drawSides(renderer, camera, this.#right, values, isSurface, split);
-    else this.#drawScene(renderer, camera, this.scene, isSurface);
-    renderer.render(this.overlay, camera);
+    if (values.isBeside) this.#drawBeside(renderer, camera, values, isSurface);
+    else {
+      if (this.#right && hasSplit(values.look)) this.#drawSides(renderer, camera, this.#right, values, isSurface, split);
+      else this.#drawScene(renderer, camera, this.scene, isSurface);
+      renderer.render(this.overlay, camera);
+    }
     if (this.scene.drawn.length > 0 && !this.#hasDrawn) performance.mark("first picture");
     this.#hasDrawn ||= this.scene.drawn.length > 0;
     return wantsSurface && !isSurface && this.scene.drawn.length > 0;
@@ -131,6 +142,28 @@ export class Picture {
     scene.show(isSurface);
     renderer.render(this.#world, camera);
     scene.show(false);
+  }
+
+  /** Two pictures of the same size. Where the other side has no scene of its own, its frames are shown in this one. */
+  #drawBeside(renderer: WebGLRenderer, camera: PerspectiveCamera, values: PictureValues, isSurface: boolean): void {
+    const { x: width, y: height } = renderer.getSize(new Vector2()), half = halfOf(width), other = this.#right ?? this.scene;
+    renderer.setScissorTest(true);
+    for (const [scene, from, split] of [[this.scene, 0, Infinity], [other, width - half, other === this.scene ? 0 : Infinity]] as const) {
+      this.scene.root.visible = other.root.visible = false;
+      scene.root.visible = true;
+      for (const one of scene.drawn) {
+        setValues(one.material, { ...values, split });
+        one.hidden = this.scene.find(one.part.mesh, one.part.primitive)?.hidden ?? new Set();
+      }
+      renderer.setViewport(from, 0, half, height);
+      renderer.setScissor(from, 0, half, height);
+      this.#drawScene(renderer, camera, scene, isSurface);
+      renderer.render(this.overlay, camera);
+    }
+    renderer.setScissorTest(false);
+    renderer.setViewport(0, 0, width, height);
+    other.root.visible = false;
+    this.scene.root.visible = true;
   }
 
   /** Left of the line the scene, right of it the other file as that is: its own frames. */

@@ -5,7 +5,7 @@ import { Vector3, WebGLRenderTarget, type Matrix4, type Object3D, type Perspecti
 import { Eye } from "./camera.js";
 import { moveByKey } from "./keys.js";
 import { drawUvMap, pickTriangle } from "./picking.js";
-import { Picture, type Settings } from "./renderer.js";
+import { halfOf, Picture, type Settings } from "./renderer.js";
 import { Scene } from "./scene.js";
 import type { Surroundings } from "./environment.js";
 import type { Look, PictureValues } from "./shader.js";
@@ -15,7 +15,7 @@ export { hasSplit } from "./renderer.js";
 
 export class Viewport {
   readonly canvas: HTMLCanvasElement;
-  readonly settings: Settings = { look: "lit", map: 1, isWire: false, usesColors: true, split: 0.5, surroundings: "room", hasShadows: false, turn: 0, stops: 0 };
+  readonly settings: Settings = { look: "lit", map: 1, isWire: false, usesColors: true, split: 0.5, isBeside: false, surroundings: "room", hasShadows: false, turn: 0, stops: 0 };
   /** Where light comes from, as the camera sees it: x right, y up, z to the eye. */
   readonly light = new Vector3(-0.45, 0.55, 0.7).normalize();
   onDrawn: () => void = () => {};
@@ -43,6 +43,12 @@ export class Viewport {
 
   get scene(): Scene {
     return this.#picture.scene;
+  }
+
+  /** Objects that the graphics card keeps for the page. */
+  get resources(): { geometries: number; textures: number } {
+    const { geometries = 0, textures = 0 } = this.#picture.renderer?.info.memory ?? {};
+    return { geometries, textures };
   }
 
   get camera(): PerspectiveCamera {
@@ -99,6 +105,14 @@ export class Viewport {
     this.ask();
   }
 
+  /** Two pictures beside each other or one, all of the model in each, seen from the same side as before. */
+  setBeside(on: boolean): void {
+    if (on === this.settings.isBeside) return;
+    this.settings.isBeside = on;
+    this.#resize();
+    this.reset(true, this.camera.position.clone().sub(this.target).normalize());
+  }
+
   setLight(x: number, y: number): void {
     const length = Math.hypot(x, y), k = length > 1 ? 1 / length : 1;
     this.light.set(x * k, y * k, Math.sqrt(Math.max(0.0025, 1 - Math.min(1, length) ** 2))).normalize();
@@ -123,8 +137,8 @@ export class Viewport {
 
   /** The number of the triangle at a place of the canvas, in CSS pixels, or -1. */
   async pick(x: number, y: number): Promise<number> {
-    const from = this.#picture.readable(this.camera);
-    return from ? pickTriangle(from, this.#pickTarget, x, y) : -1;
+    const from = this.#picture.readable(this.camera, this.settings.isBeside);
+    return from ? pickTriangle(from, this.#pickTarget, x < from.size.x ? x : x - (this.canvas.clientWidth - from.size.x), y) : -1;
   }
 
   /** The UV map of a part as pixels, from the top row down, or null without WebGL; `area` is scale and offset of UVs. */
@@ -164,7 +178,7 @@ export class Viewport {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
     this.#picture.renderer?.setSize(width, height, false);
-    this.#eye.resize(width, height);
+    this.#eye.resize(this.settings.isBeside ? halfOf(width) : width, height);
     this.ask();
   }
 }

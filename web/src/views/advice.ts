@@ -2,6 +2,7 @@
 // Derives the options of the fix from the findings of a model: the commands of their remedies, as returned by the
 // engine.
 import { plural } from "../dom.js";
+import type { MapReading } from "../worker/protocol.js";
 import type { CheckReport, Finding } from "tspace/gltf";
 
 export type Tangents = "repair" | "overwrite" | "missing";
@@ -43,6 +44,26 @@ export function remedyOptions({ code, commands }: Finding): Remedy | null {
   // Denoised normals replace all others.
   if (remedy.denoise) delete remedy.overwriteNormals;
   return remedy;
+}
+
+const curves: Record<string, MapReading["curve"]> = { srgb: "srgb", linearised: "linearised" };
+
+/**
+ * How a lone normal map becomes one of glTF, whose green points up, by the commands of its findings. `isSure`: there is no other
+ * reading. Null where this page cannot convert it.
+ */
+export function mapReading({ image, findings }: CheckReport): { reading: MapReading; isSure: boolean } | null {
+  const reading: MapReading = {}, content = image?.content === "normals" ? undefined : findings.find(({ commands }) => commands.some(({ verb }) => verb === "convert-map"));
+  const finding = content ?? findings.find(({ code }) => code === "greenFlipped");
+  if (!image || (image.content !== "normals" && !content)) return null;
+  for (const { name, value } of finding?.commands[0]?.options ?? []) {
+    if (name === "channels") reading.channels = value;
+    else if (curves[name]) reading.curve = curves[name];
+    else if (name === "flip-red") reading.flipRed = true;
+    else if (name !== "o" && name !== "flip-green") return null;
+  }
+  reading.flipGreen = finding?.code === "greenFlipped" || finding?.commands[0]?.options.some(({ name }) => name === "flip-green");
+  return { reading, isSure: !content || content.commands.length === 1 };
 }
 
 export interface Advice {
@@ -105,6 +126,7 @@ export interface Plan {
 
 /** What one click does about all errors and warnings; null where it can do nothing about them. */
 export function planFor(report: CheckReport): Plan | null {
+  if (report.image) return planForMap(report);
   // Signs that cancel out with inverted green render correctly.
   const serious = report.findings.filter(({ severity, code }) => severity !== "note" && !(code === "signsInverted" && cancels(report)));
   const remedies = serious.map(remedyOptions), wants = (tangents: Tangents, isError: boolean) => remedies.some((one, i) => one?.tangents === tangents && (!isError || serious[i].severity === "error"));
@@ -120,6 +142,15 @@ export function planFor(report: CheckReport): Plan | null {
     extras.morphNormals ? "compute normals of morph targets" : "",
   ].filter(Boolean);
   return steps.length === 0 ? null : { tangents, steps, left: codes((finding) => remedyOptions(finding) === null || remedyOptions(finding)?.mendMaps === true) };
+}
+
+/** What one click does about a lone normal map. */
+function planForMap(report: CheckReport): Plan | null {
+  const serious = report.findings.filter(({ severity }) => severity !== "note"), found = mapReading(report);
+  if (serious.length === 0 || !found?.isSure) return null;
+  const { channels, curve, flipGreen } = found.reading, isDone = ({ code }: Finding) => code === "greenFlipped" || channels !== undefined || curve !== undefined;
+  const steps = [channels || curve ? "put x, y and z into red, green and blue" : "", flipGreen ? "flip green in 1 normal map" : ""].filter(Boolean);
+  return steps.length === 0 ? null : { tangents: "repair", steps, left: new Set(serious.filter((one) => !isDone(one)).map(({ code }) => code)).size };
 }
 
 const kinds = ["error", "warning", "note"] as const;

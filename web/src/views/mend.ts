@@ -6,8 +6,8 @@ import { checkbox, choice, count, el, plural, replaceChildren, select } from "..
 import { fixedMapName, isMapName } from "../model/lone_map.js";
 import type { ModelFiles } from "../files.js";
 import type { CheckReport, Finding, GeneratedPrimitive, GenerateReport, JudgedMap } from "tspace/gltf";
-import { methods, type Method } from "../worker/protocol.js";
-import { adviceFor, changeOfCounts, isWorse, noExtras, remedyOptions, type Extras, type Tangents } from "./advice.js";
+import { methods, type MapReading, type Method } from "../worker/protocol.js";
+import { adviceFor, changeOfCounts, isWorse, mapReading, noExtras, remedyOptions, type Extras, type Tangents } from "./advice.js";
 
 export interface Mended extends ModelFiles {
   report: unknown;
@@ -188,9 +188,15 @@ export class MendView {
     this.#button.disabled = this.#model === null;
     const words = Object.entries(this.#options()).map(([name, value]) => `--${name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`)}${value === true ? "" : ` ${String(value)}`}`);
     const name = this.#model?.name ?? "model.glb";
-    if (isMapName(name)) return void replaceChildren(this.#command, `tspace convert-map ${shellWord(name)} -o ${shellWord(mendedName(name))} --flip-green`);
+    if (isMapName(name)) return void replaceChildren(this.#command, `tspace convert-map ${shellWord(name)} -o ${shellWord(mendedName(name))}${this.#mapOptions()}`);
     const parts = ["tspace generate", shellWord(name), whole("-o"), shellWord(mendedName(name)), ...words.map(whole)];
     replaceChildren(this.#command, ...parts.flatMap((part, i) => (i === 0 ? [part] : [" ", part])));
+  }
+
+  /** Options of `convert-map` for a lone normal map. */
+  #mapOptions(): string {
+    const { channels, curve, flipRed, flipGreen }: MapReading = (this.#checked && mapReading(this.#checked)?.reading) ?? {};
+    return `${channels ? ` --channels ${channels}` : ""}${curve ? ` --${curve}` : ""}${flipRed ? " --flip-red" : ""}${flipGreen ? " --flip-green" : ""}`;
   }
 
   #forgetResult(): void {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The center of the page: the picture, the choice of looks, the slider between both frames, and the light.
-import { choice, el } from "../dom.js";
+import { checkbox, choice, el } from "../dom.js";
 import type { Look } from "../picture/shader.js";
 import { hasSplit, Viewport } from "../picture/viewport.js";
 import { isFile, nameOf, type Right } from "../worker/protocol.js";
@@ -39,6 +39,8 @@ export class Stage {
   #remark = el("p", { class: "remark", role: "status", hidden: true });
   #frame: HTMLElement;
   #looks;
+  /** Two pictures in the place of a split line, where two files are compared. */
+  #beside = checkbox("Side by side", false, (on) => this.setBeside(on));
   #right: Right = "mikktspace";
   #green: TurnedGreen = "none";
   #otherName = "";
@@ -49,6 +51,7 @@ export class Stage {
   constructor(caption: HTMLElement, overLine: HTMLElement, beside: HTMLElement) {
     const frame = this.#frame = el("div", { class: "frame", "data-ground": "grey" }, this.canvas, this.#line, this.#leftLabel, this.#rightLabel, this.#legend.element, this.#light, overLine, this.#remark);
     this.#looks = choice("Look", lookNames, "lit", (look) => this.setLook(look));
+    this.#looks.element.append(this.#beside.element);
     this.element = el("section", { class: "stage", "aria-label": "Picture" }, caption, this.#looks.element, el("div", { class: "views" }, el("div", { class: "picture" }, frame, this.#split), beside));
     this.viewport = new Viewport(this.canvas);
     this.#split.addEventListener("input", () => this.setSplit(Number(this.#split.value) / 1000));
@@ -67,7 +70,7 @@ export class Stage {
     this.#light.addEventListener("keydown", (event) => this.#turnLight(event));
     this.#showLight();
     this.setSplit(0.5);
-    this.#refresh();
+    this.nameFiles(null);
   }
 
   setLook(look: Look): void {
@@ -79,7 +82,7 @@ export class Stage {
   /** What stands left and right, in words. */
   get sides(): string {
     const { look } = this.viewport.settings, right = this.#rightLabel.textContent ?? "";
-    return hasSplit(look) ? `left ${this.#leftLabel.textContent}, right ${right}` : `${lookNames.find(([name]) => name === look)?.[1]}, the file against ${right}`;
+    return hasSplit(look) || this.viewport.settings.isBeside ? `left ${this.#leftLabel.textContent}, right ${right}` : `${lookNames.find(([name]) => name === look)?.[1]}, the file against ${right}`;
   }
 
   get swatches(): { color: string; text: string }[] {
@@ -105,6 +108,16 @@ export class Stage {
   nameFiles(names: readonly [string, string] | null): void {
     this.#leftLabel.textContent = names?.[0] ?? "as the file is";
     this.#otherName = names?.[1] ?? "";
+    this.#beside.element.hidden = names === null;
+    if (!names) this.setBeside(false);
+    this.#refresh();
+  }
+
+  /** Each file in a picture of its own, both seen by one camera. */
+  setBeside(on: boolean): void {
+    this.#beside.input.checked = on;
+    this.#frame.classList.toggle("beside", on);
+    this.viewport.setBeside(on);
     this.#refresh();
   }
 
@@ -127,8 +140,9 @@ export class Stage {
 
   #refresh(): void {
     const { look } = this.viewport.settings;
-    const isSplit = hasSplit(look);
-    for (const element of [this.#split, this.#line, this.#leftLabel, this.#rightLabel]) element.hidden = !isSplit;
+    const isSplit = hasSplit(look), { isBeside } = this.viewport.settings;
+    this.#split.hidden = !isSplit || isBeside;
+    for (const element of [this.#line, this.#leftLabel, this.#rightLabel]) element.hidden = !isSplit && !isBeside;
     this.#rightLabel.textContent = isFile(this.#right) ? (this.#right === "mended" ? "fixed" : this.#otherName) : `right frames (${this.#right})${greenText[this.#green]}`;
     this.#legend.show(look, nameOf(this.#right));
     this.viewport.ask();

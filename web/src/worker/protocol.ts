@@ -80,10 +80,30 @@ export interface TexturePixels {
   rgba: Uint8ClampedArray<ArrayBuffer>;
 }
 
+/** How the channels of a normal map are read, as `tspace convert-map` names it. */
+export interface MapReading {
+  channels?: string;
+  curve?: "srgb" | "linearised";
+  flipRed?: boolean;
+  flipGreen?: boolean;
+}
+/** Files that a normal map is converted to: their endings. */
+export type MapTarget = "png" | "bc5.ktx2" | "eac-rg11.ktx2" | "bc5.dds";
+export interface ConvertedMap {
+  bytes: Uint8Array<ArrayBuffer>;
+  width: number;
+  height: number;
+  /** Format of the pixels: "16 bits", "BC5". */
+  format: string;
+  /** Sentences of the engine: how channels were read, what packing changed. */
+  notes: string[];
+}
+
 export interface Calls {
   report: { ask: { verb: Verb; model: ModelFiles }; answer: unknown };
   /** A normal map without a model: what `check` says of it, and the image as PNG, JPEG or WebP. */
   image: { ask: { model: ModelFiles }; answer: { report: unknown; image: Uint8Array<ArrayBuffer> } };
+  convertMap: { ask: { name: string; file: Uint8Array<ArrayBuffer>; reading: MapReading; to: MapTarget }; answer: ConvertedMap };
   generate: { ask: { model: ModelFiles; options: Record<string, unknown> }; answer: { report: unknown; bytes: Uint8Array<ArrayBuffer> } };
   /** `part`: what it is called in later questions, or null. */
   corners: { ask: { part: number | null; arrays: Arrays }; answer: Corners };

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Decodes KTX2 and DDS to pixels with the package's decoders, which are loaded when a model has such an image.
+// Decodes KTX2 and DDS to pixels, and converts normal maps to other files, with the package's decoders, which are loaded when
+// they are needed.
 import { unzlibSync } from "fflate";
 import { ZSTDDecoder } from "three/examples/jsm/libs/zstddec.module.js";
-import type { TexturePixels } from "./protocol.js";
+import { mapType } from "../model/lone_map.js";
+import { decodeImage, pngOf } from "./images.js";
+import type { Calls, ConvertedMap, TexturePixels } from "./protocol.js";
 
 let zstd: Promise<ZSTDDecoder> | undefined;
 
@@ -19,16 +22,52 @@ const isZstd = (file: Uint8Array): boolean => file.length > 48 && file[0] === 0x
 const inWords = (why: string): string =>
   why.includes("ASTC") ? "it is a KTX2 of ASTC, which the page cannot show: export it as PNG, JPEG or WebP, or as KTX2 of UASTC or ETC1S" : why;
 
-export async function decodeTexture(file: Uint8Array<ArrayBuffer>): Promise<TexturePixels> {
-  const { readTexture, ready } = await import("tspace/textures");
-  await ready;
+async function unpackersFor(file: Uint8Array) {
   const decoder = isZstd(file) ? await (zstd ??= zstdDecoder()) : null;
-  const unzstd = decoder && ((packed: Uint8Array, size: number) => decoder.decode(packed, size));
-  const unzlib = (packed: Uint8Array, size: number) => unzlibSync(packed, { out: new Uint8Array(size) });
+  return {
+    unzstd: decoder && ((packed: Uint8Array, size: number) => decoder.decode(packed, size)),
+    unzlib: (packed: Uint8Array, size: number) => unzlibSync(packed, { out: new Uint8Array(size) }),
+  };
+}
+
+export async function decodeTexture(file: Uint8Array<ArrayBuffer>): Promise<TexturePixels> {
+  const { readTexture, ready } = await import("tspace/textures"), unpackers = await unpackersFor(file);
+  await ready;
   try {
     // Decodes like a renderer: a map of two channels keeps blue = 0.
-    const { width, height, rgba } = readTexture(file, { numbers: "uint8", vectors: false, unzstd, unzlib });
+    const { width, height, rgba } = readTexture(file, { numbers: "uint8", vectors: false, ...unpackers });
     return { width, height, rgba: rgba as Uint8ClampedArray<ArrayBuffer> };
+  } catch (error) {
+    throw new Error(inWords((error as Error).message));
+  }
+}
+
+const isOpaque = (rgba: ArrayLike<number>, most: number): boolean => {
+  for (let i = 3; i < rgba.length; i += 4) if (rgba[i] !== most) return false;
+  return true;
+};
+
+/** A PNG of red, green and blue, and of alpha where that is not the largest number everywhere. */
+function pngFile({ width, height, rgba }: { width: number; height: number; rgba: Uint8ClampedArray | Uint16Array }): Uint8Array<ArrayBuffer> {
+  const bits = rgba instanceof Uint16Array ? 16 : 8, numbers = bits === 16 ? (rgba as Uint16Array) : new Uint8Array(rgba);
+  if (!isOpaque(numbers, 2 ** bits - 1)) return pngOf({ width, height, channels: 4, bits, data: numbers }) as Uint8Array<ArrayBuffer>;
+  const rgb = new (bits === 16 ? Uint16Array : Uint8Array)(3 * width * height);
+  for (let i = 0, from = 0; i < rgb.length; i += 3, from += 4) for (let k = 0; k < 3; ++k) rgb[i + k] = numbers[from + k];
+  return pngOf({ width, height, channels: 3, bits, data: rgb }) as Uint8Array<ArrayBuffer>;
+}
+
+/** A normal map as another file: its channels as glTF has them, then green, then the format. */
+export async function convertMapFile({ name, file, reading, to }: Calls["convertMap"]["ask"]): Promise<ConvertedMap> {
+  const { compressMap, convertMap, ready } = await import("tspace/textures"), unpackers = await unpackersFor(file);
+  await ready;
+  try {
+    const image = /\.(ktx2|dds)$/i.test(name) ? file : await decodeImage(file, mapType(name) as Parameters<typeof decodeImage>[1]);
+    const map = convertMap(image, { ...reading, ...unpackers }), { width, height } = map;
+    const notes = map.howRead ? [`${map.howRead}.`] : [];
+    if (to === "png") return { bytes: pngFile(map), width, height, format: `${map.numbers === "uint16" ? 16 : 8} bits`, notes };
+    const [format, container] = to.split(".") as ["bc5" | "eac-rg11", "ktx2" | "dds"];
+    const { bytes, report } = compressMap(map, { format, container });
+    return { bytes: bytes as Uint8Array<ArrayBuffer>, width, height, format: `${report.format}, ${report.meanErrorDeg.toFixed(2)}° of error on average`, notes: [...notes, ...report.warnings.map((warning) => `${warning}.`)] };
   } catch (error) {
     throw new Error(inWords((error as Error).message));
   }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // All expensive work: reports on files, and frames of the parts that the page shows.
+import { release as releaseCore } from "tspace";
+import { release as releaseFiles } from "tspace/gltf";
 import { decodeDraco, decodeMeshopt, forgetCodecs } from "./codecs.js";
 import { computeFrames, cornersOf, mapCorners, otherFrames } from "./corners.js";
-import { decodeTexture } from "./texture_files.js";
+import { convertMapFile, decodeTexture } from "./texture_files.js";
 import { generateModel, judgeImage, reportOn } from "./model_calls.js";
 import type { Answer, Arrays, Question } from "./protocol.js";
 
@@ -21,6 +23,10 @@ async function answerTo(question: Question): Promise<{ answer: unknown; transfer
       return { answer: await reportOn(question.ask.verb, question.ask.model) };
     case "image":
       return { answer: await judgeImage(question.ask.model) };
+    case "convertMap": {
+      const answer = await convertMapFile(question.ask);
+      return { answer, transfer: [answer.bytes.buffer] };
+    }
     case "generate":
       return { answer: await generateModel(question.ask.model, question.ask.options) };
     case "corners": {
@@ -56,12 +62,15 @@ async function answerTo(question: Question): Promise<{ answer: unknown; transfer
     case "forget":
       parts.clear();
       forgetCodecs();
+      // Memory of WebAssembly grows and never shrinks, so the instances go with the model.
+      releaseCore();
+      releaseFiles();
       return { answer: null };
   }
 }
 
 /** What decoders throw is about the file, unless the code is wrong. */
-const readers = new Set<string>(["meshopt", "draco", "texture", "image"]);
+const readers = new Set<string>(["meshopt", "draco", "texture", "image", "convertMap"]);
 
 async function serve(question: Question): Promise<void> {
   try {

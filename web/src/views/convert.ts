@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// A lone normal map as another file, one click each: green up or down, three channels or two, PNG, KTX2 or DDS.
+import { count, el, replaceChildren } from "../dom.js";
+import { mapReading } from "./advice.js";
+import type { ModelFiles } from "../files.js";
+import type { ConvertedMap, MapReading, MapTarget } from "../worker/protocol.js";
+
+interface Target {
+  name: string;
+  detail: string;
+  /** Follows the name of the map, before the ending. */
+  suffix: string;
+  green: "up" | "down";
+  to: MapTarget;
+}
+
+const targets: readonly Target[] = [
+  { name: "PNG, green up", detail: "glTF, OpenGL, Blender, Unity", suffix: "gltf", green: "up", to: "png" },
+  { name: "PNG, green down", detail: "DirectX, Unreal", suffix: "directx", green: "down", to: "png" },
+  { name: "KTX2, two channels", detail: "BC5 for desktop, green up", suffix: "gltf", green: "up", to: "bc5.ktx2" },
+  { name: "KTX2 for phones", detail: "EAC, two channels, green up", suffix: "gltf-eac", green: "up", to: "eac-rg11.ktx2" },
+  { name: "DDS, green up", detail: "BC5, two channels", suffix: "gltf", green: "up", to: "bc5.dds" },
+  { name: "DDS, green down", detail: "BC5, two channels, DirectX", suffix: "directx", green: "down", to: "bc5.dds" },
+];
+
+type Convert = (model: ModelFiles, reading: MapReading, to: MapTarget) => Promise<ConvertedMap>;
+
+export class ConvertView {
+  readonly element = el("details", { class: "panel convert", open: true, hidden: true }, el("summary", {}, "Convert this map"));
+  #said = el("p", { class: "quiet", role: "status" });
+  #rows = el("div", { class: "rows" });
+  #url = "";
+
+  constructor(private convert: Convert) {
+    this.element.append(this.#rows);
+  }
+
+  /** Offers conversions of a lone normal map; hidden for models. */
+  show(model: ModelFiles | null): void {
+    const check = model?.loneMap?.check;
+    this.element.hidden = !check;
+    this.#forget();
+    replaceChildren(this.#said);
+    if (!model || !check) return;
+    const found = mapReading(check), isKnown = check.image?.green === "up" || check.image?.green === "down";
+    if (!found) return replaceChildren(this.#rows, el("p", { class: "quiet" }, "This image is not a normal map in tangent space, or its encoding needs a mesh. The tool converts it: see the finding."));
+    const buttons = targets.map((target) => el("button", { type: "button", class: "target", onclick: () => void this.#make(model, found.reading, target) }, el("strong", {}, target.name), el("span", {}, target.detail)));
+    replaceChildren(this.#rows, !found.isSure && el("p", { class: "quiet" }, "The relief allows two readings: the finding names both, and these files follow the first."), !isKnown && el("p", { class: "quiet" }, "The relief does not show which way green points: the map is read as green up."), el("div", { class: "targets" }, ...buttons), this.#said);
+  }
+
+  #forget(): void {
+    if (this.#url) URL.revokeObjectURL(this.#url);
+    this.#url = "";
+  }
+
+  async #make(model: ModelFiles, reading: MapReading, { suffix, green, to }: Target): Promise<void> {
+    const buttons = this.#rows.querySelectorAll("button"), flipGreen = (reading.flipGreen ?? false) !== (green === "down");
+    for (const button of buttons) button.disabled = true;
+    this.#said.textContent = "Converting…";
+    try {
+      const { bytes, width, height, format, notes } = await this.convert(model, { ...reading, flipGreen }, to);
+      const name = `${model.name.replace(/^.*\//, "").replace(/\.[^.]*$/, "")}-${suffix}.${to.split(".").pop()}`;
+      this.#forget();
+      this.#url = URL.createObjectURL(new Blob([bytes], { type: to === "png" ? "image/png" : "application/octet-stream" }));
+      const link = el("a", { href: this.#url, download: name }, name);
+      replaceChildren(this.#said, link, `: ${width} x ${height}, ${format}, ${count(bytes.length)} bytes. ${notes.join(" ")}`);
+      link.click();
+    } catch (error) {
+      this.#said.textContent = `The map cannot be converted: ${error instanceof Error ? error.message : String(error)}`;
+    } finally {
+      for (const button of buttons) button.disabled = false;
+    }
+  }
+}
