@@ -88,10 +88,10 @@ export class Glb {
   }
 }
 
-/** A wavy square of about that many vertices, 96 bytes each with its triangles: normals, tangents, two UV sets and colors. */
-export function gridGlb(vertices) {
+/** A wavy square of about that many vertices, 96 bytes each with its triangles, and 16 for each of `more` attributes that nobody reads. */
+export function gridGlb(vertices, more = 0) {
   const side = Math.ceil(Math.sqrt(vertices)), count = side * side, cells = side - 1;
-  const widths = { POSITION: 3, NORMAL: 3, TANGENT: 4, TEXCOORD_0: 2, TEXCOORD_1: 2, COLOR_0: 4 }, arrays = Object.fromEntries(Object.entries(widths).map(([name, width]) => [name, new Float32Array(width * count)]));
+  const widths = { POSITION: 3, NORMAL: 3, TANGENT: 4, TEXCOORD_0: 2, TEXCOORD_1: 2, COLOR_0: 4, ...Object.fromEntries(Array.from({ length: more }, (_, i) => [`_DATA_${i}`, 4])) }, arrays = Object.fromEntries(Object.entries(widths).map(([name, width]) => [name, new Float32Array(width * count)]));
   for (let i = 0; i < count; ++i) {
     const u = (i % side) / cells, v = Math.floor(i / side) / cells, slope = 0.5 * Math.cos(20 * u), length = Math.hypot(slope, 1);
     arrays.POSITION.set([u, 0.025 * Math.sin(20 * u), v], 3 * i);
