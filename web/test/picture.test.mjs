@@ -12,7 +12,7 @@ const settings = (tab) => tab.evaluate(() => ({ ...window.tspaceView.views.stage
 test("the line between both sides is dragged, and a held key shows the right side alone", { skip: missing }, async () => {
   await withPage(async (tab) => {
     const box = await tab.locator(".frame").boundingBox();
-    await tab.mouse.move(box.x + box.width / 2, box.y + 40);
+    await tab.mouse.move(box.x + box.width * (await settings(tab)).split, box.y + 40);
     await tab.mouse.down();
     await tab.mouse.move(box.x + box.width * 0.25, box.y + 60, { steps: 4 });
     await tab.mouse.up();
@@ -49,7 +49,7 @@ for (const [width, height] of [[390, 844], [820, 1180]]) {
       const eye = () => tab.evaluate(() => window.tspaceView.views.stage.viewport.camera.position.toArray());
       const near = (a, b, part) => Math.hypot(...a.map((x, k) => x - b[k])) < part * Math.hypot(...b);
       const start = await eye();
-      let share = 0.5;
+      let share = (await settings(tab)).split; // the line stands on the fault at first
       for (const isTouch of [false, true]) {
         // A finger hits beside the handle, and it is the line that moves, not the model.
         for (const next of [0.7, 0.35]) {

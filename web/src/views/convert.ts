@@ -26,7 +26,7 @@ const targets: readonly Target[] = [
 type Convert = (model: ModelFiles, reading: MapReading, to: MapTarget) => Promise<ConvertedMap>;
 
 export class ConvertView {
-  readonly element = el("details", { class: "panel convert", open: true, hidden: true }, el("summary", {}, "Convert this map"));
+  readonly element = el("details", { class: "panel convert", hidden: true }, el("summary", {}, "Convert this map"));
   #said = el("p", { class: "quiet", role: "status" });
   #rows = el("div", { class: "rows" });
   #url = "";
@@ -39,6 +39,7 @@ export class ConvertView {
   show(model: ModelFiles | null): void {
     const check = model?.loneMap?.check;
     this.element.hidden = !check;
+    this.element.open = check !== undefined;
     this.#forget();
     replaceChildren(this.#said);
     if (!model || !check) return;
