@@ -25,7 +25,7 @@ const uint tspace_position_scale = 3u;  // three floats
 const uint tspace_normal_format = 6u;   // 0: none is written; 1: three floats. Those of a pose are floats
 const uint tspace_normal_offset = 7u;
 const uint tspace_normal_stride = 8u;
-const uint tspace_tangent_format = 9u;  // 0: T and sign as four floats; 3: snorm8 pair
+const uint tspace_tangent_format = 9u;  // 0: T and sign as four floats; 2: oct32; 3: snorm8 pair
 const uint tspace_tangent_offset = 10u;
 const uint tspace_tangent_stride = 11u;
 const uint tspace_morph_count = 12u;    // targets, of three floats per vertex one after the other; 0: none
@@ -548,6 +548,149 @@ vec4 tspace_tangentOfResult(uint begin, uint end, uint flags, uint own, vec3 mad
 
 uint tspace_byte(float x) { return uint(int(floor(clamp(x, -1.0, 1.0) * 127.0 + 0.5))) & 255u; }
 
+// The normal at a point of the grid of oct32; w: the sign of z.
+vec4 tspace_octNormal(float i, float j) {
+    float a = abs(i - 511.0);
+    float b = abs(j - 511.0);
+    float rest = 511.0 - a - b;
+    a += min(rest, 0.0);
+    b += min(rest, 0.0);
+    float c = abs(rest);
+    vec3 n = tspace_direction(vec3(a * (1277.5 - a), b * (1277.5 - b), c * (1277.5 - c)));
+    float sign = 1.0;
+    if (rest < 0.0) {
+        sign = -1.0;
+    }
+    float x = n.x;
+    float y = n.y;
+    if (i < 511.0) {
+        x = -x;
+    }
+    if (j < 511.0) {
+        y = -y;
+    }
+    return vec4(x, y, sign * n.z, sign);
+}
+
+// The two directions across a normal of the grid from which angles count.
+vec3 tspace_octAcross(vec4 n) {
+    float h = -1.0 / (n.w + n.z);
+    return vec3(1.0 + n.w * n.x * n.x * h, n.w * n.x * n.y * h, -n.w * n.x);
+}
+vec3 tspace_octAlong(vec4 n) {
+    float h = -1.0 / (n.w + n.z);
+    return vec3(n.x * n.y * h, n.w + n.y * n.y * h, -n.y);
+}
+
+// The tangent at one of the 2048 angles around a normal of the grgl_GlobalInvocationID.
+vec3 tspace_octTangent(vec4 n, uint k) {
+    float x = float(k & 511u);
+    float y = 512.0 - x;
+    float run = y * (1408.0 - y);
+    float rise = x * (1408.0 - x);
+    vec3 across = tspace_octAcross(n);
+    vec3 along = tspace_octAlong(n);
+    vec3 t = run * across + rise * along;
+    if ((k & 512u) != 0u) {
+        t = run * along - rise * across;
+    }
+    if ((k & 1024u) != 0u) {
+        t = -t;
+    }
+    return tspace_direction(t);
+}
+
+// Where a unit vector lies on the unfolded octahedron, from -1 to 1: the b with b (2.5 - b) along |n| and sum 1, by three
+// steps of Newton's method.
+vec2 tspace_octPoint(vec3 n) {
+    vec3 size = abs(n);
+    vec3 b = size / (size.x + size.y + size.z);
+    for (uint i = 0u; i < 3u; i++) {
+        vec3 value = b * (2.5 - b);
+        vec3 slope = 2.5 - 2.0 * b;
+        vec3 inverse = vec3(slope.y * slope.z, slope.z * slope.x, slope.x * slope.y);
+        float reach = dot(value, inverse) / dot(size, inverse);
+        b += (1.0 / (slope.x * inverse.x)) * inverse * (reach * size - value);
+    }
+    float x = b.x;
+    float y = b.y;
+    if (n.z < 0.0) {
+        x = 1.0 - b.y;
+        y = 1.0 - b.x;
+    }
+    if (n.x < 0.0) {
+        x = -x;
+    }
+    if (n.y < 0.0) {
+        y = -y;
+    }
+    return vec2(x, y);
+}
+
+// The last of the 2048 angles that is not after one whose cosine and sine are as c to s.
+uint tspace_octAngle(float c, float s) {
+    float run = abs(c);
+    float rise = abs(s);
+    uint turns = 0u;
+    bool is_second_half = c + s < 0.0;
+    if (c * s < 0.0) {
+        run = abs(s);
+        rise = abs(c);
+        turns = 512u;
+        is_second_half = s < 0.0;
+    }
+    if (is_second_half) {
+        turns += 1024u;
+    }
+    float l = 2.75 * run + 0.75 * rise;
+    float x = 3.5 * rise / (l + sqrt(max(l * l + 7.0 * (rise - run) * rise, 0.0)));
+    return turns + uint(clamp(512.0 * x, 0.0, 512.0));
+}
+
+// A frame as oct32: the nearest normal of the grid, then the nearest angle around it. docs/concepts/pack.md has the format.
+uint tspace_encodeOct32(vec3 normal, vec4 tangent) {
+    vec3 n = tspace_direction(normal);
+    if (dot(n, n) == 0.0) {
+        n = vec3(0.0, 0.0, 1.0);
+    }
+    vec2 at = tspace_octPoint(n);
+    float first_i = clamp(floor((at.x + 1.0) * 511.0), 0.0, 1021.0);
+    float first_j = clamp(floor((at.y + 1.0) * 511.0), 0.0, 1021.0);
+    float i = first_i;
+    float j = first_j;
+    vec4 grid = tspace_octNormal(i, j);
+    float least = 8.0;
+    for (uint corner = 0u; corner < 4u; corner++) {
+        float next_i = first_i + float(corner >> 1u);
+        float next_j = first_j + float(corner & 1u);
+        vec4 found = tspace_octNormal(next_i, next_j);
+        vec3 off = vec3(found.x, found.y, found.z) - n;
+        if (dot(off, off) < least) {
+            least = dot(off, off);
+            grid = found;
+            i = next_i;
+            j = next_j;
+        }
+    }
+    vec3 t = vec3(tangent.x, tangent.y, tangent.z);
+    t = tspace_direction(t - dot(n, t) * n);
+    if (dot(t, t) == 0.0) {
+        t = tspace_octAcross(grid);
+    }
+    uint k = tspace_octAngle(dot(t, tspace_octAcross(grid)), dot(t, tspace_octAlong(grid))) & 2047u;
+    uint next = (k + 1u) & 2047u;
+    vec3 before = tspace_octTangent(grid, k) - t;
+    vec3 after = tspace_octTangent(grid, next) - t;
+    if (dot(after, after) < dot(before, before)) {
+        k = next;
+    }
+    uint mirrored = 0u;
+    if (tangent.w < 0.0) {
+        mirrored = 1u;
+    }
+    return (uint(i) << 22u) | (uint(j) << 12u) | (k << 1u) | mirrored;
+}
+
 void tspace_writeTangent(uint result, vec3 normal, vec4 tangent) {
     uint at = (tspace_setting(tspace_tangent_offset) + result * tspace_setting(tspace_tangent_stride)) >> 2u;
     uint format = tspace_setting(tspace_tangent_format);
@@ -556,6 +699,9 @@ void tspace_writeTangent(uint result, vec3 normal, vec4 tangent) {
         tspace_tangents[at + 1u] = floatBitsToUint(tangent.y);
         tspace_tangents[at + 2u] = floatBitsToUint(tangent.z);
         tspace_tangents[at + 3u] = floatBitsToUint(tangent.w);
+    }
+    if (format == 2u) {
+        tspace_tangents[at] = tspace_encodeOct32(normal, tangent);
     }
     if (format == 3u) {
         uint t = tspace_byte(tangent.x) | (tspace_byte(tangent.y) << 8u) | (tspace_byte(tangent.z) << 16u);

@@ -15,7 +15,7 @@ constant uint tspace_position_scale = 3u;  // three floats
 constant uint tspace_normal_format = 6u;   // 0: none is written; 1: three floats. Those of a pose are floats
 constant uint tspace_normal_offset = 7u;
 constant uint tspace_normal_stride = 8u;
-constant uint tspace_tangent_format = 9u;  // 0: T and sign as four floats; 3: snorm8 pair
+constant uint tspace_tangent_format = 9u;  // 0: T and sign as four floats; 2: oct32; 3: snorm8 pair
 constant uint tspace_tangent_offset = 10u;
 constant uint tspace_tangent_stride = 11u;
 constant uint tspace_morph_count = 12u;    // targets, of three floats per vertex one after the other; 0: none
@@ -553,6 +553,149 @@ struct tspace_Evaluator {
 
     uint tspace_byte(float x) { return uint(int(metal::floor(metal::clamp(x, -1.0f, 1.0f) * 127.0f + 0.5f))) & 255u; }
 
+    // The normal at a point of the grid of oct32; w: the sign of z.
+    float4 tspace_octNormal(float i, float j) {
+        float a = metal::abs(i - 511.0f);
+        float b = metal::abs(j - 511.0f);
+        float rest = 511.0f - a - b;
+        a += metal::min(rest, 0.0f);
+        b += metal::min(rest, 0.0f);
+        float c = metal::abs(rest);
+        float3 n = tspace_direction(float3(a * (1277.5f - a), b * (1277.5f - b), c * (1277.5f - c)));
+        float sign = 1.0f;
+        if (rest < 0.0f) {
+            sign = -1.0f;
+        }
+        float x = n.x;
+        float y = n.y;
+        if (i < 511.0f) {
+            x = -x;
+        }
+        if (j < 511.0f) {
+            y = -y;
+        }
+        return float4(x, y, sign * n.z, sign);
+    }
+
+    // The two directions across a normal of the grid from which angles count.
+    float3 tspace_octAcross(float4 n) {
+        float h = -1.0f / (n.w + n.z);
+        return float3(1.0f + n.w * n.x * n.x * h, n.w * n.x * n.y * h, -n.w * n.x);
+    }
+    float3 tspace_octAlong(float4 n) {
+        float h = -1.0f / (n.w + n.z);
+        return float3(n.x * n.y * h, n.w + n.y * n.y * h, -n.y);
+    }
+
+    // The tangent at one of the 2048 angles around a normal of the grid.
+    float3 tspace_octTangent(float4 n, uint k) {
+        float x = float(k & 511u);
+        float y = 512.0f - x;
+        float run = y * (1408.0f - y);
+        float rise = x * (1408.0f - x);
+        float3 across = tspace_octAcross(n);
+        float3 along = tspace_octAlong(n);
+        float3 t = run * across + rise * along;
+        if ((k & 512u) != 0u) {
+            t = run * along - rise * across;
+        }
+        if ((k & 1024u) != 0u) {
+            t = -t;
+        }
+        return tspace_direction(t);
+    }
+
+    // Where a unit vector lies on the unfolded octahedron, from -1 to 1: the b with b (2.5 - b) along |n| and sum 1, by three
+    // steps of Newton's method.
+    float2 tspace_octPoint(float3 n) {
+        float3 size = metal::abs(n);
+        float3 b = size / (size.x + size.y + size.z);
+        for (uint i = 0u; i < 3u; i++) {
+            float3 value = b * (2.5f - b);
+            float3 slope = 2.5f - 2.0f * b;
+            float3 inverse = float3(slope.y * slope.z, slope.z * slope.x, slope.x * slope.y);
+            float reach = metal::dot(value, inverse) / metal::dot(size, inverse);
+            b += (1.0f / (slope.x * inverse.x)) * inverse * (reach * size - value);
+        }
+        float x = b.x;
+        float y = b.y;
+        if (n.z < 0.0f) {
+            x = 1.0f - b.y;
+            y = 1.0f - b.x;
+        }
+        if (n.x < 0.0f) {
+            x = -x;
+        }
+        if (n.y < 0.0f) {
+            y = -y;
+        }
+        return float2(x, y);
+    }
+
+    // The last of the 2048 angles that is not after one whose cosine and sine are as c to s.
+    uint tspace_octAngle(float c, float s) {
+        float run = metal::abs(c);
+        float rise = metal::abs(s);
+        uint turns = 0u;
+        bool is_second_half = c + s < 0.0f;
+        if (c * s < 0.0f) {
+            run = metal::abs(s);
+            rise = metal::abs(c);
+            turns = 512u;
+            is_second_half = s < 0.0f;
+        }
+        if (is_second_half) {
+            turns += 1024u;
+        }
+        float l = 2.75f * run + 0.75f * rise;
+        float x = 3.5f * rise / (l + metal::sqrt(metal::max(l * l + 7.0f * (rise - run) * rise, 0.0f)));
+        return turns + uint(metal::clamp(512.0f * x, 0.0f, 512.0f));
+    }
+
+    // A frame as oct32: the nearest normal of the grid, then the nearest angle around it. docs/concepts/pack.md has the format.
+    uint tspace_encodeOct32(float3 normal, float4 tangent) {
+        float3 n = tspace_direction(normal);
+        if (metal::dot(n, n) == 0.0f) {
+            n = float3(0.0f, 0.0f, 1.0f);
+        }
+        float2 at = tspace_octPoint(n);
+        float first_i = metal::clamp(metal::floor((at.x + 1.0f) * 511.0f), 0.0f, 1021.0f);
+        float first_j = metal::clamp(metal::floor((at.y + 1.0f) * 511.0f), 0.0f, 1021.0f);
+        float i = first_i;
+        float j = first_j;
+        float4 grid = tspace_octNormal(i, j);
+        float least = 8.0f;
+        for (uint corner = 0u; corner < 4u; corner++) {
+            float next_i = first_i + float(corner >> 1u);
+            float next_j = first_j + float(corner & 1u);
+            float4 found = tspace_octNormal(next_i, next_j);
+            float3 off = float3(found.x, found.y, found.z) - n;
+            if (metal::dot(off, off) < least) {
+                least = metal::dot(off, off);
+                grid = found;
+                i = next_i;
+                j = next_j;
+            }
+        }
+        float3 t = float3(tangent.x, tangent.y, tangent.z);
+        t = tspace_direction(t - metal::dot(n, t) * n);
+        if (metal::dot(t, t) == 0.0f) {
+            t = tspace_octAcross(grid);
+        }
+        uint k = tspace_octAngle(metal::dot(t, tspace_octAcross(grid)), metal::dot(t, tspace_octAlong(grid))) & 2047u;
+        uint next = (k + 1u) & 2047u;
+        float3 before = tspace_octTangent(grid, k) - t;
+        float3 after = tspace_octTangent(grid, next) - t;
+        if (metal::dot(after, after) < metal::dot(before, before)) {
+            k = next;
+        }
+        uint mirrored = 0u;
+        if (tangent.w < 0.0f) {
+            mirrored = 1u;
+        }
+        return (uint(i) << 22u) | (uint(j) << 12u) | (k << 1u) | mirrored;
+    }
+
     void tspace_writeTangent(uint result, float3 normal, float4 tangent) {
         uint at = (tspace_setting(tspace_tangent_offset) + result * tspace_setting(tspace_tangent_stride)) >> 2u;
         uint format = tspace_setting(tspace_tangent_format);
@@ -561,6 +704,9 @@ struct tspace_Evaluator {
             tspace_tangents[at + 1u] = as_type<uint>(tangent.y);
             tspace_tangents[at + 2u] = as_type<uint>(tangent.z);
             tspace_tangents[at + 3u] = as_type<uint>(tangent.w);
+        }
+        if (format == 2u) {
+            tspace_tangents[at] = tspace_encodeOct32(normal, tangent);
         }
         if (format == 3u) {
             uint t = tspace_byte(tangent.x) | (tspace_byte(tangent.y) << 8u) | (tspace_byte(tangent.z) << 16u);

@@ -24,7 +24,7 @@ const tspace_position_scale: u32 = 3u;  // three floats
 const tspace_normal_format: u32 = 6u;   // 0: none is written; 1: three floats. Those of a pose are floats
 const tspace_normal_offset: u32 = 7u;
 const tspace_normal_stride: u32 = 8u;
-const tspace_tangent_format: u32 = 9u;  // 0: T and sign as four floats; 3: snorm8 pair
+const tspace_tangent_format: u32 = 9u;  // 0: T and sign as four floats; 2: oct32; 3: snorm8 pair
 const tspace_tangent_offset: u32 = 10u;
 const tspace_tangent_stride: u32 = 11u;
 const tspace_morph_count: u32 = 12u;      // targets, of three floats per vertex one after the other; 0: none
@@ -544,6 +544,149 @@ fn tspace_tangentOfResult(begin: u32, end: u32, flags: u32, own: u32, made_norma
 
 fn tspace_byte(x: f32) -> u32 { return u32(i32(floor(clamp(x, -1.0, 1.0) * 127.0 + 0.5))) & 255u; }
 
+// The normal at a point of the grid of oct32; w: the sign of z.
+fn tspace_octNormal(i: f32, j: f32) -> vec4f {
+    var a: f32 = abs(i - 511.0);
+    var b: f32 = abs(j - 511.0);
+    var rest: f32 = 511.0 - a - b;
+    a += min(rest, 0.0);
+    b += min(rest, 0.0);
+    var c: f32 = abs(rest);
+    var n: vec3f = tspace_direction(vec3f(a * (1277.5 - a), b * (1277.5 - b), c * (1277.5 - c)));
+    var sign: f32 = 1.0;
+    if (rest < 0.0) {
+        sign = -1.0;
+    }
+    var x: f32 = n.x;
+    var y: f32 = n.y;
+    if (i < 511.0) {
+        x = -x;
+    }
+    if (j < 511.0) {
+        y = -y;
+    }
+    return vec4f(x, y, sign * n.z, sign);
+}
+
+// The two directions across a normal of the grid from which angles count.
+fn tspace_octAcross(n: vec4f) -> vec3f {
+    var h: f32 = -1.0 / (n.w + n.z);
+    return vec3f(1.0 + n.w * n.x * n.x * h, n.w * n.x * n.y * h, -n.w * n.x);
+}
+fn tspace_octAlong(n: vec4f) -> vec3f {
+    var h: f32 = -1.0 / (n.w + n.z);
+    return vec3f(n.x * n.y * h, n.w + n.y * n.y * h, -n.y);
+}
+
+// The tangent at one of the 2048 angles around a normal of the grid.
+fn tspace_octTangent(n: vec4f, k: u32) -> vec3f {
+    var x: f32 = f32(k & 511u);
+    var y: f32 = 512.0 - x;
+    var run: f32 = y * (1408.0 - y);
+    var rise: f32 = x * (1408.0 - x);
+    var across: vec3f = tspace_octAcross(n);
+    var along: vec3f = tspace_octAlong(n);
+    var t: vec3f = run * across + rise * along;
+    if ((k & 512u) != 0u) {
+        t = run * along - rise * across;
+    }
+    if ((k & 1024u) != 0u) {
+        t = -t;
+    }
+    return tspace_direction(t);
+}
+
+// Where a unit vector lies on the unfolded octahedron, from -1 to 1: the b with b (2.5 - b) along |n| and sum 1, by three
+// steps of Newton's method.
+fn tspace_octPoint(n: vec3f) -> vec2f {
+    var size: vec3f = abs(n);
+    var b: vec3f = size / (size.x + size.y + size.z);
+    for (var i: u32 = 0u; i < 3u; i++) {
+        var value: vec3f = b * (2.5 - b);
+        var slope: vec3f = 2.5 - 2.0 * b;
+        var inverse: vec3f = vec3f(slope.y * slope.z, slope.z * slope.x, slope.x * slope.y);
+        var reach: f32 = dot(value, inverse) / dot(size, inverse);
+        b += (1.0 / (slope.x * inverse.x)) * inverse * (reach * size - value);
+    }
+    var x: f32 = b.x;
+    var y: f32 = b.y;
+    if (n.z < 0.0) {
+        x = 1.0 - b.y;
+        y = 1.0 - b.x;
+    }
+    if (n.x < 0.0) {
+        x = -x;
+    }
+    if (n.y < 0.0) {
+        y = -y;
+    }
+    return vec2f(x, y);
+}
+
+// The last of the 2048 angles that is not after one whose cosine and sine are as c to s.
+fn tspace_octAngle(c: f32, s: f32) -> u32 {
+    var run: f32 = abs(c);
+    var rise: f32 = abs(s);
+    var turns: u32 = 0u;
+    var is_second_half: bool = c + s < 0.0;
+    if (c * s < 0.0) {
+        run = abs(s);
+        rise = abs(c);
+        turns = 512u;
+        is_second_half = s < 0.0;
+    }
+    if (is_second_half) {
+        turns += 1024u;
+    }
+    var l: f32 = 2.75 * run + 0.75 * rise;
+    var x: f32 = 3.5 * rise / (l + sqrt(max(l * l + 7.0 * (rise - run) * rise, 0.0)));
+    return turns + u32(clamp(512.0 * x, 0.0, 512.0));
+}
+
+// A frame as oct32: the nearest normal of the grid, then the nearest angle around it. docs/concepts/pack.md has the format.
+fn tspace_encodeOct32(normal: vec3f, tangent: vec4f) -> u32 {
+    var n: vec3f = tspace_direction(normal);
+    if (dot(n, n) == 0.0) {
+        n = vec3f(0.0, 0.0, 1.0);
+    }
+    var at: vec2f = tspace_octPoint(n);
+    var first_i: f32 = clamp(floor((at.x + 1.0) * 511.0), 0.0, 1021.0);
+    var first_j: f32 = clamp(floor((at.y + 1.0) * 511.0), 0.0, 1021.0);
+    var i: f32 = first_i;
+    var j: f32 = first_j;
+    var grid: vec4f = tspace_octNormal(i, j);
+    var least: f32 = 8.0;
+    for (var corner: u32 = 0u; corner < 4u; corner++) {
+        var next_i: f32 = first_i + f32(corner >> 1u);
+        var next_j: f32 = first_j + f32(corner & 1u);
+        var found: vec4f = tspace_octNormal(next_i, next_j);
+        var off: vec3f = vec3f(found.x, found.y, found.z) - n;
+        if (dot(off, off) < least) {
+            least = dot(off, off);
+            grid = found;
+            i = next_i;
+            j = next_j;
+        }
+    }
+    var t: vec3f = vec3f(tangent.x, tangent.y, tangent.z);
+    t = tspace_direction(t - dot(n, t) * n);
+    if (dot(t, t) == 0.0) {
+        t = tspace_octAcross(grid);
+    }
+    var k: u32 = tspace_octAngle(dot(t, tspace_octAcross(grid)), dot(t, tspace_octAlong(grid))) & 2047u;
+    var next: u32 = (k + 1u) & 2047u;
+    var before: vec3f = tspace_octTangent(grid, k) - t;
+    var after: vec3f = tspace_octTangent(grid, next) - t;
+    if (dot(after, after) < dot(before, before)) {
+        k = next;
+    }
+    var mirrored: u32 = 0u;
+    if (tangent.w < 0.0) {
+        mirrored = 1u;
+    }
+    return (u32(i) << 22u) | (u32(j) << 12u) | (k << 1u) | mirrored;
+}
+
 fn tspace_writeTangent(result: u32, normal: vec3f, tangent: vec4f) {
     var at: u32 = (tspace_setting(tspace_tangent_offset) + result * tspace_setting(tspace_tangent_stride)) >> 2u;
     var format: u32 = tspace_setting(tspace_tangent_format);
@@ -552,6 +695,9 @@ fn tspace_writeTangent(result: u32, normal: vec3f, tangent: vec4f) {
         tspace_tangents[at + 1u] = bitcast<u32>(tangent.y);
         tspace_tangents[at + 2u] = bitcast<u32>(tangent.z);
         tspace_tangents[at + 3u] = bitcast<u32>(tangent.w);
+    }
+    if (format == 2u) {
+        tspace_tangents[at] = tspace_encodeOct32(normal, tangent);
     }
     if (format == 3u) {
         var t: u32 = tspace_byte(tangent.x) | (tspace_byte(tangent.y) << 8u) | (tspace_byte(tangent.z) << 16u);

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "core/base/vec_math.h"
+#include "core/pack/random_frames.h"
 #include "evaluate_expectations.h"
 #include "tspace/pack.h"
 
@@ -194,6 +195,61 @@ TEST(PlanBuffers, WriteBytesOfBothVectors) {
         }
         ASSERT_EQ(tangents[r].w, Grid::number(floats.in.arrays[EvaluateBuffers::tangents], 4 * r + 3));
     }
+}
+
+/// Words of oct32 against packFrames: within the bounds of the format, and nearly all of them equal.
+void expectOct32(std::span<const Vec3> n, std::span<const Vec4> t, std::span<const std::uint32_t> found) {
+    std::vector<std::uint32_t> expected(n.size());
+    ASSERT_TRUE(packFrames(n, t, FrameFormat::oct32, std::as_writable_bytes(std::span(expected))));
+    std::vector<Vec3> normals(n.size());
+    std::vector<Vec4> tangents(n.size());
+    ASSERT_TRUE(unpackFrames(std::as_bytes(found), FrameFormat::oct32, normals, tangents));
+    const FrameErrorBound bound = frameErrorBound(FrameFormat::oct32);
+    std::size_t others = 0;
+    for (std::size_t r = 0; r < n.size(); ++r) {
+        ASSERT_LE(test::angleDeg(normals[r], n[r]), bound.normal_deg) << r;
+        ASSERT_LE(test::angleDeg({tangents[r].x, tangents[r].y, tangents[r].z}, {t[r].x, t[r].y, t[r].z}),
+                  bound.tangent_deg);
+        ASSERT_EQ(tangents[r].w, t[r].w);
+        others += found[r] != expected[r] ? 1 : 0;
+    }
+    std::cout << others << " of " << n.size() << " words differ\n";
+    EXPECT_LE(others, n.size() / 1000);  // where two points of the grid are equally near, rounding decides
+}
+
+TEST(PlanBuffers, WriteTheOct32OfPackFrames) {
+    Grid floats, words;
+    auto& settings = words.in.arrays[EvaluateBuffers::settings];
+    settings[tangent_format] = 2;
+    settings[tangent_stride] = 12;
+    settings[tangent_offset] = 4;
+    evaluateByLoop(floats.in);
+    evaluateByLoop(words.in);
+    const std::size_t count = floats.in.result_count;
+    std::vector<std::uint32_t> found;
+    for (std::size_t r = 0; r < count; ++r) found.push_back(words.in.arrays[EvaluateBuffers::tangents][3 * r + 1]);
+    expectOct32({reinterpret_cast<const Vec3*>(floats.in.arrays[EvaluateBuffers::normals].data()), count},
+                {reinterpret_cast<const Vec4*>(floats.in.arrays[EvaluateBuffers::tangents].data()), count}, found);
+}
+
+TEST(PlanBuffers, PackFramesOfAnyDirectionAsOct32) {
+    test::RandomBits random(7);
+    test::FrameList frames = test::randomFrames(random, 20000);
+    for (const float z : {1.0f, -1.0f}) {
+        frames.add({0, 0, z}, {1, 0, 0, z});
+        frames.add({0, z, 0}, {0, 0, 1, -z});
+        frames.add({z, 0, 0}, {0, -1, 0, z});
+    }
+    by_hand::tspace_Evaluator shader{};
+    std::vector<std::uint32_t> found;
+    for (std::size_t r = 0; r < frames.size(); ++r) {
+        const Vec3& n = frames.normals[r];
+        const Vec4& t = frames.tangents[r];
+        found.push_back(shader.tspace_encodeOct32({n.x, n.y, n.z}, {t.x, t.y, t.z, t.w}));
+    }
+    expectOct32(frames.normals, frames.tangents, found);
+    // A frame without directions gets the normal (0, 0, 1).
+    EXPECT_EQ(shader.tspace_encodeOct32({0, 0, 0}, {0, 0, 0, 0}) >> 12, 511u << 10 | 511u);
 }
 
 TEST(PlanBuffers, RefuseWhatShadersDoNotHave) {

@@ -40,8 +40,8 @@ export interface GpuArrays {
   positions: StorageBuffer | GpuPositions;
   /** Three floats: written, one per result, where the plan makes normals (or left out); else read, one per vertex. */
   normals?: StorageBuffer | GpuArray<"float32x3"> | null;
-  /** Written, one per result: four floats (the tangent and its sign), or the snorm8 pair of "tspace/pack". */
-  tangents: StorageBuffer | GpuArray<"float32x4" | "snorm8_pair">;
+  /** Written, one per result: four floats (the tangent and its sign), or frames as in "tspace/pack". */
+  tangents: StorageBuffer | GpuArray<"float32x4" | "oct32" | "snorm8_pair">;
   deform?: GpuDeformation | null;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Page of webgpu.test.mjs: computes poses of models with WebGPU and with the module, and compares the results.
 import { generateNormals, makeIndexedFrames, Plan, planBuffers, ready } from "tspace";
+import { packFrames, ready as packReady, unpackFrames } from "tspace/pack";
 import { GpuFrames } from "tspace/webgpu";
 
 const round = Math.fround;
@@ -135,14 +136,17 @@ async function comparePose(device, mesh, method) {
   const frames = await GpuFrames.create(device, buffers);
   const count = frames.resultCount;
   const arrays = { positions: bufferOf(device, given), normals: bufferOf(device, null, 12 * count), tangents: bufferOf(device, null, 16 * count), deform: deformOf(device, vertices, weights, matrices) };
+  const packed = bufferOf(device, null, 4 * count);
   device.pushErrorScope("validation");
   const encoder = device.createCommandEncoder();
   frames.encode(encoder, arrays);
+  frames.encode(encoder, { ...arrays, normals: undefined, tangents: { buffer: packed, format: "oct32" } });
   device.queue.submit([encoder.finish()]);
   const wrong = await device.popErrorScope();
   if (wrong) throw new Error(wrong.message);
   const [normals, tangents] = [await readBack(device, arrays.normals), await readBack(device, arrays.tangents)].map((bytes) => new Float32Array(bytes));
-  const outcome = { name: mesh.name, method, isSkinned: matrices !== undefined, triangles: made.plain.indices.length / 3, ...compare(wanted, { normals, tangents }) };
+  const words = new Uint8Array(await readBack(device, packed), 0, 4 * count);
+  const outcome = { name: mesh.name, method, isSkinned: matrices !== undefined, triangles: made.plain.indices.length / 3, ...compare(wanted, { normals, tangents }), packed: compare(unpackFrames(packFrames(normals, tangents, "oct32"), "oct32"), unpackFrames(words, "oct32")) };
   frames.destroy();
   made.plan.destroy();
   return outcome;
@@ -167,7 +171,7 @@ async function newDevice(mutate = (code) => code) {
 
 export async function main() {
   if (!(await navigator.gpu?.requestAdapter())) return { noAdapter: true };
-  await ready;
+  await Promise.all([ready, packReady]);
   const meshes = await loadMeshes(), device = await newDevice(), outcomes = [];
   for (const mesh of meshes) for (const method of ["mikktspace", "uniform", "lengyel"]) outcomes.push(await comparePose(device, mesh, method));
   // A shader that adds the second edge must have a large error.
