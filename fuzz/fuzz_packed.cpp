@@ -64,12 +64,12 @@ void checkFloats(ByteReader& in, FrameFormat format) {
 }
 
 void checkModel(ByteReader& in, FrameFormat format) {
-    GenerateOptions options{.all = in.byte() % 2 == 0};
-    options.existing = static_cast<ExistingTangents>(in.byte() % 3);
-    options.pack = format;
-    options.pack_drop = static_cast<PackDrop>(in.byte() % 3);
+    GenerateOptions options{.selection = {.all = in.byte() % 2 == 0}};
+    options.selection.existing = static_cast<ExistingTangents>(in.byte() % 3);
+    options.storage.pack = format;
+    options.storage.pack_drop = static_cast<PackDrop>(in.byte() % 3);
     options.execution.thread_count = 1;
-    options.format = static_cast<VectorFormat>(in.byte() % 3);
+    options.storage.format = static_cast<VectorFormat>(in.byte() % 3);
     const std::vector<std::uint8_t> model = fuzz::ModelMaker(in).glb();
     options.file.content = model;
     std::vector<std::uint8_t> output;

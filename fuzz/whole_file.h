@@ -23,8 +23,8 @@ inline void runOnFile(const std::uint8_t* bytes, std::size_t count, const char* 
     const std::string output = (out_folder / "out.glb").string();
     writeFile(input, {bytes, count});
 
-    GenerateOptions options{.all = true};
-    options.existing = ExistingTangents::replace;
+    GenerateOptions options{.selection = {.all = true}};
+    options.selection.existing = ExistingTangents::replace;
     options.execution.thread_count = 1;
     options.file = how;
     const Result<GenerateReport> report = generateFile(input, output, options);
@@ -33,7 +33,7 @@ inline void runOnFile(const std::uint8_t* bytes, std::size_t count, const char* 
             "there is an output exactly when the run succeeds");
     if (report) {
         GenerateOptions again = options;
-        again.existing = ExistingTangents::keep;
+        again.selection.existing = ExistingTangents::keep;
         require(generateFile(output, (out_folder / "again.glb").string(), again).ok(), "what was written can be read");
     } else {
         require(!report.error().message.empty(), "an error has a message");

@@ -232,7 +232,7 @@ struct FinishOptions {
     /// As in GenerateOptions. A mesh keeps its winding if checkFile would otherwise find more normals against their
     /// triangles than before: its normals match its triangles, and it renders correctly.
     bool mend_winding = true;
-    bool images = true;  ///< as CheckOptions::images and GenerateOptions::images; does not affect baking
+    bool images = true;  ///< as CheckOptions::images and GenerateOptions::Maps::read; does not affect baking
     /// Model with UVs that replaces the input, which becomes its high poly: it is written to the output with all maps.
     /// Empty: the input is written to the output.
     std::string low = {};

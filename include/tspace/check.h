@@ -175,7 +175,7 @@ struct CheckOptions {
     Progress progress = {};
 };
 
-/// Packed frames (GenerateOptions::pack) of a primitive, compared with its NORMAL and TANGENT.
+/// Packed frames (GenerateOptions::Storage::pack) of a primitive, compared with its NORMAL and TANGENT.
 struct PackedFramesInfo {
     std::string place = {};      ///< JSON pointer of the attribute
     std::string attribute = {};  ///< "_FRAME32"; the first one if two attributes hold one frame

@@ -70,53 +70,103 @@ enum class MorphNormals : std::uint32_t {
 
 /// Options of generateFile. The defaults add what glTF requires and change nothing else.
 struct GenerateOptions {
-    bool all = false;    ///< also primitives whose material needs no tangents
-    bool strip = false;  ///< remove tangents that no material needs; not together with `all` (invalidOption)
-    /// Also write the direction of dP/dv (TangentOutput::bitangents) with computed tangents, as the attribute
-    /// _BITANGENT (VEC3, in `format`). Its differences also cause splits. Morph targets get no deltas for it.
-    bool bitangents = false;
-    ExistingTangents existing = ExistingTangents::keep;
-    TextureTransform texture_transform = TextureTransform::apply;
-    TangentOptions tangents{.convention = conventions::gltf};
-    /// For primitives without normals. Default: flat, as glTF requires. weld_distance also applies to winding and to
-    /// borders of primitives.
-    NormalOptions normals{.weighting = NormalWeighting::flat, .weld_distance = NormalOptions::weld_auto};
-    /// OBJ files with `s` lines: missing normals follow these groups with angle weights (faces in group 0 are flat).
-    /// false, or a file without `s` lines: `normals` applies.
-    bool use_smoothing_groups = true;
-    /// Repair tangents that are not finite, zero, not unit, parallel to N, or of mixed sign inside a face. false: write
-    /// the unmodified results of the method.
-    bool sanitize = true;
-    SanitizeOptions sanitize_options = {};  ///< options of the repair, with `sanitize`
-    /// PNG keeps its bit depth, JPEG is recompressed, WebP is written losslessly. An image that has other uses, such as
-    /// base color, is kept, and the normal maps get a copy; files next to a .gltf are kept too, and the output refers
-    /// to new ones.
-    FlipGreen flip_green = FlipGreen::none;
-    /// Rewrite normal maps (PNG, JPEG) that glTF readers would misinterpret, as PNG with the same bit depth: maps with
-    /// two channels, exchanged channels, x in alpha, sRGB encoding, or object-space vectors, as detected by checkFile.
-    /// With flip_green, the new maps are inverted if needed.
-    bool mend_maps = false;
+    /// Primitives that get tangents, and the treatment of existing tangents.
+    struct Selection {
+        bool all = false;    ///< also primitives whose material needs no tangents
+        bool strip = false;  ///< remove tangents that no material needs; not together with `all` (invalidOption)
+        ExistingTangents existing = ExistingTangents::keep;
+    };
+
+    /// Normals that are computed.
+    struct Normals {
+        /// For primitives without normals. Default: flat, as glTF requires. weld_distance also applies to winding
+        /// and to borders of primitives.
+        NormalOptions compute{.weighting = NormalWeighting::flat, .weld_distance = NormalOptions::weld_auto};
+        /// OBJ files with `s` lines: missing normals follow these groups with angle weights (faces in group 0 are
+        /// flat). false, or a file without `s` lines: `compute` applies.
+        bool use_smoothing_groups = true;
+        /// false: computed normals, with any weighting except `flat`, are smooth across the border of two primitives
+        /// of a mesh that form one surface (they share edges, by equal positions, as neighboring triangles do). If
+        /// the other primitive has normals, these are kept, and computed ones adopt them at the border within 30
+        /// degrees and the crease angle. Tangents are computed for each primitive separately, as bakers do. true:
+        /// normals are too, and the border is a seam. OBJ: normals are smooth over the whole file, or, with true,
+        /// over the faces of one object and material.
+        bool per_primitive = false;
+        /// Recompute existing normals with `compute` in every primitive with triangles whose material is not unlit,
+        /// and add missing ones, whether or not tangents are needed. Vertices that differ only in computed data
+        /// (normals, tangents, their morph deltas) are first merged, and are split if the new normals differ.
+        /// Existing tangents are recomputed too, even with ExistingTangents::keep, because they would not match; if
+        /// that is impossible (no UVs), the normals are kept. With `keep`, signs stay inverted if most were: normal
+        /// maps may depend on it. Not together with Maps::convert (invalidOption).
+        bool overwrite = false;
+        /// Treatment of normal deltas of morph targets for normals that are kept; computed normals always get
+        /// computed deltas. The base normal is rotated as the surface around the vertex rotates. Tangent deltas of
+        /// these targets are updated if the tangents equal computed ones. glTF only.
+        MorphNormals morphs = MorphNormals::keep;
+    };
+
+    /// Tangents that are computed.
+    struct Tangents {
+        TangentOptions compute{.convention = conventions::gltf};
+        TextureTransform texture_transform = TextureTransform::apply;
+        /// Faces that mikktspace is computed on; other methods use triangles. Pairs of triangles become quads if the
+        /// file's own tangents indicate them, otherwise by shape. Polygons of an OBJ file are known: `quads` uses
+        /// them directly. ExistingTangents::repair keeps tangents that are correct on either kind of face.
+        Faces faces = Faces::triangles;
+        /// Also write the direction of dP/dv (TangentOutput::bitangents) with computed tangents, as the attribute
+        /// _BITANGENT (VEC3, in Storage::format). Its differences also cause splits. Morph targets get no deltas for
+        /// it.
+        bool bitangents = false;
+        /// Repair tangents that are not finite, zero, not unit, parallel to N, or of mixed sign inside a face.
+        /// false: write the unmodified results of the method.
+        bool sanitize = true;
+        SanitizeOptions sanitize_options = {};  ///< options of the repair, with `sanitize`
+    };
+
+    /// Normal maps of the model.
+    struct Maps {
+        /// PNG keeps its bit depth, JPEG is recompressed, WebP is written losslessly. An image that has other uses,
+        /// such as base color, is kept, and the normal maps get a copy; files next to a .gltf are kept too, and the
+        /// output refers to new ones.
+        FlipGreen flip_green = FlipGreen::none;
+        /// Rewrite normal maps (PNG, JPEG) that glTF readers would misinterpret, as PNG with the same bit depth:
+        /// maps with two channels, exchanged channels, x in alpha, sRGB encoding, or object-space vectors, as
+        /// detected by checkFile. With flip_green, the new maps are inverted if needed.
+        bool mend = false;
+        /// Convert normal maps to the computed tangents, so that the shaded result is the same as with the old ones.
+        /// Missing tangents count as mikktspace, as in viewers. New maps are PNGs with the old bit depth; a map or a
+        /// material is copied if its primitives need different ones. glTF only, in glTF's convention, and not with
+        /// ExistingTangents::repair, TextureTransform::ignore or flip_green (invalidOption).
+        bool convert = false;
+        /// Read the pixels of normal maps if ExistingTangents::repair needs them. false: inverted signs are kept,
+        /// since green of the maps may point down too. Not together with flip_green, mend and convert
+        /// (invalidOption).
+        bool read = true;
+    };
+
+    /// Storage of the output.
+    struct Storage {
+        Compression compression = Compression::keep;
+        VectorFormat format = VectorFormat::float32;
+        /// Also write the whole frame of each vertex in this format, as separate attributes (_FRAME32, ...;
+        /// accessors: see docs/concepts/pack.md), for every primitive that has NORMAL and TANGENT in the output,
+        /// computed or not, from their stored values. Morph targets get none: packed frames are those of the base
+        /// mesh.
+        std::optional<FrameFormat> pack = {};
+        /// Attributes that morph targets modify are kept. Without `pack` it must be `nothing` (invalidOption).
+        PackDrop pack_drop = PackDrop::nothing;
+    };
+
+    Selection selection = {};
+    Normals normals = {};
+    Tangents tangents = {};
+    Maps maps = {};
+    Storage storage = {};
     /// First flip triangles that are wound against their neighbors, and components that are inside out (mendWinding).
     /// Primitives of one mesh are one surface, and so is an OBJ file. Normals that are kept define the outside if they
     /// are consistent. Only index lists change: attributes and morph targets keep their order; strips and fans become
     /// lists.
     bool mend_winding = false;
-    /// Convert normal maps to the computed tangents, so that the shaded result is the same as with the old ones.
-    /// Missing tangents count as mikktspace, as in viewers. New maps are PNGs with the old bit depth; a map or a
-    /// material is copied if its primitives need different ones. glTF only, in glTF's convention, and not with
-    /// ExistingTangents::repair, TextureTransform::ignore or flip_green (invalidOption).
-    bool convert_maps = false;
-    /// Read the pixels of normal maps if ExistingTangents::repair needs them. false: inverted signs are kept, since
-    /// green of the maps may point down too. Not together with flip_green, mend_maps and convert_maps (invalidOption).
-    bool images = true;
-    Compression compression = Compression::keep;
-    VectorFormat format = VectorFormat::float32;
-    /// Also write the whole frame of each vertex in this format, as separate attributes (_FRAME32, ...; accessors: see
-    /// docs/concepts/pack.md), for every primitive that has NORMAL and TANGENT in the output, computed or not, from
-    /// their stored values. Morph targets get none: packed frames are those of the base mesh.
-    std::optional<FrameFormat> pack = {};
-    /// Attributes that morph targets modify are kept. Without `pack` it must be `nothing` (invalidOption).
-    PackDrop pack_drop = PackDrop::nothing;
     FileOptions file = {};
     /// Receives the output, a GLB, instead of a file, after all computations; the output path is then only a name
     /// (NAME.glb). Files that the model refers to are not written. If it returns false: cannotWrite.
@@ -126,28 +176,6 @@ struct GenerateOptions {
     /// another.
     Execution execution = {};
     Progress progress = {};
-    /// Faces that mikktspace is computed on; other methods use triangles. Pairs of triangles become quads if the file's
-    /// own tangents indicate them, otherwise by shape. Polygons of an OBJ file are known: `quads` uses them directly.
-    /// `repair` keeps tangents that are correct on either kind of face.
-    Faces faces = Faces::triangles;
-    /// false: computed normals, with any weighting except `flat`, are smooth across the border of two primitives of a
-    /// mesh that form one surface (they share edges, by equal positions, as neighboring triangles do). If the other
-    /// primitive has normals, these are kept, and computed ones adopt them at the border within 30 degrees and the
-    /// crease angle. Tangents are computed for each primitive separately, as bakers do. true: normals are too, and the
-    /// border is a seam. OBJ: normals are smooth over the whole file, or, with true, over the faces of one object and
-    /// material.
-    bool normals_per_primitive = false;
-    /// Recompute existing normals with `normals` in every primitive with triangles whose material is not unlit, and add
-    /// missing ones, whether or not tangents are needed. Vertices that differ only in computed data (normals, tangents,
-    /// their morph deltas) are first merged, and are split if the new normals differ. Existing tangents are recomputed
-    /// too, even with ExistingTangents::keep, because they would not match; if that is impossible (no UVs), the normals
-    /// are kept. With `keep`, signs stay inverted if most were: normal maps may depend on it. Not together with
-    /// convert_maps (invalidOption).
-    bool overwrite_normals = false;
-    /// Treatment of normal deltas of morph targets for normals that are kept; computed normals always get computed
-    /// deltas. The base normal is rotated as the surface around the vertex rotates. Tangent deltas of these targets are
-    /// updated if the tangents equal computed ones. glTF only.
-    MorphNormals morph_normals = MorphNormals::keep;
 };
 
 /// Result for one primitive.
@@ -205,7 +233,7 @@ struct PrimitiveReport {
     std::uint64_t normals_joined_count = 0;
     /// Corners whose new normal points to the back of their triangle (beyond 90 degrees), on the base mesh.
     std::uint64_t normals_behind_count = 0;
-    bool normals_replaced = false;  ///< existing normals were recomputed (overwrite_normals)
+    bool normals_replaced = false;  ///< existing normals were recomputed (Normals::overwrite)
     /// Triangles wound against most of their connected neighbors, over edges of two triangles. Counted if normals are
     /// computed or vertices were split; otherwise 0.
     std::uint64_t turned_triangle_count = 0;
@@ -236,12 +264,12 @@ struct NormalMapReport {
     std::uint32_t image = 0;  ///< index in the input's images; for OBJ a sequential number
     std::string name = {};    ///< name or URI; may be empty
     bool flipped = false;     ///< its green channel was inverted
-    /// It was rewritten, because glTF readers would misinterpret it (mend_maps), or because it held heights (OBJ).
+    /// It was rewritten, because glTF readers would misinterpret it (Maps::mend), or because it held heights (OBJ).
     bool mended = false;
     std::string reason = {};  ///< why nothing was done, or what it contained: half a sentence
 };
 
-/// Result for one normal map as used by some primitives (`convert_maps`).
+/// Result for one normal map as used by some primitives (Maps::convert).
 struct ConvertedMapReport {
     std::uint32_t image = 0;                    ///< index in the input's images
     std::string name = {};                      ///< name or URI; may be empty
@@ -260,8 +288,8 @@ struct ConvertedMapReport {
 
 struct GenerateReport {
     std::vector<PrimitiveReport> primitives = {};         ///< in file order
-    std::vector<NormalMapReport> normal_maps = {};        ///< with flip_green or mend_maps; height maps of OBJ too
-    std::vector<ConvertedMapReport> converted_maps = {};  ///< maps whose primitives got tangents (convert_maps)
+    std::vector<NormalMapReport> normal_maps = {};        ///< with flip_green or Maps::mend; height maps of OBJ too
+    std::vector<ConvertedMapReport> converted_maps = {};  ///< maps whose primitives got tangents (Maps::convert)
     std::vector<MendedWindingReport> windings = {};       ///< with mend_winding, for each mesh with triangles
     bool changed = false;                                 ///< false: the output is byte-identical to the input
     std::uint64_t input_bytes = 0;                        ///< size of the model file and the files it loads

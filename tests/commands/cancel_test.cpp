@@ -67,9 +67,9 @@ TEST(Cancel, EndsFileCallsWithinASecond) {
     const std::string high = folder.write("high.obj", gridObj(400, 0.01)), low = folder.write("low.obj", gridObj(8, 0));
     expectStops("generate OBJ", folder, [&](const Progress& progress) {
         GenerateOptions options;
-        options.all = options.mend_winding = true;
-        options.normals.weighting = NormalWeighting::best;
-        options.normals.crease_angle_deg = NormalOptions::crease_auto;
+        options.selection.all = options.mend_winding = true;
+        options.normals.compute.weighting = NormalWeighting::best;
+        options.normals.compute.crease_angle_deg = NormalOptions::crease_auto;
         options.progress = progress;
         return codeOf(generateFile(high, folder.path("a.glb").string(), options));
     });
@@ -77,8 +77,8 @@ TEST(Cancel, EndsFileCallsWithinASecond) {
     ASSERT_EQ(codeOf(generateFile(high, model)), ErrorCode::ok);
     expectStops("generate glTF", folder, [&](const Progress& progress) {
         GenerateOptions options;
-        options.all = options.overwrite_normals = options.mend_winding = true;
-        options.existing = ExistingTangents::replace;
+        options.selection.all = options.normals.overwrite = options.mend_winding = true;
+        options.selection.existing = ExistingTangents::replace;
         options.progress = progress;
         return codeOf(generateFile(model, folder.path("a.glb").string(), options));
     });

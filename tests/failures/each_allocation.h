@@ -81,11 +81,11 @@ class FailingMemory : public ::testing::Test {
         folder_.write("folded.obj", kObj);
         folder_.write("folded.mtl", "newmtl skin\n");
         GenerateOptions all;
-        all.all = true;
+        all.selection.all = true;
         EXPECT_TRUE(generateFile(at("folded.obj"), at("plain.glb"), all));
         EXPECT_TRUE(generateFile(at("folded.obj"), at("plain.gltf"), all));
-        all.tangents.method = Method::angle;
-        all.existing = ExistingTangents::replace;
+        all.tangents.compute.method = Method::angle;
+        all.selection.existing = ExistingTangents::replace;
         EXPECT_TRUE(generateFile(at("plain.glb"), at("other.glb"), all));
     }
     /// Allocates only on the first call. `name` is short enough to need no allocation.

@@ -19,20 +19,20 @@ TEST_F(FailingMemory, OfGenerate) {
     for (const unsigned threads : {1U, 4U}) {
         writesOne("generate", "new.glb", [&] {
             GenerateOptions options;
-            options.all = true;
-            options.existing = ExistingTangents::replace;
+            options.selection.all = true;
+            options.selection.existing = ExistingTangents::replace;
             options.execution.thread_count = threads;
             return codeOf(generateFile(at("plain.glb"), at("new.glb"), options));
         });
     }
     writesOne("generate from OBJ", "obj.glb", [&] {
         GenerateOptions options;
-        options.all = true;
+        options.selection.all = true;
         return codeOf(generateFile(at("folded.obj"), at("obj.glb"), options));
     });
     writesOne("repair", "repaired.glb", [&] {
         GenerateOptions options;
-        options.existing = ExistingTangents::repair;
+        options.selection.existing = ExistingTangents::repair;
         return codeOf(generateFile(at("other.glb"), at("repaired.glb"), options));
     });
 }
@@ -40,9 +40,9 @@ TEST_F(FailingMemory, OfGenerate) {
 TEST_F(FailingMemory, OfGenerateIntoSeveralFiles) {
     const auto call = [&] {
         GenerateOptions options;
-        options.all = true;
-        options.existing = ExistingTangents::replace;
-        options.tangents.method = Method::angle;
+        options.selection.all = true;
+        options.selection.existing = ExistingTangents::replace;
+        options.tangents.compute.method = Method::angle;
         return codeOf(generateFile(at("plain.gltf"), at("plain.gltf"), options));
     };
     std::map<std::string, std::string> before;
@@ -106,7 +106,7 @@ TEST_F(FailingMemory, ASinkThatThrowsEndsTheCallWithAnError) {
     for (const unsigned threads : {1U, 2U, 8U}) {
         for (int round = 0; round < 10; ++round) {
             GenerateOptions options;
-            options.all = true;
+            options.selection.all = true;
             options.execution.thread_count = threads;
             int calls = 0;
             options.sink = [&](std::span<const std::uint8_t>) -> bool {

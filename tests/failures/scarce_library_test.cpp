@@ -89,7 +89,7 @@ TEST(ScarceAddresses, EndNoFunctionOfTheLibraryBySignal) {
     const std::string obj = folder.write("grid.obj", gridObj(60, 0.01)), glb = folder.path("grid.glb").string();
     const std::string output = folder.path("new.glb").string(), map = folder.path("new.png").string();
     GenerateOptions all;
-    all.all = true;
+    all.selection.all = true;
     BakeFileOptions small;
     small.map.width = small.map.height = 16;
     ASSERT_TRUE(generateFile(obj, glb, all));

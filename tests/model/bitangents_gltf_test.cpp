@@ -18,8 +18,8 @@ using namespace test;
 
 GenerateOptions withBitangents(Method method) {
     GenerateOptions options;
-    options.tangents.method = method;
-    options.bitangents = true;
+    options.tangents.compute.method = method;
+    options.tangents.bitangents = true;
     return options;
 }
 
@@ -61,9 +61,9 @@ TEST(BitangentsGltf, FollowDpDvWhereUvsAreSheared) {
 TEST(BitangentsGltf, SplitVerticesWhereOnlyTheyDiffer) {
     const GltfBuilder model = shearedModel(0, 0.75f);
     GenerateOptions options = withBitangents(Method::flat);
-    options.bitangents = false;
+    options.tangents.bitangents = false;
     EXPECT_EQ(run(model, options).report.primitives[0].vertices_after, 25u);
-    options.bitangents = true;
+    options.tangents.bitangents = true;
     const GenerateRun outcome = run(model, options);
     EXPECT_EQ(outcome.report.primitives[0].vertices_after, 30u) << "the middle row is doubled";
     for (const Vec3& b : bitangentsOf(outcome)) {
@@ -75,7 +75,7 @@ TEST(BitangentsGltf, SplitVerticesWhereOnlyTheyDiffer) {
 TEST(BitangentsGltf, HaveTheNumberFormatOfTangents) {
     for (const VectorFormat format : {VectorFormat::snorm16, VectorFormat::snorm8}) {
         GenerateOptions options = withBitangents(Method::best);
-        options.format = format;
+        options.storage.format = format;
         const bool is_short = format == VectorFormat::snorm16;
         const TempFolder folder;
         const std::string input = folder.write("in.glb", shearedModel(0.75f, 0.75f).glb()),
@@ -142,9 +142,9 @@ TEST(BitangentsGltf, ReplaceOldOnesOnlyWhenAskedFor) {
     const std::size_t old = model.addFloats(std::vector<float>(75, 0.25f), 3);
     firstPrimitive(model)["attributes"]["_BITANGENT"] = old;
     GenerateOptions options = withBitangents(Method::best);
-    options.existing = ExistingTangents::replace;
+    options.selection.existing = ExistingTangents::replace;
     for (const Vec3& b : bitangentsOf(run(model, options))) expectNear(b, {0, 1, 0}, 1e-6);
-    options.bitangents = false;
+    options.tangents.bitangents = false;
     for (const Vec3& b : bitangentsOf(run(model, options))) EXPECT_EQ(b, (Vec3{0.25f, 0.25f, 0.25f}));
 }
 

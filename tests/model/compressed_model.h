@@ -23,8 +23,8 @@ inline CompressedRun generateAll(const Bytes& glb, GenerateOptions options = {},
                                  const std::string& output_name = "out.glb") {
     const TempFolder folder;
     const std::string input = folder.write("in.glb", glb), output = folder.path(output_name).string();
-    options.all = true;
-    options.existing = ExistingTangents::replace;
+    options.selection.all = true;
+    options.selection.existing = ExistingTangents::replace;
     const auto report = generateFile(input, output, options);
     EXPECT_TRUE(report) << report.error().message << " at " << report.error().place;
     if (!report) return {};
@@ -33,7 +33,7 @@ inline CompressedRun generateAll(const Bytes& glb, GenerateOptions options = {},
     EXPECT_TRUE(second && !second->changed);
     EXPECT_EQ(readFile(output), first);
     CompressedRun outcome{gltf::loadDocument(input, {}), gltf::loadDocument(output, {}), *report};
-    if (options.compression == Compression::keep) {
+    if (options.storage.compression == Compression::keep) {
         for (const std::string& difference : differences(outcome.before, outcome.after, outcome.report))
             ADD_FAILURE() << difference;
     }
@@ -51,7 +51,7 @@ void expectOrderWhateverByteIsChanged(const Model& sound) {
             model.bytes()[at] = static_cast<std::uint8_t>(model.bytes()[at] ^ bits);
             const TempFolder folder;
             const std::string input = folder.write("in.glb", model.glb());
-            const auto report = generateFile(input, folder.path("out.glb").string(), {.all = true});
+            const auto report = generateFile(input, folder.path("out.glb").string(), {.selection = {.all = true}});
             if (report) continue;
             ++refused;
             EXPECT_EQ(report.error().code, ErrorCode::invalidFile) << report.error().message;

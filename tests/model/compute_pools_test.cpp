@@ -54,7 +54,7 @@ GltfBuilder manyPools() {
 }
 
 GenerateOptions withExecution(const Execution& execution) {
-    GenerateOptions options{.all = true};
+    GenerateOptions options{.selection = {.all = true}};
     options.execution = execution;
     return options;
 }

@@ -163,11 +163,11 @@ struct Converted {
 
 Converted convertedModel(const TempFolder& folder, const std::string& input, GenerateOptions options) {
     const auto path = [&](const char* name) { return folder.path(name).string(); };
-    options.existing = ExistingTangents::replace;
-    GenerateOptions first{.all = true, .existing = options.existing};
+    options.selection.existing = ExistingTangents::replace;
+    GenerateOptions first{.selection = {.all = true, .existing = options.selection.existing}};
     EXPECT_TRUE(generateFile(input, path("before.glb"), first));
     EXPECT_TRUE(generateFile(path("before.glb"), path("plain.glb"), options));
-    options.convert_maps = true;
+    options.maps.convert = true;
     Result<GenerateReport> report = generateFile(path("before.glb"), path("after.glb"), options);
     EXPECT_TRUE(report) << report.error().message;
     Converted made{.report = report ? *std::move(report) : GenerateReport{}};
@@ -187,7 +187,7 @@ Json jsonOf(const TempFolder& folder, const std::string& file) {
 
 GenerateOptions methodOptions(Method method) {
     GenerateOptions options;
-    options.tangents.method = method;
+    options.tangents.compute.method = method;
     return options;
 }
 
@@ -281,8 +281,8 @@ TEST(ConvertMaps, MakesAMapOfItsOwnForAMeshWithNewNormalsThatClampsIt) {
     json["samplers"] = Json::parse(R"([{"wrapS":33071,"wrapT":33071}])");
     json["textures"] = Json::parse(R"([{"source":0},{"source":0,"sampler":0}])");
     GenerateOptions options = methodOptions(Method::best);
-    options.convert_maps = true;
-    options.normals.weighting = NormalWeighting::angle;
+    options.maps.convert = true;
+    options.normals.compute.weighting = NormalWeighting::angle;
     const auto report = generateFile(folder.write("in.glb", builder.glb()), folder.path("out.glb").string(), options);
     ASSERT_TRUE(report);
     ASSERT_EQ(report->converted_maps.size(), 2U);
@@ -313,12 +313,12 @@ TEST(ConvertMaps, CountsMissingTangentsAsThoseThatViewersMake) {
     embedMap(builder, 16);
     const std::string input = folder.write("in.glb", builder.glb()), out = folder.path("out.glb").string();
     GenerateOptions options;
-    options.convert_maps = true;
+    options.maps.convert = true;
     auto report = generateFile(input, out, options);
     ASSERT_TRUE(report && report->converted_maps.size() == 1);
     EXPECT_FALSE(report->converted_maps[0].converted);
     EXPECT_NE(report->converted_maps[0].reason.find("as before"), std::string::npos);
-    options.tangents.method = Method::best;
+    options.tangents.compute.method = Method::best;
     report = generateFile(input, out, options);
     ASSERT_TRUE(report && report->converted_maps.size() == 1);
     EXPECT_TRUE(report->converted_maps[0].converted);
@@ -335,7 +335,7 @@ TEST(ConvertMaps, WritesNewFilesBesideAGltf) {
     folder.write("bumps.png", map);
     builder.json()["images"] = Json::parse(R"([{"uri":"bumps.png"}])");
     GenerateOptions options = methodOptions(Method::lengyel);
-    options.convert_maps = true;
+    options.maps.convert = true;
     const auto report =
         generateFile(folder.write("in.gltf", builder.gltfText()), folder.path("out.gltf").string(), options);
     ASSERT_TRUE(report) << report.error().message;
@@ -354,7 +354,7 @@ TEST(ConvertMaps, SaysWhyAMapStays) {
         embedMap(builder, 8);
         builder.json()["images"][0]["bufferView"] = builder.addView(toBytes(image));
         GenerateOptions options = methodOptions(Method::best);
-        options.convert_maps = true;
+        options.maps.convert = true;
         const auto report =
             generateFile(folder.write("in.glb", builder.glb()), folder.path("out.glb").string(), options);
         ASSERT_TRUE(report && report->converted_maps.size() == 1U);
@@ -370,12 +370,12 @@ TEST(ConvertMaps, RefusesOptionsThatChangeThePictureOnPurpose) {
     embedMap(builder, 8);
     const std::string input = folder.write("in.glb", builder.glb());
     std::vector<GenerateOptions> refused(4);
-    refused[0].flip_green = FlipGreen::down;
-    refused[1].existing = ExistingTangents::repair;
-    refused[2].texture_transform = TextureTransform::ignore;
-    refused[3].tangents.convention = conventions::directx;
+    refused[0].maps.flip_green = FlipGreen::down;
+    refused[1].selection.existing = ExistingTangents::repair;
+    refused[2].tangents.texture_transform = TextureTransform::ignore;
+    refused[3].tangents.compute.convention = conventions::directx;
     for (GenerateOptions& options : refused) {
-        options.convert_maps = true;
+        options.maps.convert = true;
         const auto report = generateFile(input, folder.path("out.glb").string(), options);
         EXPECT_TRUE(!report && report.error().code == ErrorCode::invalidOption);
         EXPECT_FALSE(folder.has("out.glb"));

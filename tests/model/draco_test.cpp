@@ -205,7 +205,7 @@ GltfBuilder sharedVertices() {
 }
 
 TEST(DracoPack, BoundsOfTargetsFollowTheVerticesThatStay) {
-    const CompressedRun outcome = generateAll(sharedVertices().glb(), {.compression = Compression::draco});
+    const CompressedRun outcome = generateAll(sharedVertices().glb(), {.storage = {.compression = Compression::draco}});
     std::vector<double> highest;
     for (const Primitive& primitive : readPrimitives(outcome.after)) {
         const std::size_t target = *findAttribute(primitive.targets.at(0), "POSITION");
@@ -223,7 +223,7 @@ TEST(DracoPack, TakesMeshesThatComeApartAndHaveVerticesThatNobodyDraws) {
     builder.json()["accessors"][0]["count"] = 4;  // the last one is in no triangle
     builder.json()["accessors"][1]["count"] = 4;
     primitive["indices"] = builder.addAccessor(std::vector<std::uint16_t>{0, 1, 2, 2, 1, 0}, kU16, "SCALAR", 6);
-    const CompressedRun outcome = generateAll(builder.glb(), {.compression = Compression::draco});
+    const CompressedRun outcome = generateAll(builder.glb(), {.storage = {.compression = Compression::draco}});
     ASSERT_EQ(outcome.report.primitives.size(), 1u);
     EXPECT_EQ(outcome.report.primitives[0].vertices_after, 6u);
 }

@@ -54,7 +54,7 @@ void embed(GltfBuilder& builder, std::size_t image, const std::string& file, con
 }
 
 GenerateReport generate(const std::string& input, const std::string& output, GenerateOptions options = {}) {
-    if (options.flip_green == FlipGreen::none) options.flip_green = FlipGreen::down;
+    if (options.maps.flip_green == FlipGreen::none) options.maps.flip_green = FlipGreen::down;
     Result<GenerateReport> report = generateFile(input, output, options);
     EXPECT_TRUE(report) << report.error().message;
     return report ? *std::move(report) : GenerateReport{};
@@ -127,7 +127,8 @@ TEST(FlipMaps, LeavesMapsAloneThatPointUpAndAllOtherBytesWithThem) {
     ASSERT_EQ(report.normal_maps.size(), 1u);
     EXPECT_EQ(report.normal_maps[0].reason, "green points up already");
     EXPECT_EQ(folder.read("in.glb"), folder.read("out.glb"));
-    EXPECT_TRUE(generate(in, folder.path("all.glb").string(), {.flip_green = FlipGreen::all}).normal_maps[0].flipped);
+    EXPECT_TRUE(
+        generate(in, folder.path("all.glb").string(), {.maps = {.flip_green = FlipGreen::all}}).normal_maps[0].flipped);
     EXPECT_TRUE(codes(folder.path("all.glb").string()).contains("greenFlipped"));
 }
 
@@ -139,7 +140,7 @@ TEST(FlipMaps, LeavesMapsAloneThatInvertedSignsCancel) {
     const GenerateReport kept = generate(in, out);
     EXPECT_FALSE(kept.changed || kept.normal_maps[0].flipped);
     EXPECT_NE(kept.normal_maps[0].reason.find("cancel out"), std::string::npos);
-    const GenerateReport both = generate(in, out, {.existing = ExistingTangents::replace});
+    const GenerateReport both = generate(in, out, {.selection = {.existing = ExistingTangents::replace}});
     EXPECT_TRUE(both.normal_maps[0].flipped);
     EXPECT_EQ(codes(out), Codes{});
 }
@@ -154,11 +155,11 @@ TEST(FlipMaps, LeavesMapsAloneThatSomeMeshesAreMadeFor) {
     builder.json()["meshes"][0]["primitives"].push_back(right);
     const std::string in = folder.write("in.glb", builder.glb()), out = folder.path("out.glb").string();
     for (const ExistingTangents existing : {ExistingTangents::keep, ExistingTangents::repair}) {
-        const GenerateReport report = generate(in, out, {.existing = existing});
+        const GenerateReport report = generate(in, out, {.selection = {.existing = existing}});
         EXPECT_FALSE(report.changed || report.normal_maps[0].flipped);
         EXPECT_NE(report.normal_maps[0].reason.find("cancel out"), std::string::npos);
     }
-    generate(in, out, {.existing = ExistingTangents::replace});
+    generate(in, out, {.selection = {.existing = ExistingTangents::replace}});
     EXPECT_EQ(codes(out), Codes{});
 }
 
@@ -167,8 +168,8 @@ TEST(FlipMaps, LeavesMapsAloneThatPointDownAsTheConventionHasIt) {
     GltfBuilder builder = square();
     embed(builder, 0, pngFile(downMap()), "image/png");
     const std::string in = folder.write("in.glb", builder.glb()), out = folder.path("out.glb").string();
-    GenerateOptions options{.existing = ExistingTangents::replace};
-    options.tangents.convention = conventions::directx;
+    GenerateOptions options{.selection = {.existing = ExistingTangents::replace}};
+    options.tangents.compute.convention = conventions::directx;
     const GenerateReport report = generate(in, out, options);
     EXPECT_FALSE(report.normal_maps[0].flipped);
     EXPECT_NE(report.normal_maps[0].reason.find("convention"), std::string::npos);
@@ -378,8 +379,8 @@ TEST(FlipMaps, SaysWhyAMapWasLeftAlone) {
     ASSERT_EQ(report.normal_maps.size(), 1u);
     EXPECT_FALSE(report.changed);
     EXPECT_EQ(report.normal_maps[0].reason, "it could not be examined (see tspace check)");
-    const GenerateReport all =
-        generate(folder.path("in.glb").string(), folder.path("out.glb").string(), {.flip_green = FlipGreen::all});
+    const GenerateReport all = generate(folder.path("in.glb").string(), folder.path("out.glb").string(),
+                                        {.maps = {.flip_green = FlipGreen::all}});
     EXPECT_EQ(all.normal_maps[0].reason, "it is neither PNG, JPEG, WebP, KTX2, DDS nor TGA");
 }
 

@@ -123,7 +123,7 @@ TEST(GenerateGltf, TurnsSplitStripsAndFansIntoTriangles) {
     builder.addFloats(normals, 3);
     builder.addFloats(uvs, 2);
     builder.addPrimitive({{"POSITION", 0}, {"NORMAL", 1}, {"TEXCOORD_0", 2}})["mode"] = 5;
-    const GenerateRun outcome = run(builder, {.all = true});
+    const GenerateRun outcome = run(builder, {.selection = {.all = true}});
     EXPECT_EQ(outcome.report.primitives.at(0).vertices_after, 12u);
     EXPECT_EQ(outcome.primitives[0].mode, gltf::Mode::triangles);
     EXPECT_EQ(outcome.primitives[0].corner_count, 24u);
@@ -140,7 +140,7 @@ TEST(GenerateGltf, LeavesPlainTrianglesWithoutIndices) {
     builder.addFloats(positions, 3);
     builder.addFloats(uvs, 2);
     builder.addPrimitive({{"POSITION", 0}, {"TEXCOORD_0", 1}});
-    const GenerateRun outcome = run(builder, {.all = true});
+    const GenerateRun outcome = run(builder, {.selection = {.all = true}});
     EXPECT_TRUE(outcome.report.primitives.at(0).normals_generated);
     EXPECT_FALSE(outcome.primitives[0].indices.has_value());
     for (const Vec3& normal : readVec3(outcome.after, outcome.primitives[0], "NORMAL"))
@@ -160,7 +160,8 @@ TEST(GenerateGltf, KeepsTangentsUnlessOverwriteIsAskedFor) {
 }
 
 TEST(GenerateGltf, OverwritesTangentsWhereTheyAre) {
-    const GenerateRun outcome = run(withTangents(Grid(4, false)), {.existing = ExistingTangents::replace});
+    const GenerateRun outcome =
+        run(withTangents(Grid(4, false)), {.selection = {.existing = ExistingTangents::replace}});
     EXPECT_EQ(outcome.report.primitives.at(0).action, PrimitiveAction::replaced);
     EXPECT_EQ(outcome.after.json["bufferViews"], outcome.before.json["bufferViews"]);
     EXPECT_EQ(outcome.after.buffers[0].bytes.size(), outcome.before.buffers[0].bytes.size());
@@ -170,12 +171,12 @@ TEST(GenerateGltf, OverwritesTangentsWhereTheyAre) {
 TEST(GenerateGltf, LeavesOtherReadersOfOldTangentsAlone) {
     GltfBuilder builder = withTangents(Grid(4, false));
     builder.json()["meshes"][0]["primitives"][0]["attributes"]["_COPY"] = 4;
-    const GenerateRun outcome = run(builder, {.existing = ExistingTangents::replace});
+    const GenerateRun outcome = run(builder, {.selection = {.existing = ExistingTangents::replace}});
     EXPECT_NE(outcome.primitives[0].find("TANGENT"), outcome.primitives[0].find("_COPY"));
 }
 
 TEST(GenerateGltf, LeavesNoOldBytesBehindWhenASplitReplacesThem) {
-    const GenerateRun outcome = run(withTangents(Grid(16)), {.existing = ExistingTangents::replace});
+    const GenerateRun outcome = run(withTangents(Grid(16)), {.selection = {.existing = ExistingTangents::replace}});
     const std::size_t vertices = outcome.report.primitives.at(0).vertices_after;
     EXPECT_GT(vertices, outcome.report.primitives.at(0).vertices_before);
     const std::size_t needed = vertices * (12 + 12 + 8 + 16) + outcome.primitives[0].corner_count * 2;
@@ -210,7 +211,7 @@ TEST(GenerateGltf, SaysWhyAPrimitiveIsLeftAlone) {
     add("mode", 1);
     add("mode", 0);
     add("material", 2);
-    const GenerateRun outcome = run(builder, {.existing = ExistingTangents::replace});
+    const GenerateRun outcome = run(builder, {.selection = {.existing = ExistingTangents::replace}});
     const std::vector<PrimitiveReport>& reports = outcome.report.primitives;
     ASSERT_EQ(reports.size(), 5u);
     EXPECT_EQ(reports[1].action, PrimitiveAction::notNeeded);
@@ -283,19 +284,19 @@ TEST(GenerateGltf, NeverChangesBufferFilesOfTheInput) {
     const Bytes model = readFile(folder.path("in/a.gltf")), buffer = readFile(folder.path("in/geo metry.bin"));
     const std::string input = folder.path("in/a.gltf").string();
     const auto same_folder =
-        generateFile(input, folder.path("in/b.gltf").string(), {.existing = ExistingTangents::replace});
+        generateFile(input, folder.path("in/b.gltf").string(), {.selection = {.existing = ExistingTangents::replace}});
     ASSERT_TRUE(same_folder) << same_folder.error().message;
     EXPECT_EQ(same_folder->output_files.size(), 2u);
     EXPECT_TRUE(std::filesystem::exists(folder.path("in/b.tspace.bin")));
-    const auto in_place = generateFile(input, input, {.existing = ExistingTangents::replace});
+    const auto in_place = generateFile(input, input, {.selection = {.existing = ExistingTangents::replace}});
     ASSERT_TRUE(in_place);
     EXPECT_TRUE(std::filesystem::exists(folder.path("in/a.tspace.bin")));
     EXPECT_EQ(readFile(folder.path("in/geo metry.bin")), buffer);
     EXPECT_NE(readFile(folder.path("in/a.gltf")), model);
     // A run with a different method replaces the tangents in the file that the first run wrote.
     const std::size_t own_bytes = readFile(folder.path("in/a.tspace.bin")).size();
-    GenerateOptions other{.existing = ExistingTangents::replace};
-    other.tangents.convention = conventions::opengl;
+    GenerateOptions other{.selection = {.existing = ExistingTangents::replace}};
+    other.tangents.compute.convention = conventions::opengl;
     const auto third = generateFile(input, input, other);
     ASSERT_TRUE(third);
     EXPECT_TRUE(third->changed);
@@ -316,7 +317,7 @@ TEST(GenerateGltf, CopiesNamedFilesButOverwritesNoOther) {
     folder.write("out/tex/image.png", std::string("somebody else's"));
     const std::size_t files = folder.entryCount();
     const Bytes model = readFile(output);
-    const auto refused = generateFile(input, output, {.existing = ExistingTangents::replace});
+    const auto refused = generateFile(input, output, {.selection = {.existing = ExistingTangents::replace}});
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::cannotWrite);
     EXPECT_EQ(folder.entryCount(), files);
@@ -328,7 +329,7 @@ TEST(GenerateGltf, IsCancelledByItsProgressAndLeavesNothing) {
     writeWithFiles(folder, "a.gltf", gridModel(Grid(4)));
     const std::size_t files = folder.entryCount();
     int calls_left = 0;
-    GenerateOptions options{.all = true};
+    GenerateOptions options{.selection = {.all = true}};
     options.progress = [&](const char*, std::uint64_t, std::uint64_t) {
         if (calls_left-- == 0) throw Cancelled{};
     };
@@ -412,7 +413,8 @@ TEST(GenerateGltf, EndsInOrderWhateverByteIsChanged) {
         Bytes changed = sound;
         changed[i] = kValues[i % 4];
         folder.write("in.glb", changed);
-        const auto report = generateFile(input, output, {.all = true, .existing = ExistingTangents::replace});
+        const auto report =
+            generateFile(input, output, {.selection = {.all = true, .existing = ExistingTangents::replace}});
         if (report) continue;
         EXPECT_NE(report.error().code, ErrorCode::internal) << i << ": " << report.error().message;
         EXPECT_NE(report.error().code, ErrorCode::outOfMemory) << i << ": " << report.error().message;
@@ -506,8 +508,8 @@ TEST(GenerateGltf, VerticesWithoutDataCostNoMemory) {
     const auto inspection = inspectFile(input);
     ASSERT_FALSE(inspection);
     EXPECT_EQ(inspection.error().code, ErrorCode::tooLarge);
-    const auto report =
-        generateFile(input, folder.path("out.glb").string(), {.all = true, .existing = ExistingTangents::replace});
+    const auto report = generateFile(input, folder.path("out.glb").string(),
+                                     {.selection = {.all = true, .existing = ExistingTangents::replace}});
     EXPECT_TRUE(report) << "it has no UVs, so nothing is read";
 }
 
@@ -518,8 +520,8 @@ TEST(GenerateGltf, SignsThatWereAllInvertedStaySoWhereNormalsAreMadeAnew) {
     for (std::size_t v = 0; v < 25; ++v) tangents.insert(tangents.end(), {1, 0, 0, -1});
     firstPrimitive(builder)["attributes"]["TANGENT"] = builder.addFloats(tangents, 4);
     for (const ExistingTangents existing : {ExistingTangents::keep, ExistingTangents::replace}) {
-        GenerateOptions options{.existing = existing};
-        options.overwrite_normals = true;
+        GenerateOptions options{.selection = {.existing = existing}};
+        options.normals.overwrite = true;
         const TempFolder folder;
         const std::string output = folder.path("out.glb").string();
         const auto report = generateFile(folder.write("in.glb", builder.glb()), output, options);
@@ -566,10 +568,10 @@ TEST(GenerateGltf, WarnsOfWhatItMakesOverRoundedPositions) {
         return warning.find("primitives/0: " + made + " were computed from positions that are rounded") !=
                std::string::npos;
     };
-    EXPECT_TRUE(says(warningOf(true, {.all = true}), "tangents"));
-    EXPECT_TRUE(says(warningOf(false, {.all = true}), "normals and tangents"));
+    EXPECT_TRUE(says(warningOf(true, {.selection = {.all = true}}), "tangents"));
+    EXPECT_TRUE(says(warningOf(false, {.selection = {.all = true}}), "normals and tangents"));
     GenerateOptions options;
-    options.overwrite_normals = true;
+    options.normals.overwrite = true;
     EXPECT_TRUE(says(warningOf(true, options), "normals")) << "nothing needs tangents";
 }
 

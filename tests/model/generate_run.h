@@ -102,7 +102,7 @@ inline GenerateRun run(const GltfBuilder& builder, GenerateOptions options = {},
     for (const std::string& difference : differences(outcome.before, outcome.after, outcome.report)) {
         ADD_FAILURE() << difference;
     }
-    options.existing = ExistingTangents::replace;
+    options.selection.existing = ExistingTangents::replace;
     const auto second = generateFile(output, output, options);
     EXPECT_TRUE(second && !second->changed);
     EXPECT_EQ(readFile(output), outcome.file);

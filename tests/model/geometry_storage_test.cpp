@@ -64,14 +64,14 @@ TEST(GeometryStorage, StripsAndFansStayWhatTheyAreUnlessVerticesAreSplit) {
     for (const bool is_indexed : {false, true}) {
         for (const auto& make : {ribbon, fan}) {
             const GltfBuilder plain = make(false, is_indexed);
-            const GenerateRun same = run(plain, {.all = true});
+            const GenerateRun same = run(plain, {.selection = {.all = true}});
             EXPECT_EQ(same.report.primitives.at(0).vertices_after, same.report.primitives[0].vertices_before);
             EXPECT_EQ(same.after.json["meshes"][0]["primitives"][0]["mode"],
                       same.before.json["meshes"][0]["primitives"][0]["mode"]);
             EXPECT_EQ(same.primitives[0].indices.has_value(), is_indexed);
             expectUnitTangents(same);
 
-            const GenerateRun split = run(make(true, is_indexed), {.all = true});
+            const GenerateRun split = run(make(true, is_indexed), {.selection = {.all = true}});
             EXPECT_EQ(split.report.primitives.at(0).vertices_after, split.report.primitives[0].vertices_before + 2);
             EXPECT_EQ(split.primitives[0].mode, gltf::Mode::triangles);
             EXPECT_TRUE(split.primitives[0].indices.has_value());
@@ -85,8 +85,8 @@ TEST(GeometryStorage, PrimitiveRestartIsRefusedInOneSentence) {
     firstPrimitive(builder)["indices"] =
         builder.addAccessor<std::uint16_t>({0, 1, 2, 3, 65535, 4, 5, 6}, kU16, "SCALAR", 8);
     const TempFolder folder;
-    const auto report =
-        generateFile(folder.write("in.glb", builder.glb()), folder.path("out.glb").string(), {.all = true});
+    const auto report = generateFile(folder.write("in.glb", builder.glb()), folder.path("out.glb").string(),
+                                     {.selection = {.all = true}});
     ASSERT_FALSE(report);
     EXPECT_EQ(report.error().code, ErrorCode::invalidFile);
     EXPECT_EQ(report.error().place, "/meshes/0/primitives/0/indices");

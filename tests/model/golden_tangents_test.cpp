@@ -45,10 +45,10 @@ TEST_P(ShippedTangents, AgreeWithOursOnEveryCorner) {
     const test::TempFolder folder;
     const std::string output = folder.path("out.glb").string();
     GenerateOptions options;
-    options.all = true;
-    options.existing = ExistingTangents::replace;
+    options.selection.all = true;
+    options.selection.existing = ExistingTangents::replace;
     // SheenCloth has a mirroring transform, and its tangents follow the untransformed UVs.
-    options.texture_transform = TextureTransform::ignore;
+    options.tangents.texture_transform = TextureTransform::ignore;
     const auto report = generateFile(shared(name).string(), output, options);
     ASSERT_TRUE(report) << report.error().message;
     const auto before = gltf::loadDocument(shared(name), {}), after = gltf::loadDocument(output, {});

@@ -43,7 +43,7 @@ std::vector<std::string> answers() {
     const std::string obj = folder.write(
         "a.obj", "v 0.25 0.5 0.125\nv 1.75 0 0.5\nv 0.5 1.5 0\nvt 0.5 0.25\nvt 0.75 0\nvt 0 1.5\nf 1/1 2/2 3/3\n");
     for (const Compression compression : {Compression::none, Compression::meshopt, Compression::draco}) {
-        GenerateOptions options{.all = true, .compression = compression};
+        GenerateOptions options{.selection = {.all = true}, .storage = {.compression = compression}};
         const Result<GenerateReport> made = generateFile(obj, folder.path("a.glb").string(), options);
         all.push_back(made ? folder.read("a.glb") : made.error().message);
         const report::CheckOutcome outcome{.input = "a.glb", .result = checkFile(folder.path("a.glb").string(), {})};

@@ -286,7 +286,8 @@ TEST(MeshoptPack, LeavesNoBufferEmpty) {
         {Json{{"byteLength", 36}, {"uri", encodeDataUri("application/octet-stream", bytesOfValues(positions))}},
          Json{{"byteLength", 8}, {"uri", encodeDataUri("application/octet-stream", bytesOfValues(indices))}}});
     const std::string output = folder.path("out.gltf").string();
-    ASSERT_TRUE(generateFile(folder.write("in.gltf", json.dump()), output, {.compression = Compression::meshopt}));
+    ASSERT_TRUE(
+        generateFile(folder.write("in.gltf", json.dump()), output, {.storage = {.compression = Compression::meshopt}}));
     const Document document = loadDocument(output, {});
     for (const Json& buffer : document.json["buffers"]) EXPECT_GT(buffer["byteLength"], 0u) << buffer.dump();
     EXPECT_EQ(decodeVec3(document, readAccessor(document, 0), "")[2], (Vec3{1, 1, 0}));
@@ -386,7 +387,7 @@ TEST(MeshoptKhr, AppliesTheColorFilter) {
 TEST(MeshoptKhr, IsRefusedWithTheVersionsThatAreThereAndNeeded) {
     const TempFolder folder;
     const std::string input = folder.write("in.glb", packedGrid(kKhrMeshopt).glb());
-    const auto report = generateFile(input, folder.path("out.glb").string(), {.all = true});
+    const auto report = generateFile(input, folder.path("out.glb").string(), {.selection = {.all = true}});
     ASSERT_FALSE(report);
     EXPECT_EQ(report.error().code, ErrorCode::unsupportedFile);
     EXPECT_NE(report.error().message.find(kKhrMeshopt), std::string::npos) << report.error().message;

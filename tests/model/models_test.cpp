@@ -25,11 +25,11 @@ class Models : public testing::TestWithParam<std::string> {
 
     static GenerateOptions everything(Method method) {
         GenerateOptions options;
-        options.all = true;
-        options.existing = ExistingTangents::replace;
-        options.tangents.method = method;
+        options.selection.all = true;
+        options.selection.existing = ExistingTangents::replace;
+        options.tangents.compute.method = method;
         // Lengyel's sums use vertex indices, so a split (which may be caused by repaired signs) changes them.
-        options.sanitize = method != Method::lengyel;
+        options.tangents.sanitize = method != Method::lengyel;
         return options;
     }
 
@@ -80,7 +80,7 @@ TEST_P(Models, SurviveConversion) {
 TEST_P(Models, SurviveRepairAndStrip) {
     const TempFolder folder;
     const std::string output = folder.path(input_.filename().string()).string();
-    const GenerateOptions options = {.strip = true, .existing = ExistingTangents::repair};
+    const GenerateOptions options = {.selection = {.strip = true, .existing = ExistingTangents::repair}};
     const auto report = generateFile(input_.string(), output, options);
     if (!report) GTEST_SKIP() << report.error().message;
     const auto before = gltf::loadDocument(input_, {}), after = gltf::loadDocument(output, {});
@@ -158,15 +158,15 @@ TEST_P(EveryPacking, ChangesOnlyWhatItSaysAndNothingTheSecondTime) {
         const TempFolder temp;
         const std::string output = temp.path(GetParam().output).string();
         GenerateOptions options;
-        options.all = true;
-        options.existing = ExistingTangents::replace;
-        options.compression = GetParam().compression;
-        options.format = GetParam().format;
+        options.selection.all = true;
+        options.selection.existing = ExistingTangents::replace;
+        options.storage.compression = GetParam().compression;
+        options.storage.format = GetParam().format;
         const auto report = generateFile(input.string(), output, options);
         if (!report && report.error().message.find("was built without the library") != std::string::npos) continue;
         ASSERT_TRUE(report) << report.error().message << " at " << report.error().place;
         ++count;
-        if (options.compression != Compression::draco) {
+        if (options.storage.compression != Compression::draco) {
             const auto before = gltf::loadDocument(input, {}), after = gltf::loadDocument(output, {});
             for (const std::string& difference : test::differences(before, after, *report, true))
                 ADD_FAILURE() << difference;
@@ -198,9 +198,9 @@ TEST_P(EveryMethod, ChangesNothingTheSecondTime) {
         const TempFolder temp;
         const std::string output = temp.path("out.glb").string();
         GenerateOptions options;
-        options.all = true;
-        options.existing = ExistingTangents::replace;
-        options.tangents.method = GetParam();
+        options.selection.all = true;
+        options.selection.existing = ExistingTangents::replace;
+        options.tangents.compute.method = GetParam();
         if (!generateFile(input.string(), output, options)) continue;
         ++count;
         ASSERT_NO_FATAL_FAILURE(expectNoChangeAgain(output, options));
@@ -224,8 +224,8 @@ TEST_P(BadFiles, EndWithAnErrorOrASoundFile) {
         const TempFolder folder;
         const std::string output = folder.path(name).string();
         GenerateOptions options;
-        options.all = true;
-        options.existing = ExistingTangents::replace;
+        options.selection.all = true;
+        options.selection.existing = ExistingTangents::replace;
         const auto report = generateFile(input, output, options);
         if (report) {
             const auto second = generateFile(output, output, options);

@@ -65,8 +65,9 @@ TEST(MorphGltf, TangentsFollowGeneratedNormalsAsTheyAreWritten) {
     GltfBuilder builder = morphModel(grid, {lifted(grid, [](float x, float) { return x > 2; })});
     firstPrimitive(builder)["attributes"].erase("NORMAL");
     builder.json()["extensionsUsed"] = builder.json()["extensionsRequired"] = {"KHR_mesh_quantization"};
-    run(builder, {.format = VectorFormat::snorm16});  // a second run reads the deltas, and must change nothing
-    run(builder, {.format = VectorFormat::snorm8});
+    run(builder,
+        {.storage = {.format = VectorFormat::snorm16}});  // a second run reads the deltas, and must change nothing
+    run(builder, {.storage = {.format = VectorFormat::snorm8}});
 }
 
 TEST(MorphGltf, GivesDeltasToTargetsThatMoveTheSurfaceOnly) {
@@ -226,7 +227,7 @@ TEST(MorphGltf, LeavesKeptTangentsAloneThatDiffer) {
     const TempFolder folder;
     withoutFirstDeltas(folder, "part.gltf");
     GenerateOptions options;
-    options.tangents.convention = conventions::opengl;  // the other sign
+    options.tangents.compute.convention = conventions::opengl;  // the other sign
     const auto report = generateFile(folder.path("part.gltf").string(), folder.path("out.gltf").string(), options);
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_FALSE(report->changed);
@@ -241,11 +242,11 @@ TEST(MorphGltf, DoesNotGrowWhenDeltasAreReplaced) {
     const auto few = lifted(grid, [](float x, float y) { return x < 4 && y < 4; });
     const std::string file = folder.write("model.glb", morphModel(grid, {few, allLifted(grid)}).glb());
     GenerateOptions options;
-    options.existing = ExistingTangents::replace;
+    options.selection.existing = ExistingTangents::replace;
     ASSERT_TRUE(generateFile(file, file, options));
     const Bytes first = readFile(file);
     for (const Method method : {Method::lengyel, Method::basis, Method::mikktspace}) {
-        options.tangents.method = method;
+        options.tangents.compute.method = method;
         const auto report = generateFile(file, file, options);
         ASSERT_TRUE(report) << report.error().message;
         EXPECT_TRUE(report->changed);

@@ -120,7 +120,7 @@ Made make(const GltfBuilder& builder, const GenerateOptions& options) {
 
 GenerateOptions smooth(NormalWeighting weighting = NormalWeighting::angle) {
     GenerateOptions options;
-    options.normals.weighting = weighting;
+    options.normals.compute.weighting = weighting;
     return options;
 }
 
@@ -175,7 +175,7 @@ TEST(NormalsOverPrimitives, EachCanHaveItsOwn) {
     addPart(parts, rightOf(sheet));
     addPart(left, leftOf(sheet));
     GenerateOptions options = smooth();
-    options.normals_per_primitive = true;
+    options.normals.per_primitive = true;
     const Made made = make(parts, options);
     EXPECT_GT(borderOf(made).worst_deg, 5);
     EXPECT_EQ(made.vec3(0, "NORMAL"), make(left, options).vec3(0, "NORMAL"));
@@ -190,7 +190,7 @@ TEST(NormalsOverPrimitives, TheCreaseAngleHolds) {
     addPart(parts, rightOf(roof));
     GenerateOptions options = smooth();
     EXPECT_LT(borderOf(make(parts, options)).worst_deg, 0.05);
-    options.normals.crease_angle_deg = 60;
+    options.normals.compute.crease_angle_deg = 60;
     EXPECT_NEAR(borderOf(make(parts, options)).worst_deg, 90, 0.1);
 }
 
@@ -287,7 +287,7 @@ TEST(NormalsOverPrimitives, SidesOfASheetAndTurnedPiecesAreNotJoined) {
 
 GenerateOptions anew(NormalWeighting weighting = NormalWeighting::angle) {
     GenerateOptions options = smooth(weighting);
-    options.overwrite_normals = true;
+    options.normals.overwrite = true;
     return options;
 }
 
@@ -315,7 +315,7 @@ TEST(OverwriteNormals, FlatTrianglesBecomeSmoothAndTheirVerticesOne) {
     }
     const Made again = [&] {
         GenerateOptions options = anew();
-        options.normals.crease_angle_deg = 0.01f;
+        options.normals.compute.crease_angle_deg = 0.01f;
         return make(builder, options);
     }();
     EXPECT_GT(again.primitives[0].vertex_count, 81u) << "hard edges split what was welded";
@@ -372,7 +372,7 @@ TEST(OverwriteNormals, InvertedSignsStayBecauseTheMapMayBeMadeForThem) {
             EXPECT_EQ(tangent.w, data.tangents[0].w);
         EXPECT_EQ(made.report.primitives[0].notes.size(), factor < 0 ? 1u : 0u);
         GenerateOptions options = anew();
-        options.existing = ExistingTangents::replace;
+        options.selection.existing = ExistingTangents::replace;
         const Made replaced = make(builder, options);
         EXPECT_EQ(readTangents(replaced.document, replaced.primitives[0])[0].w, factor * data.tangents[0].w);
     }
@@ -406,17 +406,17 @@ TEST(OptionsWithoutEffect, AreSaid) {
     GltfBuilder builder;
     addPart(builder, data, true)["attributes"]["TANGENT"] = builder.addFloats(floatsOf(data.tangents), 4);
     GenerateOptions options = smooth();
-    options.normals.crease_angle_deg = 60;
-    options.tangents.method = Method::area;
-    options.morph_normals = MorphNormals::missing;
+    options.normals.compute.crease_angle_deg = 60;
+    options.tangents.compute.method = Method::area;
+    options.normals.morphs = MorphNormals::missing;
     EXPECT_TRUE(says(make(builder, options).report.warnings, "--crease has no effect")) << "as --crease 60 alone is";
-    options.use_smoothing_groups = false;
+    options.normals.use_smoothing_groups = false;
     const std::vector<std::string> warnings = make(builder, options).report.warnings;
     EXPECT_TRUE(says(warnings, "--normals and --crease have no effect"));
     EXPECT_TRUE(says(warnings, "--method has no effect"));
     EXPECT_TRUE(says(warnings, "--morph-normals has no effect"));
-    options.overwrite_normals = true;
-    options.morph_normals = MorphNormals::keep;
+    options.normals.overwrite = true;
+    options.normals.morphs = MorphNormals::keep;
     EXPECT_TRUE(make(builder, options).report.warnings.empty());
     EXPECT_TRUE(make(builder, {}).report.warnings.empty());
 }
@@ -460,7 +460,7 @@ TEST(MorphNormals, NormalsTurnAsTheSurfaceDoes) {
     for (const bool with_offsets : {false, true}) {
         for (const MorphNormals which : {MorphNormals::keep, MorphNormals::missing, MorphNormals::all}) {
             const GltfBuilder builder = rolling(data, with_offsets);
-            const Made made = make(builder, {.morph_normals = which});
+            const Made made = make(builder, {.normals = {.morphs = which}});
             EXPECT_EQ(made.vec3(0, "NORMAL"), data.normals);
             const bool is_new = which == MorphNormals::all || (which == MorphNormals::missing && !with_offsets);
             EXPECT_EQ(made.report.primitives[0].morph_normals_computed, is_new ? 1u : 0u);
@@ -489,15 +489,15 @@ TEST(MorphNormals, OffsetsThatAreNotFiniteAreMissing) {
     for (Vec3& p : data.positions) p.z = 0;
     data.normals.assign(data.positions.size(), Vec3{0, 0, 1});
     const auto offsetsOf = [](const Made& made) { return readOffsets(made.document, made.primitives[0], 0, "NORMAL"); };
-    const std::vector<Vec3> right = offsetsOf(make(rolling(data, false), {.morph_normals = MorphNormals::all}));
+    const std::vector<Vec3> right = offsetsOf(make(rolling(data, false), {.normals = {.morphs = MorphNormals::all}}));
     ASSERT_GE(right.size(), data.positions.size());
 
     const std::vector<float> all_nan(3 * data.positions.size(), nan);
     std::vector<float> one_nan(3 * data.positions.size(), 0.125f);  // else somebody's choice
     one_nan[3 * 40] = nan;
     for (const MorphNormals which : {MorphNormals::missing, MorphNormals::all}) {
-        EXPECT_EQ(offsetsOf(make(rollingWith(data, all_nan), {.morph_normals = which})), right);
-        const Made made = make(rollingWith(data, one_nan), {.morph_normals = which});
+        EXPECT_EQ(offsetsOf(make(rollingWith(data, all_nan), {.normals = {.morphs = which}})), right);
+        const Made made = make(rollingWith(data, one_nan), {.normals = {.morphs = which}});
         EXPECT_FALSE(says(made.report.warnings, "no effect"));
         const std::vector<Vec3> offsets = offsetsOf(made);
         for (std::size_t v = 0; v < data.positions.size(); ++v) {
@@ -513,7 +513,7 @@ TEST(MorphNormals, AreMadeWhereTangentsStayOrAreNotNeeded) {
     data.normals.assign(data.positions.size(), Vec3{0, 0, 1});
     GltfBuilder plain = rolling(data, false);
     firstPrimitive(plain)["material"] = 1;
-    const Made without = make(plain, {.morph_normals = MorphNormals::missing});
+    const Made without = make(plain, {.normals = {.morphs = MorphNormals::missing}});
     EXPECT_FALSE(without.primitives[0].find("TANGENT"));
     EXPECT_TRUE(findAttribute(without.primitives[0].targets[0], "NORMAL"));
 
@@ -526,7 +526,7 @@ TEST(MorphNormals, AreMadeWhereTangentsStayOrAreNotNeeded) {
     firstPrimitive(again)["attributes"]["TANGENT"] = again.addFloats(floatsOf(kept.tangents), 4);
     const std::size_t zeros = again.addFloats(std::vector<float>(3 * data.positions.size(), 0), 3);
     firstPrimitive(again)["targets"][0]["TANGENT"] = zeros;
-    const Made made = make(again, {.morph_normals = MorphNormals::all});
+    const Made made = make(again, {.normals = {.morphs = MorphNormals::all}});
     EXPECT_EQ(made.report.primitives[0].action, PrimitiveAction::kept);
     EXPECT_EQ(made.report.primitives[0].morph_deltas_computed, 1u);
     const auto deltas = readOffsets(made.document, made.primitives[0], 0, "TANGENT");
@@ -561,7 +561,7 @@ TEST(Winding, SheetsWithTwoSidesAreCounted) {
     TSPACE_NEEDS_SHARED("reports/walls_two_sided.obj");
     const TempFolder folder;
     GenerateOptions options = smooth();
-    options.all = true;
+    options.selection.all = true;
     const auto report =
         generateFile(shared("reports/walls_two_sided.obj").string(), folder.path("out.glb").string(), options);
     ASSERT_TRUE(report);
@@ -576,7 +576,7 @@ TEST(OverwriteNormals, WorksForObj) {
     GenerateOptions options = smooth();
     ASSERT_TRUE(generateFile(input, output, options));
     EXPECT_EQ(readPrimitives(gltf::loadDocument(output, {}))[0].vertex_count, 64u);
-    options.overwrite_normals = true;
+    options.normals.overwrite = true;
     const auto report = generateFile(input, output, options);
     ASSERT_TRUE(report);
     EXPECT_TRUE(report->primitives[0].normals_replaced);

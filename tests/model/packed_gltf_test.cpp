@@ -24,8 +24,8 @@ constexpr FrameFormat kFormats[] = {FrameFormat::frame32,     FrameFormat::frame
 
 GenerateOptions packing(FrameFormat format, PackDrop drop = PackDrop::nothing) {
     GenerateOptions options;
-    options.pack = format;
-    options.pack_drop = drop;
+    options.storage.pack = format;
+    options.storage.pack_drop = drop;
     return options;
 }
 
@@ -148,14 +148,14 @@ TEST(PackedGltf, IsLeftOutWithTheReasonWhereAFrameIsMissing) {
     ASSERT_EQ(report.notes.size(), 1u);
     EXPECT_EQ(report.notes[0], "its frames are not packed: it has no TANGENT (--all adds what is missing)");
     GenerateOptions all = packing(FrameFormat::frame32);
-    all.all = true;
+    all.selection.all = true;
     EXPECT_TRUE(run(model, all).report.primitives.at(0).frames_packed) << "the advice holds";
 }
 
 TEST(PackedGltf, IsOfTheNumbersThatAreStored) {
     for (const VectorFormat numbers : {VectorFormat::snorm16, VectorFormat::snorm8}) {
         GenerateOptions options = packing(FrameFormat::frame64);
-        options.format = numbers;
+        options.storage.format = numbers;
         const TempFolder folder;
         const std::string input = folder.write("in.glb", gridModel(bentGrid()).glb()),
                           output = folder.path("out.glb").string();
@@ -166,7 +166,7 @@ TEST(PackedGltf, IsOfTheNumbersThatAreStored) {
         const std::vector<Vec3> normals = readVec3(document, primitive, "NORMAL");
         for (std::size_t i = 0; i < normals.size(); ++i)
             EXPECT_LE(angleBetween(toDouble(frames.normals[i]), toDouble(normals[i])), 1e-5);
-        options.existing = ExistingTangents::keep;
+        options.selection.existing = ExistingTangents::keep;
         const auto second = generateFile(output, output, options);
         EXPECT_TRUE(second && !second->changed);
     }
@@ -200,7 +200,7 @@ TEST(PackedGltf, MayStandInPlaceOfWhatItWasPackedFrom) {
             EXPECT_FALSE(second->changed);
             EXPECT_EQ(second->primitives[0].action, PrimitiveAction::kept);
             EXPECT_EQ(second->primitives[0].reason, "its frames are packed in _FRAME32");
-            EXPECT_EQ(second->primitives[0].frames_packed, again.pack.has_value());
+            EXPECT_EQ(second->primitives[0].frames_packed, again.storage.pack.has_value());
             EXPECT_TRUE(second->primitives[0].notes.empty());
             EXPECT_EQ(readFile(output), bytes);
         }
@@ -258,8 +258,8 @@ TEST(PackedGltf, FollowsTangentsThatAreReplacedOnlyWhenAskedFor) {
                       packed = folder.path("packed.glb").string(), turned = folder.path("turned.glb").string();
     ASSERT_TRUE(generateFile(input, packed, packing(FrameFormat::frame32)));
     GenerateOptions options;
-    options.existing = ExistingTangents::replace;
-    options.tangents.convention = conventions::opengl;
+    options.selection.existing = ExistingTangents::replace;
+    options.tangents.compute.convention = conventions::opengl;
     const auto report = generateFile(packed, turned, options);
     ASSERT_TRUE(report && report->primitives[0].notes.size() == 1);
     EXPECT_EQ(report->primitives[0].notes[0],
@@ -323,7 +323,7 @@ TEST(PackedGltf, RefusesOptionsThatMeanNothing) {
     const TempFolder folder;
     const std::string input = folder.write("in.glb", gridModel(Grid(4)).glb());
     GenerateOptions no_pack;
-    no_pack.pack_drop = PackDrop::all;
+    no_pack.storage.pack_drop = PackDrop::all;
     for (const GenerateOptions& options : {no_pack, packing(static_cast<FrameFormat>(99))}) {
         const auto report = generateFile(input, folder.path("out.glb").string(), options);
         ASSERT_FALSE(report);

@@ -65,8 +65,8 @@ TEST(Repair, MendsAttributesOfAWrongTypeOrNumber) {
         EXPECT_FALSE(plain->changed);
         if (command.empty()) continue;
         GenerateOptions options;
-        options.overwrite_normals = std::string(faulty.option) == "--overwrite-normals";
-        if (!options.overwrite_normals) options.existing = ExistingTangents::repair;
+        options.normals.overwrite = std::string(faulty.option) == "--overwrite-normals";
+        if (!options.normals.overwrite) options.selection.existing = ExistingTangents::repair;
         const Result<GenerateReport> mended = generateFile(input, output, options);
         ASSERT_TRUE(mended) << mended.error().message;
         const Result<CheckReport> again = checkFile(output);

@@ -19,7 +19,7 @@ namespace {
 
 using namespace test;
 
-const GenerateOptions kRepair = {.existing = ExistingTangents::repair};
+const GenerateOptions kRepair = {.selection = {.existing = ExistingTangents::repair}};
 
 /// A model with correct tangents in its GLB, computed by `method`, and then changed: `harm` is called with each vertex
 /// and its tangent.
@@ -27,7 +27,7 @@ class Model {
   public:
     explicit Model(const GltfBuilder& builder, Method method = Method::mikktspace) {
         GenerateOptions options;
-        options.tangents.method = method;
+        options.tangents.compute.method = method;
         const std::string input = folder_.write("in.glb", builder.glb());
         EXPECT_TRUE(generateFile(input, good(), options));
     }
@@ -192,8 +192,8 @@ TEST(Repair, JudgesByTheUvsAfterTheTextureTransform) {
     texture["extensions"]["KHR_texture_transform"] = {{"rotation", 1.5}};
     Model model(builder);
     EXPECT_EQ(model.repair([](std::size_t, Vec4&) {}).primitives.at(0).action, PrimitiveAction::kept);
-    const GenerateOptions ignore = {.existing = ExistingTangents::repair,
-                                    .texture_transform = TextureTransform::ignore};
+    const GenerateOptions ignore = {.selection = {.existing = ExistingTangents::repair},
+                                    .tangents = {.texture_transform = TextureTransform::ignore}};
     EXPECT_EQ(model.repair([](std::size_t, Vec4&) {}, ignore).primitives.at(0).action, PrimitiveAction::replaced);
 }
 
@@ -407,7 +407,7 @@ TEST(Repair, ReplacesTangentsThatCannotBeRead) {
         for (const ExistingTangents existing :
              {ExistingTangents::keep, ExistingTangents::repair, ExistingTangents::replace}) {
             GenerateReport report;
-            for (const Vec4& t : tangentsAfter(builder, {.existing = existing}, report))
+            for (const Vec4& t : tangentsAfter(builder, {.selection = {.existing = existing}}, report))
                 EXPECT_EQ(t, (Vec4{1, 0, 0, 1}));
             EXPECT_EQ(report.primitives.at(0).action, PrimitiveAction::replaced);
             EXPECT_EQ(report.primitives.at(0).notes.at(0), "its old tangents were invalid: " + why);
@@ -451,7 +451,8 @@ TEST(Repair, MakesEverySignOneAndEveryLengthToo) {
                 GenerateReport report;
                 EXPECT_EQ(tangentsAfter(builder, kRepair, report), good) << broken;
                 EXPECT_GE(report.primitives.at(0).mended_vertex_count, 1u);
-                for (const Vec4& t : tangentsAfter(builder, {.existing = ExistingTangents::replace}, report)) {
+                for (const Vec4& t :
+                     tangentsAfter(builder, {.selection = {.existing = ExistingTangents::replace}}, report)) {
                     EXPECT_EQ(std::fabs(t.w), 1);
                     EXPECT_FLOAT_EQ(length(xyz(t)), 1);
                 }
@@ -531,7 +532,7 @@ TEST(Repair, KeepsGoodTangentsAlsoWhereGeometryIsPackedAnew) {
     const Model model(gridModel(Grid(4)));
     const TempFolder folder;
     GenerateOptions options = kRepair;
-    options.compression = Compression::meshopt;
+    options.storage.compression = Compression::meshopt;
     const std::string output = folder.path("packed.glb").string();
     const Result<GenerateReport> report = generateFile(model.good(), output, options);
     if (!report && report.error().code == ErrorCode::unsupportedFile) GTEST_SKIP() << "built without meshopt";

@@ -21,7 +21,7 @@ GltfBuilder unneeded(const Grid& grid = Grid(4, false)) {
 }
 
 TEST(StripTangents, TakesThemAwayWithTheirBytes) {
-    const GenerateRun outcome = run(unneeded(), {.strip = true});
+    const GenerateRun outcome = run(unneeded(), {.selection = {.strip = true}});
     const PrimitiveReport& report = outcome.report.primitives.at(0);
     EXPECT_EQ(report.action, PrimitiveAction::removed);
     EXPECT_EQ(report.reason, "nothing needs its tangents: its material has no texture that needs tangents");
@@ -41,13 +41,13 @@ TEST(StripTangents, IsNotDoneUnlessAskedFor) {
 
 TEST(StripTangents, LeavesThoseThatAMaterialOrAVariantNeeds) {
     const GenerateRun needed =
-        run(withTangents(Grid(4, false)), {.strip = true, .existing = ExistingTangents::replace});
+        run(withTangents(Grid(4, false)), {.selection = {.strip = true, .existing = ExistingTangents::replace}});
     EXPECT_EQ(needed.report.primitives.at(0).action, PrimitiveAction::replaced);
 
     GltfBuilder builder = unneeded();
     firstPrimitive(builder)["extensions"]["KHR_materials_variants"]["mappings"] =
         Json::parse(R"([{"material":0,"variants":[0]}])");
-    const GenerateRun variant = run(builder, {.strip = true, .existing = ExistingTangents::replace});
+    const GenerateRun variant = run(builder, {.selection = {.strip = true, .existing = ExistingTangents::replace}});
     EXPECT_EQ(variant.report.primitives.at(0).action, PrimitiveAction::replaced);
     EXPECT_EQ(variant.report.primitives.at(0).reason,
               "a material variant needs tangents for normalTexture, and overwriting was requested");
@@ -61,7 +61,7 @@ TEST(StripTangents, LeavesDataThatSomethingElseUses) {
     primitives[0].erase("indices");
     const TempFolder folder;
     const std::string input = folder.write("in.glb", builder.glb()), output = folder.path("out.glb").string();
-    const auto report = generateFile(input, output, {.strip = true});
+    const auto report = generateFile(input, output, {.selection = {.strip = true}});
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_EQ(report->primitives[0].action, PrimitiveAction::kept);
     EXPECT_EQ(report->primitives[1].action, PrimitiveAction::removed);
@@ -84,7 +84,7 @@ TEST(StripTangents, LeavesInterleavedNeighboursAsTheyAre) {
             {{"bufferView", view}, {"byteOffset", offset}, {"componentType", 5126}, {"count", 3}, {"type", type}});
     }
     builder.addPrimitive({{"POSITION", 0}, {"TANGENT", 1}});
-    const GenerateRun outcome = run(builder, {.strip = true});
+    const GenerateRun outcome = run(builder, {.selection = {.strip = true}});
     EXPECT_EQ(outcome.report.primitives.at(0).action, PrimitiveAction::removed);
     EXPECT_EQ(readVec3(outcome.after, outcome.primitives[0], "POSITION")[2], (Vec3{14, 15, 16}));
 }
@@ -94,13 +94,13 @@ TEST(StripTangents, TakesThoseOfMorphTargetsToo) {
     const std::size_t delta = builder.addFloats(std::vector<float>(25 * 3), 3);
     const std::size_t turn = builder.addFloats(std::vector<float>(25 * 3), 3);
     firstPrimitive(builder)["targets"] = Json::array({Json{{"POSITION", delta}, {"TANGENT", turn}}});
-    const GenerateRun outcome = run(builder, {.strip = true});
+    const GenerateRun outcome = run(builder, {.selection = {.strip = true}});
     EXPECT_EQ(outcome.report.primitives.at(0).action, PrimitiveAction::removed);
     ASSERT_EQ(outcome.primitives[0].targets.size(), 1u);
     EXPECT_EQ(outcome.primitives[0].targets[0].size(), 1u);
 
     firstPrimitive(builder)["targets"].push_back(Json{{"TANGENT", turn}});
-    const PrimitiveReport report = run(builder, {.strip = true}).report.primitives.at(0);
+    const PrimitiveReport report = run(builder, {.selection = {.strip = true}}).report.primitives.at(0);
     EXPECT_EQ(report.action, PrimitiveAction::notNeeded) << "an empty target is not allowed";
     EXPECT_NE(report.reason.find("because a morph target has only tangent deltas"), std::string::npos) << report.reason;
 }
@@ -115,7 +115,7 @@ TEST(StripTangents, TakesThemFromPointsAndFromSparseAccessors) {
     accessor["sparse"] = {{"count", 1},
                           {"indices", {{"bufferView", views - 2}, {"componentType", kU16}}},
                           {"values", {{"bufferView", views - 1}}}};
-    const GenerateRun outcome = run(builder, {.strip = true});
+    const GenerateRun outcome = run(builder, {.selection = {.strip = true}});
     EXPECT_EQ(outcome.report.primitives.at(0).action, PrimitiveAction::removed);
     EXPECT_FALSE(outcome.after.json["accessors"][4].contains("sparse"));
     EXPECT_LT(outcome.after.buffers[0].bytes.size(), outcome.before.buffers[0].bytes.size());
@@ -126,7 +126,7 @@ TEST(StripTangents, CanEmptyABufferThatHeldNothingElse) {
     builder.addFloats(std::vector<float>(12, 0.5f), 4);
     builder.json()["accessors"].push_back({{"componentType", 5126}, {"count", 3}, {"type", "VEC3"}});
     builder.addPrimitive({{"POSITION", 1}, {"TANGENT", 0}});
-    const GenerateRun outcome = run(builder, {.strip = true});
+    const GenerateRun outcome = run(builder, {.selection = {.strip = true}});
     EXPECT_GT(outcome.after.json["buffers"][0]["byteLength"], 0) << "glTF has no empty buffers";
     EXPECT_LT(outcome.after.json["buffers"][0]["byteLength"], 48);
 }
@@ -141,7 +141,7 @@ TEST(StripTangents, NeedsNoBuffer) {
         builder.addPrimitive({{"POSITION", 0}, {"TANGENT", 1}});
         const TempFolder folder;
         const std::string input = folder.write("in.gltf", builder.gltfText());
-        const auto report = generateFile(input, folder.path(output).string(), {.strip = true});
+        const auto report = generateFile(input, folder.path(output).string(), {.selection = {.strip = true}});
         ASSERT_TRUE(report) << report.error().message << " at " << report.error().place;
         EXPECT_EQ(report->primitives.at(0).action, PrimitiveAction::removed);
         const gltf::Document written = gltf::loadDocument(folder.path(output).string(), {});
@@ -152,7 +152,8 @@ TEST(StripTangents, NeedsNoBuffer) {
 TEST(StripTangents, ContradictsAll) {
     const TempFolder folder;
     const std::string input = folder.write("in.glb", unneeded().glb());
-    const auto report = generateFile(input, folder.path("out.glb").string(), {.all = true, .strip = true});
+    const auto report =
+        generateFile(input, folder.path("out.glb").string(), {.selection = {.all = true, .strip = true}});
     ASSERT_FALSE(report);
     EXPECT_EQ(report.error().code, ErrorCode::invalidOption);
     EXPECT_EQ(folder.entryCount(), 1u);

@@ -83,7 +83,9 @@ TEST(TextureTransform, GivesSoundTangentsHoweverAbsurdItIs) {
 }
 
 TEST(TextureTransform, IsLeftOutWhenAskedFor) {
-    const auto options = [](TextureTransform reading) { return GenerateOptions{.texture_transform = reading}; };
+    const auto options = [](TextureTransform reading) {
+        return GenerateOptions{.tangents = {.texture_transform = reading}};
+    };
     const GltfBuilder builder = transformed({{"rotation", 1}, {"scale", {-1, 1}}}, true);
     EXPECT_EQ(tangentsOf(builder, options(TextureTransform::ignore)), tangentsOf(gridModel(Grid(4))));
     EXPECT_NE(tangentsOf(builder, options(TextureTransform::apply)), tangentsOf(gridModel(Grid(4))));
@@ -91,7 +93,7 @@ TEST(TextureTransform, IsLeftOutWhenAskedFor) {
 
 TEST(TextureTransform, IsSaidInANote) {
     const auto notes = [](const Json& transform, TextureTransform reading) {
-        return run(transformed(transform), {.texture_transform = reading}).report.primitives.at(0).notes;
+        return run(transformed(transform), {.tangents = {.texture_transform = reading}}).report.primitives.at(0).notes;
     };
     const Json turn = {{"rotation", 1}}, mirror = {{"scale", {-1, 1}}}, stretch = {{"scale", {2, 3}}};
     EXPECT_EQ(notes(turn, TextureTransform::apply),

@@ -54,9 +54,9 @@ TEST(ReadableFiles, AreProcessed) {
     const std::string folder = "bad/gltf-validator";
     TSPACE_NEEDS_SHARED("bad/gltf-validator");
     GenerateOptions all, strip, repair;
-    all.all = all.overwrite_normals = true;
-    strip.strip = true;
-    repair.existing = ExistingTangents::repair;
+    all.selection.all = all.normals.overwrite = true;
+    strip.selection.strip = true;
+    repair.selection.existing = ExistingTangents::repair;
     int count = 0;
     for (const std::string& name : test::modelFiles(folder)) {
         const std::string path = (shared(folder) / name).string();

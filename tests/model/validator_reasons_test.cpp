@@ -101,8 +101,8 @@ TEST(ValidatorReasons, AreThoseOfRefusedFiles) {
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
         const std::string extension = entry.path().extension().string();
         if (extension != ".gltf" && extension != ".glb") continue;
-        GenerateOptions options{.all = true};
-        options.existing = ExistingTangents::replace;
+        GenerateOptions options{.selection = {.all = true}};
+        options.selection.existing = ExistingTangents::replace;
         const auto report = generateFile(entry.path().string(), scratch.path("out" + extension).string(), options);
         if (report) continue;
         const Error& error = report.error();

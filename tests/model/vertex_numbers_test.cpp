@@ -37,8 +37,8 @@ Written generated(const GltfBuilder& builder, GenerateOptions options = {}) {
     if (!report) return {};
     Written written{.report = *std::move(report), .document = gltf::loadDocument(output, {})};
     written.primitives = gltf::readPrimitives(written.document);
-    options.existing = ExistingTangents::replace;
-    options.compression = Compression::keep;
+    options.selection.existing = ExistingTangents::replace;
+    options.storage.compression = Compression::keep;
     const Result<GenerateReport> second = generateFile(output, folder.path("again.glb").string(), options);
     EXPECT_TRUE(second && !second->changed && second->warnings.empty());
     return written;
@@ -190,7 +190,7 @@ TEST(VertexNumbers, DracoLeavesUnusedVerticesOutAndOutlinesKnow) {
     addOutline(builder, {2, 7, 12, 7, 12, 17, 22, 17, 1, 2, 2, 3, 3, 4});
     firstPrimitive(builder)["extensions"]["EXT_mesh_features"] =
         Json::parse(R"({"featureIds": [{"featureCount": 25}]})");
-    const Written written = generated(builder, {.compression = Compression::draco});
+    const Written written = generated(builder, {.storage = {.compression = Compression::draco}});
     EXPECT_TRUE(written.report.warnings.empty());
     EXPECT_EQ(outlineOf(written.document, written.primitives[0]).off_triangles, 0U);
     EXPECT_TRUE(written.primitives[0].find("_FEATURE_ID_0"));

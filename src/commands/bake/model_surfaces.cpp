@@ -69,11 +69,11 @@ bool lacksFrames(gltf::Model& model) {
 
 GenerateOptions allFrames(const BakeFileOptions& options, ExistingTangents existing, Faces faces) {
     GenerateOptions generate;
-    generate.all = true;
-    generate.existing = existing;
-    generate.faces = faces;
-    generate.tangents = options.tangents;
-    generate.normals = options.normals;
+    generate.selection.all = true;
+    generate.selection.existing = existing;
+    generate.tangents.faces = faces;
+    generate.tangents.compute = options.tangents;
+    generate.normals.compute = options.normals;
     generate.file = options.file;
     generate.execution = options.execution;
     generate.progress = options.progress;

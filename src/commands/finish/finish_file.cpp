@@ -114,15 +114,15 @@ class ModelInWork {
 
     [[nodiscard]] GenerateOptions generateOptions() const {
         GenerateOptions generate;
-        generate.existing = ExistingTangents::repair;
-        generate.faces = Faces::automatic;
+        generate.selection.existing = ExistingTangents::repair;
+        generate.tangents.faces = Faces::automatic;
         generate.mend_winding = options_.mend_winding;
-        generate.images = options_.images;
-        generate.normals.weld_distance = options_.weld_distance;
+        generate.maps.read = options_.images;
+        generate.normals.compute.weld_distance = options_.weld_distance;
         if (options_.normals != FinishNormals::none) {
-            generate.normals.weighting = NormalWeighting::best;
-            generate.normals.crease_angle_deg = is_low_ ? 180 : options_.crease_angle_deg;
-            generate.normals.denoise = options_.denoise;
+            generate.normals.compute.weighting = NormalWeighting::best;
+            generate.normals.compute.crease_angle_deg = is_low_ ? 180 : options_.crease_angle_deg;
+            generate.normals.compute.denoise = options_.denoise;
         }
         generate.execution = options_.execution;
         generate.progress = options_.progress;

@@ -310,7 +310,7 @@ PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& exe
     vertices.mends_tangents = pool.mendsTangents();
     if (pool.keeps_tangents || pool.mendsTangents()) decoded.kept_tangents = arrays_.borrowTangents(first);
     vertices.kept_tangents = decoded.kept_tangents.span();
-    const bool keeps_signs = pool.overwrites_normals && options_.existing == ExistingTangents::keep;
+    const bool keeps_signs = pool.overwrites_normals && options_.selection.existing == ExistingTangents::keep;
     if ((pool.tries_quads || keeps_signs) && pool.has_tangents && !pool.keeps_tangents) {
         if (readAccessor(document_, *first.find("TANGENT")).component_count == 4)
             decoded.old_tangents = arrays_.borrowTangents(first);
@@ -326,7 +326,7 @@ PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& exe
     if (was_welded) weld(welded, geometries, vertices, copies);
     std::optional<NewMorphNormals> morph_normals;
     if (!pool.morph_normals.empty())
-        morph_normals.emplace(pool.morph_normals, options_.morph_normals == MorphNormals::missing, vertices,
+        morph_normals.emplace(pool.morph_normals, options_.normals.morphs == MorphNormals::missing, vertices,
                               geometries);
     std::vector<FramesReport> computed(pool.geometries.size());
     const bool computes = pool.makes_tangents || !pool.has_normals;

@@ -164,7 +164,7 @@ class OneMap {
         ShownMap& one = shown_.emplace_back();
         one.user = user;
         one.is_new = report.action == PrimitiveAction::generated || report.action == PrimitiveAction::replaced;
-        one.is_bright = report.normals_generated && options_.normals.weighting != NormalWeighting::flat;
+        one.is_bright = report.normals_generated && options_.normals.compute.weighting != NormalWeighting::flat;
         sources_.push_back({&before, &after});
     }
     [[nodiscard]] bool isNeeded() const {

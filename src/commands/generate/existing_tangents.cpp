@@ -118,10 +118,10 @@ Verdict verdictOf(const PrimitiveJudgement& judgement, bool is_free) {
 void applyReadingOptions(const GenerateOptions& options, Scene& scene) {
     for (ScenePrimitive& primitive : scene.primitives) {
         // Pretends that a texture reads these tangents.
-        if (primitive.uses.empty() && options.all) {
+        if (primitive.uses.empty() && options.selection.all) {
             primitive.uses.push_back({.needed_by = "the option 'all'", .has_texture = primitive.other_reader.empty()});
         }
-        if (options.texture_transform == TextureTransform::apply) continue;
+        if (options.tangents.texture_transform == TextureTransform::apply) continue;
         for (TangentUse& use : primitive.uses) use.transform = {};
     }
 }
@@ -132,14 +132,14 @@ std::vector<Verdict> judge(Model& model, const GenerateOptions& options) {
     Scene scene = model.scene();
     const std::int64_t left = document.memory->left();
     CheckOptions check;
-    check.convention = options.tangents.convention;
+    check.convention = options.tangents.compute.convention;
     check.execution = options.execution;
     check.execution.allocator = nullptr;
     applyReadingOptions(options, scene);
     std::vector<PrimitiveJudgement> judgements = judgePrimitives(scene, check, true);
     if (waitForImages(judgements)) {
         ImageFindings images;
-        if (options.images) {
+        if (options.maps.read) {
             readImages(document, scene);
             images = checkImages(scene, check);
         }
@@ -294,7 +294,7 @@ std::string primitivesText(std::uint64_t count) {
 
 std::string warnOfInvertedSigns(Model& model, const GeneratePlan& plan, const MapFlips& flips,
                                 const GenerateOptions& options) {
-    if (options.existing != ExistingTangents::replace || options.convert_maps) return {};
+    if (options.selection.existing != ExistingTangents::replace || options.maps.convert) return {};
     const std::vector<std::size_t> replaced = replacedPrimitives(model, plan);
     if (replaced.empty()) return {};
     MemoryBudget& memory = *model.document().memory;
@@ -302,8 +302,9 @@ std::string warnOfInvertedSigns(Model& model, const GeneratePlan& plan, const Ma
     std::uint64_t inverted = 0;
     const std::optional<Error> failure = tryFile([&] {
         for (const ScenePrimitive& primitive : model.sceneOf(replaced).primitives)
-            inverted +=
-                looksInverted(primitive, options.tangents.convention) && !showsFlipped(primitive, flips) ? 1 : 0;
+            inverted += looksInverted(primitive, options.tangents.compute.convention) && !showsFlipped(primitive, flips)
+                            ? 1
+                            : 0;
     });
     memory.giveBack(left);
     if (failure && failure->code != ErrorCode::tooLarge) throw FileError{*failure};

@@ -102,7 +102,7 @@ Bytes flipImage(std::span<const std::uint8_t> bytes, const MemoryBudget& budget,
 std::vector<JudgedMap> judgeMaps(const Scene& scene, const std::vector<bool>& keeps_tangents,
                                  const GenerateOptions& options) {
     CheckOptions check;
-    check.convention = options.tangents.convention;
+    check.convention = options.tangents.compute.convention;
     check.execution = options.execution;
     check.execution.allocator = nullptr;
     ImageFindings found = checkImages(scene, check);
@@ -117,9 +117,10 @@ std::vector<JudgedMap> judgeMaps(const Scene& scene, const std::vector<bool>& ke
         std::string& why = map.report.reason;
         map.look = found.looks[i];
         map.is_y_inverted = found.is_y_inverted[i];
-        if (options.flip_green == FlipGreen::none) continue;
-        if (options.flip_green == FlipGreen::down)
-            why = whyUnchanged(found.image_green[i], cancelled[i], found.is_declared[i], options.tangents.convention);
+        if (options.maps.flip_green == FlipGreen::none) continue;
+        if (options.maps.flip_green == FlipGreen::down)
+            why = whyUnchanged(found.image_green[i], cancelled[i], found.is_declared[i],
+                               options.tangents.compute.convention);
         if (why.empty()) map.flipped = flipSceneImage(scene, i, why);
         map.report.flipped = !map.flipped.empty();
     }
@@ -299,7 +300,7 @@ MapFlips planFlips(Model& model, std::span<const PrimitiveReport> reports, const
     std::vector<bool> keeps_tangents;
     for (const PrimitiveReport& report : reports) {
         keeps_tangents.push_back(report.action == PrimitiveAction::kept ||
-                                 options.existing == ExistingTangents::repair);
+                                 options.selection.existing == ExistingTangents::repair);
     }
     Scene scene = model.scene();
     const std::int64_t left = document.memory->left();
@@ -307,7 +308,7 @@ MapFlips planFlips(Model& model, std::span<const PrimitiveReport> reports, const
     tellPlaces(document, model.primitives(), scene);
     std::vector<JudgedMap> maps = judgeMaps(scene, keeps_tangents, options);
     for (JudgedMap& map : maps) {
-        if (options.mend_maps) mendInPlace(document, scene, options, map, flips);
+        if (options.maps.mend) mendInPlace(document, scene, options, map, flips);
         if (map.report.flipped && !map.report.mended) flips.images[map.image] = std::move(map.flipped);
         flips.reports.push_back(std::move(map.report));
     }

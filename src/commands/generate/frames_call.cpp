@@ -5,13 +5,13 @@
 namespace tspace {
 
 FramesOptions framesOptions(const GenerateOptions& options) {
-    return {.tangents = options.tangents,
-            .normals = options.normals,
-            .sanitize = options.sanitize,
-            .sanitize_options = options.sanitize_options,
-            .bitangents = options.bitangents,
-            .format = options.format,
-            .faces = options.faces};
+    return {.tangents = options.tangents.compute,
+            .normals = options.normals.compute,
+            .sanitize = options.tangents.sanitize,
+            .sanitize_options = options.tangents.sanitize_options,
+            .bitangents = options.tangents.bitangents,
+            .format = options.storage.format,
+            .faces = options.tangents.faces};
 }
 
 void copyReportOfKept(const FramesReport& computed, PrimitiveReport& report) {

@@ -18,19 +18,19 @@ namespace {
 
 /// Why maps are not converted with these options; empty: they are, or are not to be.
 std::string whyMapsUnchanged(const std::string& input, const GenerateOptions& options) {
-    if (!options.convert_maps) return {};
-    if (options.overwrite_normals)
+    if (!options.maps.convert) return {};
+    if (options.normals.overwrite)
         return "normal maps cannot be converted together with new normals, only for new tangents";
-    if (options.flip_green != FlipGreen::none)
+    if (options.maps.flip_green != FlipGreen::none)
         return "normal maps can be converted or inverted, but not both in one run";
-    if (options.mend_maps) return "normal maps can be fixed or converted, but not both in one run";
-    if (options.existing == ExistingTangents::repair)
+    if (options.maps.mend) return "normal maps can be fixed or converted, but not both in one run";
+    if (options.selection.existing == ExistingTangents::repair)
         return "normal maps cannot be converted when tangents are repaired, because repairs are meant to change the "
                "shading";
-    if (options.texture_transform == TextureTransform::ignore)
+    if (options.tangents.texture_transform == TextureTransform::ignore)
         return "converted normal maps are for viewers that use tangents unchanged, so texture transforms must be "
                "applied";
-    if (options.tangents.convention != conventions::gltf)
+    if (options.tangents.compute.convention != conventions::gltf)
         return "normal maps can be converted for the glTF convention only";
     if (lowerExtension(input) == ".obj")
         return "OBJ files have no tangents that their maps were made for; make a glTF file first, then recompute its "
@@ -40,13 +40,13 @@ std::string whyMapsUnchanged(const std::string& input, const GenerateOptions& op
 
 void checkOptions(const std::string& input, const GenerateOptions& options) {
     const auto refuse = [](const std::string& why) { failFile(ErrorCode::invalidOption, why); };
-    if (options.all && options.strip)
+    if (options.selection.all && options.selection.strip)
         refuse("tangents cannot be added to all primitives and removed where they are not needed");
-    if (options.pack && frameBytes(*options.pack) == 0)
+    if (options.storage.pack && frameBytes(*options.storage.pack) == 0)
         refuse("the format of packed frames is not a value of FrameFormat");
-    if (!options.pack && options.pack_drop != PackDrop::nothing)
+    if (!options.storage.pack && options.storage.pack_drop != PackDrop::nothing)
         refuse("normals and tangents can be removed only where frames are packed");
-    if (!options.images && (options.flip_green != FlipGreen::none || options.mend_maps || options.convert_maps))
+    if (!options.maps.read && (options.maps.flip_green != FlipGreen::none || options.maps.mend || options.maps.convert))
         refuse("changing normal maps requires reading their pixels, which is disabled");
     if (const std::string why = whyMapsUnchanged(input, options); !why.empty()) refuse(why);
 }

@@ -73,8 +73,8 @@ Input toInput(Model&& model, const Path& output, bool is_stream, const GenerateO
     Document& document = model.document();
     Input input{std::move(model), outputTarget(document, output, is_stream), requested};
     // Other formats leave open whose conventions their tangents follow: only those stay that are right in glTF.
-    if (document.imported && requested.existing == ExistingTangents::keep)
-        input.options.existing = ExistingTangents::repair;
+    if (document.imported && requested.selection.existing == ExistingTangents::keep)
+        input.options.selection.existing = ExistingTangents::repair;
     input.is_converted = input.target.container != document.container || document.imported;
     checkRequiredExtensions(document);
     return input;
@@ -90,8 +90,8 @@ struct Storage {
 /// Takes away what is made anew whatever it says, and unpacks geometry that is to be stored in another way.
 Storage prepareStorage(Input& input, std::vector<std::string>& warnings) {
     Document& document = input.model.document();
-    Storage storage{.lost_packing = removeMiscounted(document, input.model.primitives(), input.options.pack)};
-    const Compression compression = input.options.compression;
+    Storage storage{.lost_packing = removeMiscounted(document, input.model.primitives(), input.options.storage.pack)};
+    const Compression compression = input.options.storage.compression;
     if (compression != Compression::keep) convertContainer(document, input.target, true, warnings);
     storage.new_file = freeFileName(document, input.target, ".tspace.bin");
     storage.is_unpacked = unpackGeometry(document, compression, storage.new_file, warnings);
@@ -119,14 +119,14 @@ Decisions decide(Model& model, const GenerateOptions& options, const NormalWishe
                  std::vector<std::string>& warnings) {
     Decisions decisions{.plan = planGenerate(model.document(), model.primitives(), options, wishes)};
     GeneratePlan& plan = decisions.plan;
-    if (options.existing == ExistingTangents::repair) planRepair(model, options, plan);
+    if (options.selection.existing == ExistingTangents::repair) planRepair(model, options, plan);
     planSurroundings(model, options, plan);
-    if (options.flip_green != FlipGreen::none || options.mend_maps)
+    if (options.maps.flip_green != FlipGreen::none || options.maps.mend)
         decisions.flips = planFlips(model, plan.reports, options);
     if (std::string warning = warnOfInvertedSigns(model, plan, decisions.flips, options); !warning.empty())
         warnings.push_back(std::move(warning));
-    if (options.convert_maps) decisions.maps.emplace(model, options);
-    if (options.existing != ExistingTangents::keep) decisions.broken = findBrokenValues(model, plan);
+    if (options.maps.convert) decisions.maps.emplace(model, options);
+    if (options.selection.existing != ExistingTangents::keep) decisions.broken = findBrokenValues(model, plan);
     decisions.has_unreadable_tangents =
         std::any_of(model.primitives().begin(), model.primitives().end(),
                     [](const Primitive& primitive) { return !primitive.unreadable_tangents.empty(); });
@@ -174,20 +174,20 @@ WorkedOn edit(Input& input, const Storage& storage, Decisions&& decisions, Gener
     if (decisions.has_unreadable_tangents) removeUnreadableTangents(editor, primitives, decisions.plan);
     computeAndApply(input, decisions, editor, report.warnings);
     if (decisions.has_unreadable_tangents) noteUnreadableTangents(primitives, reports);
-    if (options.bitangents) noteMissingBitangents(primitives, reports);
+    if (options.tangents.bitangents) noteMissingBitangents(primitives, reports);
     noteStalePackedFrames(document, primitives, options, reports);
     stripTangents(editor, primitives, reports);
     // The following steps read the new tangents.
     input.model.wasEdited();
     tell(options, "writing", 0, 1);
     if (decisions.maps) report.converted_maps = decisions.maps->run(editor, input.target, reports);
-    if (options.pack) writePackedFrames(editor, document, options, reports);
+    if (options.storage.pack) writePackedFrames(editor, document, options, reports);
     MapFlips& flips = decisions.flips;
     report.normal_maps = std::move(flips.reports);
     if (!flips.images.empty() || !flips.mended.empty()) applyFlips(document, editor, input.target, std::move(flips));
     editor.finish();
     tell(options, "writing", 0, 1);
-    const bool is_packed = packGeometry(document, options.compression, storage.new_file);
+    const bool is_packed = packGeometry(document, options.storage.compression, storage.new_file);
     report.primitives = std::move(reports);
     report.changed = editor.changed() || input.is_converted || storage.is_unpacked || is_packed;
     return {.far_coordinates = document.keeps_far_coordinates,
@@ -203,7 +203,7 @@ bool turnWrong(Input& input, const Storage& storage, std::span<const std::uint32
     plan = planWinding(input.model, input.options, kept);
     if (!plan.turnsAny()) return false;
     Document& document = input.model.document();
-    if (input.options.compression == Compression::keep && !is_converted)
+    if (input.options.storage.compression == Compression::keep && !is_converted)
         convertContainer(document, input.target, true, warnings);
     turnTriangles(document, storage.new_file, input.model.primitives(), plan.turned);
     input.model.wasEdited();
@@ -215,14 +215,15 @@ bool turnWrong(Input& input, const Storage& storage, std::span<const std::uint32
 bool repairFaults(Input& input, const Storage& storage, bool is_asked_for, NormalWishes& wishes,
                   std::vector<std::string>& warnings) {
     const GenerateOptions& options = input.options;
-    if (!is_asked_for && !options.overwrite_normals && options.existing != ExistingTangents::repair) return false;
+    if (!is_asked_for && !options.normals.overwrite && options.selection.existing != ExistingTangents::repair)
+        return false;
     const std::span<const Primitive> primitives = input.model.primitives();
     if (std::none_of(primitives.begin(), primitives.end(), [](const Primitive& primitive) {
             return !primitive.attribute_faults.empty() && primitive.canRepairFaults();
         }))
         return false;
     Document& document = input.model.document();
-    if (options.compression == Compression::keep) convertContainer(document, input.target, true, warnings);
+    if (options.storage.compression == Compression::keep) convertContainer(document, input.target, true, warnings);
     const std::vector<bool> lost = repairAttributes(document, storage.new_file, primitives, warnings);
     wishes.anew.resize(lost.size());
     for (std::size_t i = 0; i < lost.size(); ++i) wishes.anew[i] = wishes.anew[i] || lost[i];
@@ -234,10 +235,11 @@ bool repairFaults(Input& input, const Storage& storage, bool is_asked_for, Norma
 bool mendNormalLengths(Input& input, const Storage& storage, std::vector<std::string>& warnings) {
     const auto is_scaled = [](const Primitive& primitive) { return primitive.normal_scales != nullptr; };
     const std::vector<Primitive>& primitives = input.model.primitives();
-    if (input.options.existing != ExistingTangents::repair) return false;
+    if (input.options.selection.existing != ExistingTangents::repair) return false;
     if (std::none_of(primitives.begin(), primitives.end(), is_scaled)) return false;
     Document& document = input.model.document();
-    if (input.options.compression == Compression::keep) convertContainer(document, input.target, true, warnings);
+    if (input.options.storage.compression == Compression::keep)
+        convertContainer(document, input.target, true, warnings);
     writeUnitNormals(document, storage.new_file, primitives);
     input.model.wasEdited();
     return true;
@@ -275,8 +277,8 @@ WorkedOn generate(Input& input, bool with_images, const GenerateStep& step, Gene
     tell(input.options, "reading", 1, 1);
     Decisions decisions = decide(input.model, input.options, wishes, report.warnings);
     report.input_bytes = document.input_bytes;
-    if (input.options.compression == Compression::keep && !was_turned && !were_mended && !was_repaired) {
-        const bool will_edit = decisions.changeGeometryOrMaps() || input.options.pack.has_value();
+    if (input.options.storage.compression == Compression::keep && !was_turned && !were_mended && !was_repaired) {
+        const bool will_edit = decisions.changeGeometryOrMaps() || input.options.storage.pack.has_value();
         convertContainer(document, input.target, will_edit, report.warnings);
     }
     // Runs after the decisions on maps, which find images by their names.

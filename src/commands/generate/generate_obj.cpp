@@ -82,7 +82,7 @@ void convertHeights(const Scene& scene, const GenerateOptions& options, Model& m
 std::vector<NormalMapReport> prepareMaps(std::span<const ObjPrimitive> primitives, const GenerateOptions& options,
                                          Model& model) {
     std::vector<NormalMapReport> reports;
-    const bool is_asked = options.flip_green != FlipGreen::none || options.mend_maps;
+    const bool is_asked = options.maps.flip_green != FlipGreen::none || options.maps.mend;
     const bool has_bumps = std::any_of(model.materials.begin(), model.materials.end(), [](const Material& material) {
         return material.normal_is_bump && material.normal_texture.used();
     });
@@ -104,7 +104,7 @@ std::vector<NormalMapReport> prepareMaps(std::span<const ObjPrimitive> primitive
     for (JudgedMap& map : maps) {
         if (textures[map.image] == nullptr) continue;
         Bytes bytes;
-        if (options.mend_maps) {
+        if (options.maps.mend) {
             const std::string why_not_flipped = map.report.reason;
             const ByteSpan source =
                 map.flipped.empty() ? ByteSpan(scene.images[map.image].bytes) : ByteSpan(map.flipped);
@@ -140,10 +140,10 @@ void checkOutput(const std::string& output) {
 bool decide(const Material& material, const ObjPrimitive& primitive, const GenerateOptions& options,
             PrimitiveReport& report) {
     const bool needed = material.normal_texture.used();
-    if (!needed && !options.all) {
+    if (!needed && !options.selection.all) {
         report.action = PrimitiveAction::notNeeded;
         report.reason = material.found ? "the material has no normal map" : "there is no material with a normal map";
-    } else if (!primitive.has_uvs && options.tangents.method != Method::basis) {
+    } else if (!primitive.has_uvs && options.tangents.compute.method != Method::basis) {
         report.action = PrimitiveAction::impossible;
         report.reason = "the faces have no texture coordinates";
     } else {
@@ -195,13 +195,13 @@ void packWritten(const GenerateOptions& options, FinishedPrimitive& finished, Pr
         return;
     }
     roundUnits(std::span(mesh.tangents), finished.tangent_format);
-    const gltf::PackedLayout& layout = gltf::packedLayout(*options.pack);
+    const gltf::PackedLayout& layout = gltf::packedLayout(*options.storage.pack);
     const Bytes words = gltf::packWords(layout.format, mesh.normals, mesh.tangents, options.execution, report.packing);
     for (const gltf::PackedPart& part : layout.parts)
         finished.packed.push_back({part, takePart(words, layout.format, part)});
     report.frames_packed = true;
-    report.tangents_dropped = options.pack_drop != PackDrop::nothing;
-    report.normals_dropped = options.pack_drop == PackDrop::all;
+    report.tangents_dropped = options.storage.pack_drop != PackDrop::nothing;
+    report.normals_dropped = options.storage.pack_drop == PackDrop::all;
     if (report.tangents_dropped) mesh.tangents.clear();
     if (report.normals_dropped) mesh.normals.clear();
 }
@@ -222,7 +222,7 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool
     OwnedMesh& mesh = finished.mesh;
     tell(options, "computing tangents", 0, 0);
     // Before tangents are computed: they belong to the normals that are written.
-    if (primitive.normals_generated) roundUnits(mesh.normals, options.format);
+    if (primitive.normals_generated) roundUnits(mesh.normals, options.storage.format);
     if (decide(material, primitive, options, report)) {
         makeObjFrames(options, finished, report);
     } else {
@@ -233,12 +233,13 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool
     report.normals_replaced = replaced;
     if (primitive.normals_generated) {
         FramesReport faults;  // OBJ has no morph targets, so no sign of one flips
-        countFaults(mesh.positions, mesh.normals, {&mesh.indices, 1}, options.normals.weld_distance, {&faults, 1});
+        countFaults(mesh.positions, mesh.normals, {&mesh.indices, 1}, options.normals.compute.weld_distance,
+                    {&faults, 1});
         copyReportOfKept(faults, report);
     }
-    if (primitive.normals_generated) finished.normal_format = options.format;
-    finished.tangent_format = options.format;
-    if (options.pack) packWritten(options, finished, report);
+    if (primitive.normals_generated) finished.normal_format = options.storage.format;
+    finished.tangent_format = options.storage.format;
+    if (options.storage.pack) packWritten(options, finished, report);
     return finished;
 }
 
@@ -251,7 +252,7 @@ struct Made {
 /// Fills the report but for what writing tells.
 Made generate(const std::string& input, const std::string& output, const GenerateOptions& options,
               GenerateReport& report) {
-    if (options.compression == Compression::meshopt || options.compression == Compression::draco) {
+    if (options.storage.compression == Compression::meshopt || options.storage.compression == Compression::draco) {
         failFile(ErrorCode::invalidOption,
                  "the output of OBJ files is not compressed in the same run; compress the result in a second run");
     }
@@ -265,7 +266,7 @@ Made generate(const std::string& input, const std::string& output, const Generat
     tell(options, "computing normals", 0, 0);
     std::vector<bool> had_normals;
     for (const ObjPrimitive& primitive : primitives) had_normals.push_back(hasSomeNormals(model, primitive));
-    if (options.overwrite_normals) {
+    if (options.normals.overwrite) {
         for (Corner& corner : model.corners) corner.normal = kNone;
     }
     NormalReport normals = valueOrThrow(completeNormals(model, primitives, options));
@@ -277,7 +278,7 @@ Made generate(const std::string& input, const std::string& output, const Generat
         tell(options, "computing tangents", finished.size(), primitives.size());
         PrimitiveReport& entry = report.primitives.emplace_back();
         entry.source_list = entry.split_list = static_cast<std::uint32_t>(finished.size());
-        const bool replaced = options.overwrite_normals && had_normals[finished.size()];
+        const bool replaced = options.normals.overwrite && had_normals[finished.size()];
         finished.push_back(finish(model, primitive, replaced, options, entry));
         for (const std::uint32_t face : primitive.faces) {
             if (!turned.empty() && turned[face] != 0) listTurned(face, entry);

@@ -60,7 +60,7 @@ void addOutput(OptionList& list, GenerateOptions& options) {
         flag("--dry-run", options.dry_run,
              "Report what would be written, and all problems, without writing anything."));
     add(list, group,
-        choice("--compress", "HOW", kCompressions, options.compression,
+        choice("--compress", "HOW", kCompressions, options.storage.compression,
                "Geometry compression of the output. keep: the compression of the input; none: uncompressed; meshopt: "
                "EXT_meshopt_compression, which is lossless; draco: KHR_draco_mesh_compression, which quantizes "
                "positions, normals and UVs, except those that were Draco data before."));
@@ -71,28 +71,29 @@ void addOutput(OptionList& list, GenerateOptions& options) {
 /// Options that select the primitives that get tangents, and the treatment of existing tangents.
 void addSelection(OptionList& list, GenerateOptions& options) {
     const char* group = "Tangents";
-    add(list, group, flag("--all", options.all, "Also process primitives whose material needs no tangents."));
+    add(list, group, flag("--all", options.selection.all, "Also process primitives whose material needs no tangents."));
     add(list, group,
-        setting("--only-missing", options.existing, ExistingTangents::keep,
+        setting("--only-missing", options.selection.existing, ExistingTangents::keep,
                 "Add missing tangents and keep existing ones. This is the default."));
     add(list, group,
-        setting("--overwrite", options.existing, ExistingTangents::replace, "Recompute existing tangents."))
+        setting("--overwrite", options.selection.existing, ExistingTangents::replace, "Recompute existing tangents."))
         .excludes = {"--only-missing"};
     add(list, group,
-        setting("--repair", options.existing, ExistingTangents::repair,
+        setting("--repair", options.selection.existing, ExistingTangents::repair,
                 "Add missing tangents, keep good ones, and recompute wrong ones: not finite, not of unit length, not "
                 "orthogonal to the normal, with a wrong sign, or not aligned with the UVs."))
         .excludes = {"--only-missing", "--overwrite"};
     add(list, group,
-        flag("--strip", options.strip, "Remove tangents that no material needs, including their buffer data."))
+        flag("--strip", options.selection.strip,
+             "Remove tangents that no material needs, including their buffer data."))
         .excludes = {"--all"};
 }
 
 void addTangentOptions(OptionList& list, GenerateOptions& options) {
     const char* group = "Tangents";
-    TangentOptions& tangents = options.tangents;
+    TangentOptions& tangents = options.tangents.compute;
     add(list, group,
-        choice("--texture-transform", "READING", kTextureTransforms, options.texture_transform,
+        choice("--texture-transform", "READING", kTextureTransforms, options.tangents.texture_transform,
                "Treatment of KHR_texture_transform. apply: tangents follow the transformed UVs, for viewers that use "
                "tangents unchanged; ignore: tangents follow the stored UVs, for viewers that rotate tangents "
                "themselves."));
@@ -102,7 +103,7 @@ void addTangentOptions(OptionList& list, GenerateOptions& options) {
                "vertex, no splits; uniform, angle, area: means with these weights; fast, best: more accurate, for maps "
                "that were not baked; flat: one per face; basis: from the normals alone, without UVs."));
     add(list, group,
-        choice("--faces", "FACES", kFaces, options.faces,
+        choice("--faces", "FACES", kFaces, options.tangents.faces,
                "Faces that mikktspace works on. triangles: the triangles of the file, for maps baked from triangulated "
                "models; quads: pairs of consecutive triangles are treated as quads, as in Blender before export; auto: "
                "quads if existing tangents match quads, or if a Blender file without tangents consists of split quads, "
@@ -127,7 +128,7 @@ void addTangentOptions(OptionList& list, GenerateOptions& options) {
                "of the interpolated vectors along edges. Default: 1 for tangents, 2 for normals."))
         .default_text.clear();
     add(list, group,
-        flag("--bitangents", options.bitangents,
+        flag("--bitangents", options.tangents.bitangents,
              "Also write the direction of dP/dv as the attribute _BITANGENT, for shaders that read it. It differs from "
              "cross(N, T) where UVs are sheared. It is written only where tangents are computed, and without morph "
              "target deltas."));
@@ -137,7 +138,7 @@ void addTangentOptions(OptionList& list, GenerateOptions& options) {
             "Sign convention of the output tangents: gltf, opengl, directx, unreal, unity, blender or godot. "
             "Positions, UVs and normals are unchanged. Use a value other than gltf only for readers that expect it."));
     add(list, group,
-        choice("--format", "NUMBERS", kVectorFormats, options.format,
+        choice("--format", "NUMBERS", kVectorFormats, options.storage.format,
                "Component type of written tangents and normals: float, snorm16 (half the size) or snorm8 (a quarter of "
                "the size). snorm16 and snorm8 keep the sign exact and declare KHR_mesh_quantization."));
 }
@@ -145,13 +146,13 @@ void addTangentOptions(OptionList& list, GenerateOptions& options) {
 void addPackOptions(OptionList& list, GenerateOptions& options) {
     const char* group = "Packed frames";
     add(list, group,
-        choice("--pack", "FORMAT", kPackFormats, options.pack,
+        choice("--pack", "FORMAT", kPackFormats, options.storage.pack,
                "Also write the whole frame of each vertex (N, T and the sign) as one packed attribute such as "
                "_FRAME32, for engines that read it: frame32, frame48, frame64, oct32, qtangent64, snorm8_pair, "
                "snorm16_pair, gltf_snorm8 or gltf_snorm16. Applies to every primitive that has normals and tangents in "
                "the output, including existing ones. See docs/concepts/pack.md."));
     add(list, group,
-        choice("--pack-drop", "WHAT", kPackDrops, options.pack_drop,
+        choice("--pack-drop", "WHAT", kPackDrops, options.storage.pack_drop,
                "Attributes to remove where frames were packed. tangents: TANGENT; all: TANGENT and NORMAL, for engines "
                "that read only packed frames. Attributes with morph target deltas are kept. By default both attributes "
                "are kept."))
@@ -178,27 +179,27 @@ Option compressMapsOption() {
 void addMapOptions(OptionList& list, GenerateOptions& options) {
     const char* group = "Normal maps";
     add(list, group,
-        setting("--flip-green", options.flip_green, FlipGreen::down,
+        setting("--flip-green", options.maps.flip_green, FlipGreen::down,
                 "Invert the green channel of normal maps in which check detects that green points down throughout (as "
                 "in DirectX). Images beside a .gltf are not changed; the output gets new files."));
     add(list, group,
-        setting("--flip-green-all", options.flip_green, FlipGreen::all,
+        setting("--flip-green-all", options.maps.flip_green, FlipGreen::all,
                 "Invert the green channel of every normal map, whatever its direction."))
         .excludes = {"--flip-green"};
     add(list, group,
-        flag("--fix-maps", options.mend_maps,
+        flag("--fix-maps", options.maps.mend,
              "Rewrite normal maps whose encoding is not that of glTF, as detected by check: two channels, exchanged "
              "channels, x in alpha, sRGB values, object space. Rewritten maps are PNG, even if the input is KTX2 or "
              "DDS. Height maps are kept, because their strength is unknown (see tspace height-to-normal)."))
         .old_names = {"--mend-maps"};
     add(list, group,
-        flag("--convert-maps", options.convert_maps,
+        flag("--convert-maps", options.maps.convert,
              "Rewrite normal maps for the computed tangents, so that the shading does not change. Maps and materials "
              "shared by several primitives are copied if the primitives need different maps. Images beside a .gltf are "
              "not changed; the output gets new files."))
         .excludes = {"--flip-green", "--flip-green-all", "--fix-maps", "--repair"};
     add(list, group,
-        setting("--no-images", options.images, false,
+        setting("--no-images", options.maps.read, false,
                 "Do not read the pixels of normal maps. By default --repair reads them if most tangent signs are "
                 "inverted. With this option it keeps inverted signs, because the maps may be inverted too."))
         .excludes = {"--flip-green", "--flip-green-all", "--fix-maps", "--convert-maps"};
@@ -207,42 +208,42 @@ void addMapOptions(OptionList& list, GenerateOptions& options) {
 
 void addOtherOptions(OptionList& list, GenerateOptions& options) {
     Option& weighting = add(list, "Normals",
-                            choice("--normals", "NAME", kWeightings, options.normals.weighting,
+                            choice("--normals", "NAME", kWeightings, options.normals.compute.weighting,
                                    "Method for missing normals (or all, with --overwrite-normals): flat, uniform, "
                                    "area, angle, angle-area, max or best. Default: flat, as glTF specifies; for an OBJ "
                                    "file with smoothing groups, these groups with angle weights."));
     weighting.default_text.clear();
     add(list, "Normals",
-        numberOrAuto("--crease", "DEG", "a number of degrees", options.normals.crease_angle_deg,
+        numberOrAuto("--crease", "DEG", "a number of degrees", options.normals.compute.crease_angle_deg,
                      NormalOptions::crease_auto, 180,
                      "Crease angle for computed normals: edges whose faces meet at a larger angle stay hard. In "
                      "degrees, 0 to 180; 180: no hard edges; auto: an angle chosen per mesh, which the report states. "
                      "Without --normals, this option implies angle weights."));
     add(list, "Normals",
-        numberOrAuto("--denoise", "FACTOR", "a number", options.normals.denoise, NormalOptions::denoise_auto, 4,
+        numberOrAuto("--denoise", "FACTOR", "a number", options.normals.compute.denoise, NormalOptions::denoise_auto, 4,
                      "Denoising for --normals best on noisy positions, such as scans: normals are computed from a "
                      "larger neighborhood, so that noise is not shaded. Vertices do not move. auto: by the measured "
                      "noise level, and not at all where the deviations look like real detail; 0 to 4: this multiple of "
                      "the measured noise level, even where it looks like real detail."));
     add(list, "Normals",
-        numberOrAuto("--weld-distance", "DISTANCE", "a distance", options.normals.weld_distance,
+        numberOrAuto("--weld-distance", "DISTANCE", "a distance", options.normals.compute.weld_distance,
                      NormalOptions::weld_auto, 1000000000,
                      "Weld distance, in the unit of positions before node transforms: positions that differ by at most "
                      "this in each coordinate are welded when normals are computed and winding is fixed. 0: only equal "
                      "positions; auto: twice the float spacing at the largest coordinate of the mesh. Tangents are "
                      "always computed on the unwelded positions."));
     add(list, "Normals",
-        flag("--normals-per-primitive", options.normals_per_primitive,
+        flag("--normals-per-primitive", options.normals.per_primitive,
              "Compute the normals of each primitive only from its own triangles. By default, normals are smooth across "
              "the border of two primitives of a mesh that share edges; --crease applies there too."));
     add(list, "Normals",
-        flag("--overwrite-normals", options.overwrite_normals,
+        flag("--overwrite-normals", options.normals.overwrite,
              "Recompute existing normals and add missing ones in every primitive, as set by --normals and --crease. "
              "Without --normals: with angle weights. Existing tangents are recomputed too, because they would not fit "
              "the new normals."))
         .excludes = {"--convert-maps"};
     add(list, "Normals",
-        choice("--morph-normals", "WHICH", kMorphNormals, options.morph_normals,
+        choice("--morph-normals", "WHICH", kMorphNormals, options.normals.morphs,
                "Normal deltas of morph targets. keep: keep existing ones; missing: add them to targets without any; "
                "all: recompute them for all targets. Computed deltas rotate the normal as the target rotates the "
                "surrounding surface."));
@@ -255,11 +256,11 @@ void addOtherOptions(OptionList& list, GenerateOptions& options) {
         .old_names = {"--mend-winding"};
     add(list, "Repair",
         setting(
-            "--no-sanitize", options.sanitize, false,
+            "--no-sanitize", options.tangents.sanitize, false,
             "Write the raw tangents of the method, even if they are not finite, zero, not of unit length, parallel to "
             "the normal, or of different signs within a face. By default such tangents are repaired and counted."));
     add(list, "Repair",
-        flag("--orthogonalize", options.sanitize_options.orthogonalize_all,
+        flag("--orthogonalize", options.tangents.sanitize_options.orthogonalize_all,
              "Also give every valid tangent unit length and make it orthogonal to its normal. Where normals are not of "
              "unit length, the result then no longer matches bakes exactly."));
     addRunning(list, options.execution, "Number of threads; 0: one per core. The output is the same for every number.",
@@ -280,20 +281,21 @@ OptionList generateOptions(GenerateOptions& options) {
 }
 
 std::string finish(const Given& given, GenerateOptions& options) {
-    const Method method = options.tangents.method;
-    if (options.tangents.frame == FrameShape::symmetric && method == Method::mikktspace)
+    const Method method = options.tangents.compute.method;
+    if (options.tangents.compute.frame == FrameShape::symmetric && method == Method::mikktspace)
         return "--frame symmetric cannot be combined with --method mikktspace";
-    if (options.tangents.frame == FrameShape::symmetric && method == Method::basis)
+    if (options.tangents.compute.frame == FrameShape::symmetric && method == Method::basis)
         return "--frame symmetric cannot be combined with --method basis";
-    if (options.faces == Faces::quads && method != Method::mikktspace)
+    if (options.tangents.faces == Faces::quads && method != Method::mikktspace)
         return "--faces quads can only be combined with --method mikktspace";
-    if (options.existing == ExistingTangents::repair && !given.has("--faces")) options.faces = Faces::automatic;
+    if (options.selection.existing == ExistingTangents::repair && !given.has("--faces"))
+        options.tangents.faces = Faces::automatic;
     if (given.has("--normals")) {
-        options.use_smoothing_groups = false;
-    } else if (given.has("--crease") || options.overwrite_normals) {
-        options.normals.weighting = NormalWeighting::angle;
+        options.normals.use_smoothing_groups = false;
+    } else if (given.has("--crease") || options.normals.overwrite) {
+        options.normals.compute.weighting = NormalWeighting::angle;
     }
-    if (given.has("--refine")) options.normals.refine = options.tangents.refine;
+    if (given.has("--refine")) options.normals.compute.refine = options.tangents.compute.refine;
     return {};
 }
 

@@ -40,7 +40,7 @@ std::string needWords(const TangentUse& use) {
 
 bool shouldStripTangents(const Primitive& primitive, const std::vector<TangentUse>& uses,
                          const GenerateOptions& options) {
-    return options.strip && uses.empty() && canStripTangents(primitive);
+    return options.selection.strip && uses.empty() && canStripTangents(primitive);
 }
 
 std::string uvsOf(const std::vector<TangentUse>& uses) { return uvName(uses.empty() ? 0 : uses[0].uv_set); }
@@ -52,10 +52,10 @@ bool hasSurface(const Primitive& primitive) {
 /// Whether its normals are made anew, and so are the tangents that it has: they would not fit.
 bool regeneratesNormals(PrimitiveReport& report, const Document& document, const Primitive& primitive,
                         const std::vector<TangentUse>& uses, const GenerateOptions& options, bool is_requested) {
-    if (!options.overwrite_normals && !is_requested) return false;
+    if (!options.normals.overwrite && !is_requested) return false;
     if (!hasSurface(primitive) || surfaceKind(document, primitive).is_unlit) return false;
     if (!packedAlone(document, primitive).empty()) return false;
-    const bool can_follow = options.tangents.method == Method::basis || primitive.find(uvsOf(uses));
+    const bool can_follow = options.tangents.compute.method == Method::basis || primitive.find(uvsOf(uses));
     if (!primitive.find("TANGENT") || shouldStripTangents(primitive, uses, options) || can_follow) return true;
     report.notes.push_back(
         "its normals are kept: its tangents would not fit new ones and cannot be computed, because it has no " +
@@ -98,7 +98,7 @@ bool isSkipped(PrimitiveReport& report, const Document& document, const Primitiv
     if (!hasTriangles(primitive.mode)) {
         report.action = PrimitiveAction::notTriangles;
         why = std::string("it draws ") + modeName(primitive.mode) + ", which have no tangents";
-    } else if (uses.empty() && !options.all && !follows) {
+    } else if (uses.empty() && !options.selection.all && !follows) {
         report.action = PrimitiveAction::notNeeded;
         why = primitive.material ? "its material has no texture that needs tangents" : "it has no material";
     } else {
@@ -111,7 +111,7 @@ bool isSkipped(PrimitiveReport& report, const Document& document, const Primitiv
     } else if (shouldStripTangents(primitive, uses, options)) {
         report.action = PrimitiveAction::removed;
         why = "nothing needs its tangents: " + why;
-    } else if (options.strip && uses.empty() && primitive.find("TANGENT")) {
+    } else if (options.selection.strip && uses.empty() && primitive.find("TANGENT")) {
         why += "; its tangents are kept, because a morph target has only tangent deltas";
     }
     report.reason = std::move(why);
@@ -131,10 +131,11 @@ bool decide(PrimitiveReport& report, const Document& document, const Primitive& 
     };
     if (isSkipped(report, document, primitive, uses, options, normals)) return false;
     // Recomputed frames would be less exact than the packed ones, so these stay.
-    const bool can_overwrite = primitive.find("NORMAL") && options.existing == ExistingTangents::replace;
+    const bool can_overwrite = primitive.find("NORMAL") && options.selection.existing == ExistingTangents::replace;
     if (const std::string packed = can_overwrite ? "" : packedAlone(document, primitive); !packed.empty())
         return leave(PrimitiveAction::kept, "its frames are packed in " + packed);
-    const bool keeps = hasUsableTangents(primitive) && options.existing == ExistingTangents::keep && !normals.anew;
+    const bool keeps =
+        hasUsableTangents(primitive) && options.selection.existing == ExistingTangents::keep && !normals.anew;
     if (keeps && !lacksDeltas(primitive) && normals.morphs.empty()) return leave(PrimitiveAction::kept, kKeptReason);
     if (!primitive.attribute_faults.empty()) {
         const AttributeFault& fault = primitive.attribute_faults.front();
@@ -150,14 +151,14 @@ bool decide(PrimitiveReport& report, const Document& document, const Primitive& 
     };
     if (!primitive.find("POSITION")) return cannot("it has no positions");
     if (primitive.triangleCount() == 0) return cannot("it has no triangle");
-    if (options.tangents.method != Method::basis) {
+    if (options.tangents.compute.method != Method::basis) {
         if (!primitive.find(uvsOf(uses))) return cannot("it has no " + uvsOf(uses) + " for the tangents to follow");
         report.uv_set = static_cast<std::int32_t>(uses.empty() ? 0 : uses[0].uv_set);
     }
-    report.reason = !uses.empty() ? needWords(uses[0])
-                    : options.all ? "requested for all primitives"
-                                  : "it has tangents";
-    if (hasUsableTangents(primitive) && options.existing == ExistingTangents::replace) {
+    report.reason = !uses.empty()           ? needWords(uses[0])
+                    : options.selection.all ? "requested for all primitives"
+                                            : "it has tangents";
+    if (hasUsableTangents(primitive) && options.selection.existing == ExistingTangents::replace) {
         report.reason += ", and overwriting was requested";
     } else if (hasUsableTangents(primitive) && normals.anew) {
         report.reason += ", which would not fit its new normals";
@@ -227,18 +228,18 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
                                 regeneratesNormals(report, document, primitive, uses, options, isIn(wishes.anew, i))};
         if (!normals.anew)
             normals.morphs =
-                morphNormals(document, primitive, isIn(wishes.morphs, i) ? MorphNormals::all : options.morph_normals);
+                morphNormals(document, primitive, isIn(wishes.morphs, i) ? MorphNormals::all : options.normals.morphs);
         const bool computes = decide(report, document, primitive, uses, options, normals);
         if (hasTriangles(primitive.mode)) {
             const bool follows = computes && report.uv_set >= 0 && report.action != PrimitiveAction::kept;
-            for (std::string& note : notesOf(uses, animated, options.texture_transform, follows))
+            for (std::string& note : notesOf(uses, animated, options.tangents.texture_transform, follows))
                 report.notes.push_back(std::move(note));
         }
         if (!computes && !normals.anew && normals.morphs.empty()) continue;
         if (computes && primitive.find("TANGENT") && !hasUsableTangents(primitive))
             report.notes.emplace_back("its old tangents were ignored, because it had no normals");
 
-        const bool replaces = options.existing == ExistingTangents::replace || normals.anew;
+        const bool replaces = options.selection.existing == ExistingTangents::replace || normals.anew;
         if (computes && replaces && report.action != PrimitiveAction::kept && hasUsableTangents(primitive)) {
             std::string note = noteOnDrawn(document, primitive, uses, report.uv_set >= 0);
             if (!note.empty()) report.notes.push_back(std::move(note));
@@ -246,7 +247,7 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
 
         UvMatrix matrix;
         if (computes && report.uv_set >= 0 && !uses.empty()) {
-            matrix = uvMatrixOf(uses[0], options.texture_transform);
+            matrix = uvMatrixOf(uses[0], options.tangents.texture_transform);
             plan.has_texture_transforms =
                 plan.has_texture_transforms || !uvMatrixOf(uses[0], TextureTransform::apply).isIdentity();
         }
@@ -265,8 +266,8 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
             created.morph_normals = std::move(normals.morphs);
             created.has_tangents = hasUsableTangents(primitive);
             created.keeps_tangents = computes && report.action == PrimitiveAction::kept;
-            created.tries_quads =
-                computes && options.tangents.method == Method::mikktspace && options.faces != Faces::triangles;
+            created.tries_quads = computes && options.tangents.compute.method == Method::mikktspace &&
+                                  options.tangents.faces != Faces::triangles;
             created.is_blenders = is_blenders;
         }
         PoolPlan& pool = plan.pools[pool_number];
@@ -499,7 +500,7 @@ void noteOtherMeshes(Model& model, const GenerateOptions& options, const std::ve
         }
         if (!any_made || primitives[numbers.front()].mesh == primitives[numbers.back()].mesh) continue;
         if (!model.document().memory->has(bytes)) continue;
-        const MeshPieces pieces(model, numbers, options.normals.weld_distance);
+        const MeshPieces pieces(model, numbers, options.normals.compute.weld_distance);
         std::map<std::uint32_t, std::size_t> counts;
         for (const auto& [key, other] : pieces.otherMeshes()) {
             const std::size_t number = numbers[key.first];
@@ -519,7 +520,7 @@ unsigned ringsAround(const NormalOptions& options) {
 }  // namespace
 
 void planSurroundings(Model& model, const GenerateOptions& options, GeneratePlan& plan) {
-    if (options.normals_per_primitive || options.normals.weighting == NormalWeighting::flat) return;
+    if (options.normals.per_primitive || options.normals.compute.weighting == NormalWeighting::flat) return;
     const std::span<const Primitive> primitives = model.primitives();
     std::vector<bool> makes_normals(primitives.size(), false);
     std::map<std::size_t, GeometryPlan*> geometry_of;  // first primitive -> its geometry
@@ -528,7 +529,7 @@ void planSurroundings(Model& model, const GenerateOptions& options, GeneratePlan
         for (const std::size_t number : pool.primitives) makes_normals[number] = true;
         for (GeometryPlan& geometry : pool.geometries) geometry_of.emplace(geometry.primitives[0], &geometry);
     }
-    const unsigned rings = ringsAround(options.normals);
+    const unsigned rings = ringsAround(options.normals.compute);
     for (std::size_t first = 0, past = 0; first < primitives.size(); first = past) {
         std::vector<std::size_t> numbers;
         bool any = false;
@@ -540,7 +541,7 @@ void planSurroundings(Model& model, const GenerateOptions& options, GeneratePlan
             any = any || geometry_of.contains(past);
         }
         if (numbers.size() < 2 || !any) continue;
-        const MeshPieces pieces(model, numbers, options.normals.weld_distance);
+        const MeshPieces pieces(model, numbers, options.normals.compute.weld_distance);
         for (std::uint32_t piece = 0; piece < numbers.size(); ++piece) {
             const auto found = geometry_of.find(numbers[piece]);
             if (found == geometry_of.end()) continue;

@@ -74,7 +74,7 @@ bool lacksDeltas(const Primitive& primitive);
 
 /// Normals that are made whatever the options say: one per primitive in file order, or none.
 struct NormalWishes {
-    std::vector<bool> anew = {};    ///< like GenerateOptions::overwrite_normals, per primitive
+    std::vector<bool> anew = {};    ///< like GenerateOptions::Normals::overwrite, per primitive
     std::vector<bool> morphs = {};  ///< like MorphNormals::all, per primitive
 };
 

@@ -82,9 +82,9 @@ void noteFoundValues(const NormalOptions& options, GenerateReport& report) {
 }
 
 void warnOfNoise(const GenerateOptions& options, bool any_made, GenerateReport& report) {
-    if (options.normals.denoise == 0 || !any_made) return;
+    if (options.normals.compute.denoise == 0 || !any_made) return;
     const bool any_denoised = any(report, [](const auto& primitive) { return primitive.normals.noise > 0; });
-    if (options.normals.weighting != NormalWeighting::best)
+    if (options.normals.compute.weighting != NormalWeighting::best)
         warn({"--denoise"}, "it only applies to --normals best", report);
     else if (!any_denoised)
         warn({"--denoise"}, "no positions are noisy", report);
@@ -95,25 +95,25 @@ void warnOfIdleNormals(const GenerateOptions& options, GenerateReport& report) {
     std::vector<std::string> idle;
     const bool any_made = any(report, [](const auto& primitive) { return primitive.normals_generated; });
     if (!any_made) {
-        if (options.overwrite_normals) idle.emplace_back("--overwrite-normals");
-        const bool has_crease = options.normals.crease_angle_deg != plain.normals.crease_angle_deg;
+        if (options.normals.overwrite) idle.emplace_back("--overwrite-normals");
+        const bool has_crease = options.normals.compute.crease_angle_deg != plain.normals.compute.crease_angle_deg;
         // --crease alone is --normals angle, but for smoothing groups.
-        const bool follows = has_crease && options.normals.weighting == NormalWeighting::angle &&
-                             options.use_smoothing_groups == plain.use_smoothing_groups;
-        const bool is_weighted = options.normals.weighting != plain.normals.weighting && !follows;
-        if (is_weighted && !options.overwrite_normals) idle.emplace_back("--normals");
+        const bool follows = has_crease && options.normals.compute.weighting == NormalWeighting::angle &&
+                             options.normals.use_smoothing_groups == plain.normals.use_smoothing_groups;
+        const bool is_weighted = options.normals.compute.weighting != plain.normals.compute.weighting && !follows;
+        if (is_weighted && !options.normals.overwrite) idle.emplace_back("--normals");
         if (has_crease) idle.emplace_back("--crease");
-        if (options.normals.denoise != 0) idle.emplace_back("--denoise");
-        if (options.normals_per_primitive) idle.emplace_back("--normals-per-primitive");
+        if (options.normals.compute.denoise != 0) idle.emplace_back("--denoise");
+        if (options.normals.per_primitive) idle.emplace_back("--normals-per-primitive");
         warn(idle,
-             options.overwrite_normals
+             options.normals.overwrite
                  ? "there is no primitive whose normals can be recomputed"
                  : "no normals were computed; existing ones are kept (--overwrite-normals recomputes them)",
              report);
     }
     warnOfNoise(options, any_made, report);
     const bool morphs = any(report, [](const auto& primitive) { return primitive.morph_normals_computed != 0; });
-    if (options.morph_normals != MorphNormals::keep && !morphs) {
+    if (options.normals.morphs != MorphNormals::keep && !morphs) {
         const bool any_target = any(report, [](const auto& primitive) { return primitive.morph_target_count != 0; });
         warn({"--morph-normals"},
              any_target ? "no morph target without normal deltas moves a primitive whose normals are kept"
@@ -126,14 +126,14 @@ void warnOfTangents(const GenerateOptions& options, GenerateReport& report) {
     const bool any_made = any(report, [](const auto& primitive) {
         return wasComputed(primitive) || primitive.morph_deltas_computed != 0 || primitive.mended_vertex_count != 0;
     });
-    if (any(report, wasComputed) && options.tangents.method == Method::basis) {
+    if (any(report, wasComputed) && options.tangents.compute.method == Method::basis) {
         report.warnings.emplace_back(
             "tangents of the method basis do not follow UVs: normal maps are shaded wrong with them, and check reports "
             "it");
     }
-    const TangentOptions plain, &tangents = options.tangents;
+    const TangentOptions plain, &tangents = options.tangents.compute;
     const bool any_normals = any(report, [](const auto& primitive) { return primitive.normals_generated; });
-    const bool refines_normals = any_normals && options.normals.weighting == NormalWeighting::best;
+    const bool refines_normals = any_normals && options.normals.compute.weighting == NormalWeighting::best;
     const bool has_refine = tangents.refine != plain.refine && !refines_normals;
     if (any_made) {
         if (has_refine && tangents.method != Method::best)
@@ -145,26 +145,29 @@ void warnOfTangents(const GenerateOptions& options, GenerateReport& report) {
     if (tangents.frame != plain.frame) idle.emplace_back("--frame");
     if (tangents.pairing != plain.pairing) idle.emplace_back("--pairing");
     if (tangents.angular_threshold_deg != plain.angular_threshold_deg) idle.emplace_back("--threshold");
-    if (options.faces == Faces::quads) idle.emplace_back("--faces");
+    if (options.tangents.faces == Faces::quads) idle.emplace_back("--faces");
     if (has_refine) idle.emplace_back("--refine");
     // A repair judges by the convention, too.
-    if (tangents.convention != GenerateOptions{}.tangents.convention && options.existing != ExistingTangents::repair)
+    if (tangents.convention != GenerateOptions{}.tangents.compute.convention &&
+        options.selection.existing != ExistingTangents::repair)
         idle.emplace_back("--convention");
-    if (options.bitangents) idle.emplace_back("--bitangents");
-    if (!options.sanitize) idle.emplace_back("--no-sanitize");
-    if (options.sanitize_options.orthogonalize_all) idle.emplace_back("--orthogonalize");
-    if (options.format != GenerateOptions{}.format && !any_normals) idle.emplace_back("--format");
+    if (options.tangents.bitangents) idle.emplace_back("--bitangents");
+    if (!options.tangents.sanitize) idle.emplace_back("--no-sanitize");
+    if (options.tangents.sanitize_options.orthogonalize_all) idle.emplace_back("--orthogonalize");
+    if (options.storage.format != GenerateOptions{}.storage.format && !any_normals) idle.emplace_back("--format");
     const bool any_kept = any(report, [](const auto& primitive) { return primitive.action == PrimitiveAction::kept; });
     warn(idle, any_kept ? "no tangents were computed; existing ones are kept" : "no tangents were computed", report);
 }
 
 void warnOfFile(const GenerateOptions& options, const WorkedOn& worked_on, GenerateReport& report) {
-    if (options.texture_transform != GenerateOptions{}.texture_transform && !worked_on.texture_transforms)
+    if (options.tangents.texture_transform != GenerateOptions{}.tangents.texture_transform &&
+        !worked_on.texture_transforms)
         warn({"--texture-transform"}, "no computed tangents belong to a texture with KHR_texture_transform", report);
-    if (options.compression != Compression::keep && !worked_on.compression)
+    if (options.storage.compression != Compression::keep && !worked_on.compression)
         warn({"--compress"},
-             options.compression == Compression::none ? "no geometry is compressed"
-                                                      : "geometry is compressed like that already, or cannot be",
+             options.storage.compression == Compression::none
+                 ? "no geometry is compressed"
+                 : "geometry is compressed like that already, or cannot be",
              report);
     if (options.file.keep_coordinates && !worked_on.far_coordinates)
         warn({"--keep-coordinates"}, "the coordinates need no offset", report);
@@ -173,27 +176,27 @@ void warnOfFile(const GenerateOptions& options, const WorkedOn& worked_on, Gener
 }  // namespace
 
 void addWarnings(const GenerateOptions& options, const WorkedOn& worked_on, bool is_step, GenerateReport& report) {
-    noteFoundValues(options.normals, report);
+    noteFoundValues(options.normals.compute, report);
     if (is_step) return;
     warnOfWinding(options, report);
     if (report.primitives.empty()) return;
     warnOfIdleNormals(options, report);
     warnOfTangents(options, report);
     warnOfFile(options, worked_on, report);
-    if (options.flip_green != FlipGreen::none && report.normal_maps.empty())
-        warn({options.flip_green == FlipGreen::all ? "--flip-green-all" : "--flip-green"}, "there is no normal map",
-             report);
-    if (options.mend_maps && report.normal_maps.empty()) warn({"--fix-maps"}, "there is no normal map", report);
-    if (!options.images && options.existing != ExistingTangents::repair)
+    if (options.maps.flip_green != FlipGreen::none && report.normal_maps.empty())
+        warn({options.maps.flip_green == FlipGreen::all ? "--flip-green-all" : "--flip-green"},
+             "there is no normal map", report);
+    if (options.maps.mend && report.normal_maps.empty()) warn({"--fix-maps"}, "there is no normal map", report);
+    if (!options.maps.read && options.selection.existing != ExistingTangents::repair)
         warn({"--no-images"}, "only --repair reads the pixels of normal maps", report);
     const bool any_turned = any(report, [](const auto& primitive) { return primitive.winding_mended_count != 0; });
     if (options.mend_winding && !any_turned)
         warn({"--fix-winding"}, "no triangle with wrong winding was detected", report);
     const bool any_stripped =
         any(report, [](const auto& primitive) { return primitive.action == PrimitiveAction::removed; });
-    if (options.strip && !any_stripped)
+    if (options.selection.strip && !any_stripped)
         warn({"--strip"}, "all tangents are needed by materials, or there are none", report);
-    if (options.convert_maps && report.converted_maps.empty())
+    if (options.maps.convert && report.converted_maps.empty())
         warn({"--convert-maps"}, "no primitive with a normal map got different tangents", report);
 }
 

@@ -77,11 +77,11 @@ MapMesh meshOf(const Scene& scene, const GenerateOptions& options, const IsUser&
     Execution execution = options.execution;
     execution.allocator = nullptr;
     for (ScenePrimitive primitive : scene.primitives) {
-        if (options.existing == ExistingTangents::replace) primitive.tangents = {};
+        if (options.selection.existing == ExistingTangents::replace) primitive.tangents = {};
         for (const TangentUse& use : primitive.uses) {
             const bool has_uvs = use.uv_set < primitive.uv_sets.size() && !primitive.uv_sets[use.uv_set].empty();
             if (!isUser(use) || !showsNormals(use) || primitive.corners.empty() || !has_uvs) continue;
-            addMapCorners(primitive, &use, options.tangents, execution, mesh.corners);
+            addMapCorners(primitive, &use, options.tangents.compute, execution, mesh.corners);
             mesh.wrap_u = use.wrap_u;
             mesh.wrap_v = use.wrap_v;
             mesh.report.scale = use.scale;

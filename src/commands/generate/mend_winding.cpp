@@ -37,7 +37,7 @@ class MeshSurface {
         if (has_normals_) mesh.normals = normals_;
         mesh.indices = std::span<const std::uint32_t>(indices_);
         std::vector<std::uint8_t> turned(indices_.size() / 3);
-        const WindingOptions how{.weld_distance = options.normals.weld_distance};
+        const WindingOptions how{.weld_distance = options.normals.compute.weld_distance};
         report.winding = valueOrThrow(mendWinding(mesh, how, turned, options.execution));
         for (const auto& [key, piece] : pieces_) {
             const auto begin = turned.begin() + static_cast<std::ptrdiff_t>(piece.first);
@@ -98,7 +98,7 @@ WindingPlan planWinding(gltf::Model& model, const GenerateOptions& options, std:
         if (std::find(kept.begin(), kept.end(), primitives[i].mesh) != kept.end()) continue;
         model.document().memory->require(48 * corners + 80 * vertices, primitives[i].place());
         MeshSurface surface(model);
-        for (std::size_t number = i; number < past; ++number) surface.add(number, !options.overwrite_normals);
+        for (std::size_t number = i; number < past; ++number) surface.add(number, !options.normals.overwrite);
         if (surface.empty()) continue;
         MendedWindingReport& report = plan.reports.emplace_back();
         report.mesh = primitives[i].mesh;
@@ -144,7 +144,8 @@ std::vector<std::uint8_t> mendObjWinding(obj::Model& model, const GenerateOption
     mesh.indices = std::span<const std::uint32_t>(indices);
     mesh.normal_indices = std::span<const std::uint32_t>(normals);
     mesh.face_sizes = sizes;
-    const WindingOptions how{.use_normals = !options.overwrite_normals, .weld_distance = options.normals.weld_distance};
+    const WindingOptions how{.use_normals = !options.normals.overwrite,
+                             .weld_distance = options.normals.compute.weld_distance};
     std::vector<std::uint8_t> turned(model.faces.size());
     MendedWindingReport& mended = report.windings.emplace_back();
     mended.winding = valueOrThrow(mendWinding(mesh, how, turned, options.execution));

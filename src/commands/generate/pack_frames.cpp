@@ -50,7 +50,7 @@ class PackedWriter {
         : editor_(editor),
           document_(document),
           options_(options),
-          layout_(packedLayout(*options.pack)),
+          layout_(packedLayout(*options.storage.pack)),
           reports_(reports),
           primitives_(readPrimitives(document)) {}
 
@@ -76,7 +76,7 @@ class PackedWriter {
                 reports_[i].notes.push_back(std::string("its frames are not packed: ") + why);
                 continue;
             }
-            const Dropped dropped = droppedFrom(primitive, options_.pack_drop);
+            const Dropped dropped = droppedFrom(primitive, options_.storage.pack_drop);
             Key key{*primitive.find("NORMAL"), *primitive.find("TANGENT"), dropped.normals, dropped.tangents};
             for (std::size_t p = 0; p < layout_.parts.size(); ++p)
                 key[4 + p] = primitive.find(layout_.parts[p].attribute).value_or(none);
@@ -119,7 +119,7 @@ class PackedWriter {
         PackReport packing;
         const Bytes words = packWords(layout_.format, readVec3(document_, first, "NORMAL"),
                                       readTangents(document_, first), options_.execution, packing);
-        const Dropped dropped = droppedFrom(first, options_.pack_drop);
+        const Dropped dropped = droppedFrom(first, options_.storage.pack_drop);
         std::vector<std::size_t> spare = drop(numbers, dropped);
         for (const PackedPart& part : layout_.parts) {
             SharedAttribute attribute{.primitives = primitives_, .numbers = numbers, .name = part.attribute};
@@ -162,8 +162,9 @@ class PackedWriter {
         report.packing = packing;
         report.tangents_dropped = dropped.tangents;
         report.normals_dropped = dropped.normals;
-        const bool keeps_more = options_.pack_drop != PackDrop::nothing &&
-                                !(dropped.tangents && (dropped.normals || options_.pack_drop == PackDrop::tangents));
+        const bool keeps_more =
+            options_.storage.pack_drop != PackDrop::nothing &&
+            !(dropped.tangents && (dropped.normals || options_.storage.pack_drop == PackDrop::tangents));
         if (!keeps_more) return;
         report.notes.push_back(
             std::string(dropped.tangents ? "its NORMAL is kept" : "its NORMAL and TANGENT are kept") +
@@ -192,7 +193,7 @@ void noteStalePackedFrames(const Document& document, std::span<const Primitive> 
                             reports[i].action == PrimitiveAction::replaced || reports[i].normals_replaced;
         if (!is_new) continue;
         for (const StoredPacking& packing : findPacked(document, primitives[i])) {
-            if (!packing.fault.empty() || packing.layout->format == options.pack) continue;
+            if (!packing.fault.empty() || packing.layout->format == options.storage.pack) continue;
             reports[i].notes.push_back("its packed frames in " + packing.attribute + " are outdated (--pack " +
                                        frameFormatName(packing.layout->format) + " renews them)");
         }

@@ -465,7 +465,7 @@ std::vector<std::uint8_t> encodePicture(const RgbImage& image) {
 
 std::vector<std::string> showHeights(Method method, const Execution& execution, DrawnScene& drawn) {
     GenerateOptions options;
-    options.tangents.method = method;
+    options.tangents.compute.method = method;
     options.execution = execution;
     std::vector<std::string> warnings;
     Scene& scene = drawn.scene;

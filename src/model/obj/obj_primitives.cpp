@@ -54,8 +54,8 @@ BareMesh collectBareFaces(const Model& model, std::span<const std::uint32_t> fac
 }
 
 NormalOptions normalOptions(const Model& model, const BareMesh& mesh, const GenerateOptions& options) {
-    NormalOptions result = options.normals;
-    if (options.use_smoothing_groups && model.has_smoothing_groups) {
+    NormalOptions result = options.normals.compute;
+    if (options.normals.use_smoothing_groups && model.has_smoothing_groups) {
         result.weighting = NormalWeighting::angle;
         result.smoothing_groups = mesh.smoothing_groups;
     }
@@ -117,7 +117,7 @@ Result<NormalReport> completeNormals(Model& model, std::vector<ObjPrimitive>& pr
         primitive.normals_generated = !std::all_of(primitive.faces.begin(), primitive.faces.end(),
                                                    [&](auto face) { return hasNormals(model, model.faces[face]); });
     }
-    if (!options.normals_per_primitive) {
+    if (!options.normals.per_primitive) {
         std::vector<std::uint32_t> all(model.faces.size());
         std::iota(all.begin(), all.end(), 0u);
         return completeFaces(model, all, options);

@@ -398,8 +398,9 @@ TEST(CheckFile, CorrectsSignsAndAMapTogetherThatHalfOfItsMeshesAreMadeFor) {
     for (const Finding& finding : report.findings)
         EXPECT_TRUE(finding.remedy.ends_with("tspace generate --overwrite --flip-green.")) << finding.remedy;
     const std::string output = model.folder.path("corrected.gltf").string();
-    ASSERT_TRUE(generateFile(model.folder.path("model.gltf").string(), output,
-                             {.existing = ExistingTangents::replace, .flip_green = FlipGreen::down}));
+    ASSERT_TRUE(
+        generateFile(model.folder.path("model.gltf").string(), output,
+                     {.selection = {.existing = ExistingTangents::replace}, .maps = {.flip_green = FlipGreen::down}}));
     EXPECT_EQ(codes(*checkFile(output)), CodeCounts{});
 }
 

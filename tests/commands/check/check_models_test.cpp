@@ -85,8 +85,8 @@ TEST_P(Models, HaveNoErrorAfterGenerate) {
     const TempFolder folder;
     const std::string output = folder.path("out.glb").string();
     GenerateOptions options;
-    options.all = true;
-    options.existing = ExistingTangents::replace;
+    options.selection.all = true;
+    options.selection.existing = ExistingTangents::replace;
     const auto generated = generateFile(input, output, options);
     if (!generated && generated.error().code == ErrorCode::unsupportedFile) {
         GTEST_SKIP() << generated.error().message;

@@ -22,8 +22,8 @@ constexpr FrameFormat kAllFormats[] = {FrameFormat::frame32,     FrameFormat::fr
 
 void pack(const std::string& input, const std::string& output, FrameFormat format, PackDrop drop = PackDrop::nothing) {
     GenerateOptions options;
-    options.pack = format;
-    options.pack_drop = drop;
+    options.storage.pack = format;
+    options.storage.pack_drop = drop;
     const auto report = generateFile(input, output, options);
     ASSERT_TRUE(report) << report.error().message;
 }
@@ -105,8 +105,8 @@ TEST(CheckPacked, FindsNothingInWhatGenerateMakesOfModels) {
         const TempFolder folder;
         const std::string output = folder.path("out.glb").string();
         GenerateOptions options;
-        options.all = true;
-        options.pack = FrameFormat::frame32;
+        options.selection.all = true;
+        options.storage.pack = FrameFormat::frame32;
         ASSERT_TRUE(generateFile(model.string(), output, options));
         const CheckReport report = check(output);
         EXPECT_EQ(find(report, FindingCode::packedFramesDiffer), nullptr) << name;
@@ -228,7 +228,7 @@ TEST(CheckPacked, FindsHalfOfAPair) {
 TEST(CheckPacked, AnotherLengthIsRefusedWhereNothingMakesItAnew) {
     const PackedGrid grid([](GltfBuilder& model) { packedAccessor(model)["count"] = 3; });
     GenerateOptions other;
-    other.pack = FrameFormat::oct32;
+    other.storage.pack = FrameFormat::oct32;
     for (const GenerateOptions& options : {GenerateOptions{}, other}) {
         const auto report = generateFile(grid.file(), grid.output(), options);
         ASSERT_FALSE(report);
@@ -270,7 +270,7 @@ TEST(CheckPacked, TangentsThatAreOnlyPackedAreMissingForOthersAlone) {
         const bool names_command = finding->remedy.find("tspace generate --overwrite") != std::string::npos;
         EXPECT_EQ(names_command, drop == PackDrop::tangents) << finding->remedy;
         GenerateOptions options;
-        options.existing = ExistingTangents::replace;
+        options.selection.existing = ExistingTangents::replace;
         ASSERT_TRUE(generateFile(grid.output(), grid.output(), options));
         EXPECT_EQ(find(check(grid.output()), FindingCode::tangentsMissing) == nullptr, names_command);
     }

@@ -52,8 +52,8 @@ TEST_P(GenerateModel, GivesWhatAReaderOfItsGlbGets) {
     TSPACE_NEEDS_SHARED(GetParam());
     const TempFolder folder;
     const std::string input = shared(GetParam()).string(), output = folder.path("out.glb").string();
-    GenerateOptions options{.existing = ExistingTangents::replace};
-    options.all = true;
+    GenerateOptions options{.selection = {.existing = ExistingTangents::replace}};
+    options.selection.all = true;
     const Result<GenerateReport> written = generateFile(input, output, options);
     ASSERT_TRUE(written) << written.error().message;
     gltf::GeneratedModel made = generateModel(input, options, true);
@@ -77,8 +77,8 @@ INSTANTIATE_TEST_SUITE_P(Models, GenerateModel,
                                          "models/obj/spot.obj", "reports/morph_pos_only.glb", "reports/two_mats.obj"));
 
 TEST(GenerateModelOptions, RefusesWhatGenerateFileRefuses) {
-    GenerateOptions options{.strip = true};
-    options.all = true;
+    GenerateOptions options{.selection = {.strip = true}};
+    options.selection.all = true;
     const std::optional<Error> error =
         tryFile([&] { static_cast<void>(generateModel("no such file.glb", options, false)); });
     ASSERT_TRUE(error);

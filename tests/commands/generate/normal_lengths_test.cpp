@@ -175,7 +175,7 @@ TEST(NormalLengths, OfQuantizedNormalsCountToo) {
         firstPrimitive(builder)["attributes"]["NORMAL"] = accessor;
         EXPECT_LT(worstDegrees(tangentsOf(builder), tangentsOf(sheetOf(1))), bits == 8 ? 0.8 : 0.01);
         const Files files;
-        generated(files.input(builder), files.output(), {.existing = ExistingTangents::repair});
+        generated(files.input(builder), files.output(), {.selection = {.existing = ExistingTangents::repair}});
         const Stored repaired(files.output());
         EXPECT_EQ(readAccessor(repaired.document, *repaired.primitives[0].find("NORMAL")).component,
                   bits == 8 ? gltf::ComponentType::i8 : gltf::ComponentType::i16);
@@ -186,19 +186,21 @@ TEST(NormalLengths, OfQuantizedNormalsCountToo) {
 TEST(NormalLengths, RepairWritesUnitNormals) {
     const Files files;
     const std::string input = files.input(sheetOf(2));
-    const GenerateReport report = generated(input, files.output(), {.existing = ExistingTangents::repair});
+    const GenerateReport report =
+        generated(input, files.output(), {.selection = {.existing = ExistingTangents::repair}});
     EXPECT_TRUE(report.changed);
     EXPECT_EQ(warningsOnLengths(report), 1u);
     for (const Vec3& n : Stored(files.output()).normals()) EXPECT_NEAR(lengthOf(n), 1, 1e-6);
     const std::string again = files.folder.path("again.glb").string();
-    const GenerateReport second = generated(files.output(), again, {.existing = ExistingTangents::repair});
+    const GenerateReport second =
+        generated(files.output(), again, {.selection = {.existing = ExistingTangents::repair}});
     EXPECT_FALSE(second.changed);
     EXPECT_EQ(warningsOnLengths(second), 0u);
 }
 
 TEST(NormalLengths, OverwritingNormalsWritesUnitOnes) {
     const Files files;
-    generated(files.input(sheetOf(2)), files.output(), {.overwrite_normals = true});
+    generated(files.input(sheetOf(2)), files.output(), {.normals = {.overwrite = true}});
     for (const Vec3& n : Stored(files.output()).normals()) EXPECT_NEAR(lengthOf(n), 1, 1e-6);
 }
 
@@ -220,7 +222,7 @@ TEST(NormalLengths, AreAnErrorOfCheckThatItsRemedyRemoves) {
         EXPECT_EQ(finding->severity, Severity::error);
         EXPECT_NE(finding->remedy.find("tspace generate --repair"), std::string::npos);
         EXPECT_EQ(findingOf(*before, FindingCode::fileRemark), nullptr);
-        generated(input, files.output(), {.existing = ExistingTangents::repair});
+        generated(input, files.output(), {.selection = {.existing = ExistingTangents::repair}});
         const auto after = checkFile(files.output());
         ASSERT_TRUE(after);
         for (const Finding& left : after->findings) EXPECT_EQ(left.severity, Severity::note) << left.message;
@@ -235,7 +237,7 @@ TEST(NormalLengths, RepairKeepsTangentsThatAreRight) {
     GltfBuilder builder = sheetOf(3);
     firstPrimitive(builder)["attributes"]["TANGENT"] = builder.addFloats(floatsOf(right), 4);
     const std::string input = files.input(builder), output = files.folder.path("repaired.glb").string();
-    generated(input, output, {.existing = ExistingTangents::repair});
+    generated(input, output, {.selection = {.existing = ExistingTangents::repair}});
     EXPECT_EQ(Stored(output).tangents(), right);
 }
 
@@ -265,7 +267,7 @@ TEST(NormalLengths, OffsetsOfMorphTargetsAreScaledWithTheNormals) {
         EXPECT_LT(lengthOf({a.x - b.x, a.y - b.y, a.z - b.z}), 1e-4);
     }
     const Files files;
-    generated(files.input(build(4)), files.output(), {.existing = ExistingTangents::repair});
+    generated(files.input(build(4)), files.output(), {.selection = {.existing = ExistingTangents::repair}});
     const Stored repaired(files.output());
     for (const Vec3& offset : readOffsets(repaired.document, repaired.primitives[0], 0, "NORMAL"))
         EXPECT_NEAR(offset.x, 0.3f, 1e-6);
@@ -295,14 +297,14 @@ TEST(NearPositions, GiveMadeNormalsNoSeam) {
         const bool is_torus = std::string(name).find("torus") != std::string::npos;
         for (const NormalWeighting weighting : {NormalWeighting::angle, NormalWeighting::best}) {
             const Files files;
-            GenerateOptions options{.all = true};
-            options.normals.weighting = weighting;
-            options.normals.crease_angle_deg = is_torus ? 180 : 40;
+            GenerateOptions options{.selection = {.all = true}};
+            options.normals.compute.weighting = weighting;
+            options.normals.compute.crease_angle_deg = is_torus ? 180 : 40;
             generated(shared(input).string(), files.output(), options);
             if (is_torus) {
                 EXPECT_LT(worstAcross(files.output()), 0.01) << name;
             }
-            options.normals.weld_distance = 0;
+            options.normals.compute.weld_distance = 0;
             generated(shared(input).string(), files.output(), options);
             if (name == std::string("three_torus_bare")) {
                 EXPECT_GT(worstAcross(files.output()), 4);

@@ -16,7 +16,7 @@ namespace {
 
 report::VertexTotals verticesOf(const std::string& input) {
     const TempFolder folder;
-    const auto report = generateFile(input, folder.path("out.glb").string(), {.all = true});
+    const auto report = generateFile(input, folder.path("out.glb").string(), {.selection = {.all = true}});
     EXPECT_TRUE(report) << report.error().message;
     return report ? report::totalsOf(*report).vertices : report::VertexTotals{};
 }

@@ -94,10 +94,8 @@ TEST(GoldenTable, IsWhatDiffFinds) {
     TSPACE_NEEDS_SHARED("models/GOLDEN.md");
     const TempFolder folder;
     for (const Row& row : readTable()) {
-        GenerateOptions options{.all = true,
-                                .existing = ExistingTangents::replace,
-                                .texture_transform = TextureTransform::ignore,
-                                .sanitize = false};
+        GenerateOptions options{.selection = {.all = true, .existing = ExistingTangents::replace},
+                                .tangents = {.texture_transform = TextureTransform::ignore, .sanitize = false}};
         const std::string input = shared("models/" + row.file).string(), output = folder.path("out.glb").string();
         const auto report = generateFile(input, output, options);
         ASSERT_TRUE(report) << row.file << ": " << report.error().message;

@@ -57,9 +57,9 @@ TEST(Identify, NamesAllMethodsThatFitTangentsOfEightBits) {
     data.normals.assign(data.positions.size(), {0, 0, 1});
     const std::string input = writeModel(folder, "plane.glb", {data}), output = folder.path("best.glb").string();
     GenerateOptions options;
-    options.all = true;
-    options.format = VectorFormat::snorm8;
-    options.tangents.method = Method::best;
+    options.selection.all = true;
+    options.storage.format = VectorFormat::snorm8;
+    options.tangents.compute.method = Method::best;
     ASSERT_TRUE(generateFile(input, output, options));
     const Result<Identification> result = identifyFile(output);
     ASSERT_TRUE(result);

@@ -103,14 +103,14 @@ TEST(DiffPictures, APlaceIsThePictureOfItsModel) {
 TEST(Remedy, CommandsAreOptionsOfGenerate) {
     const auto repair = optionsOf(usualRemedy(FindingCode::signsInverted).commands.at(0));
     ASSERT_TRUE(repair);
-    EXPECT_EQ(repair->existing, ExistingTangents::repair);
-    EXPECT_EQ(repair->faces, Faces::automatic) << "as on the command line";
+    EXPECT_EQ(repair->selection.existing, ExistingTangents::repair);
+    EXPECT_EQ(repair->tangents.faces, Faces::automatic) << "as on the command line";
     const auto plain = optionsOf(usualRemedy(FindingCode::tangentsIgnored).commands.at(0));
     ASSERT_TRUE(plain);
-    EXPECT_EQ(plain->existing, ExistingTangents::keep);
+    EXPECT_EQ(plain->selection.existing, ExistingTangents::keep);
     const auto other = optionsOf(toCommand("generate --overwrite --convention opengl"));
     ASSERT_TRUE(other);
-    EXPECT_EQ(other->tangents.convention.green, conventions::opengl.green);
+    EXPECT_EQ(other->tangents.compute.convention.green, conventions::opengl.green);
     EXPECT_FALSE(optionsOf(toCommand("generate --pack"))) << "which format is left open";
     EXPECT_FALSE(optionsOf(toCommand("generate --pack FORMAT"))) << "which format is left open";
 }

@@ -49,10 +49,10 @@ struct Made {
 Made make(const std::string& extension, const std::string& bytes, bool keep = false,
           float weld_distance = NormalOptions::weld_auto) {
     const TempFolder folder;
-    GenerateOptions options{.all = true};
-    options.overwrite_normals = true;
-    options.normals.weighting = NormalWeighting::angle;
-    options.normals.weld_distance = weld_distance;
+    GenerateOptions options{.selection = {.all = true}};
+    options.normals.overwrite = true;
+    options.normals.compute.weighting = NormalWeighting::angle;
+    options.normals.compute.weld_distance = weld_distance;
     options.file = kWithImporter;
     options.file.keep_coordinates = keep;
     const std::string output = folder.path("out.glb").string();

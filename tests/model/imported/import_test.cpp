@@ -34,7 +34,7 @@ std::string exported(const TempFolder& folder, const std::string& gltf, const st
 }
 
 Result<GenerateReport> generate(const std::string& input, const std::string& output, FileOptions file = kWithImporter) {
-    GenerateOptions options{.all = true};
+    GenerateOptions options{.selection = {.all = true}};
     options.file = std::move(file);
     return generateFile(input, output, options);
 }

@@ -85,7 +85,7 @@ struct FarModel {
 
 FarModel makeFar(const TempFolder& folder, const std::string& name, const std::string& obj, bool keep = false) {
     GenerateOptions options;
-    options.all = true;
+    options.selection.all = true;
     options.file.keep_coordinates = keep;
     FarModel made{.input = folder.write(name + ".obj", obj), .output = (folder.path() / (name + ".glb")).string()};
     Result<GenerateReport> report = generateFile(made.input, made.output, options);
@@ -215,8 +215,8 @@ TEST(FarCoordinates, TheSharedScanHasTheNormalsOfItsTwin) {
     TSPACE_NEEDS_SHARED("reports/utm_scan.obj");
     const TempFolder folder;
     GenerateOptions options;
-    options.all = true;
-    options.normals.weighting = NormalWeighting::angle;
+    options.selection.all = true;
+    options.normals.compute.weighting = NormalWeighting::angle;
     std::vector<std::vector<Vec3>> normals;
     for (const std::string name : {"utm_scan", "local_scan"}) {
         const std::string output = (folder.path() / (name + ".glb")).string();

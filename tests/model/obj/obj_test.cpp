@@ -54,7 +54,7 @@ struct ObjModel {
 
 GenerateOptions everything() {
     GenerateOptions options;
-    options.all = true;
+    options.selection.all = true;
     return options;
 }
 
@@ -195,11 +195,11 @@ TEST(Obj, SmoothingGroupsDecideWhereNormalsAreMissing) {
 TEST(Obj, OptionsDecideAboutNormalsWhenGroupsAreNotAskedFor) {
     const TempFolder folder;
     GenerateOptions options = everything();
-    options.use_smoothing_groups = false;
+    options.normals.use_smoothing_groups = false;
     EXPECT_EQ(make(folder, folded("s 1\n"), options).vec3("NORMAL").size(), 8U);
-    options.normals.weighting = NormalWeighting::angle;
+    options.normals.compute.weighting = NormalWeighting::angle;
     EXPECT_EQ(make(folder, folded("s off\n"), options).vec3("NORMAL").size(), 6U);
-    options.normals.crease_angle_deg = 60;
+    options.normals.compute.crease_angle_deg = 60;
     EXPECT_EQ(make(folder, folded("s 1\n"), options).vec3("NORMAL").size(), 8U);
 }
 
@@ -228,7 +228,7 @@ TEST(Obj, FacesWithoutTextureCoordinatesAreAPrimitiveOfTheirOwn) {
     EXPECT_FALSE(made.report.primitives[1].reason.empty());
     EXPECT_FALSE(made.primitives[1].find("TANGENT"));
     GenerateOptions options = everything();
-    options.tangents.method = Method::basis;
+    options.tangents.compute.method = Method::basis;
     EXPECT_TRUE(make(folder, std::string(kQuad) + "f 1 3 4\n", options).primitives[0].find("TANGENT"));
 }
 
