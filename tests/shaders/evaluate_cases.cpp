@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/normals/pose_normals.h"
+#include "core/estimate/pose_normals.h"
 #include "core/tangents/golden_mesh.h"
 #include "core/tangents/shapes.h"
 #include "support/shared_data.h"

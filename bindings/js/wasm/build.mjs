@@ -16,9 +16,9 @@ const root = resolve(here, "../../..");
 const out = resolve(process.argv[2] ?? join(root, "build/js/wasm"));
 
 /// Folders of src/ to compile; and files with mesh loops for which larger code than that of -Oz is worthwhile.
-const rooms = ["base", "frames", "normals", "tangents", "tangents/mikktspace", "tangents/estimators", "indexed"].map((room) => `core/${room}`);
+const rooms = ["base", "frames", "normals", "estimate", "tangents", "tangents/mikktspace", "tangents/estimators", "indexed"].map((room) => `core/${room}`);
 /// Files that plain_normals.cpp replaces.
-const notPlain = ["crease_auto", "denoise", "noise_screen", "normal_groups"].map((name) => `core/normals/${name}.cpp`);
+const notPlain = ["crease_auto", "denoise", "noise_screen", "normal_groups"].map((name) => `core/estimate/${name}.cpp`);
 const fileRooms = [
   ...["surface", "quads", "pools"].map((room) => `core/mesh/${room}`), "images",
   ...["texels", "layout", "rays", "solve", "convert", "error", "bake", "blocks"].map((room) => `maps/${room}`),

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Replaces denoise and crease_auto in the module of the entry "tspace", which saves 16 KB; the module of
 // "tspace/normals" contains them. The JavaScript functions reject these options before the call.
-#include "core/normals/denoise.h"
+#include "core/estimate/creases.h"
+#include "core/estimate/denoise.h"
 #include "core/normals/normals_call.h"
 
 namespace tspace {

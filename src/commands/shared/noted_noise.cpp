@@ -4,7 +4,7 @@
 #include "core/base/border.h"
 #include "core/base/near_positions.h"
 #include "core/base/parallel.h"
-#include "core/normals/denoise.h"
+#include "core/estimate/denoise.h"
 #include "tspace/execution.h"
 
 namespace tspace {

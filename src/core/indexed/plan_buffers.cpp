@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "core/base/border.h"
-#include "core/normals/pose_normals.h"
+#include "core/estimate/pose_normals.h"
 #include "core/tangents/plan_parts.h"
 #include "tspace/indexed_frames.h"
 

@@ -18,28 +18,12 @@
 
 namespace tspace {
 
-// NormalOptions::crease_auto: automatic detection of hard edges.
-
 /// Kind of the edge from a corner to the next one on its face.
 enum class EdgeKind : std::uint8_t {
     byAngle,  ///< an edge that does not have exactly two faces
     soft,
     hard,
 };
-
-struct Creases {
-    float angle_deg = 180;
-    bool are_all_soft = true;     ///< no edge is hard or has more than two faces
-    Buffer<EdgeKind> edges = {};  ///< edge kind of each corner
-};
-
-/// Finds hard edges from the histogram of dihedral angles: the threshold is in the widest gap between the angles of
-/// most edges and those of few edges. For noisy positions, uses faces whose normals were smoothed except across edges.
-/// Then removes creases of one edge, and closes gaps of one edge. Requires a validated mesh and options.
-/// Uses NormalGroups (denoise.h), then 57 bytes per corner. O(n log n) for points with many edges, otherwise linear.
-/// Throws OutOfMemory.
-/// Based on: Zheng, Fu, Au & Tai, "Bilateral Normal Filtering for Mesh Denoising", 2011.
-Creases findCreases(const MeshView& mesh, const NormalOptions& options, const Execution& execution, Parallel& parallel);
 
 // Arguments and faces of a call, and the smoothing algorithms.
 

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "core/base/vec_math.h"
-#include "core/normals/pose_normals.h"
+#include "core/estimate/pose_normals.h"
 #include "support/random_values.h"
 #include "support/same_bits.h"
 #include "support/simple_mesh.h"

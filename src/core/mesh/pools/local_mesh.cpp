@@ -12,8 +12,8 @@
 #include "core/base/parallel.h"
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
+#include "core/estimate/pose_normals.h"
 #include "core/mesh/surface/surface.h"
-#include "core/normals/pose_normals.h"
 #include "tspace/indexed_frames.h"
 
 namespace tspace {

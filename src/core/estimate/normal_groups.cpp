@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Graph of groups: a counting sort of corners, then the neighbors of each group.
-#include "core/normals/denoise.h"
+#include "core/estimate/denoise.h"
 
 #include <cmath>
 #include <limits>

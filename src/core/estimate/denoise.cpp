@@ -9,7 +9,7 @@
 
 #include "core/base/sort.h"
 #include "core/base/vec_math.h"
-#include "core/normals/denoise.h"
+#include "core/estimate/denoise.h"
 
 namespace tspace {
 

@@ -9,8 +9,8 @@
 #include <span>
 
 #include "core/base/vec_math.h"
+#include "core/estimate/pose_normals.h"
 #include "core/normals/normals_outcome.h"
-#include "core/normals/pose_normals.h"
 #include "scans.h"
 #include "support/simple_mesh.h"
 #include "support/thread_team.h"

@@ -10,9 +10,9 @@
 #include <map>
 
 #include "core/base/vec_math.h"
-#include "core/normals/denoise.h"
+#include "core/estimate/denoise.h"
+#include "core/estimate/pose_normals.h"
 #include "core/normals/normals_outcome.h"
-#include "core/normals/pose_normals.h"
 #include "scans.h"
 #include "support/simple_mesh.h"
 #include "support/thread_team.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/normals/normals_call.h"
+#include "core/estimate/creases.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 
 #include "core/base/mesh_loops.h"
 #include "core/base/vec_math.h"
-#include "core/normals/denoise.h"
+#include "core/estimate/denoise.h"
 
 namespace tspace {
 

@@ -9,7 +9,7 @@
 
 #include "core/base/mesh_loops.h"
 #include "core/base/unique_index.h"
-#include "core/normals/denoise.h"
+#include "core/estimate/denoise.h"
 
 namespace tspace {
 
