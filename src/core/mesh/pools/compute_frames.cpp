@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Normals, tangents, sanitizing and splitting for all primitives of one vertex pool.
+// Normals, tangents, sanitizing and splitting for all primitives of one vertex pool. The steps, in the order of this file:
+//
+//   1. computePrimitive: normals and tangents of the corners of each primitive
+//   2. computeMorphs: what targets add to tangents
+//   3. write: the vertices of the pool, their frames, and the reports
+//   4. computePool: all of this; splitPool splits vertices, keepPool keeps all
+//   5. computeFrames: the pool as it is given, and with normals of its own where targets move them
 #include <algorithm>
 #include <cstring>
 #include <numeric>
@@ -47,363 +53,367 @@ void callProgress(const FramesOptions& options) {
     if (options.progress) options.progress("computing tangents", 0, 0);
 }
 
-class FrameComputer {
-  public:
-    FrameComputer(const PoolView& pool, std::span<const PrimitiveGeometry> primitives, const FramesOptions& options,
-                  std::span<FramesReport> reports)
-        : pool_(pool),
-          primitives_(primitives),
-          options_(options),
-          reports_(reports),
-          generates_normals_(pool.normals.empty()),
-          generates_tangents_(pool.makes_tangents && (options.tangents.method == Method::basis || !pool.uvs.empty())),
-          generates_bitangents_(options.bitangents && generates_tangents_ &&
-                                (pool.kept_tangents.empty() || pool.mends_tangents)),
-          local_meshes_(pool_, primitives.size()),
-          morph_tangents_(pool_, options) {}
+/// The state of a call that its steps share.
+struct PoolComputation {
+    [[nodiscard]] bool takesQuads() const { return options.tangents.method == Method::mikktspace; }
+    [[nodiscard]] std::span<Vec4> tangents() { return {tangent_buffer.data(), tangent_buffer.size()}; }
+    [[nodiscard]] std::span<Vec3> bitangents() { return {bitangent_buffer.data(), bitangent_buffer.size()}; }
 
-    Result<PoolFrames> compute() {
-        std::size_t corner_count = 0;
-        for (const PrimitiveGeometry& primitive : primitives_) {
-            if (Result<Done> valid = validate(viewInPool(pool_, primitive)); !valid) return std::move(valid).error();
-            corner_count += cornersOfTriangles(primitive);
-        }
-        if (corner_count > kMaxCorners) {
-            return Error{ErrorCode::tooLarge, "the primitives that share these vertices have more than 2^31-1 corners"};
-        }
-        const Allocator* allocator = options_.execution.allocator;
-        if (generates_tangents_) tangents_ = Buffer<Vec4>(allocator, corner_count);
-        if (generates_bitangents_) bitangents_ = Buffer<Vec3>(allocator, corner_count);
-        for (std::size_t p = 0; p < primitives_.size(); ++p) {
-            if (Result<Done> done = computePrimitive(primitives_[p], reports_[p]); !done) {
-                return std::move(done).error();
-            }
-        }
-        return pool_.kept_tangents.empty() || pool_.mends_tangents ? splitPool() : keepPool();
-    }
-
-  private:
-    /// Computes the frames of one primitive and appends them for the split. Polygons are triangulated after the
-    /// normals, which need whole faces, and before the tangents: readers of the result see triangles, and would compute
-    /// with these.
-    Result<Done> computePrimitive(const PrimitiveGeometry& primitive, FramesReport& report) {
-        if (primitive.indices.empty()) {
-            corner_counts_.push_back(0);
-            return Done{};
-        }
-        LocalMesh mesh = local_meshes_.make(primitive);
-        QuadFaces faces;
-        std::vector<std::uint32_t> cut_vertices;
-        std::vector<Vec3> normals;
-        if (generates_normals_) {
-            if (Result<Done> done = computeNormals(primitive, mesh, normals, report); !done) return done;
-            callProgress(options_);
-        }
-        if (!mesh.face_sizes.empty()) {
-            Result<Triangulation> triangles = triangulate(mesh.view());
-            if (!triangles) return std::move(triangles).error();
-            if (options_.faces == Faces::quads && takesQuads()) faces = facesOfPolygons(mesh.face_sizes, *triangles);
-            mesh.own.indices = gather(mesh.indices, triangles->corners);
-            mesh.useOwnIndices();
-            cut_vertices = gather(spanOf(primitive.indices), triangles->corners);
-            normals = gather(std::span<const Vec3>(normals), triangles->corners);
-            mesh.face_sizes = {};
-        }
-        if (generates_tangents_) {
-            if (Result<Done> done = chooseQuads(std::move(faces), mesh, report); !done) return done;
-            if (Result<Done> done = computeTangents(mesh, report); !done) return done;
-            callProgress(options_);
-        }
-        const bool is_cut = !primitive.face_sizes.empty();
-        const std::vector<std::uint32_t>& vertices = is_cut ? cut_vertices : primitive.indices;
-        report.triangle_count = vertices.size() / 3;
-        if (pool_.mends_tangents) mendTangents(vertices, primitive.mends);
-        if (generates_tangents_ && pool_.targets.count != 0) {
-            if (Result<Done> done = morph_tangents_.add(std::move(mesh), report); !done) return done;
-        }
-        append(vertices, is_cut, std::move(normals));
-        return Done{};
-    }
-
-    /// Computes normals per corner, and one per vertex of the mesh: vertices with several normals are split first, so
-    /// that a per-vertex method uses the mesh that will be written.
-    Result<Done> computeNormals(const PrimitiveGeometry& primitive, LocalMesh& mesh, std::vector<Vec3>& normals,
-                                FramesReport& report) const {
-        NormalOptions options = options_.normals;
-        options.smoothing_groups = primitive.smoothing_groups;
-        normals.resize(mesh.indices.size());
-        Result<NormalReport> made =
-            BorderedNormals(mesh, primitive.around.get(), options, options_.execution).base(normals);
-        if (!made) return std::move(made).error();
-        roundUnits(normals, options_.format);
-        report.normals = *made;
-        report.normals_generated = true;
-
-        const CornerAttribute attribute = cornerAttribute(StridedSpan<const Vec3>(normals));
-        Result<SplitResult> split = splitVertices(mesh.view().indices, mesh.positions.count, mesh.indices.size(),
-                                                  {&attribute, 1}, options_.execution);
-        if (!split) return std::move(split).error();
-        mesh.own.positions = gather(mesh.positions, split->source_vertices);
-        mesh.own.uvs = gather(mesh.uvs, split->source_vertices);
-        mesh.own.normals = gatherNormals(normals, split->source_corners);
-        mesh.own.indices = std::move(split->indices);
-        mesh.useOwnIndices();
-        mesh.useOwnVertices();
-        return Done{};
-    }
-
-    [[nodiscard]] bool takesQuads() const { return options_.tangents.method == Method::mikktspace; }
-
-    /// Converts triangles to quads if requested and possible; `polygons` are the file's own. Morph deltas of kept
-    /// tangents are computed on the faces that these tangents were computed on.
-    Result<Done> chooseQuads(QuadFaces&& polygons, LocalMesh& mesh, FramesReport& report) const {
-        if (!takesQuads()) return Done{};
-        QuadFaces faces = std::move(polygons);
-        if (faces.quad_count == 0) {
-            Result<QuadFaces> chosen = chooseFaces(mesh);
-            if (!chosen) return std::move(chosen).error();
-            faces = *std::move(chosen);
-        }
-        if (faces.quad_count == 0) return Done{};
-        report.faces = Faces::quads;
-        report.quad_count = faces.quad_count;
-        takeFaces(std::move(faces), mesh);
-        return Done{};
-    }
-
-    [[nodiscard]] Result<QuadFaces> chooseFaces(const LocalMesh& mesh) const {
-        const bool keeps = !pool_.kept_tangents.empty();
-        const Faces faces = keeps ? Faces::automatic : options_.faces;
-        std::span<const Vec4> stored;
-        std::vector<Vec4> own;
-        if (faces != Faces::triangles && !generates_normals_) {
-            stored = keeps ? pool_.kept_tangents : pool_.old_tangents;
-            if (!mesh.sources.empty()) stored = own = gather(stored, mesh.sources);
-        }
-        return tspace::chooseFaces(mesh.view(), stored, pool_.is_blenders, faces, options_.execution);
-    }
-
-    /// Computes the tangents of the next corners, into tangents() and bitangents().
-    Result<Done> computeTangents(const LocalMesh& mesh, FramesReport& report) {
-        const std::size_t first = corners_.size(), count = mesh.triangleCornerCount();
-        const std::span<Vec4> tangents = this->tangents().subspan(first, count);
-        const std::span<Vec3> bitangents =
-            generates_bitangents_ ? this->bitangents().subspan(first, count) : std::span<Vec3>();
-        if (mesh.face_corners.empty()) return computeTangents(mesh, tangents, bitangents, report);
-        std::vector<Vec4> of_faces(mesh.indices.size());
-        std::vector<Vec3> bitangents_of_faces(bitangents.empty() ? 0 : mesh.indices.size());
-        if (Result<Done> done = computeTangents(mesh, of_faces, bitangents_of_faces, report); !done) return done;
-        toTriangles<Vec4>(mesh, of_faces, tangents);
-        toTriangles<Vec3>(mesh, bitangents_of_faces, bitangents);
-        return Done{};
-    }
-
-    /// `bitangents` may be empty.
-    Result<Done> computeTangents(const LocalMesh& mesh, std::span<Vec4> tangents, std::span<Vec3> bitangents,
-                                 FramesReport& report) const {
-        TangentOutput out{.tangents = tangents};
-        if (generates_bitangents_) {
-            out.bitangents = bitangents;
-            report.bitangents_generated = true;
-        }
-        Result<TangentReport> made = generateTangents(mesh.view(), options_.tangents, out, options_.execution);
-        if (!made) return std::move(made).error();
-        report.tangents = *made;
-        report.negative_uv_count = positiveUvsAreMirrored(options_.tangents.convention)
-                                       ? notMirroredCount(*made, options_.tangents.method)
-                                       : made->mirrored_count;
-        if (!options_.sanitize) return Done{};
-        std::vector<Vec4> computed;
-        if (generates_bitangents_) computed.assign(tangents.begin(), tangents.end());
-        Result<SanitizeReport> mended =
-            sanitizeTangents(mesh.view(), options_.sanitize_options, tangents, options_.execution);
-        if (!mended) return std::move(mended).error();
-        report.sanitize = *mended;
-        if (generates_bitangents_) mendBitangents(mesh.normals, mesh.indices, computed, tangents, bitangents);
-        return Done{};
-    }
-
-    /// Repairs the tangents of the mesh that was just computed, which is appended next.
-    void mendTangents(std::span<const std::uint32_t> vertices, const Mends& mends) {
-        const std::span<Vec4> tangents = this->tangents().subspan(corners_.size(), vertices.size());
-        const std::vector<Vec4> computed(tangents.begin(), tangents.end());
-        const std::vector<bool> is_new = mendCorners(pool_, vertices, mends, tangents);
-        has_new_offsets_.insert(has_new_offsets_.end(), is_new.begin(), is_new.end());
-        differing_count_ += countDiffering(computed, tangents);
-        if (!generates_bitangents_) return;
-        const std::span<Vec3> bitangents = this->bitangents().subspan(corners_.size(), vertices.size());
-        for (std::size_t c = 0; c < vertices.size(); ++c) {
-            if (computed[c] == tangents[c]) continue;
-            bitangents[c] = bitangentOf(tangents[c], pool_.normals[vertices[c]]);
-        }
-    }
-
-    /// `vertices`: vertices of the primitive's corners. For a single primitive they are not copied.
-    void append(std::span<const std::uint32_t> vertices, bool is_cut, std::vector<Vec3>&& normals) {
-        if (primitives_.size() == 1 && !is_cut) {
-            corners_ = vertices;
-        } else {
-            own_corners_.insert(own_corners_.end(), vertices.begin(), vertices.end());
-            corners_ = own_corners_;
-        }
-        if (normals_.empty()) {
-            normals_ = std::move(normals);
-        } else {
-            normals_.insert(normals_.end(), normals.begin(), normals.end());
-        }
-        corner_counts_.push_back(vertices.size());
-    }
-
-    Result<PoolFrames> splitPool() {
-        std::vector<CornerAttribute> attributes;
-        if (!normals_.empty()) attributes.push_back(cornerAttribute(StridedSpan<const Vec3>(normals_)));
-        if (!tangents_.empty()) attributes.push_back(cornerAttribute(StridedSpan<const Vec4>(tangents())));
-        if (!bitangents_.empty()) attributes.push_back(cornerAttribute(StridedSpan<const Vec3>(bitangents())));
-        Result<SplitResult> split =
-            splitVertices(IndexView(corners_), pool_.positions.count, corners_.size(), attributes, options_.execution);
-        if (!split) return std::move(split).error();
-
-        PoolFrames frames;
-        frames.differing_count = differing_count_;
-        if (Result<Done> done = computeMorphs(*split, true, frames); !done) return std::move(done).error();
-        write(*std::move(split), frames);
-        return frames;
-    }
-
-    /// Keeps all vertices, and only compares the tangents of the base.
-    Result<PoolFrames> keepPool() {
-        PoolFrames frames;
-        frames.differing_count = countDiffering(tangents(), pool_.kept_tangents, corners_);
-        SplitResult whole;
-        whole.source_vertices.resize(pool_.positions.count);
-        std::iota(whole.source_vertices.begin(), whole.source_vertices.end(), 0u);
-        whole.source_corners.assign(pool_.positions.count, kNoCorner);
-        for (std::size_t c = corners_.size(); c-- > 0;) {
-            whole.source_corners[corners_[c]] = static_cast<std::uint32_t>(c);
-        }
-        whole.indices.assign(corners_.begin(), corners_.end());
-        if (frames.differing_count == 0) {
-            if (Result<Done> done = computeMorphs(whole, false, frames); !done) return std::move(done).error();
-        }
-        write(std::move(whole), frames);
-        return frames;
-    }
-
-    Result<Done> computeMorphs(SplitResult& split, bool may_split, PoolFrames& frames) {
-        frames.morphs.resize(pool_.targets.count);
-        if (!generates_tangents_ || pool_.targets.count == 0) return Done{};
-        MorphSplit morph_split(std::move(split), may_split);
-        const KeptOffsets kept{corners_, has_new_offsets_};
-        const KeptOffsets* const keeps = pool_.mends_tangents ? &kept : nullptr;
-        if (Result<Done> done = morph_tangents_.compute(tangents(), morph_split, keeps); !done) return done;
-        std::vector<VertexOffsets> offsets = morph_split.finish();
-        for (std::size_t i = 0; i < offsets.size(); ++i) frames.morphs[i].tangents = std::move(offsets[i]);
-        split = std::move(morph_split.split());
-        return Done{};
-    }
-
-    void write(SplitResult&& split, PoolFrames& frames) {
-        frames.normals_generated = generates_normals_;
-        cutIndices(std::move(split.indices), frames);
-        if (generates_normals_) frames.normals = gatherNormals(normals_, split.source_corners);
-        if (generates_tangents_) writeTangents(split, frames);
-        if (pool_.mends_tangents) countMended(split, frames.tangents);
-        for (FramesReport& report : reports_) {
-            report.vertices_before = pool_.positions.count;
-            report.vertices_after = split.vertexCount();
-        }
-        frames.source_vertices = std::move(split.source_vertices);
-    }
-
-    /// Splits the indices of all primitives into one list per primitive.
-    void cutIndices(std::vector<std::uint32_t>&& indices, PoolFrames& frames) const {
-        if (corner_counts_.size() == 1) {
-            frames.indices.push_back(std::move(indices));
-            return;
-        }
-        auto begin = indices.begin();
-        for (const std::size_t count : corner_counts_) {
-            const auto end = begin + static_cast<std::ptrdiff_t>(count);
-            frames.indices.emplace_back(begin, end);
-            begin = end;
-        }
-    }
-
-    /// Counts repaired vertices whose tangent or morph offsets changed.
-    void countMended(const SplitResult& split, std::span<const Vec4> tangents) {
-        std::vector<bool> changed(pool_.positions.count, false);
-        for (std::size_t v = 0; v < split.vertexCount(); ++v) {
-            const std::uint32_t source = split.source_vertices[v];
-            if (std::memcmp(&tangents[v], &pool_.kept_tangents[source], sizeof(Vec4)) != 0) changed[source] = true;
-        }
-        if (pool_.targets.count != 0) {
-            for (std::size_t c = 0; c < corners_.size(); ++c) {
-                if (has_new_offsets_[c]) changed[corners_[c]] = true;
-            }
-        }
-        for (std::size_t p = 0; p < primitives_.size(); ++p) {
-            const std::vector<VertexMend>& mends = primitives_[p].mends.vertices;
-            reports_[p].mended_vertex_count = static_cast<std::uint64_t>(std::count_if(
-                mends.begin(), mends.end(), [&](const VertexMend& mend) { return changed[mend.vertex]; }));
-        }
-    }
-
-    void writeTangents(const SplitResult& split, PoolFrames& frames) const {
-        // Reserves first: growing would touch fresh pages one by one.
-        frames.tangents.reserve(split.vertexCount());
-        askForPages(frames.tangents.data(), split.vertexCount() * sizeof(Vec4));
-        if (generates_bitangents_) frames.bitangents.reserve(split.vertexCount());
-        for (std::size_t v = 0; v < split.vertexCount(); ++v) {
-            const std::uint32_t corner = split.source_corners[v];
-            if (corner == kNoCorner && pool_.mends_tangents) {
-                const Vec3 normal = pool_.normals[split.source_vertices[v]];
-                frames.tangents.push_back(withSoundValues(pool_.kept_tangents[split.source_vertices[v]],
-                                                          tangentFromNormal(normal, 1), normal));
-                if (generates_bitangents_) frames.bitangents.push_back(bitangentOf(frames.tangents.back(), normal));
-                continue;
-            }
-            if (corner == kNoCorner) {
-                writeUnused(split.source_vertices[v], frames);
-                continue;
-            }
-            frames.tangents.push_back(tangents_[corner]);
-            if (generates_bitangents_) frames.bitangents.push_back(bitangents_[corner]);
-        }
-    }
-
-    /// Writes the frame of an unused vertex: an arbitrary orthonormal frame.
-    void writeUnused(std::uint32_t vertex, PoolFrames& frames) const {
-        const Vec3 normal = generates_normals_ ? Vec3{0, 0, 1} : pool_.normals[vertex];
-        frames.tangents.push_back(tangentFromNormal(normal, signFactor(options_.tangents.convention)));
-        if (generates_bitangents_) frames.bitangents.push_back(bitangentOf(frames.tangents.back(), normal));
-    }
-
-    [[nodiscard]] std::span<Vec4> tangents() { return {tangents_.data(), tangents_.size()}; }
-    [[nodiscard]] std::span<Vec3> bitangents() { return {bitangents_.data(), bitangents_.size()}; }
-
-    const PoolView pool_;
-    std::span<const PrimitiveGeometry> primitives_;
-    const FramesOptions& options_;
-    std::span<FramesReport> reports_;
-    bool generates_normals_;
-    bool generates_tangents_;
-    bool generates_bitangents_;
-    LocalMeshes local_meshes_;
-    MorphTangents morph_tangents_;
+    const PoolView pool;
+    std::span<const PrimitiveGeometry> primitives;
+    const FramesOptions& options;
+    std::span<FramesReport> reports;
+    bool generates_normals = pool.normals.empty();
+    bool generates_tangents = pool.makes_tangents && (options.tangents.method == Method::basis || !pool.uvs.empty());
+    bool generates_bitangents =
+        options.bitangents && generates_tangents && (pool.kept_tangents.empty() || pool.mends_tangents);
+    LocalMeshes local_meshes{pool, primitives.size()};
+    MorphTangents morph_tangents{pool, options};
 
     // The vertices of all corners of all primitives, their computed frames, and the corner count of each primitive.
-    std::span<const std::uint32_t> corners_;
-    std::vector<std::uint32_t> own_corners_;
-    std::vector<Vec3> normals_;
+    std::span<const std::uint32_t> corners = {};
+    std::vector<std::uint32_t> own_corners = {};
+    std::vector<Vec3> normals = {};
     // Allocated for all primitives from the start.
-    Buffer<Vec4> tangents_;
-    Buffer<Vec3> bitangents_;
-    std::vector<std::size_t> corner_counts_;
+    Buffer<Vec4> tangent_buffer = {};
+    Buffer<Vec3> bitangent_buffer = {};
+    std::vector<std::size_t> corner_counts = {};
     // For repaired tangents: whether morph offsets are new, per corner, and the number of tangents that differ from
     // computed ones.
-    std::vector<bool> has_new_offsets_;
-    std::uint64_t differing_count_ = 0;
+    std::vector<bool> has_new_offsets = {};
+    std::uint64_t differing_count = 0;
 };
+
+// -- 1. primitives --
+
+/// Computes normals per corner, and one per vertex of the mesh: vertices with several normals are split first, so
+/// that a per-vertex method uses the mesh that will be written.
+Result<Done> computeNormals(const PoolComputation& state, const PrimitiveGeometry& primitive, LocalMesh& mesh,
+                            std::vector<Vec3>& normals, FramesReport& report) {
+    NormalOptions options = state.options.normals;
+    options.smoothing_groups = primitive.smoothing_groups;
+    normals.resize(mesh.indices.size());
+    Result<NormalReport> made =
+        BorderedNormals(mesh, primitive.around.get(), options, state.options.execution).base(normals);
+    if (!made) return std::move(made).error();
+    roundUnits(normals, state.options.format);
+    report.normals = *made;
+    report.normals_generated = true;
+
+    const CornerAttribute attribute = cornerAttribute(StridedSpan<const Vec3>(normals));
+    Result<SplitResult> split = splitVertices(mesh.view().indices, mesh.positions.count, mesh.indices.size(),
+                                              {&attribute, 1}, state.options.execution);
+    if (!split) return std::move(split).error();
+    mesh.own.positions = gather(mesh.positions, split->source_vertices);
+    mesh.own.uvs = gather(mesh.uvs, split->source_vertices);
+    mesh.own.normals = gatherNormals(normals, split->source_corners);
+    mesh.own.indices = std::move(split->indices);
+    mesh.useOwnIndices();
+    mesh.useOwnVertices();
+    return Done{};
+}
+
+Result<QuadFaces> chooseFaces(const PoolComputation& state, const LocalMesh& mesh) {
+    const bool keeps = !state.pool.kept_tangents.empty();
+    const Faces faces = keeps ? Faces::automatic : state.options.faces;
+    std::span<const Vec4> stored;
+    std::vector<Vec4> own;
+    if (faces != Faces::triangles && !state.generates_normals) {
+        stored = keeps ? state.pool.kept_tangents : state.pool.old_tangents;
+        if (!mesh.sources.empty()) stored = own = gather(stored, mesh.sources);
+    }
+    return tspace::chooseFaces(mesh.view(), stored, state.pool.is_blenders, faces, state.options.execution);
+}
+
+/// Converts triangles to quads if requested and possible; `polygons` are the file's own. Morph deltas of kept
+/// tangents are computed on the faces that these tangents were computed on.
+Result<Done> chooseQuads(const PoolComputation& state, QuadFaces&& polygons, LocalMesh& mesh, FramesReport& report) {
+    if (!state.takesQuads()) return Done{};
+    QuadFaces faces = std::move(polygons);
+    if (faces.quad_count == 0) {
+        Result<QuadFaces> chosen = chooseFaces(state, mesh);
+        if (!chosen) return std::move(chosen).error();
+        faces = *std::move(chosen);
+    }
+    if (faces.quad_count == 0) return Done{};
+    report.faces = Faces::quads;
+    report.quad_count = faces.quad_count;
+    takeFaces(std::move(faces), mesh);
+    return Done{};
+}
+
+/// `bitangents` may be empty.
+Result<Done> computeTangents(const PoolComputation& state, const LocalMesh& mesh, std::span<Vec4> tangents,
+                             std::span<Vec3> bitangents, FramesReport& report) {
+    TangentOutput out{.tangents = tangents};
+    if (state.generates_bitangents) {
+        out.bitangents = bitangents;
+        report.bitangents_generated = true;
+    }
+    Result<TangentReport> made = generateTangents(mesh.view(), state.options.tangents, out, state.options.execution);
+    if (!made) return std::move(made).error();
+    report.tangents = *made;
+    report.negative_uv_count = positiveUvsAreMirrored(state.options.tangents.convention)
+                                   ? notMirroredCount(*made, state.options.tangents.method)
+                                   : made->mirrored_count;
+    if (!state.options.sanitize) return Done{};
+    std::vector<Vec4> computed;
+    if (state.generates_bitangents) computed.assign(tangents.begin(), tangents.end());
+    Result<SanitizeReport> mended =
+        sanitizeTangents(mesh.view(), state.options.sanitize_options, tangents, state.options.execution);
+    if (!mended) return std::move(mended).error();
+    report.sanitize = *mended;
+    if (state.generates_bitangents) mendBitangents(mesh.normals, mesh.indices, computed, tangents, bitangents);
+    return Done{};
+}
+
+/// Computes the tangents of the next corners, into tangents() and bitangents().
+Result<Done> computeTangents(PoolComputation& state, const LocalMesh& mesh, FramesReport& report) {
+    const std::size_t first = state.corners.size(), count = mesh.triangleCornerCount();
+    const std::span<Vec4> tangents = state.tangents().subspan(first, count);
+    const std::span<Vec3> bitangents =
+        state.generates_bitangents ? state.bitangents().subspan(first, count) : std::span<Vec3>();
+    if (mesh.face_corners.empty()) return computeTangents(state, mesh, tangents, bitangents, report);
+    std::vector<Vec4> of_faces(mesh.indices.size());
+    std::vector<Vec3> bitangents_of_faces(bitangents.empty() ? 0 : mesh.indices.size());
+    if (Result<Done> done = computeTangents(state, mesh, of_faces, bitangents_of_faces, report); !done) return done;
+    toTriangles<Vec4>(mesh, of_faces, tangents);
+    toTriangles<Vec3>(mesh, bitangents_of_faces, bitangents);
+    return Done{};
+}
+
+/// Repairs the tangents of the mesh that was just computed, which is appended next.
+void mendTangents(PoolComputation& state, std::span<const std::uint32_t> vertices, const Mends& mends) {
+    const std::span<Vec4> tangents = state.tangents().subspan(state.corners.size(), vertices.size());
+    const std::vector<Vec4> computed(tangents.begin(), tangents.end());
+    const std::vector<bool> is_new = mendCorners(state.pool, vertices, mends, tangents);
+    state.has_new_offsets.insert(state.has_new_offsets.end(), is_new.begin(), is_new.end());
+    state.differing_count += countDiffering(computed, tangents);
+    if (!state.generates_bitangents) return;
+    const std::span<Vec3> bitangents = state.bitangents().subspan(state.corners.size(), vertices.size());
+    for (std::size_t c = 0; c < vertices.size(); ++c) {
+        if (computed[c] == tangents[c]) continue;
+        bitangents[c] = bitangentOf(tangents[c], state.pool.normals[vertices[c]]);
+    }
+}
+
+/// `vertices`: vertices of the primitive's corners. For a single primitive they are not copied.
+void append(PoolComputation& state, std::span<const std::uint32_t> vertices, bool is_cut, std::vector<Vec3>&& normals) {
+    if (state.primitives.size() == 1 && !is_cut) {
+        state.corners = vertices;
+    } else {
+        state.own_corners.insert(state.own_corners.end(), vertices.begin(), vertices.end());
+        state.corners = state.own_corners;
+    }
+    if (state.normals.empty()) {
+        state.normals = std::move(normals);
+    } else {
+        state.normals.insert(state.normals.end(), normals.begin(), normals.end());
+    }
+    state.corner_counts.push_back(vertices.size());
+}
+
+/// Computes the frames of one primitive and appends them for the split. Polygons are triangulated after the
+/// normals, which need whole faces, and before the tangents: readers of the result see triangles, and would compute
+/// with these.
+Result<Done> computePrimitive(PoolComputation& state, const PrimitiveGeometry& primitive, FramesReport& report) {
+    if (primitive.indices.empty()) {
+        state.corner_counts.push_back(0);
+        return Done{};
+    }
+    LocalMesh mesh = state.local_meshes.make(primitive);
+    QuadFaces faces;
+    std::vector<std::uint32_t> cut_vertices;
+    std::vector<Vec3> normals;
+    if (state.generates_normals) {
+        if (Result<Done> done = computeNormals(state, primitive, mesh, normals, report); !done) return done;
+        callProgress(state.options);
+    }
+    if (!mesh.face_sizes.empty()) {
+        Result<Triangulation> triangles = triangulate(mesh.view());
+        if (!triangles) return std::move(triangles).error();
+        if (state.options.faces == Faces::quads && state.takesQuads())
+            faces = facesOfPolygons(mesh.face_sizes, *triangles);
+        mesh.own.indices = gather(mesh.indices, triangles->corners);
+        mesh.useOwnIndices();
+        cut_vertices = gather(spanOf(primitive.indices), triangles->corners);
+        normals = gather(std::span<const Vec3>(normals), triangles->corners);
+        mesh.face_sizes = {};
+    }
+    if (state.generates_tangents) {
+        if (Result<Done> done = chooseQuads(state, std::move(faces), mesh, report); !done) return done;
+        if (Result<Done> done = computeTangents(state, mesh, report); !done) return done;
+        callProgress(state.options);
+    }
+    const bool is_cut = !primitive.face_sizes.empty();
+    const std::vector<std::uint32_t>& vertices = is_cut ? cut_vertices : primitive.indices;
+    report.triangle_count = vertices.size() / 3;
+    if (state.pool.mends_tangents) mendTangents(state, vertices, primitive.mends);
+    if (state.generates_tangents && state.pool.targets.count != 0) {
+        if (Result<Done> done = state.morph_tangents.add(std::move(mesh), report); !done) return done;
+    }
+    append(state, vertices, is_cut, std::move(normals));
+    return Done{};
+}
+
+// -- 2. targets --
+
+Result<Done> computeMorphs(PoolComputation& state, SplitResult& split, bool may_split, PoolFrames& frames) {
+    frames.morphs.resize(state.pool.targets.count);
+    if (!state.generates_tangents || state.pool.targets.count == 0) return Done{};
+    MorphSplit morph_split(std::move(split), may_split);
+    const KeptOffsets kept{state.corners, state.has_new_offsets};
+    const KeptOffsets* const keeps = state.pool.mends_tangents ? &kept : nullptr;
+    if (Result<Done> done = state.morph_tangents.compute(state.tangents(), morph_split, keeps); !done) return done;
+    std::vector<VertexOffsets> offsets = morph_split.finish();
+    for (std::size_t i = 0; i < offsets.size(); ++i) frames.morphs[i].tangents = std::move(offsets[i]);
+    split = std::move(morph_split.split());
+    return Done{};
+}
+
+// -- 3. vertices of the pool --
+
+/// Splits the indices of all primitives into one list per primitive.
+void cutIndices(const PoolComputation& state, std::vector<std::uint32_t>&& indices, PoolFrames& frames) {
+    if (state.corner_counts.size() == 1) {
+        frames.indices.push_back(std::move(indices));
+        return;
+    }
+    auto begin = indices.begin();
+    for (const std::size_t count : state.corner_counts) {
+        const auto end = begin + static_cast<std::ptrdiff_t>(count);
+        frames.indices.emplace_back(begin, end);
+        begin = end;
+    }
+}
+
+/// Writes the frame of an unused vertex: an arbitrary orthonormal frame.
+void writeUnused(const PoolComputation& state, std::uint32_t vertex, PoolFrames& frames) {
+    const Vec3 normal = state.generates_normals ? Vec3{0, 0, 1} : state.pool.normals[vertex];
+    frames.tangents.push_back(tangentFromNormal(normal, signFactor(state.options.tangents.convention)));
+    if (state.generates_bitangents) frames.bitangents.push_back(bitangentOf(frames.tangents.back(), normal));
+}
+
+void writeTangents(const PoolComputation& state, const SplitResult& split, PoolFrames& frames) {
+    // Reserves first: growing would touch fresh pages one by one.
+    frames.tangents.reserve(split.vertexCount());
+    askForPages(frames.tangents.data(), split.vertexCount() * sizeof(Vec4));
+    if (state.generates_bitangents) frames.bitangents.reserve(split.vertexCount());
+    for (std::size_t v = 0; v < split.vertexCount(); ++v) {
+        const std::uint32_t corner = split.source_corners[v];
+        if (corner == kNoCorner && state.pool.mends_tangents) {
+            const Vec3 normal = state.pool.normals[split.source_vertices[v]];
+            frames.tangents.push_back(withSoundValues(state.pool.kept_tangents[split.source_vertices[v]],
+                                                      tangentFromNormal(normal, 1), normal));
+            if (state.generates_bitangents) frames.bitangents.push_back(bitangentOf(frames.tangents.back(), normal));
+            continue;
+        }
+        if (corner == kNoCorner) {
+            writeUnused(state, split.source_vertices[v], frames);
+            continue;
+        }
+        frames.tangents.push_back(state.tangent_buffer[corner]);
+        if (state.generates_bitangents) frames.bitangents.push_back(state.bitangent_buffer[corner]);
+    }
+}
+
+/// Counts repaired vertices whose tangent or morph offsets changed.
+void countMended(PoolComputation& state, const SplitResult& split, std::span<const Vec4> tangents) {
+    std::vector<bool> changed(state.pool.positions.count, false);
+    for (std::size_t v = 0; v < split.vertexCount(); ++v) {
+        const std::uint32_t source = split.source_vertices[v];
+        if (std::memcmp(&tangents[v], &state.pool.kept_tangents[source], sizeof(Vec4)) != 0) changed[source] = true;
+    }
+    if (state.pool.targets.count != 0) {
+        for (std::size_t c = 0; c < state.corners.size(); ++c) {
+            if (state.has_new_offsets[c]) changed[state.corners[c]] = true;
+        }
+    }
+    for (std::size_t p = 0; p < state.primitives.size(); ++p) {
+        const std::vector<VertexMend>& mends = state.primitives[p].mends.vertices;
+        state.reports[p].mended_vertex_count = static_cast<std::uint64_t>(
+            std::count_if(mends.begin(), mends.end(), [&](const VertexMend& mend) { return changed[mend.vertex]; }));
+    }
+}
+
+void write(PoolComputation& state, SplitResult&& split, PoolFrames& frames) {
+    frames.normals_generated = state.generates_normals;
+    cutIndices(state, std::move(split.indices), frames);
+    if (state.generates_normals) frames.normals = gatherNormals(state.normals, split.source_corners);
+    if (state.generates_tangents) writeTangents(state, split, frames);
+    if (state.pool.mends_tangents) countMended(state, split, frames.tangents);
+    for (FramesReport& report : state.reports) {
+        report.vertices_before = state.pool.positions.count;
+        report.vertices_after = split.vertexCount();
+    }
+    frames.source_vertices = std::move(split.source_vertices);
+}
+
+// -- 4. a pool --
+
+Result<PoolFrames> splitPool(PoolComputation& state) {
+    std::vector<CornerAttribute> attributes;
+    if (!state.normals.empty()) attributes.push_back(cornerAttribute(StridedSpan<const Vec3>(state.normals)));
+    if (!state.tangent_buffer.empty()) attributes.push_back(cornerAttribute(StridedSpan<const Vec4>(state.tangents())));
+    if (!state.bitangent_buffer.empty())
+        attributes.push_back(cornerAttribute(StridedSpan<const Vec3>(state.bitangents())));
+    Result<SplitResult> split = splitVertices(IndexView(state.corners), state.pool.positions.count,
+                                              state.corners.size(), attributes, state.options.execution);
+    if (!split) return std::move(split).error();
+
+    PoolFrames frames;
+    frames.differing_count = state.differing_count;
+    if (Result<Done> done = computeMorphs(state, *split, true, frames); !done) return std::move(done).error();
+    write(state, *std::move(split), frames);
+    return frames;
+}
+
+/// Keeps all vertices, and only compares the tangents of the base.
+Result<PoolFrames> keepPool(PoolComputation& state) {
+    PoolFrames frames;
+    frames.differing_count = countDiffering(state.tangents(), state.pool.kept_tangents, state.corners);
+    SplitResult whole;
+    whole.source_vertices.resize(state.pool.positions.count);
+    std::iota(whole.source_vertices.begin(), whole.source_vertices.end(), 0u);
+    whole.source_corners.assign(state.pool.positions.count, kNoCorner);
+    for (std::size_t c = state.corners.size(); c-- > 0;) {
+        whole.source_corners[state.corners[c]] = static_cast<std::uint32_t>(c);
+    }
+    whole.indices.assign(state.corners.begin(), state.corners.end());
+    if (frames.differing_count == 0) {
+        if (Result<Done> done = computeMorphs(state, whole, false, frames); !done) return std::move(done).error();
+    }
+    write(state, std::move(whole), frames);
+    return frames;
+}
+
+Result<PoolFrames> computePool(PoolComputation& state) {
+    std::size_t corner_count = 0;
+    for (const PrimitiveGeometry& primitive : state.primitives) {
+        if (Result<Done> valid = validate(viewInPool(state.pool, primitive)); !valid) return std::move(valid).error();
+        corner_count += cornersOfTriangles(primitive);
+    }
+    if (corner_count > kMaxCorners) {
+        return Error{ErrorCode::tooLarge, "the primitives that share these vertices have more than 2^31-1 corners"};
+    }
+    const Allocator* allocator = state.options.execution.allocator;
+    if (state.generates_tangents) state.tangent_buffer = Buffer<Vec4>(allocator, corner_count);
+    if (state.generates_bitangents) state.bitangent_buffer = Buffer<Vec3>(allocator, corner_count);
+    for (std::size_t p = 0; p < state.primitives.size(); ++p) {
+        if (Result<Done> done = computePrimitive(state, state.primitives[p], state.reports[p]); !done) {
+            return std::move(done).error();
+        }
+    }
+    return state.pool.kept_tangents.empty() || state.pool.mends_tangents ? splitPool(state) : keepPool(state);
+}
+
+Result<PoolFrames> computePool(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
+                               const FramesOptions& options, std::span<FramesReport> reports) {
+    PoolComputation state{.pool = pool, .primitives = primitives, .options = options, .reports = reports};
+    return computePool(state);
+}
+
+// -- 5. calls --
 
 Error checkPool(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
                 std::span<const FramesReport> reports) {
@@ -435,7 +445,7 @@ Result<PoolFrames> computeWithMorphedNormals(const PoolView& pool, std::span<con
     PoolView with_normals = made.vertices;
     with_normals.targets = made.targets;
     with_normals.makes_tangents = pool.makes_tangents;
-    Result<PoolFrames> frames = FrameComputer(with_normals, made.primitives, options, reports).compute();
+    Result<PoolFrames> frames = computePool(with_normals, made.primitives, options, reports);
     if (!frames) return frames;
     frames->normals_generated = true;
     frames->normals = gather(std::span<const Vec3>(made.vertices.normals), frames->source_vertices);
@@ -474,7 +484,7 @@ Result<PoolFrames> computeFrames(const PoolView& pool, std::span<const Primitive
         }
         Result<PoolFrames> frames = pool.normals.empty() && pool.targets.count != 0
                                         ? computeWithMorphedNormals(pool, primitives, options, reports)
-                                        : FrameComputer(pool, primitives, options, reports).compute();
+                                        : computePool(pool, primitives, options, reports);
         callProgress(options);
         if (frames) countFaults(pool, *frames, options.normals.weld_distance, reports);
         return frames;
