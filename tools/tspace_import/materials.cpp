@@ -12,6 +12,7 @@
 #include <string>
 
 #include "mend.h"
+#include "model/io/legacy_text.h"
 
 namespace tspace::import {
 
@@ -38,9 +39,8 @@ std::string percentEncoded(const std::string& text) {
 
 /// Returns a path below the model's folder. Files from other locations (absolute, of another system, above the folder)
 /// are searched next to the model by their name.
-std::string localName(std::string path) {
-    std::replace(path.begin(), path.end(), '\\', '/');
-    const std::filesystem::path plain = std::filesystem::path(path).lexically_normal();
+std::string localName(const std::string& path) {
+    const std::filesystem::path plain = std::filesystem::path(withSlashes(path)).lexically_normal();
     const bool leads_away =
         plain.is_absolute() || path.find(':') != std::string::npos || plain.string().starts_with("..");
     return leads_away ? plain.filename().string() : plain.string();

@@ -2,12 +2,12 @@
 // URIs, and the files that a model references by URIs.
 #include "model/io/uri.h"
 
-#include <algorithm>
 #include <array>
 #include <filesystem>
 
 #include "model/io/file_error.h"
 #include "model/io/folder_rule.h"
+#include "model/io/legacy_text.h"
 
 namespace tspace {
 
@@ -165,8 +165,7 @@ std::string percentEncode(std::string_view path) {
 }
 
 std::string pathOfUri(std::string_view uri) {
-    std::string path = percentDecode(uri);
-    std::replace(path.begin(), path.end(), '\\', '/');
+    const std::string path = withSlashes(percentDecode(uri));
     return Path(fs::path(Path(path)).lexically_normal()).string();
 }
 

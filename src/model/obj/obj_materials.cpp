@@ -13,9 +13,9 @@
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/io/folder_rule.h"
+#include "model/io/legacy_text.h"
 #include "model/io/named_files.h"
 #include "model/io/uri.h"
-#include "model/obj/legacy_text.h"
 #include "model/obj/obj_reader.h"
 #include "model/obj/tiny_obj_loader.h"
 
@@ -133,12 +133,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns a path from an MTL or OBJ file without quotes and with slashes as separators.
-std::string plainPath(std::string text) {
+/// Returns a path from an MTL or OBJ file without the blanks and quotes around it.
+std::string unquoted(std::string text) {
     text.erase(0, std::min(text.find_first_not_of(" \t"), text.size()));
     text.erase(text.find_last_not_of(" \t") + 1);
     if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
-    std::replace(text.begin(), text.end(), '\\', '/');
     return text;
 }
 
@@ -195,10 +194,14 @@ class FileFinder {
 
     /// Returns the path in the folder, as the text of a URI would be resolved, if that file exists. Otherwise only the
     /// file name is tried, because absolute paths nearly always come from another computer. If no file exists, returns
-    /// the path without quotes.
+    /// the path without quotes and with slashes as separators.
     std::string find(const std::string& text) {
-        const std::string plain = plainPath(text);
+        std::string slashed = unquoted(text);
+        const std::string plain = withSlashes(slashed);
         if (isThere(plain)) return plain;
+        // The first byte of a character in one encoding is a whole character in another, where a separator follows it.
+        std::replace(slashed.begin(), slashed.end(), '\\', '/');
+        if (slashed != plain && isThere(slashed)) return slashed;
         const fs::path path = Path(plain);
         if (!path.has_root_path() && !startsAtDrive(path)) return plain;
         std::string name = Path(path.filename()).string();
@@ -286,7 +289,7 @@ bool readLibrary(const std::string& name, Model& model, std::vector<Material>& m
 bool isOneFile(const std::string& line, const NamedFiles& files) {
     bool is_there = false;
     tryFile([&] {
-        const Path path = files.resolve(percentEncode(plainPath(line)), "mtllib");
+        const Path path = files.resolve(percentEncode(withSlashes(unquoted(line))), "mtllib");
         is_there = files.kindOf(path) != NamedFiles::Kind::missing;
     });
     return is_there;

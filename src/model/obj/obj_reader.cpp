@@ -14,8 +14,8 @@
 #include "core/mesh/surface/float_loss.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
+#include "model/io/legacy_text.h"
 #include "model/json/json.h"
-#include "model/obj/legacy_text.h"
 #include "model/obj/tiny_obj_loader.h"
 #include "tspace/mesh.h"
 

@@ -393,6 +393,23 @@ TEST(Obj, TextThatIsNotUtf8KeepsItsBytesAndGivesAWarning) {
     EXPECT_FALSE(mentions(plain.report.warnings, "not UTF-8"));
 }
 
+/// "\x95\x5c" is one character in Shift-JIS; "\xb1\x5c" is one in GBK, but half a width of katakana and a separator in Shift-JIS.
+TEST(Obj, BytesOfABackslashInNamesOfFilesAreKept) {
+    const std::string faces = std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n";
+    for (const auto& [named, stored] : {std::pair{"\x95\x5c.png", "\x95\x5c.png"},
+                                        {"maps\\\x95\x5c.png", "maps/\x95\x5c.png"},
+                                        {"\xb1\x5cn.png", "\xb1\x5cn.png"},
+                                        {"\xb1\x5cn.png", "\xb1/n.png"},
+                                        {"\x83\x83\x5cn.png", "\x83\x83/n.png"}}) {
+        const TempFolder folder;
+        folder.write("in/\x94\x5c.mtl", "newmtl a\nnorm " + std::string(named) + "\n");
+        folder.write("in/" + std::string(stored), kPng);
+        const ObjModel made = make(folder, "mtllib \x94\x5c.mtl\n" + faces, {});
+        EXPECT_TRUE(made.document.json.contains("images")) << named;
+        EXPECT_EQ(made.report.primitives[0].action, PrimitiveAction::generated) << named;
+    }
+}
+
 TEST(Obj, AbsolutePathsAreLookedForByTheirNames) {
     const TempFolder folder;
     folder.write("in/maps/m.mtl", "newmtl a\nmap_Kd /home/me/c.png\nmap_Bump C:\\Users\\me\\Desktop\\n.png\n");

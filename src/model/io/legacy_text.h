@@ -4,9 +4,10 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 
-namespace tspace::obj {
+namespace tspace {
 
 inline constexpr const char* kNotUtf8 =
     "the text is not UTF-8: its bytes are kept, but names may be shown wrong, and files of such names may not be found";
@@ -41,4 +42,14 @@ inline bool isSecondByte(std::string_view text, std::size_t at) {
            isBehindOdd([](int byte) { return byte >= 0x81 && byte <= 0xfe; });
 }
 
-}  // namespace tspace::obj
+/// Writes slashes for the backslashes of a path, but not for bytes that belong to a character of two bytes.
+inline std::string withSlashes(std::string path) {
+    const std::string given = path;
+    const bool is_utf8 = isUtf8(given);
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        if (given[i] == '\\' && (is_utf8 || !isSecondByte(given, i))) path[i] = '/';
+    }
+    return path;
+}
+
+}  // namespace tspace
