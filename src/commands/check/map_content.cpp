@@ -211,6 +211,22 @@ class Looker {
         return look;
     }
 
+    /// Whether blue is z of vectors that all have one length, whatever it is: its square falls as x^2 + y^2 grows. In 8 bits,
+    /// the squares of gentle relief spread by rounding alone.
+    [[nodiscard]] bool haveOneLength(double most_of_spread) const {
+        constexpr double kRounding = 0.006, kLeastSlope = 0.5, kMostSlope = 1.5;
+        const auto zz = [](const TexelBytes& texel) { return signedValue(texel[2]) * signedValue(texel[2]); };
+        const auto xy = [](const TexelBytes& texel) { return squareOf(texel, 0, 1); };
+        const Spread across = spreadOf(texels_, xy), up = spreadOf(texels_, zz);
+        const double rest = spreadOf(texels_, [&](const TexelBytes& texel) { return xy(texel) + zz(texel); }).deviation;
+        if (channels_[2].mean * kStep < 1 || !(across.deviation > 0)) return false;
+        if (rest < most_of_spread * across.deviation) return true;
+        double product = 0;
+        for (const TexelBytes& texel : texels_) product -= (xy(texel) - across.mean) * (zz(texel) - up.mean);
+        const double unit = across.deviation * across.deviation * static_cast<double>(texels_.size());
+        return rest < kRounding && product > kLeastSlope * unit && product < kMostSlope * unit;
+    }
+
     /// Detects two channels: blue is constant and differs from the expected z, on all texels or on tilted ones. Maps
     /// that are flat nearly everywhere are not reported: Khronos' Lantern has one with blue = 255, which is wrong by
     /// only 0.15 degrees on average.
@@ -246,7 +262,7 @@ class Looker {
         const bool is_constant = blue.deviation <= kConstant && count >= kLeastCount &&
                                  off <= kConstant * kConstant * static_cast<double>(count) && wanted >= 4 * off &&
                                  angle >= kSeenDeg * total;
-        if (!is_far && !is_constant) return {};
+        if ((!is_far && !is_constant) || haveOneLength(0.5)) return {};
         MapLayout layout;
         layout.z.channel = MapChannel::none;
         return made(MapContent::twoChannels, layout, 1);
@@ -312,7 +328,8 @@ class Looker {
     [[nodiscard]] std::optional<MapLook> unsignedZ() const {
         constexpr std::uint64_t kLeastCount = 64;
         constexpr double kMostLong = 0.05;  // JPEG adds to red and green if blue changes as much as they do
-        if (!canBeXy(texels_, 0, 1, kMostMean, kMostLong)) return {};
+        constexpr double kNoSpread = 0.2;   // z from 0 to 1 leaves 0.4 and more
+        if (!canBeXy(texels_, 0, 1, kMostMean, kMostLong) || haveOneLength(kNoSpread)) return {};
         double z = 0, b = 0, zz = 0, zb = 0, bb = 0, off = 0, off_signed = 0;
         std::uint64_t count = 0;
         for (const TexelBytes& texel : texels_) {

@@ -53,6 +53,8 @@ struct MapLook {
     bool is_in_world = false;
     /// For two channels: there is relief, but as x and y the channels are not the slopes of any height field.
     bool is_doubtful = false;
+    /// With `is_doubtful`: they are the slopes of a height as x and y of (x, y, z) / (|x| + |y| + |z|), octahedral encoding.
+    bool may_be_octahedral = false;
     bool is_declared = false;  ///< the texture file declares the layout
 };
 

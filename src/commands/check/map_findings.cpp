@@ -15,6 +15,16 @@ namespace {
 constexpr const char* kDoubt =
     "; but read as x and y, these channels are not the slopes of any height field, so they may use another encoding";
 
+constexpr const char* kOctahedral =
+    "; but they fit the slopes of a height field better as octahedral encoding, x and y of (x, y, z) / (|x| + |y| + "
+    "|z|), "
+    "so they may hold that";
+
+/// What a message on two channels adds where x and y are only one reading.
+const char* doubtOf(const MapLook& look) {
+    return !look.is_doubtful ? "" : look.may_be_octahedral ? kOctahedral : kDoubt;
+}
+
 char letterOf(const MapComponent& component) {
     constexpr const char* kPlain = "rgba";
     constexpr const char* kInverted = "RGBA";
@@ -62,19 +72,17 @@ std::string messageOf(const NamedImage& image, const MapLook& look) {
         case MapContent::twoChannels:
             return "the relief is lit wrong: the normal map " + name +
                    " holds only x and y, in red and green; its blue is constant, but glTF reads z there" +
-                   (look.is_doubtful ? kDoubt : "");
+                   doubtOf(look);
         case MapContent::unsignedZ:
             return "the relief looks too steep: blue of the normal map " + name +
                    " stores z itself, from 0 to 1, instead of (z + 1) / 2";
         case MapContent::xInAlpha:
             if (layout.x.channel != MapChannel::alpha || layout.y.channel != MapChannel::green) {
                 return "the relief is lit wrong: the normal map " + name + " holds only " + axisText("x", layout.x) +
-                       " and " + axisText("y", layout.y) + ", and no z, which glTF reads in blue" +
-                       (look.is_doubtful ? kDoubt : "");
+                       " and " + axisText("y", layout.y) + ", and no z, which glTF reads in blue" + doubtOf(look);
             }
             return "the relief is lit wrong: the normal map " + name +
-                   " holds x in alpha and y in green (DXT5nm) and no z; red and blue are unused" +
-                   (look.is_doubtful ? kDoubt : "");
+                   " holds x in alpha and y in green (DXT5nm) and no z; red and blue are unused" + doubtOf(look);
         case MapContent::exchanged:
             if (layout.z == MapLayout{}.z) {
                 return "the relief is lit from the wrong direction: red and green of the normal map " + name +

@@ -62,15 +62,16 @@ bool areXAndYExchanged(const DecodedMap& map) {
     return std::fabs(slopesOf(map.image, map).correlation) <= kMost && fitsWell(slopesOf(map, exchanged({})));
 }
 
-/// Decodes hemi-octahedral encoding from the channels that the layout assigns to x and y.
-RgbImage decodeHemiOctahedral(const DecodedMap& map, const MapLayout& layout) {
+/// Decodes octahedral encoding of vectors with z >= 0 from the channels that the layout assigns to x and y; `is_hemi`: from
+/// hemi-octahedral encoding, which has x + y and x - y there.
+RgbImage decodeOctahedral(const DecodedMap& map, const MapLayout& layout, bool is_hemi) {
     RgbImage read = readAs(map, layout);
     const auto byteOf = [](double value) {
         return static_cast<std::uint8_t>(std::clamp(127.5 * (value + 1) + 0.5, 0.0, 255.0));
     };
     for (std::size_t i = 0; i + 2 < read.rgb.size(); i += 3) {
-        const double sum = read.rgb[i] / 127.5 - 1, difference = read.rgb[i + 1] / 127.5 - 1;
-        const double x = (sum + difference) / 2, y = (sum - difference) / 2;
+        const double first = read.rgb[i] / 127.5 - 1, second = read.rgb[i + 1] / 127.5 - 1;
+        const double x = is_hemi ? (first + second) / 2 : first, y = is_hemi ? (first - second) / 2 : second;
         const double z = std::max(0.0, 1 - std::fabs(x) - std::fabs(y)), length = std::sqrt(x * x + y * y + z * z);
         read.rgb[i] = byteOf(x / length);
         read.rgb[i + 1] = byteOf(y / length);
@@ -79,18 +80,30 @@ RgbImage decodeHemiOctahedral(const DecodedMap& map, const MapLayout& layout) {
     return read;
 }
 
+/// Whether slopes fit the decoded vectors clearly better than the plain ones. They fit those too, since octahedral x grows
+/// with x: only how far both are from a correlation of 1 differs, by a factor of 1.2 to 300 where slopes reach 0.3.
+bool fitsBetter(const GreenTest& decoded, const GreenTest& plain) {
+    constexpr double kClear = 1.15;
+    const auto misfit = [](const GreenTest& test) { return 1 - std::fabs(test.correlation); };
+    return fitsWell(decoded) && misfit(plain) > kClear * misfit(decoded);
+}
+
 /// Tests by slopes whether two channels are x and y. For a periodic height h, the products h_xx h_yy and h_xy h_xy have
 /// equal means. So if the channels hold x + y and x - y, their derivatives do not correlate as those of x and y.
 void testTwoChannels(const DecodedMap& map, MapLook& look) {
     constexpr std::uint64_t kManyBlocks = 32;
     constexpr double kNoCorrelation = 0.1, kClear = 0.3;
-    const GreenTest plain = slopesOf(map, look.layout), decoded = slopesOf(decodeHemiOctahedral(map, look.layout), map);
-    if (fitsWell(decoded) && std::fabs(decoded.correlation) > std::fabs(plain.correlation) + kClear) {
+    const GreenTest plain = slopesOf(map, look.layout);
+    const GreenTest hemi = slopesOf(decodeOctahedral(map, look.layout, true), map);
+    if (fitsWell(hemi) && std::fabs(hemi.correlation) > std::fabs(plain.correlation) + kClear) {
         look.content = MapContent::hemiOctahedral;
         return;
     }
-    look.is_doubtful = look.layout.z.channel == MapChannel::none && plain.verdict == GreenVerdict::unknown &&
-                       plain.block_count >= kManyBlocks && std::fabs(plain.correlation) < kNoCorrelation;
+    if (look.layout.z.channel != MapChannel::none) return;
+    look.may_be_octahedral = fitsBetter(slopesOf(decodeOctahedral(map, look.layout, false), map), plain);
+    look.is_doubtful =
+        look.may_be_octahedral || (plain.verdict == GreenVerdict::unknown && plain.block_count >= kManyBlocks &&
+                                   std::fabs(plain.correlation) < kNoCorrelation);
 }
 
 /// Replaces the result by the layout that a texture file declares, or that its texels suggest.

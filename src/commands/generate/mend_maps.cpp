@@ -51,6 +51,7 @@ std::string whyUnchanged(const JudgedMap& map, bool claims_srgb) {
         return "it is in world space (tspace convert-map --from world)";
     if (look.content == MapContent::hemiOctahedral)
         return "it is hemi-octahedrally encoded, which tspace does not decode";
+    if (look.may_be_octahedral) return "its two channels may hold octahedral encoding (see tspace check)";
     if (look.is_doubtful)
         return "its two channels may use another encoding, since they are not the slopes of any height field (see "
                "tspace check)";

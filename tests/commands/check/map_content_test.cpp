@@ -71,6 +71,23 @@ TEST(MapContent, IsNormalsForLengthsThatFilteringShortened) {
     }
 }
 
+TEST(MapContent, IsNormalsForVectorsOfOneLengthBelowOne) {
+    for (const double relief : {0.5, 1.0, 2.0, 6.0}) {
+        const RgbImage unit = normalMapOf(128, [&](double x, double y) { return relief * bumps(x, y); });
+        for (const double size : {0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}) {
+            const RgbImage map = changed(unit, [&](std::uint8_t* texel) {
+                for (int k = 0; k < 3; ++k) texel[k] = byteOf(0.5 + size * (texel[k] / 255.0 - 0.5));
+            });
+            EXPECT_EQ(lookAt(map).content, MapContent::normals) << size << ' ' << relief;
+            for (const std::uint8_t blue : {0, 60, 128, 153, 180, 204, 230, 255}) {
+                const RgbImage two = changed(unit, [&](std::uint8_t* texel) { texel[2] = blue; });
+                const MapContent wanted = blue > 245 && relief < 2 ? lookAt(two).content : MapContent::twoChannels;
+                EXPECT_EQ(lookAt(two).content, wanted) << int(blue) << ' ' << relief;
+            }
+        }
+    }
+}
+
 /// Flat except for a few texels: blue is constant nearly everywhere.
 TEST(MapContent, IsNormalsForMapsThatAreFlatNearlyEverywhere) {
     const auto rivet = [](double x, double y) {

@@ -80,6 +80,41 @@ TEST(MapSlopes, TellHemiOctahedralMapsFromXAndY) {
     }
 }
 
+void encodeOctahedral(double& x, double& y, double z) {
+    const double sum = std::fabs(x) + std::fabs(y) + std::max(z, 0.0);
+    x /= sum;
+    y /= sum;
+}
+
+/// Octahedral maps fit x and y well, too. Both readings stand.
+TEST(MapSlopes, DoubtTwoChannelsThatFitBetterAsOctahedral) {
+    for (const Height& relief : kReliefs) {
+        for (const double scale : {1.0, 2.0, 4.0}) {
+            const Height height = [&](double x, double y) { return scale * relief(x, y); };
+            for (const double blue : {-1.0, 0.0, 1.0}) {
+                const auto where = [&] {
+                    return std::to_string(&relief - kReliefs.data()) + ' ' + std::to_string(scale) + ' ' +
+                           std::to_string(blue);
+                };
+                const MapLook look = lookAtImage(stored(height, [&](double& x, double& y, double& z) {
+                    encodeOctahedral(x, y, z);
+                    z = blue;
+                }));
+                // Blue 255 is near z of gentle relief. Gentle waves fit both encodings equally.
+                const bool is_clear = scale > 1 || (blue != 1 && &relief != &kReliefs[2]);
+                if (blue != 1) {
+                    EXPECT_EQ(look.content, MapContent::twoChannels) << where();
+                }
+                if (is_clear && look.content == MapContent::twoChannels) {
+                    EXPECT_TRUE(look.may_be_octahedral) << where();
+                }
+                const MapLook plain = lookAtImage(stored(height, [&](double&, double&, double& z) { z = blue; }));
+                EXPECT_FALSE(plain.is_doubtful) << where();
+            }
+        }
+    }
+}
+
 TEST(MapSlopes, TellHemiOctahedralMapsInAlphaAndGreen) {
     RgbImage map = stored(bumps, [](double& x, double& y, double& z) { encodeHemiOctahedral(x, y, z); });
     std::vector<std::uint8_t> alpha;
