@@ -68,10 +68,13 @@ TangentReport generateWith(const MeshView& mesh, const Call<TangentOptions>& opt
     const TriangleList triangles = cutFaces(mesh, options.ngons, allocator);
     ScratchBlock transient(allocator, unwritten(out));
     Nodes nodes = weld(mesh, triangles, allocator, parallel, transient.allocator());
+    if (isSmall({mesh, triangles, nodes}, options.method)) {
+        listVertices(nodes, allocator);
+        return evaluateSmall({mesh, triangles, nodes}, options, out, transient.allocator(), parallel);
+    }
     const LastBucket bucket = lastBucketOf({mesh, triangles, nodes}, options, transient.allocator(), parallel);
     listVertices(nodes, allocator);
     const NodeSetting setting{{mesh, triangles, nodes}, options, bucket};
-    if (isSmall(setting)) return evaluateSmall(setting, out);
     if (may_separate) return planAndEvaluate(mesh, options, out, parallel);
     return evaluateInOnePass(setting, out, transient, parallel);
 }

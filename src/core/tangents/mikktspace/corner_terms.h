@@ -20,17 +20,24 @@ enum class Weighting : std::uint32_t {
     none,   ///< only marks are written (estimators compute their own sums)
 };
 
+inline constexpr std::size_t kTermTriangles = 64;  ///< triangles per block; the block's arrays fit into the L1 cache
+inline constexpr std::size_t kTermCorners = 3 * kTermTriangles;
+inline constexpr std::size_t kTermGroup = 16;  ///< maximum number of triangles that a kernel reads at once
+
+/// Directions of corner k of triangle t, [component][k][t]: the projected tangent, and the projected bitangent before it is
+/// normalized.
+struct CornerDirections {
+    alignas(64) float unit_s[3][3][kTermTriangles], projected_t[3][3][kTermTriangles];
+};
+
 /// Vertex data of a call.
 struct CornerSource : VertexArrays {
     Weighting weighting = Weighting::projected_angle;
     bool tangents_only = false;  ///< omit `t` and `lengths_t`
     /// Rows of triangles that are degenerate or have no UV area are not read: the kernel may skip them.
     bool adding_only = false;
+    CornerDirections* directions = nullptr;  ///< written too, unless it is null
 };
-
-inline constexpr std::size_t kTermTriangles = 64;  ///< triangles per block; the block's arrays fit into the L1 cache
-inline constexpr std::size_t kTermCorners = 3 * kTermTriangles;
-inline constexpr std::size_t kTermGroup = 16;  ///< maximum number of triangles that a kernel reads at once
 
 /// Marks of a corner. A threshold of 180 degrees separates only opposite tangents or bitangents, whose cosine rounds to
 /// -1. If all tangents of a node have a component above kSideMargin on one axis, or all have one below -kSideMargin,

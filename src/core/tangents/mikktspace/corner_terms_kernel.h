@@ -142,6 +142,13 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
         s[k] = unitByRules(projected, square);
         const Vectors projected_t = alongPlane(normal, shape.t);
         if (!source.tangents_only) t[k] = unitByRules(projected_t);
+        if (source.directions != nullptr) {
+            const Floats directions[2][3] = {{s[k].x, s[k].y, s[k].z}, {projected_t.x, projected_t.y, projected_t.z}};
+            for (std::size_t i = 0; i < 3; ++i) {
+                store(source.directions->unit_s[i][k] + first, directions[0][i]);
+                store(source.directions->projected_t[i][k] + first, directions[1][i]);
+            }
+        }
         const Vectors here = group.position[k];
         weights[k] = weightOrCosine(source.weighting, normal, group.position[(k + 2) % 3] - here,
                                     group.position[(k + 1) % 3] - here);

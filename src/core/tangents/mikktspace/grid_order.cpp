@@ -10,9 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <utility>
 
-#include "core/base/vec_math.h"
+#include "core/tangents/mikktspace/grid_cells.h"
 #include "core/tangents/mikktspace/welded_mesh.h"
 #include "core/tangents/mikktspace/words.h"
 
@@ -20,119 +19,11 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr int kCells = 2048;
 constexpr std::size_t kVertexGrain = 16384;  // a multiple of 4
 // Mark of a vertex: 1-based number of its cell among the cells of requested vertices, or 0; and flags for vertices at
 // either end of the grid.
 constexpr std::uint16_t kNumber = 0x0fff, kAtLow = 0x4000, kAtHigh = 0x8000;
 constexpr std::uint32_t kWanted = kNone - 1;  // placeholder for a requested representative that is not known yet
-
-/// An entry of the corner list, in one cell of the reference's grid.
-struct alignas(16) CellElement {
-    Vec3 position;
-    std::uint32_t entry;  ///< kTopBit: the representative of its node is requested
-};
-
-float component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-/// Loads x, y, z, z.
-Float4 loadVec3(const Vec3& v) {
-    const Float4 xyyz = joinPairs(&v.x, &v.y);
-    return __builtin_shufflevector(xyyz, xyyz, 0, 1, 3, 3);
-}
-
-/// Bounding box; the fourth lanes are ignored. As in the reference, a NaN never moves a bound, and a bound that starts
-/// as NaN stays NaN.
-struct Box {
-    Float4 low, high;
-
-    explicit Box(Float4 start) : low(start), high(start) {}
-    void add(Float4 p) {
-        low = min4(p, low);
-        high = max4(p, high);
-    }
-    void add(const Box& other) {
-        low = min4(other.low, low);
-        high = max4(other.high, high);
-    }
-    [[nodiscard]] int longestAxis() const {
-        const Float4 d = high - low;
-        if (d[1] > d[0] && d[1] > d[2]) return 1;
-        return d[2] > d[0] ? 2 : 0;
-    }
-};
-
-/// Divides the corners of one grid cell as the reference does, down to leaves of equal positions. Calls found(entry)
-/// for all entries of leaves, in an order in which the last call for a node is for its representative. All entries of a
-/// node are in the same leaf, because equal positions always go to the same side. Ranges without marked elements are
-/// skipped.
-template <class Found>
-class Cell {
-  public:
-    Cell(std::span<CellElement> elements, const Found& found)
-        : elements_(elements.data()), count_(elements.size()), found_(found) {}
-
-    void run() {
-        Range waiting[64];  // each is at most half of the previous one
-        std::size_t depth = 0;
-        Range range{0, count_};
-        while (true) {
-            Range smaller{}, larger{};
-            if (divide(range, smaller, larger)) {
-                if (smaller.end - smaller.begin > larger.end - larger.begin) std::swap(smaller, larger);
-                waiting[depth++] = larger;
-                range = smaller;
-            } else {
-                if (depth == 0) return;
-                range = waiting[--depth];
-            }
-        }
-    }
-
-  private:
-    struct Range {
-        std::size_t begin, end;
-    };
-
-    /// Partitions the range, or finishes it and returns false.
-    bool divide(Range range, Range& left, Range& right) {
-        const auto at = [&](std::size_t i) { return loadFloat4(&elements_[i].position.x); };
-        Box box(at(range.begin));
-        std::uint32_t any = 0;
-        for (std::size_t i = range.begin; i < range.end; ++i) {
-            box.add(at(i));
-            any |= elements_[i].entry;
-        }
-        if ((any & kTopBit) == 0) return false;
-        const int axis = box.longestAxis();
-        const float low = box.low[axis], high = box.high[axis], middle = 0.5f * (high + low);
-        if (middle >= high || middle <= low) {
-            // The first entry of a node is its representative; going backwards visits it last.
-            for (std::size_t i = range.end; i-- > range.begin;) found_(elements_[i].entry & kValue);
-            return false;
-        }
-        const std::size_t cut = partition(range, axis, middle);
-        left = {range.begin, cut};
-        right = {cut, range.end};
-        return true;
-    }
-
-    /// Like the reference, swaps the first element that belongs to the right with the last one that belongs to the
-    /// left, and so on.
-    std::size_t partition(Range range, int axis, float middle) {
-        const auto goesLeft = [&](std::size_t n) { return component(elements_[n].position, axis) < middle; };
-        std::size_t i = range.begin, j = range.end - 1;
-        while (i < j) {
-            while (i < j && goesLeft(i)) ++i;
-            while (i < j && !goesLeft(j)) --j;
-            if (i < j) std::swap(elements_[i++], elements_[j--]);
-        }
-        return i == j && goesLeft(i) ? i + 1 : i;
-    }
-
-    CellElement* elements_;
-    std::size_t count_;
-    const Found& found_;
-};
 
 struct GridOrder {
     const WeldedMesh& in;
@@ -179,27 +70,22 @@ struct GridOrder {
 
     /// `if_listed`: returns false if vertices at either end of the box are not in the corner list.
     bool findIn(const Box& box, bool if_listed, Buffer<std::uint32_t>& found) {
-        const int axis = box.longestAxis();
-        const Float4 low = splat(box.low[axis]), high = splat(box.high[axis]);
-        // Like the float-to-int conversion of x86: values that do not fit become the smallest int, which maps to cell 0.
-        const auto cellsOf = [=](Float4 x) {
-            const Float4 q = splat(kCells) * ((x - low) / (high - low));
-            const Float4 fitting = select4(q < splat(2147483648.0f), max4(q, Float4{}), Float4{});
-            return __builtin_convertvector(min4(fitting, splat(kCells - 1)), Mask4);
-        };
-        std::array<std::uint16_t, kCells> numbers = {};
+        const Grid grid(box);
+        std::array<std::uint16_t, Grid::kCells> numbers = {};
         std::uint16_t cell_count = 0;
         for (const std::uint32_t v : wanted) {
-            const Mask4 cell = cellsOf(splat(component(in.mesh.positions[v], axis)));
+            const Mask4 cell = grid.cellsOf(splat(component(in.mesh.positions[v], grid.axis)));
             std::uint16_t& number = numbers[static_cast<std::size_t>(cell[0])];
             if (number == 0) number = ++cell_count;
         }
         Buffer<std::uint16_t> marks(allocator, in.mesh.vertexCount());
         parallel.forRanges(marks.size(), kVertexGrain, [&](std::size_t begin, std::size_t end) {
             const auto markSome = [&, positions = in.mesh.positions](std::size_t v, std::size_t count) {
-                const auto at = [&](std::size_t i) { return component(positions[v + std::min(i, count - 1)], axis); };
+                const auto at = [&](std::size_t i) {
+                    return component(positions[v + std::min(i, count - 1)], grid.axis);
+                };
                 const Float4 x{at(0), at(1), at(2), at(3)};
-                const Mask4 cells = cellsOf(x), ends = ((x == low) & kAtLow) | ((x == high) & kAtHigh);
+                const Mask4 cells = grid.cellsOf(x), ends = ((x == grid.low) & kAtLow) | ((x == grid.high) & kAtHigh);
                 for (std::size_t i = 0; i < count; ++i)
                     marks[v + i] = static_cast<std::uint16_t>(numbers[static_cast<std::size_t>(cells[i])] | ends[i]);
             };
@@ -217,8 +103,8 @@ struct GridOrder {
 
     /// Divides each cell independently: a node is in one cell.
     void followCells(const Buffer<std::uint32_t>& found, const std::uint16_t* marks, std::size_t cells) {
-        // Counting sort of entries by cell: first counts, then the start of each cell. Number 0 means no cell.
-        std::array<std::uint32_t, kCells + 2> begin;
+        // A counting sort of entries by cell: counts first, then where each cell begins. Number 0 is no cell.
+        std::array<std::uint32_t, Grid::kCells + 2> begin;
         std::fill_n(begin.data(), cells + 2, 0u);
         std::uint32_t buffer[3];
         for (const std::uint32_t t : found) {

@@ -43,4 +43,14 @@ struct LastBucket {
 LastBucket findLastBucket(const WeldedMesh& welded, const Allocator* transient, const Allocator* allocator,
                           Parallel& parallel);
 
+/// A mesh of at most 64 triangles, which are its faces, none of them degenerate; valid after listVertices.
+struct FewTriangles {
+    const WeldedMesh& welded;
+    const std::uint32_t* nodes;   ///< three per triangle; fewer than 192 in all
+    const std::uint64_t* around;  ///< one per node: the set of its triangles, which may be empty
+};
+
+/// Whether findLastBucket may find links. A quick and nearly exact test (small_bucket.cpp).
+bool lastBucketMayMatter(const FewTriangles& mesh);
+
 }  // namespace tspace::mikk

@@ -4,6 +4,7 @@
 // there: plans and lists cost more than the tangents of so few triangles.
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "core/tangents/mikktspace/groups.h"
 
@@ -28,24 +29,29 @@ void forTriangles(std::uint64_t triangles, const Body& body) {
 
 class SmallMesh {
   public:
-    SmallMesh(const NodeSetting& setting, const TangentOutput& out)
-        : in_(setting),
+    SmallMesh(const WeldedMesh& welded, const Call<TangentOptions>& options, const TangentOutput& out,
+              const Allocator* transient, Parallel& parallel)
+        : in_(welded),
+          options_(options),
+          transient_(transient),
+          parallel_(parallel),
           tangents_(out.tangents),
-          sink_(out, setting.options.convention),
+          sink_(out, options.convention),
           defaults_(out),
-          count_(static_cast<unsigned>(setting.triangles.count)),
+          count_(static_cast<unsigned>(welded.triangles.count)),
           wants_rest_(!wantsTangentsOnly(out)),
-          cosine_(thresholdCosine(setting.options.angular_threshold_deg)),
-          rest_(setting.options.execution.allocator, wants_rest_ ? 3 * setting.triangles.count + 1 : 0) {}
+          cosine_(thresholdCosine(options.angular_threshold_deg)),
+          rest_(options.execution.allocator, wants_rest_ ? 3 * welded.triangles.count + 1 : 0) {}
 
     TangentReport run() {
         readTriangles();
         pairEdges();
+        if (options_.pairing == Pairing::reference) linkLastBucket();
         for (unsigned t = 0; t < count_; ++t) {
             for (unsigned k = 0; k < 3; ++k) openGroup(t, k);
         }
         finishMeans();
-        if (good_ != (~std::uint64_t{0} >> (64 - count_))) copyToDegenerate();
+        if (!isAllGood()) copyToDegenerate();
         writeCorners();
         return report_;
     }
@@ -62,7 +68,10 @@ class SmallMesh {
         for (unsigned i = 0; in_.nodes.mixed && i < 3 * count; ++i) vertices_[i] = in_.nodes.vertex(nodes_[i]);
         const std::size_t padded = (count + kTermGroup - 1) / kTermGroup * kTermGroup;
         std::fill(vertices_ + 3 * count, vertices_ + 3 * padded, vertices_[0]);
-        computeTerms(Weighting::projected_angle, !wants_rest_, terms_);
+        const Pose pose{in_.mesh.positions, in_.mesh.normals};
+        const CornerSource source{vertexArrays(pose, in_.mesh.uvs), Weighting::projected_angle, !wants_rest_, true,
+                                  &directions_};
+        cornerTermsFor(options_.execution.simd)(source, vertices_, count, terms_);
         for (unsigned t = 0; t < count; ++t) {
             const std::uint32_t marks = terms_.marks[0][t];
             if ((marks & kDegenerateMark) != 0) continue;
@@ -75,12 +84,6 @@ class SmallMesh {
         report_.degenerate_triangle_count = count - sizeOf(good_);
         report_.degenerate_uv_count = sizeOf(good_ & ~adding_);
         report_.mirrored_count = sizeOf(adding_ & ~up_);
-    }
-
-    void computeTerms(Weighting weighting, bool tangents_only, CornerTerms& terms) const {
-        const Pose pose{in_.mesh.positions, in_.mesh.normals};
-        const CornerSource source{vertexArrays(pose, in_.mesh.uvs), weighting, tangents_only, true};
-        cornerTermsFor(in_.options.execution.simd)(source, vertices_, in_.triangles.count, terms);
     }
 
     // Step 4.
@@ -105,11 +108,20 @@ class SmallMesh {
             }
             for (unsigned k = 0; k < 3; ++k) around_[n[k]] |= bitOf(t);
         });
-        const auto inBits = [](std::uint32_t h) {
+    }
+
+    /// Links half-edges as the reference does where the order of its last bucket matters.
+    void linkLastBucket() {
+        if (isAllGood() && !lastBucketMayMatter({in_, nodes_, around_})) return;
+        const LastBucket bucket = findLastBucket(in_, transient_, options_.execution.allocator, parallel_);
+        report_.reference_order_abandoned = bucket.abandoned;
+        const auto packed = [](std::uint32_t h) {
             return static_cast<PackedEdge>(h == kNone ? kNone : h / 3 * 4 + h % 3);
         };
-        for (const LastBucket::Link& link : in_.bucket.links) neighbors_[inBits(link.half_edge)] = inBits(link.partner);
+        for (const LastBucket::Link& link : bucket.links) neighbors_[packed(link.half_edge)] = packed(link.partner);
     }
+
+    [[nodiscard]] bool isAllGood() const { return good_ == ~std::uint64_t{0} >> (64 - count_); }
 
     // Steps 5 and 6. Means are numbered from 1; number 0 is the default, of corners that no group reaches.
 
@@ -159,27 +171,50 @@ class SmallMesh {
     /// Each member gets the mean of those whose directions differ from its own by less than the threshold.
     [[gnu::noinline]] void separate(bool up, std::uint64_t members) {
         const std::uint64_t adding = members & adding_;
+        if (cosine_ == -1.0f && areOnOneSide(adding, directions_.unit_s) &&
+            areOnOneSide(adding, directions_.projected_t))
+            return addMean(adding, up);
+        float s[kTermTriangles][3], t[kTermTriangles][3];
+        std::uint64_t apart[kTermTriangles], any = 0;
+        forTriangles(members, [&](unsigned a) { apart[a] = 0; });
+        forTriangles(adding, [&](unsigned a) {
+            const Vec3 own_s = directionOf(directions_.unit_s, a),
+                       own_t = unit(directionOf(directions_.projected_t, a));
+            std::copy_n(&own_s.x, 3, s[a]);
+            std::copy_n(&own_t.x, 3, t[a]);
+            forTriangles(adding & (bitOf(a) - 1), [&](unsigned b) {
+                const bool are_within = (dot(own_s, vectorOf(s[b])) > cosine_) & (dot(own_t, vectorOf(t[b])) > cosine_);
+                apart[a] |= are_within ? 0 : bitOf(b);
+                apart[b] |= are_within ? 0 : bitOf(a);
+            });
+            any |= apart[a];
+        });
+        if (any == 0) return addMean(adding, up);
         std::uint64_t last = 0;
         forTriangles(members, [&](unsigned a) {
-            std::uint64_t set = adding;
-            forTriangles((adding & bitOf(a)) != 0 ? adding & ~bitOf(a) : 0, [&](unsigned b) {
-                if (!areAveraged(a, b)) set &= ~bitOf(b);
-            });
+            const std::uint64_t set = adding & ~apart[a];
             if (set != last) addMean(set, up);
             last = set;
             mean_of_[rowOf(a)] = static_cast<std::uint8_t>(means_ - 1);
         });
     }
 
-    /// Decides by marks if these are certain, otherwise by directions.
-    [[nodiscard]] bool areAveraged(unsigned a, unsigned b) {
-        if (areNear(marksOf(a) & marksOf(b))) return true;
-        if (!has_directions_) computeTerms(Weighting::one, false, directions_);
-        has_directions_ = true;
-        const auto areWithin = [&](const float(*rows)[4]) {
-            return dot(vectorOf(rows[rowOf(a)]), vectorOf(rows[rowOf(b)])) > cosine_;
-        };
-        return areWithin(directions_.s) && areWithin(directions_.t);
+    /// Whether all directions have a part along their sum that is above the margin of marks, so that no two of them are
+    /// opposite. A mark of tangents shows that normalizing was exact enough (corner_terms.h).
+    [[nodiscard]] bool areOnOneSide(std::uint64_t set, const float (&directions)[3][3][kTermTriangles]) const {
+        Vec3 sum;
+        forTriangles(set, [&](unsigned t) { sum = sum + directionOf(directions, t); });
+        const float least = 2 * kSideMargin * std::sqrt(dot(sum, sum));
+        bool all = least > kSideMargin;
+        forTriangles(set, [&](unsigned t) {
+            all &= (dot(sum, directionOf(directions, t)) > least) & ((marksOf(t) & kTangentSides) != 0);
+        });
+        return all;
+    }
+
+    [[nodiscard]] Vec3 directionOf(const float (&directions)[3][3][kTermTriangles], unsigned t) const {
+        const unsigned k = corner_of_[t];
+        return {directions[0][k][t], directions[1][k][t], directions[2][k][t]};
     }
 
     /// The sum of some triangles becomes the next mean.
@@ -254,19 +289,25 @@ class SmallMesh {
         for (unsigned corner = 0; corner < 3 * count_; ++corner) {
             const unsigned mean = mean_of_[corner];
             storeFloat4(&tangents_[corner].x, loadFloat4(sums_[mean]));
-            if (wants_rest_) sink_.writeRest(corner, rest_[mean]);
-            if (mean == 0) defaults_.add(corner);
-            if (!finite_) report_.not_finite_count += !sink_.isFinite(corner);
+            if (mean == 0) [[unlikely]]
+                defaults_.add(corner);
         }
+        for (unsigned corner = 0; wants_rest_ && corner < 3 * count_; ++corner)
+            sink_.writeRest(corner, rest_[mean_of_[corner]]);
+        for (unsigned corner = 0; !finite_ && corner < 3 * count_; ++corner)
+            report_.not_finite_count += !sink_.isFinite(corner);
         report_.default_corner_count = defaults_.count();
     }
 
-    const NodeSetting& in_;
+    const WeldedMesh& in_;
+    const Call<TangentOptions>& options_;
+    const Allocator* transient_;
+    Parallel& parallel_;
     StridedSpan<Vec4> tangents_;
     Sink sink_;
     DefaultCorners defaults_;
     unsigned count_;
-    bool wants_rest_, finite_ = true, has_directions_ = false;
+    bool wants_rest_, finite_ = true;
     float cosine_;
     TangentReport report_;
     std::uint64_t good_ = 0;              // triangles that are not degenerate
@@ -281,20 +322,21 @@ class SmallMesh {
     unsigned means_ = 1;
     float sums_[kTermCorners + 4][4];
     float signs_[kTermCorners + 4];
-    Buffer<GroupRest> rest_;          // empty where only tangents are wanted
-    CornerTerms terms_, directions_;  // directions_: with weights of 1, once has_directions_
+    Buffer<GroupRest> rest_;  // empty where only tangents are wanted
+    CornerTerms terms_;
+    CornerDirections directions_;
 };
 
 }  // namespace
 
-bool isSmall(const NodeSetting& setting) {
-    return isMikktspace(setting.options.method) && setting.triangles.count <= kTermTriangles &&
-           setting.triangles.corners.empty() && setting.triangles.count != 0 && setting.nodes.count <= kTermCorners &&
-           setting.nodes.all_finite;
+bool isSmall(const WeldedMesh& welded, Method method) {
+    return isMikktspace(method) && welded.triangles.count <= kTermTriangles && welded.triangles.corners.empty() &&
+           welded.triangles.count != 0 && welded.nodes.count <= kTermCorners && welded.nodes.all_finite;
 }
 
-TangentReport evaluateSmall(const NodeSetting& setting, const TangentOutput& out) {
-    SmallMesh mesh(setting, out);
+TangentReport evaluateSmall(const WeldedMesh& welded, const Call<TangentOptions>& options, const TangentOutput& out,
+                            const Allocator* transient, Parallel& parallel) {
+    SmallMesh mesh(welded, options, out, transient, parallel);
     return mesh.run();
 }
 

@@ -110,11 +110,11 @@ EvaluationPlan planChosen(const VertexPath& path);
 TangentReport evaluateInOnePass(const NodeSetting& setting, const TangentOutput& out, ScratchBlock& transient,
                                 Parallel& parallel, unsigned range_shift = 0);
 
-/// Returns whether evaluateSmall applies: at most 64 triangles, which are the faces, few vertices, all finite;
-/// mikktspace.
-bool isSmall(const NodeSetting& setting);
-/// Computes the results of evaluateInOnePass, and of plans for any angular threshold, for a small mesh
-/// (small_mesh.cpp).
-TangentReport evaluateSmall(const NodeSetting& setting, const TangentOutput& out);
+/// Whether evaluateSmall applies: at most 64 triangles, which are the faces, with few vertices, and finite; mikktspace.
+bool isSmall(const WeldedMesh& welded, Method method);
+/// The results of evaluateInOnePass, and of plans for any angular threshold, for a small mesh (small_mesh.cpp), after
+/// listVertices. `transient`: allocates what is released before tangents are written.
+TangentReport evaluateSmall(const WeldedMesh& welded, const Call<TangentOptions>& options, const TangentOutput& out,
+                            const Allocator* transient, Parallel& parallel);
 
 }  // namespace tspace::mikk
