@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The checks of one primitive, but those of tangents and morph targets.
+// Checks of one primitive, except those of tangents and morph targets.
 #include "commands/check/primitive_checks.h"
 
 #include <algorithm>
@@ -23,19 +23,20 @@ std::string setName(std::size_t set) { return "TEXCOORD_" + std::to_string(set);
 
 }  // namespace
 
-// Positions and normals: finite, unit, and on the front of their triangles.
+// Checks of positions and normals: finite, unit length, and on the front side of their triangles.
 
 namespace {
 
-/// Beyond 96 degrees a normal points to the back, with some room for coarse smooth shading.
+/// Normals at more than 96 degrees point to the back; the margin allows for coarse smooth shading.
 constexpr double kLeastFacing = -0.1;
-/// From this share of the surface on the whole mesh is said to be inside out.
+/// Share of the surface from which the whole mesh is reported as inside out.
 constexpr double kMostOfSurface = 0.5;
 constexpr double kNearlyAll = 0.95;
 constexpr double kSomeNormals = 0.01;
-/// Degrees between a normal and the nearest of its triangles: a normal that is the mean over an edge of a box is 45 from both.
+/// Minimum angle in degrees between a normal and the nearest triangle normal. A mean over an edge of a box is 45
+/// degrees from both faces.
 constexpr double kFarDeg = 40;
-/// Share of the surface from which normals off their triangles are reported.
+/// Share of the surface from which normals far from their triangles are reported.
 constexpr double kSomeFar = 0.5;
 
 void checkNormalValues(PrimitiveFacts& facts) {
@@ -44,7 +45,7 @@ void checkNormalValues(PrimitiveFacts& facts) {
     Tally not_finite, not_unit;
     std::uint64_t zero_count = 0;
     double far_share = 0;
-    constexpr double kRounding = 1e-6;  // a length of 0.9 is not far, whatever float it was multiplied by
+    constexpr double kRounding = 1e-6;  // a length of 0.9 is not far, regardless of rounding
     for (std::uint32_t v = 0; v < facts.used.size(); ++v) {
         if (!facts.used[v]) continue;
         ++not_finite.total;
@@ -53,7 +54,7 @@ void checkNormalValues(PrimitiveFacts& facts) {
             not_finite.add(v, facts.surface.vertex_areas[v]);
             continue;
         }
-        // Uses the stored length: the mesh has the scaled normals.
+        // Uses the stored length, because the mesh has the scaled normals.
         const double size = scales != nullptr && scales->of_vertices[v] != 1 ? 1 / scales->of_vertices[v]
                                                                              : length(toDouble(mesh.normals[v]));
         if (std::fabs(size - 1) > facts.options.unit_tolerance) not_unit.add(v, facts.surface.vertex_areas[v]);
@@ -67,8 +68,8 @@ void checkNormalValues(PrimitiveFacts& facts) {
                   "black spots: the normals of " + countText(not_finite, "vertices") + " are NaN or infinite");
     }
     if (not_unit.count > 0) {
-        // One normal without length gives NaN in shaders. With other lengths, relief is shaded steeper or flatter by readers
-        // that take N as it is, and tangents that follow N as it is are wrong.
+        // A single normal of length 0 gives NaN in shaders. Other lengths make the relief steeper or flatter in readers
+        // that do not normalize N, and tangents that follow such N are wrong.
         const bool is_far =
             facts.surface.area > 0 && far_share >= facts.options.error_share * facts.surface.area && far_share > 0;
         std::string lengths;
@@ -87,7 +88,7 @@ void checkNormalValues(PrimitiveFacts& facts) {
     }
 }
 
-/// Normals of vertices, with length 1; zero where they have no direction.
+/// Unit normals of vertices; zero for normals without direction.
 using Directions = std::vector<DVec3>;
 
 Directions directionsOf(const StridedSpan<const Vec3>& normals) {
@@ -99,7 +100,8 @@ Directions directionsOf(const StridedSpan<const Vec3>& normals) {
     return directions;
 }
 
-/// Cosine between the mean of a face's normals and its own; 0 where one has no direction.
+/// Returns the cosine between the mean vertex normal of a face and the normal of the face; 0 if one of them has no
+/// direction.
 double facingOf(const PrimitiveFacts& facts, const Directions& directions, std::size_t face) {
     const std::uint32_t* const v = facts.mesh.corners.data() + 3 * face;
     const DVec3 sum = directions[v[0]] + directions[v[1]] + directions[v[2]];
@@ -107,8 +109,8 @@ double facingOf(const PrimitiveFacts& facts, const Directions& directions, std::
     return size > 0 ? dot(sum, toDouble(facts.surface.faces[face].normal)) / size : 0;
 }
 
-/// Whether one of these triangles shares an edge with one that has its normals in front and is wound alike: mendWinding turns
-/// both or neither.
+/// Returns whether one of these triangles shares an edge with a consistently wound triangle whose normals point to the
+/// front: mendWinding flips both or neither.
 bool haveSoundNeighbours(const PrimitiveFacts& facts, const Directions& directions,
                          std::span<const std::uint32_t> against) {
     struct Edge {
@@ -141,7 +143,7 @@ bool haveSoundNeighbours(const PrimitiveFacts& facts, const Directions& directio
     });
 }
 
-/// Whether turning triangles as `generate --fix-winding` does would leave no normal on the back of its own.
+/// Returns whether no normal would point to the back after flipping triangles as `generate --fix-winding` does.
 bool areTrianglesToBlame(const PrimitiveFacts& facts, const Directions& directions,
                          std::span<const std::uint32_t> against) {
     if (haveSoundNeighbours(facts, directions, against)) return false;
@@ -169,7 +171,7 @@ void checkWinding(PrimitiveFacts& facts, const Directions& directions) {
     }
     against.finish(facts.surface.area);
     if (against.count == 0) return;
-    // Leaves and grass that show both sides often have the normals of the whole tree or ground, on purpose.
+    // Double-sided leaves and grass often have the normals of the whole tree or ground on purpose.
     const double mostly = facts.primitive.is_double_sided ? kNearlyAll : kMostOfSurface;
     const Severity severity = against.surface_share >= mostly         ? Severity::error
                               : against.surface_share >= kSomeNormals ? Severity::warning
@@ -182,8 +184,8 @@ void checkWinding(PrimitiveFacts& facts, const Directions& directions) {
                                           {toCommand("generate --fix-winding")}});
 }
 
-/// Normals smoothed over hard edges, those of a whole tree on its leaves, or those of another shape. Some are meant, so the
-/// finding is a note.
+/// Reports normals that are far from all their triangles: smoothed over hard edges, those of a whole tree on its
+/// leaves, or those of another shape. Some are intended, so the finding is a note.
 void checkFarNormals(PrimitiveFacts& facts, const Directions& directions) {
     const TangentView& mesh = facts.mesh;
     const EqualVertices equal = findEqualVertices(mesh, false);
@@ -199,10 +201,11 @@ void checkFarNormals(PrimitiveFacts& facts, const Directions& directions) {
     for (std::uint32_t v = 0; v < facts.used.size(); ++v) {
         if (!facts.used[v] || !isDirection(mesh.normals[v]) || facts.surface.vertex_areas[v] == 0) continue;
         ++far.total;
-        // Normals that point to the back are another finding.
+        // Normals that point to the back are reported by another finding.
         const double cosine = nearest[equal.class_of[v]];
         const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-        const auto angle = static_cast<float>(polarAngle(cosine, sine) * 180 / kPi);  // normals of faces are no better
+        // normals of faces are no more precise
+        const auto angle = static_cast<float>(polarAngle(cosine, sine) * 180 / kPi);
         if (angle > kFarDeg && angle <= 90) far.add(v, facts.surface.vertex_areas[v], angle);
     }
     far.finish(facts.surface.area);
@@ -229,7 +232,7 @@ void checkPositions(PrimitiveFacts& facts) {
                   " are NaN or infinite");
 }
 
-/// Random offsets of positions, by the mesh alone: what the file has as normals may well be without them.
+/// Reports random offsets of positions. Examines the mesh only, because the stored normals may not contain them.
 void checkNoise(PrimitiveFacts& facts) {
     const double noise = notedNoise(facts.mesh.triangles(), facts.mesh.position_step, facts.options.weld_distance);
     if (noise == 0) return;
@@ -241,7 +244,7 @@ void checkNoise(PrimitiveFacts& facts) {
 
 namespace {
 
-/// A command stands in a remedy only where it removes the finding and leaves no new one.
+/// Returns a remedy that names a command only if the command removes the finding and adds no other.
 Remedy attributeRemedy(const ScenePrimitive& primitive, const SceneAttributeFault& fault) {
     const auto isNeeded = [&](const TangentUse& use) { return use.has_texture && fault.name == setName(use.uv_set); };
     const auto isFatal = [](const SceneAttributeFault& other) { return other.repair == AttributeRepair::none; };
@@ -299,7 +302,7 @@ void checkNormals(PrimitiveFacts& facts) {
     }
 }
 
-// UVs as far as tangents need them.
+// Checks of the UVs that tangents follow.
 
 namespace {
 
@@ -356,17 +359,17 @@ void checkDegenerate(PrimitiveFacts& facts) {
 
 void checkUvs(PrimitiveFacts& facts) {
     checkUvsMissing(facts);
-    // UVs that no tangents follow do not matter.
+    // UVs that no tangents follow are irrelevant.
     if (facts.mesh.uvs.empty() || (facts.primitive.uses.empty() && facts.mesh.tangents.empty())) return;
     checkFinite(facts);
     checkDegenerate(facts);
 }
 
-// Several textures of one primitive, which has only one tangent per vertex.
+// Checks whether several textures of one primitive need different tangents, since a vertex has only one.
 
 namespace {
 
-/// Triangles on which two readings of the UVs give different frames.
+/// Returns the triangles on which two interpretations of the UVs give different frames.
 Tally compareReadings(const PrimitiveFacts& facts, const UvReading& reading) {
     TangentView other = facts.mesh;
     other.uvs = reading.uvs;
@@ -390,7 +393,7 @@ bool readsTheSame(const TangentUse& a, const TangentUse& b) {
            a.transform.scale[0] == b.transform.scale[0] && a.transform.scale[1] == b.transform.scale[1];
 }
 
-/// Names the texture, and its material where it is one of several (KHR_materials_variants).
+/// Returns the name of the texture, with its material if there are several (KHR_materials_variants).
 std::string textureText(const TangentUse& use, bool with_material) {
     return with_material ? textureName(use) : use.needed_by;
 }
@@ -417,7 +420,7 @@ void checkTextures(PrimitiveFacts& facts) {
     }
 }
 
-// One primitive: the UVs that its tangents should follow, then the checks, family by family.
+// Checks one primitive: selects the UVs that its tangents should follow, and runs all checks.
 
 void PrimitiveFacts::add(FindingCode code, Severity severity, const Tally& tally, const char* unit,
                          std::string message) {
@@ -432,7 +435,7 @@ std::vector<bool> usedVertices(const TangentView& mesh) {
     return used;
 }
 
-/// Share of the surface where UVs determine tangents, and positions are not too coarse for that.
+/// Returns the share of the surface where UVs determine tangents and positions are precise enough for a comparison.
 double comparedShare(const PrimitiveFacts& facts) {
     const double most = sineCosine(facts.options.direction_deg * kPi / 180).sine;
     double area = 0;
@@ -442,10 +445,10 @@ double comparedShare(const PrimitiveFacts& facts) {
     return facts.surface.area > 0 ? area / facts.surface.area : 0;
 }
 
-/// Positions so coarse that triangles say neither where tangents point nor, reliably, where they face.
+/// Reports positions so coarse that triangles determine neither tangents nor, reliably, normals.
 void checkRounding(PrimitiveFacts& facts) {
     PositionRounding rounding = facts.surface.rounding;
-    // Positions that were rounded on purpose matter only to tangents.
+    // Intentional rounding of positions matters only to tangents.
     const bool has_readers = !facts.primitive.uses.empty() || !facts.primitive.tangents.empty();
     if (rounding.was_before && !has_readers) {
         const std::span<const std::uint32_t> corners = facts.mesh.corners;
@@ -480,7 +483,7 @@ Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const C
     facts.all = scene;
     reportAttributeFaults(facts);
     if (primitive.corners.empty()) {
-        // glTF lights points and lines by their tangents where the material has a normal map.
+        // glTF lights points and lines by their tangents if the material has a normal map.
         const bool has_positions = primitive.findFault("POSITION") == nullptr;
         if (has_positions && !primitive.tangents.empty() && primitive.uses.empty()) {
             Tally all{.count = 1, .total = 1};
@@ -503,7 +506,7 @@ Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const C
     checkNormals(facts);
     checkNoise(facts);
     checkMorphValues(facts);
-    // If a target's array cannot be read, another finding reports it.
+    // If an array of a target cannot be read, another finding reports it.
     const bool are_targets_read = std::none_of(primitive.attribute_faults.begin(), primitive.attribute_faults.end(),
                                                [](const SceneAttributeFault& fault) { return fault.target >= 0; });
     if (are_targets_read) checkMorphNormals(facts);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The checks of one primitive, a family of findings each. They know arrays and uses, but no file format; findings get
-// the place and the names of the primitive afterwards, where they leave them empty.
+// Checks of one primitive; each check makes the findings of one kind. They use arrays and texture uses, independent of
+// file formats. If a finding has no location and names, the caller adds those of the primitive.
 #pragma once
 
 #include <optional>
@@ -14,16 +14,17 @@
 
 namespace tspace {
 
-// Tangents that were made on quads, compared with the triangles that MikkTSpace cuts these into.
+// Tangents that were computed on quads are compared with the triangles into which MikkTSpace splits these.
 
 struct QuadReading {
-    std::vector<std::uint32_t> corners = {};  ///< three per triangle, as TangentView::corners
-    Surface surface = {};                     ///< surface of these faces; the two halves of a quad have one orientation
+    std::vector<std::uint32_t> corners = {};  ///< three per triangle, like TangentView::corners
+    /// surface of these triangles; both halves of a quad have one orientation
+    Surface surface = {};
 };
 
-/// The quads that CheckOptions::faces means, cut as MikkTSpace cuts them. Nothing: the mesh's own triangles are meant,
-/// or, with Faces::automatic, nothing in `health` asks for another reading. `health`: of the mesh. Near-linear;
-/// fails where generateTangents does.
+/// Returns the quads selected by CheckOptions::faces, split as MikkTSpace does it. Returns nothing if the triangles of
+/// the mesh are used, or, for Faces::automatic, if `health` has no fault that quads could explain. `health`: result for
+/// the mesh. Near-linear time; fails if generateTangents fails.
 Result<std::optional<QuadReading>> findQuads(const TangentView& mesh, const FrameHealth& health,
                                              const CheckOptions& options);
 
@@ -31,16 +32,16 @@ Result<std::optional<QuadReading>> findQuads(const TangentView& mesh, const Fram
 struct PrimitiveFacts {
     const ScenePrimitive& primitive;
     const CheckOptions& options;
-    bool is_gltf = true;          ///< others are seldom expected to hold tangents, and many cannot
+    bool is_gltf = true;          ///< other formats are rarely expected to contain tangents, and many cannot
     UvReading reading = {};       ///< UVs that the tangents should follow
-    TangentView mesh = {};        ///< over `reading`; without UVs where these are no authority
+    TangentView mesh = {};        ///< with the UVs of `reading`; without UVs if these do not determine the tangents
     Surface surface = {};         ///< surface of `mesh`
-    std::vector<bool> used = {};  ///< vertices that triangles have
-    QuadReading quads = {};       ///< holds the corners of `mesh` where its tangents were made on quads
+    std::vector<bool> used = {};  ///< vertices that triangles use
+    QuadReading quads = {};       ///< storage of the corners of `mesh` if its tangents were computed on quads
     std::vector<Finding> findings = {};
-    std::vector<std::uint32_t> faults = {};    ///< faults of the tangents, as in FrameHealth::faults; empty: none
-    double wrong_sign_share = 0;               ///< as in FrameHealth::wrong_sign_share
-    std::span<const ScenePrimitive> all = {};  ///< primitives of the scene, or nothing
+    std::vector<std::uint32_t> faults = {};    ///< faults of the tangents, see FrameHealth::faults; empty: none
+    double wrong_sign_share = 0;               ///< see FrameHealth::wrong_sign_share
+    std::span<const ScenePrimitive> all = {};  ///< primitives of the scene, or none
     bool looked_at_values = false;             ///< there are tangents, and they were examined
 
     void fault(std::uint32_t vertex, FindingCode code) {
@@ -50,24 +51,24 @@ struct PrimitiveFacts {
     void add(FindingCode code, Severity severity, const Tally& tally, const char* unit, std::string message);
 };
 
-/// The findings of a primitive, and which of its vertices have them.
+/// Findings of a primitive, and the vertices that have them.
 struct PrimitiveVerdict {
     std::vector<Finding> findings = {};
-    std::vector<std::uint32_t> faults = {};  ///< as in PrimitiveFacts::faults; empty: none
+    std::vector<std::uint32_t> faults = {};  ///< see PrimitiveFacts::faults; empty: none
     double wrong_sign_share = 0;
-    /// Share of the surface where tangents were compared with UVs; 0 where their values alone were looked at.
+    /// Share of the surface where tangents were compared with UVs; 0 if only their values were examined.
     double compared_share = 0;
 };
 
-/// All findings of a primitive, but for those of its images. Fails for lack of memory only.
-/// `scene`: its primitives, whose surface may go on over borders of primitives.
+/// Returns all findings of a primitive, except those of its images. Fails only if memory runs out. `scene`: primitives
+/// of the scene, since surfaces may continue across borders of primitives.
 Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf,
                                         std::span<const ScenePrimitive> scene = {});
-/// The findings alone.
+/// Returns only the findings, with complete remedies.
 Result<std::vector<Finding>> checkPrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf);
 
-// The families, in the order in which they run. checkTangents may find that tangents follow other UVs, or that they
-// were made on quads: `facts` then has those.
+// Checks, in the order in which they run. checkTangents may detect that tangents follow other UVs or were computed on
+// quads; it then stores those UVs or quads in `facts`.
 void checkPositions(PrimitiveFacts& facts);
 void checkNormals(PrimitiveFacts& facts);
 void checkNoise(PrimitiveFacts& facts);

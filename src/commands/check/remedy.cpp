@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names, summaries and usual remedies of codes; remedies as text.
+// Names, summaries and usual remedies of finding codes; remedies as text.
 #include "commands/check/remedy.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ constexpr std::size_t kMostCommands = 3;
 
 struct CodeText {
     const char* name;
-    const char* remedy;  ///< each "{}" stands for the next command
+    const char* remedy;  ///< each "{}" is replaced by the next command
     std::array<const char*, kMostCommands> commands = {};
 };
 

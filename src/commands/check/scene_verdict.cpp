@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The verdict on a scene, and the remedies of its findings.
+// Verdict on a scene, and remedies of its findings.
 #include "commands/check/scene_verdict.h"
 
 #include <algorithm>
@@ -21,10 +21,10 @@
 namespace tspace {
 namespace {
 
-/// Share of the judged surface from which wrong signs follow another convention, and are no accident.
+/// Share of the examined surface from which wrong signs indicate another convention rather than single faults.
 constexpr double kMostSigns = 2.0 / 3;
 
-/// Primitives with one key get the same findings. Arrays that a file shares have one address.
+/// Primitives with equal keys have the same findings. Arrays that a file shares have the same address.
 class PrimitiveKey {
   public:
     explicit PrimitiveKey(const ScenePrimitive& primitive) {
@@ -49,7 +49,7 @@ class PrimitiveKey {
             arrays_.insert(arrays_.end(), {target.positions.data(), target.normals.data(), target.tangents.data()});
         for (const TangentUse& use : primitive.uses) {
             words_.push_back(use.needed_by);
-            // Findings name the materials where there are several.
+            // Findings name the materials if there are several.
             if (use.material != primitive.uses.front().material)
                 add({use.material, primitive.uses.front().material, use.only_in_variant ? 1U : 0U});
             add({use.has_texture, static_cast<std::uint64_t>(use.uv_set),
@@ -71,9 +71,9 @@ class PrimitiveKey {
     std::vector<std::uint64_t> numbers_ = {};
 };
 
-/// Primitives that are checked, and whose findings each primitive gets.
+/// Primitives that are checked, and the assignment of their results to all primitives.
 struct Work {
-    std::vector<std::size_t> primitives = {};  ///< the first of each key
+    std::vector<std::size_t> primitives = {};  ///< first primitive of each key
     std::vector<std::size_t> result_of = {};   ///< per primitive of the scene: index into `primitives`
 };
 
@@ -90,7 +90,7 @@ Work collectWork(const Scene& scene) {
 
 using SharedFaults = std::shared_ptr<const std::vector<VertexFaults>>;
 
-/// Result for one geometry.
+/// Result of one geometry.
 struct Judged {
     std::vector<Finding> findings = {};
     SharedFaults faults = {};
@@ -139,7 +139,7 @@ std::vector<Judged> judgeAll(const Scene& scene, const Work& work, const CheckOp
     return results;
 }
 
-/// A finding of the first primitive of its key, made one of this primitive.
+/// Converts a finding of the first primitive with this key to a finding of `primitive`.
 Finding placed(Finding finding, const ScenePrimitive& primitive, const ScenePrimitive& checked) {
     std::string place = finding.place;
     if (place.empty()) {
@@ -151,22 +151,23 @@ Finding placed(Finding finding, const ScenePrimitive& primitive, const ScenePrim
     return finding;
 }
 
-/// The preset that a convention is; of two that are equal the first.
+/// Returns the name of the preset that equals the convention; the first one if several are equal.
 std::string nameOf(const Convention& convention) {
     for (const char* name : {"opengl", "directx", "unreal", "unity"}) {
         if (*findConvention(name) == convention) return name;
     }
-    return "opengl";  // it has the same signs
+    return "opengl";  // "opengl" has the same signs
 }
 
-/// Whether a command makes tangents of all or of those that are wrong: the first of its options says so.
+/// Returns whether a command computes tangents, either all or only wrong ones, as its first option specifies.
 bool makesTangents(const RemedyCommand& command) {
     if (command.verb != "generate" || command.options.empty()) return false;
     const std::string& name = command.options.front().name;
     return name == "repair" || name == "overwrite";
 }
 
-/// Adds the convention to the commands of a remedy: who checks by another convention than the format's has to compute by it.
+/// Adds the convention to the commands of a remedy: if the check used another convention than the format's, tangents
+/// must be computed by it.
 void addConvention(const CheckOptions& options, Finding& finding) {
     if (signFactor(options.convention) == signFactor(conventions::gltf)) return;
     for (RemedyCommand& command : finding.commands) {
@@ -175,7 +176,7 @@ void addConvention(const CheckOptions& options, Finding& finding) {
     }
 }
 
-/// Has commands that make tangents make them as `name` says: "repair" or "overwrite".
+/// Sets the option by which commands compute tangents: "repair" or "overwrite".
 void setCommandOption(Finding& finding, const char* name, bool flips_green = false) {
     for (RemedyCommand& command : finding.commands) {
         if (!makesTangents(command)) continue;
@@ -184,24 +185,24 @@ void setCommandOption(Finding& finding, const char* name, bool flips_green = fal
     }
 }
 
-// Remedies of green that points down together with inverted signs.
+// Remedies if green points down and signs are inverted.
 
-/// They cancel out.
+/// Remedy if both inversions cancel out.
 Remedy bothOrNeither() {
     return {"No action is needed: the two inversions cancel out. Correct both or neither. To correct both: {}.",
             {toCommand("generate --overwrite --flip-green")}};
 }
 
-/// The convention that is asked for has green so.
+/// Remedy if the requested convention has green pointing down.
 constexpr const char* kNothingToDo = "No action is needed; readers of plain glTF expect green to point up.";
 
-/// Remedy if the signs of some meshes, but not of all, are made for green that points down.
+/// Remedy if the signs of some meshes, but not of all, were computed for green pointing down.
 Remedy signsFirst() {
     return {"Correct the green channel and the inverted signs together: {}.",
             {toCommand("generate --overwrite --flip-green")}};
 }
 
-/// Whether the normal maps of a primitive cancel inverted signs.
+/// Whether the normal maps of a primitive cancel inverted signs: no, unknown, yes.
 enum class MapsSay { nothing, open, cancel };
 
 class Maps {
@@ -212,7 +213,7 @@ class Maps {
           any_cancels_(std::count(images.image_green.begin(), images.image_green.end(), other_way_) != 0),
           is_asked_for_(signFactor(options.convention) != signFactor(conventions::gltf)) {}
 
-    /// `number`: of the primitive in the scene.
+    /// `number`: index of the primitive in the scene.
     [[nodiscard]] MapsSay say(const ScenePrimitive& primitive, std::size_t number) const {
         MapsSay result = MapsSay::nothing;
         for (const TangentUse& use : primitive.uses) {
@@ -221,8 +222,8 @@ class Maps {
             const GreenSide green =
                 is_first ? at(images_.primitive_green, number) : at(images_.image_green, *use.image);
             if (green == other_way_) return MapsSay::cancel;
-            // A map without a verdict counts as the others of its file do. Who names a convention other than the format's
-            // says which signs are right, also for maps that nobody can read.
+            // A map without a verdict is treated like the other maps of the file. A user who requests a convention
+            // other than the format's thereby defines the correct signs, also for unreadable maps.
             const bool is_open = (green == GreenSide::unread && !is_asked_for_) || green == GreenSide::mixed ||
                                  (green == GreenSide::unknown && any_cancels_);
             if (is_open) result = MapsSay::open;
@@ -231,7 +232,7 @@ class Maps {
     }
 
   private:
-    /// Images may not have been examined.
+    /// Returns `unread` if images were not examined.
     static GreenSide at(const std::vector<GreenSide>& sides, std::size_t i) {
         return i < sides.size() ? sides[i] : GreenSide::unread;
     }
@@ -308,7 +309,7 @@ bool waitForImages(std::span<const PrimitiveJudgement> judgements) {
 void weighImages(const Scene& scene, const CheckOptions& options, ImageFindings& images,
                  std::span<PrimitiveJudgement> judgements) {
     const Maps maps(images, options);
-    std::vector<bool> is_needed(scene.images.size(), false);  // images used by a primitive whose signs are right
+    std::vector<bool> is_needed(scene.images.size(), false);  // images used by a primitive whose signs are correct
     std::vector<bool> is_cancelled(scene.images.size(), false);
     for (std::size_t i = 0; i < judgements.size(); ++i) {
         const bool is_inverted = judgements[i].find(FindingCode::signsInverted) != nullptr;
@@ -340,7 +341,7 @@ void weighImages(const Scene& scene, const CheckOptions& options, ImageFindings&
     }
 }
 
-// Remedy for a finding in the file where it occurs. Commands are given only if running them fixes the finding.
+// Remedies of findings in their file. A command is named only if running it fixes the finding.
 
 namespace {
 
@@ -367,12 +368,13 @@ constexpr const char* kDrawnTangents =
     "Repair the tangents with the program that made them. No texture uses them, so their correct direction is unknown "
     "here.";
 
-/// Findings that computing the tangents anew mends.
+/// Returns whether recomputing the tangents fixes the finding.
 bool isOfTangents(FindingCode code) {
     return (code >= FindingCode::tangentsNotFinite && code <= FindingCode::morphTangentsWrong);
 }
 
-/// Findings of values that the format forbids. They are mended without a look at UVs, however few vertices have them.
+/// Returns whether the finding concerns values that the format forbids. These are fixed without regard to UVs, even at
+/// a single vertex.
 bool isOfValues(FindingCode code) {
     return code == FindingCode::tangentsNotFinite || code == FindingCode::tangentsNotUnit ||
            code == FindingCode::signsNotOne;
@@ -380,7 +382,7 @@ bool isOfValues(FindingCode code) {
 
 class Advice {
   public:
-    /// `signs`: the verdicts of all primitives.
+    /// `signs`: verdicts of all primitives.
     Advice(const CheckOptions& options, const std::set<SignVerdict>& signs)
         : options_(options),
           inverts_green_(options.convention.green == Green::up),
@@ -403,7 +405,7 @@ class Advice {
         const bool is_of_signs = finding.code == FindingCode::signsInverted || finding.code == FindingCode::signsWrong;
         const bool is_error = finding.severity == Severity::error;
         if (isOfValues(finding.code) || (finding.code == FindingCode::tangentsNotOrthogonal && is_error)) {
-            // Keeps the usual remedy.
+            // The usual remedy is kept.
         } else if (primitive.hasFreeTangents()) {
             setRemedy(finding, kDrawnTangents);
         } else if (!can_compute) {
@@ -425,7 +427,7 @@ class Advice {
 
   private:
     const CheckOptions& options_;
-    bool inverts_green_;  ///< generate inverts green that points down, but none that points up
+    bool inverts_green_;  ///< generate can invert green that points down, but not green that points up
     bool any_cancelled_, any_open_;
 };
 

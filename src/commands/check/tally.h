@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How often something was met, on how much of the surface, and where first.
+// Counts occurrences of a fault, with their surface area and first vertices.
 #pragma once
 
 #include <algorithm>
@@ -17,9 +17,9 @@ struct Tally {
     std::uint64_t count = 0;
     std::uint64_t total = 0;  ///< number of candidates
     double area = 0;
-    double surface_share = 0;  ///< share of the mesh's area, after finish()
+    double surface_share = 0;  ///< share of the area of the mesh; set by finish()
     double worst_deg = 0;
-    std::vector<std::uint32_t> vertices = {};  ///< the first, each once
+    std::vector<std::uint32_t> vertices = {};  ///< first vertices, without duplicates
 
     void add(std::uint32_t vertex, double its_area, double deg = 0) {
         ++count;
@@ -28,7 +28,7 @@ struct Tally {
         if (vertices.size() < kMostVertices && std::find(vertices.begin(), vertices.end(), vertex) == vertices.end())
             vertices.push_back(vertex);
     }
-    /// Adds a tally of the same total.
+    /// Adds a tally with the same total.
     void include(const Tally& other) {
         count += other.count;
         area += other.area;
