@@ -9,7 +9,7 @@
 namespace tspace::options {
 namespace {
 
-/// The axis of "x", "+x" or "-x"; nothing for other words.
+/// Parses "x", "+x" or "-x"; returns nothing for other words.
 std::optional<Vec3> axisOf(std::string_view word) {
     float sign = 1;
     if (!word.empty() && (word.front() == '-' || word.front() == '+')) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The option --axes of commands on maps in object and world space.
+// Option --axes of commands for maps in object and world space.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,8 @@
 
 namespace tspace::options {
 
-/// "y-up", "z-up", or three axes of the model with a sign each ("x,-z,y"): what x, y and z of the map point along.
+/// Returns the option: "y-up", "z-up", or three signed axes of the model ("x,-z,y") along which x, y and z of the map
+/// point.
 Option axesOption(std::function<void(const MapAxes&)> give);
 
 }  // namespace tspace::options

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The exit codes of the tool, which its JSON has too, and the exit code of each error.
+// Exit codes of the tool, which its JSON also contains, and the exit code of each error.
 #pragma once
 
 #include <algorithm>
@@ -8,13 +8,13 @@
 
 namespace tspace::report {
 
-/// Larger is worse: of several files the worst decides.
+/// Larger codes are more severe: the largest code of several files is the result.
 enum class ExitCode : int {
     done = 0,
-    findings = 1,           ///< a checking command found something
-    usage = 2,              ///< the command line makes no sense
-    badInput = 3,           ///< a file is broken, not supported, or leads outside its folder
-    cannotReadOrWrite = 4,  ///< the file system said no, or the caller ended the call
+    findings = 1,           ///< a checking command has findings
+    usage = 2,              ///< invalid command line
+    badInput = 3,           ///< a file is invalid, not supported, or leads outside its folder
+    cannotReadOrWrite = 4,  ///< a file cannot be read or written, or the caller canceled the call
     internal = 5,           ///< out of memory, or a defect of tspace
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Options that several calls have.
+// Options that several commands share.
 #pragma once
 
 #include <cstdint>
@@ -31,33 +31,33 @@ inline constexpr Named<Faces> kFaces[] = {
     {"auto", Faces::automatic},
 };
 
-/// Headings in help. What stands under the last two decides how a call runs, not what it finds or writes.
+/// Headings in help. Options under the last two control how a call runs, not its results or outputs.
 inline constexpr const char* kInputAndOutput = "Input and output";
 inline constexpr const char* kRunning = "Running";
 inline constexpr const char* kReporting = "Reporting";
 
-/// A program whose reading of normal maps is meant: the names of findMapReading.
+/// Returns an option that selects the convention of a program for normal maps, by a name of findMapReading.
 Option readingOption(const char* names, MapReading& target, HelpText help);
 void addAllowExternal(OptionList& list, FileOptions& file);
 void addKeepCoordinates(OptionList& list, FileOptions& file);
 void addThreads(OptionList& list, Execution& execution, HelpText help);
-/// Only the first of the limits, for commands that need no importer.
+/// Adds only the memory limit, for commands that need no importer.
 void addMemoryLimit(OptionList& list, std::uint64_t& memory_limit_bytes);
 void addLimits(OptionList& list, FileOptions& file);
-/// FileOptions::sync, for calls that write.
+/// Adds FileOptions::sync, for commands that write.
 void addSync(OptionList& list, bool& sync);
-/// The three: threads, limits, and whether outputs are waited for.
+/// Adds the options for threads, limits and flushing of outputs.
 void addRunning(OptionList& list, Execution& execution, HelpText threads_help, FileOptions& file);
 /// Adds --lengths, for 8-bit maps.
 void addLengths(OptionList& list, const char* group, TexelLengths& lengths);
-/// --alpha, of normal maps that get levels.
+/// Adds --alpha, for normal maps with mip levels.
 void addAlpha(OptionList& list, const char* group, MapAlpha& alpha);
-/// --dds-header, of outputs in DDS.
+/// Adds --dds-header, for DDS outputs.
 void addDdsHeader(OptionList& list, const char* group, DdsHeader& header);
-/// Selects the primitives of a model that use a map.
+/// Adds the option that selects the primitives of a model that use a map.
 void addMaterialOfMap(OptionList& list, std::string& material);
-/// The last options of calls that make an image by a model: how tangents are made where it has none (in `group`), and how
-/// the call runs.
+/// Adds the last options of commands that compute an image from a model: the tangent method for models without tangents
+/// (in `group`), threads, limits and flushing.
 void addMakingAnImage(OptionList& list, const char* group, Method& method, Execution& execution, FileOptions& file);
 
 }  // namespace tspace::options

@@ -6,8 +6,9 @@
 namespace tspace {
 namespace {
 
-/// Number of pixels that a file of this size is expected to hold at most: 64 for each byte, as isTooLarge has it. A PNG
-/// of one color has up to 344 for each byte, so images of up to 2048 x 2048 may have 512. Any file may have 1024 x 1024.
+/// Returns the maximum number of pixels expected of a file of this size: 64 per byte, like isTooLarge. A PNG of one
+/// color has up to 344 pixels per byte, so images of up to 2048 x 2048 may have 512. Any file may have 1024 x 1024
+/// pixels.
 std::uint64_t expectedPixels(std::uint64_t byte_count) {
     constexpr std::uint64_t kAnyFile = std::uint64_t{1} << 20, kOneColor = std::uint64_t{1} << 22;
     return std::max({kAnyFile, std::min(512 * byte_count, kOneColor), 64 * byte_count});
@@ -16,7 +17,7 @@ std::uint64_t expectedPixels(std::uint64_t byte_count) {
 }  // namespace
 
 std::shared_ptr<MemoryBudget> imageBudget(ByteSpan bytes, const FileOptions& file) {
-    constexpr std::uint64_t kDecoderBytes = 24;  // per pixel, with any format
+    constexpr std::uint64_t kDecoderBytes = 24;  // per pixel, for any format
     auto budget = std::make_shared<MemoryBudget>(file.memory_limit_bytes);
     budget->allow(bytes.size());
     budget->allow((kMapPixelBytes + kDecoderBytes) * expectedPixels(bytes.size()) / MemoryBudget::kPerByte);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The memory that working on one image file may take. Every call that reads a map decides here.
+// Memory limit for processing one image file, for all commands that read a map.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@
 
 namespace tspace {
 
-/// The user's limit; by default what an image file of this size may take.
+/// Returns a budget with the user's limit; by default the limit depends on the size of the file.
 std::shared_ptr<MemoryBudget> imageBudget(ByteSpan bytes, const FileOptions& file);
 
-/// An estimate of the bytes that decoding takes, and then `pixel_bytes` for each pixel that the file claims.
+/// Returns an estimate of the memory for decoding plus `pixel_bytes` for each pixel that the file header declares.
 std::uint64_t imageNeed(ByteSpan bytes, std::uint64_t pixel_bytes = kMapPixelBytes);
 
 }  // namespace tspace

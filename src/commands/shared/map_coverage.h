@@ -10,9 +10,9 @@
 
 namespace tspace {
 
-/// Takes alpha out of an image whose levels will be made. Returns how much of each texel is surface, where alpha says that; colors that
-/// were multiplied by alpha are divided by it. Empty: all of every texel. Adds a sentence on what was found to `warnings`, but
-/// for what was asked for.
+/// Removes alpha from an image for which mip levels will be made. If alpha is coverage, returns the covered part of
+/// each texel, and divides colors by alpha if they were premultiplied. Empty: all texels are fully covered. Adds
+/// sentences about ignored or missing alpha and about automatic decisions to `warnings`.
 std::vector<float> takeCoverage(MapAlpha alpha, FloatImage& image, std::vector<std::string>& warnings);
 
 }  // namespace tspace

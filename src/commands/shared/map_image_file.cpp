@@ -23,14 +23,14 @@
 namespace tspace {
 namespace {
 
-/// The name of an image without folders and extension.
+/// Returns the name of an image without folders and extension.
 std::string stemOf(const std::string& name) {
     const std::size_t folder = name.find_last_of("/\\");
     const std::string file = folder == std::string::npos ? name : name.substr(folder + 1);
     return file.substr(0, file.find_last_of('.'));
 }
 
-/// How a primitive shows the map, where it does.
+/// Returns the use by which a primitive shows the map, or null.
 const TangentUse* useOfImage(const Scene& scene, const ScenePrimitive& primitive, const std::string& stem) {
     for (const TangentUse& use : primitive.uses) {
         if (!use.image || !showsNormals(use)) continue;
@@ -49,9 +49,9 @@ const TangentUse* firstNormalMap(const ScenePrimitive& primitive) {
 
 struct ChosenPrimitive {
     const ScenePrimitive* primitive = nullptr;
-    std::size_t number = 0;           ///< in the scene
-    const TangentUse* use = nullptr;  ///< null: the first UVs, as they are
-    bool is_guess = false;            ///< no material names an image of the map's name
+    std::size_t number = 0;           ///< index in the scene
+    const TangentUse* use = nullptr;  ///< null: the first UV set without transform
+    bool is_guess = false;            ///< no material references an image with the name of the map
 };
 
 std::vector<ChosenPrimitive> choosePrimitives(const Scene& scene, const MapMeshChoice& choice) {
@@ -80,7 +80,8 @@ void gatherCorners(std::span<const T> from, std::span<const std::uint32_t> indic
     for (const std::uint32_t index : indices) to.push_back(from[index]);
 }
 
-/// Returns whether they were made.
+/// Appends normals and tangents of the corners, and computes them if they are missing. Returns whether they were
+/// computed.
 bool addFrames(const ScenePrimitive& primitive, std::span<const Vec2> uvs, const TangentOptions& options,
                const Execution& execution, OwnedMesh& mesh) {
     if (!primitive.normals.empty() && !primitive.tangents.empty()) {
@@ -95,7 +96,7 @@ bool addFrames(const ScenePrimitive& primitive, std::span<const Vec2> uvs, const
     return true;
 }
 
-/// The scale of x and y of the map that all of them have.
+/// Returns the scale of the map's x and y. Fails if the primitives differ in it.
 double scaleOf(std::span<const ChosenPrimitive> chosen) {
     const auto scale_of = [](const ChosenPrimitive& one) { return one.use == nullptr ? 1.0 : one.use->scale; };
     const ChosenPrimitive& first = chosen.front();
@@ -113,7 +114,7 @@ double scaleOf(std::span<const ChosenPrimitive> chosen) {
     return scale_of(first);
 }
 
-/// Fails where several materials may show the map, and their UVs lie over each other: a map fits one of them.
+/// Fails if several materials may show the map and their UVs overlap, because a map fits only one of them.
 void checkMaterials(std::span<const ChosenPrimitive> chosen) {
     constexpr std::uint32_t kSide = 512;
     constexpr std::uint64_t kOneOf = 100;
@@ -145,7 +146,7 @@ void checkMaterials(std::span<const ChosenPrimitive> chosen) {
     }
 }
 
-/// Whether two places turn directions alike; offsets and sizes do not matter.
+/// Returns whether two transforms rotate directions equally; translation and uniform scale are ignored.
 bool turnsAlike(const Affine& a, const Affine& b) {
     constexpr double kSame = 1e-6;
     const auto size = [](const Affine& place) {
@@ -155,7 +156,7 @@ bool turnsAlike(const Affine& a, const Affine& b) {
     return std::max({apart(a.x, b.x), apart(a.y, b.y), apart(a.z, b.z)}) <= kSame * size(a) * size(b);
 }
 
-/// The transform by which the scene shows a primitive. Nothing where the scene does not show it.
+/// Returns the transform by which the scene shows a primitive, or nothing if the scene does not show it.
 std::optional<Affine> placeOf(const DrawnScene& drawn, const ChosenPrimitive& chosen) {
     std::optional<Affine> place;
     for (const ScenePlacement& placement : drawn.placements) {
@@ -169,7 +170,7 @@ std::optional<Affine> placeOf(const DrawnScene& drawn, const ChosenPrimitive& ch
     return place;
 }
 
-/// Turns the corners from `first` on into the world.
+/// Transforms normals and tangents of the corners from `first` on to world space.
 void placeCorners(const Affine& place, std::size_t first, MapMesh& mesh) {
     OwnedMesh& corners = mesh.corners;
     for (std::size_t i = first; i < corners.normals.size(); ++i) {
@@ -184,7 +185,7 @@ void placeCorners(const Affine& place, std::size_t first, MapMesh& mesh) {
     mesh.axes.resize(corners.normals.size() / 3, {toFloat(axes[0]), toFloat(axes[1]), toFloat(axes[2])});
 }
 
-/// Removes the triangles from corner `first` on that are not in the tile.
+/// Removes the triangles outside the tile, from corner `first` on.
 void keepTile(std::uint32_t tile, std::size_t first, OwnedMesh& mesh) {
     std::size_t kept = first;
     for (std::size_t i = first; i < mesh.uvs.size(); i += 3) {
@@ -245,7 +246,7 @@ MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const
     if (choice.needs_material && choice.material.empty() && chosen.front().is_guess) checkMaterials(chosen);
     MapMesh mesh;
     mesh.report.scale = scaleOf(chosen);
-    // Tiles lie beside each other, whatever a texture does at its edges.
+    // In UDIM layouts tiles are adjacent, independent of the wrap mode of a texture.
     if (chosen.front().use != nullptr && choice.tile == 0) {
         mesh.wrap_u = chosen.front().use->wrap_u;
         mesh.wrap_v = chosen.front().use->wrap_v;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Image files as the input of calls on maps, and the part of a model that shows one, as arrays of corners. Functions throw
+// Image files as input of map commands, and the part of a model that shows a map as arrays of corners. Functions throw
 // FileError.
 #pragma once
 
@@ -19,65 +19,69 @@ namespace tspace {
 // The part of a model that shows a normal map, as arrays of corners.
 
 struct MapMesh {
-    OwnedMesh corners = {};  ///< a vertex for each corner; UVs as the texture is read with them
-    /// In world space: one per triangle, where the axes of its mesh point, for directions of normals.
+    OwnedMesh corners = {};  ///< one vertex per corner; UVs as the texture is sampled
+    /// In world space, one per triangle: directions of the axes of its mesh, for transforming normals.
     std::vector<MapAxes> axes = {};
     TextureWrap wrap_u = TextureWrap::repeat,
                 wrap_v = TextureWrap::repeat;  ///< wrap modes of the first primitive's texture
     MapMeshReport report = {};
 };
 
-/// Whether the image is a normal map.
+/// Returns whether the image is used as a normal map.
 bool showsNormals(const TangentUse& use);
 
-/// Appends the corners of a primitive as a map is read there, a vertex for each; `use`: what reads it, null for the first UVs
-/// as they are. Missing frames are made, along the UVs that generate takes. Returns whether they were. Throws FileError.
+/// Appends the corners of a primitive as a map is sampled there, one vertex each. `use`: how the map is sampled; null:
+/// with the first UV set, untransformed. Missing frames are computed along the UVs that generate uses. Returns whether
+/// they were computed. Throws FileError.
 bool addMapCorners(const ScenePrimitive& primitive, const TangentUse* use, const TangentOptions& tangents,
                    const Execution& execution, OwnedMesh& mesh);
 
 struct MapMeshChoice {
     std::string material = {};    ///< ConvertMapFileOptions::material
-    std::string image_name = {};  ///< the file name of the map, without folder
-    bool in_world = false;        ///< normals and tangents as the nodes of the scene turn them
+    std::string image_name = {};  ///< file name of the map, without folder
+    bool in_world = false;        ///< transform normals and tangents by the nodes of the scene
     std::uint32_t tile = 0;       ///< ConvertMapFileOptions::tile
-    /// Fails where neither the name of the material nor that of the image says which materials show the map, and their UVs lie
-    /// over each other.
+    /// Fail if the materials that show the map are not identified by the name of the material or of the image, and
+    /// their UVs overlap.
     bool needs_material = false;
 };
 
-/// Reads a model and takes the triangles that show the map. Throws FileError: invalidFile where there are none, where their
-/// materials give the map several scales or none, and, in the world, where they stand there in several ways or not at all.
+/// Reads a model and returns the triangles that show the map. Throws FileError: invalidFile if there are none, if their
+/// materials set different scales or scale 0 for the map, or, in world space, if nodes transform them differently or no
+/// node uses them.
 MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const TangentOptions& tangents,
                     const FileOptions& file, const Execution& execution);
 
-/// `content`: the image in place of the file, where it has data. Within file.memory_limit_bytes, and 2^28 pixels.
+/// Reads an image. `content`: used instead of the file if it has data. Limits: file.memory_limit_bytes and 2^28 pixels.
 FloatImage readMapImage(const std::string& input, ByteSpan content, const FileOptions& file,
                         ImageUse use = ImageUse::vectors);
 
-/// readMapMesh, whose errors name the model: those of a call are printed with the name of the image.
+/// Calls readMapMesh, and adds the name of the model to its errors, because errors of a call are printed with the name
+/// of the image.
 MapMesh readNamedMapMesh(const std::string& model, const MapMeshChoice& choice, const TangentOptions& tangents,
                          const FileOptions& file, const Execution& execution);
 
-/// The path without folders.
+/// Returns the path without folders.
 std::string fileNameOf(const std::string& path);
 
-/// Whether an image of this name is a TGA.
+/// Returns whether the extension is that of a TGA.
 bool isTgaName(const std::string& path);
-/// The file of an image: a TGA where its name says so, which has 8 bits, else a PNG. Nothing where it cannot be packed. Throws
-/// FileError where it is too large for a TGA.
+/// Encodes an image as an 8-bit TGA or as a PNG, depending on the extension. Returns nothing if encoding fails. Throws
+/// FileError if the image is too large for a TGA.
 std::optional<std::vector<std::uint8_t>> encodeByName(const std::string& name, const FloatImage& image, unsigned bits);
 std::optional<std::vector<std::uint8_t>> encodeByName(const std::string& name, const RgbImage& image);
 
-/// The image as a TGA where the output's name says so, else as a PNG or EXR; by `way` as AtomicOutput writes.
+/// Writes the image as a TGA, PNG or EXR, depending on `format` and on the extension of the output. `way`: options of
+/// AtomicOutput.
 void writeMapImage(const FloatImage& image, ImageFormat format, unsigned bits, const std::string& output,
                    const OutputWay& way);
 
-/// Whether the channels of all texels are equal, or nearly: a height map, or an image without colors.
+/// Returns whether the channels of all texels are nearly equal: a height map, or an image without colors.
 bool isGreyImage(const FloatImage& image);
-/// The mean of the three channels.
+/// Returns the mean of the three channels of each texel.
 std::vector<float> heightsOf(const FloatImage& image);
 
-/// In tangent space, as glTF reads it. `mesh` has a vertex for each corner.
+/// Returns a map side in tangent space with the conventions of glTF. `mesh` has one vertex per corner.
 MapSide tangentSide(const OwnedMesh& mesh, double scale = 1);
 
 }  // namespace tspace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which noise of positions is worth a word.
+// Noise of positions that is large enough to be reported.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace tspace {
 
-/// PositionNoise::noise, where somebody will see it in normals and where it is sure: .03 edges turn normals by a degree, and
-/// it takes some hundred vertices to tell. Else 0, as where it cannot be measured. Of the 1,005 primitives of 162 models one
-/// has more: it is damaged on purpose.
-/// position_step: of positions that are stored as whole numbers; rounding to them is no noise
+/// Returns PositionNoise::noise if it is visible in normals and certain: noise of 0.03 edge lengths rotates normals by
+/// one degree, and a few hundred vertices are necessary to detect it. Otherwise, and if it cannot be measured, returns
+/// 0. Of the 1,005 primitives of 162 models, one has more; it is damaged on purpose. `position_step`: step of positions
+/// stored as integers; rounding to it is not noise.
 double notedNoise(const MeshView& mesh, double position_step, float weld_distance = NormalOptions::weld_auto);
 
-/// The memory that notedNoise takes for a while: that of measurePositionNoise, rounded up.
+/// Returns an upper estimate of the temporary memory of notedNoise.
 std::uint64_t noteMemory(const MeshView& mesh);
 
 }  // namespace tspace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The common kinds of options, and options as JSON.
+// Common kinds of options, and options as JSON.
 #include "commands/shared/option_table.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ std::string givePart(const Option& option, const std::string& value) {
     std::string wrong;
     if (!choices.empty() && std::find(choices.begin(), choices.end(), value) == choices.end()) {
         constexpr std::size_t kMostListed = 12;
-        wrong = option.take(value);  // says of some names why they are none
+        wrong = option.take(value);  // explains for some names why they are invalid
         if (wrong.empty()) {
             wrong = choices.size() <= kMostListed ? "must be one of " + joined(choices) : "not a known " + option.value;
             wrong += didYouMean(value, choices);
@@ -44,7 +44,7 @@ std::string givePart(const Option& option, const std::string& value) {
 
 }  // namespace
 
-// No spaces, no hexadecimal digits, no names such as "inf"; with a point, whatever the program's locale says.
+// Accepts no spaces, hexadecimal digits or names such as "inf". The decimal separator is a point in every locale.
 bool parseReal(const std::string& text, double& number) {
     std::size_t at = 0;
     const auto take = [&](const char* these, std::size_t most) {
@@ -68,7 +68,7 @@ bool parseReal(const std::string& text, double& number) {
 }
 
 bool parseNumber(const std::string& text, std::uint64_t& number) {
-    constexpr std::size_t kMostDigits = 19;  // maximum digits of a number below 2^63
+    constexpr std::size_t kMostDigits = 19;  // maximum number of digits of an integer below 2^63
     if (text.empty() || text.size() > kMostDigits || text.find_first_not_of(kDigits) != std::string::npos) return false;
     number = std::strtoull(text.c_str(), nullptr, 10);
     return true;
@@ -231,15 +231,15 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string nearestName(const std::string& word, const std::vector<std::string>& names) {
-    constexpr std::size_t kShortest = 3, kLongest = 64;  // "-q" is no mistyped "-h"
+    constexpr std::size_t kShortest = 3, kLongest = 64;  // "-q" is not a misspelled "-h"
     if (word.size() < kShortest || word.size() > kLongest) return {};
-    // One mistake in three letters, so that short words are not taken for each other.
+    // One mistake per three letters, so that different short words do not match.
     const std::size_t most = word.size() / 3;
     std::size_t least = 2 * most + 2;
     std::string nearest;
     for (const std::string& name : names) {
         std::size_t distance = 2 * editDistance(word, name);
-        // A name that goes on is behind those that are as near as may be.
+        // A longer name that starts with the word ranks after names within the maximum distance.
         if (name.starts_with(word)) distance = std::min(distance, 2 * most + 1);
         if (distance < least) {
             least = distance;
@@ -254,11 +254,12 @@ std::string didYouMean(const std::string& word, const std::vector<std::string>& 
     return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
 }
 
-// Members of a JSON object as values of options.
+// Members of a JSON object as option values.
 
 namespace {
 
-/// A value as it stands on a command line; of a list, with commas. Empty where it is neither text nor a number.
+/// Returns a value as a word of a command line; lists are separated by commas. Empty if it is neither a string nor a
+/// number.
 std::string wordOf(const Json& value, bool is_list) {
     if (value.is_string()) return value.text();
     if (value.is_number()) return value.dump();

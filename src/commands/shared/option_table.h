@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What an option of a call on files is: one description of each, from which the C API reads its JSON, and the tool its command
-// line, help, man pages and completions.
+// Descriptions of options. The C API uses them to read options from JSON; the tool uses them for its command line,
+// help, man pages and completions.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 
 namespace tspace::options {
 
-/// Receives a value: stores it, and returns an error message ("must be ..."), or nothing.
+/// Receives a value and stores it. Returns an error message ("must be ...") or an empty string.
 using Take = std::function<std::string(const std::string& value)>;
 
 #ifdef TSPACE_SMALL
-/// The bindings show no help, so its texts are left out there.
+/// The bindings show no help, so this type discards help texts.
 struct HelpText {
     constexpr HelpText() = default;
     constexpr HelpText(const char*) {}
@@ -25,31 +25,32 @@ struct HelpText {
 using HelpText = std::string;
 #endif
 
-/// An option, or an operand of a command line (what stands there without a name, such as input files).
+/// An option, or an operand of a command line (a word without an option name, such as an input file).
 struct Option {
-    std::vector<std::string> names = {};  ///< {"-o", "--output"}; none: an operand
-    /// Names before a rename: accepted, but in no help, completion or man page.
+    std::vector<std::string> names = {};  ///< {"-o", "--output"}; empty: an operand
+    /// Names before a rename: accepted, but absent from help, completions and man pages.
     std::vector<std::string> old_names = {};
-    std::string value = {};                 ///< what stands for the value in help, "DEG"; empty: a flag
-    HelpText help = {};                     ///< a sentence or more
-    std::string default_text = {};          ///< printed behind the help; empty: the help says it, or there is none
-    std::string group = {};                 ///< its heading in help
-    std::vector<std::string> choices = {};  ///< the values that it may have; empty: any that `take` takes
-    bool is_file = false;                   ///< the value is a path, for completions
+    std::string value = {};  ///< name of the value in help, such as "DEG"; empty: a flag
+    HelpText help = {};      ///< one or more sentences
+    /// default printed after the help; empty: stated by the help, or no default
+    std::string default_text = {};
+    std::string group = {};                 ///< heading in help
+    std::vector<std::string> choices = {};  ///< allowed values; empty: all values that `take` accepts
+    bool is_file = false;                   ///< the value is a path; used by completions
     bool is_required = false;
     bool is_repeatable = false;
-    bool is_list = false;                    ///< the value is a list of choices with commas between them
-    std::vector<std::string> excludes = {};  ///< options that it cannot be given with
-    std::string needs = {};                  ///< an option that it cannot be given without
+    bool is_list = false;                    ///< the value is a comma-separated list of choices
+    std::vector<std::string> excludes = {};  ///< options that cannot be used together with this option
+    std::string needs = {};                  ///< option that this option requires
     Take take = {};
 
-    /// The name that stands in messages: the last, which is the long one; that of an operand is its value's.
+    /// Returns the name used in messages: the last name, which is the long one; for an operand, the name of its value.
     [[nodiscard]] const std::string& name() const { return names.empty() ? value : names.back(); }
-    /// Whether `given` is one of its names, old ones included.
+    /// Returns whether `given` is one of the names, including old names.
     [[nodiscard]] bool isNamed(const std::string& given) const;
 };
 
-/// The options that were given, in their order, with their values (empty for flags).
+/// Options that were given, in this order, with their values (empty for flags).
 struct Given {
     struct Item {
         const Option* option = nullptr;
@@ -57,37 +58,37 @@ struct Given {
     };
     std::vector<Item> items = {};
 
-    /// `name` as in Option::name.
+    /// `name`: see Option::name.
     [[nodiscard]] bool has(const std::string& name) const;
 };
 
-/// The options of one call.
+/// Options of one call.
 using OptionList = std::vector<Option>;
 
-/// Appends an option under the heading `group` of help.
+/// Appends an option under the heading `group` in help.
 Option& add(OptionList& list, const char* group, Option option);
 
-/// Gives a value ("" for a flag) to an option, and notes it in `given`. Returns what is wrong with it, or nothing.
+/// Passes a value ("" for a flag) to an option, and appends it to `given`. Returns an error message or an empty string.
 std::string giveValue(const Option& option, const std::string& value, Given& given);
 
-/// Returns which options exclude each other or are missing, or nothing.
+/// Returns an error message if options exclude each other or a required option is missing; otherwise an empty string.
 std::string checkTogether(const OptionList& list, const Given& given);
 
-/// The option of this long name; null: there is none.
+/// Returns the option with this long name, or null.
 const Option* findOption(const OptionList& list, const std::string& name);
-/// The message about a name that no option has.
+/// Returns the error message for an unknown option name.
 std::string unknownOption(const OptionList& list, const std::string& name);
 
-/// A name of a choice and what it stands for.
+/// Name and value of a choice.
 template <class Value>
 struct Named {
     const char* name;
     Value value;
 };
 
-/// `names` as they stand in help: "-q, --quiet"; empty for an operand. Without a `value_name` it is a flag.
+/// Makes an option. `names`: as in help, "-q, --quiet"; empty for an operand. An empty `value_name` makes a flag.
 Option option(const char* names, const char* value_name, Take take, HelpText help);
-/// Sets `target` to `value`.
+/// Makes a flag that sets `target` to `value`.
 template <class Value>
 Option setting(const char* names, Value& target, Value value, HelpText help) {
     const auto take = [&target, value](const std::string&) {
@@ -106,26 +107,26 @@ Option degreesOption(const char* names, double default_value, int most, std::fun
                      HelpText help);
 
 Option text(const char* names, const char* value_name, std::string& target, HelpText help);
-/// The name of an HTML file that is written: any name without an extension (a pipe, a device), else one that ends in .html or .htm.
+/// Makes an option for the name of an HTML output: it ends in .html or .htm, or has no extension (a pipe or a device).
 Option htmlOutput(const char* names, const char* value_name, std::string& target, HelpText help);
-/// A whole number from 0 to `most`. The default is what `target` holds.
+/// Makes an option for an integer from 0 to `most`. The default is the value of `target`.
 template <class Unsigned>
 Option number(const char* names, Unsigned& target, unsigned most, HelpText help) {
     const auto store = [&target](std::uint64_t given) { target = static_cast<Unsigned>(given); };
     return numberOption(names, target, most, store, std::move(help));
 }
-/// A number of degrees from 0 to `most`. The default is what `target` holds.
+/// Makes an option for an angle in degrees from 0 to `most`. The default is the value of `target`.
 template <class Float>
 Option degrees(const char* names, Float& target, int most, HelpText help) {
     const auto store = [&target](double given) { target = static_cast<Float>(given); };
     return degreesOption(names, static_cast<double>(target), most, store, std::move(help));
 }
 
-/// A number from 0 to `most`, or "auto". `noun`: "a number", for messages
+/// Makes an option for a number from 0 to `most`, or "auto". `noun`: term for messages, such as "a number".
 Option numberOrAuto(const char* names, const char* value_name, const char* noun, float& target, float automatic,
                     int most, HelpText help);
 
-/// One of the names of a table. The default is the name of what `target` holds.
+/// Makes an option for one of the names of a table. The default is the name of the value of `target`.
 template <class Value, std::size_t count>
 Option choice(const char* names, const char* value_name, const Named<Value> (&table)[count], Value& target,
               HelpText help) {
@@ -143,23 +144,23 @@ Option choice(const char* names, const char* value_name, const Named<Value> (&ta
     return chosen;
 }
 
-/// The whole text as a whole number. false: it is none, or too large.
+/// Parses the whole text as an integer. Returns false if it is not an integer or too large.
 bool parseNumber(const std::string& text, std::uint64_t& number);
-/// Like parseNumber, for any finite number.
+/// Parses the whole text as a finite number. Returns false if it is not one.
 bool parseReal(const std::string& text, double& number);
 
-/// The name that `word` becomes by the fewest letters added, left out, changed or swapped with their neighbour, or that
-/// it is the beginning of. Empty where none is near enough to be what was meant.
+/// Returns the name with the smallest edit distance (insertions, deletions, substitutions and swaps of adjacent
+/// letters) to `word`, or a name that starts with `word`. Empty if no name is close enough.
 std::string nearestName(const std::string& word, const std::vector<std::string>& names);
 
-/// "; did you mean '...'?", or nothing.
+/// Returns "; did you mean '...'?", or an empty string.
 std::string didYouMean(const std::string& word, const std::vector<std::string>& names);
 
 // Options as JSON, for callers of the C API.
 
-/// Gives the members of a JSON object to the options of these names, without their dashes: {"method": "best",
-/// "crease": 60, "overwrite": true, "ignore": ["tangentsUnused"]}. A flag is a boolean; false and null are as if nothing
-/// was given. An empty text has no members. Returns what is wrong, in the words of the command line, or nothing.
+/// Passes the members of a JSON object to the options with these names, without dashes: {"method": "best", "crease":
+/// 60, "overwrite": true, "ignore": ["tangentsUnused"]}. Flags are booleans; false and null leave an option unset. An
+/// empty text has no members. Returns an error message, worded as for the command line, or an empty string.
 std::string readJsonOptions(const OptionList& list, std::string_view text, Given& given);
 
 }  // namespace tspace::options

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the JSON of all commands has in common.
+// Common parts of the JSON of all commands.
 #include "commands/shared/report.h"
 
 #include "tspace/version.h"

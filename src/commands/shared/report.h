@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the reports of all commands have in common. A command's own are in NAME/NAME_report.h: as JSON for programs, as
-// docs/reference/json.md describes it, which the tool prints with --json and the C API gives back; and as text for people, which the
-// tool alone prints, and which needs a library of its own (tspace_texts).
+// Common parts of the reports of all commands. NAME/NAME_report.h declares the reports of a single command: as JSON
+// (docs/reference/json.md), which the tool prints with --json and the C API returns; and as text, which only the tool
+// prints and which is in a separate library (tspace_texts).
 #pragma once
 
 #include <cstdint>
@@ -14,24 +14,24 @@
 
 namespace tspace::report {
 
-/// The outcome of a call on one file: a value, or an error.
+/// Outcome of a call on one file: a value, or an error.
 template <class Value>
 struct Outcome {
     std::string input = {};
     std::string output = {};  ///< empty for calls that write nothing
     Result<Value> result = Error{};
     double seconds = 0;
-    bool is_dry_run = false;       ///< dry run: nothing was written
-    bool was_done_before = false;  ///< the manifest says so, and no file has changed since; the value is empty
+    bool is_dry_run = false;       ///< nothing was written
+    bool was_done_before = false;  ///< unchanged since an earlier run, according to the manifest; the value is empty
 };
 
-/// null, or the error as docs/reference/json.md describes it.
+/// Returns null, or the error as described by docs/reference/json.md.
 Json errorJson(const Error* error);
-/// null where there is no mesh.
+/// Returns null if there is no mesh.
 Json mapMeshJson(const MapMeshReport& mesh);
-/// The members with which every document begins.
+/// Returns the first members of every document.
 Json documentJson(const char* schema, bool is_ok, ExitCode exit_code);
-/// The members with which the report of a file begins: its name, the error if there is one, else what wrote it.
+/// Returns the first members of the report of a file: its name and its error, or its format and generator.
 template <class Value>
 Json fileJson(const Outcome<Value>& outcome) {
     Json json = {{"input", outcome.input},
@@ -42,7 +42,7 @@ Json fileJson(const Outcome<Value>& outcome) {
     json["generator"] = outcome.result->generator;
     return json;
 }
-/// The members with which the document of a command begins that makes one file of one file.
+/// Returns the first members of the document of a command with one input and one output.
 template <class Value>
 Json madeFileJson(const char* schema, const Outcome<Value>& outcome, ExitCode exit_code) {
     Json json = documentJson(schema, outcome.result.ok(), exit_code);
@@ -52,7 +52,7 @@ Json madeFileJson(const char* schema, const Outcome<Value>& outcome, ExitCode ex
     json["error"] = errorJson(outcome.result ? nullptr : &outcome.result.error());
     return json;
 }
-/// An array of toJson(value) for each value.
+/// Returns an array of toJson(value) for each value.
 template <class List, class ToJson>
 Json listJson(const List& values, ToJson toJson) {
     Json list = Json::array();
@@ -60,10 +60,10 @@ Json listJson(const List& values, ToJson toJson) {
     return list;
 }
 
-/// The document as text. Bytes that are not UTF-8 (from file names) become U+FFFD.
+/// Returns the document as text. Bytes that are not valid UTF-8 (from file names) become U+FFFD.
 std::string jsonText(const Json& document);
 
-/// "1 corner", "2 corners".
+/// Formats a count with its noun: "1 corner", "2 corners".
 std::string counted(std::uint64_t count, const char* noun);
 
 }  // namespace tspace::report

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The requests of calls on files, and their options. A list of options fills the request that it is made for as
-// values are given (giveValue, readJsonOptions); the request must outlive the list.
+// Requests of calls on files, and their options. Setting values (giveValue, readJsonOptions) of an option list writes
+// to the request for which the list was made; the request must outlive the list.
 #pragma once
 
 #include <string>
@@ -18,9 +18,9 @@ namespace tspace::options {
 
 struct CheckRequest {
     CheckOptions options = {};
-    Severity fail_on = Severity::error;        ///< findings from here on make a check fail
-    Severity least_severity = Severity::note;  ///< findings below are left out
-    std::vector<FindingCode> ignored = {};     ///< these too
+    Severity fail_on = Severity::error;        ///< findings of at least this severity make a check fail
+    Severity least_severity = Severity::note;  ///< findings below this severity are omitted
+    std::vector<FindingCode> ignored = {};     ///< findings with these codes are omitted
 };
 
 struct DiffRequest {
@@ -42,13 +42,13 @@ OptionList convertMapOptions(ConvertMapFileOptions& options);
 OptionList heightToNormalOptions(HeightToNormalFileOptions& options);
 OptionList compressMapOptions(CompressMapFileOptions& options);
 
-/// Applies what options mean together, once all are given. Returns what makes no sense, or nothing.
+/// Applies rules that involve several options, after all options are set. Returns an error message or an empty string.
 std::string finish(const Given& given, GenerateOptions& options);
 std::string finish(const Given& given, ConvertMapFileOptions& options);
 
-/// Removes the findings that the request leaves out, and counts anew.
+/// Removes the findings that the request omits, and recomputes the counts.
 void leaveOut(const CheckRequest& request, CheckReport& report);
-/// Whether a finding makes the check fail.
+/// Returns whether a finding makes the check fail.
 bool failsBy(const CheckRequest& request, const CheckReport& report);
 
 }  // namespace tspace::options

@@ -8,15 +8,15 @@
 namespace tspace::report {
 namespace {
 
-/// Marks in texts, which printable() leaves in none: a space that no line ends at, and the end of a table's cell.
+/// Marks in texts: a non-breaking space, and the end of a table cell. printable() replaces both in its input.
 constexpr char kNoBreak = '\x1f', kCellEnd = '\x1d';
 
 bool isNumber(const std::string& cell) {
     return !cell.empty() && cell.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// The character that these bytes begin with, where it is invisible and changes the text around it: marks and
-/// overrides of the direction of text, ends of lines, spaces without width. 0: it is none of them.
+/// Returns the character that these bytes encode, if it is invisible and changes the text around it: marks and
+/// overrides of text direction, line separators, and zero-width spaces. Otherwise returns 0.
 unsigned invisibleCharacter(unsigned first, unsigned second, unsigned third) {
     if (first == 0xD8 && second == 0x9C) return 0x061C;
     if (first != 0xE2 && first != 0xEF) return 0;
@@ -36,7 +36,7 @@ std::string printable(std::string_view text) {
         if (byte(0) < 0x20 || byte(0) == 0x7F) {
             clean += ' ';
         } else if (byte(0) == 0xC2 && byte(1) >= 0x80 && byte(1) < 0xA0) {
-            // U+0080 to U+009F. U+009B is ESC [ in one character.
+            // C1 control characters, U+0080 to U+009F. U+009B equals ESC [.
             clean += ' ';
             length = 2;
         } else if (const unsigned code = invisibleCharacter(byte(0), byte(1), byte(2)); code != 0) {
@@ -52,7 +52,7 @@ std::string printable(std::string_view text) {
 
 std::size_t columnCount(std::string_view text) {
     std::size_t columns = 0;
-    bool is_escape = false;  // a color: ESC [ ... m
+    bool is_escape = false;  // a color escape sequence: ESC [ ... m
     for (const char c : text) {
         if (c == '\033') is_escape = true;
         columns += !is_escape && (static_cast<unsigned char>(c) & 0xC0) != 0x80;
@@ -94,8 +94,8 @@ bool endsCommand(std::string_view word) {
     return word.empty() || std::string_view(".,;:)'\"").find(word.back()) != std::string_view::npos;
 }
 
-/// Whether a word goes on with the command that `before` belongs to: an option, its value, or a name such as IN or OUT.png.
-/// The choices of a usage line do not.
+/// Returns whether a word continues the command of the previous word `before`: an option, its value, or a name such as
+/// IN or OUT.png. Choices in a usage line do not continue it.
 bool goesOn(std::string_view before, std::string_view word) {
     if (word.starts_with('{') || word.starts_with('[')) return false;
     if (word.starts_with('-') || before.starts_with('-')) return true;
@@ -104,11 +104,11 @@ bool goesOn(std::string_view before, std::string_view word) {
     return is_path || std::all_of(word.begin(), word.end(), [](char c) { return c < 'a' || c > 'z'; });
 }
 
-/// Marks the spaces of each command, "tspace check IN".
+/// Replaces the spaces inside each command ("tspace check IN") by non-breaking spaces.
 void keepCommandsWhole(std::string& line) {
     constexpr std::string_view kTool = "tspace ";
     for (std::size_t at = line.find(kTool); at != std::string::npos; at = line.find(kTool, at + 1)) {
-        std::string_view before = "--";  // The name of the command follows, whatever it is.
+        std::string_view before = "--";  // any word may follow: the name of the command
         for (std::size_t space = at + kTool.size() - 1; space < line.size() && line[space] == ' ';) {
             const std::size_t end = std::min(line.find(' ', space + 1), line.size());
             const std::string_view word = std::string_view(line).substr(space + 1, end - space - 1);
@@ -121,7 +121,7 @@ void keepCommandsWhole(std::string& line) {
     }
 }
 
-/// Indentation of the continuation lines.
+/// Returns the indentation of continuation lines.
 std::size_t hangOf(std::string_view line, std::size_t width, std::size_t hang) {
     const std::size_t start = std::min(line.find_first_not_of(' '), line.size()), gap = line.find("  ", start);
     if (gap == std::string_view::npos) return start + hang;
@@ -134,7 +134,7 @@ void appendFitted(std::string& out, std::string line, std::size_t width, std::si
     const std::string margin(hangOf(line, width, hang), ' ');
     std::string_view rest = line;
     while (columnCount(rest) > width) {
-        // The last space that still fits, or else the first one.
+        // Breaks at the last space that fits, or at the first space if none fits.
         const std::size_t start = rest.find_first_not_of(' ');
         std::size_t cut = std::string_view::npos;
         for (std::size_t space = rest.find(' ', start); space != std::string_view::npos;
@@ -163,7 +163,7 @@ std::vector<std::string_view> cellsOf(std::string_view row) {
     return cells;
 }
 
-/// Rows of one table: as many columns in a line as there is room for, and the others below them, indented.
+/// Appends the rows of one table. Columns that do not fit in a line are printed on indented lines below it.
 void appendTable(std::string& out, const std::vector<std::string_view>& rows, std::size_t width) {
     constexpr std::size_t kIndent = 6;
     std::vector<std::size_t> widths;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The parts of reports as text.
+// Parts of reports as text.
 #pragma once
 
 #include <cstdint>
@@ -11,29 +11,29 @@
 
 namespace tspace::report {
 
-/// The text with control characters replaced, and characters escaped that turn the direction of text, so that a name from
-/// a file can break neither lines nor the terminal, nor look like another one.
+/// Replaces control characters, and escapes characters that change the text direction, so that a name from a file can
+/// neither break lines or the terminal, nor look like another name.
 std::string printable(std::string_view text);
 
-/// Columns that a UTF-8 text takes, close enough for names: one per code point.
+/// Returns the number of columns of a UTF-8 text, approximately: one per code point.
 std::size_t columnCount(std::string_view text);
-/// The text, or "..." and its end, in this many columns.
+/// Shortens a text to this many columns: "..." followed by its end.
 std::string lastColumns(std::string_view text, std::size_t columns);
 
-/// printable(), for a path or another text that fitText() must not break at its spaces.
+/// Returns printable(text) with non-breaking spaces for fitText(), for example for a path.
 std::string unbroken(std::string_view text);
 
-/// The text with lines of at most `width` columns, and tables in as many lines per row as that takes. Lines break at spaces, but
-/// not inside commands (tspace ... --option) and unbroken() texts, which may therefore be longer. The rest of a line is
-/// indented: by its label, where it begins with one and two spaces, else by `hang` more columns than its start. Every text of this folder goes through
-/// it before it is printed.
+/// Wraps text to lines of at most `width` columns, and table rows to as many lines as necessary. Lines break at spaces,
+/// but not inside commands (tspace ... --option) and unbroken() texts, which may therefore exceed `width`. Continuation
+/// lines are indented to the text after a label that is followed by two spaces, otherwise by `hang` columns more than
+/// the first line. All texts of this folder are passed through it before printing.
 std::string fitText(std::string_view text, std::size_t width, std::size_t hang = 2);
 
-/// "318 B", "6.8 MB".
+/// Formats a size: "318 B", "6.8 MB".
 std::string byteText(std::uint64_t bytes);
 
-/// Rows of cells, printed with aligned columns two spaces apart. Cells of numbers are aligned right. In tables of more than two
-/// columns, a last cell with a long sentence becomes a number, and each such sentence is printed once below the rows.
+/// Rows of cells with aligned columns, two spaces apart. Numbers are right-aligned. In tables of more than two columns,
+/// a long sentence in the last cell is replaced by a number, and each such sentence is printed once below the rows.
 class Table {
   public:
     void addRow(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }

@@ -34,7 +34,7 @@ void readTexels(const MapLayout& layout, FloatImage& image) {
 
 namespace {
 
-/// Puts x, y and z where glTF has them. Gives half a sentence that says so.
+/// Moves x, y and z to the channels of glTF. Returns part of a sentence that states it.
 std::string applyLayout(FloatImage& image) {
     const MapLayout layout = image.texture.layout;
     if (layout == MapLayout{}) return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The UVs that tangents may follow.
+// UVs that tangents may follow.
 #pragma once
 
 #include <cstddef>
@@ -13,17 +13,17 @@ namespace tspace {
 
 struct UvReading {
     std::size_t uv_set = 0;
-    bool transformed = false;        ///< changed by the use's texture transform, which changes frames
+    bool transformed = false;        ///< changed by the texture transform of the use, in a way that changes frames
     std::vector<Vec2> own = {};      ///< storage of the transformed UVs
-    std::span<const Vec2> uvs = {};  ///< empty: the primitive has no such set
+    std::span<const Vec2> uvs = {};  ///< empty: the primitive does not have this set
 };
 
-/// The UVs that a texture of this use is read with.
+/// Returns the UVs by which the texture of this use is sampled, without scale and offset that do not affect frames.
 UvReading readingOf(const ScenePrimitive& primitive, const TangentUse& use);
-/// A set as it is in the file.
+/// Returns a UV set as stored in the file.
 UvReading plainReading(const ScenePrimitive& primitive, std::size_t uv_set);
 
-/// UVs that a texture is sampled with, including scales and offsets, which directions do not depend on.
+/// Returns the UVs by which a texture is sampled, including scale and offset, which do not affect directions.
 std::vector<Vec2> textureUvs(std::span<const Vec2> uvs, const UvTransform& transform);
 
 }  // namespace tspace

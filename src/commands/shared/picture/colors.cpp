@@ -10,15 +10,15 @@
 namespace tspace {
 namespace {
 
-/// a^(1/5) for 0 < a <= 1, by Newton's method.
+/// Returns a^(1/5) for 0 < a <= 1, by Newton's method.
 double fifthRoot(double a) {
     double root = 1;
     for (int i = 0; i < 64; ++i) root = (4 * root + a / (root * root * root * root)) / 5;
     return root;
 }
 
-/// From light to bytes: the limits between the light of one byte and the next, and, so that few limits are compared, the byte
-/// of the darkest light of each of many steps.
+/// Table for the conversion of linear light to sRGB bytes: the thresholds between consecutive bytes, and, to reduce
+/// comparisons, the byte of the darkest light of each of kSteps intervals.
 struct ByteBorders {
     static constexpr std::size_t kSteps = 4096;
     std::array<float, 256> borders;

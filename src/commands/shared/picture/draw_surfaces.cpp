@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture of surfaces, and the colour of each of their points.
+// Draws surfaces, and computes the color of each of their points.
 #include "commands/shared/picture/draw_surfaces.h"
 
 #include <algorithm>
@@ -11,9 +11,9 @@
 namespace tspace {
 namespace {
 
-/// Light that comes from everywhere, and from the lamp.
+/// Ambient light, and light of the lamp.
 constexpr float kAmbient = 0.12f, kLamp = 0.88f;
-/// Pixels from one stripe to the next, along both axes.
+/// Period of stripes in pixels, along both axes.
 constexpr std::uint32_t kStripe = 8;
 
 using Weights = std::array<double, 3>;
@@ -64,7 +64,7 @@ float alphaAt(const PlacedTexture& texture, const ShownTriangle& triangle, const
     return alpha;
 }
 
-/// In the world, unit, turned round where the surface is seen from behind. Zero: it has no direction.
+/// Returns the unit normal in world space, flipped if the surface is seen from behind. Zero if it has no direction.
 DVec3 worldNormal(const Affine& to_world, DVec3 normal, bool is_back) {
     normalize(normal);
     DVec3 world = to_world.normal(normal);
@@ -72,7 +72,7 @@ DVec3 worldNormal(const Affine& to_world, DVec3 normal, bool is_back) {
     return is_back ? -1.0 * world : world;
 }
 
-/// Whether a place turns, mirrors and scales evenly, and no more.
+/// Returns whether a transform preserves angles: only rotation, reflection, uniform scale and translation.
 bool keepsAngles(const Affine& place) {
     constexpr double kSame = 1e-9;
     const double size = dot(place.x, place.x);
@@ -88,7 +88,7 @@ DVec3 plainNormal(const ShownSurface& surface, const Affine& to_world, const Sur
     return worldNormal(to_world, normal, point.is_back);
 }
 
-/// Like viewers of glTF, normalizes tangents at the vertices: relief does not grow with their length.
+/// Normalizes tangents at the vertices, like glTF viewers, so that relief does not scale with their length.
 std::array<Vec4, 3> unitTangents(const CornerValues<Vec4>& tangents, const ShownTriangle& triangle) {
     std::array<Vec4, 3> values = valuesAt(tangents, triangle);
     for (Vec4& value : values) {
@@ -106,7 +106,7 @@ ShadingFrame frameAt(const ShownSurface& surface, const CornerValues<Vec3>& norm
     return shadingFrame(frames, point.weights, surface.reading);
 }
 
-/// Darkens where the surface turns away, so that its shape is seen.
+/// Darkens a color where the surface turns away from the viewer, to make its shape visible.
 Vec3 shaped(const Vec3& color, const DVec3& normal, const Lighting& lighting) {
     const auto facing = static_cast<float>(std::fabs(dot(normal, lighting.to_eye)));
     const float factor = 0.7f + 0.3f * std::min(facing, 1.0f);
@@ -132,7 +132,7 @@ Vec4 vertexColor(const ShownSurface& surface, const ShownTriangle& triangle, con
             static_cast<float>(parts[3])};
 }
 
-/// Base colour, its texture and the colours of vertices.
+/// Returns the product of the base color, its texture and the vertex colors.
 Vec3 baseColor(const ShownSurface& surface, const SurfacePoint& point) {
     Vec3 color{surface.base_color[0], surface.base_color[1], surface.base_color[2]};
     const ShownTriangle triangle = shownTriangle(surface, point.triangle);
@@ -180,7 +180,7 @@ Vec3 islandColor(const ShownSurface& surface, const SurfacePoint& point) {
                                                {0.84f, 0.84f, 0.50f}}};
     if (surface.islands.empty()) return kNothingKnown;
     const Vec3& color = kIslands[surface.islands[point.triangle] % kIslands.size()];
-    // Adjacent triangles differ a little, so that they are seen.
+    // Shades adjacent triangles slightly differently, so that they are visible.
     const float shade = (point.triangle % 2 != 0 ? 0.93f : 1.0f) *
                         (uvSideOf(surface, point) == UvSide::mirrored && isInStripe(point) ? 0.45f : 1.0f);
     return {shade * color.x, shade * color.y, shade * color.z};
@@ -217,8 +217,9 @@ DVec3 mappedNormal(const ShownSurface& surface, const Affine& to_world, const Su
         const ShadingFrame frame = frameAt(surface, surface.normals, surface.tangents, point);
         return worldNormal(to_world, shadedNormal(frame, vector), point.is_back);
     }
-    // As three.js and the viewer of Khronos do it: N by the inverse transpose, T by the matrix, unit at the vertices, and B of
-    // these two, so that what a texel leans by is not squeezed by the node.
+    // Transforms frames like three.js and the Khronos viewer: N by the inverse transpose, T by the matrix, both
+    // normalized at the vertices, and B from N and T. So a non-uniform scale of the node does not change the tilt of
+    // texels.
     const ShownTriangle triangle = shownTriangle(surface, point.triangle);
     CornerFrames frames{valuesAt(surface.normals, triangle), unitTangents(surface.tangents, triangle)};
     for (Vec3& normal : frames.normals) normal = normalAt(to_world, normal);
@@ -273,9 +274,9 @@ Vec3 shadePoint(RenderShow show, const ShownSurface& surface, const Affine& to_w
 
 namespace {
 
-/// Surface seen at one sample.
+/// Surface that is visible at one sample.
 struct SeenSample {
-    const ShownSurface* surface = nullptr;  ///< null: nothing
+    const ShownSurface* surface = nullptr;  ///< null: background
     SurfacePoint point = {};
     Vec3 color = {};
 };
@@ -296,7 +297,7 @@ class RowShader {
         }
     }
 
-    /// A row of pixels: three bytes each.
+    /// Shades a row of pixels with three bytes each.
     void shade(const VisibleTriangles& visible, std::uint32_t row, std::span<std::uint8_t> pixels,
                ErrorStatistics& errors) const {
         std::vector<Vec3> sums(size_.width);
@@ -316,7 +317,7 @@ class RowShader {
         }
     }
 
-    /// Calls take(x, what is seen there) for each sample of a row.
+    /// Calls take(x, sample) for each sample of a row.
     template <class Take>
     void forSamples(const VisibleTriangles& visible, std::uint32_t sample_row, const Take& take) const {
         const std::span<const std::uint32_t> numbers = visible.row(sample_row);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture of surfaces, and the colour of each of their points, by the views of docs/guides/render.md.
+// Draws surfaces, and computes the color of each of their points, for the views of docs/guides/render.md.
 #pragma once
 
 #include <array>
@@ -18,14 +18,14 @@
 
 namespace tspace {
 
-// A texture of a picture. Textures are many and large, so those of 8 bits stay so.
+// Textures of a picture. They are many and large, so 8-bit textures are not expanded.
 
 struct PictureTexture {
     std::uint32_t width = 0, height = 0;
     std::vector<std::uint8_t> bytes = {};  ///< three per texel, or
-    std::vector<Vec3> texels = {};         ///< one per texel, where 8 bits do not do
-    std::vector<float> values = {};        ///< 256: what the bytes stand for
-    std::vector<float> alpha = {};         ///< one per texel, or empty: opaque, or not asked for
+    std::vector<Vec3> texels = {};         ///< one per texel, if 8 bits are not sufficient
+    std::vector<float> values = {};        ///< 256 entries: decoded value of each byte
+    std::vector<float> alpha = {};         ///< one per texel; empty: opaque, or not requested
 
     [[nodiscard]] Vec3 at(std::size_t texel) const {
         if (bytes.empty()) return texels[texel];
@@ -34,7 +34,7 @@ struct PictureTexture {
     }
 };
 
-/// The mean of the four texels around a point.
+/// Samples a texture bilinearly.
 inline Vec3 sampleTexture(const PictureTexture& texture, const TextureShape& shape, Vec2 uv) {
     const BilinearTaps taps = bilinearTaps(shape, uv);
     Vec3 sum{};
@@ -58,29 +58,30 @@ struct CornerValues {
     }
 };
 
-/// A texture, and the UVs that it is read with.
+/// A texture and its UVs.
 struct PlacedTexture {
     TextureShape shape = {};
     const PictureTexture* image = nullptr;  ///< null: none
     std::span<const Vec2> uvs = {};         ///< one per vertex, after any transform
 };
 
-/// Samples a texture with an image at a point of the triangle of these vertices.
+/// Samples a texture, which must have an image, at a point of the triangle with these vertices.
 Vec3 sampleAt(const PlacedTexture& texture, const std::array<std::uint32_t, 3>& vertices,
               const std::array<double, 3>& weights);
 
 /// Whether a triangle shows its texture mirrored.
 enum class UvSide : std::uint8_t { unknown, plain, mirrored };
 
-/// The data of one primitive that views show.
+/// Data of one primitive that views show.
 struct ShownSurface {
     std::span<const std::uint32_t> corners = {};
     CornerValues<Vec3> normals = {};
-    CornerValues<Vec4> tangents = {};                ///< empty: none
-    CornerValues<Vec4> expected = {};                ///< tangents that `error` compares with; empty: none
-    CornerValues<Vec3> expected_normals = {};        ///< likewise; empty: `normals`, which are not compared then
+    CornerValues<Vec4> tangents = {};  ///< empty: none
+    CornerValues<Vec4> expected = {};  ///< tangents to compare with in `error`; empty: none
+    /// normals to compare with in `error`; empty: normals are not compared
+    CornerValues<Vec3> expected_normals = {};
     std::span<const UvSide> sides = {};              ///< one per triangle; empty: all unknown
-    std::span<const std::uint32_t> islands = {};     ///< one per triangle, for `uv`
+    std::span<const std::uint32_t> islands = {};     ///< one per triangle; used by `uv`
     std::array<float, 4> base_color = {1, 1, 1, 1};  ///< linear
     PlacedTexture base = {};                         ///< linear
     PlacedTexture normal_map = {};
@@ -91,11 +92,11 @@ struct ShownSurface {
 };
 
 struct Lighting {
-    DVec3 to_light = {0, 0, 1};  ///< unit, in the world
-    DVec3 to_eye = {0, 0, 1};    ///< unit
+    DVec3 to_light = {0, 0, 1};  ///< unit vector in world space
+    DVec3 to_eye = {0, 0, 1};    ///< unit vector in world space
 };
 
-/// A point of a triangle that is looked at.
+/// A visible point of a triangle.
 struct SurfacePoint {
     std::size_t triangle = 0;
     std::array<double, 3> weights = {};
@@ -103,18 +104,19 @@ struct SurfacePoint {
     std::uint32_t column = 0, row = 0;
 };
 
-/// Whether the surface is there: its alpha is not below the cutoff.
+/// Returns whether the surface is opaque at a point: its alpha is not below the cutoff.
 bool isThere(const ShownSurface& surface, std::size_t triangle, const std::array<double, 3>& weights);
 
-/// Light of `lit`; for the other views the colour as it is stored. `to_world`: of the surface.
+/// Returns linear light for the view `lit`, and the stored color for other views. `to_world`: transform of the surface.
 Vec3 shadePoint(RenderShow show, const ShownSurface& surface, const Affine& to_world, const Lighting& lighting,
                 const SurfacePoint& point);
 
-/// The unit normal in the world that `lit` shades; zero where there is none. A surface seen from behind has it turned round.
+/// Returns the unit normal in world space that `lit` shades, flipped if the surface is seen from behind; zero if there
+/// is none.
 DVec3 mappedNormal(const ShownSurface& surface, const Affine& to_world, const SurfacePoint& point);
 
-/// The largest of the angles between T and T, B and B, and N and N where these are compared, at a point, in degrees; NaN
-/// where one is missing. Surfaces without any tangents have their normals compared alone.
+/// Returns the largest angle in degrees between stored and expected T, B and, if compared, N at a point; NaN if one of
+/// them is missing. If neither side has tangents, only normals are compared.
 double frameError(const ShownSurface& surface, const SurfacePoint& point);
 
 struct PictureSize {
@@ -122,7 +124,7 @@ struct PictureSize {
     std::uint32_t samples = 1;            ///< along each side of a pixel
 };
 
-/// Angles over all samples that have one.
+/// Statistics of the angles of all samples that have one.
 struct ErrorStatistics {
     std::uint64_t count = 0;
     double sum_deg = 0, max_deg = 0;
@@ -136,8 +138,8 @@ struct SurfacePicture {
     ErrorStatistics errors = {};  ///< statistics of RenderShow::error
 };
 
-/// `surfaces`: one per mesh. `camera`: of width * samples by height * samples. Throws FileError where `effort` ends. The same
-/// bytes for any number of threads.
+/// Draws a picture. `surfaces`: one per mesh. `camera`: for width * samples by height * samples. Throws FileError if
+/// `effort` is exhausted. The result does not depend on the number of threads.
 SurfacePicture drawSurfaces(RenderShow show, std::span<const DrawnMesh> meshes,
                             std::span<const ShownSurface* const> surfaces, const Camera& camera, const DVec3& to_light,
                             const PictureSize& size, Effort& effort, Parallel& parallel);

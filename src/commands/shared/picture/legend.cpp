@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t kDotRows = 7, kDotColumns = 5;
 
-/// Rows from the top, the leftmost dot in the highest of five bits.
+/// Bitmaps of the digits: rows from the top, with the leftmost dot in the highest of five bits.
 constexpr std::array<std::array<std::uint8_t, kDotRows>, 10> kDigits = {{
     {0b01110, 0b10001, 0b10001, 0b10001, 0b10001, 0b10001, 0b01110},
     {0b00100, 0b01100, 0b00100, 0b00100, 0b00100, 0b00100, 0b01110},
@@ -82,13 +82,15 @@ const std::array<std::uint8_t, kDotRows>& dotsOf(char c) {
     }
 }
 
-// All in dots.
+// Sizes in dots.
 constexpr std::int64_t kLetterRows = kDotRows, kLineRows = kDotRows + 4, kMargin = 6, kBarRows = 8, kGap = 14;
 
-/// Pixels of a dot: letters are 7 dots high, which is 14 pixels in a picture of 512 and 21 in one of 1024.
+/// Returns the size of a dot in pixels. Letters are 7 dots high: 14 pixels in a picture of width 512, and 21 in one of
+/// width 1024.
 std::int64_t dotOf(std::uint32_t width) { return std::max<std::int64_t>(1, (std::int64_t{width} + 170) / 341); }
 
-/// Capital letters, digits and + - = , : in 5 x 7 dots each, one dot apart. Other characters count as spaces.
+/// Draws capital letters, digits and + - = , : with 5 x 7 dots each and a gap of one dot. Other characters are drawn as
+/// spaces.
 void drawText(RgbImage& image, std::int64_t left, std::int64_t top, std::int64_t dot, std::string_view text) {
     for (const char c : text) {
         const std::array<std::uint8_t, kDotRows>& rows = dotsOf(c);
@@ -124,13 +126,13 @@ void drawHeatScale(RgbImage& image, std::int64_t top, std::int64_t dot) {
     }
 }
 
-/// Dots from the left end of an entry to that of the next.
+/// Returns the distance in dots from the left end of an entry to that of the next entry.
 std::int64_t advanceOf(const LegendEntry& entry) {
     const std::int64_t text = static_cast<std::int64_t>(entry.text.size()) * (kDotColumns + 1);
     return (entry.color ? kLetterRows + 3 : 0) + text + kGap;
 }
 
-/// Positions of the entries, in dots from the left and in lines; as many as fit in a line.
+/// Positions of the entries: dots from the left, and line number. Each line contains as many entries as fit.
 struct Layout {
     std::vector<std::pair<std::int64_t, std::int64_t>> places = {};
     std::int64_t line_count = 0;
@@ -157,7 +159,7 @@ std::string upperCase(std::string_view text) {
     return result;
 }
 
-/// In parts that fit into pictures of 200 columns.
+/// Returns entries that are short enough for pictures of 200 columns.
 std::vector<LegendEntry> tangentEntries(const TangentSources& sources, Method method, const std::string& before = {}) {
     const std::string computed = "BY " + upperCase(methodName(method));
     if (sources.stored && sources.computed)

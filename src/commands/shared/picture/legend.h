@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What stands under a picture: the colours of its view and their meaning, and whose tangents it shows.
+// Legend below a picture: the colors of the view with their meanings, and the source of the tangents.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +14,15 @@
 
 namespace tspace {
 
-/// A colour, perhaps with stripes of another one, and what it means; or words alone.
+/// A color, possibly with stripes of another color, and its meaning; or only text.
 struct LegendEntry {
     std::optional<Vec3> color;
     std::optional<Vec3> stripes;
-    std::string text;  ///< in capitals
+    std::string text;  ///< in capital letters
 };
 
 struct Legend {
-    bool has_heat_scale = false;  ///< the colours of heatColor, above the entries
+    bool has_heat_scale = false;  ///< show the colors of heatColor above the entries
     std::vector<LegendEntry> entries = {};
 };
 
@@ -34,13 +34,13 @@ struct TangentSources {
     bool has_other = false;  ///< `error` compares with another model
 };
 
-/// Legend of all views except `both`.
+/// Returns the legend of any view except `both`.
 Legend legendOf(RenderShow show, const TangentSources& sources, Method method);
 Legend legendOfBoth(const TangentSources& left, const TangentSources& right, Method method);
 
-/// Height of a legend in rows of the picture: at most a third. 0: there is no room, or the legend is empty.
+/// Returns the height of a legend in rows of the picture, at most a third. 0: it does not fit, or is empty.
 std::uint32_t legendRows(const Legend& legend, std::uint32_t width, std::uint32_t height);
-/// Adds these rows below a picture, with the legend in them.
+/// Appends `rows` rows with the legend below a picture.
 void addLegend(const Legend& legend, std::uint32_t rows, RgbImage& image);
 
 }  // namespace tspace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The camera; rows of sample centres through each triangle in whole numbers, and the nearest triangle at each.
+// Camera, rasterization of triangles with integer coordinates, and depth test.
 #include "commands/shared/picture/visible_triangles.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace tspace {
 namespace {
 
-/// Part of the picture's half sides that the points may fill.
+/// Share of the picture's width and height that the points may fill.
 constexpr double kFilled = 0.94;
 
 struct Extent {
@@ -74,9 +74,9 @@ Camera Camera::around(const VisitPoints& points, const ViewAngles& angles, doubl
 
 namespace {
 
-/// Parts of a sample that corners are rounded to.
+/// Subdivisions of a sample to which corners are rounded.
 constexpr std::int64_t kSampleParts = 256;
-/// Triangles are clipped this far beside the picture: products of the remaining coordinates fit 64 bits.
+/// Triangles are clipped at this distance from the picture, in samples, so that products of coordinates fit in 64 bits.
 constexpr double kMostSamples = 1048576;
 
 using Polygon = std::vector<SeenPoint>;
@@ -85,7 +85,7 @@ double nearnessOf(const SeenPoint& p) { return p.nearness_w / p.w; }
 
 DVec3 homogeneous(const SeenPoint& p) { return {p.x, p.y, p.w}; }
 
-/// Clips away the part where `inside` (linear in the point) is negative.
+/// Clips away the part where `inside` (a linear function of the point) is negative.
 template <class Inside>
 void cutAway(Polygon& polygon, const Inside& inside) {
     Polygon kept;
@@ -101,7 +101,7 @@ void cutAway(Polygon& polygon, const Inside& inside) {
     polygon = std::move(kept);
 }
 
-/// Whether a point can be drawn as it is.
+/// Returns whether a point can be drawn without clipping.
 bool isDrawable(const SeenPoint& p, double least_w) {
     return p.w >= least_w && p.w > 0 && std::fabs(p.x) <= kMostSamples * p.w && std::fabs(p.y) <= kMostSamples * p.w;
 }
@@ -122,7 +122,7 @@ struct FixedCorner {
 
 std::int64_t floorQuotient(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
 
-/// A triangle in parts of a sample. A sample on an edge belongs to the triangle on one side of it alone.
+/// A triangle in fixed-point coordinates. A sample on an edge belongs to the triangle on only one side of it.
 class FixedTriangle {
   public:
     FixedTriangle(FixedCorner a, FixedCorner b, FixedCorner c) : corners_{a, b, c} {
@@ -131,14 +131,14 @@ class FixedTriangle {
         is_empty_ = area == 0;
     }
 
-    /// Rows of samples that it can have, as far as the picture has them.
+    /// Computes the rows of samples that the triangle may cover, clipped to the picture.
     void rows(std::int64_t height, std::int64_t& first, std::int64_t& end) const {
         const auto [least, most] = std::minmax({corners_[0].y, corners_[1].y, corners_[2].y});
         first = std::max<std::int64_t>(0, floorQuotient(least - kSampleParts / 2, kSampleParts));
         end = is_empty_ ? first : std::min(height, floorQuotient(most, kSampleParts) + 1);
     }
 
-    /// Samples `begin` to `end` - 1 of a row, as far as the picture has them.
+    /// Computes the covered samples `begin` to `end` - 1 of a row, clipped to the picture.
     void span(std::int64_t row, std::int64_t width, std::int64_t& begin, std::int64_t& end) const {
         begin = 0;
         end = width;
@@ -147,7 +147,7 @@ class FixedTriangle {
             const FixedCorner &a = corners_[i], &b = corners_[(i + 1) % 3];
             const std::int64_t dx = b.x - a.x, dy = b.y - a.y;
             const bool is_own = dy < 0 || (dy == 0 && dx > 0);
-            // Inside where value - dy * kSampleParts * column >= 0.
+            // A sample is inside where value - dy * kSampleParts * column >= 0.
             const std::int64_t value = dx * (y - a.y) - dy * (kSampleParts / 2 - a.x) - (is_own ? 0 : 1);
             if (dy > 0) end = std::min(end, floorQuotient(value, dy * kSampleParts) + 1);
             if (dy < 0) begin = std::max(begin, -floorQuotient(value, -dy * kSampleParts));
@@ -161,7 +161,7 @@ class FixedTriangle {
 };
 
 FixedCorner fixedCorner(const SeenPoint& p) {
-    // NaN, which clipping of enormous triangles may give, becomes a border.
+    // NaN, which clipping of enormous triangles may produce, becomes a limit.
     const auto fixed = [&](double x) {
         const double inside = std::fmin(std::fmax(x / p.w, -kMostSamples), kMostSamples);
         return static_cast<std::int64_t>(std::floor(inside * kSampleParts + 0.5));
@@ -189,7 +189,7 @@ std::array<double, 3> SeenTriangle::weightsAt(double x, double y) const {
     std::array<double, 3> weights;
     double sum = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-        // Corners were rounded to draw the triangle, so a sample may lie a little outside.
+        // Corners were rounded for drawing, so a sample may lie slightly outside the triangle.
         weights[i] = std::max(0.0, (edges_[i].x * x + edges_[i].y * y + edges_[i].z) / determinant_);
         sum += weights[i];
     }
@@ -257,7 +257,7 @@ void VisibleTriangles::drawTriangle(std::size_t mesh, std::size_t triangle, cons
 void VisibleTriangles::drawPart(const Job& job, const SeenPoint& a, const SeenPoint& b, const SeenPoint& c,
                                 Effort& effort) {
     const FixedTriangle part(fixedCorner(a), fixedCorner(b), fixedCorner(c));
-    // Corners were rounded, so a sample may lie beside the triangle, where a steep plane would lead far away.
+    // Corners were rounded, so a sample may lie outside the triangle, where a steep plane would give a far-off depth.
     const auto [least, most] = std::minmax({nearnessOf(a), nearnessOf(b), nearnessOf(c)});
     constexpr std::uint64_t kRowSteps = 8;
     std::int64_t row = 0, end_row = 0;

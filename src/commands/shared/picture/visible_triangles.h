@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From places in the world to samples of a picture, and which triangle each sample sees.
+// Projects points from world space to samples of a picture, and determines the visible triangle at each sample.
 #pragma once
 
 #include <array>
@@ -14,27 +14,27 @@
 
 namespace tspace {
 
-// From places in the world to samples of a picture.
+// Projection from world space to samples.
 
-/// Position of the camera: yaw 0 and pitch 0 look from +z, yaw 90 from +x, pitch 90 from +y.
+/// Direction of the camera: yaw 0 and pitch 0 view from +z, yaw 90 from +x, pitch 90 from +y.
 struct ViewAngles {
     double yaw_deg = 0, pitch_deg = 0;
 };
 
-/// A point as a camera sees it. (x / w, y / w) are samples, from the upper left corner of the picture to the right and
-/// down.
+/// A projected point. (x / w, y / w) are in samples from the upper left corner of the picture, to the right and down.
 struct SeenPoint {
     double x = 0, y = 0, w = 1;
-    double nearness_w = 0;  ///< w times the nearness, which is linear in x / w and y / w, and larger for what is nearer
+    /// w times the nearness, which is linear in x / w and y / w, and increases toward the camera
+    double nearness_w = 0;
 };
 
 class Camera {
   public:
-    /// Calls its argument with each point that has to be in the picture.
+    /// Calls `visit` with each point that must be in the picture.
     using VisitPoints = std::function<void(const std::function<void(const DVec3&)>& visit)>;
 
-    /// Holds all points, those that are not finite left out, with a narrow margin. `field_of_view_deg`: of the shorter side,
-    /// below 180; 0: all rays are parallel. `width`, `height`: in samples.
+    /// Returns a camera that shows all finite points, with a narrow margin. `field_of_view_deg`: along the shorter
+    /// side, below 180; 0: orthographic. `width`, `height`: in samples.
     static Camera around(const VisitPoints& points, const ViewAngles& angles, double field_of_view_deg,
                          std::uint32_t width, std::uint32_t height);
 
@@ -44,34 +44,34 @@ class Camera {
         if (!is_perspective_) return {centre_x_ + x, centre_y_ + y, 1, -depth};
         return {centre_x_ * depth + x, centre_y_ * depth + y, depth, 1};
     }
-    /// Points with a smaller w are too near to be seen.
+    /// Minimum w of visible points; points with a smaller w are too near.
     [[nodiscard]] double leastW() const { return least_w_; }
 
     [[nodiscard]] const DVec3& right() const { return right_; }
     [[nodiscard]] const DVec3& up() const { return up_; }
-    /// The direction from the scene to the eye.
+    /// Direction from the scene to the eye.
     [[nodiscard]] const DVec3& back() const { return back_; }
 
   private:
     DVec3 right_{1, 0, 0}, up_{0, 1, 0}, back_{0, 0, 1}, eye_{};
     double centre_x_ = 0, centre_y_ = 0;
-    double scale_ = 1;  ///< samples per unit; with perspective at distance 1
+    double scale_ = 1;  ///< samples per unit; for a perspective camera, at distance 1
     double least_w_ = 0;
     bool is_perspective_ = true;
 };
 
-/// Triangles at one place.
+/// A mesh with one transform.
 struct DrawnMesh {
     std::span<const Vec3> positions = {};
     std::span<const std::uint32_t> corners = {};  ///< three per triangle, each smaller than positions.size()
     Affine to_world = {};
     bool is_double_sided = false;
-    /// Whether the surface is there at a point of a triangle; empty: everywhere.
+    /// Returns whether the surface is opaque at a point of a triangle; empty: everywhere.
     std::function<bool(std::size_t triangle, const std::array<double, 3>& weights)> is_there = {};
 };
 
-/// Work limit of a picture; one step takes some nanoseconds. Hostile models have endless triangles, each as large as the
-/// picture. Throws FileError (tooLarge) at the limit.
+/// Work limit of a picture; one step takes a few nanoseconds. Hostile models have huge numbers of triangles, each as
+/// large as the picture. Throws FileError (tooLarge) at the limit.
 class Effort {
   public:
     explicit Effort(std::uint64_t steps) : left_(steps) {}
@@ -81,27 +81,27 @@ class Effort {
     std::uint64_t left_;
 };
 
-/// A triangle as a camera sees it, without any clipping: homogeneous, so that it may lie behind the camera in part.
+/// A projected triangle without clipping: homogeneous, so that parts of it may lie behind the camera.
 class SeenTriangle {
   public:
     explicit SeenTriangle(const std::array<SeenPoint, 3>& points);
 
-    /// Its corners run counter-clockwise, as they are seen.
+    /// Returns whether the projected corners are in counterclockwise order.
     [[nodiscard]] bool isFront() const { return determinant_ < 0; }
-    /// False for triangles seen edge on, and for those that are not finite.
+    /// Returns false for triangles seen edge-on, and for triangles that are not finite.
     [[nodiscard]] bool isSeen() const { return determinant_ != 0 && std::isfinite(determinant_); }
-    /// The barycentric weights of the corners at a sample, in space: their sum is 1, and none is negative.
+    /// Returns the barycentric weights of a sample, perspective-correct: their sum is 1, and none is negative.
     [[nodiscard]] std::array<double, 3> weightsAt(double x, double y) const;
-    /// Coefficients of the nearness: a x + b y + c.
+    /// Returns the coefficients (a, b, c) of the nearness a x + b y + c.
     [[nodiscard]] DVec3 nearness() const;
 
   private:
     std::array<SeenPoint, 3> points_;
-    std::array<DVec3, 3> edges_;  ///< dot(edges[i], (x, y, 1)): how much of corner i there is at (x, y)
+    std::array<DVec3, 3> edges_;  ///< dot(edges[i], (x, y, 1)): unnormalized weight of corner i at (x, y)
     double determinant_ = 0;
 };
 
-/// The triangle that each sample sees, numbered through all meshes.
+/// Index of the visible triangle at each sample, consecutive over all meshes.
 class VisibleTriangles {
   public:
     static constexpr std::uint32_t kNone = 0xffffffffu;
@@ -110,12 +110,12 @@ class VisibleTriangles {
         std::size_t mesh = 0, triangle = 0;
     };
 
-    /// Draws all meshes. Of two triangles at one distance the first is seen. Neighbours that share an edge leave no gap
-    /// and no sample twice. Throws FileError: tooLarge for 2^32 - 1 triangles or more, too, and where `effort` ends.
+    /// Draws all meshes. Of triangles at equal distance the first is visible. Triangles that share an edge leave no gap
+    /// and no sample twice. Throws FileError: tooLarge for 2^32 - 1 triangles or more, and if `effort` is exhausted.
     VisibleTriangles(std::span<const DrawnMesh> meshes, const Camera& camera, std::uint32_t width, std::uint32_t height,
                      Effort& effort);
 
-    /// Row by row from the top.
+    /// Returns a row of samples, counted from the top.
     [[nodiscard]] std::span<const std::uint32_t> row(std::uint32_t y) const {
         return std::span(triangles_).subspan(std::size_t{y} * width_, width_);
     }
@@ -123,11 +123,11 @@ class VisibleTriangles {
     [[nodiscard]] SeenTriangle seen(const Place& place) const;
 
   private:
-    /// A triangle of which parts are drawn.
+    /// A triangle of which parts are drawn after clipping.
     struct Job {
         const DrawnMesh& mesh;
         const SeenTriangle& seen;
-        DVec3 plane;  ///< plane equation of its depth
+        DVec3 plane;  ///< plane equation of its nearness
         std::size_t triangle = 0;
         std::uint32_t number = 0;
     };
@@ -138,7 +138,7 @@ class VisibleTriangles {
     std::span<const DrawnMesh> meshes_;
     Camera camera_;
     std::uint32_t width_, height_;
-    std::vector<std::uint32_t> first_;  ///< per mesh: the number of its first triangle
+    std::vector<std::uint32_t> first_;  ///< per mesh: index of its first triangle
     std::vector<float> nearness_;
     std::vector<std::uint32_t> triangles_;
 };
