@@ -226,10 +226,10 @@ class MorphNormalsChecker {
         return tally.count != 0 && tally.area >= kOffShare * turning_area;
     }
 
-    /// Drops normals that fit the moved surface although they do not rotate with it. Exporters such as Blender
+    /// Drops normals that fit the morphed surface although they do not rotate with it. Exporters such as Blender
     /// recompute the normals of a target: across material borders, over whole polygons, and with hard edges by the
     /// angles of the target. A normal that is tilted against its faces on the base may be tilted in another direction
-    /// after the change, because a rotation of a normal does not define how the face rotates about it.
+    /// afterwards: the rotation of a face normal does not determine how the face rotates about it.
     void dropPlausible(std::size_t number, const std::vector<VertexTurn>& turns, std::vector<OffNormal>& off) const {
         std::vector<std::uint32_t> vertices;
         for (const OffNormal& one : off) vertices.push_back(one.vertex);

@@ -231,8 +231,8 @@ bool areDirectionsWrong(const FrameHealth& health, const Surface& surface) {
 }
 
 /// Returns the first interpretation that the tangents fit: the same set without its transform, then other sets, then
-/// those of further textures of the primitive. The test is strict, because coincidences are common: the other UVs must
-/// have area nearly everywhere the own UVs have it, and the tangents must follow them nearly everywhere and clearly not
+/// UVs of further textures of the primitive. The test is strict, because coincidences are common. The other UVs must
+/// have area nearly everywhere the own UVs have it. The tangents must follow them nearly everywhere, and clearly not
 /// follow the own UVs. `health`: result for facts.reading. Fails as examineTangents does.
 Result<std::optional<OtherReading>> findOtherReading(const PrimitiveFacts& facts, const FrameHealth& health) {
     const ScenePrimitive& primitive = facts.primitive;

@@ -27,9 +27,9 @@ struct DirectionCone {
 /// gap of more than half a turn.
 DirectionCone coneAround(std::span<double> angles);
 
-/// Distance of a vertex that cannot be tested: no triangle around it has a direction, its N or tangent is unusable, or
-/// its tangent is far from the directions of triangles that are all so thin there, seen along N, that MikkTSpace gives
-/// them no weight.
+/// Distance of a vertex that cannot be tested. Either no triangle around it has a direction, or its N or tangent is
+/// unusable. Or its tangent is far from the directions of triangles that all are, seen along N, so thin at the vertex
+/// that MikkTSpace gives them no weight.
 inline constexpr float kUnknownDirection = -1;
 
 /// Returns, per vertex, the angle in degrees between its tangent and the cone of the triangles that use it. If the

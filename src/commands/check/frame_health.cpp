@@ -47,8 +47,8 @@ class VertexPatches {
     std::vector<std::uint32_t> parents_;
 };
 
-// Requirements that do not depend on UVs: tangents are finite, have unit length, lie in the plane of the surface, and
-// have a sign of +1 or -1 that is equal at all corners of a triangle.
+// Requirements that do not depend on UVs: tangents are finite, have unit length, and lie in the plane of the surface.
+// Signs are +1 or -1, and equal at all corners of a triangle.
 
 /// Tilt out of the tangent plane, in degrees, above which a tangent is parallel to N.
 constexpr double kParallel = 90 - kParallelDeg;

@@ -211,8 +211,8 @@ class Looker {
         return look;
     }
 
-    /// Whether blue is z of vectors that all have one length, whatever it is: its square falls as x^2 + y^2 grows. In 8 bits,
-    /// the squares of gentle relief spread by rounding alone.
+    /// Returns whether blue is z of vectors with equal lengths, not necessarily 1: z^2 decreases as x^2 + y^2 increases.
+    /// For gentle relief in 8 bits, rounding alone makes the squared lengths vary.
     [[nodiscard]] bool haveOneLength(double most_of_spread) const {
         constexpr double kRounding = 0.006, kLeastSlope = 0.5, kMostSlope = 1.5;
         const auto zz = [](const TexelBytes& texel) { return signedValue(texel[2]) * signedValue(texel[2]); };
@@ -328,7 +328,7 @@ class Looker {
     [[nodiscard]] std::optional<MapLook> unsignedZ() const {
         constexpr std::uint64_t kLeastCount = 64;
         constexpr double kMostLong = 0.05;  // JPEG adds to red and green if blue changes as much as they do
-        constexpr double kNoSpread = 0.2;   // z from 0 to 1 leaves 0.4 and more
+        constexpr double kNoSpread = 0.2;   // unsigned z leaves 0.4 or more
         if (!canBeXy(texels_, 0, 1, kMostMean, kMostLong) || haveOneLength(kNoSpread)) return {};
         double z = 0, b = 0, zz = 0, zb = 0, bb = 0, off = 0, off_signed = 0;
         std::uint64_t count = 0;

@@ -51,9 +51,11 @@ struct MapLook {
     bool is_x_lost = false;
     /// For objectSpace: the vectors follow the normals as rotated by a node of the scene.
     bool is_in_world = false;
-    /// For two channels: there is relief, but as x and y the channels are not the slopes of any height field.
+    /// For two channels: there is relief, but the channels may not be x and y, because the slopes fit no height field or
+    /// fit better with octahedral encoding.
     bool is_doubtful = false;
-    /// With `is_doubtful`: they are the slopes of a height as x and y of (x, y, z) / (|x| + |y| + |z|), octahedral encoding.
+    /// For `is_doubtful`: the slopes fit a height field better if the channels are x and y in octahedral encoding,
+    /// (x, y, z) / (|x| + |y| + |z|).
     bool may_be_octahedral = false;
     bool is_declared = false;  ///< the texture file declares the layout
 };

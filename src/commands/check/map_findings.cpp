@@ -20,7 +20,7 @@ constexpr const char* kOctahedral =
     "|z|), "
     "so they may hold that";
 
-/// What a message on two channels adds where x and y are only one reading.
+/// Returns what a message on two channels adds if x and y are only one possible interpretation.
 const char* doubtOf(const MapLook& look) {
     return !look.is_doubtful ? "" : look.may_be_octahedral ? kOctahedral : kDoubt;
 }

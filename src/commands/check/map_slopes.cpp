@@ -62,8 +62,8 @@ bool areXAndYExchanged(const DecodedMap& map) {
     return std::fabs(slopesOf(map.image, map).correlation) <= kMost && fitsWell(slopesOf(map, exchanged({})));
 }
 
-/// Decodes octahedral encoding of vectors with z >= 0 from the channels that the layout assigns to x and y; `is_hemi`: from
-/// hemi-octahedral encoding, which has x + y and x - y there.
+/// Decodes octahedral encoding of vectors with z >= 0 from the channels that the layout assigns to x and y. `is_hemi`:
+/// the channels contain x + y and x - y (hemi-octahedral encoding).
 RgbImage decodeOctahedral(const DecodedMap& map, const MapLayout& layout, bool is_hemi) {
     RgbImage read = readAs(map, layout);
     const auto byteOf = [](double value) {
@@ -80,8 +80,9 @@ RgbImage decodeOctahedral(const DecodedMap& map, const MapLayout& layout, bool i
     return read;
 }
 
-/// Whether slopes fit the decoded vectors clearly better than the plain ones. They fit those too, since octahedral x grows
-/// with x: only how far both are from a correlation of 1 differs, by a factor of 1.2 to 300 where slopes reach 0.3.
+/// Returns whether the decoded vectors fit a height field clearly better than the plain ones. Plain vectors fit too,
+/// because octahedral x increases with x. Only the difference of the correlation from 1 is larger, by a factor of 1.2
+/// to 300 if slopes reach 0.3.
 bool fitsBetter(const GreenTest& decoded, const GreenTest& plain) {
     constexpr double kClear = 1.15;
     const auto misfit = [](const GreenTest& test) { return 1 - std::fabs(test.correlation); };

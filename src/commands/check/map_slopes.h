@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Detects the content of a map by its texels and its slopes: x and y of a normal map are the slopes of a height field,
+// Detects the content of a map by its texels and its slopes. x and y of a normal map are the slopes of a height field,
 // and their derivatives agree only if the channels are interpreted correctly (GreenBlocks).
 #pragma once
 

@@ -89,9 +89,9 @@ PackedFindings checkPacked(const Scene& scene, const CheckOptions& options);
 // Shading seams between primitives of one mesh.
 
 /// Returns notes on pairs of primitives of a mesh that form one smooth surface, but whose normals differ at their
-/// border because each uses only its own triangles. A note is made only if the border cannot be an intended hard edge:
-/// its bend is at most slightly larger than that of other smooth edges on both sides, and smaller than that of any hard
-/// edge of them.
+/// border because each uses only its own triangles. A note is made only if the border cannot be an intended hard edge.
+/// Its bend must be at most slightly larger than the bend of other smooth edges on both sides, and smaller than the
+/// bend of any hard edge.
 std::vector<Finding> checkSeams(const Scene& scene, const CheckOptions& options);
 
 }  // namespace tspace

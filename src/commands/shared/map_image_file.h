@@ -46,9 +46,9 @@ struct MapMeshChoice {
     bool needs_material = false;
 };
 
-/// Reads a model and returns the triangles that show the map. Throws FileError: invalidFile if there are none, if their
-/// materials set different scales or scale 0 for the map, or, in world space, if nodes transform them differently or no
-/// node uses them.
+/// Reads a model and returns the triangles that show the map. Throws FileError: invalidFile if there are none, or if
+/// their materials set different scales or scale 0 for the map. In world space also if nodes transform the triangles
+/// differently, or if no node uses them.
 MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const TangentOptions& tangents,
                     const FileOptions& file, const Execution& execution);
 

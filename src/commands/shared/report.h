@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Common parts of the reports of all commands. NAME/NAME_report.h declares the reports of a single command: as JSON
-// (docs/reference/json.md), which the tool prints with --json and the C API returns; and as text, which only the tool
-// prints and which is in a separate library (tspace_texts).
+// Common parts of the reports of all commands. NAME/NAME_report.h declares the reports of a single command, as JSON and
+// as text. The tool prints JSON with --json, and the C API returns it (docs/reference/json.md). Only the tool prints
+// text, whose code is in a separate library (tspace_texts).
 #pragma once
 
 #include <cstdint>
