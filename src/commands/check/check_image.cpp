@@ -136,7 +136,7 @@ std::optional<Finding> zeroFinding(const std::string& name, const RgbImage& imag
 }  // namespace
 
 bool isImageInput(const std::string& input, ByteSpan content) {
-    // reading an AVIF file fails with an error that names the format
+    // Reading an AVIF file fails with an error that names the format.
     const bool is_named = isImageName(input) || lowerExtension(input) == ".avif";
     if (content.data() == nullptr) return is_named;
     const ImageFormat format = imageFormat(content);

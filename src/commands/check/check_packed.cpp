@@ -24,7 +24,7 @@ namespace {
 constexpr FrameFormat kFinest = FrameFormat::frame64;
 /// Number of frames that are compared at a time.
 constexpr std::size_t kChunk = 256;
-/// Differences from this angle on are visible; storage with 8 bits per component takes 0.4 degrees.
+/// Differences from this angle on are visible; 8 bits per component cause errors of 0.4 degrees.
 constexpr double kVisible_deg = 1;
 
 struct PackedErrors {

@@ -69,7 +69,7 @@ struct FrameHealth {
     Tally uv_seams;                ///< vertices with the mean tangent of both sides of a UV seam
     Tally directions_wrong;        ///< other vertices whose tangents are off by more than direction_deg
     double far_directions = 0;     ///< share of the surface where a direction is off by more than error_deg
-    /// vertices that differ from another only in the tangent, and to which MikkTSpace would give one tangent
+    /// Vertices that differ from another only in the tangent, although MikkTSpace would give both the same tangent.
     Tally frames_differ;
 };
 

@@ -75,7 +75,7 @@ class LayoutReader {
     std::array<double, 256> values_ = {};
 };
 
-/// Share of texels that are unit vectors, and directions of these.
+/// Share of texels that are unit vectors, and statistics of their directions.
 struct Fit {
     double unit_share = 0;
     DVec3 mean = {};
@@ -211,7 +211,7 @@ class Looker {
         return look;
     }
 
-    /// Returns whether blue is z of vectors with equal lengths, not necessarily 1: z^2 decreases as x^2 + y^2 increases.
+    /// Returns whether blue is z of vectors with equal lengths, which may differ from 1: z^2 falls as x^2 + y^2 grows.
     /// For gentle relief in 8 bits, rounding alone makes the squared lengths vary.
     [[nodiscard]] bool haveOneLength(double most_of_spread) const {
         constexpr double kRounding = 0.006, kLeastSlope = 0.5, kMostSlope = 1.5;
@@ -379,9 +379,9 @@ class Looker {
     }
 
     /// Detects pictures: few colors are unit vectors, and either they do not point up, or the channels rise and fall
-    /// together, as shading makes them. Light and dark grays are unit vectors by chance, along a diagonal; the
-    /// components of rotating vectors cannot all increase together. Images with one color or few texels, and images
-    /// with x and y plus another channel, are not classified.
+    /// together, as shading makes them. Light and dark grays are unit vectors only by chance: they lie along a diagonal,
+    /// where the components of real unit vectors cannot all increase together. Images with one color or few texels, and
+    /// images with x and y plus another channel, are not classified.
     [[nodiscard]] std::optional<MapLook> picture() const {
         constexpr double kMostUnit = 0.7, kFewUnit = 0.5, kTogether = 0.5, kMuchTogether = 0.8, kLeastDiagonal = 0.35,
                          kOneWay = 0.75;

@@ -51,8 +51,8 @@ struct MapLook {
     bool is_x_lost = false;
     /// For objectSpace: the vectors follow the normals as rotated by a node of the scene.
     bool is_in_world = false;
-    /// For two channels: there is relief, but the channels may not be x and y, because the slopes fit no height field or
-    /// fit better with octahedral encoding.
+    /// For two channels: there is relief, but the channels may not be x and y, because the slopes fit no height field
+    /// or fit better with octahedral encoding.
     bool is_doubtful = false;
     /// For `is_doubtful`: the slopes fit a height field better if the channels are x and y in octahedral encoding,
     /// (x, y, z) / (|x| + |y| + |z|).

@@ -204,7 +204,7 @@ void checkFarNormals(PrimitiveFacts& facts, const Directions& directions) {
         // Normals that point to the back are reported by another finding.
         const double cosine = nearest[equal.class_of[v]];
         const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-        // normals of faces are no more precise
+        // Normals of faces have no more than float precision.
         const auto angle = static_cast<float>(polarAngle(cosine, sine) * 180 / kPi);
         if (angle > kFarDeg && angle <= 90) far.add(v, facts.surface.vertex_areas[v], angle);
     }

@@ -18,7 +18,7 @@ namespace tspace {
 
 struct QuadReading {
     std::vector<std::uint32_t> corners = {};  ///< three per triangle, like TangentView::corners
-    /// surface of these triangles; both halves of a quad have one orientation
+    /// Surface of these triangles; both halves of a quad have one orientation.
     Surface surface = {};
 };
 

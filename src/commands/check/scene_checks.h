@@ -37,7 +37,7 @@ struct ImageFindings {
     std::uint64_t looked_at = 0;      ///< number of images that could be decoded
     std::uint64_t green_told = 0;     ///< number of decoded maps whose direction of green is known
     std::vector<MapLook> looks = {};  ///< per image of the scene: content of its channels
-    /// per image: y is inverted but is not in green, so no finding on green reports it
+    /// Per image: y is inverted but is not in green, so no finding on green reports it.
     std::vector<bool> is_y_inverted = {};
     std::vector<bool> is_declared = {};  ///< per image: the file declares that green points down (TangentUse)
 };

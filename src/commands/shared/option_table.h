@@ -32,7 +32,7 @@ struct Option {
     std::vector<std::string> old_names = {};
     std::string value = {};  ///< name of the value in help, such as "DEG"; empty: a flag
     HelpText help = {};      ///< one or more sentences
-    /// default printed after the help; empty: stated by the help, or no default
+    /// Default printed after the help; empty: stated by the help, or no default.
     std::string default_text = {};
     std::string group = {};                 ///< heading in help
     std::vector<std::string> choices = {};  ///< allowed values; empty: all values that `take` accepts

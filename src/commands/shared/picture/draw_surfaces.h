@@ -78,7 +78,7 @@ struct ShownSurface {
     CornerValues<Vec3> normals = {};
     CornerValues<Vec4> tangents = {};  ///< empty: none
     CornerValues<Vec4> expected = {};  ///< tangents to compare with in `error`; empty: none
-    /// normals to compare with in `error`; empty: normals are not compared
+    /// Normals to compare with in `error`; empty: normals are not compared.
     CornerValues<Vec3> expected_normals = {};
     std::span<const UvSide> sides = {};              ///< one per triangle; empty: all unknown
     std::span<const std::uint32_t> islands = {};     ///< one per triangle; used by `uv`

@@ -24,7 +24,7 @@ struct ViewAngles {
 /// A projected point. (x / w, y / w) are in samples from the upper left corner of the picture, to the right and down.
 struct SeenPoint {
     double x = 0, y = 0, w = 1;
-    /// w times the nearness, which is linear in x / w and y / w, and increases toward the camera
+    /// Product of w and the nearness, which is linear in x / w and y / w, and increases toward the camera.
     double nearness_w = 0;
 };
 
