@@ -379,7 +379,7 @@ class Looker {
     }
 
     /// Detects pictures: few colors are unit vectors, and either they do not point up, or the channels rise and fall
-    /// together, as shading makes them. Light and dark grays are unit vectors only by chance: they lie along a diagonal,
+    /// together, as shading makes them. Light and dark grays are unit vectors only by chance: they lie on a diagonal,
     /// where the components of real unit vectors cannot all increase together. Images with one color or few texels, and
     /// images with x and y plus another channel, are not classified.
     [[nodiscard]] std::optional<MapLook> picture() const {
