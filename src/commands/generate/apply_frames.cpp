@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Computed frames as edits of a file.
+// Writes computed frames into a glTF document.
 #include "commands/generate/apply_frames.h"
 
 #include <map>
@@ -94,7 +94,7 @@ class Applier {
         }
     }
 
-    /// A copy of a shared accessor keeps its name, which tells a person what it holds.
+    /// Copies the name of a shared accessor to its copy, because the name describes the contents.
     void keepName(std::size_t from, std::size_t to) {
         const Json* name = findMember(rootArray(document_, "accessors")[from], "name");
         if (name != nullptr) editor_.accessor(to)["name"] = Json(*name);
@@ -113,7 +113,7 @@ class Applier {
         }
     }
 
-    /// Sets the deltas of every target that moves the surface. Where tangents are kept, only missing deltas are set.
+    /// Sets the deltas of every target that moves the surface. If tangents are kept, only missing deltas are set.
     bool setTargets() {
         const Primitive& first = primitives_[pool_.primitives[0]];
         bool changed = false;
@@ -130,7 +130,7 @@ class Applier {
             if (!elements_.has_tangent_deltas) continue;
             const bool has_tangents = findAttribute(first.targets[i], "TANGENT").has_value();
             if (pool_.keeps_tangents && has_tangents && !turns_normals) continue;
-            // New deltas would fit the computed tangents, but the file keeps its own.
+            // New deltas would fit the computed tangents, but the file keeps its own tangents.
             if (pool_.mendsTangents() && elements_.differing_count != 0 && !has_tangents) continue;
             ++computed_targets_;
             changed |= setAttribute(target, "TANGENT", elementsOf(elements_.morphs[i].tangents));
@@ -138,7 +138,7 @@ class Applier {
         return changed;
     }
 
-    /// Sets an attribute of all primitives of the pool. Returns false when the file has exactly these bits already.
+    /// Sets an attribute of all primitives of the pool. Returns false if the file already has exactly these bits.
     bool setAttribute(std::ptrdiff_t target, const char* name, ElementData&& data) {
         return gltf::setAttribute(editor_, document_,
                                   {.primitives = primitives_,
@@ -149,7 +149,8 @@ class Applier {
                                   std::move(data));
     }
 
-    /// Whether old accessors of frames may stay: not where vertices were split, nor where tangents were missing.
+    /// Returns whether the old accessors of frames may be reused. They may not if vertices were split or tangents were
+    /// missing.
     [[nodiscard]] bool mayStay() const { return pool_.has_tangents && !elements_.was_split; }
 
     Editor& editor_;
@@ -165,7 +166,7 @@ bool anyHasTangents(const Primitive& primitive) {
                        [](const AttributeList& target) { return findAttribute(target, "TANGENT").has_value(); });
 }
 
-/// A note on normal offsets that were computed although the base normals stay; empty where none were.
+/// Returns a note on normal offsets that were computed although the base normals are kept; empty if there are none.
 std::string morphNormalsNote(const PoolPlan& pool, const PoolElements& elements, const Primitive& primitive,
                              std::uint32_t count) {
     if (count == 0) return {};
@@ -176,7 +177,7 @@ std::string morphNormalsNote(const PoolPlan& pool, const PoolElements& elements,
     return note;
 }
 
-/// Brings vertex numbers in extensions up to date after a split.
+/// Updates vertex numbers in extensions after a split.
 void carryNumbers(std::span<const Primitive> primitives, const PoolPlan& pool, const PoolElements& elements,
                   VertexNumbers& numbers) {
     for (std::size_t i = 0; i < elements.corners.size(); ++i) {

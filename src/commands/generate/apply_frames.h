@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Computed frames as edits of a file.
+// Writes computed frames into a glTF document.
 #pragma once
 
 #include <span>
@@ -14,19 +14,19 @@
 
 namespace tspace::gltf {
 
-/// Removes every Primitive::unreadable_tangents, before new tangents are stored. Primitives without new tangents become
-/// `removed`: the tangent deltas of their morph targets must go too.
+/// Removes every Primitive::unreadable_tangents; call before new tangents are stored. The action of primitives without
+/// new tangents becomes `removed`, so that the tangent deltas of their morph targets are removed too.
 void removeUnreadableTangents(Editor& editor, std::span<const Primitive> primitives, GeneratePlan& plan);
-/// Notes the removal in the reports; call when all tangents are computed.
+/// Adds notes on the removal to the reports; call after all tangents have been computed.
 void noteUnreadableTangents(std::span<const Primitive> primitives, std::span<PrimitiveReport> reports);
 
-// Putting computed frames into the document: new tangents and normals, and, where vertices were split, every
-// other attribute, morph target and index list with them.
+// Writes new tangents and normals into the document. If vertices were split, updates every other attribute, morph
+// target and index list too.
 
-/// Changes the document so that the pool's primitives have the frames in `elements`, whose bytes it takes. Without a
-/// split only TANGENT (and NORMAL and _BITANGENT where they were made) changes, in the primitives and in those morph
-/// targets that move positions or normals (their offsets are floats). Fills action and vertices_after of the reports of
-/// the pool's primitives. `numbers`: takes what extensions say about vertices that were split along.
+/// Changes the document so that the pool's primitives have the frames in `elements`, whose bytes are moved from.
+/// Without a split, changes only TANGENT (and NORMAL and _BITANGENT if they were computed) of the primitives and of the
+/// morph targets that move positions or normals (with offsets as floats). Fills action and vertices_after in the
+/// reports of the pool's primitives. `numbers`: updates the vertex numbers in extensions after a split.
 void applyFrames(Editor& editor, const Document& document, std::span<const Primitive> primitives, const PoolPlan& pool,
                  PoolElements&& elements, VertexNumbers& numbers, std::span<PrimitiveReport> reports);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Large pools one after the other, each on all threads; then the others, each on one thread.
+// Computes large pools one by one, each with all threads, and then the other pools in parallel, one thread each.
 #include "commands/generate/compute_pools.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@
 
 namespace tspace::gltf {
 
-// Refines classes of equal vertices attribute by attribute, 16 bytes at a time.
+// Refines classes of equal vertices, attribute by attribute and 16 bytes at a time.
 
 namespace {
 
@@ -84,10 +84,11 @@ WeldedVertices weldVertices(const Document& document, const Primitive& primitive
 
 namespace {
 
-/// Fewer corners are done sooner than threads are started.
+/// Starting threads takes longer than computing fewer corners.
 constexpr std::size_t kCornersForThreads = 3000;
 
-/// Deltas are made where vertices move, and wait in memory for those of the last target.
+/// Charges the deltas of a target to the memory budget: one for each vertex that moves, kept until the last target is
+/// done.
 void takeDeltas(const Document& document, const Primitive& first, const MorphOffsets& offsets) {
     constexpr std::uint64_t kDeltaBytes = 32;
     std::uint64_t count = 0;
@@ -98,9 +99,9 @@ void takeDeltas(const Document& document, const Primitive& first, const MorphOff
     document.memory->take(kDeltaBytes * count, first.place() + "/targets");
 }
 
-/// Targets of a pool are those of each of its primitives. `first` must outlive the result.
+/// Returns the morph targets of a pool, which are equal in all of its primitives. `first` must outlive the result.
 MorphTargets targetsOf(const Document& document, const Primitive& first, bool with_tangents) {
-    // A target is read once more where normals are made.
+    // If normals are computed, a target is read twice, but its memory is charged only once.
     auto is_taken = std::make_shared<std::vector<bool>>(first.targets.size(), false);
     return {first.targets.size(), [&document, &first, is_taken, with_tangents](std::size_t target) {
                 return atFileBorder([&]() -> Result<MorphOffsets> {
@@ -114,15 +115,15 @@ MorphTargets targetsOf(const Document& document, const Primitive& first, bool wi
             }};
 }
 
-/// What of a pool does not lie in the file as plain floats.
+/// Vertex data of a pool that the file does not store as uncompressed floats.
 struct DecodedVertices {
     SharedArray<Vec3> positions = {}, normals = {};
     SharedArray<Vec2> uvs = {};
     SharedArray<Vec4> kept_tangents = {}, old_tangents = {};
 };
 
-/// Input arrays for the tangents of a pool, without copies if possible. `decoded` must outlive the result, and receives the
-/// arrays that cannot be borrowed. `first`: any primitive of the pool.
+/// Returns the input arrays for the tangents of a pool, without copies if possible. `decoded` receives the arrays that
+/// cannot be borrowed, and must outlive the result. `first`: any primitive of the pool.
 PoolView lendVertices(const Document& document, DecodedArrays& arrays, const Primitive& first, const PoolPlan& pool,
                       DecodedVertices& decoded) {
     const auto vec3 = [&](const char* attribute, SharedArray<Vec3>& array) {
@@ -145,7 +146,8 @@ PoolView lendVertices(const Document& document, DecodedArrays& arrays, const Pri
     return vertices;
 }
 
-/// Warning, half a sentence, if frames are computed from positions that rounding has moved too far; otherwise empty.
+/// Returns a warning (half a sentence) if frames are computed from positions whose rounding error is too large;
+/// otherwise empty.
 std::string warnOfRounding(const PoolView& vertices, std::span<const PrimitiveGeometry> geometries,
                            const Allocator* allocator) {
     constexpr double kLimit = 10;
@@ -169,7 +171,8 @@ std::string warnOfRounding(const PoolView& vertices, std::span<const PrimitiveGe
     return {};
 }
 
-/// Leaves the first of the vertices that only their frames keep apart. `copies` gets them, and must outlive `vertices`.
+/// Keeps the first of the vertices that differ only in their frames. `copies` receives the kept vertices, and must
+/// outlive `vertices`.
 void weld(const WeldedVertices& welded, std::vector<PrimitiveGeometry>& geometries, PoolView& vertices,
           OwnedMesh& copies) {
     copies.positions = gather(vertices.positions, welded.kept);
@@ -189,11 +192,12 @@ void weld(const WeldedVertices& welded, std::vector<PrimitiveGeometry>& geometri
     };
 }
 
-/// Computes normal deltas for normals that are kept, on first use.
+/// Computes normal deltas of morph targets whose base normals are kept, on first use.
 class NewMorphNormals {
   public:
-    /// `vertices` and `geometries` must outlive this; its targets then have the new offsets. `keeps_finite`: only those
-    /// that are NaN or infinite are new, where others say something.
+    /// Replaces the target reader of `vertices`, so that it returns the new offsets. `vertices` and `geometries` must
+    /// outlive this object. `keeps_finite`: replaces only offsets that are NaN or infinite if the target has any usable
+    /// offset.
     NewMorphNormals(const std::vector<bool>& targets, bool keeps_finite, PoolView& vertices,
                     std::span<const PrimitiveGeometry> geometries)
         : targets_(targets), keeps_finite_(keeps_finite), turned_(vertices, geometries), made_(targets.size()) {
@@ -208,7 +212,7 @@ class NewMorphNormals {
         };
     }
 
-    /// Puts them into frames, for the vertices after a split.
+    /// Writes the new offsets into `frames`, for the vertices after a split.
     void write(const PoolView& vertices, PoolFrames& frames) {
         frames.morphs.resize(targets_.size());
         for (std::size_t target = 0; target < targets_.size(); ++target) {
@@ -232,7 +236,8 @@ class NewMorphNormals {
     std::vector<std::optional<VertexOffsets>> made_;
 };
 
-/// Whether most tangents that were there have the other sign, as files have it whose green points down.
+/// Returns whether at least two thirds of the existing tangents have the opposite sign, as in files whose green points
+/// down.
 bool haveInvertedSigns(std::span<const Vec4> old, const PoolFrames& frames) {
     if (old.empty() || frames.tangents.empty()) return false;
     std::size_t inverted = 0;
@@ -241,7 +246,7 @@ bool haveInvertedSigns(std::span<const Vec4> old, const PoolFrames& frames) {
     return 3 * inverted >= 2 * frames.tangents.size();
 }
 
-/// The vertices as they are.
+/// Returns frames that keep all vertices unchanged.
 PoolFrames unchangedFrames(const PoolView& vertices) {
     PoolFrames frames;
     frames.source_vertices.resize(vertices.positions.count);
@@ -249,7 +254,7 @@ PoolFrames unchangedFrames(const PoolView& vertices) {
     return frames;
 }
 
-/// The triangles of each geometry of a pool.
+/// Returns the triangles of each geometry of a pool.
 std::vector<PrimitiveGeometry> readGeometries(DecodedArrays& arrays, std::span<const Primitive> primitives,
                                               const PoolPlan& pool) {
     std::vector<PrimitiveGeometry> geometries;
@@ -262,7 +267,7 @@ std::vector<PrimitiveGeometry> readGeometries(DecodedArrays& arrays, std::span<c
 
 }  // namespace
 
-/// One arena for each pool that is computed at the same time.
+/// Reusable arenas: one for each pool that is being computed.
 class PoolComputer::Arenas {
   public:
     std::unique_ptr<Arena> take() {
@@ -387,7 +392,7 @@ std::vector<PoolElements> PoolComputer::compute(std::span<const PoolPlan> pools,
     Parallel parallel(execution);
     std::uint64_t total = 0;
     for (const PoolPlan& pool : pools) total += pool.corner_count;
-    // A caller's allocator is called from one thread only.
+    // A caller's allocator must only be called from one thread.
     const bool one_by_one =
         execution.allocator != nullptr || total < kCornersForThreads || parallel.width() == 1 || pools.size() == 1;
     std::vector<std::size_t> others;
@@ -399,7 +404,7 @@ std::vector<PoolElements> PoolComputer::compute(std::span<const PoolPlan> pools,
             others.push_back(i);
         }
     }
-    // The largest first, so that no thread is left alone with one at the end.
+    // Sorts by size, largest first, so that the threads finish at about the same time.
     sortStably(others.begin(), others.end(),
                [&](std::size_t a, std::size_t b) { return pools[a].corner_count > pools[b].corner_count; });
     parallel.forTasks(others.size(),

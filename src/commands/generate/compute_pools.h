@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Frames for pools of a glTF file, several pools at the same time.
+// Computes the frames of pools of a glTF file, several pools in parallel.
 #pragma once
 
 #include <cstdint>
@@ -16,40 +16,41 @@
 
 namespace tspace::gltf {
 
-// Finds vertices that differ in their frames alone.
+// Finds vertices that differ only in their frames.
 
 struct WeldedVertices {
-    std::vector<std::uint32_t> kept = {};       ///< the first vertex of each class of equal ones, ascending
-    std::vector<std::uint32_t> number_of = {};  ///< per vertex: its index in `kept`
+    std::vector<std::uint32_t> kept = {};       ///< first vertex of each class of equal vertices, ascending
+    std::vector<std::uint32_t> number_of = {};  ///< index in `kept` of each vertex's class
 };
 
-/// Vertices are equal where all attributes are, those of morph targets too, except NORMAL, TANGENT, _BITANGENT and packed
-/// frames. Floats are compared by bits, with -0 equal to 0. Primitives with CESIUM_primitive_outline, whose lists name
-/// vertices, keep all. Linear.
+/// Finds classes of vertices that are equal in all attributes, including those of morph targets, except NORMAL,
+/// TANGENT, _BITANGENT and packed frames. Floats are compared by bits, with -0 equal to 0. Keeps all vertices of
+/// primitives with CESIUM_primitive_outline, because its lists contain vertex numbers. Linear time.
 WeldedVertices weldVertices(const Document& document, const Primitive& primitive);
 
-/// Corners whose frames are done, of all: what GenerateOptions::progress is told.
+/// Number of corners whose frames are computed, and of all corners; reported to GenerateOptions::progress.
 struct PoolProgress {
     std::uint64_t done = 0, total = 0;
 };
 
-/// Computes pools of one document, several at the same time. Scratch memory serves one after the other.
+/// Computes pools of one document, several in parallel. Pools that are computed one after the other share scratch
+/// memory.
 class PoolComputer {
   public:
-    /// All must outlive it. `arrays`: of the document.
+    /// The arguments must outlive the object. `arrays`: decoded arrays of `document`.
     PoolComputer(const Document& document, DecodedArrays& arrays, std::span<const Primitive> primitives,
                  const GenerateOptions& options);
     ~PoolComputer();
 
-    /// Frames of each pool, in their order. Fills normals, tangents and sanitize of the reports of their primitives.
-    /// Throws what the first pool with an error throws. Which threads work on what changes no bit. Tells `progress` between
-    /// the steps of pools that all threads compute together, so that a caller can end them.
+    /// Returns the elements of each pool, in the order of `pools`. Fills normals, tangents and sanitize of the reports
+    /// of their primitives. Rethrows the error of the first pool that failed. The result does not depend on the thread
+    /// count. Reports `progress` between the steps of pools that use all threads, so that a caller can cancel.
     std::vector<PoolElements> compute(std::span<const PoolPlan> pools, const PoolProgress& progress,
                                       std::span<PrimitiveReport> reports);
 
   private:
     class Arenas;
-    /// `progress`: null off the thread of the call.
+    /// `progress`: null if this is not the calling thread.
     PoolElements computeOne(const PoolPlan& pool, const Execution& execution, const PoolProgress* progress,
                             std::span<PrimitiveReport> reports);
     void tell(const PoolProgress* progress) const;

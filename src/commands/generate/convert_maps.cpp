@@ -21,10 +21,10 @@ namespace {
 /// A primitive that shows the map, and the frames of its corners.
 struct ShownMap {
     MapUser user = {};
-    OwnedMesh from = {}, to = {};  ///< a vertex for each corner
+    OwnedMesh from = {}, to = {};  ///< one vertex per corner
     TexelMask texels = {};
-    bool is_new = false;     ///< its tangents were computed
-    bool is_bright = false;  ///< it got normals that change the picture on purpose
+    bool is_new = false;     ///< the tangents of the primitive were computed
+    bool is_bright = false;  ///< the primitive got normals that intentionally change the shading
 
     [[nodiscard]] bool readsLike(const ShownMap& other) const {
         const TangentUse &own = *user.use, &others = *other.user.use;
@@ -35,7 +35,7 @@ struct ShownMap {
                from.tangents == other.from.tangents && to.normals == other.to.normals &&
                to.tangents == other.to.tangents;
     }
-    /// Whether one map can serve both.
+    /// Returns whether both primitives can share one converted map.
     [[nodiscard]] bool fits(const ShownMap& other) const {
         return readsLike(other) && (!texels.meets(other.texels) || isLike(other));
     }
@@ -43,7 +43,8 @@ struct ShownMap {
 
 using MapGroup = std::vector<const ShownMap*>;
 
-/// Primitives whose parts of the map do not meet share one: the first group that takes a primitive has it.
+/// Groups primitives that can share one converted map because they use disjoint texels or have equal frames. Each
+/// primitive joins the first group that fits.
 std::vector<MapGroup> groupsOf(std::span<const ShownMap> shown) {
     std::vector<MapGroup> groups;
     for (const ShownMap& one : shown) {
@@ -60,7 +61,7 @@ std::vector<MapGroup> groupsOf(std::span<const ShownMap> shown) {
     return groups;
 }
 
-/// Joins the meshes of a group, each triangle once.
+/// Joins the meshes of a group, without duplicate triangles.
 OwnedMesh joinedSide(const MapGroup& group, OwnedMesh ShownMap::*side) {
     OwnedMesh mesh;
     for (auto one = group.begin(); one != group.end(); ++one) {
@@ -77,7 +78,7 @@ std::string degreesText(double degrees) {
     return std::string(text, end.ptr) + " degrees";
 }
 
-/// A map that some primitives need, where it is any better.
+/// A converted map for a group of primitives, if it improves the shading.
 struct NewMap {
     ConvertedMapReport report = {};
     Bytes file = {};
@@ -154,7 +155,7 @@ NewMap convertFor(const MapGroup& group, const FloatImage& image, const Generate
     return made;
 }
 
-/// All that shows one image.
+/// All primitives that show one image.
 class OneMap {
   public:
     OneMap(const Bytes& file, const GenerateOptions& options) : file_(file), options_(options) {}
@@ -171,7 +172,8 @@ class OneMap {
         return std::any_of(shown_.begin(), shown_.end(), [](const ShownMap& one) { return one.is_new; });
     }
 
-    /// Groups, and a map for each. `why`: instead, why there is none, half a sentence.
+    /// Returns the groups that need a new map, each with its map. If there is none, `why` is the reason (half a
+    /// sentence).
     std::vector<std::pair<MapGroup, NewMap>> convert(std::string& why) {
         const std::optional<FloatImage> image = decode(why);
         if (!image) return {};
@@ -186,7 +188,7 @@ class OneMap {
         }
         return made;
     }
-    /// The frames are needed no longer.
+    /// Frees the frames.
     void release() { shown_ = {}; }
     [[nodiscard]] std::size_t userCount() const { return shown_.size(); }
 
@@ -239,13 +241,13 @@ class OneMap {
 
 bool showsImage(const TangentUse& use) { return use.image && showsNormals(use); }
 
-/// Whether corners can be taken of it.
+/// Returns whether the primitive has corners and the UV set of this texture.
 bool hasMapUvs(const ScenePrimitive& primitive, const TangentUse& use) {
     return !primitive.corners.empty() && use.uv_set < primitive.uv_sets.size() &&
            !primitive.uv_sets[use.uv_set].empty();
 }
 
-/// Puts the maps of one image in, and tells what became of them.
+/// Inserts the converted maps of one image into the document, and completes their reports.
 class MapPlacer {
   public:
     MapPlacer(Document& document, std::span<const Primitive> primitives, ImagePlacer& placer)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Edits of attributes and index lists.
+// Edits attributes and index lists.
 #include "commands/generate/edit_attributes.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace tspace::gltf {
 
-// Keeps, overwrites or stores elements.
+// Keeps, overwrites or stores the elements of an attribute.
 
 VectorFormat unitFormatOf(const Accessor& accessor) {
     return accessor.component == ComponentType::i8    ? VectorFormat::snorm8
@@ -56,11 +56,11 @@ bool setAttribute(Editor& editor, const Document& document, const SharedAttribut
     }
     if (current) data.makeNow();
     if (current && copyElements(document, *current) == data.bytes) return false;
-    // KHR_mesh_quantization widens the formats of the specification's attributes; application-specific ones may always
-    // be integers.
+    // KHR_mesh_quantization is needed for normalized formats of the attributes that glTF specifies.
+    // Application-specific attributes may always be integers.
     if (data.normalized && !isPackedAttribute(attribute.name)) editor.require("KHR_mesh_quantization");
     if (attribute.target != kBase) makeSparseWhereSmaller(data);
-    // Morph targets compress like their positions; Draco has none.
+    // Morph targets are compressed like their positions; Draco does not compress them.
     const Json& attributes = attributesOf(editor, first, attribute.target);
     data.like = (attribute.target == kBase ? attributes["POSITION"] : attributes.front()).get<std::size_t>();
     if (current && alone && !data.places && editor.canOverwrite(*current)) {
@@ -76,7 +76,7 @@ bool setAttribute(Editor& editor, const Document& document, const SharedAttribut
     return true;
 }
 
-// Removing TANGENT from primitives, morph targets and what Draco says of them.
+// Removes TANGENT from primitives, morph targets and the Draco extension.
 
 namespace {
 
@@ -102,7 +102,7 @@ bool canStripTangents(const Primitive& primitive) {
     return has;
 }
 
-/// Removes the name from the primitive's Draco extension: decoders must not look for a removed attribute.
+/// Also removes the name from the primitive's Draco extension: decoders must not look for a removed attribute.
 void eraseAttribute(Editor& editor, const Primitive& primitive, const char* name) {
     Json& object = editor.primitive(primitive.mesh, primitive.index);
     object["attributes"].erase(name);
@@ -141,7 +141,7 @@ void removeUnreadable(Editor& editor, const Primitive& primitive, std::ptrdiff_t
 
 namespace {
 
-/// The elements of an accessor with as many components as they must have: without the last ones, or with zeros behind them.
+/// Returns the elements of an accessor with the required number of components: truncated, or padded with zeros.
 ElementData resizedElements(const Document& document, const AttributeFault& fault) {
     const Accessor accessor = readAccessor(document, fault.accessor);
     const Bytes elements = copyElements(document, accessor);
@@ -167,7 +167,8 @@ ElementData resizedElements(const Document& document, const AttributeFault& faul
     return data;
 }
 
-/// Returns the warning about the repair. `stored`: resized elements by accessor and number of components.
+/// Repairs an attribute and returns a warning about it. `stored`: resized elements by accessor and number of
+/// components.
 std::string repairAttribute(Editor& editor, const Document& document, const Primitive& primitive,
                             const AttributeFault& fault,
                             std::map<std::pair<std::size_t, std::size_t>, std::size_t>& stored) {
@@ -192,7 +193,7 @@ std::vector<bool> repairAttributes(Document& document, const std::string& new_fi
                                    std::span<const Primitive> primitives, std::vector<std::string>& warnings) {
     std::vector<bool> lost_normals(primitives.size(), false);
     Editor editor(document, new_file);
-    std::map<std::pair<std::size_t, std::size_t>, std::size_t> stored;  // by accessor and number of components
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> stored;  // key: accessor and number of components
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         const Primitive& primitive = primitives[i];
         if (!primitive.canRepairFaults()) continue;
@@ -217,7 +218,7 @@ std::vector<std::uint32_t> turnedCorners(const Document& document, const Primiti
     return corners;
 }
 
-/// Primitives whose new lists are the same, and replace the same.
+/// Primitives with equal new lists that replace the same old list.
 struct NewList {
     std::vector<std::uint32_t> corners = {};
     std::vector<std::size_t> primitives = {};
@@ -228,7 +229,7 @@ struct NewList {
 void turnTriangles(Document& document, const std::string& new_file, std::span<const Primitive> primitives,
                    std::span<const std::vector<std::uint8_t>> turned) {
     const std::optional<std::size_t> none;
-    // Keyed by the old list and the vertices, which also decide how a list is stored.
+    // The key is the old list and the POSITION accessor, which also determine how a list is stored.
     std::map<std::pair<std::optional<std::size_t>, std::optional<std::size_t>>, std::vector<NewList>> lists;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         if (std::find(turned[i].begin(), turned[i].end(), 1) == turned[i].end()) continue;
@@ -265,7 +266,7 @@ Bytes floatsOf(const std::vector<Vec3>& vectors) {
     return Bytes(bytes.begin(), bytes.end());
 }
 
-/// Normals, or what a target adds to them (floats), of primitives that share them.
+/// Returns the unit normals, or the offsets of a target (floats), of primitives that share them.
 ElementData unitNormals(const Document& document, const Primitive& primitive, std::ptrdiff_t target) {
     if (target != kBase) {
         const std::vector<Vec3> offsets = readOffsets(document, primitive, static_cast<std::size_t>(target), "NORMAL");
@@ -296,7 +297,7 @@ ElementData unitNormals(const Document& document, const Primitive& primitive, st
 }  // namespace
 
 void writeUnitNormals(Document& document, const std::string& new_file, std::span<const Primitive> primitives) {
-    // Keyed by target, the accessor there, and that of the base.
+    // The key is the target, its NORMAL accessor, and the NORMAL accessor of the base.
     std::map<std::tuple<std::ptrdiff_t, std::size_t, std::size_t>, std::vector<std::size_t>> sharing;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         const Primitive& primitive = primitives[i];
@@ -308,7 +309,7 @@ void writeUnitNormals(Document& document, const std::string& new_file, std::span
                 sharing[{static_cast<std::ptrdiff_t>(target), *offsets, base}].push_back(i);
         }
     }
-    // All are read before any is written: accessors may share bytes.
+    // Reads all attributes before writing any: accessors may share bytes.
     std::vector<ElementData> made;
     for (const auto& [key, numbers] : sharing) {
         const Primitive& first = primitives[numbers.front()];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tangents that a file has: which of them a repair leaves, whether a normal map makes up for their signs, and values that are
-// mended.
+// Existing tangents of a file: decides which of them a repair keeps, whether a normal map compensates for their signs,
+// and repairs invalid values.
 #include <algorithm>
 #include <cstring>
 #include <map>
@@ -24,11 +24,11 @@
 
 namespace tspace::gltf {
 
-// From the verdict of `check` to what is mended.
+// Derives the repairs from the findings of `check`.
 
 namespace {
 
-/// Parts of the tangent to repair at the vertices of a finding; 0: it is not about tangents.
+/// Returns the parts of the tangent to repair at the vertices of a finding, or 0 if it is not about tangents.
 std::uint8_t partsOf(FindingCode code) {
     switch (code) {
         case FindingCode::tangentsNotFinite:
@@ -57,19 +57,20 @@ std::uint8_t partsOf(FindingCode code) {
 /// Faults of one primitive.
 struct Verdict {
     Mends mends = {};
-    std::string why = {};   ///< empty: nothing
+    std::string why = {};   ///< description of the faults; empty: none
     std::string kept = {};  ///< description of the checks, if nothing is wrong
-    bool is_free = false;   ///< no texture is read with its tangents
+    bool is_free = false;   ///< no texture uses its tangents
 };
 
-/// Whether vertices are mended that the finding counts. What the format forbids is, however little it matters.
+/// Returns whether the vertices that the finding counts are repaired. Values that the format forbids are always
+/// repaired, whatever the severity.
 bool asksForMending(const Finding& finding) {
     const std::uint8_t parts = partsOf(finding.code);
     const bool is_of_values = parts == mend::kValues || finding.code == FindingCode::tangentsNotFinite;
     return parts != 0 && (finding.severity == Severity::error || is_of_values);
 }
 
-/// Half a sentence about tangents that stay.
+/// Returns half a sentence about tangents that are kept.
 std::string whyKept(const PrimitiveJudgement& judgement, bool is_free) {
     constexpr double kNearlyAll = 0.99;
     std::string warnings;
@@ -94,7 +95,7 @@ std::string whyKept(const PrimitiveJudgement& judgement, bool is_free) {
 Verdict verdictOf(const PrimitiveJudgement& judgement, bool is_free) {
     Verdict verdict{.kept = whyKept(judgement, is_free), .is_free = is_free};
     verdict.mends.inverted_signs = judgement.signs_stay;
-    std::vector<std::pair<std::uint32_t, std::uint8_t>> rules;  // bits of faults, and what they ask for
+    std::vector<std::pair<std::uint32_t, std::uint8_t>> rules;  // fault bits, and the parts to repair
     for (const Finding& finding : judgement.findings) {
         if (!asksForMending(finding)) continue;
         const bool is_inverted = finding.code == FindingCode::signsInverted;
@@ -114,10 +115,10 @@ Verdict verdictOf(const PrimitiveJudgement& judgement, bool is_free) {
     return verdict;
 }
 
-/// Reads them as requested in the options.
+/// Adapts the texture uses of the scene to the options.
 void applyReadingOptions(const GenerateOptions& options, Scene& scene) {
     for (ScenePrimitive& primitive : scene.primitives) {
-        // Pretends that a texture reads these tangents.
+        // Treats these tangents as if a texture used them.
         if (primitive.uses.empty() && options.selection.all) {
             primitive.uses.push_back({.needed_by = "the option 'all'", .has_texture = primitive.other_reader.empty()});
         }
@@ -126,7 +127,7 @@ void applyReadingOptions(const GenerateOptions& options, Scene& scene) {
     }
 }
 
-/// The verdicts on all primitives. Memory for them is given back at the end; the scene stays with the model.
+/// Judges all primitives. Returns the memory that this needs to the budget; the scene stays with the model.
 std::vector<Verdict> judge(Model& model, const GenerateOptions& options) {
     const Document& document = model.document();
     Scene scene = model.scene();
@@ -155,16 +156,16 @@ std::vector<Verdict> judge(Model& model, const GenerateOptions& options) {
 void keep(const Verdict& verdict, PrimitiveReport& report) {
     report.action = PrimitiveAction::kept;
     report.reason = verdict.kept;
-    // They were not computed, and may follow the transform or not.
+    // Kept tangents were not computed, so it is unknown whether they follow the transform.
     std::erase_if(report.notes, [](const std::string& note) { return note.rfind(kTransformNote, 0) == 0; });
 }
 
-/// It has tangents with normals, and they cannot be computed.
+/// Returns whether the primitive has tangents with normals, but they cannot be recomputed.
 bool hasOnlyItsOwn(const Primitive& primitive, const PrimitiveReport& report) {
     return report.action == PrimitiveAction::impossible && primitive.find("TANGENT") && primitive.find("NORMAL");
 }
 
-/// The pool with some of its primitives, in groups that are mended alike. `mendsOf`: null for those to be left out.
+/// Returns the pool with some of its primitives, grouped by equal repairs. `mendsOf`: null for primitives to omit.
 template <class MendsOf>
 PoolPlan selected(const PoolPlan& pool, std::span<const Primitive> primitives, const MendsOf& mendsOf) {
     PoolPlan result = pool;
@@ -196,7 +197,7 @@ PoolPlan selected(const PoolPlan& pool, std::span<const Primitive> primitives, c
 
 void planRepair(Model& model, const GenerateOptions& options, GeneratePlan& plan) {
     const std::span<const Primitive> primitives = model.primitives();
-    // Tangents of normals that are made anew are computed anew with them.
+    // If normals are recomputed, their tangents are recomputed too, so they are not judged.
     const auto isJudged = [](const PoolPlan& pool) {
         return pool.has_tangents && pool.makes_tangents && !pool.overwrites_normals;
     };
@@ -204,7 +205,7 @@ void planRepair(Model& model, const GenerateOptions& options, GeneratePlan& plan
     for (std::size_t i = 0; i < primitives.size(); ++i)
         is_needed = is_needed || hasOnlyItsOwn(primitives[i], plan.reports[i]);
     if (!is_needed) return;
-    // All of them, since normal maps are weighed by what the whole file shows of them.
+    // Judges all primitives, because normal maps are judged by the whole file.
     const std::vector<Verdict> verdicts = judge(model, options);
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         if (verdicts[i].is_free && hasOnlyItsOwn(primitives[i], plan.reports[i])) keep(verdicts[i], plan.reports[i]);
@@ -239,7 +240,7 @@ void planRepair(Model& model, const GenerateOptions& options, GeneratePlan& plan
 
 namespace {
 
-/// Decides on a sample of triangles whether most signs are the opposite of what the UVs require.
+/// Returns whether most signs are the opposite of what the UVs require, based on a sample of triangles.
 bool looksInverted(const ScenePrimitive& primitive, const Convention& convention) {
     constexpr std::size_t kTriangles = 1024;
     if (primitive.tangents.empty() || primitive.uses.empty()) return false;
@@ -261,7 +262,7 @@ bool looksInverted(const ScenePrimitive& primitive, const Convention& convention
     return inverted > 0;
 }
 
-/// Numbers of the primitives whose tangents are replaced, and that show a normal map.
+/// Returns the indices of primitives whose tangents are replaced and that show a normal map.
 std::vector<std::size_t> replacedPrimitives(Model& model, const GeneratePlan& plan) {
     const std::span<const Primitive> primitives = model.primitives();
     std::vector<bool> is_replaced(primitives.size());
@@ -323,7 +324,7 @@ bool isRead(const Document& document, const Primitive& primitive) {
     return hasTriangles(primitive.mode) && primitive.find("NORMAL") && !tangentUses(document, primitive).empty();
 }
 
-/// The first whose tangents a material reads; without one the first.
+/// Returns the first primitive whose tangents a material reads, or else the first of all.
 std::size_t judgeOf(const Document& document, std::span<const Primitive> primitives,
                     const std::vector<std::size_t>& numbers) {
     const auto read = std::find_if(numbers.begin(), numbers.end(),
@@ -331,7 +332,7 @@ std::size_t judgeOf(const Document& document, std::span<const Primitive> primiti
     return read == numbers.end() ? numbers.front() : *read;
 }
 
-/// Attributes of a primitive that the repair needs.
+/// Reads the attributes of a primitive that the repair needs.
 OwnedMesh readStored(const Document& document, const Primitive& primitive) {
     OwnedMesh stored{.tangents = readTangents(document, primitive)};
     if (primitive.find("NORMAL")) stored.normals = readVec3(document, primitive, "NORMAL");
@@ -363,7 +364,7 @@ std::vector<std::vector<std::size_t>> findBrokenValues(Model& model, const Gener
     std::map<std::size_t, std::vector<std::size_t>> sharing;  // accessor -> primitives
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         const auto accessor = primitives[i].find("TANGENT");
-        // Without positions there is nothing to draw, and no element to store new ones like.
+        // Without positions nothing is drawn, and new elements have no accessor to be stored like.
         if (!accessor || !primitives[i].find("POSITION") || is_computed[i]) continue;
         if (plan.reports[i].action == PrimitiveAction::removed) continue;
         if (hasData(document, readAccessor(document, *accessor))) sharing[*accessor].push_back(i);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which normal maps are inverted; from normal maps to images, and back to the textures that read them.
+// Decides which normal maps are inverted, and connects the new images with the textures that show them.
 #include "commands/generate/flip_maps.h"
 
 #include <algorithm>
@@ -20,11 +20,12 @@
 
 namespace tspace {
 
-// Decides by the findings of `check` on green and on signs.
+// Decides by the findings of `check` on green channels and tangent signs.
 
 namespace {
 
-/// Per image: tangents that stay are made for a green that points down, or may be.
+/// Returns per image whether it is used with kept tangents whose signs are, or may be, made for a green that points
+/// down.
 std::vector<bool> findCancelled(const Scene& scene, ImageFindings& found, const std::vector<bool>& keeps_tangents,
                                 const CheckOptions& check) {
     std::vector<bool> cancelled(scene.images.size());
@@ -41,7 +42,7 @@ std::vector<bool> findCancelled(const Scene& scene, ImageFindings& found, const 
     return cancelled;
 }
 
-/// Why a map stays as it is, where FlipGreen::down is asked for; empty: it does not.
+/// Returns why FlipGreen::down leaves a map unchanged; empty: the map is inverted.
 std::string whyUnchanged(GreenSide side, bool is_cancelled, bool is_declared, const Convention& convention) {
     if (is_declared) return "the file declares that green points down, so its readers invert it";
     switch (side) {
@@ -63,7 +64,7 @@ std::string whyUnchanged(GreenSide side, bool is_cancelled, bool is_declared, co
     return "the direction of green cannot be determined";
 }
 
-/// Inverts the map. `why`: the reason where that is not possible.
+/// Returns the inverted image. If that is not possible, returns nothing, and `why` is the reason.
 Bytes flipSceneImage(const Scene& scene, std::size_t image, std::string& why) {
     const std::vector<std::uint8_t>& bytes = scene.images[image].bytes;
     if (bytes.empty()) {
@@ -87,7 +88,7 @@ Bytes flipImage(std::span<const std::uint8_t> bytes, const MemoryBudget& budget,
     const std::optional<Error> failure = tryFile([&] {
         FlipGreenOptions options{.memory_limit_bytes = kNoMemoryLimit};
 #ifndef TSPACE_SMALL
-        // glTF does not know TGA.
+        // glTF does not support TGA.
         if (imageFormat(bytes) == ImageFormat::tga) options.format = ImageFileFormat::png;
 #endif
         const FlippedImage flipped = valueOrThrow(flipGreen(bytes, options));
@@ -132,7 +133,7 @@ std::vector<JudgedMap> judgeMaps(const Scene& scene, const std::vector<bool>& ke
 namespace tspace::gltf {
 namespace {
 
-/// How textures and images are used. Of what refers to an image outside of textures nothing is known.
+/// Uses of textures and images. References to images from outside of textures are not examined.
 class TextureUses {
   public:
     explicit TextureUses(Document& document) : document_(document) {
@@ -151,12 +152,12 @@ class TextureUses {
         }
     }
 
-    /// Something else than a normal map shows the image.
+    /// Returns whether anything other than a normal map shows the image.
     [[nodiscard]] bool isOther(std::size_t image) {
         const std::vector<std::size_t>& all = textures_of_[image];
         return std::any_of(all.begin(), all.end(), [&](std::size_t texture) { return uses_[texture].is_other; });
     }
-    /// Images that the normal maps using this image may show instead.
+    /// Returns images that viewers may show instead of this one, in the normal maps that use it.
     [[nodiscard]] std::set<std::size_t> alternatives(std::size_t image) {
         std::set<std::size_t> others;
         for (const std::size_t texture : textures_of_[image]) {
@@ -165,7 +166,7 @@ class TextureUses {
         others.erase(image);
         return others;
     }
-    /// Normal maps that show `from` show `to` from now on; nothing else does. Call applyRedirections in the end.
+    /// Makes normal maps that show `from` show `to`; other uses are unchanged. Call applyRedirections at the end.
     void redirect(std::size_t from, std::size_t to) {
         for (const std::size_t shared : textures_of_[from]) {
             if (!uses_[shared].is_normal_map) continue;
@@ -197,7 +198,7 @@ class TextureUses {
         });
         return sources;
     }
-    /// A copy of the texture for normal maps alone: the same one for all of its images.
+    /// Returns a copy of the texture for normal maps only; all redirected images of a texture share one copy.
     std::size_t ownTexture(std::size_t shared) {
         const auto [own, is_new] = own_textures_.try_emplace(shared, textures().size());
         if (is_new) {
@@ -210,11 +211,11 @@ class TextureUses {
     Document& document_;
     std::vector<Use> uses_ = {};                                        ///< by texture
     std::map<std::size_t, std::vector<std::size_t>> textures_of_ = {};  ///< by image
-    std::map<std::size_t, std::size_t> own_textures_ = {};              ///< from shared ones to those of normal maps
+    std::map<std::size_t, std::size_t> own_textures_ = {};              ///< shared texture -> its copy for normal maps
 };
 
-/// Images that may be shown for one another, such as a PNG and a WebP of one texture, are inverted together. Where one
-/// of them cannot be or must not, none is: viewers choose among them.
+/// Images that may be shown instead of one another, such as a PNG and a WebP of one texture, are inverted together. If
+/// one of them cannot or must not be inverted, none is, because viewers choose among them.
 class Alternatives {
   public:
     Alternatives(Document& document, MapFlips& flips) : document_(document), uses_(document), flips_(flips) {
@@ -228,7 +229,7 @@ class Alternatives {
     }
 
   private:
-    /// The image, and all that hang together with it.
+    /// Returns the image and all images that are directly or indirectly its alternatives.
     std::vector<std::size_t> together(std::size_t image) {
         std::vector<std::size_t> images{image};
         is_settled_.insert(image);
@@ -255,7 +256,7 @@ class Alternatives {
         }
     }
 
-    /// Empty where it is to be inverted, and can be; an image that was not judged is inverted here.
+    /// Returns why the image is not inverted; empty: it is. Inverts images that were not judged.
     std::string whyUnchanged(std::size_t image) {
         const std::string start = "image " + std::to_string(image) + " is the same map in another format, and ";
         const auto judged = judged_.find(image);
@@ -277,7 +278,7 @@ class Alternatives {
     std::set<std::size_t> is_settled_ = {};
 };
 
-/// Writes the map anew, inverted where it is to be, if it is not there in another format too.
+/// Rewrites the map as glTF expects it, inverted if requested, unless it also exists in another format.
 void mendInPlace(Document& document, const Scene& scene, const GenerateOptions& options, JudgedMap& map,
                  MapFlips& flips) {
     if (!TextureUses(document).alternatives(map.image).empty()) {
@@ -345,7 +346,7 @@ void applyFlips(Document& document, Editor& editor, const OutputTarget& target, 
     new_images.clear();
     placeAll(flips.mended, "-mended");
     uses.applyRedirections();
-    // These are PNGs now, whatever they were.
+    // Rewritten images are always PNG.
     MapReferences references(document, {});
     for (const std::size_t image : new_images) references.namePlainly(image);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Normal maps whose green channel is inverted, or that are written anew: which they are, where they lie in a glTF file, who else
-// reads them, and putting the new ones in their place.
+// Normal maps whose green channel is inverted, or that are rewritten: finds them in a glTF file, finds their other
+// users, and replaces them.
 #pragma once
 
 #include <map>
@@ -17,46 +17,49 @@
 
 namespace tspace {
 
-// Decides which normal maps get their green channel inverted, and rewrites their files.
+// Decides which normal maps get an inverted green channel, and rewrites their files.
 
-/// One image that is a normal map.
+/// An image that is a normal map.
 struct JudgedMap {
     std::size_t image = 0;
-    Bytes flipped = {};          ///< the image file with green inverted; empty: it stays as it is
+    Bytes flipped = {};          ///< image file with green inverted; empty: the image is unchanged
     MapLook look = {};           ///< content of the image
-    bool is_y_inverted = false;  ///< y is, which is not in green
+    bool is_y_inverted = false;  ///< y is inverted and is not stored in green
     NormalMapReport report = {};
 };
 
-/// The image file with its green channel inverted; nothing, with the reason in `why` (half a sentence), where that is not
-/// possible.
+/// Returns the image file with its green channel inverted. If that is not possible, returns nothing, and `why` is the
+/// reason (half a sentence).
 Bytes flipImage(std::span<const std::uint8_t> bytes, const MemoryBudget& budget, std::string& why);
 
-/// Looks at the normal maps of the scene, which has its images, and inverts those that FlipGreen says (all stay with
-/// FlipGreen::none).
+/// Examines the normal maps of the scene, whose images must be loaded, and inverts those that FlipGreen selects
+/// (FlipGreen::none: no map).
 ///
-/// keeps_tangents    per primitive of the scene: its tangents stay, or a repair leaves what a normal map cancels. Where
-///                   their signs are inverted too, the two cancel out, and FlipGreen::down leaves the map alone
+/// keeps_tangents    per primitive of the scene: its tangents are kept, or a repair keeps inverted signs that an
+///                   inverted map cancels. If the signs of kept tangents are inverted too, the two inversions cancel
+///                   out, and FlipGreen::down leaves the map unchanged
 ///
 /// Throws FileError.
 std::vector<JudgedMap> judgeMaps(const Scene& scene, const std::vector<bool>& keeps_tangents,
                                  const GenerateOptions& options);
 
-// Images that hold something else than glTF reads, written anew as normal maps.
+// Rewrites images with contents that glTF does not support as normal maps.
 
-/// The image of `map` as a PNG that glTF reads. `bytes`: the image file, or what became of it. Empty where it stays, with
-/// the reason in `map.report`, which else says what the image held. Throws FileError.
+/// Returns the image of `map` as a PNG with the encoding of glTF. `bytes`: the image file, or its inverted version. If
+/// the image is unchanged, returns nothing, and `map.report` has the reason; otherwise `map.report` describes the
+/// former contents. Throws FileError.
 Bytes mendMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options, JudgedMap& map);
 
 struct MadeOfHeights {
-    /// The image is grey, or broken. If not, it is taken as a normal map.
+    /// The image is gray, or cannot be decoded. Otherwise it is treated as a normal map.
     bool is_height_map = false;
-    Bytes file = {};           ///< a PNG; empty where there is none
-    std::string why_not = {};  ///< half a sentence
-    double mean_lean_deg = 0;  ///< like HeightToNormalReport::mean_lean_deg
+    Bytes file = {};           ///< PNG; empty: not converted
+    std::string why_not = {};  ///< reason why it was not converted, as half a sentence
+    double mean_lean_deg = 0;  ///< as HeightToNormalReport::mean_lean_deg
 };
 
-/// A normal map of image `image`, on all primitives of the material, white being `strength` units high. Throws FileError.
+/// Converts height map `image` to a normal map for all primitives of the material; white is `strength` units high.
+/// Throws FileError.
 MadeOfHeights makeOfHeights(const Scene& scene, std::size_t material, std::size_t image, double strength,
                             const GenerateOptions& options);
 
@@ -65,18 +68,19 @@ MadeOfHeights makeOfHeights(const Scene& scene, std::size_t material, std::size_
 namespace tspace::gltf {
 
 struct MapFlips {
-    std::map<std::size_t, Bytes> images = {};  ///< image files with green inverted, by number of their image
-    std::map<std::size_t, Bytes> mended = {};  ///< images that are rewritten, with or without inverted green
+    std::map<std::size_t, Bytes> images = {};  ///< image files with green inverted, by image index
+    /// rewritten image files, with or without inverted green, by image index
+    std::map<std::size_t, Bytes> mended = {};
     std::vector<NormalMapReport> reports = {};
 };
 
-/// Decides about the normal maps of the document, before anything in it is changed. An image that another format of the
-/// same texture stands beside goes only with it. `reports`: what becomes of the tangents of its primitives, which are all
-/// of the document's.
+/// Decides which normal maps are changed; call before anything in the document changes. Images that are alternatives in
+/// one texture are changed together or not at all. `reports`: planned actions for the tangents, one per primitive of
+/// the document.
 MapFlips planFlips(Model& model, std::span<const PrimitiveReport> reports, const GenerateOptions& options);
 
-/// Puts them in. An image that is something else as well, such as a base colour, stays, and the normal maps get one of
-/// their own. Files beside the document are never changed: the output has new ones.
+/// Writes the new images into the document. An image with other uses, such as a base color, is kept, and normal maps
+/// get a new image. Files referenced by the document are never changed: the output has new files.
 void applyFlips(Document& document, Editor& editor, const OutputTarget& target, MapFlips&& flips);
 
 }  // namespace tspace::gltf

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The parts of GenerateOptions and PrimitiveReport that belong to computeFrames.
+// Conversions between GenerateOptions and PrimitiveReport and the types of computeFrames.
 #include "commands/generate/frames_call.h"
 
 namespace tspace {

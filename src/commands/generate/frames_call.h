@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What generate passes to computeFrames, and takes from its reports; the names of what was done.
+// Conversions between the options and reports of generate and those of computeFrames, and names of actions.
 #pragma once
 
 #include "core/mesh/pools/primitive.h"
@@ -7,13 +7,13 @@
 
 namespace tspace {
 
-/// The options that computing frames needs, without `execution` and `progress`, which differ from call to call.
+/// Returns the options of computeFrames, without `execution` and `progress`, which differ between calls.
 FramesOptions framesOptions(const GenerateOptions& options);
 
-/// Copies everything that computeFrames reports.
+/// Copies all results that computeFrames reports.
 void copyReport(const FramesReport& computed, PrimitiveReport& report);
 
-/// Copies the counts that hold for tangents that stay: signs that targets flip, and faults of the triangles.
+/// Copies only the counts that are valid for kept tangents: signs that morph targets flip, and faults of the triangles.
 void copyReportOfKept(const FramesReport& computed, PrimitiveReport& report);
 
 }  // namespace tspace

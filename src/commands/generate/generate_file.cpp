@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// generateFile and generateModel: find out what the input is and hand it to its reader. The report as JSON.
+// generateFile and generateModel: determine the input format and call its pipeline. The report as JSON.
 #include "commands/generate/generate_model.h"
 
 #include "commands/generate/generate_report.h"
@@ -16,7 +16,7 @@
 namespace tspace {
 namespace {
 
-/// Why maps are not converted with these options; empty: they are, or are not to be.
+/// Returns why maps cannot be converted with these options; empty: they can, or conversion was not requested.
 std::string whyMapsUnchanged(const std::string& input, const GenerateOptions& options) {
     if (!options.maps.convert) return {};
     if (options.normals.overwrite)
@@ -51,7 +51,8 @@ void checkOptions(const std::string& input, const GenerateOptions& options) {
     if (const std::string why = whyMapsUnchanged(input, options); !why.empty()) refuse(why);
 }
 
-/// An OBJ file has no magic word, so only its name tells it; everything else is read as glTF and refused there.
+/// OBJ files have no signature, so they are recognized by name. All other files are read as glTF, which rejects
+/// unsupported formats.
 bool isObj(const std::string& input) { return lowerExtension(input) == ".obj"; }
 
 Result<GenerateReport> generateAny(const std::string& input, const std::string& output, const GenerateOptions& options,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The glTF pipeline: read, decide, compute pool by pool and put the frames in, write.
+// The glTF pipeline: reads the model, decides what to do, computes pool by pool, stores the frames, and writes the
+// output.
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -24,17 +25,17 @@
 namespace tspace::gltf {
 namespace {
 
-/// Pools are computed together up to this many corners for each thread: enough to do, and not too much that waits in
-/// memory for its turn to be written.
+/// Maximum corners per thread of pools that are computed together: enough to occupy the threads, but limits the memory
+/// of results that wait to be stored.
 constexpr std::size_t kCornersPerThread = 500'000;
 
 void tell(const GenerateOptions& options, const char* what, std::uint64_t done, std::uint64_t total) {
     if (options.progress) options.progress(what, done, total);
 }
 
-/// How many of the pools, one at least, are computed together. What becomes of them waits in memory too, for those
-/// before it to be stored: hence some more than the work itself, and twice as much for several. Fails with tooLarge
-/// where the first alone is too much.
+/// Returns how many of the pools are computed together; at least one. Results need memory until they are stored in
+/// order, so slightly more than the working memory must be available, and twice as much for several pools. Fails with
+/// tooLarge if the first pool alone needs too much.
 std::size_t countTogether(std::span<const PoolPlan> pools, const Document& document,
                           std::span<const Primitive> primitives, const Execution& execution) {
     document.memory->require(pools[0].workBytes() / 4 * 5, primitives[pools[0].primitives[0]].place());
@@ -50,7 +51,7 @@ std::size_t countTogether(std::span<const PoolPlan> pools, const Document& docum
     return count;
 }
 
-/// Bitangents go with tangents that were computed; says where there are none.
+/// Bitangents are only written together with computed tangents; notes primitives that get none.
 void noteMissingBitangents(std::span<const Primitive> primitives, std::span<PrimitiveReport> reports) {
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         if (reports[i].action != PrimitiveAction::kept || primitives[i].find("_BITANGENT")) continue;
@@ -60,19 +61,19 @@ void noteMissingBitangents(std::span<const Primitive> primitives, std::span<Prim
     }
 }
 
-/// A model that was read, and where it goes.
+/// A model that was read, and the output target.
 struct Input {
     Model model;
     OutputTarget target = {};
     GenerateOptions options = {};  ///< options, adapted to this model
-    bool is_converted = false;     ///< the output is of another container or format, whatever is edited
+    bool is_converted = false;     ///< the output has another container or format, even without edits
 };
 
-/// Fails where the model cannot become that output.
+/// Fails if the model cannot be written to that output.
 Input toInput(Model&& model, const Path& output, bool is_stream, const GenerateOptions& requested) {
     Document& document = model.document();
     Input input{std::move(model), outputTarget(document, output, is_stream), requested};
-    // Other formats leave open whose conventions their tangents follow: only those stay that are right in glTF.
+    // The tangent convention of other formats is unknown, so tangents are kept only if they are correct in glTF.
     if (document.imported && requested.selection.existing == ExistingTangents::keep)
         input.options.selection.existing = ExistingTangents::repair;
     input.is_converted = input.target.container != document.container || document.imported;
@@ -80,14 +81,14 @@ Input toInput(Model&& model, const Path& output, bool is_stream, const GenerateO
     return input;
 }
 
-/// How geometry lies in the document when it is edited.
+/// Describes how geometry is stored in the document during editing.
 struct Storage {
-    std::string new_file = {};  ///< the buffer file that new data go into when there is no better place
-    bool is_unpacked = false;   ///< it is no longer compressed as it was
-    bool lost_packing = false;  ///< packed frames with a wrong count went
+    std::string new_file = {};  ///< buffer file for new data that have no better location
+    bool is_unpacked = false;   ///< geometry was decompressed or unpacked
+    bool lost_packing = false;  ///< packed frames with a wrong count were removed
 };
 
-/// Takes away what is made anew whatever it says, and unpacks geometry that is to be stored in another way.
+/// Removes packed frames that will be replaced, and unpacks geometry that will be stored differently.
 Storage prepareStorage(Input& input, std::vector<std::string>& warnings) {
     Document& document = input.model.document();
     Storage storage{.lost_packing = removeMiscounted(document, input.model.primitives(), input.options.storage.pack)};
@@ -103,8 +104,8 @@ Storage prepareStorage(Input& input, std::vector<std::string>& warnings) {
 struct Decisions {
     GeneratePlan plan = {};
     MapFlips flips = {};
-    std::optional<MapConversion> maps = {};             ///< has seen what the old tangents show
-    std::vector<std::vector<std::size_t>> broken = {};  ///< primitives of each TANGENT whose values are mended
+    std::optional<MapConversion> maps = {};             ///< holds the appearance with the old tangents
+    std::vector<std::vector<std::size_t>> broken = {};  ///< primitives of each TANGENT whose values are repaired
     bool has_unreadable_tangents = false;
 
     [[nodiscard]] bool changeGeometryOrMaps() const {
@@ -113,8 +114,9 @@ struct Decisions {
     }
 };
 
-/// The plan comes first and repair narrows it down; all others follow what the plan says then. Arrays that were decoded to
-/// look at are let go at the end: pools mostly read the file's own bytes, and all arrays together may be larger than they.
+/// Makes the plan first, then narrows it down to repairs; the other decisions depend on the plan. Frees decoded arrays
+/// at the end: pools mostly read the file's bytes in place, and all decoded arrays together may be larger than the
+/// file.
 Decisions decide(Model& model, const GenerateOptions& options, const NormalWishes& wishes,
                  std::vector<std::string>& warnings) {
     Decisions decisions{.plan = planGenerate(model.document(), model.primitives(), options, wishes)};
@@ -134,7 +136,7 @@ Decisions decide(Model& model, const GenerateOptions& options, const NormalWishe
     return decisions;
 }
 
-/// Computes pools and puts their frames in, in turns, so that frames of few pools at a time wait in memory.
+/// Computes pools and stores their frames in turns, so that the frames of only a few pools need memory at a time.
 void computeAndApply(Input& input, Decisions& decisions, Editor& editor, std::vector<std::string>& warnings) {
     Document& document = input.model.document();
     const std::span<const Primitive> primitives = input.model.primitives();
@@ -157,13 +159,13 @@ void computeAndApply(Input& input, Decisions& decisions, Editor& editor, std::ve
         }
     }
     tell(input.options, "computing tangents", total, total);
-    // Runs after the new frames, whose accessors it does not touch, and before tangents are removed: notes appear in this
+    // Runs after new frames are stored, in other accessors, and before tangents are removed, so that notes have this
     // order.
     mendBrokenValues(editor, document, primitives, decisions.broken, plan.reports);
     for (std::string& warning : numbers.warnings()) warnings.push_back(std::move(warning));
 }
 
-/// Carries the decisions out. Fills the report but for its files.
+/// Executes the decisions. Fills the report except for its files.
 WorkedOn edit(Input& input, const Storage& storage, Decisions&& decisions, GenerateReport& report) {
     Document& document = input.model.document();
     const GenerateOptions& options = input.options;
@@ -195,8 +197,8 @@ WorkedOn edit(Input& input, const Storage& storage, Decisions&& decisions, Gener
             .compression = storage.is_unpacked || is_packed};
 }
 
-/// Turns triangles where that is asked for. Returns whether any were, and the container then is that of the output.
-/// `is_converted`: it is already.
+/// Flips triangles if requested. Returns whether any were flipped; then the container is already that of the output.
+/// `is_converted`: the container was converted before.
 bool turnWrong(Input& input, const Storage& storage, std::span<const std::uint32_t> kept, bool is_converted,
                WindingPlan& plan, std::vector<std::string>& warnings) {
     if (!input.options.mend_winding) return false;
@@ -210,8 +212,8 @@ bool turnWrong(Input& input, const Storage& storage, std::span<const std::uint32
     return true;
 }
 
-/// Repairs attributes where that is asked for. Returns whether any were, and the container then is that of the output.
-/// Primitives that lost their normals get new ones.
+/// Repairs attributes if requested. Returns whether any were repaired; then the container is already that of the
+/// output. Primitives that lost their normals get new ones.
 bool repairFaults(Input& input, const Storage& storage, bool is_asked_for, NormalWishes& wishes,
                   std::vector<std::string>& warnings) {
     const GenerateOptions& options = input.options;
@@ -231,7 +233,7 @@ bool repairFaults(Input& input, const Storage& storage, bool is_asked_for, Norma
     return true;
 }
 
-/// Writes unit normals where a repair finds others. Returns whether it found any.
+/// Normalizes normals of other lengths if tangents are repaired. Returns whether there were any.
 bool mendNormalLengths(Input& input, const Storage& storage, std::vector<std::string>& warnings) {
     const auto is_scaled = [](const Primitive& primitive) { return primitive.normal_scales != nullptr; };
     const std::vector<Primitive>& primitives = input.model.primitives();
@@ -245,7 +247,7 @@ bool mendNormalLengths(Input& input, const Storage& storage, std::vector<std::st
     return true;
 }
 
-/// The warning about normals of other lengths says that the output has none, where that is so.
+/// Completes the warning about normals with other lengths if the output has only unit normals.
 void noteUnitNormals(std::span<const std::size_t> scaled, bool were_mended, GenerateReport& report) {
     const bool are_unit = were_mended || std::all_of(scaled.begin(), scaled.end(), [&](std::size_t number) {
                               return report.primitives[number].normals_generated;
@@ -256,7 +258,7 @@ void noteUnitNormals(std::span<const std::size_t> scaled, bool were_mended, Gene
     }
 }
 
-/// All but reading and writing.
+/// Performs all steps except reading and writing.
 WorkedOn generate(Input& input, bool with_images, const GenerateStep& step, GenerateReport& report) {
     Document& document = input.model.document();
     std::vector<std::size_t> scaled;
@@ -291,7 +293,7 @@ WorkedOn generate(Input& input, bool with_images, const GenerateStep& step, Gene
     return worked_on;
 }
 
-/// Names the files in the report.
+/// Adds the file names to the report.
 void tellFiles(const std::string& input, const Document& document, const AtomicOutput& files, GenerateReport& report) {
     report.input_files = {input};
     for (const std::vector<std::string>& more : {document.input_files, files.sources()}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Generating in memory, and generateFile for each format of input: read, decide, compute, edit, write.
+// Generating in memory, and generateFile for each input format.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@
 
 namespace tspace {
 
-/// Generating as a step of another command: of its options none is said to have had no effect.
+/// Settings of generate as a step of another command. A step does not warn about options without effect.
 struct GenerateStep {
-    gltf::NormalWishes normals = {};  ///< normals to recompute; not for OBJ
+    gltf::NormalWishes normals = {};  ///< normals to recompute; ignored for OBJ
     std::vector<std::uint32_t> wound_meshes =
-        {};  ///< meshes that GenerateOptions::mend_winding leaves alone; not for OBJ
-    /// Attributes of a wrong type or number are repaired, which generate does for some options alone.
+        {};  ///< meshes that GenerateOptions::mend_winding does not change; ignored for OBJ
+    /// Repairs attributes with a wrong type or element count; otherwise generate repairs them only with some options.
     bool repairs_attributes = false;
 };
 
@@ -26,18 +26,19 @@ struct GenerateStep {
 
 namespace tspace::gltf {
 
-/// A model whose frames were generated in memory, and what was done. No file is written, and the report names none.
+/// A model whose frames were generated in memory, with the report. No file is written, and the report names none.
 struct GeneratedModel {
     Model model;
     GenerateReport report = {};
 };
 
-/// Generates what a GLB would hold, and gives the model as a reader of that GLB would get it. `with_images`: it takes them in
-/// as a GLB does. GenerateOptions::sink and dry_run mean nothing. Throws FileError.
+/// Generates the contents of a GLB, and returns the model as if it were read from that GLB. `with_images`: embeds the
+/// images, as in a GLB. Ignores GenerateOptions::sink and dry_run. Throws FileError.
 GeneratedModel generateModel(Model&& input, const GenerateOptions& options, bool with_images,
                              const GenerateStep& step = {});
 
-/// generateFile for glTF inputs, and for what the importer makes of other formats. `step`: null for a command of its own.
+/// generateFile for glTF inputs, and for formats that the importer converts to glTF. `step`: null if generate itself is
+/// the command.
 Result<GenerateReport> generateGltf(const std::string& input, const std::string& output, const GenerateOptions& options,
                                     const GenerateStep* step);
 
@@ -45,15 +46,15 @@ Result<GenerateReport> generateGltf(const std::string& input, const std::string&
 
 namespace tspace {
 
-/// Like the overload above, for a model file of any format.
+/// Generates in memory like gltf::generateModel, from a model file of any format.
 gltf::GeneratedModel generateModel(const std::string& input, const GenerateOptions& options, bool with_images,
                                    const GenerateStep& step = {});
 
-/// generateFile as a step.
+/// generateFile as a step of another command.
 Result<GenerateReport> generateStep(const std::string& input, const std::string& output, const GenerateOptions& options,
                                     const GenerateStep& step);
 
-/// generateFile for an OBJ input; `output` is a .glb or .gltf.
+/// generateFile for an OBJ input; `output` is a .glb or .gltf file.
 Result<GenerateReport> generateObj(const std::string& input, const std::string& output, const GenerateOptions& options,
                                    const GenerateStep* step);
 /// generateModel for an OBJ input. Throws FileError.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From an OBJ file, with its normal maps, to the glTF document that is made of it.
+// The OBJ pipeline: converts an OBJ file and its normal maps to a glTF document.
 #include <algorithm>
 #include <span>
 #include <utility>
@@ -29,7 +29,7 @@
 namespace tspace::obj {
 namespace {
 
-// Normal maps of an OBJ file on their way into glTF: height maps, mended and inverted ones.
+// Normal maps of an OBJ file: converts height maps, and repairs and inverts normal maps.
 
 void skipHeightMap(Material& material, const std::string& why, Model& model) {
     model.warnings.push_back("the height map '" + material.normal_texture.file +
@@ -38,7 +38,7 @@ void skipHeightMap(Material& material, const std::string& why, Model& model) {
     material.normal_scale = 1;
 }
 
-/// A grey map_bump becomes a normal map; others are normal maps. `image`: of the scene.
+/// Converts a gray map_bump to a normal map; other images are already normal maps. `image`: index in the scene.
 void convertHeightMap(const Scene& scene, std::size_t image, const GenerateOptions& options, Material& material,
                       Model& model, std::vector<NormalMapReport>& reports) {
     const auto number = static_cast<std::size_t>(&material - model.materials.data());
@@ -75,10 +75,10 @@ void convertHeights(const Scene& scene, const GenerateOptions& options, Model& m
     }
 }
 
-/// Makes normal maps of grey images that materials name as `map_bump`, with the frames of their faces and the factor -bm
-/// as strength in units of the model. What cannot be one is taken from its material, with a warning in the model. Then
-/// mends and inverts others, as is asked for; all tangents are new, so none are made for a green that points down. The
-/// primitives have their normals. Throws FileError.
+/// Converts gray images that materials reference as `map_bump` to normal maps, using the frames of their faces and the
+/// factor -bm as strength in model units. An image that cannot be converted is removed from its material, with a
+/// warning in the model. Then repairs and inverts other maps, if requested; because all tangents are new, none are made
+/// for a green that points down. The primitives must have normals. Throws FileError.
 std::vector<NormalMapReport> prepareMaps(std::span<const ObjPrimitive> primitives, const GenerateOptions& options,
                                          Model& model) {
     std::vector<NormalMapReport> reports;
@@ -136,7 +136,7 @@ void checkOutput(const std::string& output) {
     if (!isGltfName(output) && !isGlbOutput(output)) failEnding(output, {".glb", ".vrm", ".gltf"});
 }
 
-/// Sets action and reason. true when tangents are to be computed.
+/// Sets action and reason. Returns true if tangents are to be computed.
 bool decide(const Material& material, const ObjPrimitive& primitive, const GenerateOptions& options,
             PrimitiveReport& report) {
     const bool needed = material.normal_texture.used();
@@ -156,7 +156,7 @@ bool decide(const Material& material, const ObjPrimitive& primitive, const Gener
     return false;
 }
 
-/// Makes the frames, with triangles for polygons.
+/// Computes the frames and triangulates polygons.
 void makeObjFrames(const GenerateOptions& options, FinishedPrimitive& finished, PrimitiveReport& report) {
     OwnedMesh& mesh = finished.mesh;
     const PrimitiveGeometry polygons{.indices = std::move(mesh.indices), .face_sizes = std::move(mesh.face_sizes)};
@@ -185,7 +185,7 @@ void cutPolygons(OwnedMesh& mesh, PrimitiveReport& report) {
     report.vertices_before = report.vertices_after = mesh.positions.size();
 }
 
-/// Packs the frames as they are written, and takes away what is to go.
+/// Packs the frames as they are written, and removes the attributes that PackDrop selects.
 void packWritten(const GenerateOptions& options, FinishedPrimitive& finished, PrimitiveReport& report) {
     OwnedMesh& mesh = finished.mesh;
     if (mesh.tangents.empty()) {
@@ -210,7 +210,7 @@ void tell(const GenerateOptions& options, const char* what, std::uint64_t done, 
     if (options.progress) options.progress(what, done, total);
 }
 
-/// `replaced`: its normals were there.
+/// Returns the primitive with all computed attributes. `replaced`: it had normals, which were recomputed.
 FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool replaced,
                          const GenerateOptions& options, PrimitiveReport& report) {
     const Material& material = model.materials[primitive.material];
@@ -221,7 +221,7 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool
         .shape = primitive.shape, .material = primitive.material, .mesh = buildMesh(model, primitive)};
     OwnedMesh& mesh = finished.mesh;
     tell(options, "computing tangents", 0, 0);
-    // Before tangents are computed: they belong to the normals that are written.
+    // Rounded before tangents are computed, because tangents must match the written normals.
     if (primitive.normals_generated) roundUnits(mesh.normals, options.storage.format);
     if (decide(material, primitive, options, report)) {
         makeObjFrames(options, finished, report);
@@ -232,7 +232,7 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool
     report.normals_generated = primitive.normals_generated;
     report.normals_replaced = replaced;
     if (primitive.normals_generated) {
-        FramesReport faults;  // OBJ has no morph targets, so no sign of one flips
+        FramesReport faults;  // OBJ has no morph targets, so no sign flips
         countFaults(mesh.positions, mesh.normals, {&mesh.indices, 1}, options.normals.compute.weld_distance,
                     {&faults, 1});
         copyReportOfKept(faults, report);
@@ -243,13 +243,13 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool
     return finished;
 }
 
-/// glTF document made from an OBJ file, and the data that only the writer needs.
+/// A glTF document made from an OBJ file, and which options had an effect.
 struct Made {
     gltf::Document document = {};
     WorkedOn worked_on = {};
 };
 
-/// Fills the report but for what writing tells.
+/// Fills the report, except for what the writer adds.
 Made generate(const std::string& input, const std::string& output, const GenerateOptions& options,
               GenerateReport& report) {
     if (options.storage.compression == Compression::meshopt || options.storage.compression == Compression::draco) {
@@ -284,8 +284,8 @@ Made generate(const std::string& input, const std::string& output, const Generat
             if (!turned.empty() && turned[face] != 0) listTurned(face, entry);
         }
         entry.primitive = next_in_mesh[primitive.shape]++;
-        // Normals are made for the whole file at once: the counts stand with the first primitive that got
-        // some.
+        // Normals are computed for the whole file at once: the first primitive with computed normals reports the
+        // counts.
         if (primitive.normals_generated) entry.normals = std::exchange(normals, {});
     }
     tell(options, "writing", 0, 1);
@@ -311,7 +311,7 @@ GenerateReport generateToFile(const std::string& input, const std::string& outpu
     GenerateOptions options = requested;
     inputs.watch(options.file);
     Made made = generate(input, output, options, report);
-    // All files that it references are in the destination folder, so none is copied.
+    // All referenced files are in the destination folder, so none is copied.
     const gltf::OutputTarget target{.path = output, .container = made.document.container, .same_folder = true};
     gltf::writeGenerated(input, made.document, target, requested, made.worked_on, inputs, is_step, report);
     return report;
