@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What an output is like and how its frames are made: each option, its meaning, its unit and its default stand here and
-// nowhere else.
+// Options for the output and the computation of frames. The meaning, unit and default of each option are defined only
+// here.
 #include <optional>
 
 #include "commands/shared/file_options.h"
@@ -159,7 +159,7 @@ void addPackOptions(OptionList& list, GenerateOptions& options) {
         .needs = "--pack";
 }
 
-/// There is one answer alone, and a sentence why.
+/// The only accepted value is `keep`; the error message for uastc names alternatives.
 Option compressMapsOption() {
     const auto take = [](const std::string& how) {
         return how == "uastc"

@@ -32,7 +32,7 @@ bool hasUsableTangents(const Primitive& primitive) {
     return primitive.find("TANGENT").has_value() && primitive.find("NORMAL").has_value();
 }
 
-/// "its material", as a reason begins.
+/// Returns the start of a reason, such as "its material needs tangents for ...".
 std::string needWords(const TangentUse& use) {
     return std::string(use.only_in_variant ? "a material variant" : "its material") + " needs tangents for " +
            use.needed_by;
@@ -49,7 +49,8 @@ bool hasSurface(const Primitive& primitive) {
     return hasTriangles(primitive.mode) && primitive.find("POSITION") && primitive.triangleCount() != 0;
 }
 
-/// Whether its normals are made anew, and so are the tangents that it has: they would not fit.
+/// Returns whether the primitive's normals are recomputed. Then its tangents are recomputed too, because they would not
+/// fit the new normals.
 bool regeneratesNormals(PrimitiveReport& report, const Document& document, const Primitive& primitive,
                         const std::vector<TangentUse>& uses, const GenerateOptions& options, bool is_requested) {
     if (!options.normals.overwrite && !is_requested) return false;
@@ -63,7 +64,7 @@ bool regeneratesNormals(PrimitiveReport& report, const Document& document, const
     return false;
 }
 
-/// Whether a target leaves normals as they are, or makes some NaN or infinite.
+/// Returns whether a target does not change the normals, or makes some of them NaN or infinite.
 bool lacksNormals(const Document& document, const Primitive& primitive, std::size_t target) {
     if (!findAttribute(primitive.targets[target], "NORMAL")) return true;
     const std::vector<Vec3> offsets = readOffsets(document, primitive, target, "NORMAL");
@@ -72,7 +73,7 @@ bool lacksNormals(const Document& document, const Primitive& primitive, std::siz
            !std::all_of(offsets.begin(), offsets.end(), is_finite);
 }
 
-/// Targets that get new offsets of normals that stay; empty: none does.
+/// Returns the targets that get new normal offsets although the base normals are kept; empty: none.
 std::vector<bool> morphNormals(const Document& document, const Primitive& primitive, MorphNormals which) {
     std::vector<bool> targets;
     if (which == MorphNormals::keep || !hasSurface(primitive) || !primitive.find("NORMAL")) return targets;
@@ -84,13 +85,13 @@ std::vector<bool> morphNormals(const Document& document, const Primitive& primit
     return targets;
 }
 
-/// Computations other than tangents.
+/// Planned computations of normals.
 struct NormalsPlan {
     bool anew = false;
     std::vector<bool> morphs = {};
 };
 
-/// Whether nothing is to be computed because nobody asks for it. Fills action and reason then.
+/// Returns whether nothing is computed because it is not needed or not possible. If so, fills action and reason.
 bool isSkipped(PrimitiveReport& report, const Document& document, const Primitive& primitive,
                const std::vector<TangentUse>& uses, const GenerateOptions& options, const NormalsPlan& normals) {
     const bool follows = normals.anew && primitive.find("TANGENT") && !shouldStripTangents(primitive, uses, options);
@@ -120,8 +121,8 @@ bool isSkipped(PrimitiveReport& report, const Document& document, const Primitiv
 
 constexpr const char* kKeptReason = "it has tangents, and overwriting was not requested";
 
-/// Fills action and reason. Returns true when tangents are to be computed; the action is then known only
-/// later, unless they are kept and only deltas of morph targets are computed.
+/// Fills action and reason. Returns true if tangents are to be computed; then the action is set later, unless the
+/// tangents are kept and only deltas of morph targets are computed.
 bool decide(PrimitiveReport& report, const Document& document, const Primitive& primitive,
             const std::vector<TangentUse>& uses, const GenerateOptions& options, const NormalsPlan& normals) {
     const auto leave = [&](PrimitiveAction action, std::string reason) {
@@ -130,7 +131,7 @@ bool decide(PrimitiveReport& report, const Document& document, const Primitive& 
         return false;
     };
     if (isSkipped(report, document, primitive, uses, options, normals)) return false;
-    // Recomputed frames would be less exact than the packed ones, so these stay.
+    // Recomputed frames would be less exact than the packed frames, so the packed frames are kept.
     const bool can_overwrite = primitive.find("NORMAL") && options.selection.existing == ExistingTangents::replace;
     if (const std::string packed = can_overwrite ? "" : packedAlone(document, primitive); !packed.empty())
         return leave(PrimitiveAction::kept, "its frames are packed in " + packed);
@@ -167,8 +168,8 @@ bool decide(PrimitiveReport& report, const Document& document, const Primitive& 
     return true;
 }
 
-/// A note where computed tangents take the place of some that no texture is read with: somebody may have drawn them.
-/// Empty: there are none such.
+/// Returns a note if computed tangents replace tangents that no texture uses, because these may be authored; otherwise
+/// empty.
 std::string noteOnDrawn(const Document& document, const Primitive& primitive, const std::vector<TangentUse>& uses,
                         bool along_u) {
     if (std::any_of(uses.begin(), uses.end(), [](const TangentUse& use) { return use.has_texture; })) return {};
@@ -178,13 +179,13 @@ std::string noteOnDrawn(const Document& document, const Primitive& primitive, co
     return "tangents that may be authored (" + reader + ") were recomputed" + (along_u ? " along u" : "");
 }
 
-/// Two primitives with the same key are computed together.
+/// Primitives with equal keys are computed together.
 std::string poolKey(const Primitive& primitive, std::int32_t uv_set, const UvMatrix& matrix, bool makes_tangents,
                     bool overwrites_normals) {
     std::string key = std::to_string(uv_set) + (makes_tangents ? "" : "without") + (overwrites_normals ? "anew" : "");
     for (const double entry : {matrix.uu, matrix.uv, matrix.vu, matrix.vv})
         key += ',' + std::to_string(std::bit_cast<std::uint64_t>(entry));
-    // Plain triangles without indices need no split, so no other primitive may force one on them.
+    // Triangle lists without indices need no split, so no other primitive may cause one.
     key += !primitive.indices && primitive.mode == Mode::triangles ? "n|" : "i|";
     return key + vertexKey(primitive);
 }
@@ -285,14 +286,14 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
     return plan;
 }
 
-// Mesh by mesh: all of its triangles are read, but only what is near a border is kept.
+// Processes meshes one by one: reads all triangles of a mesh, but keeps only those near a border.
 
 namespace {
 
-/// Approximate temporary memory of reading and joining.
+/// Approximate temporary memory for reading and joining.
 constexpr std::uint64_t kBytesPerVertex = 48, kBytesPerCorner = 40;
 
-/// A vertex around a geometry: whose it is, and which.
+/// A vertex near a geometry: its piece, and its index in that piece.
 struct NearVertex {
     std::uint32_t piece = 0, vertex = 0;
 
@@ -307,7 +308,7 @@ class MeshPieces {
           arrays_(model.arrays()),
           primitives_(model.primitives()),
           numbers_(std::move(numbers)) {
-        std::map<std::size_t, std::size_t> list_of;  // POSITION -> number of its vertex list
+        std::map<std::size_t, std::size_t> list_of;  // POSITION -> index of its vertex list
         for (const std::size_t number : numbers_) {
             const Primitive& primitive = primitives_[number];
             document_.memory->require(
@@ -323,7 +324,8 @@ class MeshPieces {
         joined_ = std::make_unique<JoinedPieces>(vertex_spans_, pieces_, weld_distance);
     }
 
-    /// Null where no other is one surface with it. `makes_normals`: per primitive of the document.
+    /// Returns the triangles around a piece, or null if no other piece forms one surface with it. `makes_normals`: one
+    /// per primitive of the document.
     [[nodiscard]] std::shared_ptr<const Surroundings> around(std::uint32_t piece, unsigned rings,
                                                              const std::vector<bool>& makes_normals) const {
         const std::vector<PieceTriangle> triangles = joined_->around(piece, rings);
@@ -344,7 +346,7 @@ class MeshPieces {
         for (const NearVertex& source : sources)
             result->mesh.positions.push_back(vertices_[lists_[source.piece]][source.vertex]);
         takeNormals(sources, makes_normals, result->mesh.normals);
-        // Both directions of the budget's books: what stays is small beside the mesh.
+        // The surroundings stay in memory until normals are computed; they are small compared with the mesh.
         document_.memory->take(64 * sources.size() + 12 * triangles.size(), primitives_[numbers_[piece]].place());
         result->read = offsetsOf(std::move(sources));
         return result;
@@ -352,10 +354,10 @@ class MeshPieces {
 
     [[nodiscard]] std::size_t othersOf(std::uint32_t piece) const { return joined_->othersOf(piece); }
     struct OtherMesh {
-        std::size_t primitive = 0;  ///< index of the primitive in that mesh, the first at the border
+        std::size_t primitive = 0;  ///< index of the primitive in the other mesh that is first at the border
         std::set<std::uint32_t> points = {};
     };
-    /// The other meshes that a piece forms one surface with, and the points that both have: by piece and mesh.
+    /// Returns the other meshes that form one surface with a piece, and the shared points, by piece and mesh.
     [[nodiscard]] std::map<std::pair<std::uint32_t, std::uint32_t>, OtherMesh> otherMeshes() const {
         std::map<std::pair<std::uint32_t, std::uint32_t>, OtherMesh> others;
         for (const JoinedPieces::Border& border : joined_->borders()) {
@@ -370,7 +372,7 @@ class MeshPieces {
         }
         return others;
     }
-    /// Whether another one of its surface keeps its normals.
+    /// Returns whether any other piece of the same surface keeps its normals.
     [[nodiscard]] bool anyKeeps(std::uint32_t piece, const std::vector<bool>& makes_normals) const {
         for (std::uint32_t other = 0; other < numbers_.size(); ++other) {
             if (other != piece && joined_->areJoined(piece, other) && keeps(other, makes_normals)) return true;
@@ -385,7 +387,7 @@ class MeshPieces {
 
     void takeNormals(const std::vector<NearVertex>& sources, const std::vector<bool>& makes_normals,
                      std::vector<Vec3>& result) const {
-        std::map<std::uint32_t, SharedArray<Vec3>> normals;  // normals of pieces that keep theirs
+        std::map<std::uint32_t, SharedArray<Vec3>> normals;  // normals of pieces that keep them
         for (std::size_t i = 0; i < sources.size(); ++i) {
             const auto [piece, vertex] = sources[i];
             if (!keeps(piece, makes_normals)) continue;
@@ -396,7 +398,7 @@ class MeshPieces {
         }
     }
 
-    /// Offsets of targets for these vertices. The result does not depend on this object.
+    /// Returns a function that reads the morph offsets at these vertices. The function may outlive this object.
     [[nodiscard]] std::function<Result<MorphOffsets>(std::size_t)> offsetsOf(std::vector<NearVertex> sources) const {
         std::vector<const Primitive*> of_pieces;
         bool any = false;
@@ -433,10 +435,10 @@ class MeshPieces {
     const Document& document_;
     DecodedArrays& arrays_;
     std::span<const Primitive> primitives_;
-    std::vector<std::size_t> numbers_;  ///< numbers of the primitives
+    std::vector<std::size_t> numbers_;  ///< indices of the primitives
     std::vector<SharedArray<Vec3>> vertices_ = {};
     std::vector<std::span<const Vec3>> vertex_spans_ = {};
-    std::vector<std::size_t> lists_ = {};  ///< per piece
+    std::vector<std::size_t> lists_ = {};  ///< vertex list of each piece
     std::vector<SharedArray<std::uint32_t>> corners_ = {};
     std::vector<SurfacePiece> pieces_ = {};
     std::unique_ptr<JoinedPieces> joined_;
@@ -458,7 +460,8 @@ std::string noteOf(const Primitive& other, std::size_t points) {
            "intended";
 }
 
-/// The primitives with triangles, by where nodes put them. Each stands at its first place.
+/// Groups primitives with triangles by their world transform. A primitive with several placements is only in the group
+/// of the first.
 std::vector<std::vector<std::size_t>> primitivesByPlace(const Document& document,
                                                         std::span<const Primitive> primitives) {
     std::vector<ScenePlacement> placements;
@@ -483,7 +486,7 @@ std::vector<std::vector<std::size_t>> primitivesByPlace(const Document& document
     return groups;
 }
 
-/// Notes primitives whose normals are made, and that form one surface with another mesh.
+/// Adds notes to primitives with computed normals that form one surface with another mesh.
 void noteOtherMeshes(Model& model, const GenerateOptions& options, const std::vector<bool>& makes_normals,
                      GeneratePlan& plan) {
     constexpr std::size_t kMostNotes = 4;
@@ -510,8 +513,8 @@ void noteOtherMeshes(Model& model, const GenerateOptions& options, const std::ve
     }
 }
 
-/// How far a normal looks. A step of `best` looks one triangle further, and what removes noise through three rings, over
-/// which it averages eight times what it found; so far away it does not count any more.
+/// Returns the number of triangle rings that influence a normal. Each refinement step of `best` adds one ring;
+/// denoising adds eight, beyond which its weights are negligible.
 unsigned ringsAround(const NormalOptions& options) {
     if (options.weighting != NormalWeighting::best) return 1;
     return options.refine + (options.denoise == 0 ? 1 : 8);
@@ -523,7 +526,7 @@ void planSurroundings(Model& model, const GenerateOptions& options, GeneratePlan
     if (options.normals.per_primitive || options.normals.compute.weighting == NormalWeighting::flat) return;
     const std::span<const Primitive> primitives = model.primitives();
     std::vector<bool> makes_normals(primitives.size(), false);
-    std::map<std::size_t, GeometryPlan*> geometry_of;  // first primitive -> its geometry
+    std::map<std::size_t, GeometryPlan*> geometry_of;  // first primitive of a geometry -> geometry
     for (PoolPlan& pool : plan.pools) {
         if (pool.has_normals) continue;
         for (const std::size_t number : pool.primitives) makes_normals[number] = true;

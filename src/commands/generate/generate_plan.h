@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What to do with each primitive of a glTF file, and which primitives are computed together.
+// Decides what to do with each primitive of a glTF file, and which primitives are computed together.
 #pragma once
 
 #include <cstddef>
@@ -23,39 +23,40 @@ struct Surroundings;
 
 namespace tspace::gltf {
 
-/// Primitives that draw the same triangles of one pool: computed once.
+/// Primitives that draw the same triangles of one pool; they are computed once.
 struct GeometryPlan {
-    std::vector<std::size_t> primitives = {};         ///< numbers into the list of primitives; never empty
+    std::vector<std::size_t> primitives = {};         ///< indices of primitives; never empty
     Mends mends = {};                                 ///< faults of the existing tangents
     std::shared_ptr<const Surroundings> around = {};  ///< see PrimitiveGeometry::around
 };
 
-/// Primitives over the same attribute accessors and morph targets whose tangents follow the same UV set, turned the
-/// same way.
+/// Primitives with the same attribute accessors and morph targets, whose tangents follow the same UV set with the same
+/// texture transform.
 struct PoolPlan {
     std::vector<GeometryPlan> geometries = {};
-    std::vector<std::size_t> primitives = {};  ///< all of them, in file order
+    std::vector<std::size_t> primitives = {};  ///< all primitives of the pool, in file order
     bool uses_uvs = true;
     std::size_t uv_set = 0;
     UvMatrix uv_matrix = {};
     bool has_normals = false;
-    bool has_tangents = false;  ///< there are tangents with normals; others do not count
-    /// Normals are made anew: has_normals is false, and vertices that only frames keep apart are one.
+    bool has_tangents = false;  ///< the file has tangents with normals; tangents without normals are ignored
+    /// Normals are recomputed: has_normals is false, and vertices that differ only in their frames are welded.
     bool overwrites_normals = false;
-    bool makes_tangents = true;            ///< false: normals alone, or what targets add to them
-    bool keeps_tangents = false;           ///< they stay, and morph targets without tangent deltas get some
-    bool tries_quads = false;              ///< tangents may be computed on quads, if those that are there show it
-    bool is_blenders = false;              ///< Blender wrote the file
-    std::vector<bool> morph_normals = {};  ///< targets that get new offsets of normals that stay; empty: none
+    bool makes_tangents = true;   ///< false: only normals or normal offsets of targets are computed
+    bool keeps_tangents = false;  ///< tangents are kept; morph targets without tangent deltas get them
+    bool tries_quads = false;     ///< tangents may be computed on quads, if the existing tangents match quads
+    bool is_blenders = false;     ///< Blender wrote the file
+    /// targets that get new normal offsets although the base normals are kept; empty: none
+    std::vector<bool> morph_normals = {};
     std::uint64_t corner_count = 0;
     std::size_t vertex_count = 0;
 
-    /// The tangents that are there stay, but where the geometries say.
+    /// Existing tangents are kept, except for the repairs listed in the geometries.
     [[nodiscard]] bool mendsTangents() const {
         return !geometries.empty() && !geometries.front().mends.vertices.empty();
     }
 
-    /// Approximate memory of the computation, most of it for lists of the corners' neighbors and tangents.
+    /// Returns the approximate memory of the computation, most of it for lists of the corners' neighbors and tangents.
     [[nodiscard]] std::uint64_t workBytes() const {
         const std::uint64_t of_corner = (has_normals ? 96U : 128U) + (mendsTangents() ? 24U : 0U);
         return of_corner * corner_count + std::uint64_t{64} * vertex_count;
@@ -64,15 +65,15 @@ struct PoolPlan {
 
 struct GeneratePlan {
     std::vector<PoolPlan> pools = {};
-    std::vector<PrimitiveReport> reports = {};  ///< one per primitive; final for those in no pool
+    std::vector<PrimitiveReport> reports = {};  ///< one per primitive; final for primitives that are in no pool
     bool has_texture_transforms =
-        false;  ///< of textures that tangents follow, or would but for TextureTransform::ignore
+        false;  ///< some used texture has a transform, even if TextureTransform::ignore disables it
 };
 
-/// Whether a morph target that moves the surface leaves the tangents behind.
+/// Returns whether a morph target changes the surface but has no tangent deltas.
 bool lacksDeltas(const Primitive& primitive);
 
-/// Normals that are made whatever the options say: one per primitive in file order, or none.
+/// Normals that are recomputed regardless of the options: one entry per primitive in file order, or empty.
 struct NormalWishes {
     std::vector<bool> anew = {};    ///< like GenerateOptions::Normals::overwrite, per primitive
     std::vector<bool> morphs = {};  ///< like MorphNormals::all, per primitive
@@ -83,9 +84,9 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
 
 // Finds the primitives of a mesh that form one surface for computing normals.
 
-/// Gives the geometries whose normals are made the triangles of other primitives of their mesh that they are one surface
-/// with, and notes it in the reports. A geometry that several meshes draw gets those of the first. Nothing for flat normals,
-/// which look at no neighbours, nor with normals_per_primitive.
+/// For geometries with computed normals, adds the adjacent triangles of other primitives that form one surface with
+/// them in the same mesh, and notes it in the reports. If several meshes draw a geometry, the first mesh is used. Does
+/// nothing for flat normals, which do not depend on neighbors, or with normals_per_primitive.
 void planSurroundings(Model& model, const GenerateOptions& options, GeneratePlan& plan);
 
 }  // namespace tspace::gltf

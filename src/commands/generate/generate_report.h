@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tspace generate reports.
+// Reports of tspace generate.
 #pragma once
 
 #include <cstdint>
@@ -18,13 +18,13 @@ using GenerateOutcome = Outcome<GenerateReport>;
 
 std::string generateJson(const std::vector<GenerateOutcome>& outcomes, ExitCode exit_code, double seconds);
 
-/// JSON of one file in the report.
+/// Returns the JSON of one file in the report.
 Json generatedFileJson(const GenerateOutcome& outcome);
 
 std::string generateText(const GenerateOutcome& outcome);
-/// In one line, for one of several files.
+/// Returns a one-line report, for one of several files.
 std::string generateLine(const GenerateOutcome& outcome);
-/// Totals over several files.
+/// Returns totals over several files.
 std::string generateSummary(const std::vector<GenerateOutcome>& outcomes, double seconds);
 
 // Totals over all primitives of a file.
@@ -55,10 +55,10 @@ inline constexpr PrimitiveAction kActions[] = {
     PrimitiveAction::notNeeded, PrimitiveAction::notTriangles, PrimitiveAction::impossible, PrimitiveAction::removed,
 };
 
-/// Whether tangents of it were computed.
+/// Returns whether the action computed tangents.
 bool wasComputed(PrimitiveAction action);
 
-/// Sums of vertices over primitives: shared vertices count once.
+/// Sums vertices over primitives; shared vertices are counted once.
 class VertexTotals {
   public:
     void add(const PrimitiveReport& primitive);
@@ -71,7 +71,7 @@ class VertexTotals {
     std::set<std::uint32_t> source_lists_ = {}, split_lists_ = {};
 };
 
-/// Sums over primitives; vertices and triangles of those that were computed only.
+/// Sums over primitives; vertices and triangles only of primitives with computed tangents.
 struct Totals {
     std::uint64_t actions[std::size(kActions)] = {};
     std::uint64_t primitive_count = 0;
@@ -79,9 +79,9 @@ struct Totals {
     VertexTotals vertices = {};
     std::uint64_t normals_generated = 0, normals_replaced = 0;
     std::uint64_t morph_normals_computed = 0;
-    std::uint64_t on_quads = 0, quad_count = 0;  ///< primitives, and their quads
+    std::uint64_t on_quads = 0, quad_count = 0;  ///< number of primitives, and of their quads
     std::uint64_t bitangents_generated = 0;
-    std::uint64_t frames_packed = 0, packed_mended = 0;  ///< primitives, and their frames
+    std::uint64_t frames_packed = 0, packed_mended = 0;  ///< number of primitives, and of their repaired frames
     std::uint64_t tangents_dropped = 0, normals_dropped = 0;
     std::uint64_t morph_deltas_computed = 0;
     std::uint64_t morph_sign_flip_count = 0;

@@ -20,68 +20,72 @@
 
 namespace tspace {
 
-// GenerateOptions::mend_winding: the surfaces of a model, and which of their faces are turned.
+// GenerateOptions::mend_winding: the surfaces of a model, and which of their faces are flipped.
 
 struct WindingPlan {
     std::vector<MendedWindingReport> reports = {};
-    /// For each primitive: one entry per triangle, 1 to turn it; or empty: none.
+    /// Per primitive: one entry per triangle, 1 to flip it; or empty: no triangle is flipped.
     std::vector<std::vector<std::uint8_t>> turned = {};
 
     [[nodiscard]] bool turnsAny() const;
 };
 
-/// Of a glTF model, mesh by mesh: where nodes put a mesh, and whether they mirror it, does not matter, since viewers look
-/// at the winding in the mesh's own coordinates. `kept`: meshes that are left alone. Changes nothing.
+/// Plans the winding of a glTF model, mesh by mesh. Node transforms are ignored, even if they mirror a mesh, because
+/// viewers take the front side from the winding in mesh coordinates. `kept`: meshes to leave unchanged. Does not change
+/// the model.
 WindingPlan planWinding(gltf::Model& model, const GenerateOptions& options, std::span<const std::uint32_t> kept);
 
-/// One more face that was turned, behind those before it.
+/// Appends a flipped face to the report.
 void listTurned(std::uint64_t face, PrimitiveReport& report);
 
-/// Counts and lists the faces that were turned.
+/// Counts and lists the flipped faces in the reports.
 void countTurned(const WindingPlan& plan, std::vector<PrimitiveReport>& primitives);
 
-/// Turns the faces of an OBJ file. Returns one per face: 1 if it was turned.
+/// Flips faces of an OBJ file. Returns one entry per face: 1 if it was flipped.
 std::vector<std::uint8_t> mendObjWinding(obj::Model& model, const GenerateOptions& options, GenerateReport& report);
 
 }  // namespace tspace
 
 namespace tspace::gltf {
 
-// ExistingTangents::repair: which tangents stay, and what of the others is mended.
+// ExistingTangents::repair: which tangents are kept, and what is repaired in the others.
 
-/// Judges the tangents that are there as `check` does, normal maps included. Primitives without an error leave the plan,
-/// and their reports say so; what is wrong in the others becomes the mends of their geometries and a note in their
-/// reports. Fails as reading the primitives' attributes does.
+/// Judges the existing tangents like `check`, including normal maps. Removes primitives without an error from the plan
+/// and states this in their reports; for the others, stores the repairs in their geometries and adds a note to their
+/// reports. Fails if the attributes cannot be read.
 void planRepair(Model& model, const GenerateOptions& options, GeneratePlan& plan);
 
-// ExistingTangents::replace gives correct signs to tangents that may have rendered correctly with inverted signs, because green of
-// the normal map points down.
+// ExistingTangents::replace writes correct signs, even if tangents with inverted signs rendered correctly because green
+// of the normal map points down.
 
-/// Returns a warning where tangents with inverted signs are replaced and their normal maps stay as they are; else an empty string.
-/// Does not read images, since that takes many times as long as the tangents. Fails as reading the attributes does.
+/// Returns a warning if tangents with inverted signs are replaced and their normal maps are not inverted; otherwise
+/// empty. Does not read images, because that takes many times as long as computing the tangents. Fails if the
+/// attributes cannot be read.
 std::string warnOfInvertedSigns(Model& model, const GeneratePlan& plan, const MapFlips& flips,
                                 const GenerateOptions& options);
 
-// Tangents that stay: what the format forbids in them is mended, and nothing else.
+// Kept tangents: repairs only values that the format forbids.
 
-/// Primitives whose tangents stay and lie in one accessor, where these have values that no tangent may have
-/// (hasSoundValues) at some vertex, used by triangles or not. Tangents along N count where a material reads
-/// them: elsewhere they may be normals for outlines.
+/// Returns groups of primitives whose tangents are kept and that share one TANGENT accessor, if the accessor contains
+/// invalid values (see hasSoundValues), even at unused vertices. Tangents parallel to the normal are invalid only if a
+/// material reads them: otherwise they may be normals for outlines.
 std::vector<std::vector<std::size_t>> findBrokenValues(Model& model, const GeneratePlan& plan);
 
-/// Mends them, in the format that they have, and says so in the reports. All other elements keep their bits.
+/// Repairs invalid values in the format of the accessor, and notes the repairs in the reports. All other elements keep
+/// their bits.
 void mendBrokenValues(Editor& editor, const Document& document, std::span<const Primitive> primitives,
                       std::span<const std::vector<std::size_t>> groups, std::span<PrimitiveReport> reports);
 
-// Normal maps of a glTF file that follow its tangents: what the model showed with the old ones, it shows with the new.
+// Converts the normal maps of a glTF file for its new tangents, so that the shading does not change.
 
 class MapConversion {
   public:
-    /// Takes what the model shows now: call it before anything in it is changed. Both must outlive it.
+    /// Records the current appearance; call before the model is changed. The arguments must outlive the object.
     MapConversion(Model& model, const GenerateOptions& options);
 
-    /// Once the model has the new tangents, and wasEdited: puts new maps in where they bring the picture closer to the old one.
-    /// `reports`: of all primitives. Files beside the document are never changed: the output has new ones.
+    /// Call after the new tangents have been stored and after Model::wasEdited. Inserts converted maps if they make the
+    /// shading closer to the original. `reports`: one per primitive. Files referenced by the document are never
+    /// changed: the output has new files.
     std::vector<ConvertedMapReport> run(Editor& editor, const OutputTarget& target,
                                         std::span<const PrimitiveReport> reports);
 
@@ -89,34 +93,35 @@ class MapConversion {
     Model& model_;
     const GenerateOptions& options_;
     std::vector<std::size_t> numbers_ = {};     ///< primitives that show normal maps
-    Scene before_ = {};                         ///< these, in this order
-    std::map<std::size_t, Bytes> images_ = {};  ///< the files of their maps, by number of the image
+    Scene before_ = {};                         ///< primitives `numbers_` before the change, in this order
+    std::map<std::size_t, Bytes> images_ = {};  ///< files of the normal maps, by image index
 };
 
 }  // namespace tspace::gltf
 
 namespace tspace {
 
-// Warnings about the file as a whole.
+// Warnings about the whole file.
 
-/// Whether options had an effect, as far as the report does not contain it.
+/// Effects of options that the report does not contain.
 struct WorkedOn {
-    bool far_coordinates = false;     ///< an offset that was left in them
-    bool texture_transforms = false;  ///< computed or examined tangents follow such textures
-    bool compression = false;         ///< geometry that was packed or unpacked
+    bool far_coordinates = false;     ///< coordinates far from the origin kept their offset
+    bool texture_transforms = false;  ///< tangents that were computed or examined follow textures with transforms
+    bool compression = false;         ///< geometry was compressed or decompressed
 };
 
-/// Adds to the warnings: triangles that are wound against their neighbours, and new normals that point behind their triangles.
+/// Adds warnings about triangles whose winding is opposite to that of their neighbors, and about new normals that point
+/// behind their triangles.
 void warnOfWinding(const GenerateOptions& options, GenerateReport& report);
 
-/// Adds the warnings of warnOfWinding, and one for each option without effect. For a step it adds nothing: it may be one of
-/// several.
+/// Adds the warnings of warnOfWinding, and a warning for each option without effect. Adds nothing for a step, which may
+/// be one of several.
 void addWarnings(const GenerateOptions& options, const WorkedOn& worked_on, bool is_step, GenerateReport& report);
 
 namespace gltf {
 
-/// Writes a document that was generated, completes the report by what only that tells, and so ends the call: nothing that can
-/// fail comes after it. `inputs`: what the call read.
+/// Writes the generated document and completes the report with the output files and sizes. Must be the last step of a
+/// call, because nothing that can fail may follow. `inputs`: files that the call read.
 void writeGenerated(const std::string& input, Document& document, const OutputTarget& target,
                     const GenerateOptions& options, const WorkedOn& worked_on, const InputFiles& inputs, bool is_step,
                     GenerateReport& report);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Results of tspace generate as text.
+// Reports of tspace generate as text.
 #include <fmt/format.h>
 
 #include <map>
@@ -180,10 +180,10 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
     return table.text("  ");
 }
 
-/// Below the table, because they are long; one line for all primitives with the same note.
+/// Notes are below the table, because they are long. Primitives with equal notes share one line.
 std::string notesText(const GenerateReport& report) {
     constexpr std::size_t kMostNotes = 20;
-    std::vector<std::pair<std::string, std::string>> notes;  // sentence, who
+    std::vector<std::pair<std::string, std::string>> notes;  // note, and the first primitive that has it
     std::map<std::string, std::size_t> line_of, others;
     for (const PrimitiveReport& primitive : report.primitives) {
         for (const std::string& note : primitive.notes) {
@@ -211,7 +211,7 @@ std::string notesText(const GenerateReport& report) {
     return text.empty() ? text : "\n" + text;
 }
 
-/// Number of triangles, and of the quads they were paired to.
+/// Returns the number of triangles, and the number of quads that they were paired into.
 std::string trianglesText(const PrimitiveReport& primitive) {
     const std::string count = std::to_string(primitive.triangle_count);
     return primitive.faces == Faces::quads ? fmt::format("{} ({} quads)", count, primitive.quad_count) : count;

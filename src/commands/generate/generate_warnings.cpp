@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sums over primitives, and sentences.
+// Totals over primitives, and warnings.
 #include "commands/generate/generate_steps.h"
 
 #include <algorithm>
@@ -53,7 +53,7 @@ void warnOfWinding(const GenerateOptions& options, GenerateReport& report) {
 
 namespace {
 
-/// "--a has no effect: ", "--a and --b have no effect: "
+/// Formats such as "--a has no effect: ..." and "--a and --b have no effect: ..."
 void warn(const std::vector<std::string>& options, const std::string& why, GenerateReport& report) {
     if (options.empty()) return;
     std::string text;
@@ -67,7 +67,7 @@ bool any(const GenerateReport& report, const Test& test) {
     return std::any_of(report.primitives.begin(), report.primitives.end(), test);
 }
 
-/// Notes the values that were chosen per mesh.
+/// Adds notes on the values that were chosen per mesh.
 void noteFoundValues(const NormalOptions& options, GenerateReport& report) {
     for (PrimitiveReport& primitive : report.primitives) {
         if (!primitive.normals_generated) continue;
@@ -97,7 +97,7 @@ void warnOfIdleNormals(const GenerateOptions& options, GenerateReport& report) {
     if (!any_made) {
         if (options.normals.overwrite) idle.emplace_back("--overwrite-normals");
         const bool has_crease = options.normals.compute.crease_angle_deg != plain.normals.compute.crease_angle_deg;
-        // --crease alone is --normals angle, but for smoothing groups.
+        // --crease without --normals implies --normals angle, unless smoothing groups are changed.
         const bool follows = has_crease && options.normals.compute.weighting == NormalWeighting::angle &&
                              options.normals.use_smoothing_groups == plain.normals.use_smoothing_groups;
         const bool is_weighted = options.normals.compute.weighting != plain.normals.compute.weighting && !follows;
@@ -147,7 +147,7 @@ void warnOfTangents(const GenerateOptions& options, GenerateReport& report) {
     if (tangents.angular_threshold_deg != plain.angular_threshold_deg) idle.emplace_back("--threshold");
     if (options.tangents.faces == Faces::quads) idle.emplace_back("--faces");
     if (has_refine) idle.emplace_back("--refine");
-    // A repair judges by the convention, too.
+    // Repairs use the convention for judging tangents.
     if (tangents.convention != GenerateOptions{}.tangents.compute.convention &&
         options.selection.existing != ExistingTangents::repair)
         idle.emplace_back("--convention");

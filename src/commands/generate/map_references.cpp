@@ -16,7 +16,7 @@ namespace tspace::gltf {
 MapReferences::Slot MapReferences::slotOf(const MapUser& user) const {
     const bool is_coat = user.use->needed_by == "clearcoatNormalTexture";
     if (user.use->only_in_variant) return {user.use->material, is_coat};
-    // Reads the current material: an earlier map may have given the primitive a copy.
+    // Reads the current material: converting an earlier map may have given the primitive a copy of its material.
     return {jsonOf(*user.primitive)["material"].get<std::size_t>(), is_coat};
 }
 
@@ -31,7 +31,7 @@ bool MapReferences::shows(const Primitive& primitive, std::size_t material) cons
     return std::find(variants.begin(), variants.end(), material) != variants.end();
 }
 
-/// Whether a primitive that is none of the users' shows the material.
+/// Returns whether a primitive that is not one of the users shows the material.
 bool MapReferences::isShared(std::size_t material, std::span<const MapUser> users) const {
     return std::any_of(primitives_.begin(), primitives_.end(), [&](const Primitive& primitive) {
         const bool is_one =
@@ -108,8 +108,8 @@ std::string MapReferences::whyNotApart(std::span<const MapUser> users) const {
 }
 
 void MapReferences::redirect(std::span<const MapUser> users, std::size_t to_image) {
-    std::map<std::size_t, std::size_t> copies;    // copies of materials
-    std::map<std::size_t, std::size_t> textures;  // from old ones to those of the image
+    std::map<std::size_t, std::size_t> copies;    // original material -> copy
+    std::map<std::size_t, std::size_t> textures;  // original texture -> copy that shows the new image
     const auto ownTexture = [&](std::size_t from) {
         const auto [own, is_new] = textures.try_emplace(from, document_.json["textures"].size());
         if (is_new) {
@@ -119,7 +119,7 @@ void MapReferences::redirect(std::span<const MapUser> users, std::size_t to_imag
         }
         return own->second;
     };
-    // Decided before anything changes: a copy makes its original look less shared.
+    // Decided before anything changes, because a copied material makes its original appear less shared.
     std::map<std::size_t, bool> is_shared;
     for (const MapUser& user : users) {
         const std::size_t material = slotOf(user).material;
@@ -177,7 +177,7 @@ void ImagePlacer::put(std::size_t image, Bytes&& bytes, bool keeps_old, bool is_
     editor_.touch();
 }
 
-/// A GLB holds what is made for it, and so can go through a pipe.
+/// Embeds the image in the GLB, so that the output can be a pipe.
 void ImagePlacer::takeIn(std::size_t image, Bytes&& bytes) {
     const char* type = mimeType(imageFormat(bytes));
     const std::size_t view = editor_.storeBlob(std::move(bytes), std::nullopt);
@@ -194,7 +194,7 @@ void ImagePlacer::putInView(std::size_t image, Bytes&& bytes, bool keeps_old, bo
     const std::size_t stored =
         known != views_.end() && is_of_all ? known->second : editor_.storeBlob(std::move(bytes), std::nullopt);
     if (is_of_all) views_[view] = stored;
-    // Looked up again: storing may move the members of the root.
+    // The entry is looked up again, because storing may move the members of the root object.
     document_.json["images"][image]["bufferView"] = stored;
 }
 
@@ -206,11 +206,11 @@ void ImagePlacer::putInFile(std::size_t image, const std::string& uri, Bytes&& b
     document_.new_files[name] = std::move(bytes);
 }
 
-/// Returns a name derived from the old one that no other file has, or that of a file with the same bytes.
+/// Returns a name derived from the old one that no other file has, or the name of a file with the same bytes.
 std::string ImagePlacer::freeName(const std::string& uri, const Bytes& bytes) {
     namespace fs = std::filesystem;
     fs::path old = Path(pathOfUri(uri));
-    // Images outside the model's folder get their new file inside.
+    // Images outside the model's folder get their new file inside it.
     if (leadsAway(old) != nullptr) old = old.filename();
     const bool becomes_png = imageFormat(bytes) == ImageFormat::png && lowerExtension(Path(old)) != ".png";
     for (int number = 1;; ++number) {

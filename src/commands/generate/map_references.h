@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Images of a glTF document: which textures and materials show one, giving some primitives one of their own, and putting new
-// files in the place of old ones.
+// Images of a glTF document: which textures and materials show an image. Gives some primitives their own image, and
+// replaces image files.
 #pragma once
 
 #include <cstddef>
@@ -19,10 +19,10 @@
 
 namespace tspace::gltf {
 
-// From materials to textures, and from textures to images, in the JSON of a glTF document.
+// Follows references from materials to textures, and from textures to images, in the JSON of a glTF document.
 
-/// Calls visit(name, object) for each reference to a texture: an object with an "index", as in glTF itself and in all of
-/// its extensions. `name`: that of the member it is.
+/// Calls visit(name, object) for each reference to a texture: an object with an "index", as in core glTF and in all of
+/// its extensions. `name`: name of the member that contains the reference.
 template <class Visit>
 void forTextureReferences(Json& value, const Visit& visit, const std::string& name = {}) {
     if (value.is_array()) {
@@ -35,14 +35,14 @@ void forTextureReferences(Json& value, const Visit& visit, const std::string& na
 
 inline bool isNormalMap(const std::string& name) { return name == "normalTexture" || name == "clearcoatNormalTexture"; }
 
-/// Calls visit(name) for each extension that gives a texture its image in another format.
+/// Calls visit(name) for each extension that gives a texture an image in another format.
 template <class Visit>
 void forSourceExtensions(const Visit& visit) {
     for (const char* name : {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu", "MSFT_texture_dds"})
         visit(name);
 }
 
-/// Calls visit(number) for each image that the texture may show: its source, and those in other formats.
+/// Calls visit(number) for each image that the texture may show: its source, and its alternatives in other formats.
 template <class Visit>
 void forSources(Json& texture, const Visit& visit) {
     if (!texture.is_object()) return;
@@ -58,7 +58,7 @@ inline bool isNumber(const Json& value, std::size_t number) {
     return value.is_number_unsigned() && value.get<std::size_t>() == number;
 }
 
-/// A primitive, and what in its material shows a normal map.
+/// A primitive, and the use of a normal map in its material.
 struct MapUser {
     const Primitive* primitive = nullptr;
     const TangentUse* use = nullptr;
@@ -66,21 +66,21 @@ struct MapUser {
 
 class MapReferences {
   public:
-    /// `primitives`: all of the document.
+    /// `primitives`: all primitives of the document.
     MapReferences(Document& document, std::span<const Primitive> primitives)
         : document_(document), primitives_(primitives) {}
 
-    /// Whether nothing but these primitives shows the image, which may then be replaced where it is.
+    /// Returns whether only these primitives show the image, so that it can be replaced in place.
     [[nodiscard]] bool isOfAlone(std::size_t image, std::span<const MapUser> users) const;
 
-    /// Has all textures that show the image name it as their only source, as those of the formats that all viewers read. The file needs no
-    /// extension for other formats any more where none of its textures has one.
+    /// Makes the image the only source of all textures that show it, without alternatives in other formats. Its format
+    /// must be one that all viewers support. Removes extensions for other formats that no texture uses any more.
     void namePlainly(std::size_t image);
 
-    /// Half a sentence: why these primitives cannot have an image that others do not see. Empty: they can.
+    /// Returns why these primitives cannot have an image of their own (half a sentence); empty: they can.
     [[nodiscard]] std::string whyNotApart(std::span<const MapUser> users) const;
 
-    /// Has these primitives show another image. Textures, and materials that others use too, are copied for it.
+    /// Makes these primitives show another image. Copies their textures, and materials that other primitives use too.
     void redirect(std::span<const MapUser> users, std::size_t to_image);
 
   private:
@@ -101,21 +101,21 @@ class MapReferences {
     std::span<const Primitive> primitives_;
 };
 
-// New image files in the place of those of a glTF document.
+// Replaces image files of a glTF document.
 
-/// Puts one image file in the place of another. Files beside the document are never changed: the output has new ones.
+/// Replaces image files. Files referenced by the document are never changed: the output has new files.
 class ImagePlacer {
   public:
-    /// `ending`: of the names of new files, "-green-up".
+    /// `ending`: suffix of the names of new files, such as "-green-up".
     ImagePlacer(Document& document, Editor& editor, const OutputTarget& target, std::string ending)
         : document_(document), editor_(editor), target_(target), ending_(std::move(ending)) {}
 
-    /// Images that have their bytes from one place get one new place. `keeps_old`: somebody else still needs what the image
-    /// had.
+    /// Replaces an image. Images that share one file or buffer view share the new one too. `keeps_old`: the old bytes
+    /// are still in use.
     void place(std::size_t image, Bytes&& bytes, bool keeps_old);
-    /// Replaces only this image.
+    /// Replaces only this image, even if others share its bytes.
     void placeOwn(std::size_t image, Bytes&& bytes) { put(image, std::move(bytes), false, false); }
-    /// A new entry of /images, otherwise like entry `like`. Returns its index.
+    /// Adds an entry to /images, otherwise equal to entry `like`. Returns its index.
     std::size_t add(std::size_t like, Bytes&& bytes);
 
   private:
@@ -129,11 +129,11 @@ class ImagePlacer {
     Editor& editor_;
     const OutputTarget& target_;
     std::string ending_;
-    std::map<std::size_t, std::size_t> views_ = {};  ///< from views to those that took their place
-    std::map<std::string, std::string> files_ = {};  ///< from URIs to new names
+    std::map<std::size_t, std::size_t> views_ = {};  ///< old buffer view -> new buffer view
+    std::map<std::string, std::string> files_ = {};  ///< old URI -> new name
 };
 
-/// The file of an image, if it lies in one, is part of the input.
+/// Adds the file of an image to the list of input files, if the image is in a file.
 void noteInputFile(Document& document, std::size_t image);
 
 }  // namespace tspace::gltf

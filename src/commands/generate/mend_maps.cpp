@@ -13,7 +13,7 @@
 namespace tspace {
 namespace {
 
-/// Half a sentence: what stood in the image.
+/// Returns what the image contained, as half a sentence.
 const char* whatItHeld(MapContent content) {
     switch (content) {
         case MapContent::twoChannels:
@@ -38,7 +38,8 @@ const char* whatItHeld(MapContent content) {
     return "";
 }
 
-/// Empty, or why an image with such a content stays. `claims_srgb`: what the file says of the numbers.
+/// Returns why an image with such contents is unchanged; empty: it is rewritten. `claims_srgb`: the file declares sRGB
+/// encoding.
 std::string whyUnchanged(const JudgedMap& map, bool claims_srgb) {
     const MapLook& look = map.look;
     if (look.content == MapContent::normals && !claims_srgb) return "it is encoded as in glTF";
@@ -71,7 +72,8 @@ bool isPicture(const FloatImage& image) {
     return lookAtTexels(texels, false, {}).content == MapContent::picture;
 }
 
-/// All triangles that show the image, with the tangents that they will have, or nearly. `isUser(TangentUse)`.
+/// Returns all triangles that show the image, with tangents that approximate those of the output. `isUser(TangentUse)`:
+/// selects the uses.
 template <class IsUser>
 MapMesh meshOf(const Scene& scene, const GenerateOptions& options, const IsUser& isUser) {
     MapMesh mesh;
@@ -129,7 +131,7 @@ Bytes mendMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options
 MadeOfHeights makeOfHeights(const Scene& scene, std::size_t material, std::size_t image, double strength,
                             const GenerateOptions& options) {
     const ByteSpan bytes = scene.images[image].bytes;
-    // Missing images and unsupported formats are skipped or kept like any texture.
+    // Missing images and unsupported formats are skipped, or kept like other textures.
     if (bytes.empty() || whyNotRead(imageFormat(bytes)) != nullptr) return {};
     MadeOfHeights made{.is_height_map = true};
     if (!scene.memory->has(kMapPixelBytes * claimedSize(bytes).pixels())) {

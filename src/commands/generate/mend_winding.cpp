@@ -11,7 +11,8 @@
 namespace tspace {
 namespace {
 
-/// The primitives of one mesh over one list of vertices. Those that draw the same triangles of the same vertices are one.
+/// The primitives of one mesh as one surface. Primitives that draw the same triangles of the same vertices are added
+/// once.
 class MeshSurface {
   public:
     explicit MeshSurface(gltf::Model& model) : model_(model) {}
@@ -54,7 +55,7 @@ class MeshSurface {
         std::vector<std::size_t> numbers = {};
     };
 
-    /// Primitives often share one list of vertices, each with triangles of its own.
+    /// Primitives often share one vertex list, and each has its own triangles.
     std::uint32_t addVertices(const gltf::Primitive& primitive, std::size_t accessor, bool with_normals) {
         const auto normals = with_normals ? primitive.find("NORMAL") : std::nullopt;
         const auto [place, is_new] =
@@ -151,7 +152,7 @@ std::vector<std::uint8_t> mendObjWinding(obj::Model& model, const GenerateOption
     mended.winding = valueOrThrow(mendWinding(mesh, how, turned, options.execution));
     for (std::size_t f = 0; f < turned.size(); ++f) {
         const auto begin = model.corners.begin() + model.faces[f].first_corner;
-        // The first corner stays the first.
+        // The first corner of the face stays first.
         if (turned[f] != 0) std::reverse(begin + 1, begin + model.faces[f].corner_count);
     }
     return turned;

@@ -23,7 +23,7 @@ bool movesAttribute(const Primitive& primitive, const char* name) {
                        [&](const AttributeList& target) { return findAttribute(target, name).has_value(); });
 }
 
-/// Which of NORMAL and TANGENT are removed.
+/// Attributes that are removed.
 struct Dropped {
     bool normals = false, tangents = false;
 
@@ -35,7 +35,8 @@ struct Dropped {
     }
 };
 
-/// Attributes that morph targets add to must stay, and normals stay where tangents do: TANGENT is ignored without NORMAL.
+/// Attributes that morph targets modify must be kept. Normals are kept if tangents are kept, because TANGENT is ignored
+/// without NORMAL.
 Dropped droppedFrom(const Primitive& primitive, PackDrop asked) {
     Dropped dropped;
     dropped.tangents = asked != PackDrop::nothing && !movesAttribute(primitive, "TANGENT");
@@ -61,7 +62,7 @@ class PackedWriter {
   private:
     using Key = std::array<std::size_t, 6>;
 
-    /// Groups of primitives that share NORMAL, TANGENT and existing packed attributes, in file order.
+    /// Returns groups of primitives that share NORMAL, TANGENT and existing packed attributes, in file order.
     std::vector<std::vector<std::size_t>> groups() {
         std::vector<std::vector<std::size_t>> list;
         std::map<Key, std::size_t> known;
@@ -87,14 +88,14 @@ class PackedWriter {
         return list;
     }
 
-    /// Whether an earlier run packed the frames and removed NORMAL and TANGENT.
+    /// Returns whether an earlier run packed the frames and removed NORMAL and TANGENT.
     [[nodiscard]] bool isDone(const Primitive& primitive) const {
         const std::string alone = packedAlone(document_, primitive);
         return std::any_of(layout_.parts.begin(), layout_.parts.end(),
                            [&](const PackedPart& part) { return alone == part.attribute; });
     }
 
-    /// Why the primitive cannot be packed, half a sentence; empty when it can.
+    /// Returns why the primitive cannot be packed (half a sentence); empty: it can.
     [[nodiscard]] std::string whyNot(const Primitive& primitive, const PrimitiveReport& report) const {
         if (const std::string alone = packedAlone(document_, primitive); !alone.empty())
             return "it has only other packed frames in " + alone + ", and not the data they were packed from";
@@ -142,7 +143,7 @@ class PackedWriter {
         for (const std::size_t number : numbers) tell(reports_[number], dropped, packing);
     }
 
-    /// Removes the attributes. Returns accessors without other uses, whose entries the packed attributes re-use.
+    /// Removes the attributes. Returns accessors without other uses; packed attributes reuse their entries.
     std::vector<std::size_t> drop(const std::vector<std::size_t>& numbers, const Dropped& dropped) {
         std::vector<std::size_t> spare;
         for (const char* name : dropped.names()) {

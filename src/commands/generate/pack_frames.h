@@ -11,14 +11,15 @@
 
 namespace tspace::gltf {
 
-/// Writes the attributes of `options.pack` from NORMAL and TANGENT as they are in the document now, and removes those
-/// that `options.pack_drop` names. Primitives that share both share the packed attributes. Fills frames_packed, packing,
-/// normals_dropped and tangents_dropped of the reports; a note says why where nothing is written, or where an attribute
-/// stays although it was to be removed. Attributes that have these bits already stay as they are.
+/// Packs the current NORMAL and TANGENT of the document into the attributes of `options.pack`, and removes the
+/// attributes that `options.pack_drop` selects. Primitives that share NORMAL and TANGENT share the packed attributes.
+/// Fills frames_packed, packing, normals_dropped and tangents_dropped of the reports; a note gives the reason if
+/// nothing is packed, or if an attribute is kept although it was to be removed. Packed attributes that already have
+/// these bits are not rewritten.
 void writePackedFrames(Editor& editor, const Document& document, const GenerateOptions& options,
                        std::span<PrimitiveReport> reports);
 
-/// Notes packed frames that stay although the tangents beside them were computed anew.
+/// Adds notes about packed frames that are kept although the tangents of their primitive were recomputed.
 void noteStalePackedFrames(const Document& document, std::span<const Primitive> primitives,
                            const GenerateOptions& options, std::span<PrimitiveReport> reports);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The frames of a pool as elements of accessors.
+// Converts the frames of a pool to elements of accessors.
 #include "commands/generate/pool_elements.h"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ bool isReplaced(const std::string& name, std::ptrdiff_t target, const PoolPlan& 
     return name == "NORMAL" && (frames.normals_generated || is_new);
 }
 
-/// Every other attribute, and those of morph targets, by accessor.
+/// Returns the attributes that are not replaced, including those of morph targets, by accessor.
 std::map<std::size_t, CarriedElements> carriedAttributes(std::span<const Primitive> primitives, const PoolPlan& pool,
                                                          const PoolFrames& frames) {
     std::map<std::size_t, CarriedElements> carried;
@@ -86,7 +86,7 @@ PoolElements packFrames(const Document& document, std::span<const Primitive> pri
             elements.corners = frames.indices;
         }
         elements.carried = carriedAttributes(primitives, pool, frames);
-        // Old vertices come first, as they were.
+        // Old vertices come first, unchanged.
         SplitSources sources{.kept = rule.is_welded ? 0 : primitives[pool.primitives[0]].vertex_count};
         sources.copies = std::make_shared<const std::vector<std::uint32_t>>(
             frames.source_vertices.begin() + static_cast<std::ptrdiff_t>(sources.kept), frames.source_vertices.end());
@@ -108,7 +108,7 @@ ElementData offsetElements(const VertexOffsets& offsets, std::size_t vertex_coun
     std::vector<Vec3> dense(vertex_count);
     for (std::size_t i = 0; i < offsets.vertices.size(); ++i) dense[offsets.vertices[i]] = offsets.offsets[i];
     ElementData data = floatVectors(std::move(dense));
-    data.makeNow();  // zeros among them may be left out
+    data.makeNow();  // expands the elements, so that zeros can be omitted in a sparse accessor
     return data;
 }
 

@@ -33,7 +33,7 @@ double medianOf(float* begin, float* end) {
 namespace {
 
 constexpr std::size_t kEdgeSamples = 16384;
-// a quarter of the vertices, within these limits
+// Samples a quarter of the vertices, within these limits.
 constexpr std::size_t kMostVertexSamples = 4096, kLeastVertexSamples = 1024;
 constexpr std::size_t kLeastFits = 200;
 
@@ -133,9 +133,9 @@ PositionNoise sampleEdges(const NormalsCall& call) {
     return found;
 }
 
-/// Evaluates each vertex without itself: r = |z(0)| / sqrt(1 + (A^-1)_00) has the standard deviation of the noise, on
-/// every surface that is quadratic within two rings. Uses the median, so that edges and corners of the shape have no
-/// influence.
+/// Fits each vertex's neighborhood without the vertex itself: r = |z(0)| / sqrt(1 + (A^-1)_00) has the standard
+/// deviation of the noise, on every surface that is quadratic within two rings. Uses the median, so that edges and
+/// corners of the shape have no influence.
 Roughness measureRoughness(const NormalGroups& groups, std::size_t all, const Allocator* allocator) {
     const std::size_t samples = std::min(all, std::clamp(all / 4, kLeastVertexSamples, kMostVertexSamples));
     Buffer<float> distances(allocator, samples);
@@ -322,8 +322,8 @@ class Denoiser {
         return kFirstVariance * noise_ * noise_ * groups_.areaVariance(group);
     }
 
-    /// Computes the squared bias of the fits. Fits are nested least squares, so the variance of their difference is the
-    /// difference of their variances: anything beyond that is bias. NaN: no comparison is possible.
+    /// Computes the squared bias of the fits. The fits are nested least squares, so the variance of their difference
+    /// equals the difference of their variances: any excess is bias. NaN: no comparison is possible.
     void compare(std::size_t group, Float4 first, const Fits& fits, float* bias) const {
         const bool is_loud = noise_ > kLoudNoise;
         const Float4 two = loadFloat4(fits.normals[0]), three = loadFloat4(fits.normals[1]);
@@ -384,7 +384,7 @@ class Denoiser {
     double noise_;
 };
 
-/// Replaces the normals in call.out by denoised ones. noise: in the unit of `groups`
+/// Replaces the normals in call.out by denoised ones. `noise`: in the unit of `groups`.
 void denoise(const NormalsCall& call, const CornerGroups& corner_groups, const NormalGroups& groups, double noise) {
     const std::size_t corner_count = call.mesh.cornerCount();
     Buffer<float> normals(call.allocator, 4 * groups.count(), 0.0f);

@@ -15,7 +15,7 @@
 
 namespace tspace {
 
-// Mesh that is cut open at its hard edges: all corners that share a normal are one vertex. Contains positions,
+// A mesh that is split at its hard edges: all corners that share a normal are one vertex. Contains positions,
 // neighbors, and rings around each vertex.
 
 // Cross product of the first three components; the fourth is 0.
@@ -32,7 +32,7 @@ inline float dotted(Float4 a, Float4 b) {
 /// Group of each corner: its point, or a dense number.
 class CornerGroups {
   public:
-    /// components: the lowest corner of each corner's component; empty if all corners of a point belong together.
+    /// `components`: the lowest corner of each corner's component; empty if all corners of a point belong together.
     CornerGroups(const NormalsCall& call, Buffer<std::uint32_t> components);
 
     [[nodiscard]] std::uint32_t of(std::uint32_t corner) const {
@@ -58,15 +58,15 @@ class NormalGroups {
     [[nodiscard]] Float4 position(std::size_t group) const { return loadFloat4(positions_.data() + 4 * group); }
     /// Returns the area-weighted unit mean of the face normals, or zero.
     [[nodiscard]] Float4 areaNormal(std::size_t group) const { return loadFloat4(normals_.data() + 4 * group); }
-    /// Returns the variance of that mean's direction (of both angles together, in rad^2) if noise moves all points
-    /// except this one by 1 along the normal. Infinite if there is no mean.
+    /// Returns the variance of the direction of areaNormal (of both angles together, in rad^2) if noise moves all
+    /// points except this one by 1 along the normal. Infinite if there is no area normal.
     [[nodiscard]] float areaVariance(std::size_t group) const { return variances_[group]; }
     [[nodiscard]] std::span<const std::uint32_t> neighbours(std::size_t group) const {
         return {neighbours_.data() + begins_[group], counts_[group]};
     }
 
-    /// Calls body(i, group, marks) for i in [0, count), where group = groupOf(i); each group may occur once. marks: one
-    /// number per group, initially not the number of any group.
+    /// Calls body(i, group, marks) for i in [0, count), where group = groupOf(i); each group may occur once. `marks`:
+    /// one number per group, initially not the number of any group.
     template <class GroupOf, class Body>
     void forSome(std::size_t count, const GroupOf& groupOf, const Body& body) const {
         constexpr std::size_t kChunk = 256;
@@ -300,12 +300,12 @@ RingSums::Rest RingSums::eliminate() const {
 /// length; a call without results returns only mean_edge. Takes 64 KB.
 PositionNoise sampleEdges(const NormalsCall& call);
 
-/// Kink share from which all roughness is noise, if positions hardly deviate from a smooth surface; up to half of it,
-/// no roughness is.
+/// Kink share from which all roughness counts as noise if positions hardly deviate from a smooth surface. Up to half of
+/// this share, no roughness counts as noise.
 inline constexpr double kNoisyShare = 0.15;
 
-/// Sets sigma and noise. Returns the maximum noise that is consistent with the angles of the edges. groups: in units of
-/// the mean edge
+/// Sets sigma and noise. Returns the maximum noise that is consistent with the angles of the edges. `groups`: in units
+/// of the mean edge.
 double measureNoise(const NormalGroups& groups, const Allocator* allocator, PositionNoise& noise);
 
 /// Converts to units of the mean edge without noise.
@@ -324,15 +324,15 @@ struct Roughness {
     Dihedrals dihedrals = {};
     bool is_known = false;
 };
-/// Measures some thousand of the first `all` groups. groups: in units of the mean edge
+/// Measures some thousand of the first `all` groups. `groups`: in units of the mean edge.
 Roughness measureRoughness(const NormalGroups& groups, std::size_t all, const Allocator* allocator);
 
-/// The part of sigma that is noise rather than shape.
+/// Returns the part of sigma that is noise rather than shape.
 double noisePart(double sigma, double kink_share, const Dihedrals& dihedrals);
 
 /// Returns the kink share of the edge between two points with unit normals m and n. On a circle e . (m + n) is 0, and
-/// nearly 0 on surfaces that are smooth at the mesh's scale; e . (n - m) is the part of uniform bending. flat: squared
-/// sine; an edge with a smaller angle has no kink
+/// on surfaces that are smooth at the scale of the mesh it is nearly 0; e . (n - m) is the part of uniform bending.
+/// `flat`: squared sine of an angle; an edge with a smaller angle has no kink.
 double kinkShare(const DVec3& edge, const DVec3& m, const DVec3& n, double flat);
 
 /// Returns an index in [0, all) for sample `number` of `count`: one per interval of equal length, at a position that
@@ -344,12 +344,13 @@ double medianOf(float* begin, float* end);
 /// Reported noise (PositionNoise::noise of at least 0.03) requires a kink share of 0.22, for any sigma (noisePart).
 inline constexpr double kFewKinks = 0.2;
 
-/// Returns whether a validated triangle mesh may have at least this noise (PositionNoise::noise). false is reliable:
-/// 512 edges and their surroundings have far less; true requires measurePositionNoise. Uses no more memory than that
-/// function and 64 KB. O(corners), a tenth of the time of `best`. Throws OutOfMemory.
+/// Returns whether a validated triangle mesh may have at least this noise (PositionNoise::noise). The result false is
+/// reliable: 512 edges and their surroundings have far less noise. The result true must be confirmed by
+/// measurePositionNoise. Uses no more memory than that function and 64 KB. O(corners), a tenth of the time of `best`.
+/// Throws OutOfMemory.
 bool mayHaveNoise(const MeshView& mesh, double noise, const Execution& execution, Parallel& parallel);
 
-/// Like measurePositionNoise, or all 0 if mayHaveNoise(least) is false.
+/// Returns the result of measurePositionNoise, or all zeros if mayHaveNoise(least) is false.
 Result<PositionNoise> measureSureNoise(const MeshView& mesh, double least, const Execution& execution);
 
 /// Measures a mesh without hard edges. If its share of kinks is at most `fewest_kinks`, sigma and noise stay 0.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// generateNormals: validation, and selection of the algorithm: flat or mean normals of core/normals, hard edges and
-// noise of this folder. For another pose, points and components come from the mesh; faces and weights from the pose.
+// generateNormals: validates the input and selects the algorithm: flat or mean normals (core/normals), hard edges, and
+// denoising. For another pose, points and components come from the mesh, and faces and weights from the pose.
 #include "tspace/normals.h"
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace tspace {
 
 namespace {
 
-/// For `best` and for creases each point groups its faces, which takes about this many times as long.
+/// Time of `best` and of creases relative to other weightings, approximately, because each point groups its faces.
 constexpr std::uint64_t kSlow = 4;
 
 Error checkOptions(const MeshView& mesh, const NormalOptions& options) {
@@ -41,7 +41,8 @@ Error checkOptions(const MeshView& mesh, const NormalOptions& options) {
     return {ErrorCode::ok, {}};
 }
 
-/// Corners of degenerate faces get the mean of the others at their point; without such faces points need not be found.
+/// Corners of degenerate faces get the mean of the other normals at their point. Without degenerate faces, points need
+/// not be found.
 NormalReport flatNormals(const MeshView& mesh, const MeshView& posed, const Call<NormalOptions>& options,
                          StridedSpan<Vec3> out, Parallel& parallel) {
     Call<NormalOptions> means = options;

@@ -16,7 +16,8 @@ namespace tspace {
 namespace {
 
 constexpr std::size_t kEdges = 512;
-/// Two rings around this many edge ends contain 20,000 points on most meshes. More points than this indicate fans.
+/// Two rings around this many edge ends contain 20,000 points on most meshes. More than kMostPoints points indicate
+/// triangle fans.
 constexpr std::size_t kMostPoints = 32768;
 
 /// Safety factors for the values that all vertices would give. For sigma: three standard errors, each 5.3 % for the
@@ -42,7 +43,7 @@ class SomePoints {
         std::fill(slots_.begin(), slots_.end(), kNone);
         std::fill(filter_.begin(), filter_.end(), 0u);
     }
-    /// Returns the number of a position, or kNone if the set is full.
+    /// Returns the index of a position, or kNone if the set is full.
     std::uint16_t add(const Vec3& position) {
         const std::uint32_t hash = hashOf(position);
         std::uint16_t& slot = slotOf(position, hash);
@@ -162,7 +163,8 @@ class NoiseScreen {
         });
         for (DVec3& normal : std::span(normals.data(), normals.size())) normalize(normal);
         Buffer<float> shares(execution_.allocator, edge_count_);
-        // Smaller angles are not noise. This reduces the kink shares of noise by at most 5 % (measured on scans).
+        // Smaller angles are not noise. This threshold reduces the kink shares of noise by at most 5 % (measured on
+        // scans).
         const double flat = noise * noise / 16;
         std::size_t count = 0;
         for (const Edge& edge : edges()) {
@@ -172,7 +174,7 @@ class NoiseScreen {
         return count == 0 ? 0 : medianOf(shares.begin(), shares.begin() + count);
     }
 
-    /// Returns nothing if a sample cannot decide.
+    /// Returns the roughness, or nothing if the sample cannot decide.
     std::optional<Roughness> roughnessAroundEdges() {
         double lengths = 0;
         points_.clear();

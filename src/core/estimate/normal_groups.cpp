@@ -77,7 +77,7 @@ void NormalGroups::sortCorners(const CornerGroups& corner_groups, double length)
 
 void NormalGroups::findNeighbours() {
     neighbours_ = Buffer<std::uint32_t>(call_.allocator, 2 * corners_.size());
-    // begins_ counts corners; a corner adds up to two neighbors.
+    // begins_ counts corners; each corner adds up to two neighbors.
     const std::size_t turns_each = 4 * 2 * most_corners_, tasks = count_ == 0 ? 0 : marks_.size() / count_;
     Buffer<float> turns(call_.allocator, tasks * turns_each);
     forAll([&](std::uint32_t group, std::uint32_t* places) {

@@ -16,9 +16,9 @@ Result<NormalReport> generatePoseNormals(const MeshView& mesh, const StridedSpan
                                          const NormalOptions& options, StridedSpan<Vec3> out,
                                          const Execution& execution = {});
 
-/// Finds the corners that share one normal, in all poses: per corner the lowest such corner, or kNoSharedNormal if the
-/// corner does not contribute to the mean because its face visits the point twice. Weighting flat: every corner is
-/// separate.
+/// Finds the corners that share one normal in all poses. Returns for each corner the lowest such corner, or
+/// kNoSharedNormal if the corner does not contribute to the mean because its face visits the point twice. With
+/// weighting flat, every corner is separate.
 /// Errors: as generateNormals, and invalidOption for faces that are not triangles.
 inline constexpr std::uint32_t kNoSharedNormal = 0x80000000u;  ///< a flag, combined with the corner
 Result<std::vector<std::uint32_t>> findSharedNormals(const MeshView& mesh, const NormalOptions& options,
