@@ -71,7 +71,7 @@ export function withIgnored(report, names) {
   return report;
 }
 
-/** Fills in options.report if it exists. */
+/** Fills in options.report, if given. */
 export function keepReport(call, { report }, names, ignored) {
   if (report) withIgnored(call.report(names, report), ignored);
 }

@@ -4,10 +4,10 @@
 import { fail, failType, isMissing, object } from "./check.js";
 import { decodeDraco, encodeDraco } from "./draco.js";
 
-/** In the order of the module's enumeration (wasm/codecs.h). */
+/** Order of the module's enumeration (wasm/codecs.h). */
 const codecs = ["meshoptDecoder", "meshoptEncoder", "dracoDecoder", "dracoEncoder", "decodeImage", "encodeImage"];
 
-/** In the order of tspace's enumerations. */
+/** Order of tspace's enumerations. */
 const modes = ["ATTRIBUTES", "TRIANGLES", "INDICES"];
 const filters = ["NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"];
 

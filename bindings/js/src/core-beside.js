@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: MIT
 
-/** Where the module lies. */
+/** Location of the module. */
 export const source = new URL("./core.wasm", import.meta.url);

@@ -14,7 +14,7 @@ const components = new Map([
   [5125, { Type: Uint32Array, data: "DT_UINT32", add: "AddUInt32Attribute" }],
   [5126, { Type: Float32Array, data: "DT_FLOAT32", add: "AddFloatAttribute" }],
 ]);
-/** In the order of tspace's enumeration. */
+/** Order of tspace's enumeration. */
 const kinds = ["POSITION", "NORMAL", "COLOR", "TEX_COORD", "GENERIC"];
 
 /** Runs body(own), and destroys all objects that were passed to own(). */

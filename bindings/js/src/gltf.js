@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The entry "tspace/gltf": models as bytes. Options and reports are those of the tool and its JSON.
+// The entry "tspace/gltf": processes models in memory. Options and reports correspond to the command-line tool and its
+// JSON.
 import { source } from "#gltf";
 import { bytes, fail, failType, object } from "./check.js";
 import { Codecs, codecsOf } from "./codecs.js";
@@ -48,7 +49,7 @@ const cannotRead = 103;
 const utf8 = new TextEncoder();
 const textDecoder = new TextDecoder();
 
-/** Returns the file source of a model as a function from a path to bytes, or undefined. */
+/** Returns a function that maps a path to the bytes of a file referenced by the model, or undefined. */
 function finderOf(resources) {
   if (resources === undefined || resources === null) return undefined;
   if (typeof resources === "function") return resources;
@@ -139,7 +140,7 @@ function run(models, { resources, meshopt, draco, decodeImage, encodeImage, onPr
   });
 }
 
-/** Returns output and report of a function of the C API. */
+/** Calls a function of the C API; returns its output and report. */
 function callFiles(verb, models, options) {
   return run(models, options, (call, table, given) => {
     const results = call.put(new Uint32Array(4));
@@ -197,8 +198,8 @@ export async function decodeImages(data, decode, options = {}) {
 }
 
 /**
- * A decode function based on browser features. It returns 8 bits for 16-bit images, and transparent colors are not
- * exact.
+ * Decode function for decodeImages, based on browser features. Returns 8 bits per channel even for 16-bit images;
+ * transparent colors are not exact.
  */
 export async function decodeByCanvas(file, mimeType) {
   const bitmap = await createImageBitmap(new Blob([file], { type: mimeType }), { colorSpaceConversion: "none", premultiplyAlpha: "none" });

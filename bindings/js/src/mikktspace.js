@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The entry "tspace/mikktspace": one method, with repair and splitting, in half of the size.
+// The entry "tspace/mikktspace": one method, with sanitizing and vertex splitting, half the size of the complete core.
 import { source } from "#mikktspace";
 import { makeCalls, mikktspaceOptions } from "./calls.js";
 import { fail } from "./check.js";

@@ -7,7 +7,7 @@ import { normalReportNames, normalWeightingNames } from "./names.js";
 
 export const normalOptions = ["weighting", "creaseAngle", "smoothingGroups", "smoothingGroupsAreMasks", "weldPositions", "weldDistance", "refine", "denoise"];
 
-/** Names of the options that were given and that the weighting does not read. */
+/** Returns the names of given options that the weighting does not use. */
 export function ignoredNormalOptions({ weighting = "angle", ...options }) {
   const ignored = weighting === "flat" ? ["creaseAngle", "smoothingGroups", "smoothingGroupsAreMasks", "weldPositions", "weldDistance"] : [];
   if (weighting !== "best") ignored.push("refine", "denoise");
@@ -19,8 +19,8 @@ export function ignoredNormalOptions({ weighting = "angle", ...options }) {
 export const numberOrAuto = (value, name) => (value === "auto" ? -1 : number(value, name));
 
 /**
- * What the module takes for options of normals: a function, since groups are copied for a call.
- * isWhole: the module of "tspace/normals", which has all of them.
+ * Returns a function that converts the options of normals to arguments of the module; it copies the smoothing groups
+ * for a call. `isWhole`: the module is that of "tspace/normals", which supports all options.
  */
 export function normalArguments(options, isWhole) {
   for (const [name, given] of [["creaseAngle", options.creaseAngle === "auto"], ["denoise", (options.denoise ?? 0) !== 0]])
@@ -38,7 +38,7 @@ export function normalArguments(options, isWhole) {
   return (call) => [...before, call.put(groups, Uint32Array), groups?.length ?? 0, ...after];
 }
 
-/** The function of an entry. */
+/** Creates generateNormals for an entry. */
 export const normalsOf = (wasm, isWhole) => function generateNormals(mesh, options = {}) {
   optionsOf(options, [...normalOptions, "convention", "report"]);
   const given = normalArguments(options, isWhole);

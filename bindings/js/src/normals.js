@@ -29,7 +29,7 @@ export function measurePositionNoise(mesh) {
   });
 }
 
-/** The same indices, with the corners of faces that are turned in reverse order behind the first. */
+/** Returns the indices with flipped faces: their corners are reversed, except for the first. */
 function turnedIndices({ indices, faceSizes, cornerCount }, turned) {
   const made = indices ? indices.slice() : Uint32Array.from({ length: cornerCount }, (_, corner) => corner);
   for (let face = 0, first = 0; face < turned.length; ++face) {

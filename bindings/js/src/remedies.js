@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Remedies of findings as calls of tspace/gltf.
 
-/** The options of a call, as text: `{ overwriteNormals: true, crease: "60" }`. */
+/** Returns the options of a call as text: `{ overwriteNormals: true, crease: "60" }`. */
 const optionsText = (options) =>
   `{ ${options.map(({ name, value }) => `${name.replace(/-./g, ([, letter]) => letter.toUpperCase())}: ${value === "" ? "true" : JSON.stringify(value)}`).join(", ")} }`;
 

@@ -6,7 +6,7 @@ import { textAt, Wasm } from "./wasm.js";
 
 export { TspaceError } from "./error.js";
 
-/** What the call that runs unpacks by: unzstd, unzlib. */
+/** Options of the current call, with its decompression functions unzstd and unzlib. */
 let unpackers = {};
 
 const wasm = new Wasm({
@@ -29,12 +29,15 @@ export const ready = wasm.start(source);
 
 const unpacking = ["unzstd", "unzlib"];
 
-/** A function of the caller, or nothing. */
+/** Checks that a value is a function or missing. */
 function checkFunction(value, option) {
   if (!isMissing(value) && typeof value !== "function") failType(value, option, "a function");
 }
 
-/** wasm.run, with what unpacks; the instance is dropped after it, since its memory never shrinks. */
+/**
+ * Calls wasm.run with the caller's decompression functions. Releases the instance afterwards, because its memory never
+ * shrinks.
+ */
 function run(options, body) {
   for (const name of unpacking) checkFunction(options[name], name);
   const before = unpackers;
@@ -47,7 +50,7 @@ function run(options, body) {
   }
 }
 
-/** Names of numbers, in the order of their bytes, and what they come in. */
+/** Names of number types in the order of their size, and the array type of each. */
 const numberKinds = ["uint8", "uint16", "float"];
 const arrayTypes = [Uint8ClampedArray, Uint16Array, Float32Array];
 const channelNames = ["red", "green", "blue", "alpha", null];
@@ -94,7 +97,7 @@ export function convertMap(image, options = {}) {
   });
 }
 
-/** In the order of the tool's enumerations. */
+/** Order of the tool's enumerations. */
 const formats = ["bc5", "eac-rg11", "rg8", "astc-4x4"];
 const qualities = ["fast", "best", "quick"];
 const containers = ["ktx2", "dds"];
@@ -105,10 +108,10 @@ const reportNumbers = [
   "belowHorizon", "notUnit", "meanRoughness", "meanWidenedRoughness",
 ];
 
-/** What KTX2 and DDS begin with, which the module reads itself. */
+/** Returns whether the data starts like KTX2 or DDS, which the module reads itself. */
 const isTexture = (data) => (data[0] === 0xab && data[1] === 0x4b) || (data[0] === 0x44 && data[1] === 0x44 && data[2] === 0x53 && data[3] === 0x20);
 
-/** The format of a file that the caller decodes, by its first bytes. */
+/** Returns the MIME type of a file that the caller decodes, from its first bytes. */
 function mimeTypeOf(data) {
   if (data[0] === 0x89 && data[1] === 0x50) return "image/png";
   if (data[0] === 0xff && data[1] === 0xd8) return "image/jpeg";
@@ -117,7 +120,7 @@ function mimeTypeOf(data) {
   return "";
 }
 
-/** A texture file as bytes, or pixels: given, or of a file that the caller decodes. */
+/** Returns a texture file as bytes, or pixels: the given ones, or those of a file that the caller decodes. */
 function imageOf(image, what, decodeImage) {
   let pixels = image;
   if (ArrayBuffer.isView(image) || /ArrayBuffer$/.test(image?.[Symbol.toStringTag])) {

@@ -7,7 +7,9 @@ import { makeIndexedFrames, ready, release, TspaceError } from "./index.js";
 
 export { ready, release };
 
-/** Values of an attribute as floats, without gaps: half floats, normalized and interleaved attributes are converted. */
+/**
+ * Returns the values of an attribute as contiguous floats; converts half floats, normalized and interleaved attributes.
+ */
 function readFloats(attribute, size) {
   if (attribute.array instanceof Float32Array && !attribute.isInterleavedBufferAttribute && attribute.itemSize === size)
     return attribute.array.subarray(0, size * attribute.count);
@@ -17,14 +19,14 @@ function readFloats(attribute, size) {
   return numbers;
 }
 
-/** An attribute of another array and the same class and settings. */
+/** Returns an attribute with another array, but the same class and settings. */
 function withArray(attribute, array) {
   const { itemSize, normalized, name, usage, gpuType } = attribute;
   const Class = attribute.array.constructor === array.constructor ? attribute.constructor : BufferAttribute;
   return Object.assign(new Class(array, itemSize, normalized), { name, usage, gpuType });
 }
 
-/** The elements of an interleaved attribute, as they are stored, in an array of its own. */
+/** Copies elements of an interleaved attribute, without conversion, to a separate array. */
 function gatherInterleaved({ data, offset, itemSize }, sources) {
   const own = new data.array.constructor(sources.length * itemSize);
   sources.forEach((v, i) => {
@@ -33,7 +35,10 @@ function gatherInterleaved({ data, offset, itemSize }, sources) {
   return own;
 }
 
-/** The attribute for new vertices. One per instance stays as it is; `shared`: buffers that interleaved ones share. */
+/**
+ * Returns the attribute for the new vertices. Instanced attributes are cloned. `shared`: cache of interleaved buffers
+ * that clones share.
+ */
 function gathered(attribute, sources, shared) {
   if (attribute.isInstancedBufferAttribute || attribute.data?.isInstancedInterleavedBuffer) return attribute.clone(shared);
   if (!attribute.isInterleavedBufferAttribute) return withArray(attribute, gather(attribute.array, attribute.itemSize, sources));
@@ -42,7 +47,10 @@ function gathered(attribute, sources, shared) {
   return Object.assign(own, { name, usage: data.usage });
 }
 
-/** The index in the type that it had, or in a wider one where that is too small. The largest number of a type is no index. */
+/**
+ * Returns an index of the previous type, or of a wider type if necessary. The maximum of a type is not used as an
+ * index.
+ */
 function indexAttribute(given, indices, vertexCount) {
   const types = [Uint8Array, Uint16Array, Uint32Array];
   const least = given ? types.findIndex((Type) => Type.name === given.array.constructor.name) : 1;
@@ -51,14 +59,14 @@ function indexAttribute(given, indices, vertexCount) {
   return given ? withArray(given, array) : new BufferAttribute(array, 1);
 }
 
-/** The geometry, or that of a mesh. */
+/** Returns the geometry, or the geometry of a mesh. */
 function geometryOf(given) {
   const geometry = given?.isMesh ? given.geometry : given;
   if (geometry?.isBufferGeometry) return geometry;
   throw typeError("wrongType", `geometry must be a BufferGeometry or a Mesh, not ${given?.type ?? typeof given}`);
 }
 
-/** A geometry without attributes that has everything else of the given one. */
+/** Returns a geometry without attributes and with all other properties of the given one. */
 function emptyLike(geometry) {
   const result = geometry.isInstancedBufferGeometry ? new InstancedBufferGeometry() : new BufferGeometry();
   if (geometry.isInstancedBufferGeometry) result.instanceCount = geometry.instanceCount;

@@ -4,7 +4,7 @@
 // is undefined, so the next call gets a new instance.
 import { TspaceError, codeName, inJavaScriptNames } from "./error.js";
 
-/** A code that the module returned; its text is still there. */
+/** Thrown for an error code of the module; the error text is still in the module's memory. */
 class Failure {
   constructor(number) {
     this.number = number;
@@ -19,20 +19,25 @@ async function fetched(url) {
 
 export class Wasm {
   #module;
-  /** Of the instance, in an object that plans keep: `exports` is undefined once the instance has ended. */
+  /**
+   * State of the instance, in an object that plans keep: `exports` is undefined once the instance has been released.
+   */
   #current = {};
   #imports;
   #ready;
   #isWorn = false;
   #translated;
 
-  /** `imports`: functions that a module of files needs beside `endCall`. Only sentences of other modules are translated, since paths stay. */
+  /**
+   * `imports`: functions that a file module needs in addition to `endCall`. Error messages of file modules are not
+   * translated, because they may contain paths.
+   */
   constructor(imports) {
     this.#imports = imports ?? {};
     this.#translated = imports ? (text) => text : inJavaScriptNames;
   }
 
-  /** Starts loading, once. `source`: where the module lies, or a function that gives its bytes. */
+  /** Starts loading; later calls have no effect. `source`: URL of the module, or a function that returns its bytes. */
   start(source) {
     if (this.#ready) return this.#ready;
     this.#ready = (source instanceof URL ? fetched(source) : source()).then(WebAssembly.compile).then((module) => {
@@ -57,7 +62,10 @@ export class Wasm {
     return this.#current;
   }
 
-  /** What `call` throws goes through frames of the module, and what those had allocated stays behind. */
+  /**
+   * Wraps an import. An error that it throws unwinds frames of the module, whose allocations are not freed, so the
+   * instance must be released.
+   */
   #throughFrames(call) {
     return (...given) => {
       try {
@@ -75,7 +83,7 @@ export class Wasm {
     throw new Failure(number);
   }
 
-  /** Calls a function of the module; 1 where it ended as calls do whose input is wrong. */
+  /** Calls a function of the module. Returns 1 if the call ended because of invalid input. */
   #attempt(body, context) {
     const { stackSave, stackRestore, __indirect_function_table: functions } = this.#current.exports;
     const top = stackSave();
@@ -89,7 +97,7 @@ export class Wasm {
     }
   }
 
-  /** Ends the instance, whose memory the collector then frees; the next call gets a new one. */
+  /** Releases the instance, so that its memory can be garbage-collected. The next call creates a new one. */
   release() {
     this.#current.exports = undefined;
   }
@@ -98,7 +106,7 @@ export class Wasm {
     return this.#current.exports?.memory.buffer.byteLength ?? 0;
   }
 
-  /** body(call), and the end of what it allocated. */
+  /** Returns body(call), and frees what the call allocated. */
   run(body) {
     const call = new Call(this.exports);
     try {
@@ -123,19 +131,19 @@ export class Wasm {
 
 const utf8 = new TextDecoder();
 
-/** Text in the module's memory that a 0 ends. */
+/** Returns null-terminated text in the module's memory. */
 export function textAt(exports, place) {
   const bytes = new Uint8Array(exports.memory.buffer, place >>> 0);
   return utf8.decode(bytes.slice(0, bytes.indexOf(0)));
 }
 
-/** Code, sentence and element of the last call that failed. */
+/** Returns the code, message and element of the last failed call. */
 function errorOf(exports, number) {
   const element = exports.errorElement();
   return [codeName(number), textAt(exports, exports.errorText()), element < 0 ? undefined : element];
 }
 
-/** The arrays of one call in the module's memory. Views are made anew each time, since memory moves when it grows. */
+/** Arrays of one call in the module's memory. Views are created on each access, because memory moves when it grows. */
 class Call {
   #places = [];
 
@@ -150,7 +158,10 @@ class Call {
     return place;
   }
 
-  /** Copies a typed array in; 0 for none. Vectors of three are read as four: behind the last one are bytes as well. */
+  /**
+   * Copies a typed array to the module and returns its address; 0 if it is missing. Vectors of three components are
+   * read as four, so the array is followed by readable bytes.
+   */
   put(array, Type = array?.constructor) {
     if (!array) return 0;
     const place = this.allocate(array.length * Type.BYTES_PER_ELEMENT + 16);
@@ -158,24 +169,24 @@ class Call {
     return place;
   }
 
-  /** A copy of what lies at a place. */
+  /** Returns a copy of an array in the module's memory. */
   get(Type, place, count) {
     // slice() would fill the array with zeros first
     return new Type(new Type(this.wasm.memory.buffer, place >>> 0, count));
   }
 
-  /** The same for an array that the module allocated for its caller. */
+  /** Returns a copy of an array that the module allocated for its caller, and frees it after the call. */
   take(Type, place, count) {
     this.#places.push(place >>> 0);
     return this.get(Type, place, count);
   }
 
-  /** Throws the error of a function that returned one. */
+  /** Throws an error if a function returned an error code. */
   check(number) {
     if (number !== 0) throw new Failure(number);
   }
 
-  /** Fills in the last function's report, whose numbers begin at `first`. */
+  /** Fills in the report of the last function. `first`: index of its first number. */
   report(names, to, first = 0) {
     const numbers = new Float64Array(this.wasm.memory.buffer, (this.wasm.report() >>> 0) + 8 * first, names.length);
     names.forEach((name, i) => (to[name] = numbers[i]));

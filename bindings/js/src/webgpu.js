@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The entry "tspace/webgpu": normals and tangents of each pose, computed by WebGPU from a plan. Buffers belong to the
-// caller, and nothing is read back.
+// The entry "tspace/webgpu": computes normals and tangents of each pose with WebGPU from a plan. Buffers belong to the
+// caller; nothing is read back.
 import { count, fail, failType, isMissing, number, object } from "./check.js";
 import { shader } from "./evaluate_shader.js";
 
@@ -9,12 +9,12 @@ export { TspaceError } from "./error.js";
 const STORAGE = 0x80, COPY_DST = 0x08; // GPUBufferUsage, which does not exist in node
 const THREADS = 64, MOST_GROUPS = 65535, SETTINGS = 32, RANGE_ALIGNMENT = 256;
 
-/** Formats by their number in the settings, and bytes of an element. */
+/** Formats: number in the settings, bytes per element, and alignment. */
 const positionFormats = { float32x3: { number: 0, bytes: 12, unit: 4 }, snorm16x3: { number: 1, bytes: 6, unit: 2 } };
 const normalFormats = { float32x3: { number: 1, bytes: 12, unit: 4 } };
 const tangentFormats = { float32x4: { number: 0, bytes: 16, unit: 4 }, oct32: { number: 2, bytes: 4, unit: 4 }, snorm8_pair: { number: 3, bytes: 8, unit: 4 } };
 
-/** Pipelines of devices: the shader is compiled once for each. */
+/** Pipelines by device: the shader is compiled once per device. */
 const pipelines = new WeakMap();
 
 function pipelineOf(device) {
@@ -27,7 +27,7 @@ function pipelineOf(device) {
   return pipelines.get(device);
 }
 
-/** The words of a plan: of planBuffers, or of a Plan, which knows how to write them. */
+/** Returns the words of a plan: from planBuffers, or from a Plan. */
 function wordsOf(plan, options) {
   const written = plan?.[Symbol.for("tspace.planBuffers")]?.(options) ?? plan;
   const words = written?.words ?? written;
@@ -37,14 +37,14 @@ function wordsOf(plan, options) {
   return words;
 }
 
-/** One more than the largest vertex of the triangles. */
+/** Returns the maximum vertex index of the triangles, plus 1. */
 function vertexCountOf(words) {
   let most = -1;
   for (let t = 0, at = words[10]; t < words[6]; ++t, at += words[7]) most = Math.max(most, words[at], words[at + 1], words[at + 2]);
   return most + 1;
 }
 
-/** Where elements lie: { buffer, offset, stride, format } of a caller, checked; or a GPUBuffer alone. */
+/** Returns a checked array descriptor { buffer, offset, stride, format } of the caller; also accepts a GPUBuffer. */
 function arrayOf(given, name, formats, elements) {
   const isBuffer = typeof given?.usage === "number" && typeof given.size === "number";
   const array = isBuffer ? { buffer: given } : object(given, name, ["buffer", "offset", "stride", "format", "scale"]);
@@ -63,7 +63,7 @@ function arrayOf(given, name, formats, elements) {
   return { code, stride, offset: offset - begin, range: { buffer, offset: begin, size }, scale: array.scale };
 }
 
-/** Words 12 to 19 of the settings: where morph targets and joints lie. */
+/** Words 12 to 19 of the settings: locations of morph targets and joints. */
 function deformation(deform, vertexCount) {
   const words = new Uint32Array(8);
   if (isMissing(deform)) return words;
@@ -95,7 +95,10 @@ export class GpuFrames {
   #pipeline;
   #plan;
   #none;
-  /** Settings by their words: a buffer of each, since commands of one submission may have different ones. */
+  /**
+   * Settings buffers by contents. Each setting has its own buffer, because commands of one submission may use different
+   * settings.
+   */
   #settings = new Map();
   #isDestroyed = false;
 
@@ -106,7 +109,7 @@ export class GpuFrames {
     return new GpuFrames(device, await pipelineOf(device), words);
   }
 
-  /** Called by `create` alone. */
+  /** Called only by `create`. */
   constructor(device, pipeline, words) {
     this.#device = device;
     this.#pipeline = pipeline;
