@@ -29,12 +29,12 @@ export interface Views {
   parts: PartsView;
   motion: MotionView;
   progress: Progress;
-  /** The model, or null before there is one, and the one that it was mended from. */
+  /** Called with the current model (null: none), and the model that it was fixed from. */
   opened: (model: ModelFiles | null, before: ModelFiles | null) => void;
-  /** Names of the file's variants, none where it has none. */
+  /** Called with the names of the file's variants; empty: none. */
   offered: (variants: string[]) => void;
   checked: (report: CheckReport) => void;
-  /** All is there: picture, findings, who made the tangents. */
+  /** Called when everything is complete: the picture, the findings, and the origin of the tangents. */
   ready: () => void;
   inspected: (report: InspectReport) => void;
 }
@@ -46,13 +46,16 @@ export interface Reports {
 }
 
 const sentenceOf = (error: unknown): string => (error instanceof Error ? error.message : String(error));
-/** Files that did not come with the model, and what to do. */
+/** Returns a sentence about referenced files that are missing. */
 const lacking = (missing: string[]): string => `It names files that are not here: ${missing.slice(0, 8).join(", ")}${missing.length > 8 ? ` and ${missing.length - 8} more` : ""}. Drop them, too.`;
 
-/** Only what the library, the loader or the page's own readers say is said of the file, and what the browser says when it reads the file. */
+/**
+ * Returns whether an error is a fault of the page. Errors of the library, the loader, the page's own readers and the
+ * browser's file access are about the file.
+ */
 const isPageFault = (error: unknown): boolean => !(error instanceof LoaderError || error instanceof Refusal || error instanceof DOMException || (error instanceof WorkError && error.code !== "internal"));
 
-/** Why there is no picture. Only what the loader of three.js could not read is said of the file. */
+/** Returns why there is no picture. Only errors of the loader of three.js are attributed to the file. */
 function plainly(error: unknown): string {
   if (isPageFault(error)) return `this page failed, which need not be the fault of the file (${String(error)}). The findings do not depend on the picture.`;
   const text = sentenceOf(error).replace(/^THREE\.\w+: /, "");
@@ -62,37 +65,37 @@ function plainly(error: unknown): string {
   if (/Cannot read propert|is not iterable|is undefined|is not a function/.test(text)) return "the file names something that is not in it.";
   return text;
 }
-/** A lone map is seen from nearly straight ahead. */
+/** Initial viewing direction for a lone normal map: almost perpendicular. */
 const kMapDirection = new Vector3(0.2, 0.12, 1).normalize();
-/** What the worker calls the first part of a file to compare with. */
+/** Worker number of the first part of a file to compare with. */
 const kFirstOtherPart = 1_000_000;
 const copyOf = (arrays: Arrays): Arrays => structuredClone(arrays);
 
 export class App {
   model: ModelFiles | null = null;
   reports: Reports = {};
-  /** The fixed file right of the line, and what `check` says of it. */
+  /** The fixed file shown right of the split line, and its check report. */
   fixed: { model: ModelFiles; check: CheckReport | null } | null = null;
-  /** Parts of the file that Mend has made. */
+  /** Parts of the fixed file, or of the file to compare with. */
   #mended: Part[] = [];
   #mendedFile: ModelFiles | null = null;
   #mendedScene: Scene | null = null;
-  /** The mended file has other normals or triangles, so it is drawn by itself. */
+  /** The fixed file has other normals or triangles, so it is drawn as a separate scene. */
   #hasOtherShape = false;
-  /** What the model was mended from. */
+  /** The model from which the current one was fixed. */
   #before: ModelFiles | null = null;
-  /** Images of normal maps by material, and those of them whose green points down, as `check` says. */
+  /** Normal map image of each material, and those images whose green points down according to `check`. */
   #normalImages: number[] = [];
   #greenDown = new Set<number>();
-  /** Which of the file's variants is shown, or -1. */
+  /** Index of the shown variant, or -1. */
   #variant = -1;
-  /** Sentences on how the model came in. */
+  /** Remarks about loading the model. */
   #remarks: string[] = [];
   #generation = 0;
 
   constructor(readonly work: Work, private views: Views) {}
 
-  /** Tests and style sheets read it. */
+  /** Sets the state of the page, which tests and style sheets read. */
   #state(state: "loading" | "ready" | "failed" | "stopped" | "closed"): void {
     document.documentElement.dataset.state = state;
   }
@@ -103,7 +106,7 @@ export class App {
     this.views.findings.fail(message);
   }
 
-  /** Returns the memory of the model: that of the page, of the graphics card, and of the worker, which ends. */
+  /** Closes the model and frees its memory: that of the page, the GPU and the worker, which is terminated. */
   close(): void {
     this.work.stop();
     this.#leave("closed");
@@ -148,19 +151,22 @@ export class App {
     motion.reset(null);
   }
 
-  /** The mended file as the model, and the way back from it. */
+  /** Opens the fixed file as the model; back() returns to the original. */
   openMended(mended: ModelFiles): Promise<void> {
     return this.open(async () => mended, { before: this.model });
   }
 
-  /** To what the model was mended from; false where there is nothing to go back to. */
+  /** Returns to the model that the current one was fixed from; returns false if there is none. */
   back(): boolean {
     const before = this.#before;
     if (before) void this.open(async () => before);
     return before !== null;
   }
 
-  /** `before`: what the model was mended from. `read`: the model as the loader has read it already; its picture is then there before its numbers are. */
+  /**
+   * Opens a model. `before`: the model that it was fixed from. `read`: the model if the loader has already read it;
+   * then the picture appears before the figures.
+   */
   async open(choose: () => Promise<ModelFiles>, { before = null, read }: { before?: ModelFiles | null; read?: Promise<Model> } = {}): Promise<void> {
     const generation = ++this.#generation;
     const isCurrent = () => generation === this.#generation;
@@ -199,7 +205,7 @@ export class App {
     }
   }
 
-  /** A normal map on a surface, with what `check` says of the image. */
+  /** Returns a surface that shows a normal map, with the result of `check` for the image. */
   async #onSurface({ name, bytes }: ModelFiles): Promise<ModelFiles> {
     const { report, image } = await this.work.run("image", { model: { name, bytes, others: new Map() } });
     return { name, bytes: surfaceWith(name, image), others: new Map(), loneMap: { file: bytes, check: report as CheckReport } };
@@ -223,7 +229,10 @@ export class App {
     return this.#variant;
   }
 
-  /** Another of the file's variants, or none of them, seen from where the eye is. Findings stay: they are about the file. */
+  /**
+   * Shows another variant of the file, or none, from the same viewpoint. The findings are unchanged, because they are
+   * about the file.
+   */
   async setVariant(variant: number): Promise<void> {
     const { model } = this, { progress, look, place } = this.views;
     if (!model || variant === this.#variant) return;
@@ -241,7 +250,7 @@ export class App {
     }
   }
 
-  /** The picture. It may fail where the verdict does not: then there is a sentence in its place. */
+  /** Draws the model. If that fails, a sentence replaces the picture; the findings are still shown. */
   async #draw(model: ModelFiles, isCurrent: () => boolean, { isOther = false, read }: { isOther?: boolean; read?: Promise<Model> } = {}): Promise<void> {
     const { stage, progress } = this.views;
     progress.at("Drawing", 0.1);
@@ -304,7 +313,10 @@ export class App {
     this.views.ready();
   }
 
-  /** Right of the slider stands what is right: where green points down, it is read the other way round there. */
+  /**
+   * Collects the normal maps whose green points down; right of the split line their green is inverted, to show the
+   * correct result.
+   */
   #turnGreen({ findings, image }: CheckReport): void {
     if (image?.green === "down") this.#greenDown.add(this.#normalImages[0]);
     for (const { code, place } of findings) {
@@ -323,7 +335,7 @@ export class App {
     stage.setGreen(turned === 0 ? "none" : turned < withMap.length ? "some" : "all");
   }
 
-  /** What `check` says of a file that Mend has made, or null where it says nothing. */
+  /** Returns the check report of a fixed file, or null if it cannot be checked. */
   async checkMended(model: ModelFiles): Promise<CheckReport | null> {
     const { progress } = this.views;
     progress.at("Checking the fixed file", 0.8);
@@ -337,7 +349,7 @@ export class App {
     }
   }
 
-  /** A lone normal map as another file. */
+  /** Converts a lone normal map to another format. */
   convertMap({ name, loneMap }: ModelFiles, reading: MapReading, to: MapTarget): Promise<ConvertedMap> {
     if (!loneMap) throw new Error("There is no normal map.");
     return this.work.run("convertMap", { name, file: loneMap.file, reading, to });
@@ -353,7 +365,10 @@ export class App {
     }
   }
 
-  /** Puts the file that Mend has made right of the slider: its frames and its normal maps, as they are in it; its normals and triangles, too, where these are others. */
+  /**
+   * Shows the fixed file right of the split line: its frames and normal maps, and also its normals and triangles if
+   * they differ.
+   */
   async showMended(model: ModelFiles, hasOtherShape: boolean, as: OtherFile = "mended"): Promise<void> {
     const generation = this.#generation, isCurrent = () => generation === this.#generation;
     this.#hasOtherShape = hasOtherShape;
@@ -363,7 +378,10 @@ export class App {
     await this.setRight(as);
   }
 
-  /** Another version of the model right of the line, seen by the same camera, and what `check` says of it; null where another model was opened meanwhile. */
+  /**
+   * Shows another version of the model right of the split line, with the same camera. Returns its check report, or null
+   * if another model was opened meanwhile.
+   */
   async compareWith(choose: () => Promise<ModelFiles>): Promise<{ name: string; check: CheckReport } | null> {
     const generation = this.#generation, chosen = await choose(), isObj = /\.obj$/i.test(chosen.name);
     const other = isObj ? glbOfObj(chosen) : isMapName(chosen.name) ? await this.#onSurface(chosen) : chosen;
@@ -377,7 +395,7 @@ export class App {
 
   async #loadMended(model: ModelFiles, isCurrent: () => boolean): Promise<boolean> {
     const { parts, motion } = await loadModel(model, this.work, this.#variant);
-    // An animated model would have to move on both sides.
+    // Animated models are not drawn as a separate scene, which would have to move too.
     const scene = this.#hasOtherShape && !motion ? new Scene() : null;
     for (const [i, part] of scene ? parts.entries() : []) {
       if (triangleCount(part.arrays) > 0) scene!.add(kFirstOtherPart + i, part, await this.work.run("corners", { part: null, arrays: copyOf(part.arrays) }));
@@ -389,7 +407,7 @@ export class App {
     return true;
   }
 
-  /** Other frames for the slider and the error. */
+  /** Computes the frames for the right side and for the error. */
   async setRight(right: Right): Promise<void> {
     const generation = this.#generation;
     try {
@@ -419,7 +437,10 @@ export class App {
     void uvMap.draw();
   }
 
-  /** In a picture of its own the other file too shows how far this one is from it. False: another model was opened meanwhile. */
+  /**
+   * Compares the other file with this one, to color its own picture by the error too. Returns false if another model
+   * was opened meanwhile.
+   */
   async #compareBack(other: Scene, scene: Scene): Promise<boolean> {
     for (const drawn of other.drawn) {
       const part = scene.find(drawn.part.mesh, drawn.part.primitive)?.part, frames = part ? await this.#frames(drawn, "other", part) : null;
@@ -429,7 +450,10 @@ export class App {
     return true;
   }
 
-  /** A stopped worker has forgotten its parts: they are told once more. A part without frames has none. */
+  /**
+   * Returns the frames of a part for the right side, or null if there are none. After the worker was terminated, sends
+   * the part again.
+   */
   async #frames(drawn: Drawn, right: Right, mended: Part | undefined): Promise<Calls["otherFrames"]["answer"]> {
     const ask = () =>
       !isFile(right) ? this.work.run("frames", { part: drawn.number, method: right })

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A model that the page's address names by `?model=`: nothing is requested before the user agrees, and only from its
-// server (guard.js).
+// A model that the page's address specifies with `?model=`: nothing is requested before the user agrees, and only from
+// the server of that model (guard.js).
 import { el } from "./dom.js";
 import { fileUris, kMostBytes, kMostFiles, Refusal, type Named } from "./files.js";
 
-/** The address of the model, or null. */
+/** Returns the URL of the requested model, or null. */
 export function askedModel(): URL | null {
   const named = new URLSearchParams(location.search).get("model");
   if (!named) return null;
@@ -39,7 +39,7 @@ async function bytesAt(url: URL): Promise<Uint8Array<ArrayBuffer>> {
 
 const asFile = (path: string, bytes: Uint8Array<ArrayBuffer>): Named => ({ path, file: { size: bytes.length, arrayBuffer: async () => bytes.buffer } });
 
-/** The model and, of a .gltf, the files of the same server that it names. */
+/** Downloads the model and, for a .gltf, the files on the same server that it references. */
 export async function filesAt(url: URL): Promise<Named[]> {
   const bytes = await bytesAt(url), isKnown = /\.(glb|vrm|gltf|obj|zip)$/i.test(url.pathname);
   const name = isKnown ? nameOf(url) : `${nameOf(url)}${bytes[0] === 0x7b ? ".gltf" : bytes[0] === 0x50 ? ".zip" : ".glb"}`;
@@ -53,7 +53,7 @@ export async function filesAt(url: URL): Promise<Named[]> {
   return found;
 }
 
-/** Says which server would be asked, and waits for a click. */
+/** Returns a bar that names the server to be contacted, and waits for a click. */
 export function askFirst(url: URL, load: () => void): HTMLElement {
   const bar: HTMLElement = el("section", { class: "asked", "aria-label": "A model on a server" },
     el("p", {}, "The address of this page names a model: ", el("strong", {}, nameOf(url)), " on ", el("strong", {}, url.host), `. Nothing has been asked for yet. Loading it tells ${url.host} your network address, as any download does; what the page finds stays here.`),

@@ -7,7 +7,7 @@ export function fromBase64(text: string): Uint8Array<ArrayBuffer> {
   return bytes;
 }
 
-/** Through a data URL, which the browser makes in one go. */
+/** Uses a data URL, which the browser creates in one step. */
 export const toBase64 = (bytes: Uint8Array<ArrayBuffer>): Promise<string> => new Promise((done, failed) => {
   const reader = new FileReader();
   reader.onload = () => done((reader.result as string).slice((reader.result as string).indexOf(",") + 1));

@@ -4,16 +4,16 @@
 // browser computes the same bytes.
 import { GlbBuilder } from "./model/glb.js";
 
-/** Middle and radius. */
+/** Center and radius of each ball. */
 const balls: readonly (readonly [number, number, number, number])[] = [
   [0, -0.5, 0, 0.46], [0, 0.28, 0.02, 0.44], [-0.36, 0.68, -0.02, 0.17], [0.36, 0.68, -0.02, 0.17], [0, 0.16, 0.42, 0.16],
   [-0.5, -0.28, 0.14, 0.17], [0.5, -0.28, 0.14, 0.17], [-0.3, -0.86, 0.24, 0.2], [0.3, -0.86, 0.24, 0.2],
 ];
 const kCells = 40, kLow = -1.15, kStep = 2.3 / kCells, kBlend = 0.16;
-/** Of a cell, at most. */
+/** Maximum displacement of a vertex, as a fraction of a cell. */
 const kNoise = 0.07;
 
-/** Distance from the bear, with the balls melted into one another. */
+/** Returns the signed distance to the bear; the balls are blended smoothly. */
 function field(x: number, y: number, z: number): number {
   let nearest = 10;
   for (const [cx, cy, cz, radius] of balls) {
@@ -23,7 +23,7 @@ function field(x: number, y: number, z: number): number {
   return nearest;
 }
 
-/** -1 to 1, by chance. */
+/** Returns a pseudo-random number in [-1, 1). */
 function random(n: number): number {
   let h = Math.imul(n + 1, 0x9e3779b1);
   h = Math.imul(h ^ (h >>> 15), 0x85ebca6b);
@@ -31,7 +31,7 @@ function random(n: number): number {
   return ((h ^ (h >>> 16)) >>> 0) / 2 ** 31 - 1;
 }
 
-/** A vertex in each cell that the surface crosses, and a quad around each edge that crosses it. */
+/** Creates a vertex in each cell that the surface crosses, and a quad around each edge that crosses the surface. */
 function surfaceNet(): { positions: number[]; triangles: [number, number, number][] } {
   const size = kCells + 1, steps = [1, kCells, kCells * kCells], positions: number[] = [], triangles: [number, number, number][] = [];
   const values = Float64Array.from({ length: size ** 3 }, (_, n) => field(...([n % size, Math.floor(n / size) % size, Math.floor(n / size / size)].map((k) => kLow + k * kStep) as [number, number, number])));
@@ -67,7 +67,7 @@ function surfaceNet(): { positions: number[]; triangles: [number, number, number
   return { positions, triangles };
 }
 
-/** Means over the triangles as they were before some were turned. */
+/** Returns mean normals of the triangles before any were flipped. */
 function normalsOf(positions: number[], triangles: [number, number, number][]): Float32Array<ArrayBuffer> {
   const sums = new Float64Array(positions.length), at = (v: number) => positions.slice(3 * v, 3 * v + 3);
   for (const triangle of triangles) {
@@ -79,7 +79,7 @@ function normalsOf(positions: number[], triangles: [number, number, number][]): 
   return Float32Array.from(sums, (x, i) => x / length(Math.floor(i / 3)));
 }
 
-/** In which patches triangles are turned: where three waves add up. */
+/** Returns whether triangles at a position are flipped: in patches where the sum of three waves is large. */
 function isTurned(x: number, y: number, z: number): boolean {
   const wave = (t: number) => 1 - 4 * Math.abs(t - Math.floor(t) - 0.5);
   return wave(1.1 * x + 0.15) + wave(1.3 * y + 0.1) + wave(1.2 * z + 0.2) > 0.95;

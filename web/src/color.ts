@@ -3,7 +3,7 @@
 
 export type Rgb = readonly [number, number, number];
 
-/** The scale of errors, which is that of `tspace render`: degrees, and the colours there. Between two of them a colour is mixed. */
+/** Color scale of errors, as in `tspace render`: degrees and the colors at them. Colors in between are interpolated. */
 export const heatDegrees: readonly number[] = [0, 1, 5, 15, 45, 90, 180];
 export const heat: readonly Rgb[] = [
   [41, 48, 89],
@@ -23,5 +23,5 @@ export const noData: Rgb = [128, 128, 132];
 export const css = ([r, g, b]: Rgb): string => `rgb(${r} ${g} ${b})`;
 export const heatGradient = `linear-gradient(90deg, ${heat.map(css).join(", ")})`;
 
-/** For shaders, which work with the numbers as the screen shows them. */
+/** Returns a color for shaders that compute with display (sRGB-encoded) values. */
 export const glsl = ([r, g, b]: Rgb): string => `vec3(${[r, g, b].map((x) => (x / 255).toFixed(4)).join(", ")})`;

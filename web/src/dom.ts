@@ -4,7 +4,7 @@
 type Child = Node | string | null | undefined | false;
 type Properties = Record<string, unknown>;
 
-/** `el("button", { class: "plain", onclick: f, "aria-pressed": "true" }, "Text")` */
+/** Creates an element: `el("button", { class: "plain", onclick: f, "aria-pressed": "true" }, "Text")` */
 export function el<K extends keyof HTMLElementTagNameMap>(tag: K, properties: Properties = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(properties)) {
@@ -25,7 +25,7 @@ export function replaceChildren(element: Element, ...children: Child[]): void {
   element.replaceChildren(...children.filter((child): child is Node | string => Boolean(child)));
 }
 
-/** Radio buttons that look like one control. */
+/** Creates radio buttons that look like one control. */
 export function choice<T extends string>(label: string, options: readonly (readonly [T, string])[], chosen: T, changed: (value: T) => void) {
   const name = `choice-${++choices}`;
   const inputs = new Map<T, HTMLInputElement>();
@@ -53,7 +53,7 @@ export function select<T extends string>(label: string, options: readonly (reado
   return { element: el("label", { class: "select" }, el("span", {}, label), input), input };
 }
 
-/** A slider with its number beside it. */
+/** Creates a slider with its value next to it. */
 export function slider(label: string, { min, max, step, value, unit }: { min: number; max: number; step: number; value: number; unit: string }, changed: (value: number) => void): HTMLElement {
   const input = el("input", { type: "range", min, max, step, value }), text = el("span", { class: "number" }, `${value}${unit}`);
   input.addEventListener("input", () => {
@@ -63,7 +63,7 @@ export function slider(label: string, { min, max, step, value, unit }: { min: nu
   return el("label", { class: "select slider" }, el("span", {}, label), input, text);
 }
 
-/** `1,234`, whatever the language of the browser: reports are in English. */
+/** Formats a number as `1,234` regardless of the browser's language, because reports are in English. */
 export const count = (n: number): string => n.toLocaleString("en");
 
 export const plural = (n: number, one: string): string => `${count(n)} ${one}${n === 1 ? "" : "s"}`;

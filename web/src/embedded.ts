@@ -3,16 +3,16 @@
 import { fromBase64 } from "./base64.js";
 import type { ModelFiles } from "./files.js";
 
-/** When the page was made, and by which command. */
+/** When and by which command the page was created. */
 export interface PageOrigin {
   version: string;
   date: string;
   command: string;
-  /** The end of the address with which the page was saved: what was seen. */
+  /** Fragment of the address with which the page was saved: the view. */
   shown?: string;
 }
 
-/** Of a page that `tspace view` made. */
+/** Returns the origin of a page that `tspace view` created, or null. */
 export function pageOrigin(): PageOrigin | null {
   const text = document.getElementById("origin")?.textContent;
   return text ? (JSON.parse(text) as PageOrigin) : null;

@@ -4,7 +4,7 @@ declare module "*.wasm?packed" {
   const url: string;
   export default url;
 }
-/** What is used of Draco's decoder. */
+/** The functions of Draco's decoder that are used. */
 declare module "three/examples/jsm/libs/draco/gltf/draco_wasm_wrapper.js" {
   interface Decoder {
     DecodeBufferToMesh(buffer: object, mesh: object): { ok(): boolean };
@@ -29,5 +29,5 @@ declare module "*.glb?inline" {
   export default url;
 }
 
-/** The version of the library in the page. */
+/** Version of the library embedded in the page. */
 declare const __VERSION__: string;

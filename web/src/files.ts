@@ -5,23 +5,25 @@ import { isMapName } from "./model/lone_map.js";
 import type { CheckReport } from "tspace/gltf";
 
 export interface ModelFiles {
-  /** What reports call it. */
+  /** Name in reports. */
   name: string;
   bytes: Uint8Array<ArrayBuffer>;
-  /** Files that the model may name, by their path below the model's folder. */
+  /** Files that the model may reference, by path relative to the model's folder. */
   others: Map<string, Uint8Array<ArrayBuffer>>;
-  /** A normal map that came without a model, and what `check` says of it; `bytes` is then a surface that shows it. */
+  /**
+   * A normal map that was opened without a model, and its check report; `bytes` is then a surface that shows the map.
+   */
   loneMap?: { file: Uint8Array<ArrayBuffer>; check: CheckReport };
 }
 
-/** A sentence for the person. */
+/** An error with a message for the user. */
 export class Refusal extends Error {}
 
 export const kMostBytes = 1 << 30;
 export const kMostFiles = 2000;
 const kModel = /\.(glb|vrm|gltf|obj)$/i;
 
-/** What can be read of a file: one of the disk, or one out of an archive. */
+/** A readable file, on disk or in an archive. */
 interface Readable {
   size: number;
   arrayBuffer(): Promise<ArrayBuffer>;
@@ -32,10 +34,13 @@ export interface Named {
   file: Readable;
 }
 
-/** What a folder holds, by one of the two interfaces that browsers have for it. */
+/** A folder, accessed by one of the two interfaces of browsers. */
 type Folder = { path: string; handle: FileSystemDirectoryHandle } | { path: string; entry: FileSystemDirectoryEntry };
 
-/** A page opened from disk may read folders in Chromium by handles, and by entries in all others. */
+/**
+ * Lists a folder. On a page opened from disk, Chromium can only read folders by handles, and other browsers only by
+ * entries.
+ */
 async function contentsOf(folder: Folder): Promise<(Named | Folder)[]> {
   const found: (Named | Folder)[] = [];
   if ("handle" in folder) {
@@ -57,7 +62,7 @@ async function contentsOf(folder: Folder): Promise<(Named | Folder)[]> {
   }
 }
 
-/** Items of a drop can be asked for only during its event, so this happens before the first await. */
+/** Returns the items of a drop. They are only accessible during the event, so this runs before the first await. */
 function droppedItems(data: DataTransfer): Promise<Named | Folder | null>[] {
   type Handles = { getAsFileSystemHandle?: () => Promise<FileSystemHandle | null> };
   return [...data.items].map(async (item) => {
@@ -69,7 +74,7 @@ function droppedItems(data: DataTransfer): Promise<Named | Folder | null>[] {
   });
 }
 
-/** Files of a drop, those in folders too. */
+/** Returns the files of a drop, including files in folders. */
 export async function droppedFiles(data: DataTransfer): Promise<Named[]> {
   const found: Named[] = [];
   const waiting = await Promise.all(droppedItems(data));
@@ -85,7 +90,7 @@ export async function droppedFiles(data: DataTransfer): Promise<Named[]> {
 
 export const pickedFiles = (files: FileList): Named[] => [...files].map((file) => ({ path: file.webkitRelativePath || file.name, file }));
 
-/** What an archive holds, below a folder of its name. Sizes are held against the limits before anything is unpacked. */
+/** Returns the files of an archive, in a folder with its name. Sizes are checked before anything is unpacked. */
 async function unpacked({ path, file }: Named): Promise<Named[]> {
   const packed = new Uint8Array(await file.arrayBuffer());
   let files = 0, bytes = 0, entries: Record<string, Uint8Array>;
@@ -108,7 +113,7 @@ async function unpacked({ path, file }: Named): Promise<Named[]> {
   }));
 }
 
-/** The files that are there: those of a later drop without a model belong to the model of an earlier one. */
+/** All opened files. Files of a later drop without a model are added to those of the current model. */
 export class Pile {
   #files: Named[] = [];
 
@@ -125,13 +130,13 @@ export class Pile {
   }
 }
 
-/** Models among files, those nearest to the top first. */
+/** Returns the models among the files, those closest to the top folder first. */
 export function modelsIn(named: Named[]): string[] {
   const depth = (path: string) => path.split("/").length;
   return named.map(({ path }) => path).filter((path) => kModel.test(path)).sort((a, b) => depth(a) - depth(b) || a.localeCompare(b, "en"));
 }
 
-/** Files that a .gltf names, as it writes them. */
+/** Returns the URIs of files that a .gltf references, unchanged. */
 export function fileUris(bytes: Uint8Array): string[] {
   try {
     const { buffers = [], images = [] } = JSON.parse(new TextDecoder().decode(bytes)) as { buffers?: { uri?: unknown }[]; images?: { uri?: unknown }[] };
@@ -143,13 +148,13 @@ export function fileUris(bytes: Uint8Array): string[] {
   }
 }
 
-/** Files that a .gltf names and that did not come with it. */
+/** Returns the files that a .gltf references and that are missing. */
 export function missingFiles({ name, bytes, others }: ModelFiles): string[] {
   if (!/\.gltf$/i.test(name)) return [];
   return [...new Set(fileUris(bytes).map((uri) => decodeURIComponent(uri).replace(/^\.\//, "")))].filter((path) => !others.has(path));
 }
 
-/** One of the models among the files, the first where none is named, with all files that it may name. */
+/** Returns the chosen model, or the first one, with all files that it may reference. */
 export async function chooseModel(named: Named[], chosen?: string): Promise<ModelFiles> {
   if (named.length > kMostFiles) throw new Refusal(`These are more than ${kMostFiles} files. Choose the folder of one model.`);
   const path = chosen ?? modelsIn(named)[0] ?? named.map(({ path }) => path).find(isMapName), models = named.filter((one) => one.path === path);

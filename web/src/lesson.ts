@@ -3,7 +3,7 @@
 import { el } from "./dom.js";
 import { pageOrigin } from "./embedded.js";
 
-/** Sections of learn.html, by how the name of a finding begins. */
+/** Sections of learn.html, by prefix of the finding's code. */
 const sections: readonly (readonly [RegExp, string])[] = [
   [/^signs/, "mirror"],
   [/^(uvSeam|mirroredSeam|splitFrames)/, "seam"],
@@ -14,12 +14,12 @@ const sections: readonly (readonly [RegExp, string])[] = [
   [/^tangents/, "relief"],
 ];
 
-/** A page that the tool made may be anywhere, without the lesson beside it. */
+/** Returns whether the lesson is next to the page. Pages created by the tool may be anywhere, without the lesson. */
 const isBeside = (): boolean => pageOrigin() === null;
 
 export const lessonLink = (): HTMLElement | false => isBeside() && el("a", { class: "lesson", href: "learn.html", title: "A lesson with figures to drag" }, "What is a tangent?");
 
-/** To the figure that shows what a kind of finding means. */
+/** Returns a link to the figure that explains a kind of finding. */
 export function figureLink(code: string): HTMLElement | false {
   const section = sections.find(([pattern]) => pattern.test(code))?.[1];
   return isBeside() && section !== undefined && el("a", { class: "lesson", href: `learn.html#${section}` }, "See it in the lesson");

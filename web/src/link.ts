@@ -4,14 +4,14 @@ import { looks, type Look } from "./picture/shader.js";
 import type { Stage } from "./views/stage.js";
 
 export interface Linked {
-  /** The file name of a sample. */
+  /** File name of a sample. */
   sample?: string;
   look?: Look;
-  /** Number of the finding, from 0. */
+  /** Index of the finding, from 0. */
   finding?: number;
-  /** Where the line between both sides is, 0 to 1. */
+  /** Position of the split line, 0 to 1. */
   split?: number;
-  /** Place of the eye, and what it looks at. */
+  /** Positions of the camera and of its target. */
   camera?: number[];
 }
 
@@ -28,26 +28,29 @@ export function linkedBy(hash: string): Linked {
   return linked;
 }
 
-/** Each model lies in memory, so only some are kept; of others the address knows samples. */
+/** Models need memory, so only a few are kept. For others, the address can only restore samples. */
 const kMostVisited = 6, kMostVisitedBytes = 400 << 20;
 
-/** Models of this visit by places of the browser's history, so that its Back and Forward go through them. */
+/** Models of this visit by entry of the browser's history, so that Back and Forward switch between them. */
 export class Visited<Model> {
   constructor(private bytesOf: (model: Model) => number) {}
 
   #models = new Map<string, Model>();
 
-  /** What this place of the history calls its model. */
+  /** Key of the current history entry's model. */
   get #name(): string | undefined {
     return (history.state as { model?: string } | null)?.model;
   }
 
-  /** What is shown at this place of the history, where that is known. */
+  /** The model of the current history entry, if it is still in memory. */
   get current(): Model | undefined {
     return this.#models.get(this.#name ?? "");
   }
 
-  /** Another model is shown. The first one has the place that the page has, and so has one whose address was typed. */
+  /**
+   * Adds the model that is shown now. The first model, and a model whose address was typed, use the current history
+   * entry.
+   */
   add(model: Model): void {
     const state = { model: crypto.getRandomValues(new Uint32Array(4)).join() };
     if (this.#models.size === 0 || this.#name === undefined) history.replaceState(state, "");
@@ -57,7 +60,7 @@ export class Visited<Model> {
     while (this.#models.size > 1 && (this.#models.size > kMostVisited || bytes() > kMostVisitedBytes)) this.#models.delete(this.#models.keys().next().value!);
   }
 
-  /** Returns the memory of all models. */
+  /** Frees all models. */
   clear(): void {
     this.#models.clear();
   }
@@ -65,7 +68,7 @@ export class Visited<Model> {
 
 const short = (x: number): string => String(Number(x.toPrecision(5)));
 
-/** Keeps the address in step with what is seen. */
+/** Updates the address when the view changes. */
 export function keepLink(stage: Stage, finding: () => number | null, sample: () => string | null): () => void {
   let timer = 0;
   const { viewport } = stage;

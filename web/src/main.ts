@@ -40,7 +40,7 @@ const kept = own || asked || first.sample ? null : await keptModel();
 const firstSample = own || kept ? null : (sampleNamed(first.sample) ?? samples[0]);
 const firstFiles = firstSample && filesOf(firstSample);
 const firstRead = firstFiles && loadModel(firstFiles, work);
-firstRead?.catch(() => {}); // reported where the model would be drawn
+firstRead?.catch(() => {}); // reported when the model is drawn
 await work.started;
 const largeMap = el("section", { class: "large-map", "aria-label": "UV map", hidden: true });
 let plan: Plan | null = null;
@@ -78,7 +78,10 @@ const app: App = new App(work, {
   inspected: ({ primitives }) => mend.setCompressed(primitives.some(({ compression }) => compression !== "none")),
 });
 
-/** A lone normal map whose channels are not those of glTF, as a PNG whose channels are; null for all else. */
+/**
+ * Converts a lone normal map with other channels than glTF's to a PNG with glTF's channels; null if no conversion is
+ * needed.
+ */
 async function convertedMap(model: ModelFiles): Promise<{ name: string; report: unknown; bytes: Uint8Array<ArrayBuffer> } | null> {
   const reading = model.loneMap && mapReading(model.loneMap.check)?.reading;
   if (!reading || !(reading.channels || reading.curve)) return null;
@@ -104,7 +107,7 @@ function checked(report: CheckReport): void {
   convert.show(app.model);
 }
 
-/** List, look, picture and counts follow a fix: they are about the fixed file, right of the line. */
+/** After a fix, the list, the look, the picture and the counts are about the fixed file, right of the split line. */
 function showFixed({ name, bytes, others, checked: after }: Mended, url: string, isChanged: boolean): void {
   const before = app.reports.check as CheckReport | undefined;
   if (!before) return fix.wait();
@@ -118,7 +121,7 @@ function showFixed({ name, bytes, others, checked: after }: Mended, url: string,
   stage.setLook("lit");
 }
 
-/** The first model is shown as the address says; from then on the address says what is shown. */
+/** View of the first model, from the address; afterwards the address follows the view. */
 let linked = asked ? {} : first;
 const keep = keepLink(stage, () => findings.chosen, () => (pile.isEmpty && app.model !== own ? (app.model?.name ?? null) : null));
 stage.viewport.onDrawn = () => document.documentElement.dataset.state === "ready" && keep();
@@ -135,7 +138,7 @@ function followLink(): void {
   if (camera) stage.viewport.lookFrom(camera);
 }
 
-/** Models that were shown, what each was mended from, and the files that came with it. */
+/** Models that were shown, the model that each was fixed from, and the files that were opened with it. */
 const visited = new Visited<{ model: ModelFiles; before: ModelFiles | null; pile: Pile }>(({ model }) => model.bytes.length);
 addEventListener("popstate", () => {
   linked = linkedBy(location.hash);
@@ -163,7 +166,7 @@ function showName(model: ModelFiles | null, before: ModelFiles | null): void {
   gallery.mark(model?.name ?? null);
 }
 
-/** Nothing is left of the model, and of those before it, in memory. */
+/** Removes the model, and all earlier models, from memory. */
 function closeModel(): void {
   visited.clear();
   pile = new Pile();
@@ -172,10 +175,10 @@ function closeModel(): void {
 }
 
 let pile = new Pile();
-/** Where several models came together: which of them. */
+/** If several models were opened together: a choice of the model. */
 const others = el("select", { class: "models", "aria-label": "Models that came together", hidden: true });
 
-/** Opens what was dropped or chosen; later files may belong to the model that is there. */
+/** Opens dropped or chosen files; later files may belong to the current model. */
 function openFiles(dropped: Promise<Named[]> | Named[]): void {
   void app.open(async () => {
     const files = await pile.add(await dropped), models = modelsIn(files);
@@ -188,7 +191,7 @@ function openFiles(dropped: Promise<Named[]> | Named[]): void {
   });
 }
 
-/** Another version of the model right of the line. */
+/** Shows another version of the model right of the split line. */
 async function compare(dropped: Named[]): Promise<void> {
   try {
     const before = app.reports.check as CheckReport | undefined, other = await app.compareWith(async () => chooseModel(await new Pile().add(dropped)));
@@ -263,7 +266,7 @@ addEventListener("drop", (event) => {
   }
 });
 
-/** Below the page: that a model is kept in the browser, and the button that forgets it. */
+/** Shows below the page that a model is stored in the browser, with a button that deletes it. */
 function showKept(name: string | null): void {
   replaceChildren(keptLine, name && el("span", { class: "quiet" }, `${name} is kept in this browser for the next visit.`), name && el("button", { type: "button", class: "small", onclick: () => void forgetModel().then(() => showKept(null)) }, "Forget it"));
 }
@@ -272,5 +275,5 @@ if (own) void app.open(async () => own);
 else if (kept) void app.open(async () => kept).then(() => showKept(kept.name));
 else if (firstFiles && firstRead) void app.open(async () => firstFiles, { read: firstRead });
 
-/** For tests, and for those who look with the browser's console. */
+/** For tests, and for use in the browser's console. */
 Object.assign(window, { tspaceView: app });

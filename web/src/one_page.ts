@@ -6,10 +6,10 @@ import type { ModelFiles } from "./files.js";
 
 const escaped = (text: string): string => text.replaceAll("&", "&amp;").replaceAll('"', "&quot;").replaceAll("<", "&lt;");
 
-/** A lone normal map goes into the page as the image that it is. */
+/** A lone normal map is embedded as the original image. */
 const filesOf = ({ name, bytes, others, loneMap }: ModelFiles): [string, Uint8Array<ArrayBuffer>][] => [[name, loneMap?.file ?? bytes], ...others];
 
-/** `shown`: the end of the address that says what is seen. */
+/** Returns the page with an embedded model. `shown`: fragment of the address that describes the view. */
 export async function pageWith(model: ModelFiles, shown: string): Promise<Blob> {
   const blocks: string[] = [];
   for (const [name, bytes] of filesOf(model)) blocks.push(`<script type="application/octet-stream" data-name="${escaped(name)}">${await toBase64(bytes)}</script>\n`);

@@ -4,7 +4,7 @@
 import type { ModelFiles } from "./files.js";
 
 const kFolder = "model", kIndex = "index.json";
-/** Larger models are not kept: writing them would take as long as opening them. */
+/** Larger models are not stored: writing them would take as long as opening them. */
 const kMostBytes = 300 << 20;
 
 interface Index {
@@ -23,7 +23,7 @@ async function write(place: FileSystemDirectoryHandle, name: string, content: Fi
 const read = async (place: FileSystemDirectoryHandle, name: string): Promise<Uint8Array<ArrayBuffer>> =>
   new Uint8Array(await (await (await place.getFileHandle(name)).getFile()).arrayBuffer());
 
-/** Keeps the files of a model, in the place of the one before; false where the browser keeps nothing. */
+/** Stores the files of a model, replacing the previous one. Returns false if the browser has no storage. */
 export async function keepModel({ name, bytes, others }: ModelFiles): Promise<boolean> {
   const size = [bytes, ...others.values()].reduce((sum, file) => sum + file.length, 0);
   try {
@@ -39,7 +39,7 @@ export async function keepModel({ name, bytes, others }: ModelFiles): Promise<bo
   }
 }
 
-/** The model that was kept, or null. */
+/** Returns the stored model, or null. */
 export async function keptModel(): Promise<ModelFiles | null> {
   try {
     const place = await folder(false), index = JSON.parse(new TextDecoder().decode(await read(place, kIndex))) as Index;
@@ -54,6 +54,6 @@ export async function forgetModel(): Promise<void> {
   try {
     await (await navigator.storage.getDirectory()).removeEntry(kFolder, { recursive: true });
   } catch {
-    // There is none.
+    // No model is stored.
   }
 }

@@ -19,14 +19,14 @@ export interface Sample {
   name: string;
   file: string;
   hint: string;
-  /** A small picture of it: as the file is on the left, fixed on the right. */
+  /** Small picture of the sample: the file on the left, fixed on the right. */
   picture: string;
   bytes: () => Uint8Array<ArrayBuffer>;
 }
 
 const decoded = (url: string): Uint8Array<ArrayBuffer> => fromBase64(url.slice(url.indexOf(",") + 1));
 
-/** The crate's arrays where they lie in its bytes. */
+/** Returns the bytes of the crate, and a function that reads an attribute in place. */
 function crateArrays(): { bytes: Uint8Array<ArrayBuffer>; read: (attribute: string, size: number) => Float32Array<ArrayBuffer> } {
   const bytes = decoded(crate), view = new DataView(bytes.buffer);
   const textBytes = view.getUint32(12, true);
@@ -38,7 +38,10 @@ function crateArrays(): { bytes: Uint8Array<ArrayBuffer>; read: (attribute: stri
   return { bytes, read };
 }
 
-/** The crate with other tangents: `change` gets the array of all, four numbers a vertex, and a reader of the other arrays. */
+/**
+ * Returns the crate with changed tangents. `change` receives all tangents (four numbers per vertex) and a function that
+ * reads other attributes.
+ */
 function withTangents(change: (tangents: Float32Array, read: (attribute: string, size: number) => Float32Array) => void): () => Uint8Array<ArrayBuffer> {
   return () => {
     const { bytes, read } = crateArrays();
@@ -47,7 +50,7 @@ function withTangents(change: (tangents: Float32Array, read: (attribute: string,
   };
 }
 
-/** As an exporter leaves them that forgets the fourth number: every sign is +1. */
+/** As written by an exporter that omits the sign: every sign is +1. */
 const signsLost = withTangents((tangents) => {
   for (let i = 3; i < tangents.length; i += 4) tangents[i] = 1;
 });
@@ -61,12 +64,15 @@ const alongNormals = withTangents((tangents, read) => {
   for (let v = 0; v < tangents.length / 4; ++v) tangents.set(normals.subarray(3 * v, 3 * v + 3), 4 * v);
 });
 
-/** As of a tool that turned the model from Z up to Y up, and its tangents not. */
+/** As written by a tool that rotated the model from Z up to Y up, but not its tangents. */
 const wrongAxes = withTangents((tangents) => {
   for (let i = 0; i < tangents.length; i += 4) [tangents[i + 1], tangents[i + 2]] = [-tangents[i + 2], tangents[i + 1]];
 });
 
-/** Both sides of seams of the UV map share one tangent, as written through the index list from before the split; each keeps its sign. */
+/**
+ * Both sides of UV seams share one tangent, as written with the index list from before the split; each side keeps its
+ * sign.
+ */
 const sharedSeams = withTangents((tangents, read) => {
   const positions = read("POSITION", 3), normals = read("NORMAL", 3), firsts = new Map<string, number>();
   const key = (v: number) => [...positions.subarray(3 * v, 3 * v + 3), ...normals.subarray(3 * v, 3 * v + 3)].map((x) => x.toFixed(5)).join();
@@ -77,7 +83,7 @@ const sharedSeams = withTangents((tangents, read) => {
   }
 });
 
-/** A second UV set, turned by a quarter, and tangents along that; the textures are read with the first. */
+/** Adds a second UV set, rotated by 90 degrees, and tangents along it, although the textures use the first set. */
 function wrongSet(): Uint8Array<ArrayBuffer> {
   const { bytes, read } = crateArrays(), view = new DataView(bytes.buffer), textBytes = view.getUint32(12, true);
   const json = JSON.parse(new TextDecoder().decode(bytes.subarray(20, 20 + textBytes)));
@@ -106,7 +112,10 @@ function wrongSet(): Uint8Array<ArrayBuffer> {
 
 const sample = (name: string, file: string, hint: string, picture: string, bytes: () => Uint8Array<ArrayBuffer>): Sample => ({ name, file, hint, picture, bytes });
 
-/** Faults as they are found in real files, by what one sees, and one model without a fault. The first is shown when the page opens. */
+/**
+ * Faults that occur in real files, named by their visible effect, and one model without a fault. The first sample is
+ * shown when the page opens.
+ */
 export const samples: readonly Sample[] = [
   sample("Half inside out", "crate-signs-lost.glb", "The exporter dropped the sign (w) of the tangents: the mirrored half of the crate is lit inside out", pictureSignsLost, signsLost),
   sample("DirectX map", "ring-directx.glb", "A normal map made for DirectX, whose green points down, on a ring without tangents", pictureRing, () => decoded(ring)),

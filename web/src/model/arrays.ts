@@ -5,7 +5,7 @@ import type { Arrays } from "../worker/protocol.js";
 
 type Attribute = BufferAttribute | InterleavedBufferAttribute;
 
-/** `size` floats per element; integers that stand for 0 to 1 or -1 to 1 are those. */
+/** Returns an attribute as `size` floats per element; normalized integers are converted to 0 to 1 or -1 to 1. */
 function floats(attribute: Attribute, size: number): Float32Array<ArrayBuffer> {
   if (attribute.array instanceof Float32Array && !("isInterleavedBufferAttribute" in attribute) && attribute.itemSize === size) return Float32Array.from(attribute.array);
   const out = new Float32Array(size * attribute.count);
@@ -37,7 +37,7 @@ export function uvsOf(geometry: BufferGeometry, channel: number, matrix: Matrix3
   return uvs && transformed(uvs, matrix);
 }
 
-/** Two numbers per vertex, through the transform of a texture. */
+/** Returns two numbers per vertex, after the transform of a texture. */
 export const uvsThrough = (attribute: Attribute, matrix: Matrix3 | null): Float32Array<ArrayBuffer> => transformed(floats(attribute, 2), matrix);
 
 export function arraysOf(geometry: BufferGeometry, channel: number, matrix: Matrix3 | null): Arrays | null {

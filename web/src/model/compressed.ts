@@ -4,7 +4,7 @@ import { BufferAttribute, BufferGeometry } from "three";
 import type { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import type { Work } from "../worker/client.js";
 
-/** `ids` and `types` of attributes, by their names. */
+/** `ids` and `types` of attributes, by name. */
 async function decodedDraco(work: Work, data: ArrayBuffer, ids: Record<string, number>, types: Record<string, string>): Promise<BufferGeometry> {
   const wanted = Object.entries(ids).map(([name, id]) => ({ name, id, type: types[name] }));
   const { indices, attributes } = await work.run("draco", { data, attributes: wanted });
@@ -13,7 +13,7 @@ async function decodedDraco(work: Work, data: ArrayBuffer, ids: Record<string, n
   return geometry;
 }
 
-/** The loader wants whole decoders, and calls these functions of them. */
+/** The loader expects decoder objects, and calls these functions of them. */
 export function giveDecoders(loader: GLTFLoader, work: Work): void {
   const meshopt = {
     supported: true,

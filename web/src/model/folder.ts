@@ -18,7 +18,7 @@ interface Json {
 }
 type Bytes = Uint8Array<ArrayBuffer>;
 
-/** Extensions that name buffer views under other names than `bufferView`. */
+/** Extensions that reference buffer views by other names than `bufferView`. */
 const kOwnReferences = /^EXT_(structural|feature|instance)_(metadata|features)$|_meshopt_compression$/;
 
 const pathOf = (uri: string): string => decodeURIComponent(uri).replace(/^\.\//, "");
@@ -29,7 +29,7 @@ export function readGlb(bytes: Bytes): { json: Json; binary: Bytes } {
   return { json: JSON.parse(new TextDecoder().decode(bytes.subarray(20, 20 + length))) as Json, binary: bytes.subarray(Math.min(bytes.length, 28 + length)) };
 }
 
-/** All numbers called `bufferView`, wherever they stand. */
+/** Renumbers all members named `bufferView`, at any depth. */
 function renumber(value: unknown, numbers: readonly number[]): void {
   if (typeof value !== "object" || value === null) return;
   for (const [name, inner] of Object.entries(value)) {
@@ -38,7 +38,7 @@ function renumber(value: unknown, numbers: readonly number[]): void {
   }
 }
 
-/** Takes buffer views out, with their bytes. */
+/** Removes buffer views and their bytes. */
 function without(json: Json, binary: Bytes, taken: ReadonlySet<number>): Bytes {
   const pieces: { at: number; bytes: Bytes }[] = [], numbers: number[] = [], kept: NonNullable<Json["bufferViews"]> = [];
   let size = 0;
@@ -70,7 +70,10 @@ function without(json: Json, binary: Bytes, taken: ReadonlySet<number>): Bytes {
   return packed;
 }
 
-/** The files of the folder, by their paths; null where the model was no .gltf with files, or cannot be taken apart again. */
+/**
+ * Returns the files of the folder by path, or null if the original model was not a .gltf with files, or cannot be split
+ * again.
+ */
 export function folderOf(mended: Bytes, source: ModelFiles): Map<string, Bytes> | null {
   if (!/\.gltf$/i.test(source.name) || fileUris(source.bytes).length === 0) return null;
   const { json, binary } = readGlb(mended), before = JSON.parse(new TextDecoder().decode(source.bytes)) as Json;
@@ -101,7 +104,10 @@ export function folderOf(mended: Bytes, source: ModelFiles): Map<string, Bytes> 
 
 const isSame = (a: Bytes, b: Bytes): boolean => a.length === b.length && a.every((byte, i) => byte === b[i]);
 
-/** A .zip with all of them in a folder. Images are packed already. */
+/**
+ * Returns a .zip with all files in a folder. Images are stored without compression, because they are compressed
+ * already.
+ */
 export function zipOf(files: ReadonlyMap<string, Bytes>, folder: string): Bytes {
   const entries = [...files].filter(([path]) => !path.split("/").includes("..")).sort(([a], [b]) => (a < b ? -1 : 1));
   return zipSync(Object.fromEntries(entries.map(([path, bytes]) => [`${folder}/${path}`, [bytes, { level: /\.(png|jpe?g|webp|ktx2|zip)$/i.test(path) ? 0 : 6 }]]))) as Bytes;

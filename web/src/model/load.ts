@@ -13,11 +13,13 @@ import type { Model, Part, TreeNode } from "./part.js";
 import { materialIn, putOn, variantsOf, type Origin } from "./variants.js";
 import { missingImages, normalImagesOf, readTextureFiles } from "./textures.js";
 
-/** More is not drawn, since a browser's memory ends there; findings are complete all the same. */
+/** Limit of drawn corners, because of the browser's memory. Findings are always complete. */
 const kMostCorners = 12_000_000;
 const kMostInstances = 1000;
 
-/** The loader of three.js could not read the file. Every other error while a model is drawn is a fault of the page. */
+/**
+ * An error of the loader of three.js: the file cannot be read. Any other error during drawing is a fault of the page.
+ */
 export class LoaderError extends Error {}
 
 const byLoader = <T>(work: Promise<T>): Promise<T> => work.catch((error: unknown) => {
@@ -32,7 +34,7 @@ const decoded = (uri: string): string => {
   }
 };
 
-/** Gives the loader the files that came with the model, and nothing else. */
+/** Gives the loader access to the files that were opened with the model, and to nothing else. */
 function managerFor(model: ModelFiles, urls: string[]): LoadingManager {
   const manager = new LoadingManager();
   const types: Record<string, string> = { png: "image/png", jpg: "image/jpeg", jpeg: "image/jpeg", webp: "image/webp" };
@@ -93,7 +95,10 @@ function partOf(mesh: Mesh, where: Origin, materialIndex: number, normalImages: 
   };
 }
 
-/** Where in the file a mesh is from. Instanced ones are made anew by the loader, which then knows their node alone. */
+/**
+ * Returns the mesh and primitive of the file that a three.js mesh comes from. The loader creates instanced meshes
+ * separately; only their node is known.
+ */
 function originOf(mesh: Mesh, gltf: GLTF): Origin | null {
   type Known = { meshes?: number; primitives?: number; nodes?: number } | undefined;
   const known = (object: Object3D | null) => (object ? (gltf.parser.associations.get(object) as Known) : undefined);
@@ -104,7 +109,7 @@ function originOf(mesh: Mesh, gltf: GLTF): Origin | null {
   return meshes === undefined ? null : { meshes, primitives: above === undefined ? 0 : mesh.parent!.children.indexOf(mesh) };
 }
 
-/** Where a mesh is drawn: of many instances the first ones. */
+/** Returns the world transforms of a mesh; of many instances only the first ones. */
 function placesOf(mesh: Mesh): Matrix4[] {
   if (mesh instanceof SkinnedMesh) return [new Matrix4()];
   if (!(mesh instanceof InstancedMesh)) return [mesh.matrixWorld.clone()];
@@ -115,7 +120,10 @@ function placesOf(mesh: Mesh): Matrix4[] {
   });
 }
 
-/** Shaders work in floats, so what stands far from the origin is shown near it: the picture has no origin to be seen. */
+/**
+ * Moves models that are far from the origin close to it, because shaders use single precision. The picture does not
+ * show the origin.
+ */
 function moveToOrigin(parts: Iterable<Part>): void {
   const kFar = 1e4; // where the spacing of floats is 0.001
   const all = [...parts], places = all.flatMap((part) => part.places);
@@ -125,7 +133,9 @@ function moveToOrigin(parts: Iterable<Part>): void {
   for (const place of places) place.premultiply(new Matrix4().makeTranslation(-x, -y, -z));
 }
 
-/** The nodes that draw something. Of a chain in which each has nothing but the next, the last is there. */
+/**
+ * Returns the tree of nodes that draw something. A chain of nodes with a single child each is reduced to its last node.
+ */
 function treeOf(roots: readonly Object3D[], drawnBy: Map<Object3D, TreeNode["draws"][number]>): TreeNode[] {
   const nodeOf = (object: Object3D): TreeNode | null => {
     const own = drawnBy.get(object), children = object.children.map(nodeOf).filter((node) => node !== null);
@@ -148,7 +158,7 @@ async function sceneOf(gltf: GLTF, remarks: string[]): Promise<Object3D[]> {
   return meshes;
 }
 
-/** What a file draws, with the materials of one of its variants, or those of its primitives (-1). */
+/** Returns what a file draws, with the materials of a variant, or with those of its primitives (-1). */
 export async function loadModel(model: ModelFiles, work: Work, variant = -1): Promise<Model> {
   const urls: string[] = [];
   const remarks: string[] = [];

@@ -9,10 +9,10 @@ const kCells = 16;
 
 const ending = (name: string): string => name.slice(name.lastIndexOf(".") + 1).toLowerCase();
 export const isMapName = (name: string): boolean => ending(name) in types;
-/** The type of the image on the surface: KTX2 and DDS are PNG there. */
+/** Media type of the image on the surface; KTX2 and DDS are converted to PNG. */
 export const mapType = (name: string): string => types[ending(name)];
 
-/** A square that faces +z, with u to the right and v down, whose tangents are those of glTF. */
+/** Returns a square that faces +z, with u to the right, v down, and the tangents of glTF. */
 export function surfaceWith(name: string, image: Uint8Array): Uint8Array<ArrayBuffer> {
   const builder = new GlbBuilder(), positions: number[] = [], uvs: number[] = [], indices: number[] = [];
   for (let row = 0; row <= kCells; ++row) {
@@ -41,11 +41,11 @@ export function surfaceWith(name: string, image: Uint8Array): Uint8Array<ArrayBu
   }, "tspace view");
 }
 
-/** The image on such a surface. */
+/** Returns the image on such a surface. */
 export function imageOf(surface: Uint8Array<ArrayBuffer>): Uint8Array<ArrayBuffer> {
   const { json, binary } = readGlb(surface), { byteOffset = 0, byteLength } = json.bufferViews![json.images![0].bufferView!];
   return binary.slice(byteOffset, byteOffset + byteLength) as Uint8Array<ArrayBuffer>;
 }
 
-/** `bricks.dds` becomes `bricks-fixed.png`. */
+/** Returns the name of the fixed map: `bricks.dds` becomes `bricks-fixed.png`. */
 export const fixedMapName = (name: string): string => name.replace(/^.*\//, "").replace(/\.[^.]*$/, `-fixed.${types[ending(name)] === "image/png" ? "png" : ending(name)}`);

@@ -15,7 +15,7 @@ export class Motion {
   readonly cameras: readonly Camera[];
   #mixer: AnimationMixer;
   #roots: readonly Object3D[];
-  /** The first object of each part; those drawn at several places keep them. */
+  /** The first object of each part. Parts with several placements do not follow the motion of nodes. */
   #objects: readonly [Part, Mesh][];
   #chosen: AnimationClip | null = null;
 
@@ -27,7 +27,7 @@ export class Motion {
     this.#mixer = new AnimationMixer(roots[0]);
   }
 
-  /** The seconds of a clip, from 0 to its end; null: as the file stands. */
+  /** Selects an animation; null: the pose stored in the file. */
   choose(clip: AnimationClip | null): void {
     this.#mixer.stopAllAction();
     this.#chosen = clip;
@@ -41,7 +41,7 @@ export class Motion {
     this.#update();
   }
 
-  /** Weights of all morph targets, by the names that the file gives them. */
+  /** Returns the weights of all morph targets, with their names in the file. */
   sliders(): MorphSlider[] {
     return this.#objects.flatMap(([part, mesh]) => Object.entries(mesh.morphTargetDictionary ?? {}).map(([name, i]) => ({
       name: `${part.name || part.materialName || `${part.mesh}/${part.primitive}`}: ${name}`,
@@ -61,7 +61,7 @@ export class Motion {
     }
   }
 
-  /** Place of a camera and a point that it looks at. */
+  /** Returns the position of a camera, and a point that it looks at. */
   static viewOf(camera: Camera, distance: number): number[] {
     const at = new Vector3().setFromMatrixPosition(camera.matrixWorld), way = new Vector3(0, 0, -1).transformDirection(camera.matrixWorld);
     return [...at.toArray(), ...at.clone().addScaledVector(way, distance).toArray()];

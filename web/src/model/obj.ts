@@ -14,7 +14,7 @@ interface ObjMaterial {
 const kMostBytes = 200 << 20;
 const text = (bytes: Uint8Array): string => new TextDecoder().decode(bytes);
 
-/** The last word of a line of options: the file. */
+/** Returns the file name: the last word of a line of options. */
 const fileOf = (words: string[]): string => words[words.length - 1].replace(/\\/g, "/").replace(/^\.\//, "");
 
 function readMaterials(model: ModelFiles): Map<string, ObjMaterial> {
@@ -85,8 +85,9 @@ class ObjWriter {
 }
 
 /**
- * Coordinates far from the origin (metres of a map) do not fit into the floats of three.js. What is taken out of them becomes the
- * translation of the nodes: along each axis on which the middle of nine tenths is a hundred times as far away as the model is large.
+ * Coordinates far from the origin (map coordinates in meters) exceed the precision of the floats of three.js. On each
+ * axis on which the middle of the central 90 % is more than a hundred times as far away as the model is large, an
+ * offset is subtracted, which becomes the translation of the nodes.
  */
 function nearOrigin(source: string): { text: string; offset: number[] } {
   const line = /^([ \t]*v[ \t]+)(\S+)[ \t]+(\S+)[ \t]+(\S+)/gm;

@@ -13,34 +13,34 @@ export interface Part {
   /** Index of the material in the file, or -1. */
   material: number;
   arrays: Arrays;
-  /** Set and transform of the normal map, already in `arrays.uvs`. */
+  /** The normal map, whose UV set and transform are already applied in `arrays.uvs`. */
   normalMap: Texture | null;
   normalScale: number;
-  /** Index of that image in the file, or -1. */
+  /** Index of the normal map's image in the file, or -1. */
   normalImage: number;
   color: Vector3;
   colorMap: Texture | null;
-  /** Two numbers per vertex, where the colour has other UVs than the normal map. */
+  /** Two numbers per vertex, if the color texture uses other UVs than the normal map. */
   colorUvs: Float32Array<ArrayBuffer> | null;
   alphaTest: number;
   isDoubleSided: boolean;
-  /** The material of the loader, and the attributes that it reads beside our own, per vertex. */
+  /** The material of the loader, and the additional vertex attributes that it uses. */
   surface: Material;
   attributes: Record<string, BufferAttribute | InterleavedBufferAttribute>;
-  /** Where bones and morph weights put it, or null. */
+  /** Transforms by bones and morph weights, or null. */
   pose: Pose | null;
-  /** It has bones or morph weights, whatever these are now. */
+  /** The part has bones or morph weights, whatever their current values are. */
   isPosed: boolean;
-  /** Where it is drawn. */
+  /** World transforms of the placements. */
   places: Matrix4[];
-  /** What took it from where the file has it to the origin of the picture. */
+  /** Transform from the position in the file to the origin of the picture. */
   moved: Matrix4;
 }
 
-/** A node that draws something, by itself or below it. */
+/** A node that draws something, itself or by its descendants. */
 export interface TreeNode {
   name: string;
-  /** What it draws: places of parts, by their numbers. */
+  /** Placements of parts that this node draws. */
   draws: { part: Part; first: number; count: number }[];
   children: TreeNode[];
 }
@@ -49,11 +49,11 @@ export interface Model {
   parts: Part[];
   tree: TreeNode[];
   motion: Motion | null;
-  /** For each material of the file the index of its normal map's image, or -1. */
+  /** Index of the normal map's image for each material of the file, or -1. */
   normalImages: number[];
   /** Names of KHR_materials_variants. */
   variants: string[];
-  /** Sentences about what the picture leaves out. */
+  /** Remarks about what the picture does not show. */
   remarks: string[];
 }
 

@@ -3,7 +3,10 @@
 import { Matrix4, SkinnedMesh, Vector3, type BufferAttribute, type Mesh } from "three";
 import type { Arrays, Corners } from "../worker/protocol.js";
 
-/** Per vertex: what morph targets add (of tangents the loader reads none), and the matrix of its bones, 16 numbers by columns. Null where there is none. */
+/**
+ * Per vertex: offsets of morph targets (the loader does not read those of tangents), and the matrix of the bones (16
+ * numbers, column by column). Null: none.
+ */
 export interface Pose {
   morphed: { position: Float32Array | null; normal: Float32Array | null };
   matrices: Float32Array | null;
@@ -20,7 +23,10 @@ function morphedBy(mesh: Mesh, name: "position" | "normal"): Float32Array | null
   return sums;
 }
 
-/** The matrices of bones, weighted, for each vertex. The place of a skinned mesh is nowhere in it: glTF leaves its node out. */
+/**
+ * Returns the weighted bone matrix of each vertex. The transform of the skinned mesh's node is not included: glTF
+ * ignores it.
+ */
 function bonesOf(mesh: SkinnedMesh): Float32Array {
   const { skinIndex, skinWeight } = mesh.geometry.attributes as Record<string, BufferAttribute>;
   const { bones, boneInverses } = mesh.skeleton, matrices = bones.map((bone, i) => new Matrix4().multiplyMatrices(bone.matrixWorld, boneInverses[i]).elements);
@@ -34,7 +40,7 @@ function bonesOf(mesh: SkinnedMesh): Float32Array {
   return sums;
 }
 
-/** Null: as the arrays are. */
+/** Returns the pose of a mesh; null: the arrays are unchanged. */
 export function poseOf(mesh: Mesh): Pose | null {
   const morphed = { position: morphedBy(mesh, "position"), normal: morphedBy(mesh, "normal") };
   const isSkinned = mesh instanceof SkinnedMesh && mesh.skeleton !== undefined && mesh.geometry.getAttribute("skinIndex") !== undefined && mesh.geometry.getAttribute("skinWeight") !== undefined;
@@ -42,7 +48,7 @@ export function poseOf(mesh: Mesh): Pose | null {
   return { morphed, matrices: isSkinned ? bonesOf(mesh) : null };
 }
 
-/** Changes vectors of `stride` numbers, one per corner. */
+/** Transforms vectors of `stride` numbers, one per corner. */
 function moved(data: Float32Array, stride: number, arrays: Arrays, added: Float32Array | null, change: ((vertex: number, v: Vector3, corner: number) => void) | null): void {
   const v = new Vector3();
   for (let corner = 0; corner < data.length / stride; ++corner) {
@@ -54,7 +60,7 @@ function moved(data: Float32Array, stride: number, arrays: Arrays, added: Float3
   }
 }
 
-/** The corners of the picture as the pose has them. */
+/** Transforms the corners of the picture to the pose. */
 export function poseCorners({ morphed, matrices }: Pose, arrays: Arrays, corners: Corners): void {
   const matrix = new Matrix4(), normalMatrix = new Matrix4();
   const placed = matrices && ((vertex: number, v: Vector3) => void v.applyMatrix4(matrix.fromArray(matrices, 16 * vertex)));
@@ -67,7 +73,7 @@ export function poseCorners({ morphed, matrices }: Pose, arrays: Arrays, corners
   if (corners.tangents) poseTangents(matrices, arrays, corners.tangents);
 }
 
-/** Whether a triangle is wound as its normals say. */
+/** Returns whether the winding of a triangle agrees with its normals. */
 function facesItsNormals({ positions: p, normals: n }: Pick<Corners, "positions" | "normals">, triangle: number): boolean {
   const [a, b, c] = [0, 3, 6].map((k) => new Vector3().fromArray(p, 9 * triangle + k)), sum = new Vector3(), own = new Vector3();
   for (const k of [0, 3, 6]) sum.add(own.fromArray(n, 9 * triangle + k));
@@ -75,9 +81,10 @@ function facesItsNormals({ positions: p, normals: n }: Pick<Corners, "positions"
 }
 
 /**
- * Where bones mirror, cross(N, T) is inverted and the surface is not: w changes sign, so that B follows the surface. `rest`: the tangents
- * are those of a method, whose w follows the winding of the UVs. Where triangles are wound for the mirrored pose, and so against
- * their normals at rest, that w is the one of the pose already.
+ * Transforms tangents to the pose. If bones mirror, cross(N, T) is inverted but the surface is not: w changes its sign,
+ * so that B follows the surface. `rest`: the tangents were computed by a method, whose w follows the winding in the UV
+ * map. If triangles have the winding of the mirrored pose, opposite to their normals at rest, that w is already correct
+ * for the pose.
  */
 export function poseTangents(matrices: Float32Array | null, arrays: Arrays, tangents: Float32Array, rest: Pick<Corners, "positions" | "normals"> | null = null): void {
   const matrix = new Matrix4();

@@ -19,7 +19,7 @@ interface MaterialJson {
 }
 
 const kBasis = "KHR_texture_basisu", kDds = "MSFT_texture_dds";
-/** The order in which renderers look for an image. */
+/** Order in which renderers choose an image. */
 const kSources = [kBasis, "EXT_texture_avif", "EXT_texture_webp"];
 
 function imageOf(texture: TextureJson | undefined): number {
@@ -32,22 +32,23 @@ function imageOf(texture: TextureJson | undefined): number {
 
 const isTextureFile = (image: ImageJson | undefined): boolean => /^image\/(ktx2|vnd-ms\.dds)$/.test(image?.mimeType ?? "") || /^data:image\/(ktx2|vnd-ms\.dds)|\.(ktx2|dds)$/i.test(image?.uri ?? "");
 
-/** For each material the index of its normal map's image, or -1. */
+/** Returns the index of the normal map's image for each material, or -1. */
 export function normalImagesOf(gltf: GLTF): number[] {
   const { materials = [], textures = [] } = gltf.parser.json as { materials?: MaterialJson[]; textures?: TextureJson[] };
   return materials.map(({ normalTexture }) => (normalTexture ? imageOf(textures[normalTexture.index]) : -1));
 }
 
-/** What the loader calls: images by their addresses. */
+/** The interface by which the loader loads images by URL. */
 interface ImageLoader {
   isImageBitmapLoader: true;
   load(url: string, done: (image: ImageBitmap) => void, progress: unknown, failed: (error: unknown) => void): void;
 }
 
 /**
- * Textures with a KTX2, and those whose only image is a DDS, are decoded by the worker; the loader of three.js would refuse the whole model. So are those that
- * name such an image as their source, without the extension for it. The image beside a KTX2 may be a stand-in of one texel, so it is drawn only where the KTX2
- * cannot be. Returns why images were not decoded, by their number.
+ * Makes the worker decode textures with a KTX2, textures whose only image is a DDS, and textures that reference such an
+ * image as their source without the extension for it: the loader of three.js would reject the whole model. The
+ * alternative to a KTX2 may be a placeholder of one texel, so it is drawn only if the KTX2 cannot be decoded. Returns
+ * why images were not decoded, by image index.
  */
 export function readTextureFiles(loader: GLTFLoader, work: Work): Map<number, string> {
   const why = new Map<number, string>();
@@ -81,7 +82,9 @@ export function readTextureFiles(loader: GLTFLoader, work: Work): Map<number, st
   return why;
 }
 
-/** A sentence on the images that materials name and the picture cannot show, or none; `why`: what is known of them. */
+/**
+ * Returns a sentence about images that materials reference but the picture cannot show, or none. `why`: known reasons.
+ */
 export async function missingImages(gltf: GLTF, why: ReadonlyMap<number, string>): Promise<string[]> {
   const { materials = [], textures = [] } = gltf.parser.json as { materials?: MaterialJson[]; textures?: TextureJson[] };
   const lost = new Set<number>(why.keys());

@@ -8,18 +8,18 @@ export interface UvRead {
   label: string;
   /** Two numbers per vertex. */
   uvs: Float32Array<ArrayBuffer>;
-  /** It is the one in `arrays.uvs`, which tangents follow. */
+  /** These UVs are in `arrays.uvs`, which tangents follow. */
   isLeading: boolean;
-  /** Images that are read by it, the normal map first. */
+  /** Images that use these UVs, the normal map first. */
   images: { name: string; image: CanvasImageSource & { width: number; height: number } }[];
 }
 
 const names: Record<string, string> = { normalMap: "normal map", map: "base colour", metalnessMap: "metal and roughness", roughnessMap: "metal and roughness", aoMap: "occlusion", emissiveMap: "emission" };
-/** What a property of a material of three.js is called. */
+/** Returns the display name of a material property of three.js. */
 export const nameOfMap = (property: string): string => names[property] ?? property.replace(/Map$/, "");
 const kMostSets = 4;
 
-/** What reads a set in one way: `key` says which set and which transform. */
+/** Textures that use the same UV set with the same transform. */
 interface Read {
   channel: number;
   matrix: Matrix3 | null;
@@ -46,7 +46,9 @@ function textureReads(part: Part): Map<string, Read> {
 
 const keyOf = (channel: number, matrix: Matrix3 | null): string => `${channel} ${matrix?.elements.join() ?? ""}`;
 
-/** All UV maps of a part, that of the normal map first; sets that no texture reads as the file has them. */
+/**
+ * Returns all UV maps of a part, that of the normal map first. Sets that no texture uses are included untransformed.
+ */
 export function uvReadsOf(part: Part): UvRead[] {
   const reads = textureReads(part);
   for (let channel = 0; channel < kMostSets; ++channel) {

@@ -5,7 +5,7 @@ import type { GLTF } from "three/examples/jsm/loaders/GLTFLoader.js";
 
 const kVariants = "KHR_materials_variants";
 
-/** Where in the file a mesh is from. */
+/** The mesh and primitive of the file that a three.js mesh comes from. */
 export interface Origin {
   meshes: number;
   primitives: number;
@@ -16,7 +16,7 @@ interface PrimitiveJson {
   extensions?: { [kVariants]?: { mappings?: { material?: number; variants?: number[] }[] } };
 }
 
-/** Names of a file's variants, in its order. */
+/** Returns the names of a file's variants, in file order. */
 export function variantsOf({ parser }: GLTF): string[] {
   const variants: unknown = parser.json.extensions?.[kVariants]?.variants;
   return Array.isArray(variants) ? variants.map((one: { name?: unknown } | null, i) => (typeof one?.name === "string" && one.name ? one.name : `variant ${i}`)) : [];
@@ -30,13 +30,19 @@ function mappedIn(gltf: GLTF, origin: Origin, variant: number): number | undefin
 }
 const isThere = ({ parser }: GLTF, material: number): boolean => parser.json.materials?.[material] !== undefined;
 
-/** The material of a primitive in a variant, or -1; a primitive that has none for it keeps its own. */
+/**
+ * Returns the material of a primitive in a variant, or -1. A primitive without a mapping for the variant keeps its
+ * material.
+ */
 export function materialIn(gltf: GLTF, origin: Origin, variant: number): number {
   const mapped = mappedIn(gltf, origin, variant);
   return mapped !== undefined && isThere(gltf, mapped) ? mapped : (primitiveAt(gltf, origin)?.material ?? -1);
 }
 
-/** Gives all meshes below the roots their materials of a variant. A sentence where the file names materials that it does not hold. */
+/**
+ * Assigns the materials of a variant to all meshes below the roots. Returns a sentence if the file references materials
+ * that do not exist.
+ */
 export async function putOn(gltf: GLTF, variant: number, roots: readonly Object3D[], originOf: (mesh: Mesh, gltf: GLTF) => Origin | null): Promise<string | null> {
   if (variant < 0) return null;
   const meshes: [Mesh, number][] = [], lost = new Set<number>();
