@@ -4,9 +4,9 @@ import { PerspectiveCamera, Vector3 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Scene } from "./scene.js";
 
-/** The part of the picture that a model fills, along its width or its height. */
+/** Fraction of the picture's width or height that a model fills. */
 const kFilled = 0.85;
-/** Where a model is seen from at first. */
+/** Initial viewing direction. */
 const kFirstDirection = new Vector3(0.55, 0.42, 1).normalize();
 
 export class Eye {
@@ -23,12 +23,12 @@ export class Eye {
     this.camera.position.set(0, 0, 4);
   }
 
-  /** What the camera looks at, and turns about. */
+  /** The point that the camera looks at and orbits. */
   get target(): Vector3 {
     return this.controls.target;
   }
 
-  /** Puts the eye at a place, looking at another. */
+  /** Moves the camera to a position, looking at a target. */
   lookFrom([x, y, z, tx, ty, tz]: number[]): void {
     this.fly(new Vector3(tx, ty, tz), 1, null, true);
     this.stopFlight();
@@ -42,7 +42,7 @@ export class Eye {
     this.ask();
   }
 
-  /** Looks at a sphere; from `toward`, where that is given. Gives the camera as it will be there. */
+  /** Animates the camera to show a sphere, from direction `toward` if given. Returns the final camera. */
   fly(center: Vector3, radius: number, toward: Vector3 | null, isInstant = false): PerspectiveCamera {
     const angle = (this.camera.fov * Math.PI) / 360, narrow = Math.min(1, this.camera.aspect);
     const distance = (radius / Math.sin(Math.atan(Math.tan(angle) * narrow))) * 1.08;
@@ -76,14 +76,14 @@ export class Eye {
     return there;
   }
 
-  /** Shows all of the model from a direction, and gives the camera as it will be there. */
+  /** Shows the whole model from a direction, and returns the final camera. */
   reset(isInstant = false, toward = kFirstDirection): PerspectiveCamera {
     const scene = this.sceneNow(), { center, radius } = scene.sphere();
     const { middle, distance } = this.#frameFor(scene.points(), center, radius, toward);
     return this.#flyTo(middle, distance, toward, isInstant);
   }
 
-  /** Where to look and from how far, so that points fill kFilled of the picture, along its width or its height. */
+  /** Returns the target and the distance from which the points fill kFilled of the picture's width or height. */
   #frameFor(points: Float32Array, center: Vector3, radius: number, toward: Vector3): { middle: Vector3; distance: number } {
     const across = Math.tan((this.camera.fov * Math.PI) / 360), sides = [across * this.camera.aspect, across];
     const right = new Vector3(0, 1, 0).cross(toward).normalize(), up = toward.clone().cross(right);
@@ -110,7 +110,7 @@ export class Eye {
     this.#flight = null;
   }
 
-  /** Goes on with a flight, where there is one. */
+  /** Advances the current animation, if any. */
   move(now: number): void {
     if (!this.#flight) return;
     const { from, to, fromTarget, toTarget, start } = this.#flight;

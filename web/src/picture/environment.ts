@@ -14,7 +14,7 @@ interface Lamp {
   color?: [number, number, number];
 }
 
-/** Colours from below to above, and lamps: their places, sizes and brightness. */
+/** Background colors from bottom to top, and lamps: positions, sizes and brightness. */
 const kinds: Record<Surroundings, { below: Color; level?: Color; above: Color; lamps: readonly Lamp[] }> = {
   // The largest lamp is above and to the left, like the initial lamp of the page.
   room: {
@@ -50,7 +50,7 @@ function sceneOf({ below, level, above, lamps }: (typeof kinds)[Surroundings]): 
   return scene;
 }
 
-/** A panorama of an HDR file (Radiance), blurred for each roughness. Throws where it is not one. */
+/** Returns a panorama of an HDR file (Radiance), blurred for each roughness level. Throws if the file is invalid. */
 export function environmentOf(renderer: WebGLRenderer, file: ArrayBuffer): Texture {
   const { data, width, height, type } = new HDRLoader().parse(file) as { data: Uint16Array<ArrayBuffer>; width: number; height: number; type: TextureDataType };
   const panorama = new DataTexture(data, width, height, RGBAFormat, type, EquirectangularReflectionMapping);
@@ -63,7 +63,7 @@ export function environmentOf(renderer: WebGLRenderer, file: ArrayBuffer): Textu
   return texture;
 }
 
-/** As PMREM has it: blurred for each roughness. */
+/** Returns a generated environment as created by PMREM: blurred for each roughness level. */
 export function environmentFor(renderer: WebGLRenderer, name: Surroundings = "room"): Texture {
   const generator = new PMREMGenerator(renderer), scene = sceneOf(kinds[name]);
   const { texture } = generator.fromScene(scene, 0.02);

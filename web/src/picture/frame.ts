@@ -34,7 +34,7 @@ void placeTangent(mat3 m, vec3 normal, vec4 tangent, out vec3 t, out vec3 b) {
   b = cross(normal, t) * (tangent.w * sideOf(m));
 }`;
 
-/** The same for one place of a part. */
+/** Computes in TypeScript the transformed frames for one placement of a part. */
 export class PlacedFrame {
   #linear = new Matrix3();
   #normals = new Matrix3();

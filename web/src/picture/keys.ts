@@ -4,7 +4,7 @@ import type { Eye } from "./camera.js";
 
 const kStep = Math.PI / 24;
 
-/** Moves the eye as a key asks; false where the key has no meaning here. */
+/** Moves the camera by a key; returns false if the key has no function. */
 export function moveByKey(event: KeyboardEvent, eye: Eye): boolean {
   const c = eye.controls;
   const turn: Record<string, () => void> = {

@@ -10,7 +10,7 @@ const kMostLines = 40_000;
 const colors: Record<Axis, number> = { t: 0xe5484d, b: 0x30a46c, n: 0x3e8ef7 };
 const lineMaterials = Object.fromEntries(Object.entries(colors).map(([axis, color]) => [axis, new LineBasicMaterial({ color })])) as Record<Axis, LineBasicMaterial>;
 
-/** T, B or N of a corner at a place of its part, as long as it is in the file. */
+/** Returns T, B or N of a corner in world space, with its length in the file. */
 function vectorAt(drawn: Drawn, frame: PlacedFrame, tangents: Float32Array | null, corner: number, axis: Axis): Vector3 | null {
   const n = new Vector3().fromArray(drawn.corners.normals, 3 * corner);
   if (axis === "n") return frame.normal(n).multiplyScalar(n.length());
@@ -19,7 +19,7 @@ function vectorAt(drawn: Drawn, frame: PlacedFrame, tangents: Float32Array | nul
   return axis === "t" ? frame.tangent(t).multiplyScalar(t.length()) : frame.bitangent(n, t, w).setLength(n.clone().cross(t).length() * Math.abs(w));
 }
 
-/** One corner of each vertex that has another frame, at most so many. */
+/** Returns one corner per vertex, or per corner if frames differ by corner; at most `most`, evenly chosen. */
 function shownCorners(drawn: Drawn, isRight: boolean, most: number): number[] {
   const indices = drawn.part.arrays.indices, count = drawn.corners.positions.length / 3;
   if (isRight || !indices) {
@@ -35,7 +35,7 @@ function shownCorners(drawn: Drawn, isRight: boolean, most: number): number[] {
   return corners.filter((_, i) => i % step === 0);
 }
 
-/** T, B, N of the file's frames, or of the right ones, as lines of the given length. */
+/** Returns T, B and N of the file's frames, or of those on the right side, as lines of the given length. */
 export function frameLines(scene: Scene, axes: Axis[], isRight: boolean, length: number): Group {
   const group = new Group();
   const most = Math.ceil(kMostLines / Math.max(1, scene.drawn.length));
@@ -64,7 +64,7 @@ export function frameLines(scene: Scene, axes: Axis[], isRight: boolean, length:
   return group;
 }
 
-/** Mean length of a triangle's edge, as it is drawn. */
+/** Returns the mean edge length of the drawn triangles. */
 export function usualEdge(scene: Scene): number {
   let sum = 0, count = 0;
   const a = new Vector3(), b = new Vector3();
@@ -83,21 +83,24 @@ const outlineMaterial = new LineBasicMaterial({ color: 0xff2d6f, depthTest: fals
 const rimMaterial = new LineBasicMaterial({ color: 0xff2d6f });
 const fillMaterial = new MeshBasicMaterial({ color: 0xff2d6f, transparent: true, opacity: 0.28, depthTest: false, side: 2 });
 
-/** Of a region: only where it is seen, and the look shows through. */
+/** Material for large regions: drawn only where they are visible, and transparent. */
 const regionMaterial = new MeshBasicMaterial({ color: 0xff2d6f, transparent: true, opacity: 0.1, side: 2, depthWrite: false, polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -1 });
 
 export interface Place {
   outline: Group;
   center: Vector3;
   radius: number;
-  /** The way out of the surface, of each triangle, as long as its area. */
+  /** Outward normal of each triangle, with the length of its area. */
   faces: Vector3[];
 }
 
 const steps = [-1, 0, 1];
 const directions = steps.flatMap((x) => steps.flatMap((y) => steps.map((z) => new Vector3(x, y, z)))).filter((v) => v.lengthSq() > 0).map((v) => v.normalize());
 
-/** From where most of some triangles is seen: from the eye's own side where that shows nearly as much; null: anywhere. */
+/**
+ * Returns the direction from which most of the triangles' area is visible. Prefers the current direction if nearly as
+ * much is visible from there; null: no direction.
+ */
 export function bestDirection(faces: Vector3[], toEye: Vector3): Vector3 | null {
   const seenFrom = (direction: Vector3) => faces.reduce((sum, face) => sum + Math.max(0, face.dot(direction)), 0);
   const out = faces.reduce((sum, face) => sum.add(face), new Vector3()).normalize(), eye = toEye.clone().normalize();
@@ -106,10 +109,10 @@ export function bestDirection(faces: Vector3[], toEye: Vector3): Vector3 | null 
   return seenFrom(eye) > 0.75 * most ? eye : all[seen.indexOf(most)];
 }
 
-/** Of few triangles each edge is drawn, of many those at the rim of what they make together. */
+/** Maximum number of triangles whose edges are all drawn; of more triangles only the boundary is drawn. */
 const kMostEdges = 60;
 
-/** Edges that one of the triangles has and no other, by the places of their ends: pairs of corners. */
+/** Returns the edges that belong to exactly one of the triangles, compared by position, as pairs of corners. */
 function rimOf(p: Float32Array, triangles: number[]): [number, number][] {
   const numbers = new Map<string, number>(), edges = new Map<string, [number, number] | null>();
   const number = (corner: number) => {
@@ -127,7 +130,10 @@ function rimOf(p: Float32Array, triangles: number[]): [number, number][] {
   return [...edges.values()].filter((edge) => edge !== null);
 }
 
-/** The middle and the way out of triangles of a part, at its first place; ways out are as long as the areas. */
+/**
+ * Returns centers and outward normals of triangles of a part, at its first placement. The length of a normal is the
+ * triangle's area.
+ */
 export function facesOf(drawn: Drawn, triangles: number[]): { center: Vector3; out: Vector3 }[] {
   const { positions: p, normals: n } = drawn.corners, frame = new PlacedFrame(drawn.part.places[0] ?? new Matrix4()), matrix = drawn.part.places[0] ?? new Matrix4();
   return triangles.map((triangle) => {
@@ -138,7 +144,7 @@ export function facesOf(drawn: Drawn, triangles: number[]): { center: Vector3; o
   }).filter(({ center, out }) => Number.isFinite(center.lengthSq() + out.lengthSq()));
 }
 
-/** Outlines of some triangles of a part, at its first place. */
+/** Outlines some triangles of a part, at its first placement. */
 export function outlineTriangles(drawn: Drawn, triangles: number[]): Place {
   const p = drawn.corners.positions, n = drawn.corners.normals;
   const edges: number[] = [], faces: number[] = [], points: Vector3[] = [];
@@ -173,7 +179,7 @@ export function outlineTriangles(drawn: Drawn, triangles: number[]): Place {
   return { outline, center, radius, faces: outward };
 }
 
-/** A box around a part, at its first place. */
+/** Outlines the bounding box of a part, at its first placement. */
 export function outlinePart(drawn: Drawn): Omit<Place, "faces"> {
   const p = drawn.corners.positions, box = new Box3(), point = new Vector3();
   for (let i = 0; i < p.length; i += 3) if (Number.isFinite(point.fromArray(p, i).lengthSq())) box.expandByPoint(point);
@@ -187,7 +193,7 @@ export function outlinePart(drawn: Drawn): Omit<Place, "faces"> {
 
 const kMostOutlined = 3000;
 
-/** Triangles that use one of these vertices of the primitive. */
+/** Returns the triangles that use any of these vertices of the primitive. */
 export function trianglesAt(drawn: Drawn, vertices: number[]): number[] {
   const wanted = new Set(vertices), indices = drawn.part.arrays.indices, found: number[] = [];
   const count = drawn.corners.positions.length / 3;

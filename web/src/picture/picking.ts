@@ -5,7 +5,7 @@ import type { Scene } from "./scene.js";
 import { setValues, type PictureValues } from "./shader.js";
 import type { MapCorners } from "../worker/protocol.js";
 
-/** One attribute for each array, so that what was sent to the graphics card stays there. */
+/** One attribute per array, so that uploaded data are reused. */
 const attributes = new WeakMap<Float32Array, BufferAttribute>();
 function attributeOf(values: Float32Array<ArrayBuffer>): BufferAttribute {
   const attribute = attributes.get(values) ?? new BufferAttribute(values, 2);
@@ -13,13 +13,13 @@ function attributeOf(values: Float32Array<ArrayBuffer>): BufferAttribute {
   return attribute;
 }
 
-/** What reading back needs of the picture. */
+/** The state of the picture that is needed for reading back. */
 export interface Readable {
   renderer: WebGLRenderer;
   world: ThreeScene;
   scene: Scene;
   camera: PerspectiveCamera;
-  /** Of the picture, in CSS pixels. */
+  /** Size of the picture in CSS pixels. */
   size: Vector2;
 }
 
@@ -31,7 +31,7 @@ function setUniforms(scene: Scene, change: (uniforms: Record<string, { value: un
   }
 }
 
-/** The number of the triangle at a place of the canvas, in CSS pixels, or -1. */
+/** Returns the index of the triangle at a position of the canvas (in CSS pixels), or -1. */
 export async function pickTriangle({ renderer, world, scene, camera, size }: Readable, target: WebGLRenderTarget, x: number, y: number): Promise<number> {
   const ratio = renderer.getPixelRatio();
   setUniforms(scene, (u) => ((u.uIsPick.value = true), (u.uAlphaTest.value = 0)));
@@ -47,7 +47,7 @@ export async function pickTriangle({ renderer, world, scene, camera, size }: Rea
   return (p[0] | (p[1] << 8) | (p[2] << 16) | (p[3] << 24)) - 1;
 }
 
-/** The UV map of a part as pixels, from the top row down; `area` is scale and offset of UVs. */
+/** Returns the UV map of a part as pixels, top row first. `area`: scale and offset of UVs. */
 export async function drawUvMap({ renderer, world, scene, camera }: Readable, values: PictureValues, partIndex: number, map: MapCorners, { width, height }: { width: number; height: number }, area: [number, number, number, number]): Promise<Uint8ClampedArray<ArrayBuffer>> {
   const target = new WebGLRenderTarget(width, height, { samples: 4 });
   const { drawn } = scene;

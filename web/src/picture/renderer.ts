@@ -7,10 +7,10 @@ import type { Readable } from "./picking.js";
 import { Scene } from "./scene.js";
 import { setValues, type Look, type PictureValues } from "./shader.js";
 
-/** Looks with two sides. */
+/** Returns whether a look has two sides. */
 export const hasSplit = (look: Look): boolean => look === "lit" || look === "normals" || look === "signs";
 
-/** Width of each of two pictures beside each other, in whole pixels, so that both have the same ones. */
+/** Returns the width of each of two pictures side by side. Both have the same number of whole pixels. */
 export const halfOf = (width: number): number => Math.floor(width / 2);
 
 export interface Settings {
@@ -18,17 +18,20 @@ export interface Settings {
   map: 0 | 1 | 2;
   isWire: boolean;
   usesColors: boolean;
-  /** 0 to 1 from the left: where frames of the file end and right ones begin. */
+  /**
+   * Position of the split line, from 0 (left) to 1: the frames of the file are on its left, those to compare with on
+   * its right.
+   */
   split: number;
-  /** Two pictures beside each other, by one camera: the file, and what else stands right of the line. */
+  /** Shows two pictures side by side with the same camera: the file, and what is otherwise right of the line. */
   isBeside: boolean;
-  /** What surfaces mirror. */
+  /** The environment that surfaces reflect. */
   surroundings: Surroundings;
-  /** Whether parts keep the lamp off others. */
+  /** Parts cast shadows of the lamp. */
   hasShadows: boolean;
-  /** Turn of the surroundings about the vertical, in degrees. */
+  /** Rotation of the environment about the vertical axis, in degrees. */
   turn: number;
-  /** Exposure, in stops: each doubles the light. */
+  /** Exposure, in stops: each stop doubles the brightness. */
   stops: number;
 }
 
@@ -44,11 +47,11 @@ function rendererFor(canvas: HTMLCanvasElement): WebGLRenderer | null {
 }
 
 export class Picture {
-  /** Null where the browser has no WebGL. */
+  /** Null if the browser has no WebGL. */
   readonly renderer: WebGLRenderer | null;
   readonly overlay = new ThreeScene();
   scene = new Scene();
-  /** What stands right of the line in the place of the scene: a file with other normals or triangles. */
+  /** A file with other normals or triangles, drawn right of the line instead of the scene. */
   #right: Scene | null = null;
   #world = new ThreeScene();
   #lamp = new DirectionalLight(0xffffff, 2);
@@ -61,7 +64,7 @@ export class Picture {
     this.#world.add(this.#lamp, this.#lamp.target);
   }
 
-  /** `isBeside`: the left one of two pictures is read. */
+  /** Returns the state for reading back. `isBeside`: reads from the left of two pictures. */
   readable(camera: PerspectiveCamera, isBeside = false): Readable | null {
     const size = this.renderer?.getSize(new Vector2());
     if (isBeside && size) size.x = halfOf(size.x);
@@ -85,13 +88,13 @@ export class Picture {
     }
   }
 
-  /** Surroundings of a person's own: a panorama in an HDR file. Null: generated ones. */
+  /** Sets an environment provided by the user: a panorama in an HDR file. Null: generated environments. */
   setPanorama(file: ArrayBuffer | null): void {
     this.#panorama = file;
     this.forgetEnvironment();
   }
 
-  /** The next picture generates the environment again. */
+  /** Makes the next picture generate the environment again. */
   forgetEnvironment(): void {
     this.#world.environment?.dispose();
     this.#world.environment = null;
@@ -102,7 +105,7 @@ export class Picture {
     if (this.renderer) this.renderer.shadowMap.enabled = on;
   }
 
-  /** The lamp stands outside of the scene, and its shadows take in all of it. */
+  /** Places the lamp outside the scene, so that its shadows cover the whole scene. */
   #placeLamp(values: PictureValues & Settings): void {
     this.#lamp.position.copy(values.light);
     if (!values.hasShadows) return void this.#lamp.target.position.set(0, 0, 0);
@@ -114,7 +117,7 @@ export class Picture {
     this.#lamp.shadow.normalBias = 0.006 * radius; // about three texels of the shadow map
   }
 
-  /** Draws, and says whether another picture has to follow: the first one does without the environment. */
+  /** Draws the picture. Returns whether another picture must follow, because the first one omits the environment. */
   draw(camera: PerspectiveCamera, values: PictureValues & Settings, split: number): boolean {
     const { renderer } = this;
     // Before the first model the canvas is empty, and the GPU is busy with other work.
@@ -144,7 +147,10 @@ export class Picture {
     scene.show(false);
   }
 
-  /** Two pictures of the same size. Where the other side has no scene of its own, its frames are shown in this one. */
+  /**
+   * Draws two pictures of the same size. If the right side has no scene of its own, the right one shows the other
+   * frames of this scene.
+   */
   #drawBeside(renderer: WebGLRenderer, camera: PerspectiveCamera, values: PictureValues, isSurface: boolean): void {
     const { x: width, y: height } = renderer.getSize(new Vector2()), half = halfOf(width), other = this.#right ?? this.scene;
     renderer.setScissorTest(true);
@@ -166,7 +172,7 @@ export class Picture {
     this.scene.root.visible = true;
   }
 
-  /** Left of the line the scene, right of it the other file as that is: its own frames. */
+  /** Draws the scene left of the line, and the other file with its own frames right of it. */
   #drawSides(renderer: WebGLRenderer, camera: PerspectiveCamera, right: Scene, values: PictureValues, isSurface: boolean, split: number): void {
     const { x: width, y: height } = renderer.getSize(new Vector2()), line = Math.round(width * Math.min(1, split));
     for (const one of right.drawn) {

@@ -8,33 +8,33 @@ import { makeMaterial } from "./shader.js";
 import { surfaceFor } from "./surface.js";
 
 export interface Drawn {
-  /** What the worker calls it. */
+  /** Number of the part in the worker. */
   number: number;
   part: Part;
   corners: Corners;
   frames: Frames | null;
-  /** Corners and right tangents before bones and morph weights moved them; null where nothing does. */
+  /** Corners, and tangents of the right side, before bones and morph weights are applied; null if there are none. */
   rest: { corners: Pick<Corners, "positions" | "normals" | "tangents">; right: Float32Array<ArrayBuffer> | null; isOfMethod: boolean } | null;
-  /** The normal map right of the slider. */
+  /** The normal map right of the split line. */
   rightMap: Texture | null;
-  /** Whether green of that map is read the other way round, since `check` says that it points down. */
+  /** Green of that map is inverted for display, because `check` reports that it points down. */
   turnsGreen: boolean;
   geometry: BufferGeometry;
-  /** Of all looks but `lit` in colours, which the surface has. */
+  /** Material of all looks except `lit` with colors, which uses `surface`. */
   material: RawShaderMaterial;
   surface: Material;
   meshes: Mesh[];
   surfaces: Mesh[];
-  /** The places that a person has hidden. */
+  /** Placements that the user has hidden. */
   hidden: Set<number>;
-  /** Number of its first triangle among all that are drawn, per place. */
+  /** For each placement, index of its first triangle among all drawn triangles. */
   firstTriangles: number[];
 }
 
 const empty = new DataTexture(new Uint8Array([128, 128, 255, 255]), 1, 1);
 empty.needsUpdate = true;
 
-/** Numbers per vertex as numbers per corner. */
+/** Converts data per vertex to data per corner. */
 function perCorner(size: number, count: number, indices: Uint32Array | null, at: (vertex: number, k: number) => number): BufferAttribute {
   const out = new Float32Array(size * count);
   for (let corner = 0; corner < count; ++corner) {
@@ -78,7 +78,7 @@ function placed(mesh: Mesh, place: Matrix4): Mesh {
   return mesh;
 }
 
-/** What is shown, and where in it a triangle lies. */
+/** The drawn parts; finds the part of a drawn triangle. */
 export class Scene {
   readonly root = new Group();
   readonly drawn: Drawn[] = [];
@@ -111,7 +111,7 @@ export class Scene {
     return drawn;
   }
 
-  /** What stands right of the slider. Without frames a renderer makes its own. */
+  /** Sets the frames and the map right of the split line. Without frames, the shader computes them, as renderers do. */
   setRight(drawn: Drawn, frames: Frames | null, map: Texture | null, isOfMethod: boolean): void {
     const corners = drawn.corners.positions.length / 3, { uniforms } = drawn.material;
     drawn.frames = frames;
@@ -127,7 +127,7 @@ export class Scene {
     uniforms.uRightMap.value = drawn.rightMap ?? empty;
   }
 
-  /** The file's bones, weights or nodes have moved. */
+  /** Updates the scene after bones, weights or nodes have moved. */
   repose(): void {
     for (const drawn of this.drawn) {
       if (drawn.rest) this.#pose(drawn);
@@ -141,7 +141,7 @@ export class Scene {
     }
   }
 
-  /** Puts corners and right tangents where the pose has them, from where they are at rest. */
+  /** Transforms corners, and tangents of the right side, from rest to the pose. */
   #pose({ rest, part, corners, frames }: Drawn): void {
     if (!rest) return;
     corners.positions.set(rest.corners.positions);
@@ -153,13 +153,13 @@ export class Scene {
     if (frames) poseTangents(part.pose.matrices, part.arrays, frames.tangents, rest.isOfMethod ? rest.corners : null);
   }
 
-  /** Right of the slider green is read the other way round. */
+  /** Sets whether green is inverted right of the split line. */
   turnGreen(drawn: Drawn, isTurned: boolean): void {
     drawn.turnsGreen = isTurned && drawn.rightMap !== null;
     drawn.material.uniforms.uRightGreen.value = drawn.turnsGreen;
   }
 
-  /** Shows either the surfaces, as people know the model, or the materials of our own. */
+  /** Shows either the surfaces with their materials, or the page's own materials. */
   show(isSurface: boolean): void {
     for (const { meshes, surfaces, hidden } of this.drawn) {
       for (const [place, mesh] of meshes.entries()) mesh.visible = !isSurface && !hidden.has(place);
@@ -171,7 +171,7 @@ export class Scene {
     return this.drawn.find(({ part }) => part.mesh === mesh && part.primitive === primitive);
   }
 
-  /** Which part shows a triangle of the picture, where, and which of its triangles it is. */
+  /** Returns the part that contains a drawn triangle, its placement, and the index of the triangle in the part. */
   at(triangle: number): { drawn: Drawn; place: Matrix4; triangle: number } | null {
     for (const drawn of this.drawn) {
       const size = drawn.corners.positions.length / 9;
@@ -183,7 +183,7 @@ export class Scene {
     return null;
   }
 
-  /** Places of vertices, three numbers each: all of a small model, and evenly chosen ones of a large one. */
+  /** Returns vertex positions, three numbers each: all of a small model, and an even selection of a large one. */
   points(): Float32Array {
     const kMost = 60_000;
     const all = this.drawn.reduce((sum, { corners, part }) => sum + (corners.positions.length / 3) * part.places.length, 0);
@@ -199,7 +199,7 @@ export class Scene {
     return Float32Array.from(found);
   }
 
-  /** A sphere around all that is finite. */
+  /** Returns a sphere around all finite positions. */
   sphere(): Sphere {
     const points: Vector3[] = [];
     for (const { corners, part } of this.drawn) {

@@ -169,11 +169,11 @@ void main() {
 
 export interface PictureValues {
   look: Look;
-  /** 0: off, 1: on, 2: green turned. */
+  /** 0: off; 1: on; 2: on, with inverted green. */
   map: 0 | 1 | 2;
   isWire: boolean;
   usesColors: boolean;
-  /** Pixels of the canvas from the left. */
+  /** Position of the split line in pixels of the canvas, from the left. */
   split: number;
   light: Vector3;
   eye: Vector3;

@@ -56,7 +56,7 @@ function replaced(text: string, part: string, by: string): string {
   return text.replace(part, by);
 }
 
-/** The material as the page draws it. Its textures are those of the source. */
+/** Returns the material as the page draws it. It shares the textures of `source`. */
 export function surfaceFor(source: Material, uniforms: SurfaceUniforms): Material {
   const surface = source.clone();
   // Flat normals are part of the geometry.

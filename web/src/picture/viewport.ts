@@ -16,7 +16,7 @@ export { hasSplit } from "./renderer.js";
 export class Viewport {
   readonly canvas: HTMLCanvasElement;
   readonly settings: Settings = { look: "lit", map: 1, isWire: false, usesColors: true, split: 0.5, isBeside: false, surroundings: "room", hasShadows: false, turn: 0, stops: 0 };
-  /** Where light comes from, as the camera sees it: x right, y up, z to the eye. */
+  /** Direction to the light in view space: x right, y up, z toward the camera. */
   readonly light = new Vector3(-0.45, 0.55, 0.7).normalize();
   onDrawn: () => void = () => {};
   readonly #picture: Picture;
@@ -36,7 +36,7 @@ export class Viewport {
     this.#resize();
   }
 
-  /** Without WebGL nothing is drawn, and everything else works. */
+  /** False without WebGL: nothing is drawn, but everything else works. */
   get hasPicture(): boolean {
     return this.#picture.renderer !== null;
   }
@@ -45,7 +45,7 @@ export class Viewport {
     return this.#picture.scene;
   }
 
-  /** Objects that the graphics card keeps for the page. */
+  /** Numbers of objects in GPU memory. */
   get resources(): { geometries: number; textures: number } {
     const { geometries = 0, textures = 0 } = this.#picture.renderer?.info.memory ?? {};
     return { geometries, textures };
@@ -59,7 +59,7 @@ export class Viewport {
     return this.#picture.overlay;
   }
 
-  /** What the camera looks at, and turns about. */
+  /** The point that the camera looks at and orbits. */
   get target(): Vector3 {
     return this.#eye.target;
   }
@@ -69,13 +69,13 @@ export class Viewport {
     this.ask();
   }
 
-  /** Another file right of the line, or none: then the scene itself stands there, in its right frames. */
+  /** Shows another file right of the line; null: the scene itself, with the frames of the right side. */
   showRight(right: Scene | null): void {
     this.#picture.showRight(right);
     this.ask();
   }
 
-  /** Draws in the next frame. */
+  /** Requests a redraw in the next frame. */
   ask(): void {
     if (this.#isAsked) return;
     this.#isAsked = true;
@@ -93,7 +93,7 @@ export class Viewport {
     this.ask();
   }
 
-  /** Surroundings of a person's own, as an HDR file (Radiance). */
+  /** Sets an environment provided by the user, as an HDR file (Radiance). */
   setPanorama(file: ArrayBuffer): void {
     this.#picture.setPanorama(file);
     this.ask();
@@ -105,7 +105,9 @@ export class Viewport {
     this.ask();
   }
 
-  /** Two pictures beside each other or one, all of the model in each, seen from the same side as before. */
+  /**
+   * Switches between one picture and two pictures side by side. The whole model stays visible, from the same direction.
+   */
   setBeside(on: boolean): void {
     if (on === this.settings.isBeside) return;
     this.settings.isBeside = on;
@@ -119,35 +121,35 @@ export class Viewport {
     this.ask();
   }
 
-  /** Puts the eye at a place, looking at another. */
+  /** Moves the camera to a position, looking at a target. */
   lookFrom(place: number[]): void {
     this.#eye.lookFrom(place);
     this.ask();
   }
 
-  /** Looks at a sphere; from `toward`, where that is given. */
+  /** Animates the camera to show a sphere, from direction `toward` if given. */
   fly(center: Vector3, radius: number, toward: Vector3 | null, isInstant = false): PerspectiveCamera {
     return this.#eye.fly(center, radius, toward, isInstant);
   }
 
-  /** Shows all of the model, and gives the camera as it will be there. */
+  /** Shows the whole model, and returns the final camera. */
   reset(isInstant = false, toward?: Vector3): PerspectiveCamera {
     return this.#eye.reset(isInstant, toward);
   }
 
-  /** The number of the triangle at a place of the canvas, in CSS pixels, or -1. */
+  /** Returns the index of the triangle at a position of the canvas (in CSS pixels), or -1. */
   async pick(x: number, y: number): Promise<number> {
     const from = this.#picture.readable(this.camera, this.settings.isBeside);
     return from ? pickTriangle(from, this.#pickTarget, x < from.size.x ? x : x - (this.canvas.clientWidth - from.size.x), y) : -1;
   }
 
-  /** The UV map of a part as pixels, from the top row down, or null without WebGL; `area` is scale and offset of UVs. */
+  /** Returns the UV map of a part as pixels, top row first, or null without WebGL. `area`: scale and offset of UVs. */
   async drawMap(part: number, map: MapCorners, look: Look, isWire: boolean, size: { width: number; height: number }, area: [number, number, number, number]): Promise<Uint8ClampedArray<ArrayBuffer> | null> {
     const from = this.#picture.readable(this.camera);
     return from && drawUvMap(from, { ...this.#values(), look, isWire }, part, map, size, area);
   }
 
-  /** The picture as it is now, in pixels of the canvas; null without WebGL. */
+  /** Returns the current picture in pixels of the canvas, or null without WebGL. */
   draw(): OffscreenCanvas | null {
     if (!this.hasPicture) return null;
     this.#draw();
@@ -183,7 +185,7 @@ export class Viewport {
   }
 }
 
-/** Adds to what lies over the picture, and takes it away. */
+/** Replaces an overlay of the picture. */
 export function replaceOverlay(viewport: Viewport, old: Object3D | null, next: Object3D | null): Object3D | null {
   if (old) {
     viewport.overlay.remove(old);

@@ -7,12 +7,12 @@ import type { CheckReport, Finding } from "tspace/gltf";
 
 export type Tangents = "repair" | "overwrite" | "missing";
 
-/** Options of `generate` that a switch of the panel stands for. */
+/** Options of `generate` that the panel has switches for. */
 export interface Extras {
   flipGreen: boolean;
   mendMaps: boolean;
   overwriteNormals: boolean;
-  /** All normals recomputed by the method that removes the noise of positions. */
+  /** Recomputes all normals with the method that removes noise from positions. */
   denoise: boolean;
   mendWinding: boolean;
   /** Removes tangents that no material needs. */
@@ -25,7 +25,10 @@ type Remedy = Partial<Extras> & { tangents?: Tangents };
 const flags = new Set<string>(["flipGreen", "mendMaps", "overwriteNormals", "mendWinding", "strip"]);
 const camel = (name: string): string => name.replace(/-./g, ([, letter]) => letter.toUpperCase());
 
-/** The switches for the first command of a remedy that works on the model, or null where this page has no switch for it. */
+/**
+ * Returns the switches for the first command of a remedy that applies to the model, or null if the page has no switch
+ * for it.
+ */
 export function remedyOptions({ code, commands }: Finding): Remedy | null {
   // If inverted signs and inverted green cancel out, the remedy has two commands: repair both or neither.
   if (code === "greenFlipped") return { flipGreen: true };
@@ -37,7 +40,7 @@ export function remedyOptions({ code, commands }: Finding): Remedy | null {
     if (option === "repair" || option === "overwrite") remedy.tangents = option;
     else if (flags.has(option)) Object.assign(remedy, { [option]: true });
     else if (option === "denoise" && value === "auto") remedy.denoise = true;
-    else if (option === "normals" && value === "best") continue; // which --denoise requires
+    else if (option === "normals" && value === "best") continue; // implied by --denoise
     else if (option === "morphNormals") remedy.morphNormals = value as "missing" | "all";
     else return null;
   }
@@ -49,8 +52,8 @@ export function remedyOptions({ code, commands }: Finding): Remedy | null {
 const curves: Record<string, MapReading["curve"]> = { srgb: "srgb", linearised: "linearised" };
 
 /**
- * How a lone normal map becomes one of glTF, whose green points up, by the commands of its findings. `isSure`: there is no other
- * reading. Null where this page cannot convert it.
+ * Returns how to convert a lone normal map to glTF's encoding with green pointing up, from the commands of its
+ * findings, or null if the page cannot convert it. `isSure`: the encoding is certain.
  */
 export function mapReading({ image, findings }: CheckReport): { reading: MapReading; isSure: boolean } | null {
   const reading: MapReading = {}, content = image?.content === "normals" ? undefined : findings.find(({ commands }) => commands.some(({ verb }) => verb === "convert-map"));
@@ -68,14 +71,16 @@ export function mapReading({ image, findings }: CheckReport): { reading: MapRead
 
 export interface Advice {
   extras: Extras;
-  /** Sentences for the person. */
+  /** Sentences for the user. */
   reasons: string[];
 }
 
-/** Where inverted signs and a green that points down cancel out, `check` makes a warning and a note of them. */
+/**
+ * Returns whether inverted signs and a green that points down cancel out; `check` then reports a warning and a note.
+ */
 const cancels = ({ findings }: CheckReport): boolean => findings.some(({ code, severity }) => code === "signsInverted" && severity === "warning");
 
-/** isTurned: signs are written inverted on purpose. */
+/** Returns the options that the findings require. `isTurned`: inverted signs are written intentionally. */
 export function adviceFor(report: CheckReport | null, tangents: Tangents, isTurned: boolean): Advice {
   const extras = { ...noExtras }, reasons: string[] = [];
   if (!report) return { extras, reasons };
@@ -110,7 +115,10 @@ export function adviceFor(report: CheckReport | null, tangents: Tangents, isTurn
   return { extras, reasons };
 }
 
-/** The finding that is said first: of the worst severity, and of these one that is seen in this very picture rather than in other viewers. */
+/**
+ * Returns the finding to report first: one of the highest severity; among these, preferably one that is visible in this
+ * picture rather than only in other viewers.
+ */
 export function worstOf({ findings }: CheckReport): Finding | undefined {
   const worst = findings.filter(({ severity }) => severity !== "note" && severity === findings[0].severity);
   return worst.find(({ code }) => code !== "tangentsMissing") ?? worst[0];
@@ -118,13 +126,13 @@ export function worstOf({ findings }: CheckReport): Finding | undefined {
 
 export interface Plan {
   tangents: Tangents;
-  /** What the fix will do, as the words behind "Fix it:". */
+  /** Descriptions of the steps, to follow "Fix it:". */
   steps: string[];
-  /** Kinds of findings that a model in a 3D program has to be changed for. */
+  /** Number of kinds of findings that require changes in a 3D program. */
   left: number;
 }
 
-/** What one click does about all errors and warnings; null where it can do nothing about them. */
+/** Returns what one click does about all errors and warnings, or null if it can do nothing about them. */
 export function planFor(report: CheckReport): Plan | null {
   if (report.image) return planForMap(report);
   // Signs that cancel out with inverted green render correctly.
@@ -144,7 +152,7 @@ export function planFor(report: CheckReport): Plan | null {
   return steps.length === 0 ? null : { tangents, steps, left: codes((finding) => remedyOptions(finding) === null || remedyOptions(finding)?.mendMaps === true) };
 }
 
-/** What one click does about a lone normal map. */
+/** Returns what one click does about a lone normal map. */
 function planForMap(report: CheckReport): Plan | null {
   const serious = report.findings.filter(({ severity }) => severity !== "note"), found = mapReading(report);
   if (serious.length === 0 || !found?.isSure) return null;
@@ -155,11 +163,11 @@ function planForMap(report: CheckReport): Plan | null {
 
 const kinds = ["error", "warning", "note"] as const;
 
-/** `4 errors, 1 warning`: the severities that `shown` has; none: "nothing wrong". */
+/** Formats counts such as `4 errors, 1 warning`, for the severities in `shown`; "nothing wrong" if all are zero. */
 export const countsText = (counts: CheckReport["counts"], shown: readonly (keyof CheckReport["counts"])[] = kinds.filter((kind) => counts[kind] > 0)): string =>
   shown.map((kind) => plural(counts[kind], kind)).join(", ") || "nothing wrong";
 
-/** `4 errors, 1 warning → 0 errors, 0 warnings`: every severity that occurs before or after. */
+/** Formats `4 errors, 1 warning → 0 errors, 0 warnings`: every severity that occurs before or after. */
 export function changeOfCounts(before: CheckReport["counts"], after: CheckReport["counts"]): string {
   const shown = kinds.filter((kind) => before[kind] + after[kind] > 0);
   return shown.length === 0 ? "No findings before or after." : `${countsText(before, shown)} → ${countsText(after, shown)}`;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A lone normal map as another file, one click each: green up or down, three channels or two, PNG, KTX2 or DDS.
+// Converts a lone normal map with one click: green up or down, three channels or two, PNG, KTX2 or DDS.
 import { count, el, replaceChildren } from "../dom.js";
 import { mapReading } from "./advice.js";
 import type { ModelFiles } from "../files.js";
@@ -8,7 +8,7 @@ import type { ConvertedMap, MapReading, MapTarget } from "../worker/protocol.js"
 interface Target {
   name: string;
   detail: string;
-  /** Follows the name of the map, before the ending. */
+  /** Appended to the name of the map, before the extension. */
   suffix: string;
   green: "up" | "down";
   to: MapTarget;

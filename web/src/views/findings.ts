@@ -9,7 +9,7 @@ import type { CheckReport, Finding, Severity } from "tspace/gltf";
 
 const severities = ["error", "warning", "note"] as const;
 const titles: Record<Severity, string> = { error: "Errors: they render wrong", warning: "Warnings: they may render wrong", note: "Notes" };
-/** From so many kinds or places on there is a field to filter them. */
+/** From this number of kinds or locations on, there is a filter field. */
 const kFilterFrom = 6;
 
 /** Findings of one kind. */
@@ -30,7 +30,7 @@ function grouped(findings: Finding[]): Group[] {
 }
 
 export interface Choices {
-  /** All findings of a kind, or one of them. */
+  /** Selects all findings of a kind, or one of them. */
   choose: (findings: Finding[], isOne: boolean) => void;
   mend: (finding: Finding) => void;
 }
@@ -65,19 +65,19 @@ export class FindingsView {
     replaceChildren(this.#verdict, text);
   }
 
-  /** Opens the entry of a finding, by its number in the report, where it is not open. */
+  /** Opens the entry of a finding, by its index in the report, unless it is open. */
   openFinding(number: number): void {
     const finding = this.#findings[number], found = this.#groups.find(({ group }) => group.findings.includes(finding));
     if (found && !(this.#open && found.element.contains(this.#open.button))) found.element.querySelector("button")?.click();
   }
 
-  /** The number of the first finding of the entry that is open. */
+  /** Index of the first finding of the open entry, or null. */
   get chosen(): number | null {
     const open = this.#open, found = this.#groups.find(({ element }) => open !== null && element.contains(open.button));
     return found ? this.#findings.indexOf(found.group.findings[0]) : null;
   }
 
-  /** `isFixed`: the findings are about the fixed file, and no longer about the one that was opened. */
+  /** Lists the findings of a file. `isFixed`: the file is the fixed one rather than the one that was opened. */
   show(file: CheckReport, isFixed = false): void {
     this.#findings = file.findings;
     this.#open = null;
@@ -144,7 +144,7 @@ export class FindingsView {
     if (isOpening) this.choices.choose(findings, findings.length === 1);
   }
 
-  /** One place after another. */
+  /** Returns buttons that step through the locations. */
   #steps(findings: Finding[]): HTMLElement {
     let at = -1;
     const text = el("p", { class: "quiet step", "aria-live": "polite" }, `${plural(findings.length, "place")}: all of them are shown.`);
@@ -166,7 +166,7 @@ const contents: Record<string, string> = {
 };
 const greens: Record<string, string> = { up: "Green points up, as in glTF and OpenGL", down: "Green points down, as in DirectX", mixed: "Green points up in one part and down in another" };
 
-/** What a lone normal map is. */
+/** Describes a lone normal map. */
 function mapText({ width, height, content, green, greenConfidence }: NonNullable<CheckReport["image"]>): string {
   const direction = greens[green] ? `${greens[green]} (${Math.round(100 * greenConfidence)} % sure, if red points right)` : "The relief does not show which way green points";
   return `${width} x ${height} texels: ${contents[content] ?? content}.${content === "picture" || content === "height" || content === "constant" ? "" : ` ${direction}.`}`;
@@ -174,7 +174,7 @@ function mapText({ width, height, content, green, greenConfidence }: NonNullable
 
 const firstVertices = ({ vertices }: Finding): HTMLElement | false => vertices.length > 0 && el("p", { class: "quiet" }, `First at vertices ${vertices.join(", ")}.`);
 
-/** Where, in words: the names that a person gave. */
+/** Describes the location of a finding with the names in the file. */
 function placeOf({ mesh, primitive, meshName, materialName, place }: Finding): string {
   if (place === "") return "";
   const parts = [mesh >= 0 && `mesh ${mesh}${meshName ? ` “${meshName}”` : ""}, primitive ${primitive}`, materialName && `material “${materialName}”`].filter(Boolean);

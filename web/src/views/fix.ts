@@ -4,13 +4,13 @@ import { el, plural, replaceChildren } from "../dom.js";
 import { changeOfCounts, countsText, worstOf, type Plan } from "./advice.js";
 import type { CheckReport, Finding } from "tspace/gltf";
 
-/** `87 % sure`, or nothing where a finding is certain. */
+/** Formats `87 % sure`; empty if a finding is certain. */
 export const sureText = ({ confidence }: Finding): string => (confidence < 1 ? `${Math.round(100 * confidence)} % sure` : "");
 
 export class FixView {
-  /** What one sees, above the picture. */
+  /** The visible effect, above the picture. */
   readonly caption = el("p", { class: "seen", role: "status" });
-  /** Over the picture, beside the split line. */
+  /** Over the picture, next to the split line. */
   readonly element = el("div", { class: "fix", hidden: true });
   #button = el("button", { type: "button", class: "main large" });
 
@@ -24,7 +24,7 @@ export class FixView {
     delete this.caption.dataset.severity;
   }
 
-  /** What check found, and what one click will do about it. */
+  /** Shows what check found, and what one click will do about it. */
   offer(report: CheckReport, plan: Plan | null): void {
     const worst = worstOf(report);
     this.caption.dataset.severity = worst?.severity ?? "fine";
@@ -50,14 +50,14 @@ export class FixView {
     this.element.hidden = true;
   }
 
-  /** Two versions, as `check` counts them. */
+  /** Compares two versions by the counts of `check`. */
   compare(names: [string, string], counts: [CheckReport["counts"], CheckReport["counts"]]): void {
     this.element.hidden = true;
     delete this.caption.dataset.severity;
     replaceChildren(this.caption, el("strong", {}, "Two versions: "), `left ${names[0]} (${countsText(counts[0])}), right ${names[1]} (${countsText(counts[1])}). Difference and Error show degrees between them.`);
   }
 
-  /** The fixed file stands right of the line. `rest`: what would fix what is left of it. */
+  /** Reports a fixed file, which is now right of the split line. `rest`: a plan for the remaining findings. */
   done(name: string, url: string, before: CheckReport["counts"], after: CheckReport["counts"] | null, rest: Plan | null): void {
     const isFixed = after !== null && after.error + after.warning === 0;
     this.caption.dataset.severity = isFixed || after === null ? "fine" : after.error > 0 ? "error" : "warning";

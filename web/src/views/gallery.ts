@@ -14,7 +14,7 @@ export class GalleryView {
     this.element = el("nav", { class: "samples", "aria-label": "Samples" }, ...this.#buttons);
   }
 
-  /** Marks the sample that is shown, by the name of its file. */
+  /** Marks the sample that is shown, by file name. */
   mark(file: string | null): void {
     for (const button of this.#buttons) button.setAttribute("aria-pressed", String(button.dataset.file === file));
   }

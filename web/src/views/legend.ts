@@ -7,14 +7,14 @@ import type { Look } from "../picture/shader.js";
 const swatch = (color: Rgb, text: string, isStriped = false): HTMLElement =>
   el("span", { class: "swatch" }, el("i", { "data-color": css(color), style: isStriped ? `background: repeating-linear-gradient(135deg, ${css(color)} 0 4px, transparent 4px 8px)` : `background: ${css(color)}` }), text);
 
-/** The scale of errors, its degrees below it. */
+/** Returns the color scale of errors, with degrees below it. */
 const scale = (label: string): HTMLElement =>
   el("span", { class: "scale", role: "img", "aria-label": `${label}, ${heatDegrees[0]} to ${heatDegrees.at(-1)}` },
     el("i", { style: `background: ${heatGradient}` }),
     ...heatDegrees.map((degrees, i) => el("span", { style: `left: ${(100 * i) / (heatDegrees.length - 1)}%` }, `${degrees}°`)));
 
 export class Legend {
-  /** Colors and what they mean, for pictures that are saved. */
+  /** Colors and their meanings, for saved pictures. */
   get swatches(): { color: string; text: string }[] {
     return [...this.element.querySelectorAll<HTMLElement>(".swatch")].map((one) => ({ color: one.querySelector("i")!.dataset.color!, text: one.textContent ?? "" }));
   }

@@ -74,7 +74,7 @@ export class LookView {
     if (isHdr) this.#viewport.setPanorama(bytes);
   }
 
-  /** A choice among the variants of the file, where it has some; `chosen`: by its number, or -1. */
+  /** Offers a choice of the file's variants, if any. `chosen`: index of the current variant, or -1. */
   offerVariants(names: string[], chosen = -1): void {
     this.#variants.hidden = names.length === 0;
     const variants = names.length > 0 && select("Variant", [["-1", "none: as the file stands"], ...names.map((name, i) => [String(i), name] as const)], String(chosen), (value) => this.vary(Number(value))).element;
@@ -87,7 +87,7 @@ export class LookView {
     this.changed(right);
   }
 
-  /** Shows a fixed file, or one to compare with; null where there is none any more. */
+  /** Offers a fixed file or a file to compare with; null: there is none. */
   offerFile(file: OtherFile | null): void {
     for (const option of this.#choice.options) option.disabled = isFile(option.value as Right) && option.value !== file;
     if (file) this.right = file;
@@ -101,14 +101,14 @@ export class LookView {
     this.#viewport.ask();
   }
 
-  /** Draws the lines anew: the model, its frames or the choice have changed. */
+  /** Redraws the lines after the model, its frames or the choice have changed. */
   showLines(): void {
     const { scene } = this.#viewport;
     const next = this.#axes.size > 0 ? frameLines(scene, [...this.#axes], this.#isRight, 0.45 * this.#length * usualEdge(scene)) : null;
     this.#lines = replaceOverlay(this.#viewport, this.#lines, next);
   }
 
-  /** How far the file's tangents are from the method's. */
+  /** Shows the deviation of the file's tangents from those of the method. */
   showFigures(): void {
     const { drawn } = this.#viewport.scene;
     if (drawn.length === 0) return replaceChildren(this.#figures);

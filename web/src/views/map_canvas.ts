@@ -6,20 +6,20 @@ import { el } from "../dom.js";
 const kMostPixels = 1 << 21, kNearest = 2e5;
 const kMarked = "#ff2d6f";
 
-/** Scale and offset that take UVs into the unit square of the canvas, y down. */
+/** Scale and offset that map UVs to the unit square of the canvas, with y pointing down. */
 export type Area = [number, number, number, number];
 
 export class MapCanvas {
   readonly canvas = el("canvas", { width: 512, height: 512, tabindex: "0", role: "img", "aria-label": "UV map of the part. Arrow keys move it, plus and minus zoom, 0 shows all of it." });
   readonly #over = el("canvas", { class: "over", "aria-hidden": "true" });
   readonly element = el("div", { class: "map" }, this.canvas, this.#over);
-  /** The window has changed: draw. */
+  /** Called when the visible area has changed, to redraw. */
   onMoved: () => void = () => {};
-  /** Where the pointer is, as UV, or null when it has left. */
+  /** Called with the UV position of the pointer, or null when it has left. */
   onPointed: (uv: [number, number] | null) => void = () => {};
-  /** A click that was no drag. */
+  /** Called for a click that was not a drag. */
   onClicked: (uv: [number, number]) => void = () => {};
-  /** Middle of the window as UV, and CSS pixels for a unit of u. */
+  /** UV position of the center, and CSS pixels per unit of u. */
   #middle: [number, number] = [0.5, 0.5];
   #scale = 100;
   #bounds: [number, number, number, number] = [0, 0, 1, 1];
@@ -40,7 +40,7 @@ export class MapCanvas {
     canvas.addEventListener("keydown", (event) => this.#key(event));
   }
 
-  /** What fit() shows: the lowest and highest u and v. */
+  /** Sets the area that fit() shows: minimum and maximum u and v. */
   setBounds(bounds: [number, number, number, number]): void {
     this.#bounds = bounds;
     this.fit();
@@ -59,12 +59,12 @@ export class MapCanvas {
     return [su, sv, 0.5 - this.#middle[0] * su, 0.5 - this.#middle[1] * sv];
   }
 
-  /** Pixels of the screen for a unit of u. */
+  /** Screen pixels per unit of u. */
   get pixelsPerUnit(): number {
     return this.#scale * (this.canvas.width / this.#size().width);
   }
 
-  /** Outlines triangles (pairs of UVs, six numbers each) and marks a place. */
+  /** Outlines triangles (three UV pairs, six numbers each) and marks a position. */
   mark(triangles: readonly (readonly number[])[], place: readonly [number, number] | null): void {
     const over = this.#over, context = over.getContext("2d")!, [su, sv, ou, ov] = this.area;
     over.width = this.canvas.width;
@@ -93,7 +93,7 @@ export class MapCanvas {
     }
   }
 
-  /** Brings a place into sight. */
+  /** Scrolls to make a position visible. */
   show(u: number, v: number): void {
     const [su, sv, ou, ov] = this.area, x = u * su + ou, y = v * sv + ov;
     if (x > 0.02 && x < 0.98 && y > 0.02 && y < 0.98) return;
@@ -127,7 +127,7 @@ export class MapCanvas {
     return [((clientX - box.left) / box.width - ou) / su, ((clientY - box.top) / box.height - ov) / sv];
   }
 
-  /** The place under the pointer stays there. */
+  /** Zooms; the position under the pointer does not move. */
   #zoom(by: number, at: { clientX: number; clientY: number } | null): void {
     const [u, v] = at ? this.#uvAt(at) : this.#middle, least = 20 / Math.max(this.#bounds[2] - this.#bounds[0], this.#bounds[3] - this.#bounds[1]);
     const scale = Math.min(kNearest, Math.max(least, this.#scale * by)), k = this.#scale / scale;

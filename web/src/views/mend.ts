@@ -11,16 +11,16 @@ import { adviceFor, changeOfCounts, isWorse, mapReading, noExtras, remedyOptions
 
 export interface Mended extends ModelFiles {
   report: unknown;
-  /** What is downloaded, where that is not the model itself: the image of a lone normal map. */
+  /** The download, if it is not the model itself: the image of a lone normal map. */
   download?: { bytes: Uint8Array<ArrayBuffer>; type: string };
-  /** What `check` says of the file that was made; null where it could not be checked. */
+  /** Check report of the written file; null if it could not be checked. */
   checked: CheckReport | null;
 }
 
-/** What other parts of the page are told of a fix. */
+/** Callbacks about a fix for other parts of the page. */
 export interface Told {
   started: () => void;
-  /** `url`: of the file, until the next one is made. `isChanged`: it has other bytes than the file that was opened. */
+  /** `url`: URL of the file, valid until the next fix. `isChanged`: its bytes differ from those of the opened file. */
   done: (mended: Mended, url: string, isChanged: boolean) => void;
   failed: (message: string) => void;
 }
@@ -36,7 +36,7 @@ const actions: Record<string, string> = {
   impossible: "impossible",
   removed: "removed",
 };
-/** Switches in the order of the panel. All but the first are seen where a finding asks for them. */
+/** Switches in the order of the panel. All except the first are shown only if a finding requires them. */
 const switches: readonly (readonly [keyof Extras, string])[] = [
   ["flipGreen", "Flip green of maps where it points down"],
   ["mendMaps", "Convert maps that are not encoded as glTF requires"],
@@ -53,9 +53,9 @@ export class MendView {
   #method: Method = "mikktspace";
   #isTurned = false;
   #extras: Extras = noExtras;
-  /** Switches that a person has set: advice leaves them alone. */
+  /** Switches that the user has set; advice does not change them. */
   #touched = new Set<keyof Extras>();
-  /** What a finding's own button asks for, beside the advice. */
+  /** Options of a finding's own fix button, in addition to the advice. */
   #wanted: Partial<Extras> = {};
   #isCompressed = false;
   #model: ModelFiles | null = null;
@@ -70,7 +70,7 @@ export class MendView {
   #signsChoice;
   #boxes = new Map<keyof Extras, { element: HTMLElement; input: HTMLInputElement }>();
 
-  /** Object URLs of the result, which are released with it. */
+  /** Object URLs of the result, which are revoked with it. */
   #urls: string[] = [];
 
   constructor(private generate: (options: Record<string, unknown>) => Promise<Mended>, private open: (mended: Mended) => void, private told: Told) {
@@ -93,7 +93,7 @@ export class MendView {
     this.#refresh();
   }
 
-  /** Another model: nothing of the one before is left. */
+  /** Resets everything for another model. */
   reset(model: ModelFiles | null): void {
     this.#model = model;
     this.#checked = null;
@@ -110,19 +110,19 @@ export class MendView {
     this.#refresh();
   }
 
-  /** The page can unpack geometry, and not pack it. */
+  /** Sets whether the model is compressed: the page can decompress geometry, but not compress it. */
   setCompressed(isCompressed: boolean): void {
     this.#isCompressed = isCompressed;
     this.#refresh();
   }
 
-  /** What is wrong with the model: the switches that mend it go on. */
+  /** Turns on the switches that fix the findings of the report. */
   advise(report: CheckReport): void {
     this.#checked = report;
     this.#refresh();
   }
 
-  /** Sets the panel to what a finding's remedy does, and shows it. */
+  /** Sets the panel to the remedy of a finding, and shows it. */
   prepare(finding: Finding): void {
     const options = remedyOptions(finding);
     if (!options) return;
@@ -139,7 +139,7 @@ export class MendView {
     this.#button.focus();
   }
 
-  /** One click: what the findings ask for, with these tangents. */
+  /** Fixes all findings with one click, with the given treatment of tangents. */
   async run(tangents: Tangents): Promise<void> {
     this.#tangents = tangents;
     this.#tangentsChoice.set(tangents);
@@ -147,7 +147,7 @@ export class MendView {
     await this.#mend();
   }
 
-  /** Options of the package, which are those of the tool in camelCase. */
+  /** Returns the options of the package, which are those of the tool in camelCase. */
   #options(): Record<string, unknown> {
     const { flipGreen, mendMaps, overwriteNormals, denoise, mendWinding, strip, morphNormals } = this.#extras;
     return {
@@ -166,7 +166,7 @@ export class MendView {
     };
   }
 
-  /** Switches that nobody has set follow the findings. */
+  /** Sets the switches that the user has not set according to the findings. */
   #takeAdvice(): void {
     const { extras, reasons } = adviceFor(this.#checked, this.#tangents, this.#isTurned);
     const advised: Extras = { ...extras, ...this.#wanted };
@@ -193,7 +193,7 @@ export class MendView {
     replaceChildren(this.#command, ...parts.flatMap((part, i) => (i === 0 ? [part] : [" ", part])));
   }
 
-  /** Options of `convert-map` for a lone normal map. */
+  /** Returns the options of `convert-map` for a lone normal map. */
   #mapOptions(): string {
     const { channels, curve, flipRed, flipGreen }: MapReading = (this.#checked && mapReading(this.#checked)?.reading) ?? {};
     return `${channels ? ` --channels ${channels}` : ""}${curve ? ` --${curve}` : ""}${flipRed ? " --flip-red" : ""}${flipGreen ? " --flip-green" : ""}`;
@@ -230,7 +230,7 @@ export class MendView {
     }
   }
 
-  /** The folder that a .gltf came in, as a .zip. */
+  /** Returns a download of the folder that a .gltf came with, as a .zip. */
   #folder(mended: Mended): HTMLElement[] {
     const files = this.#model && folderOf(mended.bytes, this.#model);
     if (!files) return [];
@@ -260,10 +260,10 @@ const changesTangents = ({ action, mendedVertices }: GeneratedPrimitive): boolea
 
 const asksForAnew = (checked: CheckReport | null): boolean => checked !== null && checked.findings.some((finding) => finding.severity !== "note" && remedyOptions(finding)?.tangents === "overwrite");
 
-/** Normals or triangles are other ones, which frames alone do not show. */
+/** Returns whether normals or triangles have changed, which a comparison of frames does not show. */
 export const changesShape = ({ primitives }: GenerateReport): boolean => primitives.some(({ normalsGenerated, windingMended }) => normalsGenerated || windingMended > 0);
 
-/** What the mend did, and what `check` says before and after it. */
+/** Returns what the fix did, and the results of `check` before and after. */
 function verdictOf(mended: Mended, before: CheckReport | null): { what: string; findings: string | null; isGood: boolean; isWorse: boolean } {
   const file = mended.report as GenerateReport, after = mended.checked;
   const findings = before && after ? changeOfCounts(before.counts, after.counts) : null;
@@ -279,12 +279,12 @@ function verdictOf(mended: Mended, before: CheckReport | null): { what: string; 
   return { what: `No tangent has changed${others.length > 0 ? `; ${others.join(" and ")} have` : ""}: ${sizes}`, findings, isGood: others.length > 0 && !worse, isWorse: worse };
 }
 
-/** Words of a command line that are not broken at their hyphens. */
+/** Returns words of a command line that are not broken at hyphens. */
 const whole = (words: string): HTMLElement => el("span", { class: "whole" }, words);
 
 const shellWord = (name: string): string => (/^[\w./-]+$/.test(name) ? name : `'${name.replaceAll("'", "'\\''")}'`);
 
-/** `crate.glb` becomes `crate-fixed.glb`: the page always writes GLB. */
+/** Returns the name of the fixed file: `crate.glb` becomes `crate-fixed.glb`. The page always writes GLB. */
 export const mendedName = (name: string): string => isMapName(name) ? fixedMapName(name) : `${name.replace(/^.*\//, "").replace(/\.[^.]*$/, "")}-fixed.glb`;
 
 function table(head: string[], rows: { cells: string[]; title?: string }[], extraClass = ""): HTMLElement {

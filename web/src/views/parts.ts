@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Contents of the file: numbers, its parts to show and hide, and its images with their channels.
+// Contents of the file: its figures, parts that can be shown and hidden, and images with their channels.
 import { checkbox, choice, count, el, plural, replaceChildren, select } from "../dom.js";
 import type { PageOrigin } from "../embedded.js";
 import { nameOfMap } from "../model/uv_reads.js";
@@ -29,14 +29,14 @@ export class PartsView {
   #shown: ShownImage[] = [];
   #drawnOf = new Map<Part, Drawn>();
 
-  /** `origin`: of the page, where the tool made it. */
+  /** `origin`: origin of the page, if the tool created it. */
   constructor(private viewport: Viewport, origin: PageOrigin | null) {
     const made = origin && el("p", { class: "quiet made" }, `This page was made on ${origin.date} by tspace ${origin.version}: `, el("code", {}, origin.command));
     this.element.append(el("div", { class: "rows" }, this.#numbers, this.#list, this.#images, made));
     this.element.addEventListener("toggle", () => this.#drawImage());
   }
 
-  /** The numbers of the file. */
+  /** Shows the figures of the file. */
   describe(report: InspectReport | null): void {
     if (!report) return replaceChildren(this.#numbers);
     const sum = (of: (one: InspectReport["primitives"][number]) => number) => report.primitives.reduce((total, one) => total + of(one), 0);
@@ -51,7 +51,7 @@ export class PartsView {
     replaceChildren(this.#numbers, ...rows.flatMap(([name, value]) => [el("dt", {}, name), el("dd", {}, value)]));
   }
 
-  /** Another model in the picture. */
+  /** Lists the parts of another model. */
   reset(tree: TreeNode[] = []): void {
     this.#drawnOf = new Map(this.viewport.scene.drawn.map((drawn) => [drawn.part, drawn]));
     const rows: HTMLElement[] = [];
@@ -89,7 +89,7 @@ export class PartsView {
     this.#drawImage();
   }
 
-  /** Each image once, by what the first material that shows it uses it for. */
+  /** Collects each image once, labeled by its use in the first material that shows it. */
   #collect(): void {
     const seen = new Set<unknown>();
     this.#shown = [];

@@ -8,22 +8,25 @@ import type { Look } from "../picture/shader.js";
 import { replaceOverlay, type Viewport } from "../picture/viewport.js";
 import type { Finding } from "tspace/gltf";
 
-/** The look of this page for a view of `tspace render`, which the engine names for each finding. */
+/** Looks of this page for the views of `tspace render` that findings specify. */
 const looks: Record<string, Look> = { sign: "signs", error: "difference", uv: "mirrored" };
 export const lookOf = ({ show }: Finding): Look => looks[show] ?? "lit";
 
-/** Tangents farther off than this are outlined where a finding is about directions. */
+/** For findings about directions, tangents with a larger error than this are outlined. */
 const kFarDegrees = 5;
-/** Findings and triangles of each that decide where the picture is seen from. */
+/** Maximum numbers of findings, and of triangles of each, that determine the viewpoint. */
 const kMostAimed = 50, kMostFaces = 2000;
 
-/** Of a finding on more of the surface than this the picture stays where it is. */
+/** If a finding affects a larger fraction of the surface, the camera does not move. */
 const kEverywhere = 0.5;
 
-/** Where a tangent is not unit, and a normal points to the back: as `check` has it. */
+/** Thresholds of `check` for tangents that are not unit, and for normals that point backward. */
 const kUnit = 0.00674, kBack = -0.1;
 
-/** What holds for each triangle that a finding is about, by how its name begins; null where the picture cannot tell. */
+/**
+ * Returns a test for the triangles that a finding is about, selected by the prefix of its code; null if the picture
+ * data cannot tell.
+ */
 function testFor({ code }: Finding, { corners: { positions: p, normals: n, tangents: t, islands }, frames }: Drawn): ((triangle: number) => boolean) | null {
   const errors = frames?.errors, isAny = (holds: (corner: number) => boolean) => (triangle: number) => holds(3 * triangle) || holds(3 * triangle + 1) || holds(3 * triangle + 2);
   if (errors && /^signs(Inverted|Wrong)/.test(code)) return isAny((corner) => errors[2 * corner + 1] > 0.5);
@@ -35,7 +38,7 @@ function testFor({ code }: Finding, { corners: { positions: p, normals: n, tange
   return null;
 }
 
-/** The cosine between a triangle's own normal and the sum of those at its corners. */
+/** Returns the cosine of the angle between a triangle's face normal and the sum of its corner normals. */
 function facing(p: Float32Array, n: Float32Array, triangle: number): number {
   const i = 9 * triangle, own = [0, 0, 0], sum = [0, 0, 0], edge = (k: number, axis: number) => p[i + 3 * k + axis] - p[i + axis];
   for (let axis = 0; axis < 3; ++axis) {
@@ -47,7 +50,7 @@ function facing(p: Float32Array, n: Float32Array, triangle: number): number {
   return size > 0 ? (own[0] * sum[0] + own[1] * sum[1] + own[2] * sum[2]) / size : 0;
 }
 
-/** All triangles that a finding is about; else those at the vertices it names. */
+/** Returns all triangles that a finding is about, or else those at the vertices in the finding. */
 function trianglesOf(drawn: Drawn, finding: Finding): number[] {
   const holds = testFor(finding, drawn), count = drawn.corners.positions.length / 9;
   const found = holds ? Array.from({ length: count }, (_, triangle) => triangle).filter(holds) : [];
@@ -59,7 +62,10 @@ export class PlaceView {
 
   constructor(private viewport: Viewport, private setLook: (look: Look) => void, private setSplit: (share: number) => void) {}
 
-  /** Shows the model from where most of some findings is seen, with the split line on the middle of it: one half as the file is, one half right. */
+  /**
+   * Moves the camera to where most of the findings' area is visible, with the split line at its center: one half shows
+   * the file, the other half the correct frames.
+   */
   aim(findings: Finding[]): void {
     const faces: { center: Vector3; out: Vector3 }[] = [], { scene } = this.viewport;
     for (const finding of findings.slice(0, kMostAimed)) {
@@ -73,7 +79,7 @@ export class PlaceView {
     this.#splitAt(faces, this.viewport.reset(false, toward));
   }
 
-  /** Puts the split line on the middle of what is seen of these faces. */
+  /** Moves the split line to the center of the visible faces. */
   #splitAt(faces: { center: Vector3; out: Vector3 }[], camera: Camera): void {
     const spots: { x: number; size: number }[] = [];
     for (const { center, out } of faces) {
@@ -90,7 +96,10 @@ export class PlaceView {
     this.#outline = replaceOverlay(this.viewport, this.#outline, null);
   }
 
-  /** Returns how many triangles are outlined. isOne: of several places this one. isOther: the findings are about another file, whose parts alone are the same. */
+  /**
+   * Shows findings and returns the number of outlined triangles. `isOne`: the findings are one of several locations.
+   * `isOther`: the findings are about another file, so only parts can be outlined.
+   */
   show(findings: Finding[], isOne: boolean, isOther: boolean): number {
     this.clear();
     this.setLook(lookOf(findings[0]));

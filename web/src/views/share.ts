@@ -14,7 +14,7 @@ type Kind = "text" | "markdown" | "json";
 
 const today = (): string => new Date().toISOString().slice(0, 10);
 
-/** The findings, as they are read in a mail or an issue. */
+/** Formats the findings for an e-mail or an issue. */
 export function reportAs(kind: Kind, name: string, { inspect, check, identify }: Reports): string {
   if (kind === "json") return JSON.stringify({ file: name, version: __VERSION__, date: today(), inspect, check, identify }, null, 2);
   const report = check as CheckReport | undefined, verdict = (identify as IdentifyReport | undefined)?.verdict;
@@ -33,7 +33,7 @@ export function reportAs(kind: Kind, name: string, { inspect, check, identify }:
   return `${lines.join("\n")}\n`;
 }
 
-/** The picture with a strip below it: which file, which sides, the look, the version. */
+/** Returns the picture with a strip below it: the file, the two sides, the look, and the version. */
 export async function pictureFile(viewport: Viewport, title: string, sides: string, swatches: { color: string; text: string }[]): Promise<Blob | null> {
   const image = viewport.draw();
   if (!image) return null;

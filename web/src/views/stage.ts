@@ -18,7 +18,7 @@ const lookNames: readonly (readonly [Look, string])[] = [
 
 const isTyping = ({ target, ctrlKey, metaKey, altKey }: KeyboardEvent): boolean => ctrlKey || metaKey || altKey || target instanceof HTMLSelectElement || (target instanceof HTMLInputElement && target.type === "text");
 
-/** Of the normal maps right of the slider: how many have their green turned. */
+/** How many of the normal maps right of the split line have inverted green. */
 export type TurnedGreen = "none" | "some" | "all";
 const greenText: Record<TurnedGreen, string> = { none: "", some: ", green flipped where it points down", all: ", green flipped" };
 
@@ -39,7 +39,7 @@ export class Stage {
   #remark = el("p", { class: "remark", role: "status", hidden: true });
   #frame: HTMLElement;
   #looks;
-  /** Two pictures in the place of a split line, where two files are compared. */
+  /** Shows two pictures instead of a split line when two files are compared. */
   #beside = checkbox("Side by side", false, (on) => this.setBeside(on));
   #right: Right = "mikktspace";
   #green: TurnedGreen = "none";
@@ -47,7 +47,7 @@ export class Stage {
   #share = 0.5;
   #blinks = false;
 
-  /** `caption` stands above the picture, `overLine` in it beside the split line, and `beside` right of it. */
+  /** `caption` is above the picture, `overLine` over it next to the split line, and `beside` to its right. */
   constructor(caption: HTMLElement, overLine: HTMLElement, beside: HTMLElement) {
     const frame = this.#frame = el("div", { class: "frame", "data-ground": "grey" }, this.canvas, this.#line, this.#leftLabel, this.#rightLabel, this.#legend.element, this.#light, overLine, this.#remark);
     this.#looks = choice("Look", lookNames, "lit", (look) => this.setLook(look));
@@ -79,7 +79,7 @@ export class Stage {
     this.#refresh();
   }
 
-  /** What stands left and right, in words. */
+  /** Describes the left and right sides. */
   get sides(): string {
     const { look } = this.viewport.settings, right = this.#rightLabel.textContent ?? "";
     return hasSplit(look) || this.viewport.settings.isBeside ? `left ${this.#leftLabel.textContent}, right ${right}` : `${lookNames.find(([name]) => name === look)?.[1]}, the file against ${right}`;
@@ -93,7 +93,7 @@ export class Stage {
     this.#frame.dataset.ground = ground;
   }
 
-  /** What the picture leaves out, or why there is none. */
+  /** Shows what the picture omits, or why there is none. */
   say(sentence: string): void {
     this.#remark.textContent = sentence;
     this.#remark.hidden = sentence === "";
@@ -104,7 +104,7 @@ export class Stage {
     this.#refresh();
   }
 
-  /** The left and the right label where two files are compared; null: labels as usual. */
+  /** Sets the left and right labels when two files are compared; null: default labels. */
   nameFiles(names: readonly [string, string] | null): void {
     this.#leftLabel.textContent = names?.[0] ?? "as the file is";
     this.#otherName = names?.[1] ?? "";
@@ -113,7 +113,7 @@ export class Stage {
     this.#refresh();
   }
 
-  /** Each file in a picture of its own, both seen by one camera. */
+  /** Shows each file in its own picture, with the same camera. */
   setBeside(on: boolean): void {
     this.#beside.input.checked = on;
     this.#frame.classList.toggle("beside", on);

@@ -9,12 +9,12 @@ import type { Viewport } from "../picture/viewport.js";
 export interface Spot {
   drawn: Drawn;
   partIndex: number;
-  /** Of the part's triangles, and the weights of its corners. */
+  /** Index of the part's triangle, and the barycentric weights of its corners. */
   triangle: number;
   weights: [number, number, number];
 }
 
-/** Weights of the corners where a ray meets the plane of a triangle. */
+/** Returns the barycentric weights where a ray meets the plane of a triangle. */
 function weightsAt(ray: Ray, a: Vector3, b: Vector3, c: Vector3): Vector3 | null {
   const ab = b.clone().sub(a), ac = c.clone().sub(a), normal = ab.clone().cross(ac);
   const along = normal.dot(ray.direction);

@@ -14,7 +14,7 @@ import { MapCanvas, type Area } from "./map_canvas.js";
 import type { Spot } from "./texel.js";
 
 const kMostParts = 500;
-/** So many triangles of one place are outlined. */
+/** Maximum number of triangles outlined at one position. */
 const kMostMarked = 60;
 const kMostTiles = 32;
 
@@ -38,11 +38,11 @@ export class UvMapView {
   #marked: number[] = [];
   #place: [number, number] | null = null;
   #outline: Object3D | null = null;
-  /** Of several triangles at a place the one that the next click shows. */
+  /** Index of the overlapping triangle that the next click shows. */
   #next = 0;
   #sentence = "";
 
-  /** `large`: beside the picture, where the map goes when it is large. */
+  /** `large`: element next to the picture that contains the map when it is large. */
   constructor(private viewport: Viewport, private work: Work, private large: HTMLElement) {
     const looks = choice("Shown as", [["islands", "islands"], ["mirrored", "mirrored"], ["error", "error"]] as const, "islands", (look) => {
       this.#look = look;
@@ -60,7 +60,7 @@ export class UvMapView {
     this.#map.onClicked = (uv) => this.#clicked(uv);
   }
 
-  /** Scale and offset of the window. */
+  /** Scale and offset of the visible area. */
   get area(): Area {
     return this.#map.area;
   }
@@ -69,7 +69,7 @@ export class UvMapView {
     return (this.element as HTMLDetailsElement).open || !this.large.hasAttribute("hidden");
   }
 
-  /** Beside the model, or back in the inspector. */
+  /** Moves the map next to the model, or back to the inspector. */
   setLarge(isLarge: boolean): void {
     this.large.hidden = !isLarge;
     this.large.parentElement?.classList.toggle("with-map", isLarge);
@@ -84,7 +84,7 @@ export class UvMapView {
     return this.#drawn ? this.viewport.scene.drawn.indexOf(this.#drawn) : -1;
   }
 
-  /** Another model in the picture, or other frames. */
+  /** Resets the map for another model or other frames. */
   reset(): void {
     const { drawn } = this.viewport.scene;
     this.#mark([], null);
@@ -96,7 +96,7 @@ export class UvMapView {
     void this.#choose(0);
   }
 
-  /** Another part, with a choice of its UV maps. */
+  /** Shows another part, with a choice of its UV maps. */
   async #choose(index: number): Promise<void> {
     const drawn = this.viewport.scene.drawn[index];
     if (!this.isOpen) return void (this.#drawn = drawn);
@@ -133,7 +133,7 @@ export class UvMapView {
     return this.work.run("map", { arrays: structuredClone({ ...part.arrays, normals: null, tangents: null, uvs: read.uvs }) }).catch(() => null);
   }
 
-  /** What is under the pointer in the picture. */
+  /** Highlights what is under the pointer in the picture. */
   point(spot: Spot | null): void {
     if (!this.isOpen) return;
     if (!spot) return this.#mark([], null);
@@ -160,7 +160,7 @@ export class UvMapView {
     this.#caption.textContent = `${place}: ${named}. ${this.#sentence}`;
   }
 
-  /** Flies to what shows the place; once more, to the next of several. */
+  /** Moves the camera to the clicked position; another click shows the next of several triangles. */
   #clicked(uv: [number, number]): void {
     const found = this.#trianglesAt(uv), drawn = this.#drawn;
     if (!drawn || found.length === 0) return;
@@ -168,7 +168,7 @@ export class UvMapView {
     if (radius > 0) this.viewport.fly(center, Math.max(3 * radius, 0.15 * this.viewport.scene.sphere().radius), faces[0]?.lengthSq() > 0 ? faces[0].normalize() : null);
   }
 
-  /** Triangles of the map that a place lies in. Several share it where islands lie over each other. */
+  /** Returns the triangles of the map at a position: several if islands overlap. */
   #trianglesAt([u, v]: [number, number]): number[] {
     const uvs = this.#corners?.uvs, found: number[] = [];
     if (!uvs) return found;
@@ -225,7 +225,7 @@ export class UvMapView {
     this.#showMarks();
   }
 
-  /** The image fills each square of the map that is in sight. */
+  /** Draws the image in each visible unit square of the map. */
   #drawImage(context: CanvasRenderingContext2D, image: UvRead["images"][number]["image"], [su, sv, ou, ov]: Area): boolean {
     const { width, height } = context.canvas;
     if (Math.max(1 / su, 1 / sv) > kMostTiles) return false;
@@ -239,7 +239,7 @@ export class UvMapView {
     return true;
   }
 
-  /** The square from 0 to 1, in which the image lies once. */
+  /** Draws the outline of the square from 0 to 1, which contains the image once. */
   #drawSquare(context: CanvasRenderingContext2D, [su, sv, ou, ov]: Area): void {
     const { width, height } = context.canvas;
     context.strokeStyle = "#7f858f";
@@ -248,7 +248,7 @@ export class UvMapView {
   }
 }
 
-/** The square from 0 to 1, and as much more as the UVs need. */
+/** Returns the bounds of the UVs, at least the square from 0 to 1. */
 function boundsOf(uvs: Float32Array): [number, number, number, number] {
   let lowU = 0, lowV = 0, highU = 1, highV = 1;
   for (let i = 0; i < uvs.length; i += 2) {

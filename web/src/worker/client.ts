@@ -4,7 +4,7 @@
 import type { Answer, Call, Calls } from "./protocol.js";
 import Worker from "./worker.js?worker&inline";
 
-/** What the library says is wrong, or that a person has stopped it (`code` is "stopped"). */
+/** An error reported by the library, or a cancellation by the user (`code` is "stopped"). */
 export class WorkError extends Error {
   constructor(readonly code: string, message: string) {
     super(message);
@@ -17,7 +17,7 @@ interface Waiting {
 }
 
 export class Work {
-  /** The first worker has begun to load the library: what the page does meanwhile takes no time from it. */
+  /** Resolved when the first worker starts to load the library; work of the page from then on does not delay it. */
   readonly started: Promise<unknown>;
   #worker: globalThis.Worker | undefined;
   #waiting = new Map<number, Waiting>();
@@ -36,14 +36,14 @@ export class Work {
     });
   }
 
-  /** Makes way for another model: ends what is running, or else only forgets its parts. */
+  /** Prepares for another model: terminates running calls, or else only makes the worker forget its parts. */
   forget(): void {
     if (this.#waiting.size > 0) this.stop();
     // if it was terminated meanwhile, nothing needs to be forgotten
     else if (this.#worker) this.run("forget", {}).catch(() => {});
   }
 
-  /** Ends all that is running. What the worker knew of parts is gone. */
+  /** Terminates all running calls. The worker loses its parts. */
   stop(code = "stopped", message = "Stopped."): void {
     this.#worker?.terminate();
     this.#worker = undefined;

@@ -12,19 +12,19 @@ let draco: Promise<DracoModule> | undefined;
 
 const dracoModule = (): Promise<DracoModule> => (draco ??= load(dracoWasm).then((wasmBinary) => createDraco({ wasmBinary })));
 
-/** Draco's memory grows and never shrinks, and what has given up stays so. */
+/** Releases Draco's module: its memory never shrinks, and a module that has aborted remains unusable. */
 export function forgetCodecs(): void {
   draco = undefined;
 }
 
-/** The text of a model's JSON, or as much of a file as may be that. */
+/** Returns the text of a model's JSON, or the start of a file that may contain it. */
 function jsonOf({ bytes }: ModelFiles): string {
   const isGlb = bytes.length >= 20 && bytes[0] === 0x67 && bytes[1] === 0x6c;
   const length = isGlb ? new DataView(bytes.buffer, bytes.byteOffset).getUint32(12, true) : bytes.length;
   return new TextDecoder().decode(bytes.subarray(isGlb ? 20 : 0, (isGlb ? 20 : 0) + length));
 }
 
-/** Those that a model names among its extensions. */
+/** Returns the codecs that the model's extensions require. */
 export async function codecsFor(model: ModelFiles): Promise<{ meshopt?: Meshopt; draco?: Draco }> {
   const text = jsonOf(model), given: { meshopt?: Meshopt; draco?: Draco } = {};
   if (text.includes("_meshopt_compression")) {
@@ -47,7 +47,7 @@ const kTypes = {
   Uint16Array: [Uint16Array, "DT_UINT16"], Uint32Array: [Uint32Array, "DT_UINT32"], Float32Array: [Float32Array, "DT_FLOAT32"],
 } as const;
 
-/** A mesh of Draco, with the attributes that are wanted by their numbers. */
+/** Decodes a Draco mesh, with the attributes requested by ID. */
 export async function decodeDraco({ data, attributes }: DracoAsk): Promise<DracoMesh> {
   const module = await dracoModule(), made: object[] = [];
   const own = <T extends object>(object: T): T => (made.push(object), object);

@@ -5,7 +5,7 @@ import type { Arrays, Corners, Frames, MapCorners, Method } from "./protocol.js"
 
 const kNoVertex = 0xffffffff;
 
-/** The vertex of each corner, whole triangles only. */
+/** Returns the vertex of each corner, for complete triangles only. */
 function cornerVertices({ positions, indices }: Arrays): Uint32Array<ArrayBuffer> {
   const vertices = positions.length / 3;
   const source = indices ?? Uint32Array.from({ length: vertices }, (_, i) => i);
@@ -29,7 +29,7 @@ const meshOf = (arrays: Arrays, vertices: Uint32Array<ArrayBuffer>): Mesh => ({
   indices: vertices,
 });
 
-/** For each corner the first vertex with the same position and UV: islands hang together there. */
+/** Returns for each corner the first vertex with the same position and UV: islands are connected at such vertices. */
 function sameInMap(arrays: Arrays, vertices: Uint32Array): Uint32Array {
   const position = new Uint32Array(arrays.positions.buffer, arrays.positions.byteOffset, arrays.positions.length);
   const uv = new Uint32Array(arrays.uvs!.buffer, arrays.uvs!.byteOffset, arrays.uvs!.length);
@@ -53,7 +53,10 @@ function sameInMap(arrays: Arrays, vertices: Uint32Array): Uint32Array {
   return Uint32Array.from(vertices, (v) => first[v]);
 }
 
-/** The island of each triangle: triangles that share a place of the map and of the surface are of one. */
+/**
+ * Returns the island of each triangle. Triangles are in one island if they share a point in the UV map and on the
+ * surface.
+ */
 function findIslands(arrays: Arrays, vertices: Uint32Array): { ofTriangle: Uint32Array; count: number } {
   const same = sameInMap(arrays, vertices);
   const parent = Uint32Array.from({ length: arrays.positions.length / 3 }, (_, i) => i);
@@ -76,7 +79,10 @@ function findIslands(arrays: Arrays, vertices: Uint32Array): { ofTriangle: Uint3
   return { ofTriangle, count: numbers.size };
 }
 
-/** 1: the triangle shows its texture mirrored. With v running down, as in glTF, its UVs then turn the way its corners do. */
+/**
+ * Returns 1 if the triangle shows its texture mirrored. With v pointing down, as in glTF, its UVs then have the same
+ * orientation as its corners.
+ */
 function mirrored(uvs: Float32Array, triangle: number): number {
   const i = 6 * triangle;
   const area = (uvs[i + 2] - uvs[i]) * (uvs[i + 5] - uvs[i + 1]) - (uvs[i + 4] - uvs[i]) * (uvs[i + 3] - uvs[i + 1]);
@@ -99,7 +105,7 @@ export async function cornersOf(arrays: Arrays): Promise<Corners> {
   return arrays.uvs ? { ...corners, ...mapCorners(arrays) } : corners;
 }
 
-/** The UV map of arrays that have one. */
+/** Returns the UV map of arrays that have UVs. */
 export function mapCorners(arrays: Arrays): MapCorners {
   const vertices = cornerVertices(arrays), { ofTriangle, count } = findIslands(arrays, vertices);
   const uvs = gather(arrays.uvs!, 2, vertices), islands = new Float32Array(2 * vertices.length);
@@ -115,7 +121,7 @@ export function mapCorners(arrays: Arrays): MapCorners {
   return { uvs, islands, islandCount: count, mirroredCount };
 }
 
-/** Degrees between two directions, or -1 where one of them is none. */
+/** Returns the degrees between two directions, or -1 if one of them is zero or invalid. */
 function degreesBetween(a: ArrayLike<number>, i: number, b: ArrayLike<number>, j: number): number {
   const cross = Math.hypot(a[i + 1] * b[j + 2] - a[i + 2] * b[j + 1], a[i + 2] * b[j] - a[i] * b[j + 2], a[i] * b[j + 1] - a[i + 1] * b[j]);
   const dot = a[i] * b[j] + a[i + 1] * b[j + 1] + a[i + 2] * b[j + 2];
@@ -135,7 +141,7 @@ export async function computeFrames(arrays: Arrays, method: Method): Promise<Fra
   return compared(generateTangents(mesh, { convention: "gltf", method: arrays.uvs ? method : "basis" }) as Float32Array<ArrayBuffer>, arrays, vertices);
 }
 
-/** Those that another file has for the same triangles. */
+/** Returns the frames of another file for the same triangles, or null if the triangles differ. */
 export function otherFrames(arrays: Arrays, others: Arrays): Frames | null {
   const vertices = cornerVertices(arrays), theirs = cornerVertices(others);
   if (!others.tangents || theirs.length !== vertices.length) return null;
@@ -148,7 +154,7 @@ export function otherFrames(arrays: Arrays, others: Arrays): Frames | null {
   return compared(gather(others.tangents, 4, theirs), arrays, vertices);
 }
 
-/** With what the arrays' own tangents are against them. */
+/** Adds the deviation of the arrays' own tangents. */
 function compared(tangents: Float32Array<ArrayBuffer>, arrays: Arrays, vertices: Uint32Array): Frames {
   const frames: Frames = { tangents, errors: new Float32Array(2 * vertices.length), compared: 0, meanDegrees: 0, maxDegrees: 0, wrongSigns: 0 };
   for (let corner = 0; corner < vertices.length; ++corner) {

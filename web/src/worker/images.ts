@@ -9,7 +9,7 @@ const isOpaque = (rgba: ArrayLike<number>): boolean => {
   return true;
 };
 
-/** Null for the rare kinds of PNG that are read by the browser. */
+/** Decodes PNG; null for rare kinds, which the browser decodes. */
 function pixelsOfPng(file: Uint8Array): Pixels | null {
   const image = decode(file, { checkCrc: true }), { width, height, depth } = image;
   if (depth < 8 && !image.palette) return null;
@@ -55,8 +55,8 @@ class NotYet extends Error {
 }
 
 /**
- * Calls `call` with what encodes images. Calls of tspace cannot wait, and browsers take their time: a call ends at the first image that
- * is not there yet, and is made once more when it is.
+ * Runs `call` with a function that encodes images. Calls of tspace are synchronous, but browsers encode asynchronously:
+ * a call is aborted at the first image that is not encoded yet, and repeated when it is.
  */
 export async function withEncoder<T>(call: (encodeImage: (pixels: PixelsToEncode, type: ImageType) => Uint8Array) => T): Promise<T> {
   const files: Uint8Array[] = [];

@@ -4,23 +4,23 @@ import type { ModelFiles } from "../files.js";
 
 export const methods = ["mikktspace", "best", "fast", "angle", "area", "uniform", "lengyel", "flat"] as const;
 export type Method = (typeof methods)[number];
-/** What stands right of the slider: frames by a method, or those of another file: the fixed one, or one to compare with. */
+/** What is shown right of the split line: frames computed by a method, the fixed file, or a file to compare with. */
 export type OtherFile = "mended" | "other";
 export type Right = Method | OtherFile;
 export const isFile = (right: Right): right is OtherFile => right === "mended" || right === "other";
 export const nameOf = (right: Right): string => (right === "mended" ? "the fixed file" : right === "other" ? "the other file" : right);
 
-/** The arrays of a primitive as its file has them. */
+/** The arrays of a primitive, as in the file. */
 export interface Arrays {
   positions: Float32Array<ArrayBuffer>;
   normals: Float32Array<ArrayBuffer> | null;
-  /** As the normal map reads them: its set, through its transform. */
+  /** UVs of the normal map: its UV set, after its transform. */
   uvs: Float32Array<ArrayBuffer> | null;
   tangents: Float32Array<ArrayBuffer> | null;
   indices: Uint32Array<ArrayBuffer> | null;
 }
 
-/** A UV map per corner: what the picture of it needs. */
+/** A UV map, with data per corner. */
 export interface MapCorners {
   uvs: Float32Array<ArrayBuffer>;
   islands: Float32Array<ArrayBuffer>;
@@ -28,24 +28,30 @@ export interface MapCorners {
   mirroredCount: number;
 }
 
-/** The same per corner, three corners a triangle, for the picture. */
+/** Data per corner for the picture, three corners per triangle. */
 export interface Corners {
   positions: Float32Array<ArrayBuffer>;
   normals: Float32Array<ArrayBuffer>;
   uvs: Float32Array<ArrayBuffer> | null;
   tangents: Float32Array<ArrayBuffer> | null;
-  /** Per corner: number of the UV island, and 1 where the triangle shows its texture mirrored, 0 where not, 0.5 without UV area. */
+  /**
+   * Per corner: index of the UV island, and 1 if the triangle shows its texture mirrored, 0 if not, 0.5 if it has no UV
+   * area.
+   */
   islands: Float32Array<ArrayBuffer>;
   islandCount: number;
   mirroredCount: number;
   normalsMade: boolean;
 }
 
-/** Frames by a method or of another file, and how far those of the file are from them. */
+/** Frames by a method or from another file, and the deviation of the file's frames from them. */
 export interface Frames {
   /** Four numbers per corner. */
   tangents: Float32Array<ArrayBuffer>;
-  /** Two per corner: degrees between the tangents, -1 where there is nothing to compare; 1 where the signs differ. */
+  /**
+   * Two numbers per corner: the angle between the tangents in degrees, -1 if they cannot be compared; and 1 if the
+   * signs differ.
+   */
   errors: Float32Array<ArrayBuffer>;
   compared: number;
   meanDegrees: number;
@@ -55,7 +61,7 @@ export interface Frames {
 
 export type Verb = "inspect" | "check" | "identify";
 
-/** Compressed geometry, as the loader of three.js asks for it. */
+/** Compressed geometry, as requested by the loader of three.js. */
 export interface MeshoptAsk {
   count: number;
   size: number;
@@ -65,7 +71,7 @@ export interface MeshoptAsk {
 }
 export interface DracoAsk {
   data: ArrayBuffer;
-  /** `type`: the name of a typed array. */
+  /** `type`: name of a typed array. */
   attributes: { name: string; id: number; type: string }[];
 }
 export interface DracoMesh {
@@ -73,44 +79,44 @@ export interface DracoMesh {
   attributes: { name: string; size: number; values: Float32Array }[];
 }
 
-/** The first level of a KTX2 or DDS, from the top row down. */
+/** The first level of a KTX2 or DDS, top row first. */
 export interface TexturePixels {
   width: number;
   height: number;
   rgba: Uint8ClampedArray<ArrayBuffer>;
 }
 
-/** How the channels of a normal map are read, as `tspace convert-map` names it. */
+/** Encoding of a normal map, with the names of `tspace convert-map`. */
 export interface MapReading {
   channels?: string;
   curve?: "srgb" | "linearised";
   flipRed?: boolean;
   flipGreen?: boolean;
 }
-/** Files that a normal map is converted to: their endings. */
+/** Target formats of a normal map, by extension. */
 export type MapTarget = "png" | "bc5.ktx2" | "eac-rg11.ktx2" | "bc5.dds";
 export interface ConvertedMap {
   bytes: Uint8Array<ArrayBuffer>;
   width: number;
   height: number;
-  /** Format of the pixels: "16 bits", "BC5". */
+  /** Format of the pixels, such as "16 bits" or "BC5". */
   format: string;
-  /** Sentences of the engine: how channels were read, what packing changed. */
+  /** Notes of the engine: how channels were interpreted, and what packing changed. */
   notes: string[];
 }
 
 export interface Calls {
   report: { ask: { verb: Verb; model: ModelFiles }; answer: unknown };
-  /** A normal map without a model: what `check` says of it, and the image as PNG, JPEG or WebP. */
+  /** Checks a normal map without a model; returns the report, and the image as PNG, JPEG or WebP. */
   image: { ask: { model: ModelFiles }; answer: { report: unknown; image: Uint8Array<ArrayBuffer> } };
   convertMap: { ask: { name: string; file: Uint8Array<ArrayBuffer>; reading: MapReading; to: MapTarget }; answer: ConvertedMap };
   generate: { ask: { model: ModelFiles; options: Record<string, unknown> }; answer: { report: unknown; bytes: Uint8Array<ArrayBuffer> } };
-  /** `part`: what it is called in later questions, or null. */
+  /** `part`: number for later calls, or null. */
   corners: { ask: { part: number | null; arrays: Arrays }; answer: Corners };
-  /** The map of other UVs for a part. */
+  /** Returns the UV map of a part with other UVs. */
   map: { ask: { arrays: Arrays }; answer: MapCorners };
   frames: { ask: { part: number; method: Method }; answer: Frames };
-  /** Frames of the same part in another file: null where it has none, or has other triangles. */
+  /** Returns the frames of the same part in another file; null if it has none, or has other triangles. */
   otherFrames: { ask: { part: number; arrays: Arrays }; answer: Frames | null };
   meshopt: { ask: MeshoptAsk; answer: Uint8Array<ArrayBuffer> };
   draco: { ask: DracoAsk; answer: DracoMesh };

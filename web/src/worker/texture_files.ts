@@ -15,10 +15,10 @@ async function zstdDecoder(): Promise<ZSTDDecoder> {
   return decoder;
 }
 
-/** KTX2 says at byte 44 what its levels are packed with. */
+/** Returns whether a KTX2 uses Zstandard, according to its supercompression scheme at byte 44. */
 const isZstd = (file: Uint8Array): boolean => file.length > 48 && file[0] === 0xab && new DataView(file.buffer, file.byteOffset).getUint32(44, true) === 2;
 
-/** What the page cannot read and the tool, with other libraries, can: said with what to do. */
+/** Explains formats that the page cannot read but the tool can, and what to do. */
 const inWords = (why: string): string =>
   why.includes("ASTC") ? "it is a KTX2 of ASTC, which the page cannot show: export it as PNG, JPEG or WebP, or as KTX2 of UASTC or ETC1S" : why;
 
@@ -47,7 +47,7 @@ const isOpaque = (rgba: ArrayLike<number>, most: number): boolean => {
   return true;
 };
 
-/** A PNG of red, green and blue, and of alpha where that is not the largest number everywhere. */
+/** Encodes a PNG of red, green and blue, and of alpha unless it is fully opaque. */
 function pngFile({ width, height, rgba }: { width: number; height: number; rgba: Uint8ClampedArray | Uint16Array }): Uint8Array<ArrayBuffer> {
   const bits = rgba instanceof Uint16Array ? 16 : 8, numbers = bits === 16 ? (rgba as Uint16Array) : new Uint8Array(rgba);
   if (!isOpaque(numbers, 2 ** bits - 1)) return pngOf({ width, height, channels: 4, bits, data: numbers }) as Uint8Array<ArrayBuffer>;
@@ -56,7 +56,7 @@ function pngFile({ width, height, rgba }: { width: number; height: number; rgba:
   return pngOf({ width, height, channels: 3, bits, data: rgb }) as Uint8Array<ArrayBuffer>;
 }
 
-/** A normal map as another file: its channels as glTF has them, then green, then the format. */
+/** Converts a normal map to another file: first its channels to glTF's, then green, then the format. */
 export async function convertMapFile({ name, file, reading, to }: Calls["convertMap"]["ask"]): Promise<ConvertedMap> {
   const { compressMap, convertMap, ready } = await import("tspace/textures"), unpackers = await unpackersFor(file);
   await ready;

@@ -69,7 +69,7 @@ async function answerTo(question: Question): Promise<{ answer: unknown; transfer
   }
 }
 
-/** What decoders throw is about the file, unless the code is wrong. */
+/** Calls whose errors are about the file, unless they have another code. */
 const readers = new Set<string>(["meshopt", "draco", "texture", "image", "convertMap"]);
 
 async function serve(question: Question): Promise<void> {
