@@ -75,7 +75,7 @@ void openModel(const tspace_Model* model, FileOptions& options) {
         std::size_t size = 0;
         const tspace_ErrorCode code = find(user, path.c_str(), &data, &size);
         if (code == TSPACE_OK && data == nullptr && size != 0)
-            return Error{ErrorCode::nullData, "find_file gave null for the file " + inQuotes(path, 100)};
+            return Error{ErrorCode::nullData, "find_file returned null for the file " + inQuotes(path, 100)};
         if (code == TSPACE_OK) return std::span(data, size);
         return Error{static_cast<ErrorCode>(code), "find_file failed for the file " + inQuotes(path, 100)};
     };

@@ -66,7 +66,7 @@ bool decodeTwoChannels(std::uint32_t width, std::uint32_t height, ByteSpan block
 
 const char* whyNotAstc() {
     return astc().is_loaded ? nullptr
-                            : "it is a KTX2 of ASTC, and the library astcenc (" TSPACE_ASTC_LIBRARY
+                            : "the KTX2 contains ASTC, and the library astcenc (" TSPACE_ASTC_LIBRARY
                               ") is not installed";
 }
 
@@ -102,7 +102,7 @@ bool decodeAstc(const TextureFile& texture, ByteSpan blocks, std::span<std::uint
 
 const char* whyNoAstcWritten() {
     return astc().is_loaded ? nullptr
-                            : "ASTC is packed by the library astcenc (" TSPACE_ASTC_LIBRARY
+                            : "writing ASTC needs the library astcenc (" TSPACE_ASTC_LIBRARY
                               "), which is not installed (Debian: libastcenc3d)";
 }
 
@@ -143,11 +143,12 @@ std::optional<std::vector<std::uint8_t>> packAstc(std::uint32_t width, std::uint
 
 #else
 
-const char* whyNotAstc() { return "it is a KTX2 of ASTC, which this build of tspace does not read"; }
+const char* whyNotAstc() { return "the KTX2 contains ASTC, which this build of tspace does not support"; }
 bool decodeAstc(const TextureFile&, ByteSpan, std::span<std::uint8_t>) { return false; }
 
 const char* whyNoAstcWritten() {
-    return "this build of tspace writes no ASTC: it was made without the library astcenc (Debian: libastcenc-dev)";
+    return "this build of tspace cannot write ASTC, because it was built without the library astcenc (Debian: "
+           "libastcenc-dev)";
 }
 std::optional<std::vector<std::uint8_t>> packAstc(std::uint32_t, std::uint32_t, AstcEffort, std::span<Vec2>,
                                                   Parallel&) {

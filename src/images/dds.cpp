@@ -67,13 +67,13 @@ class DdsReader {
 
     std::optional<TextureFile> read() {
         constexpr std::size_t kHeadBytes = 128, kHeightAt = 12, kWidthAt = 16;
-        why_ = "it is a broken DDS";
+        why_ = "the DDS is damaged";
         if (bytes_.size() < kHeadBytes || number(4) != kHeadBytes - 4) return {};
         texture_.container = "DDS";
         texture_.size = {std::min(number(kWidthAt), kMostTextureSide), std::min(number(kHeightAt), kMostTextureSide)};
         data_at_ = kHeadBytes;
         if (texture_.size.pixels() == 0 || !isPicture() || !findFormat()) return {};
-        why_ = "it is a broken DDS";
+        why_ = "the DDS is damaged";
         const std::uint64_t wanted = texture_.levelBytes();
         if (wanted > bytes_.size() - data_at_) return {};
         texture_.level = bytes_.subspan(data_at_, static_cast<std::size_t>(wanted));
@@ -106,8 +106,8 @@ class DdsReader {
         constexpr std::size_t kCapsAt = 112;
         constexpr std::uint32_t kCube = 0x200, kVolume = 0x200000;
         const std::uint32_t caps = number(kCapsAt);
-        if ((caps & kCube) != 0) why_ = "it is a DDS of a cube map";
-        if ((caps & kVolume) != 0) why_ = "it is a three-dimensional DDS, not an image";
+        if ((caps & kCube) != 0) why_ = "the DDS is a cube map, not a single image";
+        if ((caps & kVolume) != 0) why_ = "the DDS is three-dimensional, not a single image";
         return (caps & (kCube | kVolume)) == 0;
     }
 
@@ -118,7 +118,7 @@ class DdsReader {
         const std::uint32_t code = number(kCodeAt);
         if (code == codeOf("DX10")) return findDxgi();
         if (!choose(kOldFormats, code)) {
-            why_ = "it is a DDS of the format " + codeText(code) + ", which is not read";
+            why_ = "the DDS has the format " + codeText(code) + ", which is not supported";
             return false;
         }
         // Used by the game Doom 3: DXT5 with red in alpha.
@@ -144,12 +144,12 @@ class DdsReader {
         const std::uint32_t format = number(data_at_), dimension = number(data_at_ + 4), flags = number(data_at_ + 8),
                             layers = number(data_at_ + 12);
         data_at_ += kMoreBytes;
-        if (dimension != kFlat) why_ = "it is a one- or three-dimensional DDS, not an image";
-        if (layers > 1) why_ = "it is a DDS of several images (an array)";
-        if ((flags & kCube) != 0) why_ = "it is a DDS of a cube map";
+        if (dimension != kFlat) why_ = "the DDS is one- or three-dimensional, not an image";
+        if (layers > 1) why_ = "the DDS is an array of several images";
+        if ((flags & kCube) != 0) why_ = "the DDS is a cube map, not a single image";
         if (dimension != kFlat || layers > 1 || (flags & kCube) != 0) return false;
         if (choose(kDxgiFormats, format)) return true;
-        why_ = "it is a DDS of DXGI's format " + std::to_string(format) + ", which is not read";
+        why_ = "the DDS has the DXGI format " + std::to_string(format) + ", which is not supported";
         return false;
     }
 
@@ -158,10 +158,10 @@ class DdsReader {
         constexpr std::uint32_t kAlpha = 1, kOnlyAlpha = 2, kColors = 0x40, kGrey = 0x20000, kSigned = 0x80000;
         constexpr std::size_t kBitsAt = 88, kMasksAt = 92;
         const std::uint32_t bits = number(kBitsAt);
-        why_ = "it is a DDS of a format that is not read";
+        why_ = "the pixel format of the DDS is not supported";
         if ((flags & kSigned) != 0) return findSigned(bits);
         if ((flags & (kColors | kGrey)) == 0 || (flags & kOnlyAlpha) != 0) return false;
-        why_ = "it is a broken DDS";
+        why_ = "the DDS is damaged";
         if (bits == 0 || bits > 32 || bits % 8 != 0) return false;
         texture_.format = texelFormat(TexelKind::masked);
         texture_.format.block_bytes = static_cast<std::uint8_t>(bits / 8);

@@ -258,8 +258,9 @@ std::optional<ExrChannels> chooseExrChannels(std::span<const std::string_view> n
     }
     std::string list;
     for (const std::string_view name : names) list.append(list.empty() ? "" : ", ").append(name);
-    why = found.empty() ? "it has no channels R, G and B, X, Y and Z, or one channel alone, but " + list
-                        : "several of its layers have vectors, and none or several are called normal: " + list;
+    why = found.empty()
+              ? "the EXR must have the channels R, G and B, or X, Y and Z, or a single channel, but it has " + list
+              : "several layers of the EXR contain vectors, and not exactly one of them is named normal: " + list;
     return {};
 }
 
@@ -272,7 +273,7 @@ class ExrReader {
         if (!open() || !checkWindows() || !findChannels()) return {};
         image_ = {size_.width, size_.height, bits_, std::vector<Vec3>(size_.pixels()), {}};
         if (!channels_.alpha.empty()) image_.alpha.resize(size_.pixels());
-        why_ = "it is a broken EXR";
+        why_ = "the EXR is damaged";
         exr_storage_t storage = EXR_STORAGE_LAST_TYPE;
         openExr().getStorage(file_.context, kPart, &storage);
         if (storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED) return {};
@@ -283,7 +284,7 @@ class ExrReader {
 
   private:
     bool open() {
-        why_ = "it is a broken EXR";
+        why_ = "the EXR is damaged";
         exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
         setup.error_handler_fn = ignoreError;
         setup.alloc_fn = notedMalloc;
@@ -305,7 +306,7 @@ class ExrReader {
             std::int64_t{window_.max.y} - window_.min.y + 1 != size_.height) {
             return false;
         }
-        why_ = "its pixels are not those of the whole picture (dataWindow is not displayWindow)";
+        why_ = "the EXR does not store the whole picture: its dataWindow differs from its displayWindow";
         return std::memcmp(&window_, &display, sizeof display) == 0;
     }
 
@@ -324,13 +325,13 @@ class ExrReader {
         for (std::size_t i = 0; i < names.size(); ++i) {
             if (!channels_.has(names[i])) continue;
             const exr_attr_chlist_entry_t& entry = entries[i];
-            why_ = "its channels have fewer numbers than it has pixels";
+            why_ = "the channels of the EXR are subsampled";
             if (entry.x_sampling != 1 || entry.y_sampling != 1) return false;
             if (entry.pixel_type == EXR_PIXEL_FLOAT) bits_ = 32;
             whole += entry.pixel_type == EXR_PIXEL_UINT ? 1 : 0;
             ++used;
         }
-        why_ = "some of its channels are floats and some whole numbers";
+        why_ = "the EXR mixes channels of floats and integers";
         is_whole_ = whole == used;
         return whole == 0 || is_whole_;
     }
@@ -504,12 +505,12 @@ ImageClaim claimOfExr(ByteSpan bytes) {
 
 std::optional<FloatImage> decodeExr(ByteSpan bytes, std::uint64_t most_pixels, std::string& why, ImageUse use) {
     constexpr std::uint64_t kMostChannels = 64;
-    why = "it is a broken EXR";
+    why = "the EXR is damaged";
     const std::optional<ExrHead> head = ExrHeadReader(bytes).read();
     if (!head || isTooLarge(head->size, bytes.size(), most_pixels, why)) return {};
-    if (head->channel_count > kMostChannels) why = "it has more channels than tspace reads";
-    if (head->has_more) why = "it has several parts, or several values a pixel";
-    if (!head->is_plain) why = "it is packed with loss (B44 or DWA), which is not read";
+    if (head->channel_count > kMostChannels) why = "the EXR has more channels than tspace supports";
+    if (head->has_more) why = "the EXR has several parts or deep pixels";
+    if (!head->is_plain) why = "the EXR uses lossy compression (B44 or DWA), which is not supported";
     if (head->channel_count > kMostChannels || head->has_more || !head->is_plain) return {};
     return orOutOfMemory([&] { return ExrReader(bytes, *head, use, why).read(); });
 }

@@ -35,16 +35,16 @@ Result<ImageFileFormat> readableFormat(ByteSpan bytes) {
     if (const char* why_not = whyNotRead(format)) return Error{ErrorCode::unsupportedFile, why_not};
     if (format == ImageFormat::exr)
         return Error{ErrorCode::unsupportedFile,
-                     "it is EXR, whose green is inverted by convertMapFile (tspace convert-map)"};
+                     "the image is EXR; use convertMapFile (tspace convert-map) to invert its green channel"};
     if (format == ImageFormat::tga)
         return Error{ErrorCode::unsupportedFile,
-                     "it is TGA, of which a PNG is made here; convertMapFile (tspace convert-map) makes a TGA"};
+                     "a TGA can only be written as PNG here; use convertMapFile (tspace convert-map) to write a TGA"};
     return fileFormat(format);
 }
 
 Result<ImageFileFormat> outputFormat(ImageFileFormat input, const FlipGreenOptions& options) {
     if (options.jpeg_quality < 1 || options.jpeg_quality > 100) {
-        return Error{ErrorCode::invalidOption, "a JPEG has a quality of 1 to 100"};
+        return Error{ErrorCode::invalidOption, "the JPEG quality must be from 1 to 100"};
     }
     const ImageFileFormat format = options.format == ImageFileFormat::sameAsInput ? input : options.format;
     if (format != input && format != ImageFileFormat::png) {
@@ -66,8 +66,7 @@ Result<FlippedImage> flipTgaToPng(ByteSpan bytes) {
     std::string why;
     std::optional<TgaImage> tga = decodeTgaPixels(bytes, ~std::uint64_t{0}, why);
     if (!tga) return Error{ErrorCode::invalidFile, why};
-    if (tga->is_grey)
-        return Error{ErrorCode::unsupportedFile, "it is a gray TGA, which has no green channel of its own"};
+    if (tga->is_grey) return Error{ErrorCode::unsupportedFile, "the TGA is gray, so it has no separate green channel"};
     ChannelImage image{tga->image.width, tga->image.height, 3, std::move(tga->image.rgb)};
     if (!tga->alpha.empty()) {
         const std::vector<std::uint8_t> rgb = std::move(image.pixels);
@@ -118,7 +117,8 @@ Result<FlippedImage> flipPixels(ByteSpan bytes, ImageFileFormat input, ImageFile
     FlippedImage result{*std::move(written), {.format = output, .width = image->width, .height = image->height}};
     if (output == ImageFileFormat::jpeg) {
         result.report.is_exact = false;
-        result.report.warnings.push_back("a JPEG is recompressed, which rounds its texels again; a PNG would be exact");
+        result.report.warnings.push_back(
+            "the JPEG was recompressed, which rounds its texels again; a PNG would be exact");
     }
     return result;
 }

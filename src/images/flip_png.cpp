@@ -107,7 +107,7 @@ PngHeader pngHeader(ByteSpan data) {
 
 }  // namespace
 
-Error brokenPng() { return Error{ErrorCode::invalidFile, "it is a broken PNG"}; }
+Error brokenPng() { return Error{ErrorCode::invalidFile, "the PNG is damaged"}; }
 
 std::uint32_t pngNumber(ByteSpan bytes, std::size_t at) {
     return std::uint32_t{bytes[at]} << 24 | std::uint32_t{bytes[at + 1]} << 16 | std::uint32_t{bytes[at + 2]} << 8 |
@@ -126,10 +126,10 @@ Result<FlippedPng> flipPng(ByteSpan bytes) {
     const std::vector<Chunk>& chunks = *read;
     const PngHeader header = pngHeader(chunks.front().data);
     if ((header.color & PngHeader::kHasColor) == 0) {
-        return Error{ErrorCode::unsupportedFile, "it is a gray PNG, which has no green channel of its own"};
+        return Error{ErrorCode::unsupportedFile, "the PNG is gray, so it has no separate green channel"};
     }
     if (std::any_of(chunks.begin(), chunks.end(), [](const Chunk& chunk) { return chunk.type == "acTL"; })) {
-        return Error{ErrorCode::unsupportedFile, "it is an animated PNG"};
+        return Error{ErrorCode::unsupportedFile, "the PNG is animated, which is not supported"};
     }
     if (header.color == PngHeader::kPalette) {
         // The pixels are palette indices and stay unchanged.

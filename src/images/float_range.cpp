@@ -34,14 +34,15 @@ class RangeEvidence {
         constexpr double kMost = 0.9, kHalf = 0.5, kFew = 0.1, kSome = 0.01;
         if (count_ == 0 || is_grey_) return {};
         const double stored = share(stored_fit_), moved = share(moved_fit_), negative = share(negative_);
-        const std::string read = "; they are read as vectors from -1 to 1";
+        const std::string read = "; they were read as vectors from -1 to 1";
         if (negative_ > 0 && stored >= kHalf && stored > moved)
-            return "its floats are " + lengths() + " as stored, some below 0" + read;
+            return "its floats are " + lengths() + " as stored, and some are below 0" + read;
         if (negative_ == 0 && stored >= kMost && moved <= kFew && (!has_z_ || pointsUp()))
             return "its floats are " + lengths() + " as stored, and not after 2c - 1" + read;
         if (negative >= kSome && stored >= moved)
             return "floats of " + std::to_string(negative_) + " of " + std::to_string(count_) + " texels are below 0" +
-                   read + ", though few are " + lengths() + ", as stored or after 2c - 1: is it a normal map?";
+                   read + ", though few are " + lengths() +
+                   ", as stored or after 2c - 1: check that the image is a normal map";
         return {};
     }
 

@@ -95,9 +95,9 @@ struct Codec {
     const char* name = "";
     const char* mime_type = "";
 #ifdef TSPACE_SMALL
-    const char* why_not = "it is neither PNG, JPEG, WebP, KTX2 nor DDS";
+    const char* why_not = "the image is neither PNG, JPEG, WebP, KTX2 nor DDS";
 #else
-    const char* why_not = "it is neither PNG, JPEG, WebP, KTX2, DDS nor TGA";
+    const char* why_not = "the image is neither PNG, JPEG, WebP, KTX2, DDS nor TGA";
 #endif
     ImageClaim (*claim)(ByteSpan) = nullptr;
     std::optional<RgbImage> (*decode)(ByteSpan, std::uint64_t, std::string&, ImageUse) = nullptr;
@@ -122,9 +122,10 @@ Codec exrCodec() {
     constexpr const char* kMimeType = "image/x-exr";
 #ifdef TSPACE_HAS_OPENEXR
     if (hasOpenExr()) return {kName, kMimeType, nullptr, claimOfExr, decodeRoundedExr};
-    return {kName, kMimeType, "it is EXR, and the library OpenEXR (" TSPACE_OPENEXR_LIBRARY ") is not installed"};
+    return {kName, kMimeType,
+            "the image is EXR, and the library OpenEXR (" TSPACE_OPENEXR_LIBRARY ") is not installed"};
 #else
-    return {kName, kMimeType, "it is EXR, which this build of tspace does not read"};
+    return {kName, kMimeType, "the image is EXR, which this build of tspace does not support"};
 #endif
 }
 
@@ -133,13 +134,13 @@ Codec codecOf(ImageFormat format) {
     const Codec png{"PNG", "image/png", nullptr, claimOfPng, decodeIntegers<decodePng>};
     const Codec jpeg{"JPEG", "image/jpeg", nullptr, claimOfJpeg, decodeIntegers<decodeJpeg>};
 #else
-    const Codec png{"PNG", "image/png", "tspace was built without decoders for images"};
-    const Codec jpeg{"JPEG", "image/jpeg", "tspace was built without decoders for images"};
+    const Codec png{"PNG", "image/png", "this build of tspace cannot decode images"};
+    const Codec jpeg{"JPEG", "image/jpeg", "this build of tspace cannot decode images"};
 #endif
 #ifdef TSPACE_HAS_WEBP
     const Codec webp{"WebP", "image/webp", nullptr, claimOfWebp, decodeIntegers<decodeWebp>};
 #else
-    const Codec webp{"WebP", "image/webp", "it is WebP, which this build of tspace does not read"};
+    const Codec webp{"WebP", "image/webp", "the image is WebP, which this build of tspace does not support"};
 #endif
     switch (format) {
         case ImageFormat::png:
@@ -151,11 +152,12 @@ Codec codecOf(ImageFormat format) {
         case ImageFormat::ktx2:
             return {"KTX2", "image/ktx2", nullptr, claimOfTexture, decodeTexture};
         case ImageFormat::basis:
-            return {"Basis Universal", "image/basis", "it is a Basis Universal file, which is not read"};
+            return {"Basis Universal", "image/basis",
+                    "the image is a Basis Universal file (.basis), which is not supported"};
         case ImageFormat::dds:
             return {"DDS", "image/vnd-ms.dds", nullptr, claimOfTexture, decodeTexture};
         case ImageFormat::avif:
-            return {"AVIF", "image/avif", "it is AVIF, which is not read"};
+            return {"AVIF", "image/avif", "the image is AVIF, which is not supported"};
         case ImageFormat::exr:
             return exrCodec();
         case ImageFormat::tga:
@@ -192,9 +194,9 @@ const char* whyNotRead(ImageFormat format) { return codecOf(format).why_not; }
 bool isTooLarge(ImageSize size, std::size_t byte_count, std::uint64_t most_pixels, std::string& why) {
     constexpr std::uint64_t kAlwaysAllowed = std::uint64_t{1} << 24;
     if (size.pixels() > most_pixels) {
-        why = "it has more pixels than tspace reads";
+        why = "the image has more pixels than tspace supports";
     } else if (size.pixels() > kAlwaysAllowed && size.pixels() / 64 > byte_count) {
-        why = "it claims far more pixels than its bytes can hold";
+        why = "the image declares far more pixels than its data can hold";
     } else {
         return false;
     }

@@ -61,12 +61,12 @@ bool decompress(const Decompressor& decompressor, ByteSpan bytes, ImageSize size
 }  // namespace
 
 std::optional<RgbImage> decodeJpeg(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
-    why = "it is a broken JPEG";
+    why = "the JPEG is damaged";
     const Decompressor decompressor = makeDecompressor();
     const JpegHead head = readHead(decompressor, bytes);
     if (head.size.pixels() == 0 || isTooLarge(head.size, bytes.size(), most_pixels, why)) return {};
     if (head.isForPrint()) {
-        why = "it is a JPEG for print (CMYK), which is not read";
+        why = "the JPEG is CMYK (for print), which is not supported";
         return {};
     }
     RgbImage image{head.size.width, head.size.height, {}};
@@ -77,16 +77,16 @@ std::optional<RgbImage> decodeJpeg(ByteSpan bytes, std::uint64_t most_pixels, st
 Result<ChannelImage> readJpegPixels(ByteSpan bytes) {
     const Decompressor decompressor = makeDecompressor();
     const JpegHead head = readHead(decompressor, bytes);
-    if (head.size.pixels() == 0) return Error{ErrorCode::invalidFile, "it is a broken JPEG"};
+    if (head.size.pixels() == 0) return Error{ErrorCode::invalidFile, "the JPEG is damaged"};
     if (head.color_space == TJCS_GRAY) {
-        return Error{ErrorCode::unsupportedFile, "it is a gray JPEG, which has no green channel of its own"};
+        return Error{ErrorCode::unsupportedFile, "the JPEG is gray, so it has no separate green channel"};
     }
     if (head.isForPrint()) {
-        return Error{ErrorCode::unsupportedFile, "it is a JPEG for print (CMYK)"};
+        return Error{ErrorCode::unsupportedFile, "the JPEG is CMYK (for print), which is not supported"};
     }
     ChannelImage image{head.size.width, head.size.height, 3, {}};
     if (!decompress(decompressor, bytes, head.size, image.pixels)) {
-        return Error{ErrorCode::invalidFile, "it is a broken JPEG"};
+        return Error{ErrorCode::invalidFile, "the JPEG is damaged"};
     }
     return image;
 }

@@ -49,7 +49,7 @@ class Ktx2Reader {
     std::optional<TextureFile> read() {
         constexpr std::size_t kHeadBytes = 80;
         constexpr std::uint8_t kIdentifier[] = {0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb, '\r', '\n', 0x1a, '\n'};
-        why_ = "it is a broken KTX2";
+        why_ = "the KTX2 is damaged";
         if (bytes_.size() < kHeadBytes || !std::equal(std::begin(kIdentifier), std::end(kIdentifier), bytes_.begin()))
             return {};
         texture_.container = "KTX2";
@@ -72,9 +72,9 @@ class Ktx2Reader {
 
     bool isPicture() {
         const std::uint32_t depth = number(28), layers = number(32), faces = number(36);
-        if (depth > 1) why_ = "it is a three-dimensional KTX2, not an image";
-        if (layers > 1) why_ = "it is a KTX2 of several images (layers)";
-        if (faces == 6) why_ = "it is a KTX2 of a cube map";
+        if (depth > 1) why_ = "the KTX2 is three-dimensional, not a single image";
+        if (layers > 1) why_ = "the KTX2 is an array of several images";
+        if (faces == 6) why_ = "the KTX2 is a cube map, not a single image";
         return depth <= 1 && layers <= 1 && faces == 1;
     }
 
@@ -116,9 +116,9 @@ class Ktx2Reader {
             return true;
         }
         if (findAstc(vulkan)) return true;
-        why_ = "it is a KTX2 of Vulkan's format " + std::to_string(vulkan) + ", which is not read";
+        why_ = "the KTX2 has the Vulkan format " + std::to_string(vulkan) + ", which is not supported";
         if (description_.model == kAstc && whyNotAstc() != nullptr) why_ = whyNotAstc();
-        if (description_.model == kUastcHdr) why_ = "it is a KTX2 of UASTC for high dynamic range, which is not read";
+        if (description_.model == kUastcHdr) why_ = "the KTX2 contains UASTC HDR, which is not supported";
         return false;
     }
 
@@ -142,7 +142,7 @@ class Ktx2Reader {
         if (is_etc1s != (scheme == kBasisLz)) return false;
         if (is_etc1s) return findGlobalData();
         if (scheme != kPlain && scheme != kZstd && scheme != kZlib) {
-            why_ = "it is a KTX2 packed by scheme " + std::to_string(scheme) + ", which is not read";
+            why_ = "the KTX2 uses the supercompression scheme " + std::to_string(scheme) + ", which is not supported";
             return false;
         }
         if (scheme == kZstd) texture_.repacking = Repacking::zstd;
@@ -164,7 +164,7 @@ class Ktx2Reader {
     /// Checks that all levels are after the header and do not overlap.
     bool findLevel() {
         constexpr std::size_t kHeadBytes = 80, kEntry = 24, kMostLevels = 31;
-        why_ = "it is a broken KTX2";
+        why_ = "the KTX2 is damaged";
         const std::size_t count = std::max<std::uint32_t>(number(40), 1);
         if (count > kMostLevels || !part(kHeadBytes, kEntry * count)) return false;
         struct Range {

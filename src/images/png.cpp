@@ -40,7 +40,7 @@ bool succeeds(int result) {
 
 /// Opens a PNG for decoding. Returns false, with the reason in `why`, if it is corrupt or too large.
 bool openPng(ByteSpan bytes, std::uint64_t most_pixels, PngContext& context, spng_ihdr& header, std::string& why) {
-    why = "it is a broken PNG";
+    why = "the PNG is damaged";
     context = makeContext(0);
     return succeeds(spng_set_chunk_limits(context.get(), kMostChunkBytes, kMostChunkBytes)) &&
            succeeds(spng_set_png_buffer(context.get(), bytes.data(), bytes.size())) &&

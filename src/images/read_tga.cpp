@@ -175,7 +175,7 @@ ImageClaim claimOfTga(ByteSpan bytes) {
 }
 
 std::optional<TgaImage> decodeTgaPixels(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
-    why = "it is a broken TGA";
+    why = "the TGA is damaged";
     const std::optional<TgaHead> head = readTgaHead(bytes);
     if (!head || isTooLarge(head->size, bytes.size(), most_pixels, why)) return {};
     TgaImage out;

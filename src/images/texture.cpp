@@ -103,7 +103,7 @@ std::optional<TextureFile> openTexture(ByteSpan bytes, std::uint64_t most_pixels
     std::optional<TextureFile> texture = readTextureHead(bytes, why);
     if (texture && level != 0) {
         if (level >= texture->levels.size()) {
-            why = "it has no level " + std::to_string(level) + "; its last one is " +
+            why = "it has no level " + std::to_string(level) + "; its last level is " +
                   std::to_string(texture->levels.size() - 1);
             return {};
         }
@@ -117,7 +117,9 @@ std::optional<TextureFile> openTexture(ByteSpan bytes, std::uint64_t most_pixels
     return texture;
 }
 
-std::string brokenTexture(const TextureFile& texture) { return std::string("it is a broken ") + texture.container; }
+std::string brokenTexture(const TextureFile& texture) {
+    return std::string("the ") + texture.container + " is damaged";
+}
 
 void guessLayout(FloatImage& image) {
     if (image.alpha.empty() || !(image.texture.layout == MapLayout{})) return;
@@ -231,12 +233,12 @@ Result<FlippedImage> flipTexture(ByteSpan bytes, ImageFileFormat format) {
     std::string why;
     const std::optional<TextureFile> texture = readTextureHead(bytes, why);
     if (!texture)
-        return Error{why.find("broken") != why.npos ? ErrorCode::invalidFile : ErrorCode::unsupportedFile, why};
+        return Error{why.find("damaged") != why.npos ? ErrorCode::invalidFile : ErrorCode::unsupportedFile, why};
     const TexelFormat& texels = texture->format;
-    constexpr const char* kWritePng = "; flip-green -o OUT.png makes a PNG of it";
+    constexpr const char* kWritePng = "; use flip-green -o OUT.png to write a PNG";
     if (texture->repacking != Repacking::none)
         return Error{ErrorCode::unsupportedFile,
-                     "it is a supercompressed KTX2 (Zstandard, zlib, BasisLZ), which cannot be rewritten" +
+                     "the KTX2 is supercompressed (Zstandard, zlib or BasisLZ) and cannot be rewritten" +
                          std::string(kWritePng)};
     TextureFacts facts{.layout = texture->layout};
     if (texels.channels == 4 && facts.layout == MapLayout{}) {
@@ -248,20 +250,19 @@ Result<FlippedImage> flipTexture(ByteSpan bytes, ImageFileFormat format) {
     const std::uint8_t source = texture->swizzle[static_cast<std::size_t>(facts.layout.y.channel)];
     const bool is_masked_out = texels.masks[0] != 0 && source < texels.masks.size() && texels.masks[source] == 0;
     if (source >= texels.channels || texels.channels == 1 || is_masked_out)
-        return Error{ErrorCode::unsupportedFile, "it is a gray texture, which has no green channel of its own"};
+        return Error{ErrorCode::unsupportedFile, "the texture is gray, so it has no separate green channel"};
     if (texels.invert == nullptr)
         return Error{ErrorCode::unsupportedFile,
-                     "it is " + texture->name() + ", whose blocks cannot hold inverted green exactly" + kWritePng};
+                     "it is " + texture->name() + ", whose blocks cannot store inverted green exactly" + kWritePng};
     FlippedImage flipped{
         {bytes.begin(), bytes.end()},
         {.format = format, .width = texture->size.width, .height = texture->size.height, .bits = texels.bits}};
     if (facts.is_guessed && facts.layout.y.channel == MapChannel::alpha)
-        flipped.report.warnings.emplace_back(
-            "its texels look as if it held x in red and y in alpha: alpha is inverted");
+        flipped.report.warnings.emplace_back("the texels look like x in red and y in alpha, so alpha was inverted");
     if (texture->cut_count != 0)
         flipped.report.warnings.push_back("the file ends before the last " + std::to_string(texture->cut_count) +
                                           " of " + std::to_string(texture->levels.size() + texture->cut_count) +
-                                          " levels: their remaining bytes are unchanged");
+                                          " mip levels; their remaining bytes were not changed");
     for (const TextureFile::Place& level : texture->levels) {
         for (std::size_t at = 0; at + texels.block_bytes <= level.bytes; at += texels.block_bytes)
             texels.invert(texels, flipped.bytes.data() + level.at + at, source);

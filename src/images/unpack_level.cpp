@@ -17,10 +17,11 @@ namespace tspace {
 const char* whyNotUnpacked(Repacking repacking) {
 #ifndef TSPACE_HAS_ZSTD
     if (repacking == Repacking::zstd)
-        return "it is a KTX2 packed by Zstandard, which this build of tspace does not read";
+        return "the KTX2 uses Zstandard supercompression, which this build of tspace does not support";
 #endif
 #ifndef TSPACE_HAS_ZLIB
-    if (repacking == Repacking::zlib) return "it is a KTX2 packed by zlib, which this build of tspace does not read";
+    if (repacking == Repacking::zlib)
+        return "the KTX2 uses zlib supercompression, which this build of tspace does not support";
 #endif
     (void)repacking;
     return nullptr;

@@ -16,10 +16,10 @@ namespace {
 /// Returns the header of a still image; nullopt, with the reason in `why`, for other files.
 std::optional<WebPBitstreamFeatures> readHead(ByteSpan bytes, std::string& why) {
     WebPBitstreamFeatures features;
-    why = "it is a broken WebP";
+    why = "the WebP is damaged";
     if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK) return {};
     if (features.has_animation != 0) {
-        why = "it is an animated WebP";
+        why = "the WebP is animated, which is not supported";
         return {};
     }
     if (features.width <= 0 || features.height <= 0) return {};
@@ -67,12 +67,15 @@ std::optional<RgbImage> decodeWebp(ByteSpan bytes, std::uint64_t most_pixels, st
 Result<ChannelImage> readWebpPixels(ByteSpan bytes) {
     std::string why;
     const std::optional<WebPBitstreamFeatures> head = readHead(bytes, why);
-    if (!head) return Error{why == "it is an animated WebP" ? ErrorCode::unsupportedFile : ErrorCode::invalidFile, why};
+    if (!head)
+        return Error{
+            why == "the WebP is animated, which is not supported" ? ErrorCode::unsupportedFile : ErrorCode::invalidFile,
+            why};
     const ImageSize size = sizeOf(*head);
     ChannelImage image{size.width, size.height, head->has_alpha != 0 ? 4U : 3U, {}};
     image.pixels.resize(image.channels * size.pixels());
     if (!decodeInto(bytes, size, image.channels, image.pixels))
-        return Error{ErrorCode::invalidFile, "it is a broken WebP"};
+        return Error{ErrorCode::invalidFile, "the WebP is damaged"};
     return image;
 }
 
@@ -82,7 +85,7 @@ Result<std::vector<std::uint8_t>> writeWebp(const ChannelImage& image) {
     WebPPicture picture;
     if (WebPConfigInit(&config) == 0 || WebPConfigLosslessPreset(&config, kLevel) == 0 ||
         WebPPictureInit(&picture) == 0)
-        return Error{ErrorCode::internal, "libwebp has another version than its headers"};
+        return Error{ErrorCode::internal, "the version of libwebp differs from that of its headers"};
     config.exact = 1;
     picture.use_argb = 1;
     picture.width = static_cast<int>(image.width);

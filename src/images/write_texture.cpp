@@ -112,8 +112,8 @@ std::optional<std::vector<std::uint8_t>> packedByZstd([[maybe_unused]] const std
 
 const char* whyNotDds(TexelKind kind) {
     if (writtenFormat(kind).dxgi != 0) return nullptr;
-    return kind == TexelKind::astc ? "a DDS holds no ASTC that programs read; write a .ktx2"
-                                   : "a DDS holds no EAC; write a .ktx2";
+    return kind == TexelKind::astc ? "programs cannot read ASTC from a DDS; write a .ktx2"
+                                   : "a DDS cannot contain EAC; write a .ktx2";
 }
 
 namespace {
@@ -170,7 +170,7 @@ const char* whyNotZstd() {
 #ifdef TSPACE_HAS_ZSTD
     return nullptr;
 #else
-    return "this build of tspace has no Zstandard";
+    return "this build of tspace does not support Zstandard";
 #endif
 }
 

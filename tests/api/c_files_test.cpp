@@ -245,7 +245,8 @@ TEST(CFilesInMemory, AnImageThatIsNotGivenStaysOutside) {
     ASSERT_EQ(tspace_generateBytes(&view, nullptr, &output.bytes, &report.bytes, nullptr), TSPACE_OK);
     const Json warnings = Json::parse(report.text()).at("files")[0].at("warnings");
     ASSERT_FALSE(warnings.empty());
-    EXPECT_EQ(warnings[0].text(), "the image 'n.png' stays outside of the GLB, and its URI is kept: it does not exist");
+    EXPECT_EQ(warnings[0].text(),
+              "the image 'n.png' was not embedded in the GLB, and its URI was kept: it does not exist");
 }
 
 TEST(CFilesInMemory, AnErrorOfTheCallerEndsTheCallWithItsCode) {
@@ -357,7 +358,7 @@ TEST(CFilesOptions, WhatIsNoOptionIsRefused) {
         EXPECT_EQ(tspace_generateFile("a.glb", "b.glb", json, nullptr, &error), TSPACE_ERROR_INVALID_OPTION) << json;
         return std::string(error.message);
     };
-    EXPECT_EQ(messageOf("[]"), "the options are not a JSON object");
+    EXPECT_EQ(messageOf("[]"), "the options must be a JSON object");
     EXPECT_EQ(messageOf("{"), "the options cannot be read: the JSON has a syntax error (at byte 2)");
     EXPECT_EQ(messageOf(R"({"all": 1})"), "--all must be true or false");
     EXPECT_EQ(messageOf(R"({"all": "true"})"), "--all must be true or false");

@@ -84,9 +84,9 @@ TEST(FloatImage, RefusesWhatIsBrokenOrTooLarge) {
     const std::string png = pngFile(normalMapOf(64, bumps));
     std::string why;
     EXPECT_FALSE(decodeFloatImage(bytesOf(png.substr(0, png.size() / 2)), 1 << 22, why));
-    EXPECT_EQ(why, "it is a broken PNG");
+    EXPECT_EQ(why, "the PNG is damaged");
     EXPECT_FALSE(decodeFloatImage(bytesOf(png), 1000, why));
-    EXPECT_EQ(why, "it has more pixels than tspace reads");
+    EXPECT_EQ(why, "the image has more pixels than tspace supports");
 }
 
 }  // namespace

@@ -42,18 +42,18 @@ TEST(DecodeImage, GivesThePixelsOfAWebp) {
 
 TEST(DecodeImage, RefusesWebpThatItCannotTrust) {
     const std::string webp = webpFile(normalMapOf(64, bumps), true);
-    EXPECT_EQ(whyNot(webp.substr(0, webp.size() / 2)), "it is a broken WebP");
-    EXPECT_EQ(whyNot(webp, 1000), "it has more pixels than tspace reads");
+    EXPECT_EQ(whyNot(webp.substr(0, webp.size() / 2)), "the WebP is damaged");
+    EXPECT_EQ(whyNot(webp, 1000), "the image has more pixels than tspace supports");
     // The header of a lossless image: 14 bits each of width - 1 and height - 1, after a byte 0x2f.
     std::string claims = webp;
     const std::size_t head = claims.find("VP8L");
     ASSERT_NE(head, std::string::npos);
     for (std::size_t i = 9; i < 12; ++i) claims[head + i] = '\xff';
     claims[head + 12] = '\x0f';
-    EXPECT_EQ(whyNot(claims, std::uint64_t{1} << 40), "it claims far more pixels than its bytes can hold");
+    EXPECT_EQ(whyNot(claims, std::uint64_t{1} << 40), "the image declares far more pixels than its data can hold");
     const std::string animated = std::string("RIFF\x20\0\0\0WEBPVP8X\x0a\0\0\0\x02\0\0\0\x0f\0\0\x0f\0\0", 30) +
                                  std::string("ANIM\x06\0\0\0\0\0\0\0\0\0", 14);
-    EXPECT_EQ(whyNot(animated), "it is an animated WebP");
+    EXPECT_EQ(whyNot(animated), "the WebP is animated, which is not supported");
 }
 
 TEST(DecodeImage, SaysWhatItTakesOfMemory) {
@@ -68,19 +68,20 @@ TEST(DecodeImage, SaysWhatItTakesOfMemory) {
 TEST(DecodeImage, SaysWhyItDoesNotLook) {
     const std::string png = pngFile(normalMapOf(64, bumps)), jpeg = jpegFile(normalMapOf(64, bumps), 90);
     EXPECT_EQ(whyNot(png), "");
-    EXPECT_EQ(whyNot(png, 1000), "it has more pixels than tspace reads");
-    EXPECT_EQ(whyNot(jpeg, 1000), "it has more pixels than tspace reads");
-    EXPECT_EQ(whyNot("RIFF????WEBP"), "it is a broken WebP");
-    EXPECT_EQ(whyNot(""), "it is neither PNG, JPEG, WebP, KTX2, DDS nor TGA");
-    EXPECT_EQ(whyNot("\xabKTX 20\xbb\r\n\x1a\n"), "it is a broken KTX2");
-    EXPECT_EQ(whyNot(std::string("sB\x13\0\x4d\0", 6)), "it is a Basis Universal file, which is not read");
-    EXPECT_EQ(whyNot("DDS |"), "it is a broken DDS");
-    EXPECT_EQ(whyNot(png.substr(0, png.size() / 2)), "it is a broken PNG");
-    EXPECT_EQ(whyNot(jpeg.substr(0, 10)), "it is a broken JPEG");
+    EXPECT_EQ(whyNot(png, 1000), "the image has more pixels than tspace supports");
+    EXPECT_EQ(whyNot(jpeg, 1000), "the image has more pixels than tspace supports");
+    EXPECT_EQ(whyNot("RIFF????WEBP"), "the WebP is damaged");
+    EXPECT_EQ(whyNot(""), "the image is neither PNG, JPEG, WebP, KTX2, DDS nor TGA");
+    EXPECT_EQ(whyNot("\xabKTX 20\xbb\r\n\x1a\n"), "the KTX2 is damaged");
+    EXPECT_EQ(whyNot(std::string("sB\x13\0\x4d\0", 6)),
+              "the image is a Basis Universal file (.basis), which is not supported");
+    EXPECT_EQ(whyNot("DDS |"), "the DDS is damaged");
+    EXPECT_EQ(whyNot(png.substr(0, png.size() / 2)), "the PNG is damaged");
+    EXPECT_EQ(whyNot(jpeg.substr(0, 10)), "the JPEG is damaged");
     // A header with four components.
     EXPECT_EQ(whyNot(bytesOfHex("ffd8ffc0001408000800080401110002110003110004110"
                                 "0ffda000e0401000200030004000003f000000")),
-              "it is a JPEG for print (CMYK), which is not read");
+              "the JPEG is CMYK (for print), which is not supported");
 }
 
 TEST(DecodeImage, RefusesAFewBytesThatClaimManyPixels) {
@@ -92,7 +93,7 @@ TEST(DecodeImage, RefusesAFewBytesThatClaimManyPixels) {
     const std::size_t frame = jpeg.find("\xff\xc0");
     ASSERT_NE(frame, std::string::npos);
     jpeg[frame + 5] = jpeg[frame + 7] = 0x60;
-    EXPECT_EQ(whyNot(jpeg, std::uint64_t{1} << 40), "it claims far more pixels than its bytes can hold");
+    EXPECT_EQ(whyNot(jpeg, std::uint64_t{1} << 40), "the image declares far more pixels than its data can hold");
 }
 
 /// A code table has at most 256 entries; its 16 counts can declare 4080.
@@ -102,7 +103,7 @@ TEST(DecodeImage, RefusesAJpegWhoseTableHasTooManyCodes) {
     ASSERT_NE(table, std::string::npos);
     constexpr std::size_t kCountsAt = 5, kCountsFrom9 = 8;  // 255 codes each of 9 to 16 bits are possible
     std::fill_n(jpeg.begin() + static_cast<std::ptrdiff_t>(table + kCountsAt + kCountsFrom9), 8, '\xff');
-    EXPECT_EQ(whyNot(jpeg), "it is a broken JPEG");
+    EXPECT_EQ(whyNot(jpeg), "the JPEG is damaged");
 }
 
 TEST(DecodeImage, SurvivesBrokenFiles) {

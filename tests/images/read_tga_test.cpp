@@ -38,8 +38,8 @@ std::string whyNot(ByteSpan file) {
     return decodeImage(file, 1 << 20, why) ? "" : why;
 }
 
-constexpr const char* kUnknown = "it is neither PNG, JPEG, WebP, KTX2, DDS nor TGA";
-constexpr const char* kBroken = "it is a broken TGA";
+constexpr const char* kUnknown = "the image is neither PNG, JPEG, WebP, KTX2, DDS nor TGA";
+constexpr const char* kBroken = "the TGA is damaged";
 
 /// Two rows of two texels: red, green; blue, gray.
 const Bytes kFourTexels = {255, 0, 0, 0, 255, 0, 0, 0, 255, 10, 20, 30};
@@ -200,7 +200,7 @@ TEST(ReadTga, ClaimsNoMorePixelsThanItsBytesCanHold) {
     EXPECT_EQ(whyNot(runs), "");
     std::string why;
     EXPECT_FALSE(decodeImage(runs, 1000, why));
-    EXPECT_EQ(why, "it has more pixels than tspace reads");
+    EXPECT_EQ(why, "the image has more pixels than tspace supports");
     runs.pop_back();
     EXPECT_EQ(imageFormat(runs), ImageFormat::unknown);
 }

@@ -279,13 +279,13 @@ TEST(Texture, UnpacksZstandardAndZlib) {
         // Data that decompresses to more or fewer bytes than the image has is corrupt, regardless of the declared size.
         for (const std::string& other : {plain + plain, plain.substr(2)}) {
             parts.levels = {scheme == 2 ? zstdOf(other) : zlibOf(other)};
-            EXPECT_EQ(whyNot(ktx2File(parts)), "it is a broken KTX2");
+            EXPECT_EQ(whyNot(ktx2File(parts)), "the KTX2 is damaged");
         }
         parts.levels = {packed.substr(0, packed.size() / 2)};
-        EXPECT_EQ(whyNot(ktx2File(parts)), "it is a broken KTX2");
+        EXPECT_EQ(whyNot(ktx2File(parts)), "the KTX2 is damaged");
         parts.levels = {packed};
         parts.unpacked = {plain.size() + 1};
-        EXPECT_EQ(whyNot(ktx2File(parts)), "it is a broken KTX2");
+        EXPECT_EQ(whyNot(ktx2File(parts)), "the KTX2 is damaged");
     }
 }
 
@@ -293,28 +293,29 @@ TEST(Texture, SaysWhatItDoesNotRead) {
     const Ktx2Parts plain{.format = 16, .width = 8, .height = 8, .levels = {std::string(128, '\x80')}};
     const std::string file = ktx2File(plain);
     EXPECT_EQ(whyNot(file), "");
-    EXPECT_EQ(whyNot(file, 10), "it has more pixels than tspace reads");
+    EXPECT_EQ(whyNot(file, 10), "the image has more pixels than tspace supports");
     const auto with = [&](std::size_t at, char value) {
         std::string changed = file;
         changed[at] = value;
         return changed;
     };
-    EXPECT_EQ(whyNot(with(12, '\x8f')), "it is a KTX2 of Vulkan's format 143, which is not read");
-    EXPECT_EQ(whyNot(with(28, 2)), "it is a three-dimensional KTX2, not an image");
-    EXPECT_EQ(whyNot(with(32, 2)), "it is a KTX2 of several images (layers)");
-    EXPECT_EQ(whyNot(with(36, 6)), "it is a KTX2 of a cube map");
-    EXPECT_EQ(whyNot(with(44, 9)), "it is a KTX2 packed by scheme 9, which is not read");
+    EXPECT_EQ(whyNot(with(12, '\x8f')), "the KTX2 has the Vulkan format 143, which is not supported");
+    EXPECT_EQ(whyNot(with(28, 2)), "the KTX2 is three-dimensional, not a single image");
+    EXPECT_EQ(whyNot(with(32, 2)), "the KTX2 is an array of several images");
+    EXPECT_EQ(whyNot(with(36, 6)), "the KTX2 is a cube map, not a single image");
+    EXPECT_EQ(whyNot(with(44, 9)), "the KTX2 uses the supercompression scheme 9, which is not supported");
     Ktx2Parts etc1s{.width = 8, .height = 8, .levels = {"x"}, .unpacked = {0}};
     etc1s.scheme = 2;
     etc1s.model = 163;
-    EXPECT_EQ(whyNot(ktx2File(etc1s)), "it is a broken KTX2") << "ETC1S without BasisLZ";
+    EXPECT_EQ(whyNot(ktx2File(etc1s)), "the KTX2 is damaged") << "ETC1S without BasisLZ";
     const std::string dds = ddsFile(49, 8, 8, std::string(128, '\x80'));
     EXPECT_EQ(whyNot(dds), "");
-    EXPECT_EQ(whyNot(ddsFile(95, 8, 8, std::string(64, 'x'))), "it is a DDS of DXGI's format 95, which is not read");
+    EXPECT_EQ(whyNot(ddsFile(95, 8, 8, std::string(64, 'x'))),
+              "the DDS has the DXGI format 95, which is not supported");
     EXPECT_EQ(whyNot(oldDdsFile("UYVY", 8, 8, std::string(128, 'x'))),
-              "it is a DDS of the format UYVY, which is not read");
-    EXPECT_EQ(whyNot(dds.substr(0, dds.size() - 1)), "it is a broken DDS");
-    EXPECT_EQ(whyNot(dds.substr(0, 100)), "it is a broken DDS");
+              "the DDS has the format UYVY, which is not supported");
+    EXPECT_EQ(whyNot(dds.substr(0, dds.size() - 1)), "the DDS is damaged");
+    EXPECT_EQ(whyNot(dds.substr(0, 100)), "the DDS is damaged");
 }
 
 TEST(Texture, RefusesLevelsThatOverlapOrLieOutside) {
@@ -329,13 +330,13 @@ TEST(Texture, RefusesLevelsThatOverlapOrLieOutside) {
     std::uint64_t first = 0, second = 0;
     std::memcpy(&first, file.data() + 80, 8);
     std::memcpy(&second, file.data() + 104, 8);
-    EXPECT_EQ(whyNot(with(104, first + 16)), "it is a broken KTX2") << "the second in the first";
-    EXPECT_EQ(whyNot(with(80, second)), "it is a broken KTX2") << "the first over the second";
-    EXPECT_EQ(whyNot(with(80, file.size() - 64)), "it is a broken KTX2");
-    EXPECT_EQ(whyNot(with(80, ~std::uint64_t{0} - 8)), "it is a broken KTX2");
-    EXPECT_EQ(whyNot(with(80, 16)), "it is a broken KTX2") << "in the head";
-    EXPECT_EQ(whyNot(with(88, 127)), "it is a broken KTX2");
-    EXPECT_EQ(whyNot(file.substr(0, file.size() - 1)), "it is a broken KTX2");
+    EXPECT_EQ(whyNot(with(104, first + 16)), "the KTX2 is damaged") << "the second in the first";
+    EXPECT_EQ(whyNot(with(80, second)), "the KTX2 is damaged") << "the first over the second";
+    EXPECT_EQ(whyNot(with(80, file.size() - 64)), "the KTX2 is damaged");
+    EXPECT_EQ(whyNot(with(80, ~std::uint64_t{0} - 8)), "the KTX2 is damaged");
+    EXPECT_EQ(whyNot(with(80, 16)), "the KTX2 is damaged") << "in the head";
+    EXPECT_EQ(whyNot(with(88, 127)), "the KTX2 is damaged");
+    EXPECT_EQ(whyNot(file.substr(0, file.size() - 1)), "the KTX2 is damaged");
 }
 
 TEST(Texture, RefusesAFewBytesThatClaimManyPixels) {
@@ -343,18 +344,19 @@ TEST(Texture, RefusesAFewBytesThatClaimManyPixels) {
     Ktx2Parts parts{.format = 37, .width = 1 << 15, .height = 1 << 15, .levels = {packed}};
     parts.unpacked = {std::uint64_t{4} << 30};
     parts.scheme = 2;
-    EXPECT_EQ(whyNot(ktx2File(parts), std::uint64_t{1} << 40), "it claims far more pixels than its bytes can hold");
+    EXPECT_EQ(whyNot(ktx2File(parts), std::uint64_t{1} << 40),
+              "the image declares far more pixels than its data can hold");
     EXPECT_EQ(whyNot(ddsFile(83, 1 << 20, 1 << 20, std::string(64, 'x')), std::uint64_t{1} << 60),
-              "it is a broken DDS");
+              "the DDS is damaged");
 }
 
 TEST(Texture, SizesWhoseProductWith64BitsWouldBeZeroAreRefused) {
     // 2^30 * 2^30 texels of 16 bytes (RGBA as floats).
     constexpr std::uint32_t kSide = std::uint32_t{1} << 30;
     constexpr std::uint64_t kAny = ~std::uint64_t{0};
-    EXPECT_EQ(whyNot(ddsFile(2, kSide, kSide, ""), kAny), "it is a broken DDS");
+    EXPECT_EQ(whyNot(ddsFile(2, kSide, kSide, ""), kAny), "the DDS is damaged");
     EXPECT_EQ(whyNot(ktx2File({.format = 109, .width = kSide, .height = kSide, .levels = {""}}), kAny),
-              "it is a broken KTX2");
+              "the KTX2 is damaged");
 }
 
 TEST(Texture, ReadsTheLevelThatIsAskedFor) {
@@ -371,7 +373,7 @@ TEST(Texture, ReadsTheLevelThatIsAskedFor) {
     }
     std::string why;
     EXPECT_FALSE(decodeFloatTexture(bytesOf(ktx2), 1 << 20, why, 3));
-    EXPECT_EQ(why, "it has no level 3; its last one is 2");
+    EXPECT_EQ(why, "it has no level 3; its last level is 2");
     EXPECT_FALSE(decodeFloatTexture(bytesOf(ktx2), 0, why, 2));
 }
 

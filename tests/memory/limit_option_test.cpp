@@ -49,9 +49,9 @@ class LongStrip : public testing::Test {
 
 TEST_F(LongStrip, IsRefusedWithTheOptionThatTakesIt) {
     EXPECT_EQ(run("generate").exit_code, 3);
-    EXPECT_TRUE(says("(--memory-limit allows more)")) << message();
+    EXPECT_TRUE(says("use --memory-limit to raise it")) << message();
     EXPECT_EQ(run("generate", "100M").exit_code, 3);
-    EXPECT_TRUE(says("--memory-limit allows 100 MB")) << message();
+    EXPECT_TRUE(says("--memory-limit is 100 MB")) << message();
     EXPECT_EQ(run("generate", "1G").exit_code, 0) << message();
     EXPECT_EQ(run("generate", "none").exit_code, 0) << message();
 }

@@ -54,7 +54,7 @@ TEST(Glb, RefusesWrongLengthsAndOrder) {
     EXPECT_EQ(errorOf([&] { readGlb(huge_chunk); }).place, "byte 12");
     Bytes not_json = smallGlb();
     not_json[16] = 'X';
-    EXPECT_EQ(errorOf([&] { readGlb(not_json); }).message, "the first GLB chunk is not JSON");
+    EXPECT_EQ(errorOf([&] { readGlb(not_json); }).message, "the first chunk of the GLB is not JSON");
     Bytes version = smallGlb();
     version[4] = 1;
     EXPECT_EQ(errorOf([&] { readGlb(version); }).code, ErrorCode::unsupportedFile);
@@ -114,9 +114,9 @@ TEST(JsonText, ReadsWideObjectsInLinearTime) {
 
 TEST(JsonText, SaysWhatIsWrong) {
     const auto message = [](const std::string& text) { return errorOf([&] { parseJson(toBytes(text)); }).message; };
-    EXPECT_EQ(message("{\"a\":1e400}"), "the JSON has a number that is too large");
+    EXPECT_EQ(message("{\"a\":1e400}"), "the JSON contains a number that is too large");
     EXPECT_EQ(message("{\"a\":NaN}"), "the JSON has a syntax error");
-    EXPECT_EQ(message("{\"a\":1,\"a\":2}"), "the JSON has the member 'a' twice in one object");
+    EXPECT_EQ(message("{\"a\":1,\"a\":2}"), "the JSON contains the member 'a' twice in one object");
     EXPECT_EQ(message("[1]"), "the JSON is not an object");
     EXPECT_EQ(message(""), "the JSON has a syntax error");
     EXPECT_EQ(message("{\"a\":\"\xff\"}"), "the JSON has a syntax error");
@@ -159,7 +159,7 @@ TEST(Document, SaysThatGltf1IsTooOld) {
     const Error error = errorOf([] {
         gltf::parseDocument(toBytes(R"({"accessors":{},"meshes":{},"asset":{"version":"1.0"}})"), "model.gltf", {});
     });
-    EXPECT_EQ(error.message, "the file needs glTF version '1.0', not 2.0");
+    EXPECT_EQ(error.message, "the file requires glTF version '1.0', not 2.0");
 }
 
 TEST(Document, ReadsManyAccessorsInLinearTime) {

@@ -378,10 +378,10 @@ TEST(FlipMaps, SaysWhyAMapWasLeftAlone) {
     const GenerateReport report = generate(folder.write("in.glb", builder.glb()), folder.path("out.glb").string());
     ASSERT_EQ(report.normal_maps.size(), 1u);
     EXPECT_FALSE(report.changed);
-    EXPECT_EQ(report.normal_maps[0].reason, "it could not be examined (see tspace check)");
+    EXPECT_EQ(report.normal_maps[0].reason, "the map could not be examined (see tspace check)");
     const GenerateReport all = generate(folder.path("in.glb").string(), folder.path("out.glb").string(),
                                         {.maps = {.flip_green = FlipGreen::all}});
-    EXPECT_EQ(all.normal_maps[0].reason, "it is neither PNG, JPEG, WebP, KTX2, DDS nor TGA");
+    EXPECT_EQ(all.normal_maps[0].reason, "the image is neither PNG, JPEG, WebP, KTX2, DDS nor TGA");
 }
 
 }  // namespace

@@ -191,7 +191,7 @@ TEST(GenerateGltf, TakesTangentsWithoutNormalsForMissing) {
     EXPECT_EQ(outcome.report.primitives.at(0).action, PrimitiveAction::generated);
     EXPECT_TRUE(outcome.report.primitives.at(0).normals_generated);
     EXPECT_EQ(outcome.report.primitives.at(0).notes,
-              std::vector<std::string>{"its old tangents were ignored, because it had no normals"});
+              std::vector<std::string>{"its existing tangents were ignored, because it had no normals"});
     EXPECT_EQ(readTangents(outcome.after, outcome.primitives[0])[0], (Vec4{1, 0, 0, 1}));
 }
 

@@ -91,8 +91,8 @@ TEST(GeometryStorage, PrimitiveRestartIsRefusedInOneSentence) {
     EXPECT_EQ(report.error().code, ErrorCode::invalidFile);
     EXPECT_EQ(report.error().place, "/meshes/0/primitives/0/indices");
     EXPECT_EQ(report.error().message,
-              "index 4 is 65535, but the primitive has 10 vertices; as a mark that restarts a strip, glTF does not "
-              "allow it");
+              "index 4 is 65535, but the primitive has only 10 vertices; glTF does not allow this value as a primitive "
+              "restart index");
     EXPECT_EQ(folder.entryCount(), 1u);
 }
 

@@ -29,9 +29,10 @@ TEST(MemoryBudget, WithoutLimitTakesWhatIsThere) {
 TEST(MemoryBudget, NamesWhatIsNeededAndWhatThereIs) {
     MemoryBudget budget(100 * kMegabyte);
     budget.take(26 * kMegabyte, {});
-    EXPECT_EQ(budget.whyNot(60 * kMegabyte), "needs about 110 MB of memory, and --memory-limit allows 100 MB");
-    EXPECT_EQ(MemoryBudget().whyNot(60 * kMegabyte),
-              "needs about 84 MB of memory, and a file of its size gets 64 MB (--memory-limit allows more)");
+    EXPECT_EQ(budget.whyNot(60 * kMegabyte), "needs about 110 MB of memory, but --memory-limit is 100 MB");
+    EXPECT_EQ(
+        MemoryBudget().whyNot(60 * kMegabyte),
+        "needs about 84 MB of memory, but the limit for a file of its size is 64 MB; use --memory-limit to raise it");
 }
 
 TEST(MemoryBudget, LetsThingsBeWorkedOnTogetherThatFit) {

@@ -431,7 +431,7 @@ TEST(OverwriteNormals, SaysWhereTangentsThatSomebodyMayHaveDrawnGo) {
     };
     const char* hair = R"({"extras":{"hairFlow":true}})";
     const char* brushed = R"({"extensions":{"KHR_materials_anisotropy":{"anisotropyStrength":1}}})";
-    EXPECT_TRUE(says(notes(hair, anew()), "may be authored (extras of the material) were recomputed along u"));
+    EXPECT_TRUE(says(notes(hair, anew()), "may have been authored (extras of the material) were recomputed along u"));
     EXPECT_TRUE(says(notes(R"({"extensions":{"EXT_fur":{}}})", anew()), "(the material extension EXT_fur)"));
     EXPECT_TRUE(says(notes(brushed, anew()), "(anisotropy without a texture)"));
     EXPECT_FALSE(says(notes(brushed, {}), "drawn")) << "they stay";

@@ -146,7 +146,7 @@ TEST(PackedGltf, IsLeftOutWithTheReasonWhereAFrameIsMissing) {
     EXPECT_FALSE(outcome.report.changed);
     EXPECT_FALSE(report.frames_packed);
     ASSERT_EQ(report.notes.size(), 1u);
-    EXPECT_EQ(report.notes[0], "its frames are not packed: it has no TANGENT (--all adds what is missing)");
+    EXPECT_EQ(report.notes[0], "its frames were not packed: it has no TANGENT ; use --all to add what is missing");
     GenerateOptions all = packing(FrameFormat::frame32);
     all.selection.all = true;
     EXPECT_TRUE(run(model, all).report.primitives.at(0).frames_packed) << "the advice holds";
@@ -207,8 +207,8 @@ TEST(PackedGltf, MayStandInPlaceOfWhatItWasPackedFrom) {
         const auto other = generateFile(output, output, packing(FrameFormat::oct32));
         ASSERT_TRUE(other && other->primitives[0].notes.size() == 1);
         EXPECT_EQ(other->primitives[0].notes[0],
-                  "its frames are not packed: it has only other packed frames in _FRAME32, and not the data they were "
-                  "packed from");
+                  "its frames were not packed: it only has other packed frames in _FRAME32and not the data that they "
+                  "were packed from");
     }
 }
 
@@ -249,7 +249,8 @@ TEST(PackedGltf, IsOfTheBaseOfMorphTargetsWhoseBaseStays) {
     EXPECT_FALSE(outcome.report.primitives[0].tangents_dropped || outcome.report.primitives[0].normals_dropped);
     ASSERT_EQ(outcome.report.primitives[0].notes.size(), 1u);
     EXPECT_EQ(outcome.report.primitives[0].notes[0],
-              "its NORMAL and TANGENT are kept beside the packed frames, because morph targets add to them");
+              "its NORMAL and TANGENT were kept in addition to the packed frames, because morph targets have deltas "
+              "for them");
 }
 
 TEST(PackedGltf, FollowsTangentsThatAreReplacedOnlyWhenAskedFor) {

@@ -402,7 +402,7 @@ TEST(Repair, ReplacesTangentsThatCannotBeRead) {
     const std::vector<std::pair<GltfBuilder, std::string>> models{
         {of_another_shape, "they do not have 4 components"},
         {of_another_mesh, "there are 26 of them for 25 vertices"},
-        {of_bytes, "they are uint8x4, and must be floats or normalized signed integers"}};
+        {of_bytes, "they are uint8x4, but must be floats or normalized signed integers"}};
     for (const auto& [builder, why] : models) {
         for (const ExistingTangents existing :
              {ExistingTangents::keep, ExistingTangents::repair, ExistingTangents::replace}) {
@@ -410,7 +410,7 @@ TEST(Repair, ReplacesTangentsThatCannotBeRead) {
             for (const Vec4& t : tangentsAfter(builder, {.selection = {.existing = existing}}, report))
                 EXPECT_EQ(t, (Vec4{1, 0, 0, 1}));
             EXPECT_EQ(report.primitives.at(0).action, PrimitiveAction::replaced);
-            EXPECT_EQ(report.primitives.at(0).notes.at(0), "its old tangents were invalid: " + why);
+            EXPECT_EQ(report.primitives.at(0).notes.at(0), "its existing tangents were invalid: " + why);
         }
         GltfBuilder unneeded = builder;
         firstPrimitive(unneeded)["material"] = 1;

@@ -100,8 +100,8 @@ TEST(TextureTransform, IsSaidInANote) {
               std::vector<std::string>{"KHR_texture_transform turns normalTexture of material 0: the tangents follow "
                                        "the transformed UVs"});
     EXPECT_EQ(notes(mirror, TextureTransform::ignore),
-              std::vector<std::string>{"KHR_texture_transform mirrors normalTexture of material 0: as asked for, the "
-                                       "tangents follow the UVs before it"});
+              std::vector<std::string>{"KHR_texture_transform mirrors normalTexture of material 0: as requested, the "
+                                       "tangents follow the UVs before the transform"});
     EXPECT_TRUE(notes(stretch, TextureTransform::apply).empty());
 }
 
@@ -136,7 +136,7 @@ TEST(TextureTransform, OfAnotherTextureIsNotedWhereOneTangentCannotServeBoth) {
     EXPECT_TRUE(notes(R"({"index":0,"extensions":{"KHR_texture_transform":{"rotation":1,"offset":[2,2]}}})").empty());
     EXPECT_EQ(notes(R"({"index":0})"),
               std::vector<std::string>{"the tangents fit the KHR_texture_transform of normalTexture of material 0, but "
-                                       "clearcoatNormalTexture of material 0 is turned or mirrored in another way"});
+                                       "clearcoatNormalTexture of material 0 is rotated or mirrored differently"});
     EXPECT_EQ(notes(R"({"index":0,"texCoord":1})"),
               std::vector<std::string>{"the tangents follow TEXCOORD_0 for normalTexture of material 0, but "
                                        "clearcoatNormalTexture of material 0 is on TEXCOORD_1"});

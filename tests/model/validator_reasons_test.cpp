@@ -25,42 +25,43 @@ using Words = std::vector<std::string>;
 const std::map<std::string, Words> kReasons = {
     {"ACCESSOR_SMALL_BYTESTRIDE", {"overlap at a stride"}},
     {"ACCESSOR_SPARSE_COUNT_OUT_OF_RANGE", {"more sparse elements than elements"}},
-    {"ACCESSOR_TOO_LONG", {"reach beyond its buffer view"}},
-    {"ASSET_MIN_VERSION_GREATER_THAN_VERSION", {"needs glTF version"}},
+    {"ACCESSOR_TOO_LONG", {"extend beyond its buffer view"}},
+    {"ASSET_MIN_VERSION_GREATER_THAN_VERSION", {"requires glTF version"}},
     {"BUFFER_BYTE_LENGTH_MISMATCH", {"but its data has", "but the BIN chunk has"}},
     {"BUFFER_MISSING_GLB_DATA", {"the file has none"}},
-    {"BUFFER_VIEW_TOO_LONG", {"reaches beyond its buffer"}},
+    {"BUFFER_VIEW_TOO_LONG", {"extends beyond its buffer"}},
     {"GLB_CHUNK_TOO_BIG", {"longer than the rest"}},
     {"GLB_DUPLICATE_CHUNK", {"a second"}},
     {"GLB_EMPTY_CHUNK", {"chunk of the GLB is empty"}},
-    {"GLB_INVALID_MAGIC", {"neither GLB"}},
-    {"GLB_INVALID_VERSION", {"the GLB container has version"}},
+    {"GLB_INVALID_MAGIC", {"neither a GLB"}},
+    {"GLB_INVALID_VERSION", {"the GLB has version"}},
     {"GLB_LENGTH_MISMATCH", {"but the file has"}},
-    {"GLB_LENGTH_TOO_SMALL", {"no JSON chunk has room"}},
+    {"GLB_LENGTH_TOO_SMALL", {"too short for a JSON chunk"}},
     {"GLB_UNEXPECTED_BIN_CHUNK", {"not the second chunk"}},
     {"GLB_UNEXPECTED_END_OF_CHUNK_DATA", {"but the file has"}},
     {"GLB_UNEXPECTED_END_OF_CHUNK_HEADER", {"header of a GLB chunk is truncated"}},
     {"GLB_UNEXPECTED_END_OF_HEADER", {"GLB header is truncated", "the file is empty"}},
-    {"GLB_UNEXPECTED_FIRST_CHUNK", {"the first GLB chunk is not JSON"}},
+    {"GLB_UNEXPECTED_FIRST_CHUNK", {"the first chunk of the GLB is not JSON"}},
     {"INVALID_JSON", {"syntax error", "the file is empty"}},
-    {"INVALID_URI", {"data URI", "no scheme before its colon"}},
+    {"INVALID_URI", {"data URI", "an empty scheme before its colon"}},
     {"IO_ERROR", {"does not exist"}},
     {"MESH_PRIMITIVE_MORPH_TARGET_INVALID_ATTRIBUTE_COUNT", {"but the primitive has"}},
     {"MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT", {"but the primitive has"}},
-    {"PATTERN_MISMATCH", {"needs glTF version"}},
+    {"PATTERN_MISMATCH", {"requires glTF version"}},
     {"TYPE_MISMATCH", {"is not an object", "is not an array", "is not a string", "is not a number"}},
     {"UNDEFINED_PROPERTY", {"is missing"}},
-    {"UNKNOWN_ASSET_MAJOR_VERSION", {"needs glTF version"}},
+    {"UNKNOWN_ASSET_MAJOR_VERSION", {"requires glTF version"}},
     {"UNRESOLVED_REFERENCE", {"there is no"}},
     {"VALUE_NOT_IN_RANGE", {"a number that is too large"}},
 };
 
 /// Files without an error in the validator, and why they are rejected nevertheless.
 const std::map<std::string, std::string> kRefusedBeyond = {
-    {"base/asset/min_version_valid.gltf", "needs glTF version '2.1'"},  // newer than the versions that tspace supports
-    {"base/root/named_objects.gltf", "in a buffer without data"},       // geometry that is not in the file
-    {"base/root/unused_objects.gltf", "in a buffer without data"},
-    {"base/buffer/non_relative_uri.gltf", "never loaded"},  // a web address
+    {"base/asset/min_version_valid.gltf",
+     "requires glTF version '2.1'"},  // newer than the versions that tspace supports
+    {"base/root/named_objects.gltf", "the buffer of the buffer view has no data"},  // geometry that is not in the file
+    {"base/root/unused_objects.gltf", "the buffer of the buffer view has no data"},
+    {"base/buffer/non_relative_uri.gltf", "never loads"},  // a web address
 };
 
 bool hasWords(const std::string& message, const Words& words) {

@@ -193,7 +193,7 @@ TEST_F(CheckImage, GoesWithModelsPipesAndPages) {
     folder_.write("large.ktx2", ktx2File(parts));
     const ToolRun large = runTool(folder_, "check large.ktx2");
     EXPECT_EQ(large.exit_code, 3);
-    EXPECT_NE(large.err.find("--memory-limit allows more"), std::string::npos) << large.err;
+    EXPECT_NE(large.err.find("use --memory-limit to raise it"), std::string::npos) << large.err;
 }
 
 TEST_F(CheckImage, FindsImagesInFoldersWithoutModels) {
@@ -230,7 +230,7 @@ TEST_F(CheckImage, FindsImagesInFoldersWithoutModels) {
     folder_.write("empty/readme.txt", "");
     const ToolRun empty = runTool(folder_, "check empty");
     EXPECT_EQ(empty.exit_code, 3);
-    EXPECT_NE(empty.err.find("no model files and no images in this folder"), std::string::npos) << empty.err;
+    EXPECT_NE(empty.err.find("this folder contains no model files and no images"), std::string::npos) << empty.err;
     // Other commands require models, and images are ignored in a folder that contains a model.
     EXPECT_EQ(runTool(folder_, "inspect textures").exit_code, 3);
     writeFoldedObj(folder_, "textures/folded.obj");

@@ -242,7 +242,7 @@ TEST(MapErrorCommand, SaysOfATextureWhatItsFigureDoesNot) {
         EXPECT_EQ(run.errorLines(), 1) << run.err;
     }
     folder.write("broken.dds", "DDS ");
-    EXPECT_EQ(runTool(folder, "map-error broken.dds --source n16.png").err, "tspace: broken.dds: it is a broken DDS\n");
+    EXPECT_EQ(runTool(folder, "map-error broken.dds --source n16.png").err, "tspace: broken.dds: the DDS is damaged\n");
     EXPECT_NE(runTool(folder, "map-error n8.png --source broken.dds").err.find("the source 'broken.dds'"),
               std::string::npos);
 }

@@ -71,9 +71,9 @@ TEST(Generate, PacksFramesOfObjFilesToo) {
 TEST(Generate, SaysThatTangentsOfTheMethodBasisFollowNoUvs) {
     const TempFolder folder;
     writeFoldedObj(folder, "folded.obj");
-    EXPECT_NE(runTool(folder, "generate folded.obj -o basis.glb --method basis").out.find("do not follow UVs"),
+    EXPECT_NE(runTool(folder, "generate folded.obj -o basis.glb --method basis").out.find("do not follow the UVs"),
               std::string::npos);
-    EXPECT_EQ(runTool(folder, "generate folded.obj -o plain.glb").out.find("do not follow UVs"), std::string::npos);
+    EXPECT_EQ(runTool(folder, "generate folded.obj -o plain.glb").out.find("do not follow the UVs"), std::string::npos);
 }
 
 TEST(Generate, SaysWhichOptionsHaveNoEffect) {
@@ -290,7 +290,7 @@ TEST(Generate, AFullStandardOutputExitsWithFour) {
     writeFoldedObj(folder, "a.obj");
     runTool(folder, "generate a.obj -o a.glb > /dev/full 2> err; echo $? > code; true");
     EXPECT_EQ(folder.read("code"), "4\n");
-    EXPECT_EQ(folder.read("err"), "tspace: standard output: cannot write\n");
+    EXPECT_EQ(folder.read("err"), "tspace: cannot write to standard output\n");
 }
 
 TEST(Generate, AnInterruptLeavesACompleteFileOrNone) {

@@ -59,12 +59,12 @@ TEST(Inspect, OneBadFileDoesNotStopTheOthers) {
 TEST(Inspect, SaysWhatWasLeftOutAsAFileWasRead) {
     const TempFolder folder;
     folder.write("a.obj", "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    EXPECT_NE(runTool(folder, "inspect a.obj").out.find("  warning   there is no material library 'none.mtl'\n"),
+    EXPECT_NE(runTool(folder, "inspect a.obj").out.find("  warning   cannot find the material library 'none.mtl'\n"),
               std::string::npos);
     const Json json = Json::parse(runTool(folder, "inspect --json a.obj").out);
-    EXPECT_EQ(json["files"][0]["warnings"], Json::array({"there is no material library 'none.mtl'"}));
+    EXPECT_EQ(json["files"][0]["warnings"], Json::array({"cannot find the material library 'none.mtl'"}));
     const std::string checked = runTool(folder, "check a.obj").out;
-    EXPECT_NE(checked.find("  note     fileRemark\n        there is no material library 'none.mtl'\n      fix: "),
+    EXPECT_NE(checked.find("  note     fileRemark\n        cannot find the material library 'none.mtl'\n      fix: "),
               std::string::npos)
         << checked;
 }

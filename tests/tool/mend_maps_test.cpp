@@ -408,9 +408,9 @@ TEST(MendMaps, OverwriteWarnsWhereSignsAndGreenCancel) {
     };
     const Json warnings = run("-o alone.glb --overwrite");
     ASSERT_EQ(warnings.size(), 1U) << warnings.dump();
-    for (const char* text : {"inverted signs", "cancelled out", "--flip-green", "without --overwrite"})
+    for (const char* text : {"inverted signs", "canceled out", "--flip-green", "omit --overwrite"})
         EXPECT_NE(warnings[0].get<std::string>().find(text), std::string::npos) << warnings[0];
-    EXPECT_NE(runTool(folder, "generate before.glb -o alone.glb --overwrite").out.find("cancelled out"),
+    EXPECT_NE(runTool(folder, "generate before.glb -o alone.glb --overwrite").out.find("canceled out"),
               std::string::npos);
     EXPECT_EQ(run("-o both.glb --overwrite --flip-green"), Json::array());
     EXPECT_LT(pictureDifference(before, picture("both.glb")), 0.002);

@@ -161,7 +161,8 @@ TEST(Outputs, WhoseNamesAreMadeReplaceNoReportAndNoManifest) {
             if (!is_there) fs::remove(folder.path(one.kept));
             const ToolRun run = runTool(folder, std::string(one.command) + " -q");
             EXPECT_EQ(run.exit_code, 4) << one.command << run.err;
-            EXPECT_NE(run.err.find("another output is the same file"), std::string::npos) << one.command << run.err;
+            EXPECT_NE(run.err.find("another output of this run is the same file"), std::string::npos)
+                << one.command << run.err;
             EXPECT_EQ(folder.read(one.kept).substr(0, 1), "{") << one.command;
             EXPECT_FALSE(folder.has(one.other)) << one.command;
         }

@@ -65,8 +65,8 @@ TEST(Pipe, ThatHoldsNoModelIsBadInputInOneLine) {
         int exit_code;
         const char* says;
     };
-    for (const Case& bad : {Case{"cat folded.obj |", 3, "neither GLB nor glTF"}, Case{"true |", 3, "is empty"},
-                            Case{"yes |", 3, "neither GLB nor glTF"}, Case{"head -c 100 plain.glb |", 3, "GLB"}}) {
+    for (const Case& bad : {Case{"cat folded.obj |", 3, "neither a GLB nor a glTF"}, Case{"true |", 3, "is empty"},
+                            Case{"yes |", 3, "neither a GLB nor a glTF"}, Case{"head -c 100 plain.glb |", 3, "GLB"}}) {
         const ToolRun run = runTool(folder, "generate - -o -", bad.feed);
         EXPECT_EQ(run.exit_code, bad.exit_code) << run.err;
         EXPECT_EQ(run.out, "") << bad.feed;

@@ -127,7 +127,7 @@ TEST(ViewCommand, RefusesWithOneLineAndWritesNothing) {
     }
     const ToolRun without = Installed("").run("view a.obj -o x.html");
     EXPECT_EQ(without.exit_code, 4);
-    EXPECT_NE(without.err.find("scripts/web builds it"), std::string::npos) << without.err;
+    EXPECT_NE(without.err.find("run scripts/web to build it"), std::string::npos) << without.err;
 }
 
 }  // namespace

@@ -95,8 +95,9 @@ ExitCode runPairs(const BakeArguments& arguments) {
 std::string finish(const Given& given, BakeArguments& arguments) {
     arguments.option_text = resultOptions(given);
     if (arguments.pairs.empty())
-        return arguments.low.empty() || arguments.high.empty() ? "LOW and --high HIGH are missing, or --pairs TABLE"
-                                                               : std::string();
+        return arguments.low.empty() || arguments.high.empty()
+                   ? "LOW and --high HIGH are missing; give both, or --pairs TABLE"
+                   : std::string();
     if (!arguments.low.empty()) return "--pairs TABLE replaces LOW";
     if (isModelFile(arguments.options.out_mesh)) return "with --pairs, --out-mesh must name a folder";
     return kindOf(arguments.output) == PathKind::file ? "with --pairs, the output must be a folder" : "";

@@ -70,7 +70,7 @@ std::vector<Pair> readTable(const BakePairsArguments& arguments) {
                      "line " + std::to_string(number) + ": expected LOW = HIGH or LOW = HIGH = NAME");
         if (words.size() == 3 && leadsAway(fs::path(Path(words[2]))) != nullptr)
             failFile(ErrorCode::forbiddenPath, "line " + std::to_string(number) + ": the output " + inQuotes(words[2]) +
-                                                   " lies outside the folder that -o names");
+                                                   " is outside the output folder (-o)");
         Pair& pair = pairs.emplace_back();
         pair.line = number;
         pair.job.name = words[0];
@@ -83,7 +83,7 @@ std::vector<Pair> readTable(const BakePairsArguments& arguments) {
         pair.job.output = below(arguments.output, name);
         if (!arguments.options.out_mesh.empty()) pair.model = below(arguments.options.out_mesh, stemOf(name) + ".glb");
     }
-    if (pairs.empty()) failFile(ErrorCode::invalidFile, "the table has no line LOW = HIGH");
+    if (pairs.empty()) failFile(ErrorCode::invalidFile, "the table contains no line LOW = HIGH");
     return pairs;
 }
 

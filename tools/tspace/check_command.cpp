@@ -171,7 +171,7 @@ Command checkCommand() {
                      "tspace check --quiet --sarif findings.sarif models/",
                      "tspace check --html report.html helmet.glb"},
         .finish = [&arguments](const Given&) -> std::string {
-            return arguments.json && arguments.sarif == "-" ? "--json and --sarif - both need stdout" : "";
+            return arguments.json && arguments.sarif == "-" ? "--json and --sarif - cannot both write to stdout" : "";
         },
     };
     addInputs(command, arguments.inputs);

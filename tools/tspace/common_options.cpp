@@ -56,7 +56,7 @@ void readStream(std::FILE* stream, std::string& text) {
     char part[4096];
     for (std::size_t count = 0; (count = std::fread(part, 1, sizeof part, stream)) != 0;) {
         text.append(part, count);
-        if (text.size() > kMostBytes) failFile(ErrorCode::cannotRead, "it has more than 256 MB");
+        if (text.size() > kMostBytes) failFile(ErrorCode::cannotRead, "the list exceeds 256 MB");
     }
     if (std::ferror(stream) != 0) failFile(ErrorCode::cannotRead, "it cannot be read");
 }
@@ -104,7 +104,7 @@ void addInputs(Command& command, std::vector<std::string>& inputs) {
     command.finish = [&inputs, list, finish = std::move(command.finish)](const Given& given) {
         if (inputs.empty() && list->empty()) return std::string("IN... is missing");
         if (*list == "-" && std::find(inputs.begin(), inputs.end(), "-") != inputs.end())
-            return std::string("--files-from - and the input - both need stdin");
+            return std::string("--files-from - and the input - cannot both read stdin");
         return finish ? finish(given) : std::string();
     };
     command.prepare = [&inputs, list] { return list->empty() ? ExitCode::done : readFileList(*list, inputs); };

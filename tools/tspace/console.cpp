@@ -52,7 +52,7 @@ bool printResult(std::string_view text, std::FILE* to) {
         return true;
     }
     const bool written = progressLine().write(text, to) == text.size() && std::fflush(to) == 0;
-    if (!written) printPlain("tspace: standard output: cannot write\n");
+    if (!written) printPlain("tspace: cannot write to standard output\n");
     return written;
 }
 

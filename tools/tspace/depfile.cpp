@@ -65,7 +65,7 @@ Result<std::string> depfileText(const std::vector<std::string>& outputs, const s
         for (const std::string& name : *names) {
             if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }))
                 return Error{ErrorCode::invalidOption,
-                             "a depfile cannot hold a name with a control character: " + printable(name)};
+                             "a dependency file cannot contain a name with a control character: " + printable(name)};
         }
     }
     std::string rule;
@@ -103,7 +103,7 @@ void addDepfile(Command& command) {
         const bool has_output = std::any_of(given.items.begin(), given.items.end(), [&](const Given::Item& item) {
             return item.value != "-" && namesOutput(*item.option);
         });
-        return std::string(has_output ? "" : "--depfile needs an output file");
+        return std::string(has_output ? "" : "--depfile can only be used with an output file");
     };
     const auto run = [prepare = std::move(command.prepare), run = std::move(command.run)] {
         const ExitCode code = prepare ? prepare() : ExitCode::done;

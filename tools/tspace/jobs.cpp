@@ -78,7 +78,7 @@ void findFiles(const fs::path& folder, const std::string& skipped_folder, Search
     for (const fs::path& file : files) found.push_back(foundBelow(folder, file, are_images));
     if (files.empty() && failures.empty()) {
         const char* message =
-            are_images ? "no model files and no images in this folder" : "no model files in this folder";
+            are_images ? "this folder contains no model files and no images" : "this folder contains no model files";
         found.push_back({{.input = Path(folder).string(), .error = {ErrorCode::invalidFile, message}}, {}});
     }
     std::move(failures.begin(), failures.end(), std::back_inserter(found));
@@ -100,7 +100,7 @@ void findMatches(const std::string& pattern, SearchedFiles searched, std::vector
     std::vector<Found>& matches = models.empty() && with_images ? images : models;
     if (matches.empty()) {
         const char* message =
-            with_images ? "no model file and no image matches this pattern" : "no model file matches this pattern";
+            with_images ? "no model file or image matches this pattern" : "no model file matches this pattern";
         found.push_back({{.input = pattern, .error = {ErrorCode::cannotRead, message}}, {}});
     }
     std::move(matches.begin(), matches.end(), std::back_inserter(found));
@@ -141,9 +141,9 @@ Result<std::vector<Job>> jobsInPlace(const JobRequest& request) {
     });
     for (Job& job : jobs) {
         job.output = job.input;
-        if (job.input == "-") return usage("--in-place needs files, not standard input");
+        if (job.input == "-") return usage("--in-place cannot be used with standard input");
         if (!isGltfName(job.input) && job.error.code == ErrorCode::ok && !lowerExtension(job.input).empty()) {
-            job.error = usage("only .glb, .vrm and .gltf files can be changed in place; write a .glb with -o");
+            job.error = usage("only .glb, .vrm and .gltf files can be overwritten in place; use -o to write a .glb");
         }
     }
     return jobs;
@@ -155,17 +155,17 @@ Result<std::vector<Job>> jobWithNamedOutput(const JobRequest& request) {
     const bool is_glb = isGlbOutput(job.output);
     if (is_glb && !isGlbName(job.output)) {
         // A stream keeps its name and gets no extension.
-        if (request.container == Container::gltf) return usage("only a GLB is one stream of bytes: " + job.output);
+        if (request.container == Container::gltf) return usage("only a GLB can be written to a stream: " + job.output);
         return std::vector<Job>{std::move(job)};
     }
     if (extension.empty()) {
         job.output += extensionFor(request.container, job.input);
-        job.remark = "the output has no extension, so it is the file " + job.output + "; a folder would be " +
+        job.remark = "the output has no extension, so it would be the file " + job.output + "; a folder would be " +
                      request.output + "/";
     } else if (!isGltfName(job.output)) {
         return usage("the output '" + job.output + "' must end in .glb, .vrm or .gltf");
     } else if (request.container != Container::sameAsInput && is_glb != (request.container == Container::glb)) {
-        return usage("--container contradicts the name of the output: " + job.output);
+        return usage("--container contradicts the extension of the output: " + job.output);
     }
     if (identityOf(job.output) == identityOf(job.input))
         return usage("the output " + job.output + " is the input; use --in-place to overwrite it");
@@ -174,9 +174,10 @@ Result<std::vector<Job>> jobWithNamedOutput(const JobRequest& request) {
 
 /// Returns the job for a single model that is written to stdout.
 Result<std::vector<Job>> jobToStandardOutput(const JobRequest& request, bool has_several) {
-    if (has_several) return usage("only one model can go to stdout");
-    if (request.container == Container::gltf) return usage("only a GLB can go to stdout, not --container gltf");
-    if (request.has_manifest) return usage("a manifest cannot describe stdout");
+    if (has_several) return usage("only one model can be written to stdout");
+    if (request.container == Container::gltf)
+        return usage("only a GLB can be written to stdout, so --container gltf cannot be used with -o -");
+    if (request.has_manifest) return usage("--manifest cannot be used if the output is stdout");
     if (!request.is_dry_run && isTerminal(stdout))
         return usage("a model cannot be printed on a terminal; redirect stdout to a file or a pipe");
     const std::string& input = request.inputs.front();
@@ -192,7 +193,7 @@ Result<std::vector<Job>> jobsIntoFolder(const JobRequest& request) {
     std::vector<Job> jobs;
     for (Found& item : found) {
         Job& job = item.job;
-        if (job.input == "-") return usage("name the output with -o when the model comes from standard input");
+        if (job.input == "-") return usage("the output of a model from standard input must be named with -o");
         if (job.error.code == ErrorCode::ok) {
             const char* extension = extensionFor(request.container, job.input);
             fs::path relative = item.relative;
@@ -254,17 +255,16 @@ std::vector<Job> inputJobs(const std::vector<std::string>& inputs, SearchedFiles
 
 Result<std::vector<Job>> generateJobs(const JobRequest& request) {
     const std::string& output = request.output;
-    if (request.in_place && !output.empty()) return usage("--in-place and -o exclude each other");
+    if (request.in_place && !output.empty()) return usage("--in-place and -o cannot be used together");
     if (request.in_place) return jobsInPlace(request);
-    if (output.empty())
-        return usage("the output is missing: use -o OUT, or --in-place to change the inputs themselves");
+    if (output.empty()) return usage("the output is missing: use -o OUT, or --in-place to overwrite the inputs");
 
     const bool several = request.has_list || request.inputs.size() > 1 || isFolder(request.inputs.front()) ||
                          isPatternInput(request.inputs.front());
     if (output == "-") return jobToStandardOutput(request, several);
     const bool is_file = isThere(output) && !isFolder(output);
     if (several && (is_file || (isGltfName(output) && !isFolder(output)))) {
-        return usage("several inputs need a folder as output, not " + output);
+        return usage("with several inputs the output must be a folder, not " + output);
     }
     if (several || isFolder(output) || fs::path(Path(output)).filename().empty()) return jobsIntoFolder(request);
     return jobWithNamedOutput(request);

@@ -158,8 +158,8 @@ Result<ManifestWriter> ManifestWriter::open(const std::string& path) {
     if (isForeignLink(path))
         return refuse("it is a symbolic link that another user created in a world-writable folder");
     const PathKind kind = kindOf(path);
-    if (kind == PathKind::other) return refuse("it is neither a file nor a stream of bytes");
-    if (kind == PathKind::file && !isManifest(path)) return refuse("the existing file of that name is not a manifest");
+    if (kind == PathKind::other) return refuse("it is neither a file nor a stream");
+    if (kind == PathKind::file && !isManifest(path)) return refuse("the existing file is not a manifest");
     const bool needs_line_end = kind == PathKind::file && endsInsideALine(path);
     writer.path_ = path;
     std::error_code failed;

@@ -42,8 +42,9 @@ Result<PageOrigin> pageOrigin() {
     constexpr std::uint64_t kMost = 253402300799;  // the last second of the year 9999
     std::uint64_t seconds = 0;
     if (!options::parseNumber(given, seconds) || seconds > kMost) {
-        return Error{ErrorCode::invalidOption,
-                     "the environment variable SOURCE_DATE_EPOCH must be seconds since 1970, at most 253402300799"};
+        return Error{
+            ErrorCode::invalidOption,
+            "the environment variable SOURCE_DATE_EPOCH must be a number of seconds since 1970, at most 253402300799"};
     }
     return PageOrigin{dateText(static_cast<std::time_t>(seconds)), rememberedCommand()};
 }

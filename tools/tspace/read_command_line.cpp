@@ -78,7 +78,7 @@ class Reader {
         }
         const bool repeats_last = !operands.empty() && operands.back()->is_repeatable;
         const std::size_t place = repeats_last ? std::min(operand_count_, operands.size() - 1) : operand_count_;
-        if (place >= operands.size()) return "'" + argument + "' is one too many";
+        if (place >= operands.size()) return "'" + argument + "' is unexpected";
         ++operand_count_;
         return take(*operands[place], argument);
     }

@@ -63,10 +63,10 @@ Command renderCommand() {
                      "tspace render helmet.glb -o error.png --show error --view front --size 512",
                      "tspace render helmet.glb -o right.png --frames computed"},
         .finish = [&arguments](const Given&) -> std::string {
-            if (arguments.options.turntable == 0) return "--turntable must be 1 to 999";
+            if (arguments.options.turntable == 0) return "--turntable must be from 1 to 999";
             if (arguments.options.turntable > 1 && arguments.output == "-")
                 return "--turntable writes several files, so stdout cannot be the output";
-            return arguments.options.samples == 0 ? "--samples must be 1 to 4" : "";
+            return arguments.options.samples == 0 ? "--samples must be from 1 to 4" : "";
         },
     };
     const char* group = kInputAndOutput;

@@ -47,9 +47,9 @@ void makeAndCommit(Outcome& outcome, const Make& make, const Prepare& prepare) {
 }
 
 inline constexpr const char* kNoMemoryForReport =
-    "tspace: standard output: cannot write the report for lack of memory; the outputs are complete\n";
+    "tspace: out of memory: cannot write the report to standard output; the outputs are complete\n";
 inline constexpr const char* kNoMemoryForManifest =
-    "tspace: cannot write the manifest for lack of memory; the outputs are complete\n";
+    "tspace: out of memory: cannot write the manifest; the outputs are complete\n";
 
 /// Calls work(), which runs after outputs are in place and concerns several files, or the files written. If memory runs
 /// out in it, prints `line`, which needs no memory, and returns the exit code of a file that cannot be written.

@@ -56,7 +56,7 @@ Result<Done> StandardInput::open(const std::string& input, FileOptions& options,
     if (input != "-") return Done{};
     Result<std::vector<std::uint8_t>> bytes =
         readStandardInput("a model", options.memory_limit_bytes, takes_images ? looksLikeModelOrImage : looksLikeModel,
-                          "standard input is neither GLB nor glTF; other formats must be read from files");
+                          "standard input is neither a GLB nor a glTF; other formats must be read from files");
     if (!bytes) return std::move(bytes).error();
     bytes_ = *std::move(bytes);
     options.content = bytes_;

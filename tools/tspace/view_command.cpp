@@ -47,7 +47,8 @@ namespace {
 Result<ViewReport> view(const ViewArguments& arguments, const PageOrigin& origin) {
     const std::string page = pagePath();
     if (page.empty())
-        return Error{ErrorCode::cannotRead, "the page was not built with this tool; scripts/web builds it"};
+        return Error{ErrorCode::cannotRead,
+                     "this build of tspace does not include the page; run scripts/web to build it"};
     progressLine().update(arguments.input, "checking", 0, 0);
     return writeViewPage(arguments.input, arguments.output, page, arguments.file, origin);
 }

@@ -21,7 +21,7 @@ std::vector<std::uint8_t> GlbBuilder::finish() {
     std::string text = json().dump(-1, ' ', BadUtf8::replace);
     text.resize((text.size() + 3) / 4 * 4, ' ');
     const std::uint64_t total = 12 + 8 + text.size() + (bytes().empty() ? 0 : 8 + bytes().size());
-    if (total > 0xffffffffu) throw std::length_error("the model does not fit into the 4 GiB of a GLB");
+    if (total > 0xffffffffu) throw std::length_error("the model exceeds the 4 GiB that a GLB can contain");
     std::vector<std::uint8_t> glb;
     glb.reserve(static_cast<std::size_t>(total));
     append32(glb, 0x46546c67);  // "glTF"

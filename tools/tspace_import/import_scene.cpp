@@ -315,9 +315,9 @@ struct Reading {
 /// then invalid.
 std::string readNearOrigin(const Reading& reading, const aiScene& scene, Imported& imported) {
     const std::optional<NearFile> moved = nearOrigin(reading.path);
-    if (!moved) return "; the file has no more digits than those: move the model to the origin before it is exported";
+    if (!moved) return "; the file does not store more digits, so move the model to the origin before exporting it";
     const std::string no_common =
-        ", and no common offset fixes that; split the model, and move each part to its own origin";
+        ", and no common offset fixes this; split the model, and move each part to its own origin";
     if (moved->bytes.empty()) return no_common;
     const std::vector<aiVector3D> first_vertices = firstVertices(scene);
     std::vector<std::string> refused;  // already recorded by the first pass
@@ -347,16 +347,16 @@ void mendCoarse(const Reading& reading, const aiScene& scene, const Mended& mend
     std::string why;
     if (!isReadInDouble(reading.path)) {
         why =
-            "; this format is read as 32-bit floats, so the digits beyond them are lost: move the model to the origin "
-            "before it is exported, or export OBJ, PLY or STL, which are read in double";
+            "; this format is read as 32-bit floats, so further digits are lost: move the model to the origin before "
+            "exporting it, or export OBJ, PLY or STL, which are read in double precision";
     } else if (reading.rules.keep_coordinates) {
         imported.keeps_coordinates = true;
-        why = "; without --keep-coordinates an offset is subtracted where that helps";
+        why = "; without --keep-coordinates an offset is subtracted if that helps";
     } else {
         try {
             why = readNearOrigin(reading, scene, imported);
         } catch (const std::bad_alloc&) {
-            why = "; reading them in double precision needs more memory than the limit (--memory-limit allows more)";
+            why = "; reading them in double precision would exceed the memory limit; use --memory-limit to raise it";
         }
     }
     if (!why.empty()) imported.warnings.push_back(coarse + why);
@@ -373,13 +373,13 @@ Imported importScene(const std::string& path, const ImportRules& rules) {
     std::vector<std::string> not_read;
     for (const std::string& file : refused)
         not_read.push_back("the file " + file +
-                           " lies outside of the model's folder, and was not read (--allow-external)");
+                           " is outside the folder of the model and was not read; use --allow-external to read it");
     if (scene == nullptr || scene->mRootNode == nullptr) {
         std::string why = importer.GetErrorString();
         std::replace(why.begin(), why.end(), '\n', ' ');
-        return {.error = "the importer cannot read it: " + (!not_read.empty() ? not_read[0]
-                                                            : why.empty()     ? "no scene"
-                                                                              : why)};
+        return {.error = "the importer cannot read the file: " + (!not_read.empty() ? not_read[0]
+                                                                  : why.empty()     ? "no scene"
+                                                                                    : why)};
     }
     bool has_faces = false;
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) has_faces = has_faces || scene->mMeshes[i]->HasFaces();

@@ -137,7 +137,7 @@ int main(int argc, char** argv) {
                                                 .keep_coordinates = std::string_view(argv[7]) == "as-they-are"};
         return run(argv[1], rules, fdopen(takeStdout(), "wb"));
     } catch (const std::bad_alloc&) {
-        std::fprintf(stderr, "reading it needs more memory than the limit (--memory-limit allows more)\n");
+        std::fprintf(stderr, "reading the file would exceed the memory limit; use --memory-limit to raise it\n");
         return kOutOfMemory;
     } catch (const std::exception& failure) {
         std::fprintf(stderr, "%s\n", failure.what());

@@ -44,22 +44,22 @@ std::vector<std::string> Mended::warnings() const {
     };
     add(positions, "positions that are not finite and were moved to the origin");
     add(uvs, "texture coordinates that are not finite and were set to 0");
-    add(normals, "normals that are zero or not finite and were taken from a face");
+    add(normals, "normals that are zero or not finite and were replaced by face normals");
     add(tangents, "tangents that are not finite and were set to 0");
     add(transforms, "matrices of nodes or joints that are not finite and were ignored");
     if (coarse_places != 0) {
         char meters[32];
         const auto end = std::to_chars(meters, meters + sizeof meters, worst_place, std::chars_format::general, 2);
         list.push_back(
-            "places of nodes are so far from the origin that 32-bit floats, which the importer reads, may move "
-            "them by up to " +
+            "translations of nodes are so far from the origin that the 32-bit floats of the importer may move them by "
+            "up to " +
             std::string(meters, end.ptr) + " m: " + std::to_string(coarse_places));
     }
     return list;
 }
 
 std::string Mended::coarseness() const {
-    return "positions are so far from the origin that 32-bit floats do not hold the shape: " +
+    return "positions are so far from the origin that 32-bit floats distort the shape: " +
            std::to_string(coarse_edges) + " of " + std::to_string(edges) + " edges of triangles";
 }
 

@@ -102,7 +102,7 @@ check("uvsDegenerate" in bpy.data.texts["tspace check"].as_string(), "the text h
 circle = new_mesh(bpy.ops.mesh.primitive_circle_add, "Circle", vertices=8, fill_type="NGON", calc_uvs=True)
 bpy.ops.tspace.check()
 check(selected_faces(circle) == [0] and "more than 4 corners" in circle["tspace"][0], "n-gons are found")
-fails(bpy.ops.tspace.compare, "triangulate first")
+fails(bpy.ops.tspace.compare, "triangulate them first")
 
 low = new_mesh(bpy.ops.mesh.primitive_plane_add, "Low", size=2)
 high = new_mesh(bpy.ops.mesh.primitive_grid_add, "High", size=2, x_subdivisions=96, y_subdivisions=96)

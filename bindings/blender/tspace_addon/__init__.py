@@ -9,7 +9,7 @@ bl_info = {
     "version": (0, 1, 0),
     "blender": (3, 4, 0),
     "location": "3D View > Sidebar > tspace",
-    "description": "Checks tangents and normal maps, bakes with the error in degrees",
+    "description": "Checks tangents and normal maps, and bakes with the error in degrees",
     "category": "Mesh",
 }
 

@@ -78,7 +78,7 @@ class Tspace(bpy.types.Operator):
 class TSPACE_OT_check(Tspace):
     bl_idname = "tspace.check"
     bl_label = "Check"
-    bl_description = "Finds what is wrong with normals, tangents, UVs and normal maps; selects faces, colours them, says how to mend them"
+    bl_description = "Find errors in normals, tangents, UVs and normal maps; select and color the faces, and list how to fix them"
 
     def run(self, context, folder):
         lines, worst, count = [], "note", 0
@@ -99,9 +99,9 @@ class TSPACE_OT_check(Tspace):
         text.clear()
         text.write("\n".join(lines) or "Nothing was found.\n")
         if count:
-            self.report(_LEVELS[worst], f'{lines[0]}: {lines[1].strip()} ({count} in all: see the text "{TEXT}")')
+            self.report(_LEVELS[worst], f'{lines[0]}: {lines[1].strip()} ({count} findings: see the text "{TEXT}")')
         else:
-            self.report({"INFO"}, "tspace found nothing: what was looked at are tangents, normals, UVs and normal maps")
+            self.report({"INFO"}, "tspace found no errors in tangents, normals, UVs and normal maps")
 
     def findings(self, thing, folder):
         mesh = thing.data
@@ -129,8 +129,8 @@ class TSPACE_OT_check(Tspace):
             faces.append(ngons)
             findings.insert(0, {
                 "severity": "warning", "code": "ngons",
-                "message": f"{len(ngons)} faces have more than 4 corners, for which Blender makes no tangents; they were not looked at",
-                "remedy": "Triangulate these faces, or add the modifier Triangulate, before you bake and before you export.",
+                "message": f"{len(ngons)} faces have more than 4 corners and were not checked, because Blender computes no tangents for them",
+                "remedy": "Triangulate these faces, or add the modifier Triangulate, before baking and exporting.",
             })
         return findings, numpy.unique(numpy.concatenate(faces)).astype(int) if faces else numpy.empty(0, int)
 
@@ -138,7 +138,7 @@ class TSPACE_OT_check(Tspace):
 class TSPACE_OT_compare(Tspace):
     bl_idname = "tspace.compare"
     bl_label = "Compare Tangents"
-    bl_description = "The angle between Blender's tangents and those of another method, as colours: red is the limit and more"
+    bl_description = "Show the angle between Blender's tangents and those of another method as colors; red marks the limit and above"
 
     method: bpy.props.EnumProperty(name="Method", items=[(name, name, "") for name in ("mikktspace", "best", "fast", "angle", "area", "lengyel")])
     limit: bpy.props.FloatProperty(name="Red", description="Degrees", default=1, min=0.001, max=180)
@@ -147,7 +147,7 @@ class TSPACE_OT_compare(Tspace):
         thing = chosen_meshes(context)[0]
         arrays = meshes.Arrays(thing.data, with_tangents=True)
         if arrays.tangents is None:
-            raise Failed("Blender makes no tangents for faces with more than 4 corners: triangulate first")
+            raise Failed("Blender computes no tangents for faces with more than 4 corners; triangulate them first")
         theirs = arrays.tangents
         arrays.tangents = None
         path, made = (os.path.join(folder, name) for name in ("mesh.glb", "made.glb"))
@@ -197,7 +197,7 @@ def read_tangents(path, arrays):
 class TSPACE_OT_bake(Tspace):
     bl_idname = "tspace.bake"
     bl_label = "Bake Normal Map"
-    bl_description = "Bakes the other selected meshes onto the active one, as a normal map, and says its error in degrees"
+    bl_description = "Bake the other selected meshes onto the active one as a normal map, and report its error in degrees"
 
     size: bpy.props.IntProperty(name="Size", default=1024, min=1, max=16384)
     bits: bpy.props.EnumProperty(name="Bits", items=[("16", "16", ""), ("8", "8", "")])
@@ -206,12 +206,12 @@ class TSPACE_OT_bake(Tspace):
     def run(self, context, folder):
         low, *others = chosen_meshes(context)
         if low != context.active_object or not others:
-            raise Failed("select the high poly, and then the low poly, which becomes the active object")
+            raise Failed("select the high poly first, then the low poly, so that the low poly is the active object")
         low_path, high_path, image_path = (os.path.join(folder, name) for name in ("low.glb", "high.glb", "map.png"))
         with meshes.Standing(low, context) as mesh:
             arrays = meshes.Arrays(mesh, with_tangents=True)
             if arrays.tangents is None:
-                raise Failed("the low poly has faces with more than 4 corners: triangulate it first, so that every program cuts it alike")
+                raise Failed("the low poly has faces with more than 4 corners; triangulate it first, so that every program triangulates it identically")
             # One primitive: a map of the object, whatever its materials.
             arrays.material_of_triangle[:] = 0
             meshes.write_glb(low_path, low.name, arrays, [], [])
@@ -226,7 +226,7 @@ class TSPACE_OT_bake(Tspace):
         level = {"WARNING"} if report["findings"] or error["missed"] else {"INFO"}
         words = f'"{image.name}": mean error {error["meanDeg"]:.3f} degrees, 99 % below {error["p99Deg"]:.2f}'
         if error["missed"]:
-            words += f"; {error['missed']} of {error['missed'] + error['points']} points met nothing of the high poly"
+            words += f"; {error['missed']} of {error['missed'] + error['points']} samples did not hit the high poly"
         self.report(level, words)
 
     @staticmethod
@@ -251,7 +251,7 @@ def joined(parts):
 class TSPACE_OT_convert_map(Tspace):
     bl_idname = "tspace.convert_map"
     bl_label = "Convert Map"
-    bl_description = "Writes the map anew for another program, or from object space, with the frames of the active mesh"
+    bl_description = "Convert the map for another program or from object space, using the tangent frames of the active mesh"
 
     space: bpy.props.EnumProperty(name="From", items=[("tangent", "Tangent space", ""), ("object", "Object space", "")])
     convention: bpy.props.EnumProperty(name="To", items=[(name, name, "") for name in ("blender", "gltf", "directx", "unreal", "unity", "godot")])
@@ -271,14 +271,14 @@ class TSPACE_OT_convert_map(Tspace):
         new = meshes.load_map(made, f"{image.name} {self.convention}")
         context.scene.tspace.image = new
         level = {"WARNING"} if report["warnings"] else {"INFO"}
-        words = f'"{new.name}": {report["converted"]} texels, turned by {report["meanChangeDeg"]:.3f} degrees in the mean'
+        words = f'"{new.name}": {report["converted"]} texels, rotated by {report["meanChangeDeg"]:.3f} degrees on average'
         self.report(level, "; ".join([words, *(warning if isinstance(warning, str) else warning["message"] for warning in report["warnings"])]))
 
 
 class TSPACE_OT_flip_green(Tspace):
     bl_idname = "tspace.flip_green"
     bl_label = "Flip Green"
-    bl_description = "Makes a map for OpenGL of one for DirectX, and back, in a new image"
+    bl_description = "Convert a DirectX normal map to OpenGL, or back, in a new image"
 
     def run(self, context, folder):
         image = context.scene.tspace.image
@@ -289,7 +289,7 @@ class TSPACE_OT_flip_green(Tspace):
         tool.report("flip-green", path, "-o", made)
         new = meshes.load_map(made, f"{image.name} flipped")
         context.scene.tspace.image = new
-        self.report({"INFO"}, f'"{new.name}": green is inverted, everything else as it was')
+        self.report({"INFO"}, f'"{new.name}": green was inverted, the other channels are unchanged')
 
 
 CLASSES = (TSPACE_OT_check, TSPACE_OT_compare, TSPACE_OT_bake, TSPACE_OT_convert_map, TSPACE_OT_flip_green)

@@ -11,14 +11,14 @@ from .operators import TEXT
 class TspacePreferences(bpy.types.AddonPreferences):
     bl_idname = __package__
 
-    program: bpy.props.StringProperty(name="Program", description="The program tspace, where it is not found by itself", subtype="FILE_PATH")
+    program: bpy.props.StringProperty(name="Program", description="Path of the program tspace, if it is not found automatically", subtype="FILE_PATH")
 
     def draw(self, _context):
         self.layout.prop(self, "program")
 
 
 class TspaceSettings(bpy.types.PropertyGroup):
-    image: bpy.props.PointerProperty(name="Map", type=bpy.types.Image, description="The normal map for Convert and Flip Green; the last one baked")
+    image: bpy.props.PointerProperty(name="Map", type=bpy.types.Image, description="The normal map for Convert and Flip Green; by default the last one baked")
 
 
 class TSPACE_PT_panel(bpy.types.Panel):

@@ -22,13 +22,13 @@ def path():
     shipped = os.path.join(os.path.dirname(__file__), "bin", name)
     if chosen:
         if not os.access(chosen, os.X_OK):
-            raise Failed(f"the preferences of tspace name {chosen}, which is no program")
+            raise Failed(f"the preferences of tspace refer to {chosen}, which is not a program")
         return chosen
     if os.path.exists(shipped) and not os.access(shipped, os.X_OK):
         os.chmod(shipped, 0o755)  # Blender unpacks add-ons without it
     found = shipped if os.access(shipped, os.X_OK) else shutil.which("tspace")
     if not found:
-        raise Failed("the program tspace is not there: install it, or name it in the preferences of this add-on")
+        raise Failed("the program tspace was not found: install it, or set its path in the preferences of this add-on")
     return found
 
 

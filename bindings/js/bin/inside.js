@@ -22,7 +22,7 @@ export function realPlace(path) {
     } catch (error) {
       if (error.code !== "ENOENT" || place === parse(place).root) throw error;
     }
-    if (lstatSync(place, { throwIfNoEntry: false })) throw new Error("a link that leads nowhere");
+    if (lstatSync(place, { throwIfNoEntry: false })) throw new Error("a dangling link");
     missing.unshift(basename(place));
   }
 }

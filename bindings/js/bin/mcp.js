@@ -15,14 +15,16 @@ const help = `tspace mcp - serve inspect, check, identify, generate and bake to 
 
 Usage: tspace mcp FOLDER [--tool PROGRAM]
 
-A server of the Model Context Protocol, on stdin and stdout. It reads and writes
-files in FOLDER and below alone: other paths are refused, also where links lead
-to them and where a model names them. It needs npm's @modelcontextprotocol/sdk:
+A server for the Model Context Protocol, on stdin and stdout. It reads and writes
+files only in FOLDER and its subfolders: all other paths are rejected, including
+those that links lead to or that a model references. It needs the npm package
+@modelcontextprotocol/sdk:
 npx -y -p tspace -p @modelcontextprotocol/sdk tspace mcp FOLDER
 
   --tool PROGRAM
-        The native tspace, which bake is done by: the rays are not in this
-        program. It too refuses what leads out of a model's folder.
+        Path of the native tspace program, which is needed for bake: this program
+        does not include ray tracing. It also rejects paths outside the folder of
+        a model.
 `;
 
 const program = fileURLToPath(new URL("tspace.js", import.meta.url));
@@ -32,7 +34,7 @@ const limits = { milliseconds: 600_000, characters: 100_000, pictures: 8 };
 const text = (description) => ({ type: "string", description });
 const flag = (description) => ({ type: "boolean", description });
 const model = text("A model (.glb, .vrm, .gltf, .obj) in the folder, or a folder of models");
-const replace = flag("Write over files that are there; false unless given");
+const replace = flag("Overwrite existing files. Default: false.");
 
 /**
  * Descriptions of each tool for clients, and words(arguments, place): its command line. `place` checks paths of inputs
@@ -40,31 +42,31 @@ const replace = flag("Write over files that are there; false unless given");
  */
 const tools = {
   inspect: {
-    description: "What is in a model file: primitives, attributes, materials, and which parts need tangents. Changes nothing.",
+    description: "Lists the contents of a model file: primitives, attributes, materials, and which parts need tangents. No file is changed.",
     properties: { file: model },
     required: ["file"],
     words: ({ file }, place) => [place.input(file)],
   },
   check: {
-    description: "What is wrong with the normals, tangents, UVs and normal maps of a model, how to mend each, and pictures of the places, as they are and mended. Changes nothing.",
-    properties: { file: model, pictures: flag("Pictures of the findings, up to 8; true unless given") },
+    description: "Reports errors in the normals, tangents, UVs and normal maps of a model, how to fix each one, and pictures before and after the fix. No file is changed.",
+    properties: { file: model, pictures: flag("Return up to 8 pictures of the findings. Default: true.") },
     required: ["file"],
     words: ({ file, pictures = true }, place, folder) => [place.input(file), ...(pictures ? ["--html", join(folder, "page.html")] : [])],
   },
   identify: {
-    description: "Which method and which convention made the tangents of a model. Changes nothing.",
+    description: "Reports which method and which convention made the tangents of a model. No file is changed.",
     properties: { file: model },
     required: ["file"],
     words: ({ file }, place) => [place.input(file)],
   },
   generate: {
-    description: "Writes a .glb with tangents (and normals) where its materials need them; or, with repair, with what check found mended.",
+    description: "Writes a .glb with the tangents and normals that its materials need; with repair, also fixes the errors that check reports.",
     properties: {
       file: text("A model (.glb, .vrm, .gltf, .obj) in the folder"),
-      output: text("The file to write: a .glb in the folder"),
-      method: { type: "string", enum: methodNames, description: "How tangents are computed; mikktspace unless given" },
-      overwrite: flag("Replace tangents that are there"),
-      all: flag("Also where no material needs them"),
+      output: text("Output file: a .glb in the folder"),
+      method: { type: "string", enum: methodNames, description: "Tangent method. Default: mikktspace." },
+      overwrite: flag("Recompute existing tangents"),
+      all: flag("Also process primitives whose material needs no tangents"),
       repair: flag("Mend what check finds"),
       replace,
     },
@@ -77,10 +79,10 @@ const tools = {
   bake: {
     description: "Bakes the normal map of a low poly from a high poly, and measures its error in degrees. Needs the native tool: tspace mcp FOLDER --tool PROGRAM.",
     properties: {
-      low: text("The model in the folder that the map is for"),
-      high: text("The model in the folder with the detail"),
-      output: text("The file to write: a .png in the folder"),
-      size: { type: "integer", minimum: 1, maximum: 16384, description: "Texels along each side; 1024 unless given" },
+      low: text("Low-poly model in the folder, which receives the map"),
+      high: text("High-poly model in the folder, with the detail"),
+      output: text("Output file: a .png in the folder"),
+      size: { type: "integer", minimum: 1, maximum: 16384, description: "Width and height of the map in texels. Default: 1024." },
       replace,
     },
     required: ["low", "high", "output"],
@@ -103,7 +105,7 @@ export function placesIn(root) {
     } catch {
       throw new Refusal(`${path}: cannot be followed`);
     }
-    if (!isIn(root, place)) throw new Refusal(`${path}: is outside of the folder that this server may use`);
+    if (!isIn(root, place)) throw new Refusal(`${path}: is outside the folder that this server may use`);
     return place;
   };
   return {
@@ -118,7 +120,7 @@ export function placesIn(root) {
       // A map of several materials is written to several files with a common prefix.
       const begin = basename(place).slice(0, -ending.length);
       const taken = existsSync(dirname(place)) && readdirSync(dirname(place)).find((name) => name === basename(place) || (ending === ".png" && name.startsWith(begin) && name.toLowerCase().endsWith(ending)));
-      if (taken && !mayReplace) throw new Refusal(`${join(dirname(path), taken)}: is there already (replace: true writes over it)`);
+      if (taken && !mayReplace) throw new Refusal(`${join(dirname(path), taken)}: exists already; use replace: true to overwrite it`);
       return place;
     },
   };
@@ -128,7 +130,7 @@ export function placesIn(root) {
 function checked(given, { properties, required }) {
   for (const [name, value] of Object.entries(given)) {
     const rule = Object.hasOwn(properties, name) && properties[name];
-    if (!rule) throw new Refusal(`${name} is unknown: known are ${Object.keys(properties).join(", ")}`);
+    if (!rule) throw new Refusal(`unknown argument ${name}; known arguments are ${Object.keys(properties).join(", ")}`);
     const fits = rule.type === "integer" ? Number.isInteger(value) && value >= rule.minimum && value <= rule.maximum : typeof value === rule.type;
     if (!fits || (rule.enum && !rule.enum.includes(value))) throw new Refusal(`${name} must be ${rule.enum ? `one of ${rule.enum.join(", ")}` : `of type ${rule.type}`}`);
     if (value === "") throw new Refusal(`${name} is empty`);
@@ -161,7 +163,7 @@ function ended(command, words, cwd, folders, signal) {
     child.on("error", failed);
     child.on("close", (code, ending) => {
       unfinished.delete(stop);
-      const [stdout, stderr] = printed.map(({ value, length }) => (length > value.length ? `${value}\n(cut: there are ${length} characters)` : value));
+      const [stdout, stderr] = printed.map(({ value, length }) => (length > value.length ? `${value}\n(truncated: the full text has ${length} characters)` : value));
       done({ code, ending, stdout, stderr });
     });
   });
@@ -178,14 +180,14 @@ function picturesOf(page) {
       else ++dropped;
     }
   }
-  if (dropped) content.push({ type: "text", text: `${dropped} more pictures are left out.` });
+  if (dropped) content.push({ type: "text", text: `${dropped} more pictures were omitted.` });
   return content;
 }
 
 async function call(name, given, { root, native, signal }) {
-  if (!Object.hasOwn(tools, name)) throw new Refusal(`${name} is unknown: tools are ${Object.keys(tools).join(", ")}`);
+  if (!Object.hasOwn(tools, name)) throw new Refusal(`unknown tool ${name}; the tools are ${Object.keys(tools).join(", ")}`);
   const tool = tools[name];
-  if (tool.isNative && !native) throw new Refusal("bake needs the native tspace: start this server as tspace mcp FOLDER --tool PROGRAM");
+  if (tool.isNative && !native) throw new Refusal("bake needs the native tspace program; start this server with tspace mcp FOLDER --tool PROGRAM");
   const own = realpathSync(mkdtempSync(join(tmpdir(), "tspace-mcp-")));
   const remove = () => rmSync(own, { recursive: true, force: true });
   unfinished.add(remove);
@@ -193,7 +195,7 @@ async function call(name, given, { root, native, signal }) {
     const words = [name, ...tool.words(checked(given, tool), placesIn(root), own), "--json"];
     const run = tool.isNative ? ended(native, words, root, [], signal) : ended(process.execPath, [program, ...words], root, [root, own], signal);
     const { code, ending, stdout, stderr } = await run;
-    if (ending) throw new Refusal(`${name} was ended (${ending}): it may take ${limits.milliseconds / 60_000} minutes`);
+    if (ending) throw new Refusal(`${name} was stopped (${ending}); its time limit is ${limits.milliseconds / 60_000} minutes`);
     const page = join(own, "page.html");
     const content = [stdout, stderr].filter((part) => part.trim() !== "").map((part) => ({ type: "text", text: part }));
     if (existsSync(page)) content.push(...picturesOf(readFileSync(page, "utf8")));
@@ -215,8 +217,8 @@ function readWords(words) {
   };
   const at = words.indexOf("--tool");
   const [, native] = at < 0 ? [] : words.splice(at, 2);
-  if (at >= 0 && !native) fail("--tool: a program is missing");
-  if (words.length !== 1 || words[0].startsWith("-")) fail("mcp takes one folder (see tspace mcp --help)");
+  if (at >= 0 && !native) fail("--tool must be followed by the path of a program");
+  if (words.length !== 1 || words[0].startsWith("-")) fail("mcp needs exactly one folder (see tspace mcp --help)");
   try {
     const root = realpathSync(words[0]);
     if (!statSync(root).isDirectory()) throw new Error();
@@ -231,12 +233,12 @@ export async function serve(words) {
   const { root, native, fail } = readWords(words);
   const sdk = "@modelcontextprotocol/sdk";
   const parts = await Promise.all(["server/index.js", "server/stdio.js", "types.js"].map((part) => import(`${sdk}/${part}`)))
-    .catch((error) => fail(`mcp needs the package ${sdk}, which cannot be loaded: npm install ${sdk} (${error.code ?? error.message})`));
+    .catch((error) => fail(`mcp needs the package ${sdk}, which cannot be loaded; run npm install ${sdk} (${error.code ?? error.message})`));
   const [{ Server }, { StdioServerTransport }, { CallToolRequestSchema, ListToolsRequestSchema }] = parts;
   const { version } = JSON.parse(readFileSync(new URL("../package.json", import.meta.url), "utf8"));
   const server = new Server({ name: "tspace", version }, {
     capabilities: { tools: {} },
-    instructions: `Normals, tangents and normal maps of 3D models. Paths are relative to ${root}, and nothing outside of it can be read or written. Reports are JSON.`,
+    instructions: `Normals, tangents and normal maps of 3D models. Paths are relative to ${root}, and nothing outside it can be read or written. Reports are JSON.`,
   });
   server.setRequestHandler(ListToolsRequestSchema, () => ({
     tools: Object.entries(tools).map(([name, { description, properties, required }]) => ({

@@ -100,7 +100,7 @@ function attributeOf(attribute, i, cornerCount) {
   const data = floats(attribute.data, name, Math.max(size, 1), true);
   if (size * cornerCount !== data.length) {
     const needed = `${size} for each of the ${cornerCount} corners`;
-    fail("countMismatch", `${name} has ${data.length} numbers, ${size * cornerCount} are needed: ${needed}`, i);
+    fail("countMismatch", `${name} has ${data.length} numbers, but needs ${size * cornerCount}: ${needed}`, i);
   }
   return { data, size, tolerance: number(tolerance, `tolerance of ${name}`) };
 }

@@ -37,12 +37,12 @@ function viewOf(array, name, types, needed) {
 /** Checks a Float32Array, or undefined. `size`: number of components per element. */
 export function floats(array, name, size, isRequired = false) {
   if (isMissing(array)) {
-    if (isRequired) fail("missingAttribute", `${name} is missing: a Float32Array, ${size} numbers for each element`);
+    if (isRequired) fail("missingAttribute", `${name} is missing; it must be a Float32Array with ${size} numbers for each element`);
     return undefined;
   }
   const numbers = viewOf(array, name, [Float32Array], "a Float32Array");
   if (numbers.length % size !== 0)
-    fail("countMismatch", `${name} has ${numbers.length} numbers, which is no multiple of ${size}`);
+    fail("countMismatch", `${name} has ${numbers.length} numbers, which is not a multiple of ${size}`);
   return numbers;
 }
 
@@ -61,7 +61,7 @@ export function integers(array, name) {
 
 export function count(value, name) {
   if (!Number.isInteger(value) || value < 0 || value > 0xffffffff)
-    fail("invalidOption", `${name} must be a whole number from 0 to 4294967295, not ${describe(value)}`);
+    fail("invalidOption", `${name} must be an integer from 0 to 4294967295, not ${describe(value)}`);
   return value;
 }
 
@@ -80,7 +80,7 @@ export function numberWithin(value, name, least, most, unit) {
 export function output(array, name, count) {
   if (isMissing(array)) return undefined;
   const given = viewOf(array, name, [Uint8Array], "a Uint8Array");
-  if (given.length !== count) fail("countMismatch", `${name} has ${given.length} entries, ${count} are needed`);
+  if (given.length !== count) fail("countMismatch", `${name} has ${given.length} entries, but needs ${count}`);
   return given;
 }
 
@@ -100,7 +100,7 @@ export function object(value, name, known) {
   if (typeof value !== "object" || value === null) failType(value, name, "an object");
   const strange = known && Object.keys(value).find((member) => !known.includes(member));
   if (strange !== undefined)
-    throw typeError("invalidOption", `${name}.${strange} is unknown: known are ${known.join(", ")}`);
+    throw typeError("invalidOption", `${name}.${strange} is unknown; known names are ${known.join(", ")}`);
   return value;
 }
 

@@ -15,10 +15,10 @@ const filters = ["NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"];
 function pairOf(option, value, { decoder: decoding, encoder: encoding }, from) {
   if (isMissing(value)) return {};
   const { decoder, encoder } = object(value, option, ["decoder", "encoder"]);
-  if (isMissing(decoder)) fail("wrongType", `${option} has no decoder: ${from}`);
-  if (typeof decoder[decoding] !== "function") fail("wrongType", `${option}.decoder has no ${decoding}: it is not ${from}`);
+  if (isMissing(decoder)) fail("wrongType", `${option} must have the member decoder: ${from}`);
+  if (typeof decoder[decoding] !== "function") fail("wrongType", `${option}.decoder has no function ${decoding}; it must be ${from}`);
   if (!isMissing(encoder) && typeof encoder[encoding] !== "function")
-    fail("wrongType", `${option}.encoder has no ${encoding}: it is not ${from}`);
+    fail("wrongType", `${option}.encoder has no function ${encoding}; it must be ${from}`);
   return { [`${option}Decoder`]: decoder, [`${option}Encoder`]: encoder };
 }
 
@@ -30,7 +30,7 @@ function functionOf(option, value) {
 /** Checks the codec options. */
 export const codecsOf = ({ meshopt, draco, decodeImage, encodeImage }) => ({
   ...pairOf("meshopt", meshopt, { decoder: "decodeGltfBuffer", encoder: "encodeGltfBuffer" }, "that of npm's meshoptimizer"),
-  ...pairOf("draco", draco, { decoder: "Decoder", encoder: "ExpertEncoder" }, "a module of npm's draco3d, made by its create...Module()"),
+  ...pairOf("draco", draco, { decoder: "Decoder", encoder: "ExpertEncoder" }, "a module of the npm package draco3d, created by createDecoderModule() or createEncoderModule()"),
   ...functionOf("decodeImage", decodeImage),
   ...functionOf("encodeImage", encodeImage),
 });
@@ -38,16 +38,16 @@ export const codecsOf = ({ meshopt, draco, decodeImage, encodeImage }) => ({
 /** Returns why the caller's pixels are invalid, or undefined if they are valid. */
 function faultOfPixels(image, width, height, sampleBytes) {
   if (typeof image?.then === "function")
-    fail("wrongType", "decodeImage gave a Promise; decodeImages(model, decode, options) waits for those before the call");
-  if (isMissing(image)) return "decodeImage gave nothing for it";
+    fail("wrongType", "decodeImage returned a Promise; use decodeImages(model, decode, options) to decode the images before the call");
+  if (isMissing(image)) return "decodeImage returned nothing for it";
   const pixels = object(image, "what decodeImage gives").rgba;
   if (![Uint8Array, Uint8ClampedArray, Uint16Array].some((Type) => pixels instanceof Type))
-    fail("wrongType", "what decodeImage gives has no rgba that is a Uint8Array, a Uint8ClampedArray or a Uint16Array");
+    fail("wrongType", "decodeImage must return an object whose rgba is a Uint8Array, a Uint8ClampedArray or a Uint16Array");
   if (image.width !== width || image.height !== height)
-    return `decodeImage gave ${image.width} x ${image.height} pixels for ${width} x ${height}`;
+    return `decodeImage returned ${image.width} x ${image.height} pixels instead of ${width} x ${height}`;
   if (pixels.length !== 4 * width * height)
-    fail("countMismatch", `decodeImage gave ${pixels.length} numbers for ${width} x ${height} pixels: 4 each are needed`);
-  if (sampleBytes === 2 && !(pixels instanceof Uint16Array)) return "it has 16 bits, of which decodeImage gave 8";
+    fail("countMismatch", `decodeImage returned ${pixels.length} numbers for ${width} x ${height} pixels, but needs 4 per pixel`);
+  if (sampleBytes === 2 && !(pixels instanceof Uint16Array)) return "it has 16 bits per channel, but decodeImage returned 8";
   return undefined;
 }
 

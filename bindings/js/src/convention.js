@@ -22,7 +22,7 @@ const bit = (value, name, list) => (value === undefined ? 0 : choice(value, `con
 /** Returns the bits for a preset name, or for an object that specifies each part. */
 export function conventionBits(value) {
   if (value === undefined || value === null)
-    fail("invalidOption", `convention is missing: say what the tangents are for, "gltf" or one of ${names.slice(1).join(", ")}`);
+    fail("invalidOption", `convention is missing; it must be the target of the tangents, "gltf" or one of ${names.slice(1).join(", ")}`);
   const chosen = typeof value === "object" ? object(value, "convention", parts) : conventions[names[choice(value, "convention", names)]];
   return (
     (choice(chosen.vAxis, "convention.vAxis", ["up", "down"]) + 1) |

@@ -150,7 +150,7 @@ export class Plan {
   #held() {
     if (this.#place === 0) fail("planMismatch", "this plan was destroyed");
     const module = this.#instance.exports;
-    if (!module) fail("planMismatch", "release(), or a call that ran out of memory, ended this plan: make another one");
+    if (!module) fail("planMismatch", "this plan was invalidated by release() or by an out-of-memory error; create a new plan");
     return module;
   }
 

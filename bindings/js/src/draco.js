@@ -3,7 +3,7 @@
 
 const headBytes = 11;
 const hasMetadata = 0x8000;
-const tooMuch = "the Draco data claim more points, triangles or attributes than the accessors say";
+const tooMuch = "the Draco data declares more points, triangles or attributes than the accessors";
 
 /** Component types of glTF. */
 const components = new Map([
@@ -83,7 +83,7 @@ function withMesh(module, data, skips, read) {
     if (skips) for (const kind of kinds) decoder.SkipAttributeTransform(module[kind]);
     const mesh = own(new module.Mesh());
     const status = own(decoder.DecodeBufferToMesh(buffer, mesh));
-    return status.ok() ? read(decoder, mesh) : { fault: "the Draco data are broken" };
+    return status.ok() ? read(decoder, mesh) : { fault: "the Draco data is damaged" };
   });
 }
 
@@ -92,13 +92,13 @@ function readAttribute(module, decoder, mesh, { id, component, componentCount })
   const attribute = decoder.GetAttributeByUniqueId(mesh, id);
   if (attribute.ptr === 0) return { fault: `${name} does not exist` };
   if (attribute.num_components() !== componentCount)
-    return { fault: `${name} has another number of components than its accessor` };
+    return { fault: `${name} has a different number of components than its accessor` };
   const { Type, data } = components.get(component);
   const count = mesh.num_points() * componentCount, bytes = count * Type.BYTES_PER_ELEMENT;
   return withMemory(module, bytes, (place) =>
     decoder.GetAttributeDataArrayForAllPoints(mesh, attribute, module[data], bytes, place)
       ? { values: copyOf(module, Type, place, count) }
-      : { fault: `${name} does not fit its accessor` });
+      : { fault: `${name} does not match its accessor` });
 }
 
 function readMesh(module, decoder, mesh, limits, wanted) {
@@ -109,7 +109,7 @@ function readMesh(module, decoder, mesh, limits, wanted) {
     return copyOf(module, Uint32Array, place, cornerCount);
   });
   if (corners.some((point) => point >= pointCount))
-    return { fault: "a triangle of the Draco data has a point that does not exist" };
+    return { fault: "a triangle of the Draco data refers to a point that does not exist" };
   const attributes = [];
   for (const attribute of wanted) {
     const read = readAttribute(module, decoder, mesh, attribute);
@@ -137,7 +137,7 @@ export function decodeDraco(module, data, isEdgebreaker, limits, wanted, keepsLa
     });
   } catch (error) {
     // The module aborted because it ran out of memory or found unexpected data.
-    return { fault: `the Draco data are broken: ${error.message ?? error}`.replace(/\s+/g, " ") };
+    return { fault: `the Draco data is damaged: ${error.message ?? error}`.replace(/\s+/g, " ") };
   }
 }
 

@@ -88,7 +88,7 @@ class Files {
     if (!this.#found.has(key)) {
       const content = this.finders[model](name);
       if (content === undefined || content === null) return cannotRead;
-      const array = bytes(content, `what resources give for ${JSON.stringify(name)}`);
+      const array = bytes(content, `the result of resources for ${JSON.stringify(name)}`);
       this.#found.set(key, [this.call.put(array, Uint8Array), array.length]);
     }
     new Uint32Array(this.call.wasm.memory.buffer, data, 1)[0] = this.#found.get(key)[0];
@@ -102,7 +102,7 @@ class Watch {
   constructor(onProgress, signal) {
     if (onProgress !== undefined && onProgress !== null && typeof onProgress !== "function") failType(onProgress, "onProgress", "a function");
     if (signal !== undefined && signal !== null && typeof object(signal, "signal").aborted !== "boolean")
-      fail("wrongType", "signal has no aborted that is true or false: it is not an AbortSignal");
+      fail("wrongType", "signal must be an AbortSignal: its property aborted is not a boolean");
     this.onProgress = onProgress ?? undefined;
     this.signal = signal ?? undefined;
   }
@@ -124,7 +124,7 @@ function run(models, { resources, meshopt, draco, decodeImage, encodeImage, onPr
   const codecs = codecsOf({ meshopt, draco, decodeImage, encodeImage });
   const watch = new Watch(onProgress, signal);
   watch.goOn();
-  if (current !== undefined) fail("invalidOption", "what a call asks for must not call tspace/gltf");
+  if (current !== undefined) fail("invalidOption", "a function that was passed to a call must not call tspace/gltf");
   return wasm.run((call) => {
     current = { files: new Files(call, models.map(() => finder)), codecs: new Codecs(call, codecs), watch };
     call.wasm.setCanStop(watch.signal !== undefined);
@@ -153,7 +153,7 @@ function callFiles(verb, models, options) {
 
 function modelOf(data, name, what = "the model") {
   if (name !== undefined && name !== null && (typeof name !== "string" || name.includes("\0")))
-    failType(name, "name", "text without a 0 in it");
+    failType(name, "name", "text without null characters");
   return { data: bytes(data, what), name: name ?? "" };
 }
 

@@ -17,7 +17,7 @@ export const { splitVertices } = calls;
 
 function withoutLists(mesh) {
   for (const name of ["normalIndices", "uvIndices"])
-    if (mesh?.[name]) fail("invalidOption", `${name}: this entry takes one index list, "tspace" one for each attribute`);
+    if (mesh?.[name]) fail("invalidOption", `${name}: this entry supports only one index list; use the entry "tspace" for one list per attribute`);
   return mesh;
 }
 

@@ -24,7 +24,7 @@ export const numberOrAuto = (value, name) => (value === "auto" ? -1 : number(val
  */
 export function normalArguments(options, isWhole) {
   for (const [name, given] of [["creaseAngle", options.creaseAngle === "auto"], ["denoise", (options.denoise ?? 0) !== 0]])
-    if (given && !isWhole) fail("invalidOption", `${name}: ${options[name]} is for generateNormals of "tspace/normals"`);
+    if (given && !isWhole) fail("invalidOption", `${name}: ${options[name]} is only supported by generateNormals of "tspace/normals"`);
   const groups = integers(options.smoothingGroups, "smoothingGroups");
   const before = [choice(options.weighting ?? "angle", "weighting", normalWeightingNames), numberOrAuto(options.creaseAngle ?? 180, "creaseAngle")];
   const after = [

@@ -37,7 +37,7 @@ export function unpackFrames(frames, format) {
   return wasm.run((call) => {
     const size = call.wasm.frameBytes(number);
     if (bytes.length % size !== 0)
-      fail("countMismatch", `frames has ${bytes.length} bytes, which is no multiple of the ${size} of a frame`);
+      fail("countMismatch", `frames has ${bytes.length} bytes, which is not a multiple of the ${size} bytes of a frame`);
     const count = bytes.length / size;
     const [from, n, t] = [call.put(bytes), call.allocate(count * 12 + 16), call.allocate(count * 16 + 16)];
     call.check(call.wasm.unpackFrames(from, bytes.length, number, n, t, count));

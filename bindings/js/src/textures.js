@@ -126,17 +126,17 @@ function imageOf(image, what, decodeImage) {
   if (ArrayBuffer.isView(image) || /ArrayBuffer$/.test(image?.[Symbol.toStringTag])) {
     const data = bytesOf(image, what);
     if (isTexture(data)) return { array: data, bytes: data.length, width: 0, height: 0, bits: 0 };
-    if (isMissing(decodeImage)) fail("unsupportedFile", `${what} is neither KTX2 nor DDS, and the option decodeImage was not given`);
+    if (isMissing(decodeImage)) fail("unsupportedFile", `${what} is neither KTX2 nor DDS; use the option decodeImage to read it`);
     pixels = decodeImage(data, mimeTypeOf(data));
-    if (typeof pixels?.then === "function") fail("wrongType", "decodeImage gave a Promise; decode the image before the call, and give its pixels");
-    if (isMissing(pixels)) fail("unsupportedFile", `${what} is of a format for which decodeImage gave nothing`);
+    if (typeof pixels?.then === "function") fail("wrongType", "decodeImage returned a Promise; decode the image before the call, and return its pixels");
+    if (isMissing(pixels)) fail("unsupportedFile", `${what} has a format for which decodeImage returned nothing`);
   }
   const { width, height, rgba } = object(pixels, what);
   const place = [[Uint8Array, 8], [Uint8ClampedArray, 8], [Uint16Array, 16], [Float32Array, 32]].find(([Type]) => rgba?.[Symbol.toStringTag] === Type.name);
   if (!place) failType(rgba, `rgba of ${what}`, "a Uint8Array, a Uint8ClampedArray, a Uint16Array or a Float32Array");
   for (const [name, side] of [["width", width], ["height", height]]) if (count(side, `${name} of ${what}`) === 0) fail("countMismatch", `${what} has no pixels`);
   if (rgba.length !== 4 * width * height)
-    fail("countMismatch", `${what} has ${rgba.length} numbers for ${width} x ${height} pixels: 4 each are needed`);
+    fail("countMismatch", `${what} has ${rgba.length} numbers for ${width} x ${height} pixels, but needs 4 per pixel`);
   return { array: rgba, bytes: 0, width, height, bits: place[1] };
 }
 
@@ -158,7 +158,7 @@ export function compressMap(image, options = {}) {
   const isDds = choice(options.container ?? "ktx2", "container", containers) === 1;
   const alpha = choice(options.alpha ?? "auto", "alpha", alphas);
   const header = choice(options.ddsHeader ?? "dx10", "ddsHeader", headers);
-  if (header !== 0 && !isDds) fail("invalidOption", "ddsHeader needs the container dds");
+  if (header !== 0 && !isDds) fail("invalidOption", "ddsHeader can only be used with the container dds");
   const factor = number(options.roughnessFactor ?? 1, "roughnessFactor");
   if (isMissing(options.roughness) && !isMissing(options.roughnessFactor)) fail("invalidOption", "roughnessFactor needs roughness");
   const map = imageOf(image, "the map", decodeImage);

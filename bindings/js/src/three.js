@@ -85,7 +85,7 @@ export function computeTangents(given, options = {}) {
   const { position, normal, uv } = geometry.attributes;
   if (!position) throw new TspaceError("missingAttribute", "the geometry has no attribute position");
   if (!uv && options.method !== "basis")
-    throw new TspaceError("missingAttribute", 'the geometry has no attribute uv: only the method "basis" needs none');
+    throw new TspaceError("missingAttribute", 'the geometry has no attribute uv, which every method except "basis" needs');
   const isMikktspace = (options.method ?? "mikktspace") === "mikktspace";
   const made = makeIndexedFrames(
     {

@@ -48,7 +48,7 @@ export class Wasm {
   }
 
   get exports() {
-    if (!this.#module) throw new TspaceError("notReady", "tspace is not loaded: `await ready` first");
+    if (!this.#module) throw new TspaceError("notReady", "tspace is not loaded; call `await ready` first");
     if (!this.#current.exports) {
       const imports = { endCall: (number) => this.#endCall(number), attempt: (...given) => this.#attempt(...given), ...this.#imports };
       const env = Object.fromEntries(Object.entries(imports).map(([name, call]) => [name, this.#throughFrames(call)]));
@@ -153,7 +153,7 @@ class Call {
 
   allocate(bytes) {
     const place = bytes > 0xfff00000 ? 0 : this.wasm.allocate(bytes) >>> 0;
-    if (place === 0) throw new TspaceError("outOfMemory", `out of memory: ${bytes} bytes more are needed`);
+    if (place === 0) throw new TspaceError("outOfMemory", `out of memory: ${bytes} more bytes are needed`);
     this.#places.push(place);
     return place;
   }

@@ -66,7 +66,7 @@ describe("refused", () => {
   });
 
   it("options that nobody knows, with those that are", () => {
-    const unknown = (words, body) => refuses("invalidOption", [/ is unknown: known are /, ...words], body);
+    const unknown = (words, body) => refuses("invalidOption", [/ is unknown; known names are /, ...words], body);
     const typo = { ...options, treshold: 90 };
     const words = [/^options\.treshold/, /method, threshold, pairing, ngons, convention, normalizeNormals, frame, refine/];
     unknown([...words, /report$/], () => generateTangents(mesh, typo));
@@ -85,7 +85,7 @@ describe("refused", () => {
   });
 
   it("members that no mesh has", () => {
-    const unknown = (member, body) => refuses("invalidOption", [new RegExp(`\\.${member} is unknown: known are positions, normals, uvs, indices, faceSizes`)], body);
+    const unknown = (member, body) => refuses("invalidOption", [new RegExp(`\\.${member} is unknown; known names are positions, normals, uvs, indices, faceSizes`)], body);
     for (const member of ["normal", "index", "faceSize", "uv", "position"]) {
       const typo = { ...mesh, [member]: mesh.normals };
       const calls = [generateTangents, makeIndexedFrames, small.generateTangents];
@@ -97,7 +97,7 @@ describe("refused", () => {
     const plan = new Plan(mesh, options);
     unknown("normal", () => plan.evaluate({ positions: mesh.positions, normal: mesh.normals }));
     plan.destroy();
-    refuses("invalidOption", [/^vertices\.index is unknown: known are indices, vertexCount$/], () => splitVertices({ vertexCount: 3, index: mesh.indices }, []));
+    refuses("invalidOption", [/^vertices\.index is unknown; known names are indices, vertexCount$/], () => splitVertices({ vertexCount: 3, index: mesh.indices }, []));
   });
 
   it("thresholds out of range", () => {
@@ -118,12 +118,12 @@ describe("refused", () => {
     told(() => generateNormals(mesh, { creaseAngle: 181 }));
     told(() => generateNormals(mesh, { smoothingGroups: few }));
     told(() => whole.generateNormals(mesh, { weighting: "best", denoise: 5 }));
-    assert.match(messages.join(), /normalIndices.*uvIndices.*creaseAngle is neither between 0 and 180 nor "auto".*smoothingGroups/);
+    assert.match(messages.join(), /normalIndices.*uvIndices.*creaseAngle must be from 0 to 180, or "auto".*smoothingGroups/);
     for (const message of messages) assert.doesNotMatch(message, /[a-z]_[a-z]/);
   });
 
   it("masks of another size or type", () => {
-    refuses("countMismatch", [/hasTangent has 3 entries, 54 are needed/], tangentsOf({}, { hasTangent: new Uint8Array(3) }));
+    refuses("countMismatch", [/hasTangent has 3 entries, but needs 54/], tangentsOf({}, { hasTangent: new Uint8Array(3) }));
     refuses("wrongType", [/hasTangent must be a Uint8Array/], tangentsOf({}, { hasTangent: [] }));
   });
 

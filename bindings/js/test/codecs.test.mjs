@@ -188,7 +188,7 @@ describe("normal maps", { skip: missing }, () => {
     assert.match(why({ decodeImage: undefined }), /decodeImage/);
     assert.match(why({ encodeImage: () => domes({ size: 64, bits: 16 }) }), /another size/);
     assert.match(why({ encodeImage: () => domes({ bits: 16, channels: 4 }) }), /channels/);
-    assert.match(why({ encodeImage: () => new Uint8Array(9) }), /no PNG/);
+    assert.match(why({ encodeImage: () => new Uint8Array(9) }), /did not return a PNG/);
     assert.match(why({ decodeImage: () => null }), /nothing/);
     assert.match(why({ decodeImage: () => ({ width: 1, height: 1, rgba: new Uint8Array(4) }) }), /1 x 1/);
     refuses("wrongType", [/rgba/], () => why({ decodeImage: () => ({ width: 128, height: 128 }) }));

@@ -112,13 +112,13 @@ describe("tspace mcp", { skip: missing }, () => {
 
   it("reads nothing outside of its folder", async () => {
     for (const file of ["../outside/grid.gltf", "deep/../../outside/grid.gltf", join(outside, "grid.gltf"), "way/grid.gltf", "link.gltf", "/etc/passwd", `${root}x/grid.gltf`, ".."])
-      await refused("inspect", { file }, /outside of the folder|cannot be followed/);
+      await refused("inspect", { file }, /outside the folder|cannot be followed/);
     await refused("inspect", { file: "nothing.gltf" }, /is not there/);
     // .. is resolved before links are followed
     await refused("inspect", { file: "way/../outside/grid.gltf" }, /is not there/);
     await refused("inspect", { file: "nowhere.glb" }, /cannot be followed|outside/);
     await refused("inspect", { file: "grid.gltf\0.png" }, /cannot be followed/);
-    await refused("inspect", { file: "linked/grid.gltf" }, /leads out of the model's folder/); // the buffer is a link
+    await refused("inspect", { file: "linked/grid.gltf" }, /leads outside the folder of the model/); // the buffer is a link
     await refused("inspect", { file: "named.gltf" }, /outside|\.\./);
     // links in a folder of models
     const { files } = JSON.parse((await call("check", { file: root, pictures: false })).content[0].text);
@@ -128,7 +128,7 @@ describe("tspace mcp", { skip: missing }, () => {
 
   it("writes nothing outside of its folder", async () => {
     for (const output of ["../new.glb", join(outside, "new.glb"), "way/new.glb", "nowhere.glb", "deep/../../new.glb", "way/../../new.glb"])
-      await refused("generate", { file: "grid.gltf", output, all: true, replace: true }, /outside of the folder|cannot be followed/);
+      await refused("generate", { file: "grid.gltf", output, all: true, replace: true }, /outside the folder|cannot be followed/);
     await refused("generate", { file: "grid.gltf", output: "grid.gltf", replace: true }, /must end in \.glb/);
     assert.deepEqual(readdirSync(outside).sort(), ["cut.mtl", "grid.bin", "grid.gltf"]);
     assert.ok(!existsSync(join(home, "new.glb")));
@@ -153,7 +153,7 @@ describe("tspace mcp", { skip: missing }, () => {
     try {
       const bake = (given) => other.callTool({ name: "bake", arguments: { size: 32, ...given } });
       for (const low of ["linked/grid.gltf", "../outside/grid.gltf", "link.gltf"])
-        assert.match(textOf(await bake({ low, high: "grid.gltf", output: "map.png" })), /leads out of|outside of the folder/);
+        assert.match(textOf(await bake({ low, high: "grid.gltf", output: "map.png" })), /outside the folder/);
       const made = await bake({ low: "deep/grid.gltf", high: "deep/grid.gltf", output: "deep/map.png" });
       assert.ok(!made.isError, textOf(made));
       assert.equal(readFileSync(join(root, "deep/map.png")).subarray(1, 4).toString(), "PNG");

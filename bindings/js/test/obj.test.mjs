@@ -37,7 +37,7 @@ describe("OBJ in memory", () => {
     assert.throws(() => check(obj), { code: "invalidFile" });
     const broken = (line) => () => check(text(["v 0 0 0", "vt 0 0", line, ""]), { name: "a.OBJ" });
     assert.throws(broken("f 1 2 3"), (error) => error instanceof TspaceError && /vertex 2 of 1/.test(error.message) && /line 3/.test(error.message));
-    assert.throws(broken("f -2 1 1"), /counts back/);
+    assert.throws(broken("f -2 1 1"), /a relative index/);
     assert.throws(broken("# nothing"), /no faces/);
     assert.equal(generate(obj, options).report.ok, true);
   });

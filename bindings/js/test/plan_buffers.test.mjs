@@ -86,7 +86,7 @@ describe("planBuffers", () => {
   it("refuses what does not fit", () => {
     const plan = new Plan(mesh, options);
     for (const [given, pattern] of [
-      [{ indices: new Uint32Array(3) }, /indices are not one per corner/], [{ sourceCorners: Uint32Array.of(NO_CORNER - 1) }, /source corner/],
+      [{ indices: new Uint32Array(3) }, /indices must have one entry per corner/], [{ sourceCorners: Uint32Array.of(NO_CORNER - 1) }, /source corner/],
       [{ mesh, normals: { weighting: "best" } }, /best/], [{ mesh, normals: { weight: "area" } }, /known are/], [{ corners: 1 }, /known are/],
       [{ mesh: { positions: mesh.positions.subarray(3) } }, /not the plan's|multiple/],
     ]) assert.throws(() => planBuffers(plan, given), pattern);

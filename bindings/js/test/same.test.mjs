@@ -19,7 +19,7 @@ const isOther = /\.(off|ply|dae)$/;
  * outputs differ; and where npm's codecs are not installed, nothing of them is compared. */
 const isCompressed = /draco|meshopt|DenseSphere/i;
 /** Only bytes go out of the package, while the tool copies files beside a model and names them as they then lie. */
-const leavesFilesBeside = ({ warnings }) => warnings?.some((warning) => warning.endsWith("that the model names does not come along"));
+const leavesFilesBeside = ({ warnings }) => warnings?.some((warning) => warning.endsWith("that the model references was not copied to the output"));
 
 /** The tool looks for a file, and the package asks for it. */
 const isLeftOut = (warning) => warning.startsWith("a texture was ignored");

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <memory>
 
-#include "model/io/file_error.h"
 #include "model/gltf/codecs/codecs.h"
+#include "model/io/file_error.h"
 
 namespace tspace::js {
 namespace {
@@ -65,7 +65,9 @@ Bytes takeBytes(std::uint8_t* from, std::size_t count) {
     return Bytes(from, from + count);
 }
 
-std::size_t atMostAll(std::uint64_t count) { return static_cast<std::size_t>(std::min<std::uint64_t>(count, SIZE_MAX)); }
+std::size_t atMostAll(std::uint64_t count) {
+    return static_cast<std::size_t>(std::min<std::uint64_t>(count, SIZE_MAX));
+}
 
 void needEncoder(Codec encoder, const char* what) {
     if (tspace_js_hasCodec(encoder) == 0) failFile(ErrorCode::unsupportedFile, what);
@@ -106,7 +108,7 @@ void take(const DracoAttributeWords& words, DracoAttribute& to) {
 
 std::string meshoptMissing(bool) {
     if (tspace_js_hasCodec(Codec::meshoptDecoder) != 0) return {};
-    return "no codec was handed in: the option meshopt takes { decoder, encoder } of npm's meshoptimizer";
+    return "the option meshopt is missing; it must be { decoder, encoder } of the npm package meshoptimizer";
 }
 
 bool decodeMeshopt(const MeshoptCoding& coding, std::span<const std::uint8_t> data, std::span<std::uint8_t> to) {
@@ -116,9 +118,10 @@ bool decodeMeshopt(const MeshoptCoding& coding, std::span<const std::uint8_t> da
 }
 
 Bytes encodeAsItIs(const MeshoptCoding& coding, std::span<const std::uint8_t> rows) {
-    needEncoder(Codec::meshoptEncoder,
-                "the output is compressed by meshopt, and the option meshopt has no encoder: MeshoptEncoder of npm's "
-                "meshoptimizer; compress: \"none\" does without");
+    needEncoder(
+        Codec::meshoptEncoder,
+        "the output is compressed with meshopt, but the option meshopt has no encoder; use MeshoptEncoder of the npm "
+        "package meshoptimizer, or compress: \"none\"");
     std::size_t count = 0;
     std::uint8_t* encoded =
         tspace_js_encodeMeshopt(rows.data(), coding.count, coding.stride, static_cast<std::uint32_t>(coding.mode),
@@ -128,17 +131,17 @@ Bytes encodeAsItIs(const MeshoptCoding& coding, std::span<const std::uint8_t> ro
 
 std::string dracoMissing() {
     if (tspace_js_hasCodec(Codec::dracoDecoder) != 0) return {};
-    return "no codec was handed in: the option draco takes { decoder, encoder }, the modules of npm's draco3d";
+    return "the option draco is missing; it must be { decoder, encoder }, the modules of the npm package draco3d";
 }
 
 std::string decodeDraco(std::span<const std::uint8_t> data, const DracoLimits& limits, DracoMesh& mesh) {
     if (std::string fault = dracoHeaderFault(data); !fault.empty()) return fault;
     std::vector<DracoAttributeWords> attributes;
     DracoMeshWords words = wordsOf(mesh, attributes);
-    const Released<char> fault(tspace_js_decodeDraco(data.data(), data.size(), isEdgebreaker(data) ? 1 : 0,
-                                                     atMostAll(limits.corner_count), atMostAll(limits.point_count),
-                                                     &words),
-                               &std::free);
+    const Released<char> fault(
+        tspace_js_decodeDraco(data.data(), data.size(), isEdgebreaker(data) ? 1 : 0, atMostAll(limits.corner_count),
+                              atMostAll(limits.point_count), &words),
+        &std::free);
     if (fault) return fault.get();
     const Released<std::uint32_t> corners(words.corners, &std::free);
     mesh.corners.assign(words.corners, words.corners + words.corner_count);
@@ -148,9 +151,10 @@ std::string decodeDraco(std::span<const std::uint8_t> data, const DracoLimits& l
 }
 
 bool encodeDracoAsItIs(DracoMesh& mesh, Bytes& data) {
-    needEncoder(Codec::dracoEncoder,
-                "the output is compressed by Draco, and the option draco has no encoder: the encoder module of npm's "
-                "draco3d; compress: \"none\" does without");
+    needEncoder(
+        Codec::dracoEncoder,
+        "the output is compressed with Draco, but the option draco has no encoder; use the encoder module of the npm "
+        "package draco3d, or compress: \"none\"");
     std::vector<DracoAttributeWords> attributes;
     const DracoMeshWords words = wordsOf(mesh, attributes);
     std::size_t count = 0;

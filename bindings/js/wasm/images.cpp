@@ -7,9 +7,9 @@
 
 #include "codecs.h"
 #include "commands/flip_green/texture_png.h"
-#include "images/image.h"
 #include "images/codecs.h"
 #include "images/flip_green.h"
+#include "images/image.h"
 #include "model/io/file_error.h"
 
 using namespace tspace::js;
@@ -43,9 +43,9 @@ std::string decodeInto(ByteSpan bytes, ImageSize size, std::uint32_t channels, s
 }
 
 Result<std::vector<std::uint8_t>> encode(const void* pixels, ImageFormat format, ImageSize size, std::uint32_t channels,
-                                 std::uint32_t sample_bytes, int quality) {
+                                         std::uint32_t sample_bytes, int quality) {
     if (tspace_js_hasCodec(Codec::imageEncoder) == 0)
-        return Error{ErrorCode::unsupportedFile, "the option encodeImage was not given"};
+        return Error{ErrorCode::unsupportedFile, "this needs the option encodeImage"};
     std::size_t count = 0;
     const std::unique_ptr<std::uint8_t, decltype(&std::free)> file(
         tspace_js_encodeImage(pixels, mimeType(format), size.width, size.height, channels, sample_bytes,
@@ -53,17 +53,17 @@ Result<std::vector<std::uint8_t>> encode(const void* pixels, ImageFormat format,
         &std::free);
     std::vector<std::uint8_t> bytes(file.get(), file.get() + count);
     if (imageFormat(bytes) != format)
-        return Error{ErrorCode::unsupportedFile, "what encodeImage gave is no " + std::string(formatName(format))};
+        return Error{ErrorCode::unsupportedFile, "encodeImage did not return a " + std::string(formatName(format))};
     return bytes;
 }
 
 /// Returns why the image cannot be decoded, or an empty string.
 std::string faultOf(ByteSpan bytes, ImageSize size, std::uint64_t most_pixels) {
     std::string why;
-    if (tspace_js_hasCodec(Codec::imageDecoder) == 0) return "the option decodeImage was not given";
-    if (size.pixels() == 0) return std::string("it is a broken ") + formatName(imageFormat(bytes));
+    if (tspace_js_hasCodec(Codec::imageDecoder) == 0) return "this needs the option decodeImage";
+    if (size.pixels() == 0) return std::string("the ") + formatName(imageFormat(bytes)) + " is damaged";
     constexpr std::uint64_t kMostBytes = 4 * sizeof(std::uint16_t);  // of a pixel
-    if (size.pixels() > SIZE_MAX / kMostBytes) return "it has more pixels than there is memory for";
+    if (size.pixels() > SIZE_MAX / kMostBytes) return "the image has more pixels than the memory can hold";
     isTooLarge(size, bytes.size(), most_pixels, why);
     return why;
 }
@@ -144,7 +144,7 @@ std::optional<RgbImage> decodeJpeg(ByteSpan bytes, std::uint64_t most_pixels, st
 }
 std::optional<RgbImage> decodeWebp(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
     if (!webpHead(bytes).is_animated) return decode(bytes, most_pixels, why);
-    why = "it is an animated WebP";
+    why = "the WebP is animated, which is not supported";
     return {};
 }
 
@@ -164,12 +164,12 @@ Result<std::vector<std::uint8_t>> packInverted(ByteSpan bytes, const PngHeader& 
         encode(pixels.data(), ImageFormat::png, size, channels, static_cast<std::uint32_t>(sample_bytes), 100);
     constexpr std::size_t kHeaderAt = 16, kSame = 10;  // width, height, bits and color type
     if (!packed) return packed;
-    const bool is_same = packed->size() > kHeaderAt + kSame &&
-                         std::equal(packed->begin() + kHeaderAt, packed->begin() + kHeaderAt + kSame,
-                                    bytes.begin() + kHeaderAt);
+    const bool is_same =
+        packed->size() > kHeaderAt + kSame &&
+        std::equal(packed->begin() + kHeaderAt, packed->begin() + kHeaderAt + kSame, bytes.begin() + kHeaderAt);
     if (!is_same) {
         return Error{ErrorCode::unsupportedFile,
-                     "encodeImage gave a PNG of another size, or with other channels or bits than it was given"};
+                     "encodeImage returned a PNG whose size, channels or bits differ from its input"};
     }
     return packed;
 }
@@ -182,7 +182,7 @@ Error checkPixels(ByteSpan bytes, const PngHeader&) {
 Result<ChannelImage> readJpegPixels(ByteSpan bytes) { return decodeChannels(bytes, 3); }
 Result<ChannelImage> readWebpPixels(ByteSpan bytes) {
     const WebpHead head = webpHead(bytes);
-    if (head.is_animated) return Error{ErrorCode::unsupportedFile, "it is an animated WebP"};
+    if (head.is_animated) return Error{ErrorCode::unsupportedFile, "the WebP is animated, which is not supported"};
     return decodeChannels(bytes, head.has_alpha ? 4 : 3);
 }
 
@@ -203,7 +203,9 @@ Result<std::vector<std::uint8_t>> writeWebp(const ChannelImage& image) {
 // The module has no decoders of texture files: callers provide decoders only for other images.
 namespace {
 
-std::string whyNoTexture(ByteSpan bytes) { return std::string("it is ") + formatName(imageFormat(bytes)) + ", which is not read"; }
+std::string whyNoTexture(ByteSpan bytes) {
+    return std::string("the image is ") + formatName(imageFormat(bytes)) + ", which is not supported";
+}
 
 }  // namespace
 

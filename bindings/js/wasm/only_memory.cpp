@@ -4,20 +4,20 @@
 #include <cerrno>
 #include <new>
 
+#include "commands/generate/flip_maps.h"
+#include "commands/generate/generate_steps.h"
+#include "model/imported/import_document.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
-#include "model/imported/import_document.h"
 #include "model/io/named_files.h"
 #include "model/io/recorded_files.h"
 #include "model/io/uri.h"
-#include "commands/generate/generate_steps.h"
-#include "commands/generate/flip_maps.h"
 #include "tspace/execution.h"
 
 namespace tspace {
 
 Bytes readFile(const Path& path, const std::string& place, const Execution&) {
-    failFile(ErrorCode::cannotRead, "there is no disk to read " + pathInQuotes(path) + " from", place);
+    failFile(ErrorCode::cannotRead, "without a disk, tspace cannot read " + pathInQuotes(path), place);
 }
 bool isThere(const Path&) { return false; }
 bool isFolder(const Path&) { return false; }
@@ -46,7 +46,7 @@ void AtomicOutput::removeTemporaryFiles() noexcept {}
 
 bool isImportedFormat(const Path&) { return false; }
 gltf::Document importDocument(const Path&, const FileOptions&, const Progress&) {
-    failFile(ErrorCode::unsupportedFile, "only glTF and OBJ are read in JavaScript");
+    failFile(ErrorCode::unsupportedFile, "only glTF and OBJ can be read in JavaScript");
 }
 
 // Memory comes from the module's own heap, which keeps it anyway.
@@ -55,19 +55,19 @@ Arena::Arena()
       allocator_{.allocate = [](void*, std::size_t bytes, std::size_t alignment) -> void* {
                      return ::operator new(bytes, std::align_val_t(alignment), std::nothrow);
                  },
-                 .release = [](void*, void* memory, std::size_t, std::size_t alignment) {
-                     ::operator delete(memory, std::align_val_t(alignment));
-                 }} {}
+                 .release = [](void*, void* memory, std::size_t,
+                               std::size_t alignment) { ::operator delete(memory, std::align_val_t(alignment)); }} {}
 Arena::~Arena() = default;
 
 Bytes mendMap(const Scene&, ByteSpan, const GenerateOptions&, JudgedMap& map) {
-    map.report.reason = "images are not written anew in JavaScript";
+    map.report.reason = "images cannot be rewritten in JavaScript";
     return {};
 }
 MadeOfHeights makeOfHeights(const Scene&, std::size_t, std::size_t, double, const GenerateOptions&) { return {}; }
 
-gltf::MapConversion::MapConversion(gltf::Model& model, const GenerateOptions& options) : model_(model), options_(options) {
-    failFile(ErrorCode::unsupportedFile, "images are not decoded in JavaScript, so no map is converted");
+gltf::MapConversion::MapConversion(gltf::Model& model, const GenerateOptions& options)
+    : model_(model), options_(options) {
+    failFile(ErrorCode::unsupportedFile, "images are not decoded in JavaScript, so no map was converted");
 }
 std::vector<ConvertedMapReport> gltf::MapConversion::run(gltf::Editor&, const gltf::OutputTarget&,
                                                          std::span<const PrimitiveReport>) {

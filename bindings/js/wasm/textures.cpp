@@ -10,8 +10,8 @@
 #include "commands/shared/texture_vectors.h"
 #include "core/base/vec_math.h"
 #include "exports.h"
-#include "images/image.h"
 #include "images/codecs.h"
+#include "images/image.h"
 #include "images/texture_file.h"
 
 using namespace tspace;
@@ -23,17 +23,17 @@ extern "C" {
 __attribute__((import_module("env"), import_name("canUnpack"))) int tspace_js_canUnpack(int zlib);
 /// Decompresses to exactly `size` bytes; otherwise returns 0.
 __attribute__((import_module("env"), import_name("unpack"))) int tspace_js_unpack(int zlib, const std::uint8_t* packed,
-                                                                                 std::size_t bytes, std::uint8_t* to,
-                                                                                 std::size_t size);
+                                                                                  std::size_t bytes, std::uint8_t* to,
+                                                                                  std::size_t size);
 }
 
 namespace tspace {
 
 const char* whyNotUnpacked(Repacking repacking) {
     if (repacking == Repacking::zstd && tspace_js_canUnpack(0) == 0)
-        return "it is a KTX2 packed by Zstandard, and the option unzstd was not given";
+        return "the KTX2 uses Zstandard supercompression; use the option unzstd to decode it";
     if (repacking == Repacking::zlib && tspace_js_canUnpack(1) == 0)
-        return "it is a KTX2 packed by zlib, and the option unzlib was not given";
+        return "the KTX2 uses zlib supercompression; use the option unzlib to decode it";
     return nullptr;
 }
 bool unpackLevel(Repacking repacking, ByteSpan packed, std::span<std::uint8_t> out) {
@@ -120,7 +120,7 @@ void takeNumbers(const Number* from, float most, FloatImage& image) {
 Result<FloatImage> imageOf(const ImageWords& given, ImageUse use) {
     if (given.bits == 0) {
         const ByteSpan file{given.data, given.size};
-        if (!isTextureFile(file)) return Error{ErrorCode::unsupportedFile, "it is neither KTX2 nor DDS"};
+        if (!isTextureFile(file)) return Error{ErrorCode::unsupportedFile, "the image is neither KTX2 nor DDS"};
         std::string why;
         std::optional<FloatImage> image = decodeFloatTexture(file, kMostPixels, why, 0, use);
         if (!image) return Error{ErrorCode::invalidFile, why};
@@ -174,10 +174,10 @@ TSPACE_JS_EXPORT(readTexture)
 std::uint32_t readTexture(const std::uint8_t* data, std::size_t size, std::size_t level, std::uint32_t number_kind,
                           bool makes_vectors) {
     const ByteSpan file{data, size};
-    if (!isTextureFile(file)) return fail(ErrorCode::unsupportedFile, "it is neither KTX2 nor DDS");
+    if (!isTextureFile(file)) return fail(ErrorCode::unsupportedFile, "the image is neither KTX2 nor DDS");
     std::string why;
-    std::optional<FloatImage> image = decodeFloatTexture(file, kMostPixels, why, level,
-                                                         makes_vectors ? ImageUse::vectors : ImageUse::numbers);
+    std::optional<FloatImage> image =
+        decodeFloatTexture(file, kMostPixels, why, level, makes_vectors ? ImageUse::vectors : ImageUse::numbers);
     if (!image) return fail(ErrorCode::invalidFile, why);
     const TextureFile head = *readTextureHead(file, why);
     const MapLayout layout = image->texture.layout;

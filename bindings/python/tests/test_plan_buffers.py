@@ -84,7 +84,7 @@ class PlanBuffers(unittest.TestCase):
         plan = tspace.Plan(*shape, convention="gltf")
         mesh = dict(positions=shape.positions, indices=shape.indices)
         for kind, words, arguments in (
-            (tspace.InputError, "indices are not one per corner", dict(indices=[0, 1, 2])),
+            (tspace.InputError, "indices must have one entry per corner", dict(indices=[0, 1, 2])),
             (tspace.IndexRangeError, "source corner", dict(source_corners=[36])),
             (tspace.InputError, "best", dict(mesh=mesh, normals=dict(weighting="best"))),
             (tspace.InputError, "weighting", dict(mesh=mesh, normals=dict(weighting="heavy"))),

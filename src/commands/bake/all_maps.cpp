@@ -251,7 +251,7 @@ std::vector<std::uint8_t> layerPng(BakedLayer& layer, const BakedMap& map, unsig
         }
         png = encodeByName(file.path, image, bits);
     }
-    if (!png) failFile(ErrorCode::unsupportedFile, "this build of tspace writes no PNG");
+    if (!png) failFile(ErrorCode::unsupportedFile, "this build of tspace cannot write PNG");
     return *std::move(png);
 }
 

@@ -32,7 +32,7 @@ std::vector<std::uint8_t> imageFileOf(const std::string& name, std::uint32_t wid
                                       std::vector<Vec3> texels, unsigned bits) {
     std::optional<std::vector<std::uint8_t>> file =
         encodeByName(name, {.width = width, .height = height, .bits = bits, .texels = std::move(texels)}, bits);
-    if (!file) failFile(ErrorCode::unsupportedFile, "this build of tspace writes no PNG");
+    if (!file) failFile(ErrorCode::unsupportedFile, "this build of tspace cannot write PNG");
     return *std::move(file);
 }
 
@@ -58,7 +58,7 @@ class FileBaking {
         checkOutput();
         checkOutMesh();
         if (!options_.layers.has_normal && !options_.heat.empty())
-            failFile(ErrorCode::invalidOption, "the error heat map needs the normal map");
+            failFile(ErrorCode::invalidOption, "--heat requires the normal map; add normal to --maps");
         if (Error error = checkBakeOptions(options_.map, 0, 0); error.code != ErrorCode::ok) throw FileError{error};
         models_ = readBakeModels(low, high, options_, step_.sources);
         report_.frames_made = models_.low.frames_made;
@@ -91,7 +91,7 @@ class FileBaking {
         if (const double noise = notedNoise(mesh, models_.high.position_step); noise > 0)
             report_.warnings.push_back(
                 "the positions of the high poly are noisy, by " + shortNumber(noise) +
-                " of an edge length, and the map shows it: --denoise auto bakes normals without the noise");
+                " of an edge length, and the map shows this noise; use --denoise auto to bake normals without it");
     }
 
     /// Accepted outputs: .png; .tga with 8 bits; or a texture, whose blocks are fitted to the filtered 16-bit texels.
@@ -99,17 +99,19 @@ class FileBaking {
         if (lowerExtension(output_) == ".png") return;
         if (isTgaName(output_)) {
             if (!options_.out_mesh.empty())
-                failFile(ErrorCode::invalidOption, "a glTF model cannot contain a TGA; bake a .png for it");
+                failFile(ErrorCode::invalidOption, "a glTF model cannot contain a TGA; bake a .png to use --out-mesh");
             options_.map.bits = 8;
             return;
         }
         if (!isTextureName(output_)) failEnding(output_, {".png", ".tga", ".ktx2", ".dds"});
         if (!options_.layers.layers.empty() || !options_.layers.has_normal)
-            failFile(ErrorCode::invalidOption, "maps other than normals are written as .png only");
+            failFile(ErrorCode::invalidOption, "maps other than the normal map can only be written as .png");
         if (!options_.out_mesh.empty())
-            failFile(ErrorCode::invalidOption, "a glTF model cannot contain a two-channel texture; bake a .png for it");
+            failFile(ErrorCode::invalidOption,
+                     "a glTF model cannot contain a two-channel texture; bake a .png to use --out-mesh");
         if (options_.map.space == MapSpace::object)
-            failFile(ErrorCode::invalidOption, "two-channel textures hold tangent space only; bake a .png");
+            failFile(ErrorCode::invalidOption,
+                     "two-channel textures can only store normals in tangent space; bake a .png");
         options_.map.bits = 16;
     }
 
@@ -124,11 +126,16 @@ class FileBaking {
     void checkOutMesh() const {
         if (options_.out_mesh.empty()) return;
         if (!isGltfName(options_.out_mesh)) failEnding(options_.out_mesh, {".glb", ".vrm", ".gltf"});
-        if (options_.udim) failFile(ErrorCode::invalidOption, "a glTF model has one image per material, not tiles");
+        if (options_.udim)
+            failFile(ErrorCode::invalidOption,
+                     "a glTF model has one image per material and cannot use UDIM tiles; --out-mesh and --udim cannot "
+                     "be combined");
         if (options_.map.space == MapSpace::object)
-            failFile(ErrorCode::invalidOption, "normal maps of glTF models are in tangent space");
+            failFile(ErrorCode::invalidOption,
+                     "normal maps of glTF models must be in tangent space; --out-mesh requires --space tangent");
         if (options_.map.reading.green == Green::down)
-            failFile(ErrorCode::invalidOption, "green points up in the normal maps of glTF models");
+            failFile(ErrorCode::invalidOption,
+                     "green must point up in the normal maps of glTF models; use another --convention with --out-mesh");
     }
 
     /// Number of triangles that extend more than half a texel beyond a clamped image.
@@ -166,14 +173,14 @@ class FileBaking {
         for (std::size_t i = 0; !options_.wrap && i < count; ++i) outside += isOutside(i) ? 1 : 0;
         if (outside == count) {
             report_.warnings.push_back("all triangles of " + nameOf(image) +
-                                       " lie outside the 0-1 UV range; they are baked as with --wrap");
+                                       " lie outside the 0-1 UV range and were baked as with --wrap");
             outside = 0;
         }
         if (outside == 0) return image.part;
         report_.warnings.push_back(std::to_string(outside) + " of " + std::to_string(count) + " triangles of " +
                                    nameOf(image) +
-                                   " lie outside the 0-1 UV range and were ignored (treated as offset copies); use "
-                                   "--wrap to bake them too, or --udim to write one file per tile");
+                                   " lie outside the 0-1 UV range and were ignored, because they are assumed to be "
+                                   "offset copies; use --wrap to bake them too, or --udim to write one file per tile");
         LowPart part;
         for (std::size_t i = 0; i < count; ++i) {
             if (isOutside(i)) {
@@ -198,7 +205,7 @@ class FileBaking {
             if (const std::size_t count = beyondEdges(image, part))
                 report_.warnings.push_back(std::to_string(count) + " triangles extend beyond the texture of " +
                                            nameOf(image) +
-                                           ", whose wrap mode is clamp: there they show the edge texels");
+                                           ", whose wrap mode is clamp, so they show its edge texels there");
             addOtherImages(part);
             bakeImage(image, word, 0, part, outside);
             return;
@@ -220,8 +227,9 @@ class FileBaking {
             }
         }
         if (outside > 0)
-            report_.warnings.push_back(std::to_string(outside) + " triangles lie in no UDIM tile and were ignored");
-        if (tiles.empty()) failFile(ErrorCode::missingAttribute, "the UVs of the low poly lie in no UDIM tile");
+            report_.warnings.push_back(std::to_string(outside) +
+                                       " triangles are outside all UDIM tiles and were ignored");
+        if (tiles.empty()) failFile(ErrorCode::missingAttribute, "the UVs of the low poly are outside all UDIM tiles");
         for (auto& [tile, part] : tiles) {
             for (std::size_t i = 0; i < image.part.triangleCount(); ++i) {
                 if (tileOf(&image.part.corners.uvs[3 * i]) != tile) part.addToRest(image.part, i);
@@ -353,8 +361,8 @@ class FileBaking {
         if (own.hidden_count == 0) return;
         report_.warnings.push_back(
             std::to_string(own.hidden_count) + " of " + std::to_string(own.point_count + own.missed_count) +
-            " points would hit another front face of the high poly further out, which hides the part that " +
-            pathInQuotes(file.path) + " bakes; --rays outermost bakes the outer one");
+            " samples would hit another front face of the high poly farther out, which hides the surface that " +
+            pathInQuotes(file.path) + " shows; use --rays outermost to bake the outer one");
     }
 
     const std::string& output_;

@@ -27,7 +27,7 @@ constexpr unsigned kMostPadding = 256, kMostSide = 16384;
 Option lengthOption(const char* name, double& target, const char* help) {
     const auto take = [&target](const std::string& text) -> std::string {
         double given = 0;
-        if (!parseReal(text, given) || !(given > 0) || !std::isfinite(given)) return "must be a length above 0";
+        if (!parseReal(text, given) || !(given > 0) || !std::isfinite(given)) return "must be a length greater than 0";
         target = given;
         return {};
     };
@@ -41,7 +41,7 @@ Option mapSizeOption(BakeOptions& map) {
         const bool is_read = parseNumber(text.substr(0, cross), width) &&
                              parseNumber(cross == text.npos ? text : text.substr(cross + 1), height);
         if (!is_read || width == 0 || height == 0 || width > kMostSide || height > kMostSide)
-            return "must be a whole number from 1 to 16384, or two as 2048x1024";
+            return "must be an integer from 1 to 16384, or two of them, such as 2048x1024";
         map.width = static_cast<std::uint32_t>(width);
         map.height = static_cast<std::uint32_t>(height);
         return {};
@@ -82,7 +82,7 @@ Option samplesOption(std::uint32_t& target) {
     const auto take = [&target](const std::string& text) -> std::string {
         std::uint64_t count = 0;
         if (!parseNumber(text, count) || count == 0 || count > kMostLayerRays)
-            return "must be a whole number from 1 to 4096";
+            return "must be an integer from 1 to 4096";
         target = static_cast<std::uint32_t>(count);
         return {};
     };

@@ -12,12 +12,13 @@ std::string degreesText(double degrees) { return fmt::format("{:.4f}", degrees);
 
 std::string raysText(const BakedFile& file) {
     const MapError& error = file.map.error;
-    if (file.rays.has_cage) return fmt::format("from the cage to {:.4g} beyond the low poly", error.reach);
+    if (file.rays.has_cage) return fmt::format("from the cage to {:.4g} below the low poly", error.reach);
     const std::string directions = directionsWord(file.rays);
     if (file.rays.target == RayTarget::nearest)
-        return fmt::format("nearest within {:.4g}, directions: {}", error.reach, directions);
-    return fmt::format("outermost, from a cage {:.4g} away to {:.4g} below, directions: {}", error.cage_offset,
-                       error.reach, directions);
+        return fmt::format("nearest front face within {:.4g} units; directions: {}", error.reach, directions);
+    return fmt::format(
+        "outermost front face, from a cage {:.4g} units above the low poly to {:.4g} below it; directions: {}",
+        error.cage_offset, error.reach, directions);
 }
 
 /// Returns the values mapped to black and white, or "" if the name of the layer implies them.
@@ -54,20 +55,18 @@ void addFile(const BakedFile& file, Table& table) {
                                            degreesText(map.error.mean_deg), degreesText(map.error.p99_deg),
                                            degreesText(map.error.max_deg), degreesText(map.error.seam_mean_deg))});
     if (map.own_error.point_count > 0)
-        table.addRow(
-            {"", fmt::format("mean {} degrees against the hits of its own rays", degreesText(map.own_error.mean_deg))});
+        table.addRow({"", fmt::format("mean {} degrees, measured with the rays of the bake",
+                                      degreesText(map.own_error.mean_deg))});
     table.addRow({"rays", raysText(file)});
     if (map.error.missed_count > 0)
-        table.addRow(
-            {"note",
-             fmt::format(
-                 "{} of {} error samples hit no high poly: each counts as {:.0f} degrees; the mean of the others is {}",
-                 map.error.missed_count, map.error.missed_count + map.error.point_count, kMissedDeg,
-                 degreesText(map.error.met_mean_deg))});
+        table.addRow({"note", fmt::format("{} of {} error samples did not hit the high poly; each counts as {:.0f} "
+                                          "degrees, and the mean of the others is {}",
+                                          map.error.missed_count, map.error.missed_count + map.error.point_count,
+                                          kMissedDeg, degreesText(map.error.met_mean_deg))});
     if (map.missed_count > 0)
         table.addRow(
-            {"warning", fmt::format("{} hit no high poly and {} filled from neighbors; a larger --reach searches "
-                                    "further, --misses writes a picture of them",
+            {"warning", fmt::format("{} did not hit the high poly and {} filled from neighbors; use a larger --reach "
+                                    "to search farther, or --misses to write a picture of them",
                                     counted(map.missed_count, "texel"), map.missed_count == 1 ? "is" : "are")});
     if (map.overlap_count > 0)
         table.addRow({map.conflict_count > 0 ? "warning" : "note",
@@ -109,7 +108,7 @@ std::string bakeText(const Outcome<BakeFileReport>& outcome, const std::string& 
 
 std::string bakeLine(const Outcome<BakeFileReport>& outcome) {
     std::string line = fmt::format("{} -> {}: ", unbroken(outcome.input), unbroken(outcome.output));
-    if (outcome.was_done_before) return line + "already done, and nothing has changed\n";
+    if (outcome.was_done_before) return line + "skipped: already done, and nothing has changed\n";
     const BakeFileReport& done = *outcome.result;
     if (done.output_files.empty()) return line + "nothing was written\n";
     line += counted(done.output_files.size(), "file");

@@ -77,7 +77,7 @@ const TangentUse* HighMapReading::find(const ScenePrimitive& primitive) {
         if (!was_known)
             made_.warnings.push_back(
                 "the high poly's map " + inQuotes(nameOf(*use.image)) +
-                " is gray, like a height map, and is not baked through; convert it with tspace height-to-normal");
+                " is gray, like a height map, and was not used; convert it with tspace height-to-normal");
         return nullptr;
     }
     return nullptr;
@@ -101,9 +101,9 @@ std::uint32_t HighMapReading::numberOf(const ScenePrimitive& primitive, const Ta
             report.green_is = GreenSource::seen;
         }
         if (report.green_is == GreenSource::seen && report.green == Green::down)
-            made_.warnings.push_back(
-                "green of the high poly's normal map " + inQuotes(report.image) +
-                " points down according to its slopes, and was inverted; --high-green up reads it as glTF specifies");
+            made_.warnings.push_back("green of the high poly's normal map " + inQuotes(report.image) +
+                                     " points down according to its slopes, so it was inverted; use --high-green up to "
+                                     "read it as glTF specifies");
         const FloatImage& pixels = made_.images[*image.number];
         made_.maps.push_back({.image = {pixels.width, pixels.height, pixels.texels, use.wrap_u, use.wrap_v},
                               .reading = {.green = report.green, .scale = static_cast<float>(use.scale)}});

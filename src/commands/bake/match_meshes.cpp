@@ -131,10 +131,10 @@ class Matching {
         }
         if (!lonely_low.empty())
             match_.warnings.push_back("no mesh of the high poly matches the name " + listOf(lonely_low) +
-                                      "; it is baked from the whole high poly");
+                                      "; it was baked from the whole high poly");
         if (!lonely_high.empty())
             match_.warnings.push_back("no mesh of the low poly matches the name " + listOf(lonely_high) +
-                                      " of the high poly; it is baked onto all low-poly meshes");
+                                      " of the high poly; it was baked onto all low-poly meshes");
         return std::move(match_);
     }
 

@@ -222,7 +222,7 @@ void checkCage(const Scene& low, const Scene& cage) {
     bool fits = low.primitives.size() == cage.primitives.size();
     for (std::size_t i = 0; fits && i < low.primitives.size(); ++i)
         fits = low.primitives[i].corners.size() == cage.primitives[i].corners.size();
-    if (!fits) failFile(ErrorCode::countMismatch, "the triangles of the cage differ from those of the low poly");
+    if (!fits) failFile(ErrorCode::countMismatch, "the cage must have the same triangles as the low poly");
 }
 
 /// One vertex per corner where triangles are flat: their normals are their own.
@@ -292,13 +292,12 @@ std::vector<Vec3> denoisedNormals(const ScenePrimitive& primitive, const BakeFil
 }
 
 std::string denoisedText(double noise, bool has_maps) {
-    const std::string left =
-        has_maps ? "; meshes with a normal map of their own keep the normals that it was made for" : "";
+    const std::string left = has_maps ? "; meshes with a normal map keep the normals for which it was made" : "";
     if (noise == 0)
         return "--denoise has no effect: no positions of the high poly are noisy" +
-               std::string(has_maps ? " where it has no normal map of its own" : "");
+               std::string(has_maps ? " where it has no normal map" : "");
     return "positions of the high poly are noisy, by " + shortNumber(noise) +
-           " of an edge length: normals without the noise were computed (--denoise)" + left;
+           " of an edge length, so normals were computed without the noise (--denoise)" + left;
 }
 
 HighModel highModel(const DrawnScene& drawn, const MeshMatch* match, const std::string& path,
@@ -349,7 +348,7 @@ HighModel highModel(const DrawnScene& drawn, const MeshMatch* match, const std::
     }
     if (options.denoise != 0) model.warnings.push_back(denoisedText(noise, !model.shown.maps.empty()));
     if (made > 0)
-        model.warnings.push_back(std::string("the high poly has no normals; its triangles are baked as ") +
+        model.warnings.push_back(std::string("the high poly has no normals; its triangles were baked as ") +
                                  (is_flat ? "flat, as glTF specifies" : "smooth"));
     return model;
 }

@@ -22,7 +22,7 @@ void checkOptions(const CheckOptions& options) {
     for (const double value : {options.direction_deg, options.error_deg, options.orthogonal_deg, options.split_deg,
                                options.unit_tolerance, options.error_share}) {
         if (!(value >= 0) || !std::isfinite(value)) {
-            failFile(ErrorCode::invalidOption, "an angle, tolerance or share is negative or not a number");
+            failFile(ErrorCode::invalidOption, "angles, tolerances and shares must be finite and not negative");
         }
     }
 }
@@ -52,9 +52,10 @@ void joinUnused(const Scene& scene, std::span<PrimitiveJudgement> judgements, st
         return;
     }
     const Tally all{.count = unused.size(), .total = total};
-    findings.push_back(makeFinding(FindingCode::tangentsUnused, Severity::note, all, "primitives",
-                                   countText(all, "primitives with tangents") +
-                                       " do not need them: none of their materials reads a texture in tangent space"));
+    findings.push_back(
+        makeFinding(FindingCode::tangentsUnused, Severity::note, all, "primitives",
+                    countText(all, "primitives with tangents") +
+                        " do not need them, because none of their materials uses a texture in tangent space"));
 }
 
 /// Makes a finding of a warning from reading the file. It concerns the file, so it names no primitive.

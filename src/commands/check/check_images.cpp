@@ -307,17 +307,18 @@ Finding unreadable(const std::string& name, const std::string& why_not) {
 
 Finding flipped(const std::string& name, const GreenTest& test) {
     const Tally blocks{.count = test.down_block_count, .total = test.block_count};
-    return makeFinding(FindingCode::greenFlipped, Severity::warning, blocks, "blocks",
-                       "bumps probably look like dents: red or green is inverted in the normal map " + name +
-                           ", nearly always green, which then points down as in DirectX; this is the result for " +
-                           countText(blocks, "blocks") + " of 16 x 16 pixels with relief");
+    return makeFinding(
+        FindingCode::greenFlipped, Severity::warning, blocks, "blocks",
+        "bumps probably look like dents: red or green is inverted in the normal map " + name +
+            "; nearly always it is green, which then points down as in DirectX. This is the result for " +
+            countText(blocks, "blocks") + " of 16 x 16 pixels with relief");
 }
 
 /// Remedy for an image without a model, to which generate does not apply.
 Remedy loneGreenRemedy(const NamedImage& image) {
     return {
         "If the map was made for DirectX and is read as glTF or OpenGL, invert green: {}. If bumps look like dents "
-        "afterwards, red was inverted: {}. The map alone cannot tell the two cases apart.",
+        "afterwards, red was inverted: {}. The map alone does not show which of the two cases it is.",
         {imageCommand("flip-green", image), withOption(convertCommand(image), "flip-red")}};
 }
 
@@ -372,7 +373,7 @@ void describeStorage(const Scene& scene, const NormalMap& map, const std::string
             text += std::string(isEtc1s(facts) ? "; so" : "; judging by the lengths of its vectors,") +
                     " its texels are about " + shortNumber(std::max(0.1, std::round(10 * map.packing_deg) / 10)) +
                     " degrees off (root mean square" +
-                    (isEtc1s(facts) ? "; measured on our maps,  UASTC has at most a third of that error)"
+                    (isEtc1s(facts) ? "; on the maps that we measured, UASTC has at most a third of that error)"
                                     : "; lossless 8 bits: 0.2)");
         add(FindingCode::normalMapLossy, Severity::note, std::move(text));
     }
@@ -384,10 +385,13 @@ void describeStorage(const Scene& scene, const NormalMap& map, const std::string
                                    ") is declared as sRGB, but its values are linear: renderers that follow the "
                                    "declaration, such as three.js, tilt all its normals");
         const NamedImage named = namedImage(scene, map);
-        setRemedy(finding, named.is_alone
-                               ? Remedy{"Convert it: {}", {convertCommand(named)}}
-                               : Remedy{"Pack it again as linear; or convert it to PNG: {}. The image alone: {}",
-                                        {toCommand("generate --fix-maps"), convertCommand(named)}});
+        setRemedy(
+            finding,
+            named.is_alone
+                ? Remedy{"Convert it: {}", {convertCommand(named)}}
+                : Remedy{
+                      "Compress the texture again as linear, or convert it to PNG: {}. To convert the image alone: {}",
+                      {toCommand("generate --fix-maps"), convertCommand(named)}});
     }
     if (facts->has_blocks && facts->level_count == 1 && claimedSize(image.bytes).pixels() > 1 && readsLevels(map))
         add(FindingCode::normalMapLevels, Severity::note,
@@ -405,7 +409,7 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
         if (scene.images[map.image].is_unavailable) {
             findings.back().severity = Severity::warning;
             setRemedy(findings.back(),
-                      "Put the image where the model references it, or correct its name in the model.");
+                      "Put the image where the model references it, or correct its path in the model.");
         }
     } else {
         const bool has_own_green = hasOwnGreen(map.look.layout);
@@ -417,7 +421,7 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
             content->severity = Severity::note;
             content->message = name + " is a height map (map_bump), not a normal map";
             setRemedy(*content, {"No action is needed: generate makes a normal map from it, with -bm as its height in "
-                                 "model units. For the image alone: {}.",
+                                 "model units. To convert the image alone: {}.",
                                  {toCommand("height-to-normal MAP -o OUT.png --strength S")}});
         }
         if (content) findings.push_back(*std::move(content));

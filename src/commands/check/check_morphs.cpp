@@ -99,7 +99,7 @@ class MorphValues {
         std::string message = "the offsets of morph target " + std::to_string(faulty.first) + " for the " + attribute +
                               " of " + countText(faulty.vertices, "vertices") + " " + what;
         if (more != 0)
-            message += "; the same fault is in " + std::to_string(more) + " more target" + (more == 1 ? "" : "s");
+            message += "; the same fault occurs in " + std::to_string(more) + " more target" + (more == 1 ? "" : "s");
         facts_.add(code, Severity::error, faulty.vertices, "vertices", std::move(message));
         Finding& finding = facts_.findings.back();
         finding.place = facts_.primitive.place + "/targets/" + std::to_string(faulty.first);
@@ -397,12 +397,12 @@ class MorphChecker {
         const double share = facts_.options.error_share;
         missing_.report(facts_, FindingCode::morphTangentsMissing,
                         missing_.targets.surface_share >= share ? Severity::warning : Severity::note,
-                        "the relief is lit wrong when the mesh deforms: " + countText(missing_.targets, "targets") +
-                            " without tangent deltas rotate the surface",
+                        "the relief is lit incorrectly when the mesh deforms: " +
+                            countText(missing_.targets, "targets") + " without tangent deltas rotate the surface",
                         "tangents");
         wrong_.report(facts_, FindingCode::morphTangentsWrong,
                       wrong_.far_share >= share ? Severity::error : Severity::warning,
-                      "the relief is lit wrong when the mesh deforms: the tangents of " +
+                      "the relief is lit incorrectly when the mesh deforms: the tangents of " +
                           countText(wrong_.targets, "targets") + " do not fit the morphed surface",
                       "tangents");
     }

@@ -113,7 +113,7 @@ Finding unreadablePacking(const ScenePrimitive& primitive, const ScenePacked& pa
     setRemedy(finding,
               canPack(primitive)
                   ? packAgain(packed.format)
-                  : Remedy{"Pack them again from a model that has normals and tangents, or remove the attribute."});
+                  : Remedy{"Pack the frames again from a model with normals and tangents, or remove the attribute."});
     return finding;
 }
 

@@ -317,10 +317,11 @@ void checkTangentsMissing(PrimitiveFacts& facts) {
                   user + " needs tangents, which exist only in the packed frames of " + packed->attribute);
         return;
     }
-    facts.add(FindingCode::tangentsMissing, facts.is_gltf ? Severity::warning : Severity::note, all, "vertices",
-              facts.is_gltf
-                  ? user + " needs tangents, but there are none: the relief may look different in each renderer"
-                  : user + " needs tangents, but they " + state + "; tspace generate writes a glTF file with tangents");
+    facts.add(
+        FindingCode::tangentsMissing, facts.is_gltf ? Severity::warning : Severity::note, all, "vertices",
+        facts.is_gltf
+            ? user + " needs tangents, but the primitive has none, so the relief may look different in each renderer"
+            : user + " needs tangents, but they " + state + "; tspace generate writes a glTF file with tangents");
 }
 
 /// Replaces the triangles by the quads on which the tangents were computed, if any.

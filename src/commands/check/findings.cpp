@@ -166,8 +166,8 @@ void addValues(const FrameHealth& health, const CheckOptions& options, FindingLi
     };
     list.addWhole(FindingCode::tangentsNotFinite, health.has_not_finite ? Severity::error : Severity::warning,
                   health.not_finite,
-                  "black or flickering spots: the tangents of " + countText(health.not_finite, kVertices) +
-                      " are NaN or infinite");
+                  "the surface has black or flickering spots: the tangents of " +
+                      countText(health.not_finite, kVertices) + " are NaN or infinite");
     list.addWhole(FindingCode::tangentsNotUnit, health.has_zero ? Severity::error : severity(health.far_from_unit),
                   health.not_unit,
                   "the relief looks too strong or too weak: the tangents of " + countText(health.not_unit, kVertices) +
@@ -177,7 +177,7 @@ void addValues(const FrameHealth& health, const CheckOptions& options, FindingLi
     if (health.parallel_apart) {
         list.addWhole(FindingCode::tangentsNotOrthogonal, Severity::error, health.parallel,
                       "the relief vanishes or turns black: the tangents of " + countText(health.parallel, kVertices) +
-                          " are parallel to the normal, so there is no bitangent" + onSurface(health.parallel));
+                          " are parallel to the normal, so the bitangent is undefined" + onSurface(health.parallel));
     } else {
         leaning.include(health.parallel);
     }
@@ -207,10 +207,10 @@ void addSigns(const FrameHealth& health, FindingList& list) {
                      " is the opposite of what the UVs require" + onSurface(health.signs_wrong));
     }
     list.add(FindingCode::signsMixed, Severity::error, health.signs_mixed, kTriangles,
-             "dark spots inside triangles: the corners of " + countText(health.signs_mixed, kTriangles) +
+             "triangles have dark spots: the corners of " + countText(health.signs_mixed, kTriangles) +
                  " have different signs, so the bitangent vanishes between them" + onSurface(health.signs_mixed));
     list.add(FindingCode::mirroredSeamAveraged, Severity::error, health.mirrored_seams, kVertices,
-             "a visible seam along a mirrored UV border: both sides share one tangent at " +
+             "a seam is visible along a mirrored UV border: both sides share one tangent at " +
                  countText(health.mirrored_seams, kVertices) + onSurface(health.mirrored_seams));
 }
 
@@ -220,17 +220,17 @@ void addDirections(const FrameHealth& health, const CheckOptions& options, Findi
         return tally.surface_share >= options.error_share ? Severity::warning : Severity::note;
     };
     list.add(FindingCode::uvSeamAveraged, severity(health.uv_seams), health.uv_seams, kVertices,
-             "a visible seam along a UV border: the tangents of " + countText(health.uv_seams, kVertices) +
+             "a seam is visible along a UV border: the tangents of " + countText(health.uv_seams, kVertices) +
                  " are averaged over both sides and fit neither, off by up to " +
                  decimalText(health.uv_seams.worst_deg) + " degrees" + onSurface(health.uv_seams));
     list.add(FindingCode::directionsWrong, severity(health.directions_wrong), health.directions_wrong, kVertices,
              "the relief is lit from the wrong direction: the tangents of " +
                  countText(health.directions_wrong, kVertices) + " do not point along increasing u, off by up to " +
                  decimalText(health.directions_wrong.worst_deg) + " degrees" + onSurface(health.directions_wrong));
-    list.add(
-        FindingCode::splitFramesDiffer, Severity::warning, health.frames_differ, kVertices,
-        countText(health.frames_differ, kVertices) +
-            " equal another vertex in position, normal and UV but have a different tangent, which shows as an edge");
+    list.add(FindingCode::splitFramesDiffer, Severity::warning, health.frames_differ, kVertices,
+             countText(health.frames_differ, kVertices) +
+                 " equal another vertex in position, normal and UV but have a different tangent, which is visible as "
+                 "an edge");
 }
 
 }  // namespace

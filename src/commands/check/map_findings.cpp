@@ -13,12 +13,11 @@ namespace tspace {
 namespace {
 
 constexpr const char* kDoubt =
-    "; but read as x and y, these channels are not the slopes of any height field, so they may use another encoding";
+    "; but if they are read as x and y, they are not the slopes of any height field, so they may use another encoding";
 
 constexpr const char* kOctahedral =
     "; but they fit the slopes of a height field better as octahedral encoding, x and y of (x, y, z) / (|x| + |y| + "
-    "|z|), "
-    "so they may hold that";
+    "|z|), so they may store that";
 
 /// Returns what a message on two channels adds if x and y are only one possible interpretation.
 const char* doubtOf(const MapLook& look) {
@@ -70,7 +69,7 @@ std::string messageOf(const NamedImage& image, const MapLook& look) {
     const bool is_srgb = layout.curve == MapCurve::srgb;
     switch (look.content) {
         case MapContent::twoChannels:
-            return "the relief is lit wrong: the normal map " + name +
+            return "the relief is lit incorrectly: the normal map " + name +
                    " holds only x and y, in red and green; its blue is constant, but glTF reads z there" +
                    doubtOf(look);
         case MapContent::unsignedZ:
@@ -78,10 +77,11 @@ std::string messageOf(const NamedImage& image, const MapLook& look) {
                    " stores z itself, from 0 to 1, instead of (z + 1) / 2";
         case MapContent::xInAlpha:
             if (layout.x.channel != MapChannel::alpha || layout.y.channel != MapChannel::green) {
-                return "the relief is lit wrong: the normal map " + name + " holds only " + axisText("x", layout.x) +
-                       " and " + axisText("y", layout.y) + ", and no z, which glTF reads in blue" + doubtOf(look);
+                return "the relief is lit incorrectly: the normal map " + name + " holds only " +
+                       axisText("x", layout.x) + " and " + axisText("y", layout.y) +
+                       ", and no z, which glTF reads in blue" + doubtOf(look);
             }
-            return "the relief is lit wrong: the normal map " + name +
+            return "the relief is lit incorrectly: the normal map " + name +
                    " holds x in alpha and y in green (DXT5nm) and no z; red and blue are unused" + doubtOf(look);
         case MapContent::exchanged:
             if (layout.z == MapLayout{}.z) {
@@ -97,11 +97,11 @@ std::string messageOf(const NamedImage& image, const MapLook& look) {
                    (is_srgb ? "removed (flat is about 188, not 128)" : "applied (flat is about 55, not 128)");
         case MapContent::objectSpace:
             if (!look.follows_mesh) {
-                return "the model is lit wrong all over: the normal map " + name +
+                return "the whole model is lit incorrectly: the normal map " + name +
                        " is not in tangent space: its vectors point in all directions, as in object or world space" +
                        (image.is_alone ? "" : ", though not along the normals of this mesh");
             }
-            return "the model is lit wrong all over: the normal map " + name +
+            return "the whole model is lit incorrectly: the normal map " + name +
                    (look.is_in_world ? " is in world space: its vectors follow the normals after node transforms"
                                      : " is in object space: its vectors follow the normals of the mesh") +
                    (layout == MapLayout{} ? std::string()
@@ -110,14 +110,14 @@ std::string messageOf(const NamedImage& image, const MapLook& look) {
         case MapContent::picture:
             if (look.is_x_lost) {
                 return name +
-                       " is unusable as a normal map: only green varies, like y of a map with x in alpha (DXT5nm), and "
-                       "the alpha channel is missing";
+                       " cannot be used as a normal map: only green varies, like y of a map with x in alpha (DXT5nm), "
+                       "but the alpha channel is missing";
             }
             return name +
                    " is a color image, not a normal map: its texels are not unit vectors around a direction out of the "
                    "surface";
         case MapContent::hemiOctahedral:
-            return "the relief is lit wrong: the normal map " + name +
+            return "the relief is lit incorrectly: the normal map " + name +
                    " is hemi-octahedrally encoded: " + channelName(layout.x.channel) + " and " +
                    channelName(layout.y.channel) +
                    " hold x + y and x - y of (x, y, z) / (|x| + |y| + z), as their slopes show, and glTF does not have "
@@ -147,7 +147,7 @@ Remedy inModelOrAlone(const NamedImage& image, bool flips_green, RemedyCommand c
                       std::optional<RemedyCommand> more = {}) {
     Remedy remedy{"Convert it: {}" + behind, {}};
     if (!image.is_alone) {
-        remedy.text = "In the model: {}. The image alone: {}" + behind;
+        remedy.text = "To fix the map in the model: {}. To fix the image alone: {}" + behind;
         RemedyCommand in_model = toCommand("generate --fix-maps");
         remedy.commands.push_back(flips_green ? withOption(std::move(in_model), "flip-green") : std::move(in_model));
     }
@@ -166,21 +166,22 @@ Remedy objectSpaceRemedy(const NamedImage& image, const MapLook& look, bool gree
     };
     const RemedyCommand object = withModel(from("object")), world = withModel(from("world"));
     if (look.follows_mesh && look.is_in_world)
-        return {"Convert it from world space: {}", {withLayout(world, look.layout)}};
+        return {"Convert the map from world space: {}", {withLayout(world, look.layout)}};
     if (look.follows_mesh) return inModelOrAlone(image, green_is_down, withLayout(object, look.layout));
     const std::string text = ": {} (or --from world, if the map used the node transforms).";
-    if (image.is_alone) return {"Convert it with the model that it was made for" + text, {object}};
-    return {"Find out which model it was made for" + text + " Or bake it again.", {object}};
+    if (image.is_alone) return {"Convert the map with the model for which it was made" + text, {object}};
+    return {"Find out for which model the map was made" + text + " Or bake it again.", {object}};
 }
 
 Remedy remedyOf(const NamedImage& image, const MapLook& look, bool green_is_down) {
     const RemedyCommand convert = convertCommand(image);
-    if (look.is_x_lost) return {"Export the map again from its source, with its alpha channel: x cannot be restored."};
+    if (look.is_x_lost)
+        return {"Export the map again from its source with its alpha channel, because x cannot be restored."};
     if (look.content == MapContent::picture) return usualRemedy(FindingCode::normalMapIsPicture);
     if (look.content == MapContent::hemiOctahedral) {
         return {
-            "Decode it with the program that encoded it, and export x, y and z. No command can decode it, and "
-            "reading the two channels as x and y gives a different surface."};
+            "Decode the map with the program that encoded it, and export x, y and z. No tspace command can decode it, "
+            "and reading the two channels as x and y results in a different surface."};
     }
     if (look.content == MapContent::height) {
         RemedyCommand command = withOption(imageCommand("height-to-normal", image), "strength", "S");
@@ -189,7 +190,7 @@ Remedy remedyOf(const NamedImage& image, const MapLook& look, bool green_is_down
     }
     if (look.content == MapContent::objectSpace) return objectSpaceRemedy(image, look, green_is_down);
     if (look.is_doubtful) {
-        return {"If these channels do hold x and y: {}. Otherwise decode the map with the program that encoded it.",
+        return {"If these channels hold x and y: {}. Otherwise decode the map with the program that encoded it.",
                 {withLayout(convert, look.layout)}};
     }
     MapLayout layout = look.layout;
@@ -198,15 +199,15 @@ Remedy remedyOf(const NamedImage& image, const MapLook& look, bool green_is_down
     if (isTurned(look, green_is_down)) {
         const MapLayout left = layout.x.is_inverted ? layout : invertedRelief(layout);
         return {
-            "If the image was rotated by 90 degrees counterclockwise: {}. If it was rotated clockwise: {}. Slopes "
-            "cannot tell the two cases apart: with the wrong one, bumps look like dents.",
+            "If the image was rotated by 90 degrees counterclockwise: {}. If it was rotated clockwise: {}. The slopes "
+            "do not show which of the two cases it is; with the wrong one, bumps look like dents.",
             {withLayout(convert, left), withLayout(convert, invertedRelief(left))}};
     }
     if ((look.content == MapContent::exchanged && !look.is_declared) || (green_is_down && !has_own_green)) {
         // Slopes cannot distinguish these interpretations.
         return inModelOrAlone(image, green_is_down, withLayout(convert, layout),
-                              ". Slopes cannot tell bumps from dents; if bumps look like dents afterwards, convert the "
-                              "original image with {}",
+                              ". Slopes do not distinguish bumps from dents; if bumps look like dents afterwards, "
+                              "convert the original image with {}",
                               withLayout(convert, invertedRelief(layout)));
     }
     RemedyCommand command = withLayout(convert, look.layout);

@@ -65,7 +65,8 @@ void checkNormalValues(PrimitiveFacts& facts) {
     not_unit.finish(facts.surface.area);
     if (not_finite.count > 0) {
         facts.add(FindingCode::normalsNotFinite, Severity::error, not_finite, "vertices",
-                  "black spots: the normals of " + countText(not_finite, "vertices") + " are NaN or infinite");
+                  "the surface has black spots: the normals of " + countText(not_finite, "vertices") +
+                      " are NaN or infinite");
     }
     if (not_unit.count > 0) {
         // A single normal of length 0 gives NaN in shaders. Other lengths make the relief steeper or flatter in readers
@@ -78,7 +79,7 @@ void checkNormalValues(PrimitiveFacts& facts) {
         facts.add(FindingCode::normalsNotUnit, zero_count != 0 || is_far ? Severity::error : Severity::warning,
                   not_unit, "vertices",
                   "the shading may be too dark, too bright or too steep: the normals of " +
-                      countText(not_unit, "vertices") + " do not have length 1" + lengths +
+                      countText(not_unit, "vertices") + " do not have unit length" + lengths +
                       (zero_count != 0 ? ", " + std::to_string(zero_count) + " of them length 0" : ""));
         if (zero_count != 0) {
             setRemedy(facts.findings.back(),
@@ -319,7 +320,7 @@ void checkUvsMissing(PrimitiveFacts& facts) {
         if (facts.primitive.findFault(setName(use.uv_set)) != nullptr) continue;
         Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
         facts.add(FindingCode::uvsMissing, Severity::error, all, "vertices",
-                  facts.is_gltf ? use.needed_by + " uses " + setName(use.uv_set) + ", which is not there"
+                  facts.is_gltf ? use.needed_by + " uses " + setName(use.uv_set) + ", which does not exist"
                                 : "the relief cannot be shown: the material has a normal map, but the faces have no "
                                   "texture coordinates");
     }
@@ -411,11 +412,11 @@ void checkTextures(PrimitiveFacts& facts) {
         const Tally different = compareReadings(facts, reading);
         if (different.count == 0) continue;
         const bool of_two = uses[i].material != uses[0].material;
-        facts.add(
-            FindingCode::texturesDisagree, Severity::warning, different, "triangles",
-            textureText(uses[i], of_two) + " needs different tangents than " + textureText(uses[0], of_two) + " on " +
-                countText(different, "triangles") +
-                ", so one of the two is lit wrong; a vertex has only one tangent, which can follow only the latter");
+        facts.add(FindingCode::texturesDisagree, Severity::warning, different, "triangles",
+                  textureText(uses[i], of_two) + " needs different tangents than " + textureText(uses[0], of_two) +
+                      " on " + countText(different, "triangles") +
+                      ", so one of the two is lit incorrectly; a vertex has only one tangent, which can only follow "
+                      "the latter");
         facts.findings.back().place = uses[i].place;
     }
 }
@@ -467,7 +468,7 @@ void checkRounding(PrimitiveFacts& facts) {
                   " at up to " + stepText(rounding.far) + " from the origin, which rotates " +
                   countText(tally, "triangles") + " by " + decimalText(facts.options.direction_deg) +
                   " degrees or more, up to " + decimalText(turned.worst_deg) + " (" + shareText(turned.share) +
-                  " of the surface); tangents there are not reported as wrong");
+                  " of the surface); tangents there are not reported as errors");
     if (rounding.was_before) {
         setRemedy(facts.findings.back(),
                   "Use the model from before its positions were rounded, or round them to smaller steps, and keep the "

@@ -194,7 +194,8 @@ Remedy bothOrNeither() {
 }
 
 /// Remedy if the requested convention has green pointing down.
-constexpr const char* kNothingToDo = "No action is needed; readers of plain glTF expect green to point up.";
+constexpr const char* kNothingToDo =
+    "No action is needed with this convention; readers that follow glTF expect green to point up.";
 
 /// Remedy if the signs of some meshes, but not of all, were computed for green pointing down.
 Remedy signsFirst() {
@@ -260,15 +261,14 @@ void weighSigns(PrimitiveJudgement& judgement, MapsSay maps) {
         soften(
             *inverted,
             maps == MapsSay::cancel
-                ? "; but green points down in its normal map too, and the two inversions cancel out"
-                : "; but it is unknown whether green points down in its normal map too, which would cancel this out");
+                ? "; but green points down in its normal map too, so the two inversions cancel out"
+                : "; but it is unknown whether green also points down in its normal map, which would cancel this out");
         return;
     }
     if (maps == MapsSay::cancel) {
-        soften(*wrong,
-               "; but green points down in its normal map too, so the inverted signs are those that render correctly");
+        soften(*wrong, "; but green points down in its normal map too, so the inverted signs render correctly");
     } else if (most) {
-        soften(*wrong, "; but it is unknown whether green points down in its normal map too");
+        soften(*wrong, "; but it is unknown whether green also points down in its normal map");
     }
 }
 
@@ -326,7 +326,7 @@ void weighImages(const Scene& scene, const CheckOptions& options, ImageFindings&
         if (finding.code != FindingCode::greenFlipped) continue;
         if (options.convention.green == Green::down) {
             finding.severity = Severity::note;
-            finding.message += "; the requested convention expects that";
+            finding.message += "; the requested convention expects this";
             setRemedy(finding, kNothingToDo);
             continue;
         }
@@ -334,7 +334,7 @@ void weighImages(const Scene& scene, const CheckOptions& options, ImageFindings&
         if (!is_needed[images.images[i]]) {
             finding.severity = Severity::note;
             finding.message +=
-                "; but the tangent signs of its meshes are inverted too, and the two inversions cancel out";
+                "; but the tangent signs of its meshes are inverted too, so the two inversions cancel out";
             setRemedy(finding, bothOrNeither());
         }
         addConvention(options, finding);
@@ -346,17 +346,18 @@ void weighImages(const Scene& scene, const CheckOptions& options, ImageFindings&
 namespace {
 
 constexpr const char* kUnwrapFirst =
-    "Give the mesh the UV set that the texture uses; without it no tangent can be computed.";
-constexpr const char* kNoUvsToFollow = "Give the mesh UVs for the tangents to follow, or export the intended tangents.";
+    "Add the UV set that the texture uses to the mesh; no tangent can be computed without it.";
+constexpr const char* kNoUvsToFollow =
+    "Add UVs to the mesh, which the tangents must follow, or export the intended tangents.";
 constexpr const char* kOtherTool =
-    "Recompute the tangents with the program that made them. Recomputing all tangents of the file here would invert "
-    "signs that its normal maps may rely on.";
+    "Recompute the tangents with the program that made them. If tspace recomputed all tangents of the file, it would "
+    "invert signs that its normal maps may rely on.";
 constexpr const char* kBothByHand =
     "No action is needed: the two inversions cancel out. Correct both or neither: negate every w, and invert the green "
     "channel of the normal map.";
 constexpr const char* kLookAtTheMap =
-    "Look at the normal map. If its green points up, negate every w. If it points down, do both or neither: negate "
-    "every w and invert the green channel, or keep both. If the high poly is available, {} measures which is right.";
+    "Examine the normal map. If green points up in it, negate every w. If green points down, either negate every w and "
+    "invert the green channel, or change neither. If the high poly is available, {} measures which is correct.";
 
 constexpr const char* kOnlyForItsReaders =
     "No action is needed for programs that read the packed frames. For others use the model that they were packed "
@@ -365,8 +366,8 @@ constexpr const char* kAlsoForOthers =
     "No action is needed for programs that read the packed frames. For others compute tangents too: {}.";
 
 constexpr const char* kDrawnTangents =
-    "Repair the tangents with the program that made them. No texture uses them, so their correct direction is unknown "
-    "here.";
+    "Repair the tangents with the program that made them. No texture uses them, so tspace cannot determine their "
+    "correct direction.";
 
 /// Returns whether recomputing the tangents fixes the finding.
 bool isOfTangents(FindingCode code) {

@@ -34,7 +34,7 @@ Container containerOf(const std::string& output, bool takes_png) {
 }
 
 [[noreturn]] void failAstcenc() {
-    failFile(ErrorCode::outOfMemory, "the library astcenc fails to encode the mip levels");
+    failFile(ErrorCode::outOfMemory, "the library astcenc failed to encode the mip levels");
 }
 
 class MapCompression {
@@ -67,22 +67,23 @@ class MapCompression {
         constexpr unsigned kMostZstd = 22;
         container_ = options_.sink ? Container::ktx2 : containerOf(output_, false);
         if (options_.roughness.empty() != options_.roughness_output.empty())
-            failFile(ErrorCode::invalidOption, "roughness needs both a texture and an output");
+            failFile(ErrorCode::invalidOption, "a roughness texture needs both --roughness and --roughness-output");
         if (options_.sink && !options_.roughness.empty())
-            failFile(ErrorCode::invalidOption, "two outputs cannot both go to stdout");
+            failFile(ErrorCode::invalidOption, "only one output can be written to stdout");
         if (!options_.roughness.empty()) roughness_container_ = containerOf(options_.roughness_output, true);
         if (options_.bits != 8 && options_.bits != 16)
-            failFile(ErrorCode::invalidOption, "a PNG has 8 or 16 bits per channel");
+            failFile(ErrorCode::invalidOption, "a PNG must have 8 or 16 bits per channel");
         if (std::optional<Error> fault = textureFault(options_, container_ == Container::dds))
             throw FileError{*std::move(fault)};
         if (options_.dds_header != DdsHeader::dx10 && container_ != Container::dds &&
             roughness_container_ != Container::dds)
-            failFile(ErrorCode::invalidOption, "--dds-header is for outputs that end in .dds");
+            failFile(ErrorCode::invalidOption, "--dds-header can only be used with outputs that end in .dds");
         if (options_.zstd_level == 0) return;
-        if (options_.zstd_level > kMostZstd) failFile(ErrorCode::invalidOption, "Zstandard levels are 1 to 22");
+        if (options_.zstd_level > kMostZstd)
+            failFile(ErrorCode::invalidOption, "the Zstandard level must be from 1 to 22");
         if (const char* why_not = whyNotZstd()) failFile(ErrorCode::unsupportedFile, why_not);
         if (container_ != Container::ktx2 && roughness_container_ != Container::ktx2)
-            failFile(ErrorCode::invalidOption, "Zstandard supercompression is for .ktx2 only");
+            failFile(ErrorCode::invalidOption, "Zstandard supercompression can only be used with .ktx2");
     }
 
     RoughnessLevel readRoughness(const FloatImage& map) {
@@ -126,7 +127,7 @@ class MapCompression {
 
     static std::uint64_t addPng(const FloatImage& image, unsigned bits, const std::string& path, AtomicOutput& files) {
         const std::optional<std::vector<std::uint8_t>> png = encodePng(image, bits);
-        if (!png) failFile(ErrorCode::unsupportedFile, "this build of tspace writes no PNG");
+        if (!png) failFile(ErrorCode::unsupportedFile, "this build of tspace cannot write PNG");
         files.add(path, std::span<const std::uint8_t>(*png));
         return png->size();
     }
@@ -231,7 +232,8 @@ Option formatOption(TextureFormat& format) {
                          "with x in red and y in alpha (.ktx2 only; needs the library astcenc); rg8: uncompressed.");
     made.take = [take = made.take](const std::string& name) {
         if (name == "uastc")
-            return std::string("tspace does not encode UASTC; use basisu. In a glTF, PNG and lossless WebP are exact");
+            return std::string(
+                "not supported; use basisu to encode UASTC (in a glTF, PNG and lossless WebP are exact)");
         return take(name);
     };
     return made;

@@ -81,10 +81,10 @@ void addWarnings(const FloatImage& image, std::uint64_t far_off, const CompressM
         warn(std::to_string(report.below_horizon) + " texels point below the surface, which two channels cannot store");
     if (far_off > total / 10)
         warn(std::to_string(far_off) + " of " + std::to_string(total) +
-             " texels are not unit vectors: is it a normal map in tangent space?");
+             " texels are not unit vectors; check that the image is a normal map in tangent space");
     if (has_three) {
         if (options.format != TextureFormat::bc5 || options.is_signed)
-            warn("PNGs have three channels, so the format is ignored");
+            warn("PNGs store three channels, so --format is ignored");
     } else if (options.format == TextureFormat::rg8 && options.quality != TextureQuality::fast) {
         warn("the quality has no effect on RG8, which is only rounded");
     }
@@ -124,7 +124,8 @@ std::optional<Error> textureFault(const CompressMapFileOptions& options, bool is
     if (!(options.roughness_factor >= 0 && options.roughness_factor <= 1))
         return Error{ErrorCode::invalidOption, "the roughness factor must be from 0 to 1"};
     if (options.format == TextureFormat::astc4x4) {
-        if (options.is_signed) return Error{ErrorCode::invalidOption, "ASTC has no signed format"};
+        if (options.is_signed)
+            return Error{ErrorCode::invalidOption, "ASTC has no signed format; omit --signed, or use another --format"};
         if (const char* why_not = whyNoAstcWritten()) return Error{ErrorCode::unsupportedFile, why_not};
     }
     if (is_dds) {

@@ -96,7 +96,7 @@ MapAxes axesOf(const FloatImage& image, const Meshes& meshes, const ConvertMapFi
     if (options.axes) {
         if (from_tangent == to_tangent)
             failFile(ErrorCode::invalidOption,
-                     "--axes applies only to conversions between tangent space and object or world space");
+                     "--axes can only be used for conversions between tangent space and object or world space");
         return *options.axes;
     }
     if (from_tangent || !to_tangent) return {};
@@ -107,8 +107,8 @@ MapAxes axesOf(const FloatImage& image, const Meshes& meshes, const ConvertMapFi
     const double up_y = agreementOf(image, *mesh, reading, {}), up_z = agreementOf(image, *mesh, reading, kMapAxesZUp);
     if (!(up_z > kFits && up_z > up_y + kBetter)) return {};
     warnings.push_back(
-        "z points up in the map, as in Blender, and it was read like that; --axes y-up reads it in the axes of the "
-        "model");
+        "z points up in the map, as in Blender, so the map was read with the axes z-up; use --axes y-up to read it in "
+        "the axes of the model");
     return kMapAxesZUp;
 }
 
@@ -138,16 +138,18 @@ void addMapWarnings(const ConvertMapFileOptions& options, ConvertMapFileReport& 
              (report.bits == 8 ? "; use 16 bits to keep it" : ""));
     }
     if (texels.overlapping > 0) {
-        warn(std::to_string(texels.overlapping) + " texels are shared by several triangles; the first one was used" +
-             (report.from.materials.size() + report.to.materials.size() > 2 ? "; choose a material by its name" : ""));
+        warn(std::to_string(texels.overlapping) +
+             " texels are shared by several triangles; the first triangle was used" +
+             (report.from.materials.size() + report.to.materials.size() > 2 ? "; select a material with --material"
+                                                                            : ""));
     }
     if (texels.unmatched > 0) {
         warn(std::to_string(texels.unmatched) +
-             " texels are unchanged, because only one of the meshes has triangles there");
+             " texels were not changed, because only one of the meshes has triangles there");
     }
     if (texels.without_frame > 0) {
         warn(std::to_string(texels.without_frame) +
-             " texels are unchanged, because their frames or values are invalid");
+             " texels were not changed, because their frames or values are invalid");
     }
     if (texels.below_horizon > 0) {
         warn(std::to_string(texels.below_horizon) + " texels point below the surface, which two channels cannot store");
@@ -175,7 +177,7 @@ void checkConversion(const ConvertMapReport& texels) {
         failFile(ErrorCode::invalidFile,
                  std::to_string(texels.conflicting) + " of " + std::to_string(texels.converted) +
                      " texels are shared by triangles that face different directions, as on mirrored halves, but a map "
-                     "in object or world space has one direction per texel; choose a part with --material, or give "
+                     "in object or world space has one direction per texel; select a part with --material, or give "
                      "each half its own texels");
     }
 }
@@ -186,7 +188,7 @@ ImageFormat outputFormat(const std::string& output, const ConvertMapFileOptions&
     const bool is_tga = !options.sink && isTgaName(output);
     if (!options.sink && extension != ".png" && extension != ".exr" && !is_tga)
         failEnding(output, {".png", ".exr", ".tga", ".ktx2", ".dds"});
-    if (is_tga && options.bits > 8) failFile(ErrorCode::invalidOption, "a TGA has 8 bits per channel");
+    if (is_tga && options.bits > 8) failFile(ErrorCode::invalidOption, "a TGA must have 8 bits per channel");
     if (const char* why_not = whyNotRead(format))
         failFile(ErrorCode::unsupportedFile, "the output cannot be written: " + std::string(why_not));
     return format;
@@ -195,8 +197,10 @@ ImageFormat outputFormat(const std::string& output, const ConvertMapFileOptions&
 unsigned outputBits(ImageFormat format, unsigned bits) {
     const bool is_exr = format == ImageFormat::exr;
     if (bits == 0) return is_exr ? 32 : 16;
-    if (!is_exr && bits != 8 && bits != 16) failFile(ErrorCode::invalidOption, "a PNG has 8 or 16 bits per channel");
-    if (is_exr && bits != 16 && bits != 32) failFile(ErrorCode::invalidOption, "an EXR has 16 or 32 bits per channel");
+    if (!is_exr && bits != 8 && bits != 16)
+        failFile(ErrorCode::invalidOption, "a PNG must have 8 or 16 bits per channel");
+    if (is_exr && bits != 16 && bits != 32)
+        failFile(ErrorCode::invalidOption, "an EXR must have 16 or 32 bits per channel");
     return bits;
 }
 
@@ -205,7 +209,7 @@ unsigned outputBits(ImageFormat format, unsigned bits) {
 std::vector<Vec3> applyLayout(const MapLayout& layout, FloatImage& image) {
     if (layout == MapLayout{}) return {};
     if (readsAlpha(layout) && image.alpha.empty())
-        failFile(ErrorCode::invalidOption, "a channel is read from alpha, which the image does not have");
+        failFile(ErrorCode::invalidOption, "--channels reads the alpha channel, but the image has none");
     std::vector<Vec3> before = image.texels;
     readTexels(layout, image);
     return before;
@@ -237,7 +241,7 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
     const ImageFormat format = is_texture ? ImageFormat::ktx2 : outputFormat(output, options);
     const bool is_tga = !options.sink && isTgaName(output);
     if (options.dds_header != DdsHeader::dx10 && (options.sink || lowerExtension(output) != ".dds"))
-        failFile(ErrorCode::invalidOption, "--dds-header is for outputs that end in .dds");
+        failFile(ErrorCode::invalidOption, "--dds-header can only be used with outputs that end in .dds");
     const unsigned bits = is_texture ? 16 : outputBits(format, is_tga ? 8 : options.bits);
     FloatImage image = readMapImage(input, options.content, options.file);
     const std::string how_read = options.layout == MapLayout{} ? readTextureVectors(image) : std::string();
@@ -246,7 +250,7 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
     std::vector<float> coverage;
     if (is_texture) coverage = takeCoverage(options.alpha, image, alpha_text);
     if (!is_texture && options.alpha != MapAlpha::automatic)
-        alpha_text.emplace_back("the meaning of alpha applies only to outputs with mip levels (.ktx2 and .dds)");
+        alpha_text.emplace_back("--alpha applies only to outputs with mip levels (.ktx2 and .dds)");
     const Meshes meshes = readMeshes(input, options);
     const MapMesh* const from = meshes.from ? &*meshes.from : nullptr;
     const MapMesh* const to = meshes.to ? &*meshes.to : nullptr;
@@ -270,7 +274,8 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
                                             axes);
     const MapSides sides = sidesOf(meshes, options, of_triangles);
     if (is_texture && sides.to.space == MapSpace::object)
-        failFile(ErrorCode::invalidOption, "two-channel textures hold tangent space only; write a .png or .exr");
+        failFile(ErrorCode::invalidOption,
+                 "two-channel textures can only store normals in tangent space; write a .png or .exr");
     report.texels =
         valueOrThrow(convertMap(map, sides.from, sides.to, chosen, image.texels, options.execution, options.progress));
     checkConversion(report.texels);
@@ -279,10 +284,10 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
     report.warnings.insert(report.warnings.end(), alpha_text.begin(), alpha_text.end());
     if (image.not_finite > 0)
         report.warnings.push_back(std::to_string(image.not_finite) +
-                                  " texels of the image are not finite; they become gray, which is no direction");
+                                  " texels of the image are not finite; they become gray, which is not a valid normal");
     addMapWarnings(options, report);
     if (is_texture) {
-        if (options.bits != 0) report.warnings.emplace_back("the number of bits has no effect on BC5");
+        if (options.bits != 0) report.warnings.emplace_back("--bits has no effect on BC5");
         AtomicOutput files({.is_dry_run = options.dry_run, .sync = options.file.sync, .inputs = &inputs});
         const std::vector<std::uint8_t> file = packTexture(output, image.width, image.height, image.texels,
                                                            options.execution, std::move(coverage), options.dds_header);
@@ -446,16 +451,16 @@ std::string finish(const Given& given, ConvertMapFileOptions& options) {
         options.to_reading.green = options.to_reading.green == Green::up ? Green::down : Green::up;
     }
     if (!options.to_mesh.empty() && options.mesh.empty() && options.from == MapFileSpace::tangent) {
-        return "--to-mesh needs --mesh: the model that the map was made for";
+        return "--to-mesh needs --mesh, the model that the map was made for";
     }
     const bool same_kind = options.from == options.to;
     if (!same_kind && options.mesh.empty() && options.to_mesh.empty()) {
-        return "converting between spaces needs the frames of a model: --mesh";
+        return "converting between spaces needs the frames of a model; use --mesh";
     }
     const bool same_frames = options.from_reading.bitangent == options.to_reading.bitangent &&
                              options.from_reading.unit_vectors == options.to_reading.unit_vectors;
     if (options.from == MapFileSpace::tangent && same_kind && !same_frames && options.mesh.empty()) {
-        return "these conventions interpolate frames differently, so the frames of a model are needed: --mesh";
+        return "these conventions interpolate frames differently, so the frames of a model are needed; use --mesh";
     }
     return {};
 }

@@ -28,7 +28,8 @@ std::string notReadText(const std::string& a, const std::string& b, const FrameD
     const bool in_a = any(&PrimitiveDiff::tangents_not_read_a), in_b = any(&PrimitiveDiff::tangents_not_read_b);
     if (!in_a && !in_b) return "";
     const std::string files = in_a && in_b ? "either file" : in_a ? a : b;
-    return "the tangents of " + files + ", if any, were not read: the importer cannot read them from this format";
+    return "the tangents of " + files +
+           ", if any, were not read, because the importer does not support them in this format";
 }
 
 void addSentences(const std::string& a, const std::string& b, const FrameDiff& diff, DiffWords& words) {
@@ -37,7 +38,7 @@ void addSentences(const std::string& a, const std::string& b, const FrameDiff& d
     if (diff.corner_count == 0) {
         words.summary += "no triangle of one model matches a triangle of the other";
     } else if (diff.tangents.count + diff.tangents.unusable_count == 0) {
-        words.summary += not_read.empty() ? "no primitive has tangents in both" : not_read;
+        words.summary += not_read.empty() ? "no primitive has tangents in both models" : not_read;
     } else if (diff.isWithin(0)) {
         words.summary += "equal frames at all " + counted(diff.corner_count, "corner");
     } else {
@@ -52,7 +53,7 @@ void addSentences(const std::string& a, const std::string& b, const FrameDiff& d
     if (diff.unpaired_triangle_count != 0)
         words.remarks.push_back(counted(diff.unpaired_triangle_count, "triangle") + " without a match");
     if (diff.missing_count != 0 && not_read.empty())
-        words.remarks.push_back(counted(diff.missing_count, "primitive") + " with tangents in one file only");
+        words.remarks.push_back(counted(diff.missing_count, "primitive") + " with tangents in only one file");
     for (const std::string& warning : diff.warnings) words.remarks.push_back("warning: " + warning);
 }
 

@@ -26,7 +26,7 @@ namespace tspace {
 namespace {
 
 /// Tools that create UVs, which tspace does not.
-constexpr const char* kUvMakers = "unwrapping tools make them (Blender's Smart UV Project, xatlas, RizomUV)";
+constexpr const char* kUvMakers = "unwrapping tools can create them (Blender's Smart UV Project, xatlas, RizomUV)";
 
 /// Returns a name with the extension .glb, for bytes in GLB format.
 std::string glbName(const std::string& path) { return isGlbName(path) ? path : path + ".glb"; }
@@ -296,12 +296,12 @@ class Finishing {
         if (model.left_winding_count != 0)
             report_.remarks.push_back(
                 report::counted(model.left_winding_count, "triangle") +
-                " would be reversed by --normals all: the existing normals fit the current winding");
+                " would be flipped by --normals all: the existing normals fit the current winding");
         if (model.without_uvs_count == 0) return;
         const std::string which = model.without_uvs_count == 1
                                       ? "1 primitive has"
                                       : std::to_string(model.without_uvs_count) + " primitives have";
-        report_.remarks.push_back(which + " no UVs, so no tangents and no maps were made: " + kUvMakers);
+        report_.remarks.push_back(which + " no UVs, so no tangents and no maps were created: " + kUvMakers);
     }
 
     /// Adds a note on noise, because the warning of the bake would name an option of bake.
@@ -314,7 +314,7 @@ class Finishing {
                                           [](const PrimitiveReport& primitive) { return primitive.normals.noise > 0; });
         if (is_noisy && !any_made)
             report_.remarks.emplace_back(
-                "the positions of the high poly are noisy, and its normals are kept: if they show the noise, use "
+                "the positions of the high poly are noisy, but its normals were kept; if they show the noise, use "
                 "--normals all");
     }
 
@@ -416,12 +416,12 @@ std::vector<std::string> doneTo(const FinishedModel& model) {
     if (totals.normals_generated != 0) {
         std::string text = "normals computed for " + std::to_string(totals.normals_generated) + " of " +
                            counted(totals.primitive_count, "primitive");
-        if (totals.normals_replaced != 0) text += ", replacing old ones for " + std::to_string(totals.normals_replaced);
+        if (totals.normals_replaced != 0)
+            text += ", replacing existing ones for " + std::to_string(totals.normals_replaced);
         if (hard_count != 0)
-            text += ", hard at edges sharper than " + shortNumber(least) +
+            text += ", with hard edges above " + shortNumber(least) +
                     (most > least ? " to " + shortNumber(most) : std::string()) + " degrees";
-        if (noise > 0)
-            text += ", without the noise of positions, which is " + shortNumber(noise) + " of an edge length";
+        if (noise > 0) text += ", without the position noise, which is " + shortNumber(noise) + " of an edge length";
         done.push_back(text);
     }
     if (totals.morph_normals_computed != 0)

@@ -88,7 +88,7 @@ std::string finishPage(const FinishReport& report, const std::string& output_pat
     finished.content = output;
     std::string html = pageHead("tspace finish");
     html += "<h1>" + htmlText(output_path) + "</h1>\n" + originHtml(origin) +
-            "<p class=\"dim\">Correct data are preserved; tspace check lists what is wrong.</p>\n";
+            "<p class=\"dim\">Correct data is preserved; tspace check lists what is wrong.</p>\n";
     html += kWideTable;
     html +=
         "<thead><tr><th>model</th><th class=\"n\">errors</th><th class=\"n\">warnings</th>"

@@ -27,10 +27,11 @@ void checkWork(ByteSpan bytes, std::uint64_t memory_limit_bytes) {
     const std::uint64_t unpacked = flipUnpackedBytes(bytes);
     if (unpacked <= kTimesMemory * memory) return;
     const auto megabytes = [](std::uint64_t count) { return std::to_string(count >> 20) + " MB"; };
-    failFile(ErrorCode::tooLarge, "its claimed uncompressed size is " + megabytes(unpacked) + ", and " +
-                                      (memory_limit_bytes != 0 ? "--memory-limit" : "a file of its size") + " allows " +
-                                      megabytes(kTimesMemory * memory) +
-                                      (memory_limit_bytes != 0 ? "" : " (--memory-limit allows more)"));
+    const std::string limit = memory_limit_bytes != 0
+                                  ? "--memory-limit allows " + megabytes(kTimesMemory * memory)
+                                  : "the limit for a file of its size is " + megabytes(kTimesMemory * memory) +
+                                        "; use --memory-limit to raise it";
+    failFile(ErrorCode::tooLarge, "the uncompressed size of the image is " + megabytes(unpacked) + ", but " + limit);
 }
 
 FlippedImage flip(ByteSpan bytes, const FlipGreenOptions& options) {

@@ -23,7 +23,7 @@ void removeUnreadableTangents(Editor& editor, std::span<const Primitive> primiti
             if (tangents.target >= 0 || is_computed[i]) continue;
             PrimitiveReport& report = plan.reports[i];
             report.action = PrimitiveAction::removed;
-            report.reason = "its tangents could not be read, and none are computed: " + report.reason;
+            report.reason = "its tangents could not be read, and no new ones were computed: " + report.reason;
         }
     }
 }
@@ -32,8 +32,8 @@ void noteUnreadableTangents(std::span<const Primitive> primitives, std::span<Pri
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         for (const UnreadableTangents& tangents : primitives[i].unreadable_tangents) {
             const bool is_base = tangents.target < 0;
-            reports[i].notes.push_back((is_base ? "its old tangents were invalid: "
-                                                : "the old tangent deltas of morph target " +
+            reports[i].notes.push_back((is_base ? "its existing tangents were invalid: "
+                                                : "the existing tangent deltas of morph target " +
                                                       std::to_string(tangents.target) + " were invalid: ") +
                                        tangents.why);
             if (is_base && reports[i].action == PrimitiveAction::generated)
@@ -173,7 +173,7 @@ std::string morphNormalsNote(const PoolPlan& pool, const PoolElements& elements,
     std::string note = "what " + std::to_string(count) + (count == 1 ? " morph target got" : " morph targets got") +
                        " computed normal deltas";
     const bool left = !elements.has_tangent_deltas || (pool.mendsTangents() && elements.differing_count != 0);
-    if (left && anyHasTangents(primitive)) note += "; existing tangent deltas are kept and may not fit them";
+    if (left && anyHasTangents(primitive)) note += "; existing tangent deltas were kept and may not fit them";
     return note;
 }
 
@@ -190,7 +190,7 @@ void carryNumbers(std::span<const Primitive> primitives, const PoolPlan& pool, c
 std::string keptNote(const PoolElements& elements, const Primitive& primitive) {
     if (!elements.has_tangent_deltas) {
         if (!lacksDeltas(primitive)) return {};
-        return "; its morph targets lack tangent deltas, and none are added, because its tangents differ from the "
+        return "; its morph targets lack tangent deltas, and none were added, because its tangents differ from the "
                "computed ones (" +
                std::to_string(elements.differing_count) + " corners differ)";
     }

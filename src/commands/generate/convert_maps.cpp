@@ -90,7 +90,7 @@ void addConversionNotes(const ConvertMapReport& texels, ConvertedMapReport& repo
         report.notes.push_back("The mean change is " + degreesText(texels.mean_change_deg) +
                                ", less than half a quantization step of " + bits + " (" +
                                degreesText(texels.half_step_deg) +
-                               "), so the map could stay unchanged; the converted map has a remaining error of " +
+                               "), so the map need not be converted; the converted map has an error of " +
                                degreesText(report.mean_error_deg) + ".");
     }
     if (texels.overlapping > 0) {
@@ -99,7 +99,7 @@ void addConversionNotes(const ConvertMapReport& texels, ConvertedMapReport& repo
     }
     if (texels.without_frame > 0) {
         report.notes.push_back(std::to_string(texels.without_frame) +
-                               " texels are unchanged, because their old or new frames are invalid.");
+                               " texels were not changed, because their old or new frames are invalid.");
     }
 }
 
@@ -145,7 +145,7 @@ NewMap convertFor(const MapGroup& group, const FloatImage& image, const Generate
     }
     const auto file = encodePng(converted, image.bits);
     if (!file) {
-        report.reason = "the new map cannot be encoded as PNG";
+        report.reason = "the new map could not be encoded as PNG";
         return made;
     }
     report.bits = image.bits;

@@ -183,8 +183,8 @@ std::string repairAttribute(Editor& editor, const Document& document, const Prim
     attributesOf(editor, primitive, fault.target)[fault.name] = entry->second;
     editor.moveUse(fault.accessor, entry->second);
     if (old_count < fault.new_count)
-        return start + " has fewer components than required: zeros were appended to the " + std::to_string(old_count);
-    return start + " has more components than allowed: the first " + std::to_string(fault.new_count) + " are kept";
+        return start + " has fewer components than required; zeros were appended to the " + std::to_string(old_count);
+    return start + " has more components than allowed; only the first " + std::to_string(fault.new_count) + " are kept";
 }
 
 }  // namespace

@@ -309,13 +309,13 @@ std::string warnOfInvertedSigns(Model& model, const GeneratePlan& plan, const Ma
     });
     memory.giveBack(left);
     if (failure && failure->code != ErrorCode::tooLarge) throw FileError{*failure};
-    if (failure) return "the signs of the replaced tangents were not examined: the memory limit is too low";
+    if (failure) return "the signs of the replaced tangents were not examined, because the memory limit is too low";
     if (inverted == 0) return {};
     return "the tangents of " + primitivesText(inverted) +
            " had inverted signs. Their normal maps were not examined: if green points down in them, the two inversions "
-           "cancelled out, and with the new tangents alone bumps look like dents along v. Run `tspace check` on the "
-           "input; if green points down, invert it too (--overwrite together with --flip-green), or keep the tangents "
-           "(without --overwrite)";
+           "canceled out, and with the new tangents bumps look like dents along v. Run `tspace check` on the input; if "
+           "green points down, invert it too (--overwrite together with --flip-green), or keep the tangents (omit "
+           "--overwrite)";
 }
 
 namespace {
@@ -408,10 +408,10 @@ void mendBrokenValues(Editor& editor, const Document& document, std::span<const 
             PrimitiveReport& report = reports[number];
             report.mended_vertex_count = count;
             if (report.action == PrimitiveAction::kept) report.action = PrimitiveAction::replaced;
-            report.notes.push_back("its tangents stay, but at " + std::to_string(count) + " of " +
+            report.notes.push_back("its tangents were kept, but at " + std::to_string(count) + " of " +
                                    std::to_string(mended.size()) +
-                                   " vertices they were repaired: not finite, not unit, parallel to the normal, or "
-                                   "with a sign other than +1 and -1");
+                                   " vertices they were repaired, because they were not finite, not of unit length, "
+                                   "parallel to the normal, or had a sign other than +1 and -1");
         }
     }
 }

@@ -44,14 +44,14 @@ std::vector<bool> findCancelled(const Scene& scene, ImageFindings& found, const 
 
 /// Returns why FlipGreen::down leaves a map unchanged; empty: the map is inverted.
 std::string whyUnchanged(GreenSide side, bool is_cancelled, bool is_declared, const Convention& convention) {
-    if (is_declared) return "the file declares that green points down, so its readers invert it";
+    if (is_declared) return "the file declares that green points down, so its readers invert green";
     switch (side) {
         case GreenSide::up:
             return "green points up already";
         case GreenSide::mixed:
             return "green points down in one part and up in another (see tspace check)";
         case GreenSide::unread:
-            return "it could not be examined (see tspace check)";
+            return "the map could not be examined (see tspace check)";
         case GreenSide::down:
             if (convention.green == Green::down) return "green points down, as the requested convention expects";
             if (!is_cancelled) return {};
@@ -282,7 +282,7 @@ class Alternatives {
 void mendInPlace(Document& document, const Scene& scene, const GenerateOptions& options, JudgedMap& map,
                  MapFlips& flips) {
     if (!TextureUses(document).alternatives(map.image).empty()) {
-        if (!map.report.flipped) map.report.reason = "the same map exists in another format too";
+        if (!map.report.flipped) map.report.reason = "the same map also exists in another format";
         return;
     }
     const std::string why_not_flipped = map.report.reason;

@@ -19,11 +19,10 @@ namespace {
 /// Returns why maps cannot be converted with these options; empty: they can, or conversion was not requested.
 std::string whyMapsUnchanged(const std::string& input, const GenerateOptions& options) {
     if (!options.maps.convert) return {};
-    if (options.normals.overwrite)
-        return "normal maps cannot be converted together with new normals, only for new tangents";
+    if (options.normals.overwrite) return "normal maps can only be converted for new tangents, not for new normals";
     if (options.maps.flip_green != FlipGreen::none)
-        return "normal maps can be converted or inverted, but not both in one run";
-    if (options.maps.mend) return "normal maps can be fixed or converted, but not both in one run";
+        return "normal maps cannot be converted and inverted in the same run";
+    if (options.maps.mend) return "normal maps cannot be fixed and converted in the same run";
     if (options.selection.existing == ExistingTangents::repair)
         return "normal maps cannot be converted when tangents are repaired, because repairs are meant to change the "
                "shading";
@@ -33,21 +32,21 @@ std::string whyMapsUnchanged(const std::string& input, const GenerateOptions& op
     if (options.tangents.compute.convention != conventions::gltf)
         return "normal maps can be converted for the glTF convention only";
     if (lowerExtension(input) == ".obj")
-        return "OBJ files have no tangents that their maps were made for; make a glTF file first, then recompute its "
-               "tangents";
+        return "the maps of an OBJ file cannot be converted, because OBJ stores no tangents; write a glTF file first, "
+               "then recompute its tangents";
     return {};
 }
 
 void checkOptions(const std::string& input, const GenerateOptions& options) {
     const auto refuse = [](const std::string& why) { failFile(ErrorCode::invalidOption, why); };
     if (options.selection.all && options.selection.strip)
-        refuse("tangents cannot be added to all primitives and removed where they are not needed");
+        refuse("tangents cannot be added to all primitives and removed from others in the same run");
     if (options.storage.pack && frameBytes(*options.storage.pack) == 0)
         refuse("the format of packed frames is not a value of FrameFormat");
     if (!options.storage.pack && options.storage.pack_drop != PackDrop::nothing)
-        refuse("normals and tangents can be removed only where frames are packed");
+        refuse("normals and tangents can only be removed if frames are packed");
     if (!options.maps.read && (options.maps.flip_green != FlipGreen::none || options.maps.mend || options.maps.convert))
-        refuse("changing normal maps requires reading their pixels, which is disabled");
+        refuse("changing normal maps requires reading their pixels, which is disabled (--no-images)");
     if (const std::string why = whyMapsUnchanged(input, options); !why.empty()) refuse(why);
 }
 

@@ -56,8 +56,8 @@ void noteMissingBitangents(std::span<const Primitive> primitives, std::span<Prim
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         if (reports[i].action != PrimitiveAction::kept || primitives[i].find("_BITANGENT")) continue;
         reports[i].notes.emplace_back(
-            "its tangents are kept, so it gets no bitangents: tangents and bitangents are only computed together "
-            "(--overwrite)");
+            "its tangents were kept, so it got no bitangents; use --overwrite to compute tangents and bitangents "
+            "together");
     }
 }
 
@@ -254,7 +254,7 @@ void noteUnitNormals(std::span<const std::size_t> scaled, bool were_mended, Gene
                           });
     for (std::string& warning : report.warnings) {
         if (are_unit && warning.rfind(kNormalLengths, 0) == 0)
-            warning = warning.substr(0, warning.find(". ")) + ". The output has unit normals";
+            warning = warning.substr(0, warning.find(". ")) + ". The normals in the output have unit length";
     }
 }
 

@@ -54,12 +54,12 @@ void convertHeightMap(const Scene& scene, std::size_t image, const GenerateOptio
     report.image = static_cast<std::uint32_t>(image);
     report.name = material.normal_texture.file;
     report.mended = true;
-    report.reason = "it held heights; white is " + shortNumber(strength) +
-                    " model units high (-bm), and normals are tilted by " + lean;
+    report.reason = "the image was a height map; white is " + shortNumber(strength) +
+                    " model units high (-bm), and the normals are tilted by " + lean;
     constexpr double kSteepDeg = 60;
     if (made.mean_lean_deg > kSteepDeg) {
         model.warnings.push_back("the normal map made from '" + material.normal_texture.file + "' is very steep (" +
-                                 lean + "): -bm is read as the height of white above black, in model units");
+                                 lean + "); -bm is interpreted as the height of white above black, in model units");
     }
 }
 
@@ -142,7 +142,7 @@ bool decide(const Material& material, const ObjPrimitive& primitive, const Gener
     const bool needed = material.normal_texture.used();
     if (!needed && !options.selection.all) {
         report.action = PrimitiveAction::notNeeded;
-        report.reason = material.found ? "the material has no normal map" : "there is no material with a normal map";
+        report.reason = material.found ? "the material has no normal map" : "no material has a normal map";
     } else if (!primitive.has_uvs && options.tangents.compute.method != Method::basis) {
         report.action = PrimitiveAction::impossible;
         report.reason = "the faces have no texture coordinates";
@@ -190,8 +190,8 @@ void packWritten(const GenerateOptions& options, FinishedPrimitive& finished, Pr
     OwnedMesh& mesh = finished.mesh;
     if (mesh.tangents.empty()) {
         const bool can_have = report.action == PrimitiveAction::notNeeded;
-        report.notes.emplace_back(std::string("its frames are not packed: it has no TANGENT") +
-                                  (can_have ? " (--all adds what is missing)" : ""));
+        report.notes.emplace_back(std::string("its frames were not packed: it has no TANGENT") +
+                                  (can_have ? "; use --all to add what is missing" : ""));
         return;
     }
     roundUnits(std::span(mesh.tangents), finished.tangent_format);
@@ -254,7 +254,7 @@ Made generate(const std::string& input, const std::string& output, const Generat
               GenerateReport& report) {
     if (options.storage.compression == Compression::meshopt || options.storage.compression == Compression::draco) {
         failFile(ErrorCode::invalidOption,
-                 "the output of OBJ files is not compressed in the same run; compress the result in a second run");
+                 "the output of an OBJ file cannot be compressed in the same run; compress the result in a second run");
     }
     tell(options, "reading", 0, 0);
     Model model = readModel(input, options.file);
@@ -305,7 +305,9 @@ Made generate(const std::string& input, const std::string& output, const Generat
 GenerateReport generateToFile(const std::string& input, const std::string& output, const GenerateOptions& requested,
                               bool is_step) {
     checkOutput(output);
-    if (requested.sink && !isGlbName(output)) failFile(ErrorCode::invalidOption, "only a GLB is one stream of bytes");
+    if (requested.sink && !isGlbName(output))
+        failFile(ErrorCode::invalidOption,
+                 "only a GLB can be written to a stream or to memory; write a GLB, or name an output file");
     GenerateReport report;
     InputFiles inputs;
     GenerateOptions options = requested;

@@ -163,8 +163,7 @@ void addPackOptions(OptionList& list, GenerateOptions& options) {
 Option compressMapsOption() {
     const auto take = [](const std::string& how) {
         return how == "uastc"
-                   ? std::string(
-                         "uastc is not supported; use basisu to encode UASTC, or PNG or WebP for a lossless map")
+                   ? std::string("not supported; use basisu to encode UASTC, or PNG or WebP for a lossless map")
                    : std::string();
     };
     Option made = option(

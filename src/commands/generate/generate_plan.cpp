@@ -59,7 +59,7 @@ bool regeneratesNormals(PrimitiveReport& report, const Document& document, const
     const bool can_follow = options.tangents.compute.method == Method::basis || primitive.find(uvsOf(uses));
     if (!primitive.find("TANGENT") || shouldStripTangents(primitive, uses, options) || can_follow) return true;
     report.notes.push_back(
-        "its normals are kept: its tangents would not fit new ones and cannot be computed, because it has no " +
+        "its normals were kept: its tangents would not fit new ones and cannot be recomputed, because it has no " +
         uvsOf(uses));
     return false;
 }
@@ -101,7 +101,7 @@ bool isSkipped(PrimitiveReport& report, const Document& document, const Primitiv
         why = std::string("it draws ") + modeName(primitive.mode) + ", which have no tangents";
     } else if (uses.empty() && !options.selection.all && !follows) {
         report.action = PrimitiveAction::notNeeded;
-        why = primitive.material ? "its material has no texture that needs tangents" : "it has no material";
+        why = primitive.material ? "no texture of its material needs tangents" : "it has no material";
     } else {
         return false;
     }
@@ -113,7 +113,7 @@ bool isSkipped(PrimitiveReport& report, const Document& document, const Primitiv
         report.action = PrimitiveAction::removed;
         why = "nothing needs its tangents: " + why;
     } else if (options.selection.strip && uses.empty() && primitive.find("TANGENT")) {
-        why += "; its tangents are kept, because a morph target has only tangent deltas";
+        why += "; its tangents were kept, because a morph target stores only tangent deltas";
     }
     report.reason = std::move(why);
     return true;
@@ -140,20 +140,21 @@ bool decide(PrimitiveReport& report, const Document& document, const Primitive& 
     if (keeps && !lacksDeltas(primitive) && normals.morphs.empty()) return leave(PrimitiveAction::kept, kKeptReason);
     if (!primitive.attribute_faults.empty()) {
         const AttributeFault& fault = primitive.attribute_faults.front();
-        const char* remedy = primitive.canRepairFaults() ? " (--repair or --overwrite-normals fixes that)"
-                                                         : " (no command can repair it; export the mesh again)";
+        const char* remedy = primitive.canRepairFaults() ? "; use --repair or --overwrite-normals to fix this"
+                                                         : "; no command can repair it, so export the mesh again";
         return leave(PrimitiveAction::impossible, "the elements of its " + attributeText(fault.name, fault.target) +
                                                       " cannot be read: " + fault.why + remedy);
     }
     const auto cannot = [&](const std::string& reason) {
         if (!keeps) return leave(PrimitiveAction::impossible, reason);
         return leave(PrimitiveAction::kept,
-                     std::string(kKeptReason) + "; its morph targets get no tangent deltas, because " + reason);
+                     std::string(kKeptReason) + "; its morph targets got no tangent deltas, because " + reason);
     };
     if (!primitive.find("POSITION")) return cannot("it has no positions");
     if (primitive.triangleCount() == 0) return cannot("it has no triangle");
     if (options.tangents.compute.method != Method::basis) {
-        if (!primitive.find(uvsOf(uses))) return cannot("it has no " + uvsOf(uses) + " for the tangents to follow");
+        if (!primitive.find(uvsOf(uses)))
+            return cannot("it has no " + uvsOf(uses) + ", which the tangents must follow");
         report.uv_set = static_cast<std::int32_t>(uses.empty() ? 0 : uses[0].uv_set);
     }
     report.reason = !uses.empty()           ? needWords(uses[0])
@@ -176,7 +177,7 @@ std::string noteOnDrawn(const Document& document, const Primitive& primitive, co
     std::string reader = otherTangentReader(document, primitive);
     if (reader.empty() && !uses.empty()) reader = uses[0].needed_by + " without a texture";
     if (reader.empty()) return {};
-    return "tangents that may be authored (" + reader + ") were recomputed" + (along_u ? " along u" : "");
+    return "tangents that may have been authored (" + reader + ") were recomputed" + (along_u ? " along u" : "");
 }
 
 /// Primitives with equal keys are computed together.
@@ -238,7 +239,7 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
         }
         if (!computes && !normals.anew && normals.morphs.empty()) continue;
         if (computes && primitive.find("TANGENT") && !hasUsableTangents(primitive))
-            report.notes.emplace_back("its old tangents were ignored, because it had no normals");
+            report.notes.emplace_back("its existing tangents were ignored, because it had no normals");
 
         const bool replaces = options.selection.existing == ExistingTangents::replace || normals.anew;
         if (computes && replaces && report.action != PrimitiveAction::kept && hasUsableTangents(primitive)) {
@@ -449,14 +450,14 @@ std::string noteOf(std::size_t others, std::uint64_t points, bool any_keeps) {
                        (others == 1 ? " other primitive" : " other primitives") + " of the mesh, at " +
                        std::to_string(points) + (points == 1 ? " position" : " positions") +
                        " (--normals-per-primitive disables that)";
-    if (any_keeps) note += "; existing normals on the other side are kept, and adopted at the border where they fit";
+    if (any_keeps) note += "; existing normals on the other side were kept, and used at the border if they fit";
     return note;
 }
 
 std::string noteOf(const Primitive& other, std::size_t points) {
     const std::string name = other.mesh_name.empty() ? "" : " \"" + other.mesh_name + "\"";
     return "it forms one surface with mesh " + std::to_string(other.mesh) + name + " (" + std::to_string(points) +
-           " shared border positions), but normals are smoothed within each mesh only: join the meshes if no edge is "
+           " shared border positions), but normals are only smoothed within each mesh; join the meshes if no edge is "
            "intended";
 }
 

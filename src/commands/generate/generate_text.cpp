@@ -71,13 +71,13 @@ bool nothingNeeded(const Totals& totals) {
 std::vector<std::string> warningsOf(const GenerateReport& report, const Totals& totals) {
     std::vector<std::string> warnings = report.warnings;
     if (totals.morph_sign_flip_count != 0) {
-        warnings.push_back(fmt::format("morph targets turn the sign of the frame at {}, which glTF cannot express",
+        warnings.push_back(fmt::format("morph targets reverse the sign of the frame at {}, which glTF cannot express",
                                        counted(totals.morph_sign_flip_count, "corner")));
     }
     if (totals.reference_order_abandoned) {
         warnings.emplace_back(
-            "the reference neighbor search would take quadratic time on this mesh; the corrected search was used for "
-            "the remaining part");
+            "the reference neighbor search would take quadratic time on this mesh, so the corrected search was used "
+            "for the remaining part");
     }
     return warnings;
 }
@@ -127,7 +127,7 @@ std::string windingText(const std::vector<MendedWindingReport>& windings) {
     text += fmt::format("; edges in conflict: {} -> {}", sum.conflict_count_before, sum.conflict_count_after);
     if (sum.one_sided_count != 0) text += fmt::format("; {} not orientable", counted(sum.one_sided_count, "part"));
     if (sum.conflict_count_after != 0 && sum.small_count != 0)
-        text += fmt::format("; {} of fewer than 4 faces not turned", counted(sum.small_count, "part"));
+        text += fmt::format("; {} with fewer than 4 faces not flipped", counted(sum.small_count, "part"));
     return text;
 }
 
@@ -239,7 +239,7 @@ std::string primitiveRows(const GenerateReport& report) {
 
 std::string generateText(const GenerateOutcome& outcome) {
     if (outcome.was_done_before) {
-        return fmt::format("{} -> {}\n  already done, and nothing has changed\n\n", unbroken(outcome.input),
+        return fmt::format("{} -> {}\n  skipped: already done, and nothing has changed\n\n", unbroken(outcome.input),
                            unbroken(outcome.output));
     }
     const Totals totals = totalsOf(*outcome.result);
@@ -249,7 +249,7 @@ std::string generateText(const GenerateOutcome& outcome) {
 
 std::string generateLine(const GenerateOutcome& outcome) {
     std::string line = fmt::format("{} -> {}: ", unbroken(outcome.input), unbroken(outcome.output));
-    if (outcome.was_done_before) return line + "already done, and nothing has changed\n";
+    if (outcome.was_done_before) return line + "skipped: already done, and nothing has changed\n";
     const Totals totals = totalsOf(*outcome.result);
     line += actionsText(totals);
     if (outcome.is_dry_run) line += " (not written)";

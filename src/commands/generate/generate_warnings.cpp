@@ -32,7 +32,7 @@ void warnOfWinding(const GenerateOptions& options, GenerateReport& report) {
     if (turned != 0) {
         std::string text = std::to_string(turned) + " of " + counted(triangles, "triangle") +
                            (turned == 1 ? " is" : " are") + " wound opposite to the neighbors" +
-                           (options.mend_winding ? "" : ": --fix-winding turns them");
+                           (options.mend_winding ? "" : "; use --fix-winding to flip them");
         if (vertices.after() > vertices.before())
             text += ", and vertices were split between them (" + std::to_string(vertices.before()) + " -> " +
                     std::to_string(vertices.after()) + ")";
@@ -43,7 +43,7 @@ void warnOfWinding(const GenerateOptions& options, GenerateReport& report) {
                                        [](const PrimitiveReport& primitive) { return primitive.normals_generated; });
         report.warnings.push_back(counted(two_sided, "triangle") + (two_sided == 1 ? " lies" : " lie") +
                                   " on triangles with the opposite winding (two-sided sheets)" +
-                                  (makes ? ": smooth normals over both cancel out" : ""));
+                                  (makes ? ", so smooth normals over both sides cancel out" : ""));
     }
     if (behind != 0) {
         report.warnings.push_back(counted(behind, "corner") + (behind == 1 ? " has" : " have") +
@@ -77,7 +77,7 @@ void noteFoundValues(const NormalOptions& options, GenerateReport& report) {
                                       " degrees are hard (--crease auto)");
         if (normals.noise > 0)
             primitive.notes.push_back("its positions are noisy, by " + shortNumber(normals.noise) +
-                                      " of an edge length: normals were computed without the noise (--denoise)");
+                                      " of an edge length, so normals were computed without the noise (--denoise)");
     }
 }
 
@@ -107,8 +107,8 @@ void warnOfIdleNormals(const GenerateOptions& options, GenerateReport& report) {
         if (options.normals.per_primitive) idle.emplace_back("--normals-per-primitive");
         warn(idle,
              options.normals.overwrite
-                 ? "there is no primitive whose normals can be recomputed"
-                 : "no normals were computed; existing ones are kept (--overwrite-normals recomputes them)",
+                 ? "the file has no primitive whose normals can be recomputed"
+                 : "no normals were computed and existing ones were kept; use --overwrite-normals to recompute them",
              report);
     }
     warnOfNoise(options, any_made, report);
@@ -116,8 +116,8 @@ void warnOfIdleNormals(const GenerateOptions& options, GenerateReport& report) {
     if (options.normals.morphs != MorphNormals::keep && !morphs) {
         const bool any_target = any(report, [](const auto& primitive) { return primitive.morph_target_count != 0; });
         warn({"--morph-normals"},
-             any_target ? "no morph target without normal deltas moves a primitive whose normals are kept"
-                        : "there are no morph targets",
+             any_target ? "no morph target without normal deltas moves a primitive whose normals were kept"
+                        : "the file has no morph targets",
              report);
     }
 }
@@ -128,8 +128,8 @@ void warnOfTangents(const GenerateOptions& options, GenerateReport& report) {
     });
     if (any(report, wasComputed) && options.tangents.compute.method == Method::basis) {
         report.warnings.emplace_back(
-            "tangents of the method basis do not follow UVs: normal maps are shaded wrong with them, and check reports "
-            "it");
+            "tangents of the method basis do not follow the UVs, so normal maps are shaded incorrectly, and check "
+            "reports this");
     }
     const TangentOptions plain, &tangents = options.tangents.compute;
     const bool any_normals = any(report, [](const auto& primitive) { return primitive.normals_generated; });
@@ -156,18 +156,19 @@ void warnOfTangents(const GenerateOptions& options, GenerateReport& report) {
     if (options.tangents.sanitize_options.orthogonalize_all) idle.emplace_back("--orthogonalize");
     if (options.storage.format != GenerateOptions{}.storage.format && !any_normals) idle.emplace_back("--format");
     const bool any_kept = any(report, [](const auto& primitive) { return primitive.action == PrimitiveAction::kept; });
-    warn(idle, any_kept ? "no tangents were computed; existing ones are kept" : "no tangents were computed", report);
+    warn(idle, any_kept ? "no tangents were computed, and existing ones were kept" : "no tangents were computed",
+         report);
 }
 
 void warnOfFile(const GenerateOptions& options, const WorkedOn& worked_on, GenerateReport& report) {
     if (options.tangents.texture_transform != GenerateOptions{}.tangents.texture_transform &&
         !worked_on.texture_transforms)
-        warn({"--texture-transform"}, "no computed tangents belong to a texture with KHR_texture_transform", report);
+        warn({"--texture-transform"}, "no computed tangents are used by a texture with KHR_texture_transform", report);
     if (options.storage.compression != Compression::keep && !worked_on.compression)
         warn({"--compress"},
              options.storage.compression == Compression::none
                  ? "no geometry is compressed"
-                 : "geometry is compressed like that already, or cannot be",
+                 : "the geometry is already compressed in this way, or cannot be compressed",
              report);
     if (options.file.keep_coordinates && !worked_on.far_coordinates)
         warn({"--keep-coordinates"}, "the coordinates need no offset", report);
@@ -185,8 +186,8 @@ void addWarnings(const GenerateOptions& options, const WorkedOn& worked_on, bool
     warnOfFile(options, worked_on, report);
     if (options.maps.flip_green != FlipGreen::none && report.normal_maps.empty())
         warn({options.maps.flip_green == FlipGreen::all ? "--flip-green-all" : "--flip-green"},
-             "there is no normal map", report);
-    if (options.maps.mend && report.normal_maps.empty()) warn({"--fix-maps"}, "there is no normal map", report);
+             "the file has no normal map", report);
+    if (options.maps.mend && report.normal_maps.empty()) warn({"--fix-maps"}, "the file has no normal map", report);
     if (!options.maps.read && options.selection.existing != ExistingTangents::repair)
         warn({"--no-images"}, "only --repair reads the pixels of normal maps", report);
     const bool any_turned = any(report, [](const auto& primitive) { return primitive.winding_mended_count != 0; });
@@ -195,7 +196,7 @@ void addWarnings(const GenerateOptions& options, const WorkedOn& worked_on, bool
     const bool any_stripped =
         any(report, [](const auto& primitive) { return primitive.action == PrimitiveAction::removed; });
     if (options.selection.strip && !any_stripped)
-        warn({"--strip"}, "all tangents are needed by materials, or there are none", report);
+        warn({"--strip"}, "the file has no tangents, or materials need all of them", report);
     if (options.maps.convert && report.converted_maps.empty())
         warn({"--convert-maps"}, "no primitive with a normal map got different tangents", report);
 }

@@ -101,8 +101,8 @@ std::string MapReferences::whyNotApart(std::span<const MapUser> users) const {
     for (const MapUser& user : users) {
         if (!isShared(slotOf(user).material, users)) continue;
         if (user.use->only_in_variant)
-            return "other primitives share its material in a variant, and need a different map";
-        if (has_pointers) return "other primitives share its material, which may be animated, and need a different map";
+            return "other primitives share its material in a variant, but need a different map";
+        if (has_pointers) return "other primitives share its material, which may be animated, but need a different map";
     }
     return {};
 }

@@ -17,19 +17,19 @@ namespace {
 const char* whatItHeld(MapContent content) {
     switch (content) {
         case MapContent::twoChannels:
-            return "it held only x and y";
+            return "the map stored only x and y";
         case MapContent::unsignedZ:
-            return "its blue stored z unsigned";
+            return "blue stored z without a sign (0 to 1)";
         case MapContent::xInAlpha:
-            return "it held x in alpha and y in green";
+            return "the map stored x in alpha and y in green";
         case MapContent::exchanged:
-            return "its channels were exchanged or inverted";
+            return "the channels of the map were exchanged or inverted";
         case MapContent::encoded:
-            return "it was stored as a color image (sRGB)";
+            return "the map was stored as a color image (sRGB)";
         case MapContent::objectSpace:
-            return "it was in object space";
+            return "the map was in object space";
         case MapContent::normals:
-            return "it was declared as sRGB, but its values are linear";
+            return "the map was declared as sRGB, but its values are linear";
         case MapContent::height:
         case MapContent::picture:
         case MapContent::hemiOctahedral:
@@ -42,22 +42,22 @@ const char* whatItHeld(MapContent content) {
 /// encoding.
 std::string whyUnchanged(const JudgedMap& map, bool claims_srgb) {
     const MapLook& look = map.look;
-    if (look.content == MapContent::normals && !claims_srgb) return "it is encoded as in glTF";
+    if (look.content == MapContent::normals && !claims_srgb) return "the map is encoded as glTF requires";
     if (look.content == MapContent::height)
-        return "it is gray: a height map of unknown strength (tspace height-to-normal)";
-    if (look.content == MapContent::picture) return "it is a color image, not a normal map";
+        return "the image is gray, so it is a height map of unknown strength; use tspace height-to-normal";
+    if (look.content == MapContent::picture) return "the image is a color image, not a normal map";
     if (look.content == MapContent::objectSpace && !look.follows_mesh)
-        return "it is neither in tangent space nor in the object space of this mesh";
+        return "the map is neither in tangent space nor in the object space of this mesh";
     if (look.content == MapContent::objectSpace && look.is_in_world)
-        return "it is in world space (tspace convert-map --from world)";
+        return "the map is in world space; use tspace convert-map --from world";
     if (look.content == MapContent::hemiOctahedral)
-        return "it is hemi-octahedrally encoded, which tspace does not decode";
-    if (look.may_be_octahedral) return "its two channels may hold octahedral encoding (see tspace check)";
+        return "the map is hemi-octahedrally encoded, which tspace does not decode";
+    if (look.may_be_octahedral) return "its two channels may store octahedral encoding (see tspace check)";
     if (look.is_doubtful)
-        return "its two channels may use another encoding, since they are not the slopes of any height field (see "
+        return "its two channels may use another encoding, because they are not the slopes of any height field (see "
                "tspace check)";
     if (isTurned(look, map.is_y_inverted))
-        return "its image was rotated by 90 or 270 degrees without its vectors, and slopes cannot tell which (see "
+        return "the image was rotated by 90 or 270 degrees without its vectors, and its slopes do not show which (see "
                "tspace check)";
     return {};
 }
@@ -108,7 +108,7 @@ Bytes mendMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options
     map.report.reason = whyUnchanged(map, facts && facts->is_srgb);
     if (!map.report.reason.empty()) return {};
     if (!scene.memory->has(kMapPixelBytes * claimedSize(bytes).pixels())) {
-        map.report.reason = "converting it would exceed the memory limit";
+        map.report.reason = "converting the map would exceed the memory limit";
         return {};
     }
     std::optional<FloatImage> image = decodeFloatImage(bytes, kMostModelMapPixels, map.report.reason);
@@ -120,7 +120,7 @@ Bytes mendMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options
     constexpr unsigned kMostBits = 16;  // maximum bits of a PNG
     const auto file = encodePng(*image, std::min(image->bits, kMostBits));
     if (!file) {
-        map.report.reason = "the new map cannot be encoded as PNG";
+        map.report.reason = "the new map could not be encoded as PNG";
         return {};
     }
     map.report.mended = true;
@@ -135,14 +135,14 @@ MadeOfHeights makeOfHeights(const Scene& scene, std::size_t material, std::size_
     if (bytes.empty() || whyNotRead(imageFormat(bytes)) != nullptr) return {};
     MadeOfHeights made{.is_height_map = true};
     if (!scene.memory->has(kMapPixelBytes * claimedSize(bytes).pixels())) {
-        made.why_not = "converting it would exceed the memory limit";
+        made.why_not = "converting the map would exceed the memory limit";
         return made;
     }
     std::optional<FloatImage> heights = decodeFloatImage(bytes, kMostModelMapPixels, made.why_not, ImageUse::numbers);
     if (!heights) return made;
     if (!isGreyImage(*heights)) {
         made.is_height_map = isPicture(*heights);
-        made.why_not = "it is a color image, neither a height map nor a normal map";
+        made.why_not = "the image is a color image, neither a height map nor a normal map";
         return made;
     }
     const MapMesh mesh = meshOf(scene, options, [&](const TangentUse& use) { return use.material == material; });
@@ -159,7 +159,7 @@ MadeOfHeights makeOfHeights(const Scene& scene, std::size_t material, std::size_
     heights->alpha.clear();
     const auto file = encodePng(*heights, heights->bits);
     if (!file) {
-        made.why_not = "the normal map made from it cannot be encoded as PNG";
+        made.why_not = "the normal map made from it could not be encoded as PNG";
         return made;
     }
     made.file.assign(file->begin(), file->end());

@@ -74,7 +74,7 @@ class PackedWriter {
                 continue;
             }
             if (const std::string why = whyNot(primitive, reports_[i]); !why.empty()) {
-                reports_[i].notes.push_back(std::string("its frames are not packed: ") + why);
+                reports_[i].notes.push_back(std::string("its frames were not packed: ") + why);
                 continue;
             }
             const Dropped dropped = droppedFrom(primitive, options_.storage.pack_drop);
@@ -98,12 +98,12 @@ class PackedWriter {
     /// Returns why the primitive cannot be packed (half a sentence); empty: it can.
     [[nodiscard]] std::string whyNot(const Primitive& primitive, const PrimitiveReport& report) const {
         if (const std::string alone = packedAlone(document_, primitive); !alone.empty())
-            return "it has only other packed frames in " + alone + ", and not the data they were packed from";
+            return "it only has other packed frames in " + alone + " and not the data that they were packed from";
         for (const auto& [name, type] : {std::pair{"POSITION", ""}, {"NORMAL", "VEC3"}, {"TANGENT", "VEC4"}}) {
             const auto index = primitive.find(name);
             if (!index) {
                 const bool can_have = report.action == PrimitiveAction::notNeeded && name[0] != 'P';
-                return std::string("it has no ") + name + (can_have ? " (--all adds what is missing)" : "");
+                return std::string("it has no ") + name + (can_have ? "; use --all to add what is missing" : "");
             }
             const Accessor accessor = readAccessor(document_, *index);
             if (*type == '\0') continue;
@@ -168,8 +168,8 @@ class PackedWriter {
             !(dropped.tangents && (dropped.normals || options_.storage.pack_drop == PackDrop::tangents));
         if (!keeps_more) return;
         report.notes.push_back(
-            std::string(dropped.tangents ? "its NORMAL is kept" : "its NORMAL and TANGENT are kept") +
-            " beside the packed frames, because morph targets add to them");
+            std::string(dropped.tangents ? "its NORMAL was kept" : "its NORMAL and TANGENT were kept") +
+            " in addition to the packed frames, because morph targets have deltas for them");
     }
 
     Editor& editor_;

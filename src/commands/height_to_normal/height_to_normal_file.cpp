@@ -40,12 +40,12 @@ std::vector<float> terrainHeights(HeightEncoding encoding, const FloatImage& ima
 /// Throws if the image may be lossy: an error of one in red is an error of kilometers.
 void checkTerrain(ByteSpan bytes, const FloatImage& image) {
     if (image.bits != 8)
-        failFile(
-            ErrorCode::invalidOption,
-            "heights in red, green and blue need 8 bits per channel, and the image has " + std::to_string(image.bits));
+        failFile(ErrorCode::invalidOption,
+                 "heights encoded in red, green and blue need 8 bits per channel, but the image has " +
+                     std::to_string(image.bits));
     if (imageFormat(bytes) == ImageFormat::jpeg || isLossyWebp(bytes))
         failFile(ErrorCode::invalidOption,
-                 "heights in red, green and blue do not survive lossy compression, which the image has");
+                 "the image uses lossy compression, which destroys heights encoded in red, green and blue");
 }
 
 void addHeightWarnings(const HeightToNormalFileOptions& options, HeightToNormalFileReport& report) {
@@ -60,7 +60,7 @@ void addHeightWarnings(const HeightToNormalFileOptions& options, HeightToNormalF
     const HeightToNormalReport& texels = report.texels;
     if (texels.mean_lean_deg > kSteepDeg) {
         warn("the mean tilt of the normals is " + shortNumber(texels.mean_lean_deg) +
-             " degrees: white is implausibly high; check the strength, which is in" + unit);
+             " degrees, so the relief is implausibly steep; check the strength, which is in" + unit);
     }
     if (texels.max_lean_deg < kFlatDeg) {
         warn("the largest tilt of the normals is " + shortNumber(texels.max_lean_deg) +
@@ -79,12 +79,12 @@ HeightToNormalFileReport convertHeights(const std::string& input, const std::str
     if (const char* why_not = whyNotRead(ImageFormat::png))
         failFile(ErrorCode::unsupportedFile, "the output cannot be written: " + std::string(why_not));
     if (options.bits != 8 && options.bits != 16)
-        failFile(ErrorCode::invalidOption, "a PNG has 8 or 16 bits per channel");
+        failFile(ErrorCode::invalidOption, "a PNG must have 8 or 16 bits per channel");
     if (!(options.texel_size > 0) || !std::isfinite(options.texel_size))
-        failFile(ErrorCode::invalidOption, "the size of a texel must be above 0");
+        failFile(ErrorCode::invalidOption, "the texel size must be greater than 0");
     if (!options.mesh.empty() && options.texel_size != 1)
         failFile(ErrorCode::invalidOption,
-                 "the mesh determines the texel size, so --texel-size cannot be used with --mesh");
+                 "--texel-size cannot be used with --mesh, because the mesh determines the texel size");
     const bool is_gray = options.encoding == HeightEncoding::gray;
     Bytes read;
     if (!is_gray && options.content.data() == nullptr) {
@@ -96,7 +96,7 @@ HeightToNormalFileReport convertHeights(const std::string& input, const std::str
     HeightToNormalFileReport report{.width = image.width, .height = image.height, .bits_before = image.bits};
     report.bits = options.bits;
     if (is_gray && !isGreyImage(image))
-        report.warnings.emplace_back("the image has colors; the mean of red, green and blue is used as height");
+        report.warnings.emplace_back("the image is not gray; the mean of red, green and blue is used as height");
     MapMesh mesh;
     if (!options.mesh.empty()) {
         mesh = readNamedMapMesh(options.mesh, {.material = options.material, .image_name = fileNameOf(input)},
@@ -157,7 +157,7 @@ OptionList heightToNormalOptions(HeightToNormalFileOptions& options) {
         [&options](const std::string& value) {
             return parseReal(value, options.texel_size) && options.texel_size > 0
                        ? std::string()
-                       : std::string("must be a number above 0");
+                       : std::string("must be a number greater than 0");
         },
         "Width of a texel in the unit of the heights (meters for the terrain encodings). Not used with --mesh.");
     texel_size.default_text = std::to_string(1);

@@ -348,7 +348,7 @@ std::string makerSentence(const Identification& result) {
         return "Probably made by " + name + ", and modified or averaged afterwards: it reproduces " +
                percent(best.nearShare()) + " of the corners" + ties + ".";
     }
-    return "Made by no method that tspace knows: the closest one, " + name + ", explains " + percent(best.nearShare()) +
+    return "No known method made these tangents: the closest one, " + name + ", explains " + percent(best.nearShare()) +
            " of the corners.";
 }
 
@@ -377,7 +377,7 @@ std::string signSentence(const Identification& result) {
     if (best.nearShare() < kLikelyShare && !keptOnePerVertex(best) && differentMakers(result).empty()) return "";
     switch (best.signs()) {
         case SignReading::gltf:
-            return " The signs are those of glTF.";
+            return " The signs follow glTF.";
         case SignReading::inverted:
             return " Every sign is inverted: the method was given raw glTF UVs (v not flipped) and its sign was stored "
                    "unchanged, so the bitangent points the wrong way.";
@@ -395,12 +395,12 @@ std::string signSentence(const Identification& result) {
         mixed += own->signs() == SignReading::mixed ? 1 : 0;
     }
     if (mixed == 0 && right != 0 && inverted != 0) {
-        return " The signs are those of glTF in " + primitivesText(right) + ", and inverted in " +
-               std::to_string(inverted) + ".";
+        return " The signs follow glTF in " + primitivesText(right) + ", and inverted in " + std::to_string(inverted) +
+               ".";
     }
     return " The signs match neither convention: " +
            percent(static_cast<double>(best.gltf_sign_count) / static_cast<double>(best.corner_count)) +
-           " of the corners have the sign of glTF.";
+           " of the corners have the sign that glTF requires.";
 }
 
 /// Describes other UV sets that explain a primitive far better than the UV set of the texture.
@@ -435,19 +435,19 @@ std::string transformSentence(const std::vector<PrimitiveIdentity>& primitives) 
         if (count == 0) return std::string();
         return " In " + primitivesText(count) + " the tangents follow the UVs " + words + " KHR_texture_transform.";
     };
-    return sentence(after, "after") + sentence(before, "as they are stored, before");
+    return sentence(after, "after") + sentence(before, "as stored, before");
 }
 
 std::string whyNothing(const Identification& result) {
     const bool none = std::all_of(result.primitives.begin(), result.primitives.end(), [](const PrimitiveIdentity& p) {
         return p.skipped == "it has no tangents" || p.skipped == "it has no triangles";
     });
-    if (none) return "There are no tangents in this file.";
+    if (none) return "This file contains no tangents.";
     const bool not_read = std::any_of(result.primitives.begin(), result.primitives.end(),
                                       [](const PrimitiveIdentity& p) { return p.skipped == kNotRead; });
-    return not_read
-               ? "The tangents of this file, if any, were not read: the importer cannot read them from this format."
-               : "No primitive has everything that is needed to identify the method.";
+    return not_read ? "The tangents of this file, if any, were not read, because the importer does not support them in "
+                      "this format."
+                    : "No primitive has all the data that is needed to identify the method.";
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ std::string needText(const PrimitiveInfo& primitive) {
 /// Describes a texture transform without its offset; empty: identity.
 std::string transformText(const TangentUseInfo& use) {
     std::string text;
-    if (use.uv_rotation_rad != 0) text += fmt::format(", turned by {:.6g} degrees", use.uv_rotation_rad * 180 / kPi);
+    if (use.uv_rotation_rad != 0) text += fmt::format(", rotated by {:.6g} degrees", use.uv_rotation_rad * 180 / kPi);
     if (use.uv_scale[0] != 1 || use.uv_scale[1] != 1)
         text += fmt::format(", scaled by ({:.6g}, {:.6g})", use.uv_scale[0], use.uv_scale[1]);
     return text;

@@ -57,8 +57,8 @@ LowModel::Image shownPart(const LowModel& model, const MapErrorFileOptions& opti
     }
     if (!shown.part.corners.positions.empty()) return shown;
     failFile(ErrorCode::missingAttribute, options.tile == 0
-                                              ? "no triangles have the material " + inQuotes(options.material)
-                                              : "no triangles lie in the UDIM tile " + std::to_string(options.tile));
+                                              ? "no triangle has the material " + inQuotes(options.material)
+                                              : "no triangle is in the UDIM tile " + std::to_string(options.tile));
 }
 
 std::string degreesWord(double degrees) {
@@ -294,28 +294,30 @@ class FileMeasuring {
         report_.fits = reads_well && !other_rays_;
         if (asked.error.missed_count > asked.error.point_count) {
             report_.fits = false;
-            report_.verdict = "Most of the low poly hits no high poly within " + shortNumber(asked.error.reach) +
+            report_.verdict = "Most rays from the low poly do not hit the high poly within " +
+                              shortNumber(asked.error.reach) +
                               ", so the map cannot be measured: the models do not overlap.";
             return;
         }
         if (better > kUnexplainedDeg) {
             report_.fits = false;
-            report_.verdict = "No interpretation of the map fits: the best one has an error of " + degreesWord(better) +
-                              " degrees on average, so the map is probably for another model or other UVs, or the high "
-                              "poly is in a different place" +
-                              (shows_several_ ? "; or it is for one material, which --material selects." : ".");
+            report_.verdict =
+                "No interpretation of the map fits: the best one has an error of " + degreesWord(better) +
+                " degrees on average, so the map was probably made for another model or other UVs, or the high poly is "
+                "not aligned with the low poly" +
+                (shows_several_ ? "; or the map is for a single material, which --material selects." : ".");
         } else if (!reads_well) {
-            report_.verdict = "The map was made for " + difference(asked, best) + ": read like that, its error is " +
-                              degreesWord(better) + " degrees on average, and as currently read by " +
-                              degreesWord(mean) + ".";
+            report_.verdict = "The map was made for " + difference(asked, best) +
+                              ": with this interpretation, its error is " + degreesWord(better) +
+                              " degrees on average; with the current interpretation it is " + degreesWord(mean) + ".";
         } else if (!other_rays_) {
             report_.verdict = "The map fits the model: its error is " + degreesWord(mean) + " degrees on average.";
         }
         if (better <= kUnexplainedDeg) addRaysToVerdict();
         if (asked.error.missed_count * 1000 > asked.error.point_count)
             report_.verdict +=
-                " This excludes samples that hit no high poly: " + std::to_string(asked.error.missed_count) + " of " +
-                std::to_string(asked.error.missed_count + asked.error.point_count) + " samples.";
+                " This excludes samples that did not hit the high poly: " + std::to_string(asked.error.missed_count) +
+                " of " + std::to_string(asked.error.missed_count + asked.error.point_count) + " samples.";
     }
 
     void addRaysToVerdict() {
@@ -324,7 +326,7 @@ class FileMeasuring {
         const bool is_near = best.reach == options_.map.reach;
         const std::string away = is_near ? "" : ", within " + shortNumber(best.reach);
         report_.verdict += (report_.verdict.empty() ? "The map was baked with " : " It was baked with ") +
-                           raysPhrase(best.options) + away + ": measured like that, its error is " +
+                           raysPhrase(best.options) + away + ": measured with these rays, its error is " +
                            degreesWord(best.error.mean_deg) + " degrees on average, and with " +
                            raysPhrase(options_.map.rays) + " it is " + degreesWord(report_.error.mean_deg) + ".";
     }
@@ -358,17 +360,17 @@ class FileMeasuring {
         if (best.frames == "quads") {
             add("the tangents of mikktspace on quads (tspace generate --overwrite --faces quads writes them)");
         } else if (best.frames != asked.frames) {
-            add(best.frames == "file" ? "the tangents in the file"
-                                      : "other tangents than those in the file (tspace generate --overwrite --method " +
-                                            best.frames + " makes them)");
+            add(best.frames == "file"
+                    ? "the tangents in the file"
+                    : "tangents that differ from those in the file (tspace generate --overwrite --method " +
+                          best.frames + " makes them)");
         }
         if (best.reading.bitangent != asked.reading.bitangent)
             add(best.reading.bitangent == BitangentPlace::perVertex ? "a bitangent per vertex, as in three.js and Godot"
                                                                     : "a bitangent per pixel");
         if (best.reading.two_channels != asked.reading.two_channels)
-            add(best.reading.two_channels
-                    ? "two channels, with z reconstructed from x and y (--two-channels reads it like that)"
-                    : "three channels");
+            add(best.reading.two_channels ? "two channels, with z reconstructed from x and y (use --two-channels)"
+                                          : "three channels");
         return words;
     }
 
@@ -380,7 +382,7 @@ class FileMeasuring {
         report_.heat_top_deg = error.p99_deg;
         const std::optional<std::vector<std::uint8_t>> png = encodePng(
             {.width = view.width, .height = view.height, .texels = pictureOfHeat(error.heat, error.p99_deg)}, 8);
-        if (!png) failFile(ErrorCode::unsupportedFile, "this build of tspace writes no PNG");
+        if (!png) failFile(ErrorCode::unsupportedFile, "this build of tspace cannot write PNG");
         AtomicOutput files({.sync = options_.file.sync, .inputs = &inputs_});
         files.add(options_.heat, std::span<const std::uint8_t>(*png));
         files.commit();

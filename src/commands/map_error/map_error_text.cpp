@@ -47,12 +47,13 @@ std::string mapErrorText(const Outcome<MapErrorFileReport>& outcome) {
         table.addRow({i == 0 ? "rays" : "",
                       fmt::format("{:.4f} degrees: {}", done.rays[i].error.mean_deg, raysText(done.rays[i]))});
     if (error.hidden_count > 0)
-        table.addRow({"note", fmt::format("{} of {} samples hit another front face of the high poly further out",
+        table.addRow({"note", fmt::format("{} of {} samples would hit another front face of the high poly farther out",
                                           error.hidden_count, error.missed_count + error.point_count)});
     if (error.missed_count > 0)
         table.addRow(
-            {"note", fmt::format("{} of {} samples hit no high poly within {:.4g}, and count as {:.0f} degrees",
-                                 error.missed_count, error.missed_count + error.point_count, error.reach, kMissedDeg)});
+            {"note",
+             fmt::format("{} of {} samples did not hit the high poly within {:.4g}; each counts as {:.0f} degrees",
+                         error.missed_count, error.missed_count + error.point_count, error.reach, kMissedDeg)});
     for (const BakedHighMap& map : done.high_maps) table.addRow({"high map", highMapText(map)});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
     return fmt::format("{}: {}\n{}", unbroken(outcome.input), done.verdict, table.text("  "));

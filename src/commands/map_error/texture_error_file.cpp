@@ -35,7 +35,7 @@ void addWarnings(const FloatImage& packed, std::vector<std::string>& warnings) {
             "all normals");
     if (packed.texture.layout == MapLayout{} && isGreyImage(packed))
         warnings.emplace_back(
-            "its channels are equal, or nearly: it is a height map or a single channel, not a normal map");
+            "its channels are equal or nearly equal, so it is a height map or a single channel, not a normal map");
 }
 
 TextureErrorReport measure(const std::string& texture, const std::string& source, const TextureErrorOptions& options) {
@@ -43,7 +43,7 @@ TextureErrorReport measure(const std::string& texture, const std::string& source
     TextureErrorReport report{.width = packed.width, .height = packed.height, .format = packed.texture.name};
     if (packed.width != map.width || packed.height != map.height)
         failFile(ErrorCode::countMismatch, "its " + sizeText(packed) + " texels are not the " + sizeText(map) +
-                                               " of the source: only the first mip level is compared");
+                                               " of the source; only the first mip level was compared");
     addWarnings(packed, report.warnings);
     report.makes_z = options.two_channels || packed.texture.layout.z.channel == MapChannel::none;
     for (FloatImage* image : {&packed, &map}) {

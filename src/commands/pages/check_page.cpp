@@ -19,7 +19,7 @@
 namespace tspace {
 namespace {
 
-constexpr const char* kNothingToSee = "The fix changes nothing that this picture shows.";
+constexpr const char* kNothingToSee = "The fix changes nothing that is visible in this picture.";
 
 /// Returns the first command of a finding that operates on the model, or null.
 const RemedyCommand* modelCommand(const Finding& finding) {
@@ -79,7 +79,7 @@ struct FindingPictures::Model {
         try {
             mending.model = std::make_unique<MendedModel>(input, file, before.scene(), command);
         } catch (const FileError& failure) {
-            mending.why_not = "The fix cannot be run here: " + failure.error.message + ".";
+            mending.why_not = "The fix could not be run for this report: " + failure.error.message + ".";
         }
     }
 
@@ -116,13 +116,13 @@ std::string FindingPictures::drawAfter(const RemedyCommand& command, std::size_t
                                        std::span<const std::size_t> triangles, RenderFrames frames,
                                        FindingPicture& result) {
     const std::optional<GenerateOptions> options = optionsOf(command);
-    if (!options) return "The fix requires a choice.";
+    if (!options) return "The fix requires a decision, so no picture of it was made.";
     const Model::Mending& mending = model_->mendedBy(commandLine(command), *options);
     if (!mending.model) return mending.why_not;
     const auto pair = std::find_if(mending.model->pairs.begin(), mending.model->pairs.end(),
                                    [&](const PrimitivePair& candidate) { return candidate.a == primitive; });
     if (pair == mending.model->pairs.end() || pair->b == kNoPrimitive)
-        return "The fix triangulates this place differently.";
+        return "The fix triangulates this area differently.";
     PicturePair drawn =
         drawPair({model_->before.lit(frames), primitive}, triangles, {mending.model->model.lit(frames), pair->b});
     if (drawn.before.empty()) return kNothingToSee;
@@ -163,15 +163,16 @@ std::string figuresOf(const FindingPicture& picture) {
     if (picture.before.empty())
         return picture.why_no_after.empty()
                    ? ""
-                   : noFigureHtml("No pictures: " + picture.command + " changes nothing that a picture shows.");
+                   : noFigureHtml("No pictures: " + picture.command + " changes nothing that is visible in a picture.");
     const std::string command = "after " + picture.command;
     std::string figures = figureHtml(picture.before, kPlaceWidth, kPlaceHeight,
                                      picture.is_clay ? "as in the file, without base color" : "as the file is");
     if (!picture.after.empty())
         return figures + figureHtml(picture.after, kPlaceWidth, kPlaceHeight, command) +
                figureHtml(picture.difference, kPlaceWidth, kPlaceHeight, picture.caption);
-    const std::string why = picture.command.empty() ? "No picture of the fix: no tspace command provides it."
-                                                    : "No picture " + command + ": " + picture.why_no_after;
+    const std::string why = picture.command.empty()
+                                ? "No picture of the fix was made, because no tspace command performs it."
+                                : "No picture " + command + ": " + picture.why_no_after;
     return figures + noFigureHtml(why);
 }
 
@@ -261,7 +262,7 @@ std::string overviewHtml(const std::vector<report::CheckOutcome>& outcomes) {
             for (const std::uint64_t count : {result->error_count, result->warning_count, result->note_count})
                 html += "<td class=\"n\">" + std::to_string(count) + "</td>";
         } else {
-            html += "<td colspan=\"3\" class=\"n\"><b class=\"error\">not read</b></td>";
+            html += "<td colspan=\"3\" class=\"n\"><b class=\"error\">could not be read</b></td>";
         }
         html += "</tr>\n";
     }
@@ -283,8 +284,8 @@ std::string checkPage(const std::vector<report::CheckOutcome>& outcomes, const F
     std::string html = pageHead("tspace check");
     html += "<h1>Frames of " + counted(outcomes.size(), "file") + "</h1>\n";
     html += originHtml(origin) +
-            "<p class=\"dim\">An error renders wrong everywhere; a warning renders wrong in some renderers, in a small "
-            "part, or only possibly; a note is worth knowing. A frame marks the place of a finding. Pictures before "
+            "<p class=\"dim\">An error causes wrong shading everywhere; a warning causes it in some renderers, in a "
+            "small area, or only possibly; a note does no harm. A frame marks the place of a finding. Pictures before "
             "and after the fix use the camera and the light that show the difference best.</p>\n";
     if (outcomes.size() > 1) html += overviewHtml(outcomes);
     for (std::size_t i = 0; i < outcomes.size(); ++i) {

@@ -130,7 +130,8 @@ std::string heatHtml(DiffPictures& pictures) {
             pictures.heatMap(side), DiffPictures::kHeatWidth, DiffPictures::kHeatHeight,
             side == DiffPictures::Side::front ? "the angle between the frames, in degrees" : "the same from behind");
     }
-    return figures.empty() ? noFigureHtml("No heat map: the scene of A has nothing to draw.") : figures;
+    return figures.empty() ? noFigureHtml("No heat map was made, because the scene of A contains nothing to draw.")
+                           : figures;
 }
 
 std::string placesHtml(const FrameDiff& diff, DiffPictures& pictures, Room& room) {

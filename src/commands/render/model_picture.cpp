@@ -459,7 +459,7 @@ RgbImage besideEachOther(const RgbImage& left, const RgbImage& right) {
 
 std::vector<std::uint8_t> encodePicture(const RgbImage& image) {
     std::optional<std::vector<std::uint8_t>> png = encodePng(image);
-    if (!png) failFile(ErrorCode::unsupportedFile, "this build of tspace writes no PNG");
+    if (!png) failFile(ErrorCode::unsupportedFile, "this build of tspace cannot write PNG");
     return *std::move(png);
 }
 

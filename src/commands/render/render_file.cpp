@@ -19,23 +19,24 @@ void checkRenderOptions(const RenderOptions& options) {
     constexpr std::uint64_t kMostInAll = std::uint64_t{1} << 26;
     for (const std::uint32_t pixels : {options.width, options.height}) {
         if (pixels < kLeastPixels || pixels > kMostPixels)
-            failFile(ErrorCode::invalidOption, "a picture has 16 to 8192 pixels along each side");
+            failFile(ErrorCode::invalidOption, "the width and height of a picture must be from 16 to 8192 pixels");
         if (options.samples < 1 || options.samples > 4 || pixels * options.samples > kMostSamples)
             failFile(ErrorCode::invalidOption,
-                     "a picture has 1 to 4 samples per side of a pixel, and at most 16384 per side in total");
+                     "the number of samples per side of a pixel must be from 1 to 4, and the picture may have at most "
+                     "16384 samples per side");
     }
     if (std::uint64_t{options.width} * options.samples * options.height * options.samples > kMostInAll)
         failFile(ErrorCode::invalidOption, "the picture has more than 67108864 samples; use fewer samples per pixel");
     if (!std::isfinite(options.yaw_deg) || !std::isfinite(options.pitch_deg))
-        failFile(ErrorCode::invalidOption, "an angle of the view is not a number");
+        failFile(ErrorCode::invalidOption, "the angles of the view must be finite numbers");
     if (!(options.field_of_view_deg >= 0 && options.field_of_view_deg <= 120))
-        failFile(ErrorCode::invalidOption, "the field of view is not from 0 to 120 degrees");
+        failFile(ErrorCode::invalidOption, "the field of view must be from 0 to 120 degrees");
     DVec3 light = toDouble(options.to_light);
-    if (!normalize(light)) failFile(ErrorCode::invalidOption, "the direction to the light has length 0");
+    if (!normalize(light)) failFile(ErrorCode::invalidOption, "the direction to the light must not be zero");
     if (options.turntable < 1 || options.turntable > 999)
-        failFile(ErrorCode::invalidOption, "a turntable has 1 to 999 pictures");
+        failFile(ErrorCode::invalidOption, "the number of pictures of a turntable must be from 1 to 999");
     if (!std::isfinite(options.reading.scale))
-        failFile(ErrorCode::invalidOption, "the scale of the normal map is not a number");
+        failFile(ErrorCode::invalidOption, "the scale of the normal map must be a finite number");
 }
 
 bool showsTangents(RenderShow show) {

@@ -54,7 +54,8 @@ struct AlphaEvidence {
 std::vector<float> takeCoverage(MapAlpha alpha, FloatImage& image, std::vector<std::string>& warnings) {
     std::vector<float> coverage = std::exchange(image.alpha, {});
     if (coverage.empty()) {
-        if (alpha == MapAlpha::coverage) warnings.emplace_back("the image has no alpha, so it is fully covered");
+        if (alpha == MapAlpha::coverage)
+            warnings.emplace_back("the image has no alpha channel, so all texels count as fully covered");
         return {};
     }
     image.alpha = std::move(coverage);
@@ -62,18 +63,18 @@ std::vector<float> takeCoverage(MapAlpha alpha, FloatImage& image, std::vector<s
     coverage = std::exchange(image.alpha, {});
     if (alpha == MapAlpha::data || (alpha == MapAlpha::automatic && !evidence.isCoverage())) {
         const bool is_unclear = alpha == MapAlpha::automatic && evidence.transparent > 0;
-        warnings.push_back(
-            std::string("the image has alpha, which is ignored") +
-            (is_unclear
-                 ? ": of " + std::to_string(evidence.transparent) + " texels with alpha 0, " +
-                       std::to_string(evidence.transparent_unit) +
-                       " hold unit vectors; if alpha 0 means that there is no surface, set the option alpha to coverage"
-                 : ""));
+        warnings.push_back(std::string("the image has an alpha channel, which is ignored") +
+                           (is_unclear ? ": of " + std::to_string(evidence.transparent) + " texels with alpha 0, " +
+                                             std::to_string(evidence.transparent_unit) +
+                                             " hold unit vectors; if alpha 0 marks texels outside the surface, set the "
+                                             "option alpha to coverage"
+                                       : ""));
         return {};
     }
     if (alpha == MapAlpha::automatic)
         warnings.push_back(
-            "alpha is read as coverage, since the texels with alpha 0 hold no unit vectors and the others do: these " +
+            "alpha is read as coverage, because the texels with alpha 0 hold no unit vectors and the others do: "
+            "these " +
             std::to_string(evidence.transparent) +
             " texels are excluded from mip levels; set the option alpha to data to ignore alpha");
     if (evidence.isPremultiplied()) {
@@ -81,7 +82,7 @@ std::vector<float> takeCoverage(MapAlpha alpha, FloatImage& image, std::vector<s
             if (coverage[i] > kTransparent) image.texels[i] = dividedBy(image.texels[i], coverage[i]);
         }
         if (alpha == MapAlpha::automatic)
-            warnings.emplace_back("colors were premultiplied by alpha, and were divided by it");
+            warnings.emplace_back("the colors were premultiplied by alpha, so they were divided by it");
     }
     for (float& part : coverage) part = part <= kTransparent ? 0 : std::min(part, 1.0F);
     return coverage;

@@ -107,8 +107,9 @@ double scaleOf(std::span<const ChosenPrimitive> chosen) {
             failFile(ErrorCode::invalidFile,
                      material + " sets the scale of its normal map to 0, so the map has no effect");
         if (scale_of(one) != scale_of(first)) {
-            failFile(ErrorCode::invalidFile, material + " sets a different scale for the map than " +
-                                                 inQuotes(first.primitive->material_name) + "; choose one of them");
+            failFile(ErrorCode::invalidFile, material + " sets a different scale of the map than " +
+                                                 inQuotes(first.primitive->material_name) +
+                                                 "; select one of them with --material");
         }
     }
     return scale_of(first);
@@ -165,7 +166,7 @@ std::optional<Affine> placeOf(const DrawnScene& drawn, const ChosenPrimitive& ch
         if (turnsAlike(*place, placement.to_world)) continue;
         failFile(ErrorCode::invalidFile,
                  "several nodes use the mesh " + inQuotes(chosen.primitive->mesh_name) +
-                     ", with different rotations or scales, and a map in world space fits only one of them");
+                     " with different rotations or scales, but a map in world space fits only one of them");
     }
     return place;
 }
@@ -266,9 +267,9 @@ MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const
         if (place) placeCorners(*place, first, mesh);
     }
     if (mesh.corners.uvs.empty() && choice.tile != 0)
-        failFile(ErrorCode::invalidFile, "no triangles lie in the UDIM tile " + std::to_string(choice.tile));
+        failFile(ErrorCode::invalidFile, "no triangle is in the UDIM tile " + std::to_string(choice.tile));
     if (mesh.corners.uvs.empty())
-        failFile(ErrorCode::invalidFile, "no node of the scene uses the mesh, so it has no world space");
+        failFile(ErrorCode::invalidFile, "no node of the scene uses the mesh, so its world space is undefined");
     return mesh;
 }
 
@@ -313,7 +314,7 @@ bool isTgaName(const std::string& path) { return lowerExtension(path) == ".tga";
 namespace {
 
 std::vector<std::uint8_t> tgaOf(std::optional<std::vector<std::uint8_t>>&& file) {
-    if (!file) failFile(ErrorCode::tooLarge, "a TGA has at most 65535 pixels per side");
+    if (!file) failFile(ErrorCode::tooLarge, "a TGA can have at most 65535 pixels per side");
     return *std::move(file);
 }
 

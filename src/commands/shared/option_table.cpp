@@ -185,8 +185,7 @@ Option numberOption(const char* names, std::uint64_t default_value, unsigned mos
                     std::function<void(std::uint64_t)> store, HelpText help) {
     const auto take = [most, store = std::move(store)](const std::string& given) -> std::string {
         std::uint64_t count = 0;
-        if (!parseNumber(given, count) || count > most)
-            return "must be a whole number from 0 to " + std::to_string(most);
+        if (!parseNumber(given, count) || count > most) return "must be an integer from 0 to " + std::to_string(most);
         store(count);
         return {};
     };
@@ -293,7 +292,7 @@ std::string readJsonOptions(const OptionList& list, std::string_view text, Given
         return "the options cannot be read: " + error.message +
                (error.byte ? " (at byte " + std::to_string(*error.byte) + ")" : "");
     }
-    if (!root->is_object()) return "the options are not a JSON object";
+    if (!root->is_object()) return "the options must be a JSON object";
     for (const auto& [name, value] : root->items()) {
         const std::string long_name = std::string("--").append(name);
         const Option* option = findOption(list, long_name);

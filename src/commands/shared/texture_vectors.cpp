@@ -45,7 +45,7 @@ std::string applyLayout(FloatImage& image) {
         return kNames[static_cast<std::size_t>(component.channel)];
     };
     const std::string where = std::string("x is read from ") + nameOf(layout.x) + " and y from " + nameOf(layout.y) +
-                              (layout.z.channel == MapChannel::none ? ", and z is reconstructed from them" : "");
+                              (layout.z.channel == MapChannel::none ? ", so z is reconstructed from them" : "");
     return "the map is " + image.texture.name +
            (image.texture.is_guessed ? ", whose texels look as if only x and y were stored: " : ": ") + where;
 }

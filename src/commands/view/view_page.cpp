@@ -37,9 +37,9 @@ struct EmbeddedFile {
 /// Returns the model, then each file that it references. Converting the model to GLB opens all of them.
 std::vector<EmbeddedFile> filesOf(const Path& input, const FileOptions& options, InputFiles& inputs) {
     if (!isGltfName(input) && lowerExtension(input) != ".obj") {
-        failFile(ErrorCode::unsupportedFile,
-                 "the page supports .glb, .vrm, .gltf and .obj; convert the model first, with tspace generate IN -o "
-                 "OUT.glb");
+        failFile(
+            ErrorCode::unsupportedFile,
+            "the page supports .glb, .vrm, .gltf and .obj; convert the model first with tspace generate IN -o OUT.glb");
     }
     const std::string& path = input.string();
     const fs::path folder = fs::path(folderOf(input)).lexically_normal();
@@ -105,7 +105,7 @@ Result<ViewReport> writeViewPage(const Path& input, const Path& output, const Pa
         const std::string_view text(reinterpret_cast<const char*>(html.data()), html.size());
         const std::size_t place = text.find(kPlaceOfModel);
         if (place == std::string_view::npos)
-            failFile(ErrorCode::unsupportedFile, "the page " + pathInQuotes(page) + " has no place for a model");
+            failFile(ErrorCode::unsupportedFile, "the page " + pathInQuotes(page) + " is not a page of tspace view");
         ViewReport report;
         std::string made(text.substr(0, place));
         for (const EmbeddedFile& file : filesOf(input, options, inputs)) {

@@ -98,11 +98,11 @@ Error caughtError() {
     } catch (const std::bad_alloc&) {
         return {ErrorCode::outOfMemory, "out of memory"};
     } catch (const Cancelled&) {
-        return {ErrorCode::cancelled, "stopped before it was done"};
+        return {ErrorCode::cancelled, "the call was canceled before it finished"};
     } catch (...) {
         // A message of this length is allocated.
         try {
-            return {ErrorCode::internal, "internal error: an exception reached the library's border"};
+            return {ErrorCode::internal, "internal error: an unexpected exception occurred"};
         } catch (...) {
             return {ErrorCode::internal, "internal error"};
         }
@@ -128,23 +128,23 @@ Error checkFaces(const MeshView& mesh) {
     if (mesh.face_sizes.empty()) {
         if (mesh.face_size == 0) return {ErrorCode::invalidOption, "face_size is 0"};
         if (corners % mesh.face_size != 0) {
-            return makeError(ErrorCode::countMismatch, kNoElement, "%zu corners are not a whole number of faces of %u",
-                             corners, mesh.face_size);
+            return makeError(ErrorCode::countMismatch, kNoElement,
+                             "the %zu corners cannot be divided into faces of %u corners", corners, mesh.face_size);
         }
         return fine();
     }
-    if (mesh.face_sizes.data() == nullptr) return {ErrorCode::nullData, "face_sizes is null but has a count"};
+    if (mesh.face_sizes.data() == nullptr) return {ErrorCode::nullData, "face_sizes is null, but its count is not 0"};
     if (mesh.face_sizes.size() > kMaxCorners) return {ErrorCode::tooLarge, "more than 2^31-1 faces"};
     std::uint64_t sum = 0;
     for (std::size_t f = 0; f < mesh.face_sizes.size(); ++f) {
         sum += mesh.face_sizes[f];
         if (sum > corners) {
-            return makeError(ErrorCode::countMismatch, f, "face sizes need more corners than the %zu there are",
+            return makeError(ErrorCode::countMismatch, f, "face sizes add up to more than the %zu corners of the mesh",
                              corners);
         }
     }
     if (sum != corners) {
-        return makeError(ErrorCode::countMismatch, kNoElement, "face sizes add up to %zu corners, but there are %zu",
+        return makeError(ErrorCode::countMismatch, kNoElement, "face sizes add up to %zu corners, but the mesh has %zu",
                          static_cast<std::size_t>(sum), corners);
     }
     return fine();
@@ -182,14 +182,15 @@ Error checkBelow(const IndexView& indices, std::size_t count, Parallel* parallel
     std::size_t c = all ? indices.count : 0;
     while (c < indices.count && indices[c] < count) ++c;
     if (c == indices.count) return fine();
-    return makeError(ErrorCode::indexOutOfRange, c, "%s %u of corner %zu is not below the %zu %s", index_name,
+    return makeError(ErrorCode::indexOutOfRange, c, "%s %u of corner %zu is out of range: there are %zu %s", index_name,
                      indices[c], c, count, name);
 }
 
 Error checkIndexSpan(const IndexView& indices, const char* name) {
     if (indices.type == IndexType::none) {
         if (indices.count != 0) {
-            return makeError(ErrorCode::invalidOption, kNoElement, "%s have a count but IndexType::none", name);
+            return makeError(ErrorCode::invalidOption, kNoElement, "%s have a count, but their type is IndexType::none",
+                             name);
         }
         return fine();
     }
@@ -215,7 +216,7 @@ Error checkAttribute(const StridedSpan<const std::byte>& span, std::size_t eleme
     if (Error e = checkIndexSpan(indices, indices_name); e.code != ErrorCode::ok) return e;
     if (indices.count != corner_count) {
         return makeError(ErrorCode::countMismatch, kNoElement,
-                         "%s has %zu entries, one for each of %zu corners is needed", indices_name, indices.count,
+                         "%s has %zu entries, but needs one for each of the %zu corners", indices_name, indices.count,
                          corner_count);
     }
     if (span.empty() && corner_count != 0) return fine();
@@ -227,22 +228,23 @@ Error checkAttribute(const StridedSpan<const std::byte>& span, std::size_t eleme
 Error checkSpan(const void* data, std::size_t count, std::size_t stride_bytes, std::size_t element_bytes,
                 std::size_t expected_count, const char* name) {
     if (expected_count != kAnyCount && count != expected_count) {
-        return makeError(ErrorCode::countMismatch, kNoElement, "%s has %zu entries, %zu are needed", name, count,
+        return makeError(ErrorCode::countMismatch, kNoElement, "%s has %zu entries, but needs %zu", name, count,
                          expected_count);
     }
     if (count == 0) return fine();
     if (data == nullptr)
-        return makeError(ErrorCode::nullData, kNoElement, "%s is null but has a count of %zu", name, count);
+        return makeError(ErrorCode::nullData, kNoElement, "%s is null, but its count is %zu", name, count);
     if (count > 1 && stride_bytes < element_bytes) {
         return makeError(ErrorCode::strideTooSmall, kNoElement,
-                         "%s has a stride of %zu bytes, but its elements take %zu", name, stride_bytes, element_bytes);
+                         "%s has a stride of %zu bytes, which is less than its element size of %zu bytes", name,
+                         stride_bytes, element_bytes);
     }
     const std::size_t alignment = element_bytes % 4 == 0 ? 4 : element_bytes;  // floats and u32; or u16 and u8 indices
     if (reinterpret_cast<std::uintptr_t>(data) % alignment != 0 || (count > 1 && stride_bytes % alignment != 0)) {
         return makeError(ErrorCode::misaligned, kNoElement, "%s is not aligned to %zu bytes", name, alignment);
     }
     if (count > 1 && (count - 1) > (std::numeric_limits<std::size_t>::max() - element_bytes) / stride_bytes) {
-        return makeError(ErrorCode::tooLarge, kNoElement, "%s with its stride does not fit the address space", name);
+        return makeError(ErrorCode::tooLarge, kNoElement, "%s exceeds the address space with its stride", name);
     }
     return fine();
 }
@@ -254,7 +256,7 @@ Error checkIndices(const IndexView& indices, std::size_t vertex_count, Parallel*
 
 Error checkMesh(const MeshView& mesh, Parallel* parallel) {
     if (mesh.positions.count > kMaxCorners || mesh.indices.count > kMaxCorners) {
-        return {ErrorCode::tooLarge, "more than 2^31-1 vertices or corners"};
+        return {ErrorCode::tooLarge, "the mesh has more than 2^31-1 vertices or corners"};
     }
     if (Error e = checkSpan(mesh.positions, kAnyCount, "positions"); e.code != ErrorCode::ok) return e;
     if (Error e = checkIndexSpan(mesh.indices, "indices"); e.code != ErrorCode::ok) return e;

@@ -127,7 +127,7 @@ Buffer<float> longestEdges(const MeshView& mesh, const Buffer<std::uint32_t>& eq
 Error checkWeldDistance(float distance) {
     const bool is_valid = (distance >= 0 && std::isfinite(distance)) || distance == NormalOptions::weld_auto;
     if (is_valid) return {ErrorCode::ok, {}};
-    return {ErrorCode::invalidOption, "weld_distance is neither a length from 0 on nor weld_auto (-1)"};
+    return {ErrorCode::invalidOption, "weld_distance must be a finite number of 0 or more, or weld_auto (-1)"};
 }
 
 NearPositions::NearPositions(const MeshView& mesh, float distance, const Allocator* allocator, Parallel& parallel)

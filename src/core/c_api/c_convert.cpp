@@ -35,11 +35,10 @@ static_assert(sizeof(tspace_Convention) == 5 * sizeof(std::uint32_t));
 
 Error checkStructSize(std::uint32_t size, std::span<const std::size_t> known, const char* name) {
     if (std::find(known.begin(), known.end(), size) != known.end()) return {ErrorCode::ok};
-    return makeError(
-        ErrorCode::invalidOption, kNoElement,
-        "%s.struct_size is %u, but the size of this version is %zu: the struct was not initialized, or the "
-        "caller was built for another version of the library",
-        name, size, known.back());
+    return makeError(ErrorCode::invalidOption, kNoElement,
+                     "%s.struct_size is %u, but the size in this version is %zu: the struct was not initialized, or "
+                     "the caller was built for another version of the library",
+                     name, size, known.back());
 }
 
 Error checkPrepared(bool has_defaults, const char* name, const char* fields) {
@@ -50,7 +49,8 @@ Error checkPrepared(bool has_defaults, const char* name, const char* fields) {
 
 Error checkChoice(std::uint32_t value, std::uint32_t largest, const char* name) {
     if (value <= largest) return {ErrorCode::ok};
-    return makeError(ErrorCode::invalidOption, kNoElement, "%s is %u, the largest value is %u", name, value, largest);
+    return makeError(ErrorCode::invalidOption, kNoElement, "%s is %u, but its largest value is %u", name, value,
+                     largest);
 }
 
 IndexView toIndices(const tspace_Indices& indices) {
@@ -74,7 +74,7 @@ MeshView toMesh(const tspace_Mesh& given) {
 Error checkMesh(const tspace_Mesh* mesh) {
     if (Error error = checkNeeded(mesh, "mesh"); error.code != ErrorCode::ok) return error;
     if (mesh->face_sizes == nullptr && mesh->face_count != 0) {
-        return {ErrorCode::nullData, "mesh.face_sizes is null but mesh.face_count is not 0"};
+        return {ErrorCode::nullData, "mesh.face_sizes is null, but mesh.face_count is not 0"};
     }
     return {ErrorCode::ok};
 }
@@ -94,11 +94,11 @@ Error checkExecution(const tspace_Execution* given) {
     if (Error error = checkSized(given, "execution"); error.code != ErrorCode::ok) return error;
     const tspace_Execution execution = orDefault(given);
     if (execution.executor != nullptr && execution.executor->run == nullptr) {
-        return {ErrorCode::nullData, "execution.executor has no function run"};
+        return {ErrorCode::nullData, "the function execution.executor.run is null"};
     }
     const tspace_Allocator* allocator = execution.allocator;
     if (allocator != nullptr && (allocator->allocate == nullptr || allocator->release == nullptr)) {
-        return {ErrorCode::nullData, "execution.allocator needs both functions, allocate and release"};
+        return {ErrorCode::nullData, "execution.allocator requires both functions, allocate and release"};
     }
     return {ErrorCode::ok};
 }

@@ -34,7 +34,7 @@ tspace_ErrorCode tspace_findConvention(const char* name, tspace_Convention* out,
         if (name == nullptr || out == nullptr) return Error{ErrorCode::nullData, "name or out is null"};
         const Convention* convention = findConvention(name);
         if (convention == nullptr) {
-            return makeError(ErrorCode::invalidOption, kNoElement, "there is no convention with the name \"%s\"", name);
+            return makeError(ErrorCode::invalidOption, kNoElement, "unknown convention \"%s\"", name);
         }
         *out = std::bit_cast<tspace_Convention>(*convention);
         return Done{};

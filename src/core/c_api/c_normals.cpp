@@ -21,7 +21,7 @@ Error checkOptions(const tspace_NormalOptions* given) {
                       [&]() -> Error {
                           if (options.smoothing_groups != nullptr || options.smoothing_group_count == 0)
                               return {ErrorCode::ok};
-                          return {ErrorCode::nullData, "smoothing_groups is null but smoothing_group_count is not 0"};
+                          return {ErrorCode::nullData, "smoothing_groups is null, but smoothing_group_count is not 0"};
                       });
 }
 

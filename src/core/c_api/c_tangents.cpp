@@ -283,7 +283,7 @@ Result<std::vector<CornerAttribute>> toAttributes(const tspace_CornerAttribute* 
     std::vector<CornerAttribute> result;
     if (count == 0) return result;
     if (attributes == nullptr)
-        return makeError(ErrorCode::nullData, kNoElement, "%s is null but %s_count is not 0", name, name);
+        return makeError(ErrorCode::nullData, kNoElement, "%s is null, but %s_count is not 0", name, name);
     result.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
         const tspace_CornerAttribute& given = attributes[i];

@@ -23,15 +23,15 @@ constexpr std::uint64_t kSlow = 4;
 
 Error checkOptions(const MeshView& mesh, const NormalOptions& options) {
     if (static_cast<std::uint32_t>(options.weighting) > static_cast<std::uint32_t>(NormalWeighting::best)) {
-        return {ErrorCode::invalidOption, "weighting is not one of NormalWeighting"};
+        return {ErrorCode::invalidOption, "weighting is not a value of NormalWeighting"};
     }
     if (!((options.crease_angle_deg >= 0 && options.crease_angle_deg <= 180) ||
           options.crease_angle_deg == NormalOptions::crease_auto)) {
-        return {ErrorCode::invalidOption, "crease_angle_deg is neither between 0 and 180 nor crease_auto"};
+        return {ErrorCode::invalidOption, "crease_angle_deg must be from 0 to 180, or crease_auto"};
     }
-    if (options.refine > 2) return {ErrorCode::invalidOption, "refine is not 0, 1 or 2"};
+    if (options.refine > 2) return {ErrorCode::invalidOption, "refine must be 0, 1 or 2"};
     if (!((options.denoise >= 0 && options.denoise <= 4) || options.denoise == NormalOptions::denoise_auto)) {
-        return {ErrorCode::invalidOption, "denoise is neither between 0 and 4 nor denoise_auto"};
+        return {ErrorCode::invalidOption, "denoise must be from 0 to 4, or denoise_auto"};
     }
     if (Error e = checkWeldDistance(options.weld_distance); e.code != ErrorCode::ok) return e;
     if (!options.smoothing_groups.empty()) {
@@ -139,7 +139,7 @@ Result<std::vector<std::uint32_t>> findSharedNormals(const MeshView& given, cons
     if (Error e = checkMesh(given, &parallel); e.code != ErrorCode::ok) return e;
     if (Error e = checkOptions(given, options); e.code != ErrorCode::ok) return e;
     if (!PointItems::areTriangles(given))
-        return Error{ErrorCode::invalidOption, "shared normals need a mesh of triangles: triangulate it first"};
+        return Error{ErrorCode::invalidOption, "shared normals need a triangle mesh; triangulate the mesh first"};
     std::vector<std::uint32_t> shared(given.cornerCount());
     for (std::uint32_t c = 0; c < shared.size(); ++c) shared[c] = c;
     if (options.weighting == NormalWeighting::flat || shared.empty()) return shared;

@@ -405,7 +405,7 @@ class Sanitizer {
 Error check(const MeshView& mesh, const StridedSpan<Vec4>& tangents) {
     if (Result<Done> valid = validate(mesh); !valid) return std::move(valid).error();
     if (mesh.normals.empty() && mesh.vertexCount() != 0) {
-        return {ErrorCode::missingAttribute, "sanitize needs normals, and the mesh has none"};
+        return {ErrorCode::missingAttribute, "sanitize needs normals, but the mesh has none"};
     }
     return checkSpan(tangents, mesh.cornerCount(), "tangents");
 }

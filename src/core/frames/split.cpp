@@ -242,12 +242,12 @@ Error checkAttributes(AttributeSpan attributes, std::size_t corner_count) {
     for (std::size_t i = 0; i < attributes.size(); ++i) {
         const CornerAttribute& attribute = attributes[i];
         if (attribute.component_count < 1 || attribute.component_count > 16) {
-            return makeError(ErrorCode::invalidOption, i, "attribute %zu has %u components, not 1 to 16", i,
+            return makeError(ErrorCode::invalidOption, i, "attribute %zu has %u components, but must have 1 to 16", i,
                              attribute.component_count);
         }
         if (!(attribute.tolerance >= 0.0f) || !std::isfinite(attribute.tolerance)) {
             return makeError(ErrorCode::invalidOption, i,
-                             "attribute %zu has a tolerance that is negative or not finite", i);
+                             "the tolerance of attribute %zu must be finite and not negative", i);
         }
         const Error name = makeError(ErrorCode::ok, i, "attribute %zu", i);
         Error e = checkSpan(attribute.data, corner_count, attribute.stride_bytes,
@@ -260,17 +260,18 @@ Error checkAttributes(AttributeSpan attributes, std::size_t corner_count) {
 Error check(const IndexView& indices, std::size_t vertex_count, std::size_t corner_count, AttributeSpan attributes,
             const Execution& execution) {
     if (vertex_count > kMaxCorners || corner_count > kMaxCorners) {
-        return {ErrorCode::tooLarge, "more than 2^31-1 vertices or corners"};
+        return {ErrorCode::tooLarge, "the mesh has more than 2^31-1 vertices or corners"};
     }
     Parallel parallel(execution, corner_count);
     if (Error e = checkIndices(indices, vertex_count, &parallel); e.code != ErrorCode::ok) return e;
     if (indices.type == IndexType::none && corner_count > vertex_count) {
         return makeError(ErrorCode::indexOutOfRange, vertex_count,
-                         "corner %zu has no vertex: there are %zu vertices and no indices", vertex_count, vertex_count);
+                         "corner %zu has no vertex: the mesh has %zu vertices and no indices", vertex_count,
+                         vertex_count);
     }
     if (indices.type != IndexType::none && corner_count != indices.count) {
-        return makeError(ErrorCode::countMismatch, kNoElement, "%zu corners but %zu indices", corner_count,
-                         indices.count);
+        return makeError(ErrorCode::countMismatch, kNoElement,
+                         "the number of corners is %zu, but the number of indices is %zu", corner_count, indices.count);
     }
     return checkAttributes(attributes, corner_count);
 }

@@ -380,25 +380,28 @@ Error checkBuffers(const TangentPlan& plan, const PlanParts& parts, const PlanBu
     const Method method = plan.method();
     if (method == Method::flat || method == Method::basis || method == Method::best)
         return refuse(
-            "shaders have no method flat, basis or best: take mikktspace, uniform, angle, area, lengyel or fast");
-    if (parts.is_symmetric) return refuse("shaders have no symmetric frame");
+            "the shaders do not implement the methods flat, basis and best; use mikktspace, uniform, angle, area, "
+            "lengyel or fast");
+    if (parts.is_symmetric) return refuse("the shaders do not implement symmetric frames");
     if (parts.indexed != nullptr && !parts.indexed->cut_triangles.empty())
-        return refuse("lengyel on a GPU needs a mesh of triangles: triangulate it first");
+        return refuse("lengyel on a GPU needs a triangle mesh; triangulate the mesh first");
     if (parts.has_own_lists && options.indices.empty())
-        return refuse("a plan of a mesh with several index lists needs the indices of its vertices in a pose");
+        return refuse(
+            "the plan was made for a mesh with several index lists, so options.indices must give the vertex of each "
+            "corner in a pose");
     if (!options.indices.empty() && options.indices.size() != plan.cornerCount())
-        return {ErrorCode::countMismatch, "indices are not one per corner of the plan"};
+        return {ErrorCode::countMismatch, "indices must have one entry per corner of the plan"};
     for (const std::uint32_t corner : options.source_corners) {
         if (corner != kNoCorner && corner >= plan.cornerCount())
-            return {ErrorCode::indexOutOfRange, "a source corner is not one of the plan's"};
+            return {ErrorCode::indexOutOfRange, "a source corner is not a corner of the plan"};
     }
     if (!options.source_corners.empty() && plan.outputCount() != plan.cornerCount())
-        return refuse("a plan of results per vertex takes no source corners");
+        return refuse("source corners cannot be combined with a plan that has one result per vertex");
     if (options.mesh.vertexCount() == 0) return {ErrorCode::ok, {}};
     if (options.normals.weighting == NormalWeighting::best || options.normals.denoise != 0)
-        return refuse("shaders compute no normals by best or denoise");
+        return refuse("the shaders cannot compute normals with the weighting best or with denoise");
     if (options.mesh.vertexCount() != plan.vertexCount() || options.mesh.cornerCount() != plan.cornerCount())
-        return {ErrorCode::planMismatch, "the mesh is not the plan's"};
+        return {ErrorCode::planMismatch, "the mesh is not the mesh that the plan was made for"};
     return {ErrorCode::ok, {}};
 }
 

@@ -198,12 +198,12 @@ template <class N, class T>
 Error check(FrameFormat format, const StridedSpan<N>& normals, const StridedSpan<T>& tangents, const void* bytes,
             std::size_t byte_count) {
     const std::size_t each = frameBytes(format);
-    if (each == 0) return {ErrorCode::invalidOption, "the format is none of FrameFormat"};
+    if (each == 0) return {ErrorCode::invalidOption, "the format is not a value of FrameFormat"};
     if (Error e = checkSpan(normals, normals.count, "normals"); e.code != ErrorCode::ok) return e;
     if (Error e = checkSpan(tangents, normals.count, "tangents"); e.code != ErrorCode::ok) return e;
     if (byte_count / each != normals.count || byte_count % each != 0) {
-        return makeError(ErrorCode::countMismatch, kNoElement, "%zu frames of %zu bytes do not fit into %zu bytes",
-                         normals.count, each, byte_count);
+        return makeError(ErrorCode::countMismatch, kNoElement,
+                         "%zu frames of %zu bytes do not match a buffer of %zu bytes", normals.count, each, byte_count);
     }
     return checkSpan(bytes, byte_count, 1, 1, byte_count, "bytes");
 }

@@ -222,22 +222,24 @@ Error checkOptions(const TangentOptions& options) {
     }
     if (options.convention.v_axis == VAxis::unset) {
         return {ErrorCode::invalidOption,
-                "the convention is not set, and signs depend on it: for glTF it is the preset \"gltf\", for plain "
-                "MikkTSpace \"opengl\""};
+                "the convention is not set, but signs depend on it: use the preset \"gltf\" for glTF, or \"opengl\" "
+                "for signs as MikkTSpace returns them"};
     }
-    if (options.convention.v_axis > VAxis::down) return {ErrorCode::invalidOption, "unknown v axis of the convention"};
+    if (options.convention.v_axis > VAxis::down)
+        return {ErrorCode::invalidOption, "the v axis of the convention is not a value of VAxis"};
     if (options.pairing > Pairing::corrected) return {ErrorCode::invalidOption, "unknown pairing"};
     if (options.ngons > Ngons::skip) return {ErrorCode::invalidOption, "unknown treatment of n-gons"};
     if (options.domain > OutputDomain::vertex) return {ErrorCode::invalidOption, "unknown output domain"};
-    if (options.refine > 2) return {ErrorCode::invalidOption, "refine is not 0, 1 or 2"};
-    if (options.frame > FrameShape::symmetric) return {ErrorCode::invalidOption, "unknown shape of the frame"};
+    if (options.refine > 2) return {ErrorCode::invalidOption, "refine must be 0, 1 or 2"};
+    if (options.frame > FrameShape::symmetric) return {ErrorCode::invalidOption, "frame is not a value of FrameShape"};
     if (options.frame == FrameShape::symmetric &&
         (options.method == Method::mikktspace || options.method == Method::basis)) {
-        return {ErrorCode::invalidOption, "the symmetric frame is not for mikktspace and basis"};
+        return {ErrorCode::invalidOption,
+                "the symmetric frame cannot be combined with the methods mikktspace and basis"};
     }
     if (options.domain == OutputDomain::vertex && options.method != Method::lengyel &&
         options.method != Method::basis) {
-        return {ErrorCode::invalidOption, "only lengyel and basis have one result per vertex"};
+        return {ErrorCode::invalidOption, "only the methods lengyel and basis support one result per vertex"};
     }
     return {ErrorCode::ok, {}};
 }
@@ -246,9 +248,9 @@ Error checkInput(const MeshView& mesh, const TangentOptions& options, Parallel& 
     if (Error e = checkOptions(options); e.code != ErrorCode::ok) return e;
     if (Error e = checkMesh(mesh, &parallel); e.code != ErrorCode::ok) return e;
     if (mesh.vertexCount() == 0) return {ErrorCode::ok, {}};
-    if (mesh.normals.empty()) return {ErrorCode::missingAttribute, "tangents need normals, and the mesh has none"};
+    if (mesh.normals.empty()) return {ErrorCode::missingAttribute, "tangents need normals, but the mesh has none"};
     if (mesh.uvs.empty() && options.method != Method::basis) {
-        return {ErrorCode::missingAttribute, "this method needs UVs, and the mesh has none"};
+        return {ErrorCode::missingAttribute, "this method needs UVs, but the mesh has none"};
     }
     if (isGrouped(options.method) && 3 * mikk::countTriangles(mesh, options.ngons) > mikk::kMaxHalfEdges) {
         return {ErrorCode::tooLarge, "more than 715827882 triangles"};
@@ -296,8 +298,8 @@ MeshView withNormals(MeshView mesh, const UnitNormals& normals) {
 Error checkPose(const Pose& pose, std::size_t vertex_count, std::size_t normal_count) {
     if (pose.positions.count != vertex_count || pose.normals.count != normal_count) {
         return makeError(ErrorCode::planMismatch, kNoElement,
-                         "the pose has %zu positions and %zu normals, the plan needs %zu and %zu", pose.positions.count,
-                         pose.normals.count, vertex_count, normal_count);
+                         "the pose has %zu positions and %zu normals, but the plan needs %zu and %zu",
+                         pose.positions.count, pose.normals.count, vertex_count, normal_count);
     }
     if (Error e = checkSpan(pose.positions, vertex_count, "positions"); e.code != ErrorCode::ok) return e;
     return checkSpan(pose.normals, normal_count, "normals");
@@ -313,7 +315,7 @@ Buffer<Vec3> gathered(const StridedSpan<const Vec3>& values, const std::vector<s
 /// With several index lists vertices are combinations unknown to the caller, so there are no results per vertex.
 Error checkDomain(const TangentOptions& options) {
     if (options.domain == OutputDomain::corner) return {ErrorCode::ok, {}};
-    return {ErrorCode::invalidOption, "results per vertex need a mesh with one index list"};
+    return {ErrorCode::invalidOption, "results per vertex need a mesh with a single index list"};
 }
 
 Result<std::unique_ptr<TangentPlan::State>> makePlan(const MeshView& given, const Call<TangentOptions>& options) {

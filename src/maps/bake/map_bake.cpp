@@ -55,7 +55,8 @@ class Baking {
             return makeError(ErrorCode::tooLarge, kNoElement,
                              "the triangles of the low poly cover the image too many times");
         if (triangles->counts.inside == 0)
-            return makeError(ErrorCode::missingAttribute, kNoElement, "the UVs of the low poly cover no texel");
+            return makeError(ErrorCode::missingAttribute, kNoElement,
+                             "the UVs of the low poly cover no texel of the map");
         traceTexels(*surfaces, *triangles, options_, work_, traced_);
         tell("tracing");
         countOrigins(*triangles);
@@ -220,20 +221,21 @@ bool areAxes(const MapAxes& axes) {
 Error checkBakeOptions(const BakeOptions& options, std::size_t low_triangles, std::size_t high_triangles) {
     const auto wrong = [](const char* what) { return makeError(ErrorCode::invalidOption, kNoElement, "%s", what); };
     if (options.width == 0 || options.height == 0 || options.width > kMostSide || options.height > kMostSide)
-        return makeError(ErrorCode::invalidOption, kNoElement, "a map has 1 to %u texels in a row or column",
-                         kMostSide);
-    if (options.bits != 8 && options.bits != 16) return wrong("a channel has 8 or 16 bits");
-    if (options.padding > kMostPadding) return wrong("the padding is at most 256 texels");
-    if (options.reading.scale != 1) return wrong("maps are baked for a scale of 1");
-    if (!areAxes(options.axes)) return wrong("the axes of a map are unit and at right angles");
+        return makeError(ErrorCode::invalidOption, kNoElement,
+                         "the width and height of a map must be from 1 to %u texels", kMostSide);
+    if (options.bits != 8 && options.bits != 16) return wrong("the number of bits per channel must be 8 or 16");
+    if (options.padding > kMostPadding) return wrong("the padding must not exceed 256 texels");
+    if (options.reading.scale != 1) return wrong("the scale of the map must be 1 for baking");
+    if (!areAxes(options.axes))
+        return wrong("the axes of a map must have unit length and be perpendicular to each other");
     if (options.space == MapSpace::object && options.reading.two_channels)
-        return wrong("normals of the object need three channels");
+        return wrong("normals in object space need three channels");
     if (Error error = checkRays(options.rays, options.reach); error.code != ErrorCode::ok) return error;
     const std::uint64_t bytes = bakeBytes(low_triangles, high_triangles, options);
     if (options.memory_limit_bytes != 0 && bytes > options.memory_limit_bytes) {
         return makeError(ErrorCode::tooLarge, kNoElement,
-                         "a map of %u x %u texels takes %zu MB, and the limit is %zu MB", options.width, options.height,
-                         static_cast<std::size_t>(bytes >> 20),
+                         "a map of %u x %u texels needs %zu MB of memory, but the limit is %zu MB", options.width,
+                         options.height, static_cast<std::size_t>(bytes >> 20),
                          static_cast<std::size_t>(options.memory_limit_bytes >> 20));
     }
     return {ErrorCode::ok};

@@ -456,22 +456,24 @@ Error checkLayers(const LayerOptions& layers, const BakeOptions& options, std::s
     for (const MapLayer layer : layers.layers) {
         const auto number = static_cast<std::size_t>(layer);
         if (number >= kMapLayerCount) return wrong("unknown layer");
-        if (std::exchange(is_asked[number], true)) return wrong("a layer is requested twice");
-        if (isMaterial(layer) && !layers.material) return wrong("color layers need the materials of the high poly");
+        if (std::exchange(is_asked[number], true)) return wrong("the same layer was requested twice");
+        if (isMaterial(layer) && !layers.material)
+            return wrong("the layers color, orm and emission need the materials of the high poly");
     }
     if (layers.layers.empty() && !layers.has_normal) return wrong("no map is requested");
-    if (layers.ray_count == 0 || layers.ray_count > kMostLayerRays) return wrong("a point has 1 to 4096 rays");
+    if (layers.ray_count == 0 || layers.ray_count > kMostLayerRays)
+        return wrong("the number of rays per point must be from 1 to 4096");
     for (const double length :
          {layers.sky_distance, layers.height_range, layers.curvature_range, layers.thickness_range}) {
-        if (!std::isfinite(length) || length < 0) return wrong("ranges and distances must be 0 or above");
+        if (!std::isfinite(length) || length < 0) return wrong("ranges and distances must be finite and not negative");
     }
     if (is_asked[static_cast<std::size_t>(MapLayer::id)] && layers.ids.size() != high_triangles)
-        return makeError(ErrorCode::countMismatch, kNoElement, "ids are one per triangle of the high poly");
+        return makeError(ErrorCode::countMismatch, kNoElement, "ids must have one entry per triangle of the high poly");
     const std::uint64_t bytes =
         bakeBytes(low_triangles, high_triangles, options) + layerBytes(high_triangles, options, layers);
     if (options.memory_limit_bytes != 0 && bytes > options.memory_limit_bytes) {
         return makeError(ErrorCode::tooLarge, kNoElement,
-                         "these maps of %u x %u texels take %zu MB, and the limit is %zu MB", options.width,
+                         "these maps of %u x %u texels need %zu MB of memory, but the limit is %zu MB", options.width,
                          options.height, static_cast<std::size_t>(bytes >> 20),
                          static_cast<std::size_t>(options.memory_limit_bytes >> 20));
     }

@@ -80,8 +80,8 @@ std::string whyGridsDiffer(const RoughnessLevel& roughness, std::uint32_t width,
     const auto sizeOf = [](std::uint32_t across, std::uint32_t down) {
         return std::to_string(across) + " x " + std::to_string(down);
     };
-    return "its " + sizeOf(roughness.width, roughness.height) + " texels do not fit the " + sizeOf(width, height) +
-           " of the normal map: of both sides one must be the same power of two of the other";
+    return "its " + sizeOf(roughness.width, roughness.height) + " texels do not match the " + sizeOf(width, height) +
+           " texels of the normal map: the ratio of the widths and that of the heights must be the same power of two";
 }
 
 std::vector<RoughnessLevel> makeRoughnessLevels(const RoughnessLevel& first, float factor,

@@ -392,19 +392,19 @@ Error checkSide(const MapSide& side, const MapSide& other, const char* missing) 
     const std::size_t corners = side.uvs.count;
     if (Error error = checkSpan(side.uvs, kAnyCount, "uvs"); error.code != ErrorCode::ok) return error;
     if (corners % 3 != 0 || corners / 3 >= kNoTriangle / 3) {
-        return makeError(ErrorCode::countMismatch, kNoElement, "uvs: three per triangle are needed");
+        return makeError(ErrorCode::countMismatch, kNoElement, "uvs must have three entries per triangle");
     }
     if (!side.positions.empty()) {
         if (Error error = checkSpan(side.positions, corners, "positions"); error.code != ErrorCode::ok) return error;
     }
     const MapReading& reading = side.reading;
     if (!std::isfinite(reading.scale) || reading.scale == 0) {
-        return makeError(ErrorCode::invalidOption, kNoElement, "a map's scale is finite and not 0");
+        return makeError(ErrorCode::invalidOption, kNoElement, "the scale of a map must be finite and not 0");
     }
     if (side.space == MapSpace::object) {
         const std::size_t triangles = (corners != 0 && other.space == MapSpace::object ? corners : other.uvs.count) / 3;
         if (!side.axes.empty() && side.axes.size() != triangles) {
-            return makeError(ErrorCode::countMismatch, kNoElement, "axes: one per triangle is needed");
+            return makeError(ErrorCode::countMismatch, kNoElement, "axes must have one entry per triangle");
         }
         return kFine;
     }
@@ -425,19 +425,19 @@ Error checkCall(const MapImage& map, const MapSide& from, const MapSide& to, std
                 const ConvertMapOptions& options) {
     const std::uint64_t texels = std::uint64_t{map.width} * map.height;
     if (texels == 0 || texels >> 32 != 0) {
-        return makeError(ErrorCode::tooLarge, kNoElement, "an image has 1 to 2^32 texels");
+        return makeError(ErrorCode::tooLarge, kNoElement, "the number of texels of an image must be from 1 to 2^32-1");
     }
     if (map.texels.size() != texels || out.size() != texels) {
-        return makeError(ErrorCode::countMismatch, kNoElement, "texels: width * height are needed");
+        return makeError(ErrorCode::countMismatch, kNoElement, "texels must have width * height entries");
     }
     if (options.bits != 8 && options.bits != 16 && options.bits != 32) {
-        return makeError(ErrorCode::invalidOption, kNoElement, "bits are 8, 16 or 32");
+        return makeError(ErrorCode::invalidOption, kNoElement, "bits must be 8, 16 or 32");
     }
-    if (Error error = checkSide(from, to, "the frames that the map was made for are needed: a mesh");
+    if (Error error = checkSide(from, to, "the mesh whose frames the map was made for is required");
         error.code != ErrorCode::ok) {
         return error;
     }
-    return checkSide(to, from, "the frames that the map is to be read with are needed: a mesh");
+    return checkSide(to, from, "the mesh whose frames the map will be read with is required");
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ class Heights {
         if (!mesh_.uvs.empty()) {
             // Filtering reads texels up to two away from a triangle.
             auto places = findTexelTriangles(triangles, map_.width, map_.height, 2, parallel_, allocator_);
-            if (!places) return makeError(ErrorCode::tooLarge, kNoElement, "uvs: they repeat the image too many times");
+            if (!places) return makeError(ErrorCode::tooLarge, kNoElement, "the UVs repeat the image too many times");
             places_ = std::move(*places);
             findTexelSize();
         }
@@ -194,17 +194,17 @@ class Heights {
 Error checkCall(const HeightMap& map, const MapSide& mesh, std::span<Vec3> out, const HeightToNormalOptions& options) {
     const std::uint64_t texels = std::uint64_t{map.width} * map.height;
     if (texels == 0 || texels >> 32 != 0)
-        return makeError(ErrorCode::tooLarge, kNoElement, "an image has 1 to 2^32 texels");
+        return makeError(ErrorCode::tooLarge, kNoElement, "the number of texels of an image must be from 1 to 2^32-1");
     if (map.heights.size() != texels || out.size() != texels)
-        return makeError(ErrorCode::countMismatch, kNoElement, "heights: width * height are needed");
+        return makeError(ErrorCode::countMismatch, kNoElement, "heights must have width * height entries");
     if (options.bits != 8 && options.bits != 16 && options.bits != 32)
-        return makeError(ErrorCode::invalidOption, kNoElement, "bits are 8, 16 or 32");
+        return makeError(ErrorCode::invalidOption, kNoElement, "bits must be 8, 16 or 32");
     if (!std::isfinite(options.strength))
-        return makeError(ErrorCode::invalidOption, kNoElement, "the strength is not finite");
+        return makeError(ErrorCode::invalidOption, kNoElement, "the strength must be finite");
     const std::size_t corners = mesh.uvs.count;
     if (corners == 0) return Error{ErrorCode::ok};
     if (corners % 3 != 0 || corners / 3 >= kNoTriangle / 3)
-        return makeError(ErrorCode::countMismatch, kNoElement, "uvs: three per triangle are needed");
+        return makeError(ErrorCode::countMismatch, kNoElement, "uvs must have three entries per triangle");
     if (mesh.positions.empty() || mesh.normals.empty() || mesh.tangents.empty())
         return makeError(ErrorCode::missingAttribute, kNoElement, "a mesh needs positions, normals and tangents");
     for (Error error : {checkSpan(mesh.uvs, kAnyCount, "uvs"), checkSpan(mesh.positions, corners, "positions"),

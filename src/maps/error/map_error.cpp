@@ -15,9 +15,10 @@ constexpr std::uint32_t kMostPoints = 10'000'000;
 Error checkMap(const MapImage& map, const MapErrorOptions& options) {
     if (map.width == 0 || map.height == 0 || map.texels.size() / map.width != map.height ||
         map.texels.size() % map.width != 0)
-        return makeError(ErrorCode::countMismatch, kNoElement, "the map needs width * height texels, and one at least");
+        return makeError(ErrorCode::countMismatch, kNoElement,
+                         "the map must have width * height texels, and at least one");
     if (options.point_count == 0 || options.point_count > kMostPoints)
-        return makeError(ErrorCode::invalidOption, kNoElement, "point_count must be 1 to %u", kMostPoints);
+        return makeError(ErrorCode::invalidOption, kNoElement, "point_count must be from 1 to %u", kMostPoints);
     return {ErrorCode::ok};
 }
 

@@ -35,8 +35,8 @@ std::string sizesApart(const PositionBox& low, const PositionBox& high) {
     const std::string text = std::string("the ") + larger + " poly is " + shortNumber(std::max(factor, 1 / factor)) +
                              " times as large as the " + smaller + " poly";
     const PositionBox scaled = changed(high, [&](const DVec3& at) { return (1 / factor) * at; });
-    if (scaled.difference(low) > kFitsNot * low.diagonal()) return text + ": are both in the same unit?";
-    return text + ": scale the high poly by " + shortNumber(1 / factor) + ", and it lies on it";
+    if (scaled.difference(low) > kFitsNot * low.diagonal()) return text + ": check that both use the same unit";
+    return text + ": scale the high poly by " + shortNumber(1 / factor) + " to align it with the low poly";
 }
 
 }  // namespace
@@ -82,8 +82,8 @@ std::string misplacement(const PositionBox& low, const PositionBox& high) {
     };
     for (const int sign : {1, -1}) {
         if (fits(sign))
-            return std::string("another axis points up in the high poly: turn it by ") + (sign > 0 ? "-90" : "90") +
-                   " degrees about x, and it lies on the low poly";
+            return std::string("the up axis of the high poly differs: rotate it by ") + (sign > 0 ? "-90" : "90") +
+                   " degrees about x to align it with the low poly";
     }
     return {};
 }
@@ -104,21 +104,21 @@ Error checkHighMaps(const HighPoly& high) {
     if (high.maps.empty()) return {ErrorCode::ok};
     if (high.normals.empty() || high.tangents.empty() || high.uvs.empty())
         return makeError(ErrorCode::missingAttribute, kNoElement,
-                         "the maps of the high poly need its normals, tangents and UVs");
+                         "the normal maps of the high poly need its normals, tangents and UVs");
     if (Error error = checkSpan(high.tangents, high.positions.count, "high.tangents"); error.code != ErrorCode::ok)
         return error;
     if (Error error = checkSpan(high.uvs, high.positions.count, "high.uvs"); error.code != ErrorCode::ok) return error;
     if (high.map_of.size() != high.corners.size() / 3)
-        return makeError(ErrorCode::countMismatch, kNoElement, "high.map_of needs one entry per triangle");
+        return makeError(ErrorCode::countMismatch, kNoElement, "high.map_of must have one entry per triangle");
     for (std::size_t i = 0; i < high.map_of.size(); ++i) {
         if (high.map_of[i] != kNoHighMap && high.map_of[i] >= high.maps.size())
-            return makeError(ErrorCode::indexOutOfRange, i, "high.map_of names a map that is not there");
+            return makeError(ErrorCode::indexOutOfRange, i, "high.map_of refers to a map that does not exist");
     }
     for (const HighMap& map : high.maps) {
         const MapImage& image = map.image;
         if (image.texels.empty() || image.texels.size() != std::uint64_t{image.width} * image.height)
             return makeError(ErrorCode::countMismatch, kNoElement,
-                             "a map of the high poly needs width * height texels");
+                             "a map of the high poly must have width * height texels");
         if (!std::isfinite(map.reading.scale))
             return makeError(ErrorCode::invalidOption, kNoElement, "the scale of a map must be finite");
     }
@@ -134,7 +134,8 @@ Error checkSurfaces(const LowPoly& low, const HighPoly& high, bool needs_tangent
         if (error.code == ErrorCode::ok) error = std::move(next);
     };
     if (error.code == ErrorCode::ok && (corners % 3 != 0 || corners > kMaxCorners))
-        return makeError(ErrorCode::countMismatch, kNoElement, "the low poly needs three positions per triangle");
+        return makeError(ErrorCode::countMismatch, kNoElement,
+                         "the number of positions of the low poly must be a multiple of 3 and at most 2^31-1");
     if (low.uvs.empty()) then(makeError(ErrorCode::missingAttribute, kNoElement, "the low poly has no UVs"));
     if (low.normals.empty()) then(makeError(ErrorCode::missingAttribute, kNoElement, "the low poly has no normals"));
     if (needs_tangents && low.tangents.empty())
@@ -147,17 +148,21 @@ Error checkSurfaces(const LowPoly& low, const HighPoly& high, bool needs_tangent
         then(checkSpan(low.rest_positions, kAnyCount, "low.rest_positions"));
         then(checkSpan(low.rest_normals, low.rest_positions.count, "low.rest_normals"));
         if (low.rest_positions.count % 3 != 0 || low.rest_positions.count > kMaxCorners - corners)
-            then(makeError(ErrorCode::countMismatch, kNoElement, "the rest needs three positions per triangle"));
+            then(makeError(ErrorCode::countMismatch, kNoElement,
+                           "the number of rest positions of the low poly must be a multiple of 3, and with the "
+                           "positions at most 2^31-1"));
     }
     then(checkSpan(high.positions, kAnyCount, "high.positions"));
     if (!high.normals.empty()) then(checkSpan(high.normals, high.positions.count, "high.normals"));
     if (error.code != ErrorCode::ok) return error;
     if (high.corners.size() % 3 != 0 || high.corners.size() > kMaxCorners)
-        return makeError(ErrorCode::countMismatch, kNoElement, "high.corners needs three entries per triangle");
+        return makeError(ErrorCode::countMismatch, kNoElement,
+                         "the number of entries of high.corners must be a multiple of 3 and at most 2^31-1");
     const bool has_groups = !low.groups.empty();
     if (has_groups != !high.groups.empty() ||
         (has_groups && (low.groups.size() != corners / 3 || high.groups.size() != high.corners.size() / 3)))
-        return makeError(ErrorCode::countMismatch, kNoElement, "groups are one per triangle, of both meshes or none");
+        return makeError(ErrorCode::countMismatch, kNoElement,
+                         "groups must have one entry per triangle, in both meshes or in neither");
     if (error = checkHighMaps(high); error.code != ErrorCode::ok || high.corners.empty()) return error;
     return checkIndices(IndexView(high.corners), high.positions.count);
 }
@@ -168,12 +173,12 @@ double chosenReach(const LowPoly& low, const HighPoly& high) {
 
 Error checkRays(const RayOptions& rays, double reach) {
     const auto wrong = [](const char* what) { return makeError(ErrorCode::invalidOption, kNoElement, "%s", what); };
-    if (!std::isfinite(reach) || reach < 0) return wrong("the reach must be a length");
+    if (!std::isfinite(reach) || reach < 0) return wrong("the reach must be finite and not negative");
     if (!std::isfinite(rays.cage_offset) || rays.cage_offset < 0)
-        return wrong("the offset of the cage must be a length");
+        return wrong("the cage offset must be finite and not negative");
     const MapImage& skew = rays.skew;
     if (skew.texels.size() != std::size_t{skew.width} * skew.height)
-        return makeError(ErrorCode::countMismatch, kNoElement, "the image of the skew needs width * height texels");
+        return makeError(ErrorCode::countMismatch, kNoElement, "the skew image must have width * height texels");
     return checkWeldDistance(rays.weld_distance);
 }
 

@@ -164,11 +164,11 @@ std::string otherPlace(const Trial& trial, double size, double high_size, double
             const double met = trial.met(reach, turn.turn, scale);
             if (!(met > most)) continue;
             most = met;
-            best = turn.name.empty() ? "" : "turn it " + turn.name;
+            best = turn.name.empty() ? "" : "rotate it " + turn.name;
             if (scale != 1) best += (best.empty() ? "scale it by " : " and scale it by ") + shortNumber(scale);
         }
     }
-    return best.empty() ? best : "its axes or units differ: " + best + ", and it lies on the low poly";
+    return best.empty() ? best : "its axes or units differ: " + best + " to align it with the low poly";
 }
 
 }  // namespace
@@ -179,7 +179,7 @@ std::string causeOfMisses(const LowPoly& low, const HighPoly& high, const RaySur
     const double size = PositionBox(low.positions).diagonal(), high_size = PositionBox(high.positions).diagonal();
     const double usual = std::max(reach, kUsualReach * size);
     const auto furtherAway = [&](double other) {
-        return "it lies beyond the ray distance: --reach " + shortNumber(other) + " meets it";
+        return "it is farther away than the ray distance: --reach " + shortNumber(other) + " reaches it";
     };
     if (usual > reach && trial.met(usual) >= kMeets) return furtherAway(usual);
     const std::string moved = otherPlace(trial, size, high_size, usual, kMeets);

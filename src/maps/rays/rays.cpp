@@ -96,7 +96,7 @@ struct RaySurface::State {
         has_embree_failed = true;
         scene = nullptr;
         device = second_device = nullptr;
-        return makeError(ErrorCode::outOfMemory, kNoElement, "out of memory for the rays");
+        return makeError(ErrorCode::outOfMemory, kNoElement, "out of memory for the ray tracing data");
     }
 
     ~State() {
@@ -298,7 +298,7 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
                                                            std::span<const std::uint32_t> groups, Parallel& parallel) {
     const Embree& api = embree();
     if (!api.is_loaded)
-        return makeError(ErrorCode::unsupportedFile, kNoElement, "rays need Embree: %s cannot be loaded",
+        return makeError(ErrorCode::unsupportedFile, kNoElement, "ray tracing needs Embree, but %s cannot be loaded",
                          TSPACE_EMBREE_LIBRARY);
     auto state = std::make_unique<State>();
     state->positions = positions;
@@ -319,7 +319,7 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
         return makeError(ErrorCode::outOfMemory, kNoElement, "Embree ran out of memory earlier in this process");
     if (!makeDevices(*state, parallel.width())) {
         if (state->device == nullptr && api.getDeviceError(nullptr) == RTC_ERROR_UNSUPPORTED_CPU)
-            return makeError(ErrorCode::unsupportedFile, kNoElement, "Embree does not run on this CPU");
+            return makeError(ErrorCode::unsupportedFile, kNoElement, "Embree does not support this CPU");
         // the settings are valid, so this is a lack of memory, for which Embree has several codes
         return state->abandon();
     }
@@ -339,7 +339,8 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
     RTCError error = api.getDeviceError(state->device);  // error of the calls above
     if (error == RTC_ERROR_NONE) error = buildScene(*state, parallel);
     if (error == RTC_ERROR_INVALID_ARGUMENT || error == RTC_ERROR_INVALID_OPERATION)
-        return makeError(ErrorCode::internal, kNoElement, "Embree fails with code %u", static_cast<unsigned>(error));
+        return makeError(ErrorCode::internal, kNoElement, "Embree failed with error code %u",
+                         static_cast<unsigned>(error));
     if (error != RTC_ERROR_NONE) return state->abandon();
     return std::unique_ptr<const RaySurface>(new RaySurface(std::move(state)));
 }
@@ -543,7 +544,8 @@ RaySurface::~RaySurface() = default;
 
 Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec3>, std::span<const std::uint32_t>,
                                                            std::span<const std::uint32_t>, Parallel&) {
-    return makeError(ErrorCode::unsupportedFile, kNoElement, "rays need Embree, and this build has none");
+    return makeError(ErrorCode::unsupportedFile, kNoElement,
+                     "ray tracing needs Embree, but this build does not include it");
 }
 bool RaySurface::nearest(const DVec3&, const DVec3&, double, std::uint32_t, double&, RayHit&) const { return false; }
 bool RaySurface::first(const DVec3&, const DVec3&, double, std::uint32_t, RayHit&) const { return false; }

@@ -72,7 +72,7 @@ void checkRange(const BufferView& view, std::size_t offset, std::size_t count, s
     const bool fits = offset <= view.byte_count && element_bytes <= view.byte_count - offset &&
                       count - 1 <= (view.byte_count - offset - element_bytes) / stride;
     if (!fits) {
-        failAt("the accessor's " + std::to_string(count) + " elements reach beyond its buffer view of " +
+        failAt("the accessor's " + std::to_string(count) + " elements extend beyond its buffer view of " +
                    std::to_string(view.byte_count) + " bytes",
                place);
     }
@@ -88,15 +88,18 @@ SparsePart readSparse(const Document& document, const Json& object, const Access
                       const std::string& place) {
     SparsePart sparse;
     sparse.count = readSize(object, "count", place);
-    if (sparse.count > accessor.count) failAt("there are more sparse elements than elements", join(place, "count"));
+    if (sparse.count > accessor.count)
+        failAt("the accessor has more sparse elements than elements", join(place, "count"));
     const Json* indices = readObject(object, "indices", place);
     const Json* values = readObject(object, "values", place);
-    if (indices == nullptr || values == nullptr) failAt("sparse 'indices' or 'values' are missing", place);
+    if (indices == nullptr || values == nullptr)
+        failAt("the members 'indices' or 'values' of 'sparse' are missing", place);
     const std::string index_place = join(place, "indices"), value_place = join(place, "values");
     sparse.index_type = readComponentType(*indices, index_place);
     const bool is_unsigned = sparse.index_type == ComponentType::u8 || sparse.index_type == ComponentType::u16 ||
                              sparse.index_type == ComponentType::u32;
-    if (!is_unsigned) failAt("sparse indices must be unsigned whole numbers", join(index_place, "componentType"));
+    if (!is_unsigned)
+        failAt("sparse indices must have an unsigned integer component type", join(index_place, "componentType"));
     sparse.index_view = viewIndex(document, *indices, index_place);
     sparse.index_offset = readSize(*indices, "byteOffset", index_place, 0);
     sparse.value_view = viewIndex(document, *values, value_place);
@@ -125,8 +128,8 @@ const std::uint8_t* viewBytes(const Document& document, std::size_t index, std::
     if (!viewHasData(document, index)) {
         const char* extension = meshoptExtension(rootArray(document, "bufferViews")[index]);
         failFile(ErrorCode::unsupportedFile,
-                 extension == nullptr ? "the buffer view lies in a buffer without data"
-                                      : std::string("the buffer view is compressed by ") + extension + ": " +
+                 extension == nullptr ? "the buffer of the buffer view has no data"
+                                      : std::string("the buffer view is compressed with ") + extension + ": " +
                                             meshoptMissing(extension == kKhrMeshopt),
                  join("/bufferViews", index));
     }
@@ -169,12 +172,12 @@ const std::uint8_t* elementSource(const Document& document, const Accessor& acce
     if (const auto decoded = document.elements.find(accessor.index); decoded != document.elements.end())
         return decoded->second.data();
     if (document.hidden_accessors.count(accessor.index) != 0) {
-        failFile(ErrorCode::unsupportedFile, "the accessor's data are compressed by Draco: " + dracoMissing(),
+        failFile(ErrorCode::unsupportedFile, "the data of the accessor is compressed with Draco: " + dracoMissing(),
                  accessor.place());
     }
     if (!accessor.view && accessor.count > kMaxZeroElements) {
         failFile(ErrorCode::unsupportedFile,
-                 "an accessor without data claims " + std::to_string(accessor.count) + " elements",
+                 "an accessor without data declares " + std::to_string(accessor.count) + " elements",
                  join(accessor.place(), "count"));
     }
     if (!accessor.view || accessor.count == 0) return nullptr;
@@ -243,8 +246,8 @@ template <class Vec>
 std::vector<Vec> decodeVec(const Document& document, const Accessor& accessor, const std::string& place) {
     constexpr std::size_t components = sizeof(Vec) / sizeof(float);
     if (accessor.component_count != components || accessor.type[0] != 'V') {
-        failAt("the accessor is " + formatName(accessor) + ", but the attribute needs " + std::to_string(components) +
-                   " components",
+        failAt("the accessor is " + formatName(accessor) + ", but the attribute must have " +
+                   std::to_string(components) + " components",
                place);
     }
     if (accessor.component == ComponentType::f32) {
@@ -296,7 +299,7 @@ BufferView readBufferView(const Document& document, std::size_t index) {
                                   ? readSize(rootArray(document, "buffers")[view.buffer], "byteLength", "/buffers")
                                   : data.bytes.size();
     if (view.begin > limit || view.byte_count > limit - view.begin) {
-        failAt("the buffer view reaches beyond its buffer of " + std::to_string(limit) + " bytes", place);
+        failAt("the buffer view extends beyond its buffer of " + std::to_string(limit) + " bytes", place);
     }
     return view;
 }
@@ -410,8 +413,8 @@ std::vector<std::uint32_t> decodeIndices(const Document& document, const Accesso
     const auto wrong = std::find_if(indices.begin(), indices.end(), [&](std::uint32_t v) { return v >= vertex_count; });
     const std::uint32_t restart = 0xffffffffu >> (32 - 8 * bytes);  // the largest value of the index type
     failAt("index " + std::to_string(wrong - indices.begin()) + " is " + std::to_string(*wrong) +
-               ", but the primitive has " + std::to_string(vertex_count) + " vertices" +
-               (*wrong == restart ? "; as a mark that restarts a strip, glTF does not allow it" : ""),
+               ", but the primitive has only " + std::to_string(vertex_count) + " vertices" +
+               (*wrong == restart ? "; glTF does not allow this value as a primitive restart index" : ""),
            place);
 }
 

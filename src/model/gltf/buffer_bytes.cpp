@@ -48,7 +48,7 @@ std::span<std::uint8_t> BufferBytes::range(std::size_t begin, std::size_t count)
         const std::size_t offset = begin - piece.begin;
         if (offset < piece.count && count <= piece.count - offset) return piece.there().subspan(offset, count);
     }
-    failFile(ErrorCode::internal, "a range of a buffer does not lie in one piece");
+    failFile(ErrorCode::internal, "internal error: a range of a buffer is not contiguous");
 }
 
 std::span<const std::uint8_t> BufferBytes::range(std::size_t begin, std::size_t count) const {

@@ -373,7 +373,8 @@ bool edit(Document& document, const std::string& new_file_name, Body&& body) {
 }
 
 void needLibrary(const std::string& missing) {
-    if (!missing.empty()) failFile(ErrorCode::unsupportedFile, "the output cannot be compressed so: " + missing);
+    if (!missing.empty())
+        failFile(ErrorCode::unsupportedFile, "the output cannot be compressed as requested: " + missing);
 }
 
 }  // namespace

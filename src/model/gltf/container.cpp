@@ -53,17 +53,19 @@ bool isGlb(std::span<const std::uint8_t> file) { return file.size() >= 4 && word
 GlbChunks readGlb(std::span<const std::uint8_t> file) {
     if (file.size() < kHeaderBytes) failGlb("the GLB header is truncated", file.size());
     if (word(file, 4) != 2) {
-        failFile(ErrorCode::unsupportedFile,
-                 "the GLB container has version " + std::to_string(word(file, 4)) + ", not 2", "byte 4");
+        failFile(ErrorCode::unsupportedFile, "the GLB has version " + std::to_string(word(file, 4)) + ", not 2",
+                 "byte 4");
     }
     const std::size_t stated = word(file, 8);
     if (stated > file.size()) {
-        failGlb(
-            "the GLB header says " + std::to_string(stated) + " bytes, but the file has " + std::to_string(file.size()),
-            8);
+        failGlb("the GLB header states a length of " + std::to_string(stated) + " bytes, but the file has " +
+                    std::to_string(file.size()),
+                8);
     }
     if (stated <= kHeaderBytes) {
-        failGlb("the GLB header says " + std::to_string(stated) + " bytes, in which no JSON chunk has room", 8);
+        failGlb("the GLB header states a length of " + std::to_string(stated) +
+                    " bytes, which is too short for a JSON chunk",
+                8);
     }
     GlbChunks chunks;
     const std::span<const std::uint8_t> whole = file;
@@ -75,14 +77,14 @@ GlbChunks readGlb(std::span<const std::uint8_t> file) {
         const std::size_t length = word(whole, at);
         const std::uint32_t type = word(whole, at + 4);
         if (file.size() - at < kChunkHeadBytes || length > file.size() - at - kChunkHeadBytes)
-            failGlb("a GLB chunk is longer than the rest of the GLB", at);
+            failGlb("a chunk extends beyond the end of the GLB", at);
         const auto bytes = file.subspan(at + kChunkHeadBytes, length);
         if ((number == 0) != (type == kJsonType)) {
-            failGlb(number == 0 ? "the first GLB chunk is not JSON" : "the GLB has a second JSON chunk", at);
+            failGlb(number == 0 ? "the first chunk of the GLB is not JSON" : "the GLB has a second JSON chunk", at);
         }
         if (type == kBinType) {
             if (chunks.bin) failGlb("the GLB has a second BIN chunk", at);
-            if (number != 1) failGlb("the BIN chunk is not the second chunk", at);
+            if (number != 1) failGlb("the BIN chunk of the GLB is not its second chunk", at);
             chunks.bin = bytes;
         } else if (number == 0) {
             chunks.json = bytes;
@@ -103,7 +105,7 @@ GlbFrame frameGlb(const std::string& json, std::optional<std::size_t> bin_bytes,
     if (total > 0xffffffffu) {
         failFile(
             ErrorCode::cannotWrite,
-            "the GLB would be larger than the 4 GiB that the format allows; write .gltf, which has its data in a .bin");
+            "the GLB would exceed the 4 GiB that the format allows; write a .gltf, which stores its data in a .bin");
     }
     GlbFrame frame;
     frame.head.reserve(kHeaderBytes + 2 * kChunkHeadBytes + json_bytes);
@@ -148,12 +150,13 @@ std::optional<DataUri> loadImage(Document& document, const std::string& uri, con
         }
         if (!declared.empty()) image.mime_type = declared;
     } else if (uriKind(uri) == UriKind::otherScheme || document.files.areNone()) {
-        warnings.push_back("the image " + inQuotes(uri) + " is not a file and stays outside of the GLB");
+        warnings.push_back("the image " + inQuotes(uri) + " is not a file and was not embedded in the GLB");
         return {};
     } else {
         // FBX files store the folder of an image that has no name.
         if (const std::string why = document.files.whyNotRead(uri, place); !why.empty()) {
-            warnings.push_back("the image " + inQuotes(uri) + " stays outside of the GLB, and its URI is kept: " + why);
+            warnings.push_back("the image " + inQuotes(uri) +
+                               " was not embedded in the GLB, and its URI was kept: " + why);
             return {};
         }
         const Path path = document.files.resolve(uri, join(place, "uri"));
@@ -164,7 +167,7 @@ std::optional<DataUri> loadImage(Document& document, const std::string& uri, con
     const std::string found = mimeType(imageFormat(image.bytes));
     if (!found.empty()) image.mime_type = found;
     if (image.bytes.empty() || image.mime_type.empty()) {
-        warnings.push_back("the image " + inQuotes(uri, 60) + " has no known type and stays outside of the GLB");
+        warnings.push_back("the image " + inQuotes(uri, 60) + " has an unknown type and was not embedded in the GLB");
         return {};
     }
     return image;
@@ -281,12 +284,12 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
                    const std::string& place, AtomicOutput& output, std::vector<std::string>& warnings) {
     if (uri.empty() || uriKind(uri) != UriKind::path || document.new_files.contains(pathOfUri(uri))) return;
     if (output.isStream() || document.files.areNone()) {
-        warnings.push_back("the file " + inQuotes(uri) + " that the model names does not come along");
+        warnings.push_back("the file " + inQuotes(uri) + " that the model references was not copied to the output");
         return;
     }
     const fs::path relative = Path(pathOfUri(uri));
     std::string why = document.files.whyNotRead(uri, place);
-    if (leadsAway(relative) != nullptr) why = "it lies outside of the model's folder";
+    if (leadsAway(relative) != nullptr) why = "it is outside the folder of the model";
     if (!why.empty()) {
         // Embedding it has already failed with a warning.
         if (!target.takes_images_in) warnings.push_back("the file " + inQuotes(uri) + " was not copied: " + why);
@@ -301,8 +304,8 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
         if (!document.files.areInMemory() && isSameFile(from, to)) return;
         if (output.leave(to, document.files.read(from, place))) return;
         failFile(ErrorCode::cannotWrite,
-                 "the model needs the file " + inQuotes(uri) + " beside it, but " + pathInQuotes(to) +
-                     " exists already and is another one",
+                 "the model references the file " + inQuotes(uri) + " beside it, but " + pathInQuotes(to) +
+                     " exists already and is a different file",
                  place);
     }
     output.addShared(to, document.files.read(from, place));
@@ -350,7 +353,9 @@ OutputTarget outputTarget(const Document& document, const Path& path, bool is_st
     target.takes_images_in =
         target.container == Container::glb && (document.container == Container::gltf || document.imported);
     if (is_stream) {
-        if (target.container != Container::glb) failFile(ErrorCode::invalidOption, "only a GLB is one stream of bytes");
+        if (target.container != Container::glb)
+            failFile(ErrorCode::invalidOption,
+                     "only a GLB can be written to a stream or to memory; write a GLB, or name an output file");
         return target;
     }
     target.in_place = !document.files.areInMemory() && isSameFile(document.path, path);
@@ -397,7 +402,7 @@ void convertContainer(Document& document, const OutputTarget& target, bool will_
     const bool from_glb = document.container == Container::glb;
     document.container = Container::gltf;
     if (from_glb && !document.extra_chunks.empty()) {
-        warnings.push_back("the GLB has chunks that .gltf cannot hold; they were dropped");
+        warnings.push_back("the GLB has chunks that a .gltf cannot store; they were removed");
         document.extra_chunks.clear();
     }
     const std::string own_name = stemOf(target.path) + kNewBufferEnding;

@@ -59,7 +59,7 @@ Packed readPacked(const Document& document, const Json& primitive, std::size_t m
     packed.view = *view;
     packed.mode = readSize(primitive, "mode", packed.primitivePlace(), kTriangles);
     if (packed.mode < kTriangles)
-        failFile(ErrorCode::invalidFile, "Draco data are triangles, not points or lines",
+        failFile(ErrorCode::invalidFile, "the Draco extension can only be used for triangles, not for points or lines",
                  join(packed.primitivePlace(), "mode"));
     packed.indices = readIndex(primitive, "indices", packed.primitivePlace(), accessor_count, "accessor");
     const Json* ids = readObject(extension, "attributes", place);
@@ -188,8 +188,8 @@ class Decoder {
         }
         if (bytes > budget_) {
             failFile(ErrorCode::invalidFile,
-                     "the accessors of the Draco primitive claim " + std::to_string(bytes) +
-                         " bytes, which is too much for a file of this size (--memory-limit allows more)",
+                     "the accessors of the Draco primitive declare " + std::to_string(bytes) +
+                         " bytes, which exceeds the limit for a file of this size; use --memory-limit to raise it",
                      place);
         }
         budget_ -= bytes;
@@ -216,7 +216,7 @@ class Decoder {
         limits.bytes = bytes * kWorkFactor;
         const BufferView view = readBufferView(document_, packed.view);
         if (document_.buffers[view.buffer].source == BufferSource::absent)
-            failFile(ErrorCode::invalidFile, "the Draco data lie in a buffer without data", packed.place());
+            failFile(ErrorCode::invalidFile, "the buffer of the Draco data is empty", packed.place());
         const auto data = document_.buffers[view.buffer].bytes.range(view.begin, view.byte_count);
         if (const std::string fault = decodeDraco(data, limits, mesh); !fault.empty())
             failFile(ErrorCode::invalidFile, fault, packed.place());
@@ -245,10 +245,10 @@ class Decoder {
         const Accessor indices = readAccessor(document_, *packed.indices);
         const std::size_t width = bytesOf(indices.component);
         if (indices.component_count != 1 || indices.component == ComponentType::f32)
-            failFile(ErrorCode::invalidFile, "the indices are not unsigned scalars", indices.place());
+            failFile(ErrorCode::invalidFile, "indices must be unsigned scalars", indices.place());
         if (width < 4 && mesh.point_count > std::size_t{1} << (8 * width))
             failFile(ErrorCode::invalidFile,
-                     "the points of the Draco data have no room in indices of " + std::to_string(width) + " bytes",
+                     "the Draco data has too many points for indices of " + std::to_string(width) + " bytes",
                      packed.place());
         Bytes elements(mesh.corners.size() * width);
         for (std::size_t i = 0; i < mesh.corners.size(); ++i)

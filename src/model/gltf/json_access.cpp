@@ -34,7 +34,8 @@ Json parseText(std::string_view text, MemoryBudget* budget) {
     JsonError error;
     std::optional<Json> root = Json::read(text, error, memory ? &*memory : nullptr);
     if (root) return std::move(*root);
-    if (error.repeated) failJson("the JSON has the member " + inQuotes(*error.repeated) + " twice in one object", {});
+    if (error.repeated)
+        failJson("the JSON contains the member " + inQuotes(*error.repeated) + " twice in one object", {});
     failJson(error.message, error.byte ? "JSON byte " + std::to_string(*error.byte) : std::string());
 }
 
@@ -90,7 +91,7 @@ std::uint64_t readWhole(const Json& object, const char* key, const std::string& 
         failJson(std::string("the member '") + key + "' is missing", place);
     }
     const auto number = wholeNumber(*value);
-    if (!number) failJson(std::string("'") + key + "' is not a whole number of 0 or more", join(place, key));
+    if (!number) failJson(std::string("'") + key + "' is not a non-negative integer", join(place, key));
     return *number;
 }
 
@@ -99,7 +100,7 @@ std::size_t readSize(const Json& object, const char* key, const std::string& pla
     constexpr std::uint64_t kMost = std::numeric_limits<std::size_t>::max();
     const std::uint64_t number = readWhole(object, key, place, fallback);
     if (number > kMost) {
-        failJson(std::string("'") + key + "' is " + std::to_string(number) + "; this build counts to " +
+        failJson(std::string("'") + key + "' is " + std::to_string(number) + "; the maximum of this build is " +
                      std::to_string(kMost),
                  join(place, key));
     }
@@ -108,7 +109,7 @@ std::size_t readSize(const Json& object, const char* key, const std::string& pla
 
 std::size_t toIndex(const Json& value, const std::string& place, std::size_t limit, const char* what) {
     const auto number = wholeNumber(value);
-    if (!number) failJson(std::string("the index of the ") + what + " is not a whole number of 0 or more", place);
+    if (!number) failJson(std::string("the index of the ") + what + " is not a non-negative integer", place);
     if (*number >= limit) {
         failJson(std::string("there is no ") + what + " " + std::to_string(*number) + "; the file has " +
                      std::to_string(limit),

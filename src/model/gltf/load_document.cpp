@@ -63,7 +63,8 @@ std::string compressionMissing(const std::string& name) {
 void checkRoot(const Json& root) {
     // Member lookup is a linear search, done for every accessor.
     constexpr std::size_t kMaxRootMembers = 1000;
-    if (root.size() > kMaxRootMembers) failFile(ErrorCode::invalidFile, "the root has more than 1000 members", "");
+    if (root.size() > kMaxRootMembers)
+        failFile(ErrorCode::invalidFile, "the root object has more than 1000 members", "");
     for (const char* name :
          {"accessors", "bufferViews", "buffers", "images", "materials", "meshes", "nodes", "skins", "animations"}) {
         readArray(root, name, "", true);
@@ -79,7 +80,7 @@ void checkLooksLikeJson(std::span<const std::uint8_t> text) {
     if (first != std::string_view::npos && view[first] == '[')
         failFile(ErrorCode::invalidFile, "the JSON is not an object", "byte 0");
     if (first == std::string_view::npos || view[first] != '{') {
-        failFile(ErrorCode::invalidFile, "the file is neither GLB nor the JSON of glTF", "byte 0");
+        failFile(ErrorCode::invalidFile, "the file is neither a GLB nor a glTF JSON file", "byte 0");
     }
 }
 
@@ -92,7 +93,7 @@ void checkVersion(const Json& root) {
         if (version.empty()) failFile(ErrorCode::invalidFile, "the glTF version is missing", "/asset/version");
         const bool readable = std::string(key) == "version" ? version.substr(0, 2) == "2." : version == "2.0";
         if (!readable) {
-            failFile(ErrorCode::unsupportedFile, "the file needs glTF version " + inQuotes(version) + ", not 2.0",
+            failFile(ErrorCode::unsupportedFile, "the file requires glTF version " + inQuotes(version) + ", not 2.0",
                      join("/asset", key));
         }
     }
@@ -107,13 +108,13 @@ Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, cons
         if (index != 0 || glb == nullptr || !glb->bin) {
             if (document.container == Container::glb && index == 0 && meshoptExtension(entry) == nullptr &&
                 length > 0) {
-                failFile(ErrorCode::invalidFile, "the buffer is in the BIN chunk, but the file has none", place);
+                failFile(ErrorCode::invalidFile, "the buffer refers to the BIN chunk, but the file has none", place);
             }
             return buffer;
         }
         if (length > glb->bin->size()) {
             failFile(ErrorCode::invalidFile,
-                     "the buffer says " + std::to_string(length) + " bytes, but the BIN chunk has " +
+                     "the buffer declares " + std::to_string(length) + " bytes, but the BIN chunk has only " +
                          std::to_string(glb->bin->size()),
                      join(place, "byteLength"));
         }
@@ -143,10 +144,10 @@ Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, cons
         document.memory->take(bytes.size(), place);
     }
     if (length > bytes.size()) {
-        failFile(
-            ErrorCode::invalidFile,
-            "the buffer says " + std::to_string(length) + " bytes, but its data has " + std::to_string(bytes.size()),
-            join(place, "byteLength"));
+        failFile(ErrorCode::invalidFile,
+                 "the buffer declares " + std::to_string(length) + " bytes, but its data has only " +
+                     std::to_string(bytes.size()),
+                 join(place, "byteLength"));
     }
     bytes.resize(length);
     buffer.bytes = BufferBytes(std::move(bytes));
@@ -177,7 +178,7 @@ void checkImageUris(Document& document) {
             document.warnings.push_back("image " + std::to_string(i) + " is not read: " + failure->message);
     }
     if (refused_count > kMostWarnings)
-        document.warnings.push_back(std::to_string(refused_count - kMostWarnings) + " more images are not read either");
+        document.warnings.push_back(std::to_string(refused_count - kMostWarnings) + " more images could not be read");
 }
 
 /// Charges each entry a fixed cost for tables of uses and reports: an entry takes only a few bytes of JSON.
@@ -220,8 +221,8 @@ Document parseDocument(Bytes file_bytes, const Path& path, const FileOptions& op
         document.extra_chunks = std::move(glb.extra);
         if (glb.ignored_bytes > 0) {
             document.warnings.push_back("the file has " + std::to_string(glb.ignored_bytes) +
-                                        " bytes after the length that its GLB header states; they have no "
-                                        "meaning and are dropped when the file is rewritten");
+                                        " bytes after the length that its GLB header states; they are ignored, and "
+                                        "removed when the file is rewritten");
         }
     } else {
         constexpr std::size_t kGlbHeaderBytes = 12;
@@ -264,7 +265,7 @@ void checkRequiredExtensions(Document& document) {
         }
         if (std::find(kHarmless.begin(), kHarmless.end(), name) == kHarmless.end()) {
             document.warnings.push_back("the file requires the extension " + inQuotes(name) +
-                                        ", which tspace does not know; its data is preserved");
+                                        ", which tspace does not support; its data is preserved");
         }
     }
 }

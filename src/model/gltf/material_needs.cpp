@@ -21,7 +21,8 @@ namespace {
 std::size_t readUvSet(const Json& object, const std::string& place, std::size_t fallback) {
     constexpr std::size_t kMaxUvSet = 0x7fffffff;
     const std::uint64_t set = readWhole(object, "texCoord", place, fallback);
-    if (set > kMaxUvSet) failFile(ErrorCode::invalidFile, "no file has so many UV sets", join(place, "texCoord"));
+    if (set > kMaxUvSet)
+        failFile(ErrorCode::invalidFile, "the number of the UV set is too large", join(place, "texCoord"));
     return static_cast<std::size_t>(set);
 }
 
@@ -395,7 +396,7 @@ std::string difference(const TangentUse& first, const TangentUse& other) {
                textureName(other) + " is on TEXCOORD_" + std::to_string(other.uv_set);
     }
     return "fit the KHR_texture_transform of " + textureName(first) + ", but " + textureName(other) +
-           " is turned or mirrored in another way";
+           " is rotated or mirrored differently";
 }
 
 void addDifferences(const std::vector<TangentUse>& uses, TextureTransform reading, std::vector<std::string>& notes) {
@@ -413,8 +414,9 @@ void addTransform(const TangentUse& use, TextureTransform reading, std::vector<s
     const UvMatrix matrix = uvMatrixOf(use, TextureTransform::apply);
     if (matrix.isIdentity()) return;
     notes.push_back(kTransformNote + std::string(matrix.mirrors() ? "mirrors " : "turns ") + textureName(use) +
-                    (reading == TextureTransform::apply ? ": the tangents follow the transformed UVs"
-                                                        : ": as asked for, the tangents follow the UVs before it"));
+                    (reading == TextureTransform::apply
+                         ? ": the tangents follow the transformed UVs"
+                         : ": as requested, the tangents follow the UVs before the transform"));
 }
 
 void addAnimations(const std::vector<TangentUse>& uses, const std::set<std::string>& animated,
@@ -422,8 +424,8 @@ void addAnimations(const std::vector<TangentUse>& uses, const std::set<std::stri
     for (const TangentUse& use : uses) {
         const std::string transform = use.place + "/extensions/KHR_texture_transform/";
         if (animated.count(transform + "rotation") == 0 && animated.count(transform + "scale") == 0) continue;
-        notes.push_back("an animation moves the KHR_texture_transform of " + textureName(use) +
-                        ": the tangents fit the values in the material only");
+        notes.push_back("an animation changes the KHR_texture_transform of " + textureName(use) +
+                        ": the tangents match only the static transform in the material");
         return;
     }
 }

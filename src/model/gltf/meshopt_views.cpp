@@ -57,10 +57,10 @@ void readRange(const Document& document, const Json& object, const std::string& 
     view.byte_count = readSize(object, "byteLength", place);
     const Buffer& data = document.buffers[view.buffer];
     if (!data.hasStoredBytes())
-        failFile(ErrorCode::invalidFile, "the compressed data lie in a buffer without data", join(place, "buffer"));
+        failFile(ErrorCode::invalidFile, "the buffer of the compressed data is empty", join(place, "buffer"));
     if (view.begin > data.bytes.size() || view.byte_count > data.bytes.size() - view.begin) {
         failFile(ErrorCode::invalidFile,
-                 "the compressed data reach beyond their buffer of " + std::to_string(data.bytes.size()) + " bytes",
+                 "the compressed data extends beyond its buffer of " + std::to_string(data.bytes.size()) + " bytes",
                  place);
     }
 }
@@ -71,7 +71,7 @@ std::span<const std::uint8_t> compressedBytes(const Document& document, const Me
 
 void decodeInto(const Document& document, std::size_t index, const MeshoptView& view, std::span<std::uint8_t> to) {
     if (!to.empty() && !decodeMeshopt(view.coding, compressedBytes(document, view), to))
-        failFile(ErrorCode::invalidFile, "the compressed data are broken", placeOf(index, view.extension));
+        failFile(ErrorCode::invalidFile, "the compressed data is damaged", placeOf(index, view.extension));
 }
 
 /// Returns the views to decode, keyed by their fallback buffer.
@@ -87,7 +87,7 @@ std::map<std::size_t, std::vector<std::size_t>> viewsToDecode(const Document& do
         decoded_bytes += view->coding.byteCount();
         // Several views may refer to the same compressed bytes, so their sum needs a limit too.
         if (decoded_bytes > stored_bytes * meshoptRatio(view->coding.is_khr)) {
-            failFile(ErrorCode::invalidFile, "the compressed views claim more data than the file can hold",
+            failFile(ErrorCode::invalidFile, "the compressed buffer views declare more data than the file can contain",
                      placeOf(i, view->extension));
         }
         if (meshoptMissing(view->coding.is_khr).empty()) views[buffer].push_back(i);
@@ -103,7 +103,7 @@ void makeFallback(Document& document, std::size_t index, std::span<const std::si
     for (const std::size_t view : views) covered += readBufferView(document, view).byte_count;
     if (length > covered && length - covered > kFreeGap + kGapRatio * document.input_bytes) {
         failFile(ErrorCode::invalidFile,
-                 "the buffer says " + std::to_string(length) + " bytes, but its compressed views have " +
+                 "the buffer declares " + std::to_string(length) + " bytes, but its compressed buffer views have " +
                      std::to_string(covered),
                  join(place, "byteLength"));
     }
@@ -128,7 +128,7 @@ std::optional<MeshoptView> readMeshoptView(const Document& document, std::size_t
     if (extension == nullptr) return {};
     const Json& member = *findExtension(object, extension);
     const std::string place = placeOf(index, extension);
-    if (!member.is_object()) failFile(ErrorCode::invalidFile, "the extension is not an object", place);
+    if (!member.is_object()) failFile(ErrorCode::invalidFile, "the extension must be a JSON object", place);
     MeshoptView view;
     view.extension = extension;
     readRange(document, member, place, view);
@@ -136,7 +136,9 @@ std::optional<MeshoptView> readMeshoptView(const Document& document, std::size_t
     view.coding.mode = valueOf(kModes, readString(member, "mode", place), join(place, "mode"));
     view.coding.filter = valueOf(kFilters, readString(member, "filter", place, "NONE"), join(place, "filter"));
     if (view.coding.filter == MeshoptFilter::color && !view.coding.is_khr)
-        failFile(ErrorCode::invalidFile, "there is no 'COLOR' in EXT_meshopt_compression", join(place, "filter"));
+        failFile(ErrorCode::invalidFile,
+                 "the filter 'COLOR' is not defined in EXT_meshopt_compression, only in KHR_meshopt_compression",
+                 join(place, "filter"));
     view.coding.count = readSize(member, "count", place);
     view.coding.stride = readSize(member, "byteStride", place);
     if (std::string fault = meshoptFault(view.coding, view.byte_count); !fault.empty())
@@ -145,7 +147,7 @@ std::optional<MeshoptView> readMeshoptView(const Document& document, std::size_t
     if (view.coding.byteCount() != range.byte_count || (range.stride != 0 && range.stride != view.coding.stride)) {
         failFile(ErrorCode::invalidFile,
                  std::to_string(view.coding.count) + " elements of " + std::to_string(view.coding.stride) +
-                     " bytes do not fit the buffer view of " + std::to_string(range.byte_count) + " bytes",
+                     " bytes do not match the buffer view of " + std::to_string(range.byte_count) + " bytes",
                  place);
     }
     return view;

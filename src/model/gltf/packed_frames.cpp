@@ -25,7 +25,7 @@ std::string faultOf(const Document& document, const Accessor& accessor, const Pa
     const bool fits =
         accessor.component == part.component && accessor.type == part.type && accessor.normalized == part.normalized;
     if (!fits) return "is " + formatName(accessor) + ", and must be " + wantedFormat(part);
-    return hasData(document, accessor) ? "" : "has no data that can be read here";
+    return hasData(document, accessor) ? "" : "has no data that this build of tspace can read";
 }
 
 std::string countFault(const Accessor& accessor, const Primitive& primitive) {

@@ -47,7 +47,7 @@ std::string whyUnreadable(const Accessor& accessor, bool is_base, std::size_t ve
         return "they do not have " + std::to_string(wanted) + " components";
     const bool is_signed = accessor.component == ComponentType::i8 || accessor.component == ComponentType::i16;
     if (accessor.component != ComponentType::f32 && !(is_signed && (accessor.normalized || !is_base)))
-        return "they are " + formatName(accessor) + ", and must be floats or normalized signed integers";
+        return "they are " + formatName(accessor) + ", but must be floats or normalized signed integers";
     if (accessor.count == vertex_count) return {};
     return "there are " + std::to_string(accessor.count) + " of them for " + std::to_string(vertex_count) + " vertices";
 }
@@ -351,11 +351,11 @@ void warnOfScaledNormals(Document& document, std::span<const Primitive> primitiv
     }
     if (count == 0) return;
     if (primitive_count > kMostNamed) named += "; and " + std::to_string(primitive_count - kMostNamed) + " more";
-    document.warnings.push_back(
-        kNormalLengths + std::string(": ") + std::to_string(count) + (count == 1 ? " vertex" : " vertices") + " (" +
-        named + ") of lengths from " + shortNumber(least) + " to " + shortNumber(most) +
-        ". They were scaled to it before anything was computed from them; the file has them as before (tspace generate "
-        "--repair writes unit normals)");
+    document.warnings.push_back(kNormalLengths + std::string(": ") + std::to_string(count) +
+                                (count == 1 ? " vertex" : " vertices") + " (" + named + ") of lengths from " +
+                                shortNumber(least) + " to " + shortNumber(most) +
+                                ". They were normalized for the computation, and the file keeps them unchanged (tspace "
+                                "generate --repair writes unit normals)");
 }
 
 std::vector<std::uint32_t> readTriangleCorners(const Document& document, const Primitive& primitive) {

@@ -541,7 +541,7 @@ void readImages(const Document& document, const std::set<std::size_t>& wanted, S
         const std::optional<Error> failure = tryFile([&] {
             const Bytes bytes = readImageBytes(document, list[i], place);
             if (isForbidden(document, bytes)) {
-                scene.images[i].why_empty = "it is TGA, which glTF does not have";
+                scene.images[i].why_empty = "glTF does not allow TGA images";
                 return;
             }
             // A file that several entries reference is charged once.

@@ -117,7 +117,7 @@ std::size_t freeFeatureId(const Document& document, std::span<const Primitive* c
 ElementData numbersOf(const NewVertices& vertices) {
     constexpr std::size_t kMostShort = 65536, kMostFloat = std::size_t{1} << 24;
     if (vertices.old_count > kMostFloat)
-        failFile(ErrorCode::unsupportedFile, "its feature ids are too many for an attribute");
+        failFile(ErrorCode::unsupportedFile, "it has too many feature IDs for a vertex attribute");
     const bool is_short = vertices.old_count <= kMostShort;
     ElementData data{.component = is_short ? ComponentType::u16 : ComponentType::f32,
                      .count = vertices.sources.size(),
@@ -227,9 +227,10 @@ std::vector<std::string> VertexNumbers::warnings() const {
     std::vector<std::string> list;
     for (const auto& [name, count] : left_) {
         const std::string primitives = count == 1 ? "1 primitive has" : std::to_string(count) + " primitives have";
-        list.push_back(name == kCounts ? primitives + " other vertices now, and " + name + " has the counts of before"
-                                       : "the extension " + name + " may name vertices by number, and " + primitives +
-                                             " other vertices now; it was left as it is");
+        list.push_back(name == kCounts
+                           ? primitives + " other vertices now, and " + name + " still contains the old counts"
+                           : "the extension " + name + " may refer to vertices by number, but " + primitives +
+                                 " different vertices now; the extension was not changed");
     }
     return list;
 }

@@ -93,17 +93,17 @@ void checkEnd(const ImportResult& result, const ImportLimits& limits) {
             return;
         case ImportEnd::outOfTime:
             why = "the importer was stopped after " + std::to_string(limits.processor_seconds) +
-                  " s (--import-seconds allows more)";
+                  " s of CPU time; use --import-seconds to allow more";
             break;
         case ImportEnd::outOfSpace:
-            why = "the importer was stopped because its result grew without end";
+            why = "the importer was stopped because its result exceeded the size limit";
             break;
         case ImportEnd::crashed:
             why = "the importer crashed on this file";
             break;
         case ImportEnd::refused:
             why = firstLine(result.messages);
-            if (why.empty()) why = "the importer cannot read it";
+            if (why.empty()) why = "the importer cannot read the file";
             break;
     }
     failFile(ErrorCode::invalidFile, why);
@@ -120,13 +120,13 @@ gltf::Document importDocument(const Path& path, const FileOptions& options, cons
     if (options.importer.empty()) {
         failFile(ErrorCode::unsupportedFile,
                  "reading " + lowerExtension(path) +
-                     " files needs tspace-import, which is not there (see docs/reference/import.md)");
+                     " files needs the program tspace-import, which is not installed (see docs/reference/import.md)");
     }
     std::error_code error;
     const std::uintmax_t size = fs::file_size(fs::path(path), error);
     if (error || !fs::is_regular_file(fs::path(path), error)) readFile(path);  // fails with the reason
     if (size > options.import_max_file_bytes) {
-        failFile(ErrorCode::unsupportedFile, "the file is larger than the importer's limit of " +
+        failFile(ErrorCode::unsupportedFile, "the file exceeds the size limit of the importer, " +
                                                  std::to_string(options.import_max_file_bytes >> 20) + " MiB");
     }
     const ImportLimits limits = limitsFor(size, options);

@@ -67,7 +67,7 @@ Pipe makePipe() {
         pipe = {Descriptor(fcntl(ends[0], F_DUPFD_CLOEXEC, 3)), Descriptor(fcntl(ends[1], F_DUPFD_CLOEXEC, 3))};
     }
     if (!pipe.read_end.isOpen() || !pipe.write_end.isOpen())
-        failFile(ErrorCode::cannotRead, "cannot make a pipe to the importer");
+        failFile(ErrorCode::cannotRead, "cannot create a pipe to the importer");
     return pipe;
 }
 

@@ -7,8 +7,8 @@ namespace tspace {
 
 ImportResult runImporter(const std::string& program, const std::string&, bool, const ImportLimits&,
                          const std::function<void()>&) {
-    failFile(ErrorCode::unsupportedFile,
-             "the importer " + pathInQuotes(program) + " is not used on Windows: only glTF and OBJ are read there");
+    failFile(ErrorCode::unsupportedFile, "the importer " + pathInQuotes(program) +
+                                             " is not supported on Windows, where only glTF and OBJ can be read");
 }
 
 }  // namespace tspace

@@ -325,8 +325,8 @@ void InputFiles::addTo(std::set<std::string>& identities, const Path& path) {
     if (&identities == &identities_) recordInput(path.string());
     inRun(path, [&](RunFile& file) {
         if (file.is_written && file.owner != call_)
-            failFile(ErrorCode::cannotRead,
-                     "cannot read " + pathInQuotes(path) + ": this run has written it for another model");
+            failFile(ErrorCode::cannotRead, "cannot read " + pathInQuotes(path) +
+                                                ": this run has already overwritten it as the output of another model");
         file.readers.insert(call_);
     });
     std::string identity = identityOf(path);
@@ -382,7 +382,7 @@ AtomicOutput::File AtomicOutput::planFile(const Path& requested) {
     const std::uint64_t call = way_.inputs != nullptr ? way_.inputs->call() : 0;
     if (kind == PathKind::stream) return {.target = requested, .is_stream = true, .call = call};
     if (kind == PathKind::folder) failToWrite(requested, "it is a folder");
-    if (kind == PathKind::other) failToWrite(requested, "it is neither a file nor a stream of bytes");
+    if (kind == PathKind::other) failToWrite(requested, "it is neither a file nor a stream");
     const bool is_link = fs::is_symlink(fs::path(requested), error);
     const Path target = is_link ? canonicalPath(requested) : requested;
     if (is_link && (fs::is_symlink(fs::path(target), error) || !fs::exists(fs::path(target), error)))
@@ -393,7 +393,7 @@ AtomicOutput::File AtomicOutput::planFile(const Path& requested) {
     const HeldOutputs* const held = HeldOutputs::ofThread();
     const bool is_held = held != nullptr && held->all_.identities_.contains(identity);
     if (isKept(identity) || is_held || !identities_.insert(identity).second)
-        failToWrite(requested, "another output is the same file");
+        failToWrite(requested, "another output of this run is the same file");
     return {.target = target, .temporary = besideName(target, kTemporaryEnding), .call = call};
 }
 
@@ -471,9 +471,9 @@ void AtomicOutput::leaveSharedFiles() {
         });
         if (kindOf(file.target) == PathKind::nothing || !(file.is_shared || is_of_other || is_read_by_other)) continue;
         if (!hasBytes(file.target, readFile(file.temporary)))
-            failToWrite(file.target, is_read_by_other ? "it is an input of another model of this run"
-                                     : is_of_other    ? "this run has written another file of that name"
-                                                      : "a file of that name is there by now, and is another one");
+            failToWrite(file.target, is_read_by_other ? "another model of this run reads this file"
+                                     : is_of_other    ? "this run has already written a different file with this name"
+                                                      : "a different file with this name was created in the meantime");
         leave(file);
         inRun(file.target, [&](RunFile& known) { known.owner = file.call; });
     }

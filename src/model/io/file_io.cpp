@@ -61,7 +61,7 @@ Bytes readFile(const Path& name, const std::string& place, const Execution& exec
     if (!file) fail_open(error ? error.message() : std::strerror(errno));
     Bytes bytes(static_cast<std::size_t>(size));
     if (!readSteps(file.get(), bytes, execution)) {
-        failFile(code, "cannot read all of the file " + pathInQuotes(name), place);
+        failFile(code, "cannot read the whole file " + pathInQuotes(name), place);
     }
     return bytes;
 }
@@ -105,7 +105,7 @@ Path resolveUri(const Path& in_folder, std::string_view uri, bool allow_external
                  "the URI " + inQuotes(uri, 200) + " can be no file: " + failure.code().message(), place);
     }
     if (!allow_external && !isBelow(root, file)) {
-        refuseUri(uri, std::string("leads out of the model's folder by a symbolic link") + kFollowed, place);
+        refuseUri(uri, std::string("leads outside the folder of the model through a symbolic link") + kFollowed, place);
     }
     return folder / relative;
 }

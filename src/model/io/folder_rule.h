@@ -20,7 +20,7 @@ inline const char* leadsAway(const std::filesystem::path& relative) {
     // On Windows a path may start at a root, or in a folder of a drive, without being absolute.
     if (relative.has_root_path() || startsAtDrive(relative)) return "is an absolute path";
     const std::filesystem::path normal = relative.lexically_normal();
-    return !normal.empty() && *normal.begin() == ".." ? "leads out of the model's folder" : nullptr;
+    return !normal.empty() && *normal.begin() == ".." ? "leads outside the folder of the model" : nullptr;
 }
 
 /// Returns whether `path` is `folder` or below it. Both must be without links and "..".

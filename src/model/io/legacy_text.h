@@ -10,7 +10,8 @@
 namespace tspace {
 
 inline constexpr const char* kNotUtf8 =
-    "the text is not UTF-8: its bytes are kept, but names may be shown wrong, and files of such names may not be found";
+    "the text is not UTF-8: its bytes are kept, but names may be displayed incorrectly, and files with such names may "
+    "not be found";
 
 /// Returns whether the text is valid UTF-8 (which includes ASCII). Linear.
 inline bool isUtf8(std::string_view text) {

@@ -56,7 +56,7 @@ class MemoryBudget {
 
     /// Checks a temporary allocation without charging it. Fails with tooLarge.
     void require(std::uint64_t bytes, const std::string& place) const {
-        if (!has(bytes)) failFile(ErrorCode::tooLarge, "what the file claims " + whyNot(bytes), place);
+        if (!has(bytes)) failFile(ErrorCode::tooLarge, "what the file declares " + whyNot(bytes), place);
     }
     [[nodiscard]] bool has(std::uint64_t bytes) const { return limited(bytes) <= left_; }
 
@@ -77,9 +77,10 @@ class MemoryBudget {
 
     /// Returns the message of a failure: "needs ...".
     [[nodiscard]] std::string whyNot(std::uint64_t bytes) const {
-        const std::string needed = "needs about " + megabytes(granted_ - left_ + limited(bytes)) + " of memory, and ";
-        return is_users_ ? needed + "--memory-limit allows " + megabytes(granted_)
-                         : needed + "a file of its size gets " + megabytes(granted_) + " (--memory-limit allows more)";
+        const std::string needed = "needs about " + megabytes(granted_ - left_ + limited(bytes)) + " of memory, but ";
+        return is_users_ ? needed + "--memory-limit is " + megabytes(granted_)
+                         : needed + "the limit for a file of its size is " + megabytes(granted_) +
+                               "; use --memory-limit to raise it";
     }
 
   private:

@@ -28,10 +28,10 @@ Path NamedFiles::resolve(const Path& folder, std::string_view uri, const std::st
     if (!is_in_memory_) return resolveUri(folder, uri, allow_external_, place);
     const std::string path = checkedPathOfUri(uri, allow_external_, place);
     if (!find_file_) {
-        failFile(
-            ErrorCode::invalidFile,
-            "the file " + inQuotes(path, 200) + " that the model names cannot be found, for the model is not a file",
-            place);
+        failFile(ErrorCode::invalidFile,
+                 "the file " + inQuotes(path, 200) +
+                     " that the model references cannot be found, because the model was not read from a file",
+                 place);
     }
     return fs::path(folder / path).lexically_normal();
 }

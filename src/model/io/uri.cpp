@@ -65,7 +65,8 @@ Bytes decodeBase64(std::string_view text, const std::string& place) {
     for (const char c : text) {
         const int value = values[static_cast<unsigned char>(c)];
         if (isBase64Space(c)) continue;
-        if (value < 0) failFile(ErrorCode::invalidFile, "a data URI has a character that is not base64", place);
+        if (value < 0)
+            failFile(ErrorCode::invalidFile, "a data URI contains a character that is not valid in base64", place);
         bits = bits << 6 | static_cast<std::uint32_t>(value);
         bit_count += 6;
         if (bit_count >= 8) {
@@ -73,7 +74,7 @@ Bytes decodeBase64(std::string_view text, const std::string& place) {
             bytes.push_back(static_cast<std::uint8_t>(bits >> bit_count));
         }
     }
-    if (bit_count == 6) failFile(ErrorCode::invalidFile, "the base64 data of a data URI has a wrong length", place);
+    if (bit_count == 6) failFile(ErrorCode::invalidFile, "the base64 data of a data URI has an invalid length", place);
     return bytes;
 }
 
@@ -170,12 +171,13 @@ std::string pathOfUri(std::string_view uri) {
 }
 
 std::string checkedPathOfUri(std::string_view uri, bool allow_external, const std::string& place) {
-    if (uriKind(uri) != UriKind::path) refuseUri(uri, "has a scheme other than data, which is never loaded", place);
+    if (uriKind(uri) != UriKind::path) refuseUri(uri, "has a scheme other than data, which tspace never loads", place);
     if (uri.starts_with(':'))
-        failFile(ErrorCode::invalidFile, "the URI " + inQuotes(uri, 200) + " has no scheme before its colon", place);
+        failFile(ErrorCode::invalidFile, "the URI " + inQuotes(uri, 200) + " has an empty scheme before its colon",
+                 place);
     std::string path = pathOfUri(uri);
     if (path.empty() || path.find('\0') != std::string::npos) {
-        failFile(ErrorCode::invalidFile, "a URI names no file", place);
+        failFile(ErrorCode::invalidFile, "a URI does not name a file", place);
     }
     if (allow_external) return path;
     if (const char* why = leadsAway(fs::path{Path(path)})) refuseUri(uri, std::string(why) + kFollowed, place);

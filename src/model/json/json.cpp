@@ -86,7 +86,7 @@ const Json* Json::find(std::string_view key) const {
 
 const Json& Json::at(std::string_view key) const {
     const Json* found = find(key);
-    if (found == nullptr) throw JsonError("a JSON object has no member '" + std::string(key) + "'");
+    if (found == nullptr) throw JsonError("a JSON object lacks the member '" + std::string(key) + "'");
     return *found;
 }
 
@@ -176,7 +176,7 @@ class JsonBuilder {
     bool end_object() {
         const std::string* repeated = findRepeated(stack_.back()->value_.children->names);
         if (repeated != nullptr) {
-            error_ = JsonError("the JSON has a member twice in one object");
+            error_ = JsonError("the JSON contains a member twice in one object");
             error_.repeated = *repeated;
             return false;
         }
@@ -189,7 +189,7 @@ class JsonBuilder {
     }
     bool parse_error(std::size_t position, const std::string&, const Library::exception& failure) {
         const bool is_range = failure.id == 406;
-        error_ = JsonError(is_range ? "the JSON has a number that is too large" : "the JSON has a syntax error");
+        error_ = JsonError(is_range ? "the JSON contains a number that is too large" : "the JSON has a syntax error");
         error_.byte = position;
         return false;
     }

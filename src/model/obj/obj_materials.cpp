@@ -208,7 +208,7 @@ class FileFinder {
         if (name.empty() || !isThere(name)) return plain;
         if (told_.insert(plain).second)
             warnings_.push_back("the path " + inQuotes(plain, 200) + " is absolute; the file " + inQuotes(name, 200) +
-                                " beside the file that names it is read instead");
+                                " in the folder of the file that references it is read instead");
         return name;
     }
 
@@ -271,7 +271,7 @@ bool readLibrary(const std::string& name, Model& model, std::vector<Material>& m
                                  kNotUtf8);
     if (completeTextureOptions(text) != 0) {
         model.warnings.push_back("the material library '" + Path(fs::path(path).filename()).string() +
-                                 "' moves or scales textures (-o, -s, -t), which is ignored");
+                                 "' uses texture offsets, scales or turbulence (-o, -s, -t), which are ignored");
     }
 
     // Charged before the parser allocates a large object for each material.
@@ -312,11 +312,11 @@ std::vector<Material> readMaterials(const std::vector<std::string>& names, Model
         const std::vector<std::string> words = splitWords(line);
         // File names may contain spaces, but a line may also list several files.
         if (words.size() == 1 || isOneFile(line, model.files)) {
-            if (!read(line)) model.warnings.push_back("there is no material library '" + line + "'");
+            if (!read(line)) model.warnings.push_back("cannot find the material library '" + line + "'");
             continue;
         }
         for (const std::string& word : words) {
-            if (!read(word)) model.warnings.push_back("there is no material library '" + word + "'");
+            if (!read(word)) model.warnings.push_back("cannot find the material library '" + word + "'");
         }
     }
     return materials;

@@ -65,7 +65,8 @@ void noteFace(std::string_view rest, std::uint32_t line, std::uint32_t smoothing
     for (const char c : rest) {
         empty = empty && isBlank(c);
         digits = isDigit(c) ? digits + 1 : 0;
-        if (digits > kMostDigits) failFile(ErrorCode::invalidFile, "an index of a face is too large", lineName(line));
+        if (digits > kMostDigits)
+            failFile(ErrorCode::invalidFile, "a vertex index of a face is too large", lineName(line));
     }
     if (!empty) notes.faces.push_back({line, smoothing_group});
 }
@@ -174,15 +175,15 @@ std::string changedEdges(const FloatLoss& loss) {
 void warnOfOffset(const FloatLoss& loss, Model& model) {
     model.warnings.push_back("the coordinates are so far from the origin that 32-bit floats would change " +
                              changedEdges(loss) + "; " + spelled(model.offset) +
-                             " was taken out of them first, and is the translation of the nodes in glTF "
-                             "(generate --keep-coordinates leaves it in)");
+                             " was subtracted from them first, and is the translation of the nodes in glTF (generate "
+                             "--keep-coordinates disables this)");
 }
 
 void warnOfLoss(const FloatLoss& loss, bool could_be_mended, Model& model) {
     model.warnings.push_back(
-        "the coordinates are too large for 32-bit floats, which glTF has: rounding changes " + changedEdges(loss) +
+        "the coordinates are too large for the 32-bit floats of glTF: rounding changes " + changedEdges(loss) +
         (could_be_mended ? "; without --keep-coordinates an offset would be subtracted from them"
-                         : ", and no common offset fixes that; split the model, and move each part to its own origin"));
+                         : ", and no common offset fixes this; split the model, and move each part to its own origin"));
 }
 
 }  // namespace
@@ -305,7 +306,7 @@ std::uint32_t resolvePosition(const Build& build, int index) {
     const std::uint32_t position = resolveIndex(index, count_so_far);
     if (position == kNone) {
         failFile(ErrorCode::invalidFile,
-                 "a face counts back to vertex " + std::to_string(index) + ", but there are only " +
+                 "a relative index of a face refers to vertex " + std::to_string(index) + ", but there are only " +
                      std::to_string(count_so_far) + " before it",
                  currentPlace(build));
     }
@@ -354,19 +355,19 @@ void addFace(void* user, tinyobj::index_t* indices, int count) {
     Build& build = buildOf(user);
     Model& model = *build.model;
     if (build.face_line >= build.notes->faces.size()) {
-        failFile(ErrorCode::internal, "internal error: the OBJ parser found a face that the first pass did not");
+        failFile(ErrorCode::internal, "internal error: the OBJ parser found more faces than the first pass");
     }
     Face face{.first_corner = static_cast<std::uint32_t>(model.corners.size()),
               .corner_count = static_cast<std::uint32_t>(count),
               .smoothing_group = build.notes->faces[build.face_line].smoothing_group,
               .line = build.notes->faces[build.face_line].line};
     if (model.corners.size() + face.corner_count > kMaxCorners) {
-        failFile(ErrorCode::unsupportedFile, "the file has more corners than fit into one mesh", currentPlace(build));
+        failFile(ErrorCode::unsupportedFile, "the file has more corners than a mesh can have", currentPlace(build));
     }
     for (int i = 0; i < count; ++i) {
         const tinyobj::index_t& index = indices[i];
         if (index.vertex_index == 0) {
-            failFile(ErrorCode::invalidFile, "a face has a corner without a vertex index; OBJ counts from 1",
+            failFile(ErrorCode::invalidFile, "a corner of a face has no valid vertex index; OBJ indices start at 1",
                      currentPlace(build));
         }
         model.corners.push_back(
@@ -417,7 +418,7 @@ void parse(std::string& text, Build& build) {
     callbacks.group_cb = setGroup;
     callbacks.object_cb = setObject;
     callbacks.usemtl_cb = setMaterial;
-    if (!parseObj(text, callbacks, &build)) failFile(ErrorCode::invalidFile, "not an OBJ file that can be read");
+    if (!parseObj(text, callbacks, &build)) failFile(ErrorCode::invalidFile, "the file is not a valid OBJ file");
 }
 
 /// Checks positive indices at the end of the file, since they may point ahead. A missing position is an error; UVs and
@@ -458,15 +459,15 @@ void addWarnings(const Build& build, Model& model) {
     if (!notes.is_utf8) warn(kNotUtf8);
     warnCount(build.bad_position_count, "positions that are not finite and were moved to the origin");
     warnCount(build.bad_uv_count, "texture coordinates that are not finite and were set to 0");
-    warnCount(build.bad_normal_count, "normals that are zero or not finite; the faces that use them get new ones");
+    warnCount(build.bad_normal_count, "normals that are zero or not finite; faces that use them get new normals");
     const auto warnDead = [&](const DeadIndices& dead, const std::string& what, const char* result) {
         if (dead.count == 0) return;
         warn("indices of " + what + " that do not exist: " + std::to_string(dead.count) + ", the first in line " +
              std::to_string(dead.first_line) + "; " + result);
     };
-    warnDead(build.dead_uvs, "texture coordinates", "the faces that use them are taken to have none");
-    warnDead(build.dead_normals, "normals", "the faces that use them get new ones");
-    warnCount(build.small_face_count, "faces with fewer than 3 corners, ignored");
+    warnDead(build.dead_uvs, "texture coordinates", "faces that use them are treated as having no texture coordinates");
+    warnDead(build.dead_normals, "normals", "faces that use them get new normals");
+    warnCount(build.small_face_count, "faces with fewer than 3 corners, which were ignored");
     if (notes.has_vertex_colors) warn("vertex colors are ignored");
     if (notes.has_lines_or_points) warn("lines and points are ignored");
     if (notes.has_free_form) warn("free-form curves and surfaces are ignored");

@@ -210,7 +210,8 @@ class MaterialNumbers {
             if (bare_triangles[i] == 0 || !has_textures || isDefault(material)) continue;
             warnings.push_back("the material '" + material.name + "' has textures, but " +
                                std::to_string(bare_triangles[i]) +
-                               " triangles with it have no texture coordinates: they get it without textures");
+                               " triangles with this material have no texture coordinates; they were given the "
+                               "material without textures");
             if (has_uvs[i]) bare_numbers_[i] = add(material, nullptr);
         }
     }

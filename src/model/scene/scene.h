@@ -151,7 +151,7 @@ struct NormalScales {
 };
 
 /// Prefix of warnings about normals of other lengths.
-inline constexpr const char* kNormalLengths = "normals that do not have length 1";
+inline constexpr const char* kNormalLengths = "normals that do not have unit length";
 
 struct ScenePrimitive {
     std::string place = {};  ///< JSON pointer (glTF), or "usemtl NAME" (OBJ)

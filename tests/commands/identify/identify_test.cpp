@@ -262,7 +262,7 @@ TEST(Identify, SaysWhyAPrimitiveWasNotLookedAt) {
     EXPECT_EQ(result.primitives[1].skipped, "it has no normals");
     EXPECT_EQ(result.primitives[2].skipped, "it has no UVs");
     EXPECT_TRUE(result.explanations.empty());
-    EXPECT_EQ(identityOf({no_tangents}).verdict, "There are no tangents in this file.");
+    EXPECT_EQ(identityOf({no_tangents}).verdict, "This file contains no tangents.");
 }
 
 TEST(Identify, NoiseIsMadeByNoMethod) {

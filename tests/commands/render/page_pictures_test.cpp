@@ -208,12 +208,12 @@ TEST(FindingPictures, SayWhyThereIsNoSecondPicture) {
     const Bytes good = mapped(SquareModel());
     const FindingPicture nothing = pictureOf(good, findingAt(FindingCode::signsWrong, {0}));
     EXPECT_TRUE(nothing.after.empty());
-    EXPECT_EQ(nothing.why_no_after, "The fix changes nothing that this picture shows.");
+    EXPECT_EQ(nothing.why_no_after, "The fix changes nothing that is visible in this picture.");
     const FindingPicture none = pictureOf(good, findingAt(FindingCode::uvsDegenerate, {0}));
     EXPECT_FALSE(none.before.empty());
     EXPECT_EQ(none.command, "");
     const FindingPicture open = pictureOf(good, findingAt(FindingCode::packedFramesDiffer, {0}));
-    EXPECT_EQ(open.why_no_after, "The fix requires a choice.");
+    EXPECT_EQ(open.why_no_after, "The fix requires a decision, so no picture of it was made.");
 }
 
 }  // namespace

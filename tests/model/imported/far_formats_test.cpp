@@ -164,7 +164,7 @@ TEST_P(FarFormats, WhatIsWrittenFromFloatsIsNotSaidToBeMended) {
     for (const int decimals : {6, 9}) {
         const Made made = make(GetParam(), {part}, false, {.decimals = decimals});
         EXPECT_FALSE(made.hasOffset());
-        EXPECT_TRUE(made.warns("no more digits"));
+        EXPECT_TRUE(made.warns("does not store more digits"));
     }
 }
 
@@ -177,7 +177,7 @@ TEST_P(FarFloats, ShapesThatFloatsDoNotHoldAreNamed) {
         const Made made = make(GetParam(), {sheet(kSide, kFar)}, keep);
         EXPECT_FALSE(made.hasOffset());
         EXPECT_TRUE(made.warns(" edges of triangles")) << testing::PrintToString(made.report.warnings);
-        EXPECT_TRUE(made.warns("the digits beyond them are lost"));
+        EXPECT_TRUE(made.warns("further digits are lost"));
         EXPECT_EQ(made.warns("--keep-coordinates"), keep) << "it has no effect";
     }
     EXPECT_TRUE(make(GetParam(), {sheet(kSide, {0, 0, 0})}).report.warnings.empty());
@@ -215,7 +215,7 @@ TEST(FarStl, FloatsOfBinaryFilesHaveTheSameNormalsNearTheOrigin) {
     // Far from the origin the spacing of floats, and therefore the automatic distance, is larger.
     const Made made = make(".stl", binaryStl(far), false, 0), moved = make(".stl", binaryStl(near), false, 0);
     EXPECT_FALSE(made.hasOffset());
-    EXPECT_TRUE(made.warns("no more digits"));
+    EXPECT_TRUE(made.warns("does not store more digits"));
     const std::span<const Vec3> a = made.normals(), b = moved.normals();
     EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end())) << "differences of neighbours are exact in floats";
 }

@@ -323,7 +323,7 @@ TEST(Import, NormalsBecomeUnitAndColoursNumbers) {
     const gltf::Document document = readable([&] { return importDocument(path, kWithImporter); });
     EXPECT_EQ(document.json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"], Json({1.0, 1.0, 0.0, 1.0}));
     EXPECT_EQ(document.warnings,
-              (std::vector<std::string>{"normals that are zero or not finite and were taken from a face: 1"}));
+              (std::vector<std::string>{"normals that are zero or not finite and were replaced by face normals: 1"}));
 }
 
 TEST(Import, MeshesWithoutUvsGetNoTextures) {
@@ -369,11 +369,11 @@ TEST(Import, FilesThatAModelNamesAreThoseOfItsFolder) {
         const Result<Inspection> result = inspectFile(scene, kWithImporter);
         ASSERT_EQ(primitives(result), 1U) << outside;
         ASSERT_EQ(result->warnings.size(), 1U) << outside;
-        EXPECT_NE(result->warnings[0].find("lies outside of the model's folder"), std::string::npos);
+        EXPECT_NE(result->warnings[0].find("is outside the folder of the model"), std::string::npos);
         EXPECT_EQ(primitives(inspectFile(scene, anywhere)), 2U) << outside;
         const Result<Inspection> alone = inspectFile(sceneOfFiles(folder, {outside}), kWithImporter);
         ASSERT_FALSE(alone.ok()) << outside;
-        EXPECT_NE(alone.error().message.find("lies outside of the model's folder"), std::string::npos)
+        EXPECT_NE(alone.error().message.find("is outside the folder of the model"), std::string::npos)
             << alone.error().message;
     }
 }

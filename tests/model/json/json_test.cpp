@@ -115,7 +115,7 @@ TEST(Json, IsReadWithoutThrowingWhereThatIsAskedFor) {
     EXPECT_EQ(error.message, "the JSON has a syntax error");
     EXPECT_TRUE(error.byte);
     EXPECT_FALSE(Json::read("1e400", error));
-    EXPECT_EQ(error.message, "the JSON has a number that is too large");
+    EXPECT_EQ(error.message, "the JSON contains a number that is too large");
     EXPECT_FALSE(Json::read(R"({"a":1,"a":2})", error));
     EXPECT_EQ(error.repeated, "a");
     EXPECT_FALSE(Json::read(std::string(kMaxJsonDepth + 1, '['), error));

@@ -102,12 +102,12 @@ _IN_PYTHON = (
     (r"\b(crease|denoise)_auto\b", '"auto"'),
     (r"^angular_threshold_deg ", "threshold "),
     (r"^face sizes ", "face_sizes "),
-    (r"^(\d+ corners are not a whole number of faces)", r"face_sizes, indices: \1"),
+    (r"^the (\d+ corners cannot be divided into faces)", r"face_sizes, indices: the \1"),
     (r"^index (\d+) of corner", r"indices: index \1 of corner"),
     (r"^corner (\d+) has no vertex", r"indices: corner \1 has no vertex"),
-    (r"^(\w+ needs?) normals, and the mesh has none", r"normals is None: \1 them"),
-    (r"^this method needs UVs, and the mesh has none", "uvs is None: this method needs UVs"),
-    (r"^(only lengyel and basis have|results per vertex need)", r'domain is "vertex": \1'),
+    (r"^(\w+ needs?) normals, but the mesh has none", r"normals is None: \1 them"),
+    (r"^this method needs UVs, but the mesh has none", "uvs is None: this method needs UVs"),
+    (r"^(only the methods lengyel and basis support|results per vertex need)", r'domain is "vertex": \1'),
     (r"^the symmetric frame ", r'frame is "symmetric": the symmetric frame '),
 )
 

@@ -174,7 +174,8 @@ FixedCorner fixedCorner(const SeenPoint& p) {
 void Effort::spend(std::uint64_t steps) {
     if (steps > left_) {
         failFile(ErrorCode::tooLarge,
-                 "drawing it takes too long: its triangles are drawn too often, or cover the picture too many times");
+                 "drawing the model would take too long: it has too many instances, or its triangles cover the picture "
+                 "too many times");
     }
     left_ -= steps;
 }
@@ -216,7 +217,7 @@ VisibleTriangles::VisibleTriangles(std::span<const DrawnMesh> meshes, const Came
     for (const DrawnMesh& mesh : meshes) {
         first_.push_back(static_cast<std::uint32_t>(count));
         count += mesh.corners.size() / 3;
-        if (count >= kNone) failFile(ErrorCode::tooLarge, "it draws more than 4,294,967,294 triangles");
+        if (count >= kNone) failFile(ErrorCode::tooLarge, "the model draws more than 4,294,967,294 triangles");
     }
     for (std::size_t i = 0; i < meshes.size(); ++i) draw(i, effort);
 }

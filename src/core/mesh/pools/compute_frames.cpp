@@ -424,13 +424,13 @@ Error checkPool(const PoolView& pool, std::span<const PrimitiveGeometry> primiti
                 std::to_string(primitives.size()) + " primitives but " + std::to_string(reports.size()) + " reports"};
     }
     if (!pool.normals.empty() && pool.normals.count != count) {
-        return {ErrorCode::countMismatch, "the pool's normals and positions differ in number"};
+        return {ErrorCode::countMismatch, "the pool must have as many normals as positions"};
     }
     if (!pool.uvs.empty() && pool.uvs.count != count) {
-        return {ErrorCode::countMismatch, "the pool's UVs and positions differ in number"};
+        return {ErrorCode::countMismatch, "the pool must have as many UVs as positions"};
     }
     if (!pool.kept_tangents.empty() && (pool.kept_tangents.size() != count || pool.normals.empty())) {
-        return {ErrorCode::countMismatch, "tangents are kept only with as many normals and positions"};
+        return {ErrorCode::countMismatch, "kept tangents require as many normals and positions"};
     }
     return {ErrorCode::ok, {}};
 }

@@ -22,14 +22,14 @@ std::string dracoHeaderFault(std::span<const std::uint8_t> data) {
     const bool is_draco = data.size() >= kHeadBytes &&
                           std::equal(kMark.begin(), kMark.end(), data.begin(),
                                      [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
-    if (!is_draco) return "the bytes are not Draco data";
+    if (!is_draco) return "the data is not Draco data";
     const std::uint8_t major = data[kVersionAt], minor = data[kVersionAt + 1];
     if (major != 2 || minor != 2) {
-        return "the Draco data have version " + std::to_string(major) + "." + std::to_string(minor) + ", not 2.2";
+        return "the Draco data has version " + std::to_string(major) + "." + std::to_string(minor) + ", not 2.2";
     }
-    if (data[kGeometryAt] != kTriangularMesh) return "the Draco data are not a mesh";
+    if (data[kGeometryAt] != kTriangularMesh) return "the Draco data does not contain a triangle mesh";
     if (data[kMethodAt] != kSequential && data[kMethodAt] != kEdgebreaker)
-        return "the Draco data have an unknown method";
+        return "the Draco data uses an unknown encoding method";
     return {};
 }
 
@@ -57,17 +57,18 @@ namespace {
 
 std::string attributeFault(const MeshoptCoding& coding) {
     if (coding.stride == 0 || coding.stride > 256 || coding.stride % 4 != 0)
-        return "rows of compressed attributes have 4, 8, ... or 256 bytes, not " + std::to_string(coding.stride);
+        return "the stride of compressed attributes must be a multiple of 4 from 4 to 256 bytes, not " +
+               std::to_string(coding.stride);
     const bool fits = coding.filter == MeshoptFilter::quaternion    ? coding.stride == 8
                       : coding.filter == MeshoptFilter::none        ? true
                       : coding.filter == MeshoptFilter::exponential ? true
                                                                     : coding.stride == 4 || coding.stride == 8;
-    return fits ? "" : "the filter does not work on rows of " + std::to_string(coding.stride) + " bytes";
+    return fits ? "" : "the filter does not support a stride of " + std::to_string(coding.stride) + " bytes";
 }
 
 std::string indexFault(const MeshoptCoding& coding) {
     if (coding.stride != 2 && coding.stride != 4)
-        return "compressed indices have 2 or 4 bytes, not " + std::to_string(coding.stride);
+        return "compressed indices must have 2 or 4 bytes, not " + std::to_string(coding.stride);
     if (coding.filter != MeshoptFilter::none) return "indices have no filter";
     if (coding.mode == MeshoptMode::triangles && coding.count % 3 != 0)
         return "the number of triangle indices, " + std::to_string(coding.count) + ", is not a multiple of 3";

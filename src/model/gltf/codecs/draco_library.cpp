@@ -23,7 +23,7 @@ namespace tspace::gltf {
 
 #ifndef TSPACE_HAS_DRACO
 
-std::string dracoMissing() { return "this tspace was built without the library Draco"; }
+std::string dracoMissing() { return "this build of tspace does not include the library Draco"; }
 std::string decodeDraco(std::span<const std::uint8_t>, const DracoLimits&, DracoMesh&) { return dracoMissing(); }
 bool encodeDracoAsItIs(DracoMesh&, Bytes&) { return false; }
 
@@ -31,7 +31,7 @@ bool encodeDracoAsItIs(DracoMesh&, Bytes&) { return false; }
 
 namespace {
 
-constexpr const char* kTooMuch = "the Draco data claim more points, triangles or attributes than the accessors say";
+constexpr const char* kTooMuch = "the Draco data declares more points, triangles or attributes than the accessors";
 
 /// Decoder of the library that checks counts before it allocates memory.
 template <class Decoder>
@@ -82,7 +82,7 @@ std::string runDecoder(draco::DecoderBuffer& buffer, const DracoLimits& limits, 
     }
     Limited<Decoder> decoder(limits);
     if (decoder.Decode(options, &buffer, &mesh).ok()) return {};
-    return decoder.isTooLarge() ? kTooMuch : "the Draco data are broken";
+    return decoder.isTooLarge() ? kTooMuch : "the Draco data is damaged";
 }
 
 std::string decodeMesh(std::span<const std::uint8_t> data, const DracoLimits& limits, draco::Mesh& mesh) {
@@ -160,8 +160,8 @@ std::string readAttribute(const draco::Mesh& mesh, DracoAttribute& to) {
     const std::unique_ptr<draco::PointAttribute> original = originalValues(*stored, to.rounding, is_sound);
     const draco::PointAttribute& values = original ? *original : *stored;
     if (static_cast<std::size_t>(values.num_components()) != to.component_count)
-        return name + " has another number of components than its accessor";
-    if (!is_sound || !copyAs(values, *stored, mesh.num_points(), to)) return name + " does not fit its accessor";
+        return name + " has a different number of components than its accessor";
+    if (!is_sound || !copyAs(values, *stored, mesh.num_points(), to)) return name + " does not match its accessor";
     return {};
 }
 
@@ -270,7 +270,7 @@ std::string decodeDraco(std::span<const std::uint8_t> data, const DracoLimits& l
     for (std::uint32_t i = 0; i < decoded.num_faces(); ++i) {
         for (const draco::PointIndex& point : decoded.face(draco::FaceIndex(i))) {
             if (point.value() >= mesh.point_count)
-                return "a triangle of the Draco data has a point that does not exist";
+                return "a triangle of the Draco data refers to a point that does not exist";
             mesh.corners.push_back(point.value());
         }
     }

@@ -25,10 +25,10 @@ constexpr int kVersion = 0;
 }  // namespace
 
 std::string meshoptMissing(bool is_khr) {
-    if (kVersion == 0) return "this tspace was built without the library meshoptimizer";
+    if (kVersion == 0) return "this build of tspace does not include the library meshoptimizer";
     if (is_khr && kVersion < kFirstKhrVersion) {
-        return "this tspace was built with meshoptimizer " + std::to_string(kVersion / 1000) + "." +
-               std::to_string(kVersion / 10 % 100) + ", which is too old for it (1.0 is needed)";
+        return "this build of tspace includes meshoptimizer " + std::to_string(kVersion / 1000) + "." +
+               std::to_string(kVersion / 10 % 100) + ", but KHR_meshopt_compression needs version 1.0 or later";
     }
     return {};
 }
