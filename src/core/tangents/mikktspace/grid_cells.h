@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The grid in which the reference welds: 2048 cells along the longest axis of the bounding box, and the order in which the
-// corners of a cell are left by partitions (grid_order.cpp).
+// The grid in which the reference welds (2048 cells along the longest axis of the bounding box), and the order in which
+// partitions leave the corners of a cell (grid_order.cpp).
 #pragma once
 
 #include <cstddef>
@@ -13,21 +13,21 @@
 
 namespace tspace::mikk {
 
-/// An entry of the corner list, in one cell of the reference's grid.
+/// An entry of the corner list that is in one cell of the reference's grid.
 struct alignas(16) CellElement {
     Vec3 position;
-    std::uint32_t entry;  ///< kTopBit: its node's representative is wanted
+    std::uint32_t entry;  ///< kTopBit is set if the representative of its node is requested
 };
 
 inline float component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-/// x, y, z and z again.
+/// Loads x, y, z, z.
 inline Float4 loadVec3(const Vec3& v) {
     const Float4 xyyz = joinPairs(&v.x, &v.y);
     return __builtin_shufflevector(xyyz, xyyz, 0, 1, 3, 3);
 }
 
-/// A bounding box; the fourth lanes do not matter. As in the reference, a NaN never moves a bound, and a bound
-/// that starts as NaN stays.
+/// A bounding box; the fourth lanes are unused. As in the reference, a NaN never changes a bound, and a bound that
+/// starts as NaN remains NaN.
 struct Box {
     Float4 low, high;
 
@@ -55,8 +55,8 @@ struct Grid {
 
     explicit Grid(const Box& box) : axis(box.longestAxis()), low(splat(box.low[axis])), high(splat(box.high[axis])) {}
 
-    /// The cells of four coordinates. Like the float-to-int conversion of x86: values that do not fit become the smallest int,
-    /// which maps to cell 0.
+    /// Returns the cells of four coordinates. As in the float-to-int conversion of x86, values out of range become the
+    /// smallest int, which is clamped to cell 0.
     [[nodiscard]] Mask4 cellsOf(Float4 x) const {
         const Float4 q = splat(kCells) * ((x - low) / (high - low));
         const Float4 fitting = select4(q < splat(2147483648.0f), max4(q, Float4{}), Float4{});
@@ -64,10 +64,9 @@ struct Grid {
     }
 };
 
-/// Divides the corners of one cell of the grid as the reference does, down to leaves of equal positions.
-/// found(entry) is called for all entries of leaves, in an order such that the last call for a node is for its
-/// representative. All entries of a node are in one leaf, because equal positions always go to the same side. Ranges where no
-/// element is marked are skipped.
+/// Divides the corners of one grid cell as the reference does, down to leaves of equal positions. Calls found(entry)
+/// for all entries of leaves, in an order such that the last call for a node is for its representative. All entries of
+/// a node are in one leaf, because equal positions are always on the same side. Skips ranges without marked elements.
 template <class Found>
 class Cell {
   public:
@@ -75,7 +74,7 @@ class Cell {
         : elements_(elements.data()), count_(elements.size()), found_(found) {}
 
     void run() {
-        Range waiting[64];  // each at most half of the one before
+        Range waiting[64];  // each at most half the size of the previous one
         std::size_t depth = 0;
         Range range{0, count_};
         while (true) {
@@ -109,7 +108,7 @@ class Cell {
         const int axis = box.longestAxis();
         const float low = box.low[axis], high = box.high[axis], middle = 0.5f * (high + low);
         if (middle >= high || middle <= low) {
-            // The first of a node is kept; going backwards makes the first the last to be named.
+            // The first corner of a node is kept; in reverse order it is the last to be reported.
             for (std::size_t i = range.end; i-- > range.begin;) found_(elements_[i].entry & kValue);
             return false;
         }
@@ -119,8 +118,8 @@ class Cell {
         return true;
     }
 
-    /// The reference swaps the first element that belongs to the right with the last one that belongs to the
-    /// left, and so on.
+    /// Partitions like the reference, which swaps the first element that belongs to the right with the last one that
+    /// belongs to the left, and so on.
     std::size_t partition(Range range, int axis, float middle) {
         const auto goesLeft = [&](std::size_t n) { return component(elements_[n].position, axis) < middle; };
         std::size_t i = range.begin, j = range.end - 1;

@@ -101,9 +101,9 @@ struct GridOrder {
         return true;
     }
 
-    /// Divides each cell independently: a node is in one cell.
+    /// Divides each cell independently, because each node is in one cell.
     void followCells(const Buffer<std::uint32_t>& found, const std::uint16_t* marks, std::size_t cells) {
-        // A counting sort of entries by cell: counts first, then where each cell begins. Number 0 is no cell.
+        // Counting sort of entries by cell: first the counts, then the start of each cell. Number 0 means no cell.
         std::array<std::uint32_t, Grid::kCells + 2> begin;
         std::fill_n(begin.data(), cells + 2, 0u);
         std::uint32_t buffer[3];
@@ -124,7 +124,7 @@ struct GridOrder {
             }
         }
         const auto name = [&](std::uint32_t entry) { representatives[in.nodeAt(entry)] = in.triangles.corner(entry); };
-        constexpr std::size_t kElements = 4096;  // per thread: fewer take less time than starting one
+        constexpr std::size_t kElements = 4096;  // per thread; fewer are faster without another thread
         const std::size_t grain = 1 + cells * kElements / (elements.size() + 1);
         parallel.forRanges(cells, grain, [&](std::size_t first, std::size_t last) {
             for (std::size_t cell = first; cell < last; ++cell) {

@@ -1,32 +1,33 @@
 // SPDX-License-Identifier: MIT
-// Finds the last bucket of the reference's edge list, and what its order changes.
+// Finds the last bucket of the reference's edge list, and the links that its order changes.
 //
-// An edge's key is the lower one of its two nodes' representatives (which are corners), and the last bucket
-// holds the edges with the largest key, V. The largest key in a triangle is the middle one of its three representatives. Let F
-// be the lowest corner of some triangles at the end of the list: nodes that these triangles do not have are represented by
-// corners below F. So when the representatives of their nodes show a key of F or above, the largest such key is V, and all
-// edges of the bucket have both ends among these nodes. Otherwise more triangles of the end are needed.
+// The key of an edge is the lower one of its two nodes' representatives (which are corners), and the last bucket contains
+// the edges with the largest key, V. The largest key in a triangle is the middle one of its three representatives. Let F
+// be the lowest corner of some triangles at the end of the list: the representatives of nodes outside these triangles are
+// less than F. Therefore, if the representatives of nodes of these triangles yield a key of at least F, the largest such
+// key is V, and both ends of all edges of the bucket are among these nodes. Otherwise more triangles are needed.
 //
-// Where the order of the bucket can change a link, the reference's first sort (a quicksort with a fixed seed, not
-// stable) is replayed.
+// If the order of the bucket can change a link, the reference's first sort (a quicksort with a fixed seed, not stable) is
+// replayed.
 //
-// Every step stops where the rest cannot matter. Gains in instructions of a whole call, on 355 primitives of real models:
+// Every step ends as soon as the rest cannot matter. Gains in instructions of a whole call, on 355 primitives of real
+// models:
 //
-// step                    stops where                                    gain
+// step                    ends if                                        gain
 // mayMatter               no node has three edges that may be in the     no grid is read for most primitives of up to 50
-//                         bucket: of two edges the order is irrelevant   triangles
-// leastKey (small mesh)   the same, for a lower bound of V: corners      77 of 98 primitives of up to 50 triangles stop
-//                         bound representatives                          here: 23,640 to 21,690 instructions a call
-// findBucket, 5 or 10     a key of F or above is among the last          5 and 10 in place of 6 and 12: .3 % up to 50
-// triangles               triangles, as in natural order                 triangles, .7 % above 5,000
-//   24 where unordered    one edge in 36 of a late triangle has its      20,000 shuffled triangles: 6.8 % more with 10,
-//                         key there                                      .2 % more with 24
-//   as far as V / 3       the largest key so far names the corner to     up to 50 triangles 1.4 %, up to 500 6.8 %, above
-//                         begin at                                       .5 % (with shared counters)
-// orderMatters            fewer than three half-edges, or no edge in     no replay for nearly all that come so far
-//                         both directions
-// sortRecords             follows only the side of each partition that   about 4 looks per element of a random order,
-//                         has the largest key                            at any size
+//                         bucket: the order of two edges is irrelevant   triangles
+// leastKey (small mesh)   the same, for a lower bound of V: corners      77 of 98 primitives of up to 50 triangles end
+//                         bound representatives                          here: 23,640 to 21,690 instructions per call
+// findBucket, 5 or 10     a key of at least F is among the last          5 and 10 instead of 6 and 12: 0.3 % up to 50
+// triangles               triangles, as in natural order                 triangles, 0.7 % above 5,000
+//   24 if unordered       one in 36 edges of a late triangle has its     20,000 shuffled triangles: 6.8 % more with 10,
+//                         key there                                      0.2 % more with 24
+//   as far as V / 3       the largest key so far is the corner to        up to 50 triangles 1.4 %, up to 500 6.8 %, above
+//                         start from                                     0.5 % (with shared counters)
+// orderMatters            fewer than three half-edges, or no edge in     no replay for nearly all meshes that get this
+//                         both directions                                far
+// sortRecords             follows only the side of each partition that   about 4 steps per element of a random order,
+//                         contains the largest key                       at any size
 #include "core/tangents/mikktspace/last_bucket.h"
 
 #include <algorithm>
@@ -47,8 +48,8 @@ namespace tspace::mikk {
 namespace {
 
 constexpr std::uint32_t kSeed = 39871946;
-/// Elements that the replayed sort may look at, per element. A random order needs about 4 (only the last
-/// bucket's side is followed); only orders made against the fixed seed come near.
+/// Maximum number of steps of the replayed sort, per element. A random order needs about 4, because only the side with
+/// the last bucket is followed; only inputs constructed against the fixed seed come close to the limit.
 constexpr std::uint64_t kStepsPerElement = 64;
 
 /// An element of the replayed sort.
@@ -56,7 +57,8 @@ struct Record {
     std::uint32_t key = 0, half_edge = 0;
 };
 
-/// Replays the quicksort where it moves records with the largest key. Returns false when the budget of steps is spent.
+/// Replays the quicksort as far as it moves records with the largest key. Returns false if the limit of steps is
+/// exceeded.
 [[gnu::cold]] bool sortRecords(Record* records, std::size_t count, std::uint32_t largest, const Allocator* allocator) {
     struct Range {
         std::int64_t begin, last;
@@ -90,23 +92,23 @@ struct Record {
     return true;
 }
 
-/// One half-edge of the last bucket.
+/// A half-edge of the last bucket.
 struct BucketEdge {
     std::uint32_t high = 0;  // representative of the higher end
     std::uint32_t high_node = 0;
     std::uint32_t half_edge = 0;
-    std::uint32_t usual = kNone, partner = kNone;  // other half-edges: as pairing links them, as the reference does
-    bool ascending = false;                        // runs from the lower to the higher end
+    std::uint32_t usual = kNone, partner = kNone;  // other half-edge: by normal pairing, and as in the reference
+    bool ascending = false;                        // goes from the lower to the higher end
 };
 
-/// Sorts by half-edge; `by_ends`: by higher end first.
+/// Sorts by half-edge; `by_ends`: by higher end first, then by half-edge.
 [[gnu::cold]] void sortEdges(BucketEdge* begin, BucketEdge* end, bool by_ends) {
     sortList(begin, end, [=](const BucketEdge& a, const BucketEdge& b) {
         return by_ends && a.high != b.high ? a.high < b.high : a.half_edge < b.half_edge;
     });
 }
 
-/// The largest key of a triangle's edges: the middle one of its nodes' representatives.
+/// Returns the largest key of a triangle's edges: the middle one of its nodes' representatives.
 inline std::uint32_t keyOf(const std::uint32_t* nodes, const std::uint32_t* representatives) {
     const std::uint32_t a = representatives[nodes[0]], b = representatives[nodes[1]], c = representatives[nodes[2]];
     return std::max(std::min(a, b), std::min(std::max(a, b), c));
@@ -121,7 +123,7 @@ class BucketFinder {
           representatives_(allocator, welded.nodes.count),
           bucket_(allocator) {}
 
-    /// `kept`: allocates the result.
+    /// Returns the changed links. `kept`: allocator of the result.
     LastBucket run(const Allocator* kept) {
         LastBucket result;
         if (!mayMatter()) return result;
@@ -136,7 +138,7 @@ class BucketFinder {
     }
 
   private:
-    /// Vertices and nodes of a triangle: pointers into the mesh where possible, else into its own arrays.
+    /// Vertices and nodes of a triangle: pointers into the mesh if possible, otherwise to its own arrays.
     struct Triangle {
         Triangle(const WeldedMesh& in, std::size_t t)
             : vertices(readTriangles(in.mesh, in.triangles, t, 1, own_vertices)),
@@ -152,12 +154,12 @@ class BucketFinder {
         return !(at(0) == at(1) || at(1) == at(2) || at(2) == at(0));
     }
 
-    /// Whether three edges of the bucket may be at one node. All edges of the bucket meet at one node, and a triangle has at
-    /// most one of them: the edge between the higher ends of two would have a larger key. Counts edges per node, of triangles
-    /// that may have the largest key.
+    /// Returns whether three edges of the bucket may share a node. All edges of the bucket share one node, and a
+    /// triangle has at most one of these edges: if it had two, the edge between their higher ends would have a larger
+    /// key. Counts the edges per node of triangles that may have the largest key.
     [[nodiscard]] bool mayMatter() {
         const std::size_t count = in_.triangles.count;
-        std::uint32_t* const edges = representatives_.data();  // counts of edges; the memory is used again later
+        std::uint32_t* const edges = representatives_.data();  // edge counts; the memory is reused later
         forgetAll();
         std::uint32_t room[kBlockCorners], last[kBlockCorners], known = 0;
         for (std::size_t first = 0; first < count; first += kCollectBlock) {
@@ -178,20 +180,21 @@ class BucketFinder {
 
     void forgetAll() { std::memset(representatives_.data(), 0, in_.nodes.count * sizeof(std::uint32_t)); }
 
-    /// A lower bound of V in a small mesh: each representative lies between the first and the `last` corner of its node.
+    /// Returns a lower bound of V in a small mesh: each representative is between the first and the `last` corner of
+    /// its node.
     std::uint32_t leastKey(const std::uint32_t* nodes, std::uint32_t* last) const {
         std::uint32_t first[kBlockCorners], least = 0;
         const auto count = static_cast<std::uint32_t>(3 * in_.triangles.count);
         for (std::uint32_t i = 0; i < count; ++i) last[nodes[i]] = i;
         for (std::uint32_t i = count; i-- > 0;) first[nodes[i]] = i;
-        for (std::uint32_t i = count; i > least; i -= 3) {  // no key is above its triangle's last corner
+        for (std::uint32_t i = count; i > least; i -= 3) {  // a triangle's key is at most its last corner
             const std::uint32_t key = keyOf(nodes + i - 3, first);
             if (key > least && isGood({in_, i / 3 - 1})) least = key;
         }
         return least;
     }
 
-    /// Start of the last `length` triangles, or a few earlier, so that no face is cut in two.
+    /// Returns the start of the last `length` triangles, or a few earlier, so that no face is split.
     [[nodiscard]] std::size_t beginOfLast(std::size_t length) const {
         std::size_t begin = length < in_.triangles.count ? in_.triangles.count - length : 0;
         while (begin > 0 && in_.triangles.face(begin) == in_.triangles.face(begin - 1)) --begin;
@@ -200,12 +203,13 @@ class BucketFinder {
 
     /// Finds V and the edges that have it.
     void findBucket() {
-        // First lengths of the end that is looked at, and what it grows by: the head of this file has the gains.
+        // Initial numbers of triangles at the end of the list, and the factor by which they grow; see the table at the
+        // top of this file for the gains.
         constexpr std::size_t kSmallMesh = 4096, kLastOfSmall = 5, kLast = 10, kLastOfRandom = 24, kLonger = 4;
         const std::size_t count = in_.triangles.count;
         std::size_t length = count < kSmallMesh ? kLastOfSmall : kLastOfRandom;
-        // In random order, neighbours in the list share no node. Looked at in the middle: the end of a real model may be the
-        // leftovers of strips.
+        // In random order, adjacent triangles of the list share no node. Tests the middle of the list, because the end
+        // of a real model may consist of leftovers of strips.
         for (std::size_t t = count / 2; length == kLastOfRandom && t < count / 2 + 10; ++t) {
             const Triangle a(in_, t), b(in_, t + 1);
             if (std::find_first_of(a.nodes, a.nodes + 3, b.nodes, b.nodes + 3) != a.nodes + 3) length = kLast;
@@ -220,9 +224,10 @@ class BucketFinder {
             }
             const Buffer<std::uint32_t> around = findRepresentatives(in_, {vertices.begin(), vertices.size()},
                                                                      representatives_.data(), allocator_, parallel_);
-            // Backwards, because keys mostly ascend and each larger one empties the bucket.
+            // In reverse order, because keys are mostly ascending and each larger key empties the bucket.
             for (std::size_t i = around.size(); i-- > 0;) addEdges(around[i]);
-            // Triangles from the corner of the largest key on are enough. Skipped faces have corners too, hence the limit.
+            // Triangles from the corner of the largest key to the end are sufficient. The limit is needed because
+            // skipped faces have corners too.
             length = std::max(2 * length, std::min(kLonger * length, in_.triangles.count - key_ / 3));
         }
     }
@@ -244,8 +249,8 @@ class BucketFinder {
         }
     }
 
-    /// False where the bucket has at most two half-edges, or no edge in both directions. Leaves the bucket sorted by higher
-    /// end, then half-edge, without duplicates.
+    /// Returns false if the bucket has at most two half-edges, or no edge in both directions. Leaves the bucket sorted
+    /// by higher end, then half-edge, without duplicates.
     [[nodiscard]] bool orderMatters() {
         sortEdges(bucket_.begin(), bucket_.end(), true);
         const auto areOne = [](const BucketEdge& a, const BucketEdge& b) { return a.half_edge == b.half_edge; };
@@ -258,7 +263,8 @@ class BucketFinder {
         return false;
     }
 
-    /// Brings the bucket into the order in which the reference meets its edges. False where the replay was abandoned.
+    /// Sorts the bucket into the order in which the reference processes its edges. Returns false if the replay was
+    /// abandoned.
     [[gnu::cold]] bool sortAsReference() {
         findRepresentatives(in_, numbersBelow(in_.mesh.vertexCount(), allocator_), representatives_.data(), allocator_,
                             parallel_);
@@ -279,7 +285,7 @@ class BucketFinder {
                                            [](const BucketEdge& e, std::uint32_t h) { return e.half_edge < h; }));
         }
         bucket_ = std::move(ordered);
-        // The reference's third sort orders runs of one higher end by triangle, except for the very last run.
+        // The reference's third sort orders ranges with equal higher ends by triangle, except for the very last range.
         for (std::size_t begin = 0, end = 0; begin < bucket_.size(); begin = end) {
             end = endOfRun(begin);
             if (end == bucket_.size()) break;
@@ -294,12 +300,13 @@ class BucketFinder {
         return end;
     }
 
-    /// Pairs half-edges within runs of one higher end, as the reference does: the partner is the oldest waiting half-edge of
-    /// the opposite direction (groups.h). Edges that lie in two runs of one end are not paired: this is the defect.
+    /// Pairs half-edges within ranges with equal higher ends, like the reference: the partner is the oldest unpaired
+    /// half-edge of the opposite direction (groups.h). Edges with equal ends in two separate ranges are not paired:
+    /// this is the defect.
     [[gnu::cold]] void pairUp(std::uint32_t BucketEdge::*partner) {
         for (std::size_t begin = 0, end = 0; begin < bucket_.size(); begin = end) {
             end = endOfRun(begin);
-            std::size_t waiting = begin;  // no half-edge before it waits
+            std::size_t waiting = begin;  // all half-edges before it are paired
             for (std::size_t i = begin; i < end; ++i) {
                 while (waiting < i && bucket_[waiting].*partner != kNone) ++waiting;
                 if (waiting == i || bucket_[waiting].ascending == bucket_[i].ascending) continue;
@@ -309,7 +316,7 @@ class BucketFinder {
         }
     }
 
-    /// Lists the half-edges whose partner in the reference is not the usual one.
+    /// Lists the half-edges whose partner in the reference differs from the usual one.
     [[gnu::cold]] void listChanges(LastBucket& result, const Allocator* kept) {
         sortEdges(bucket_.begin(), bucket_.end(), false);
         Growing<LastBucket::Link> links(kept);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether the order of the last bucket (last_bucket.h) may change a link in a mesh of at most 64 triangles: sets of triangles
-// are words of 64 bits, and only the few nodes that may be in the bucket get their representatives.
+// Tests whether the order of the last bucket (last_bucket.h) may change a link in a mesh of at most 64 triangles. Sets
+// of triangles are 64-bit words, and representatives are computed only for the few nodes that may be in the bucket.
 #include <algorithm>
 #include <bit>
 
@@ -53,9 +53,10 @@ class SmallBucket {
         return cornerOf(63 - static_cast<std::uint32_t>(std::countl_zero(in_.around[node])), node);
     }
 
-    /// Each representative lies between the first and the last corner of its node, so V is at least the largest key by first
-    /// corners. Candidates are nodes whose last corner is not below that. The order can matter only if three half-edges meet at
-    /// the node of V, which are of three triangles with two candidates: a triangle has at most one half-edge in the bucket.
+    /// Each representative is between the first and the last corner of its node, so V is at least the largest key
+    /// computed from first corners. Candidates are nodes whose last corner is at least that bound. The order can matter
+    /// only if three half-edges share the node of V; they belong to three triangles with two candidates each, because a
+    /// triangle has at most one half-edge in the bucket.
     void findCandidates() {
         const auto count = static_cast<std::uint32_t>(in_.welded.triangles.count);
         for (std::uint32_t triangle = count; triangle-- > 0 && 3 * triangle + 2 >= least_;) {
@@ -107,7 +108,7 @@ class SmallBucket {
                     is_divided |= laneBits(positions_[other] != positions_[node]) != 0;
                 }
             }
-            // A cell with corners at one position is not divided, and the first corner of a node is kept.
+            // A cell whose corners have one position is not divided, and the first corner of a node is kept.
             if (!is_divided)
                 representatives_[node] = static_cast<std::uint8_t>(firstCorner(node));
             else
@@ -115,7 +116,7 @@ class SmallBucket {
         }
     }
 
-    /// Finds the representatives of the candidates in one cell, whose corners are among those of some triangles.
+    /// Finds the representatives of the candidates in one cell, whose corners all belong to the given triangles.
     void divide(std::int32_t cell, std::uint64_t triangles) {
         alignas(CellElement) std::byte room[(kMostNodes + 1) * sizeof(CellElement)];
         auto* const elements = reinterpret_cast<CellElement*>(room);
@@ -137,7 +138,7 @@ class SmallBucket {
 
     [[nodiscard]] std::span<const std::uint32_t> candidates() const { return {candidates_, candidate_count_}; }
 
-    /// Whether the bucket has at least three half-edges, and an edge in both directions.
+    /// Returns whether the bucket has at least three half-edges, and an edge in both directions.
     [[nodiscard]] bool orderMatters() const {
         std::uint32_t largest = 0, low_node = 0;
         for (std::uint64_t set = twice_; set != 0; set &= set - 1) {
@@ -149,7 +150,7 @@ class SmallBucket {
             low_node = r[0] == key ? n[0] : r[1] == key ? n[1] : n[2];
         }
         if (largest == 0) return false;
-        std::uint64_t leaving = 0, arriving = 0;  // triangles of half-edges that leave the lower end, or arrive there
+        std::uint64_t leaving = 0, arriving = 0;  // triangles with half-edges from the lower end, or to it
         for (std::uint64_t set = in_.around[low_node] & twice_; set != 0; set &= set - 1) {
             const auto t = static_cast<std::uint32_t>(std::countr_zero(set));
             const std::uint32_t k = cornerOf(t, low_node) - 3 * t;
@@ -170,11 +171,11 @@ class SmallBucket {
     const FewTriangles& in_;
     std::uint32_t candidates_[kMostNodes];
     std::size_t candidate_count_ = 0;
-    Float4 positions_[kMostNodes];              // of nodes; the fourth lanes do not matter
-    Mask4 cells_[kMostNodes / 4];               // of nodes
-    std::uint32_t least_ = 1;                   // V is not below that, and never 0
-    std::uint64_t twice_ = 0;                   // triangles with two candidates or three
-    std::uint8_t representatives_[kMostNodes];  // of candidates; 0 for other nodes
+    Float4 positions_[kMostNodes];              // positions of nodes; the fourth lanes are unused
+    Mask4 cells_[kMostNodes / 4];               // grid cells of nodes
+    std::uint32_t least_ = 1;                   // lower bound of V, which is never 0
+    std::uint64_t twice_ = 0;                   // triangles with at least two candidates
+    std::uint8_t representatives_[kMostNodes];  // representatives of candidates; 0 for other nodes
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Tangents of a mesh of at most 64 triangles, by the steps of plain.cpp, on the stack: what all corners add is computed at once
-// (corner_terms.h), and a set of triangles is a word of 64 bits. The results are those of the vertex path, which this replaces
-// there: plans and lists cost more than the tangents of so few triangles.
+// Tangents of a mesh of at most 64 triangles, by the steps of plain.cpp, on the stack: the contributions of all corners
+// are computed at once (corner_terms.h), and a set of triangles is a 64-bit word. The results equal those of the vertex
+// path, whose plans and lists would cost more than the tangents of so few triangles.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -14,14 +14,14 @@ namespace {
 
 static_assert(kTermTriangles == 64);
 
-/// Half-edge k of triangle t is 4 * t + k here.
+/// A half-edge in 8 bits: 4 * t + k is half-edge k of triangle t.
 using PackedEdge = std::uint8_t;
 constexpr PackedEdge kNoNeighbor = 255;
 constexpr unsigned kNext[] = {1, 2, 0}, kPrevious[] = {2, 0, 1};
 
 constexpr std::uint64_t bitOf(unsigned triangle) { return std::uint64_t{1} << triangle; }
 
-/// body(triangle) for each triangle of a set, ascending.
+/// Calls body(triangle) for each triangle of a set, in ascending order.
 template <class Body>
 void forTriangles(std::uint64_t triangles, const Body& body) {
     for (; triangles != 0; triangles &= triangles - 1) body(static_cast<unsigned>(std::countr_zero(triangles)));
@@ -88,7 +88,8 @@ class SmallMesh {
 
     // Step 4.
 
-    /// Each half-edge takes the oldest waiting one between the same nodes that runs the other way, or waits (groups.h).
+    /// Pairs each half-edge with the oldest unpaired one between the same nodes in the opposite direction; without one,
+    /// it stays unpaired until a later one matches (groups.h).
     void pairEdges() {
         std::fill_n(around_, in_.nodes.count, std::uint64_t{0});
         std::fill_n(neighbors_, 4 * in_.triangles.count, kNoNeighbor);
@@ -110,7 +111,7 @@ class SmallMesh {
         });
     }
 
-    /// Links half-edges as the reference does where the order of its last bucket matters.
+    /// Links half-edges like the reference if the order of its last bucket matters.
     void linkLastBucket() {
         if (isAllGood() && !lastBucketMayMatter({in_, nodes_, around_})) return;
         const LastBucket bucket = findLastBucket(in_, transient_, options_.execution.allocator, parallel_);
@@ -123,7 +124,7 @@ class SmallMesh {
 
     [[nodiscard]] bool isAllGood() const { return good_ == ~std::uint64_t{0} >> (64 - count_); }
 
-    // Steps 5 and 6. Means are numbered from 1; number 0 is the default, of corners that no group reaches.
+    // Steps 5 and 6. Means are numbered from 1; number 0 is the default tangent of corners that no group reaches.
 
     void openGroup(unsigned t, unsigned k) {
         if ((adding_ & bitOf(t)) == 0 || mean_of_[3 * t + k] != 0) return;
@@ -141,7 +142,8 @@ class SmallMesh {
         is_alone || areNear(marks) ? addMean(adding, up) : separate(up, members);
     }
 
-    /// Adds the triangles that follow around the node, until one is missing, taken, or has the other orientation.
+    /// Adds the triangles that follow around the node, until one is missing, already in a group, or has the opposite
+    /// orientation.
     void walk(unsigned t, unsigned k, bool forward, bool up, std::uint64_t& members) {
         for (;;) {
             const PackedEdge across = neighbors_[4 * t + (forward ? k : kPrevious[k])];
@@ -163,12 +165,13 @@ class SmallMesh {
     [[nodiscard]] unsigned rowOf(unsigned t) const { return 3 * t + corner_of_[t]; }
     [[nodiscard]] std::uint32_t marksOf(unsigned t) const { return terms_.marks[corner_of_[t]][t]; }
 
-    /// Whether marks that some corners have in common show that these are averaged (corner_terms.h).
+    /// Returns whether the common marks of some corners guarantee that all of these corners are averaged
+    /// (corner_terms.h).
     [[nodiscard]] bool areNear(std::uint32_t marks) const {
         return cosine_ == -1.0f && (marks & kTangentSides) != 0 && (marks & kBitangentSides) != 0;
     }
 
-    /// Each member gets the mean of those whose directions differ from its own by less than the threshold.
+    /// Assigns to each member the mean of the members whose directions differ from its own by less than the threshold.
     [[gnu::noinline]] void separate(bool up, std::uint64_t members) {
         const std::uint64_t adding = members & adding_;
         if (cosine_ == -1.0f && areOnOneSide(adding, directions_.unit_s) &&
@@ -199,8 +202,9 @@ class SmallMesh {
         });
     }
 
-    /// Whether all directions have a part along their sum that is above the margin of marks, so that no two of them are
-    /// opposite. A mark of tangents shows that normalizing was exact enough (corner_terms.h).
+    /// Returns whether each direction has a component along the sum of all that exceeds the margin of marks, so that no
+    /// two directions are opposite. A mark of tangents guarantees that normalization was accurate enough
+    /// (corner_terms.h).
     [[nodiscard]] bool areOnOneSide(std::uint64_t set, const float (&directions)[3][3][kTermTriangles]) const {
         Vec3 sum;
         forTriangles(set, [&](unsigned t) { sum = sum + directionOf(directions, t); });
@@ -217,7 +221,7 @@ class SmallMesh {
         return {directions[0][k][t], directions[1][k][t], directions[2][k][t]};
     }
 
-    /// The sum of some triangles becomes the next mean.
+    /// Adds the sum over some triangles as the next mean.
     void addMean(std::uint64_t set, bool up) {
         Float4 sum{};
         forTriangles(set, [&](unsigned t) { sum += loadFloat4(terms_.s[rowOf(t)]); });
@@ -230,7 +234,8 @@ class SmallMesh {
         ++means_;
     }
 
-    /// Turns sums into means, in place. Four at a time: divisions and roots wait for each other otherwise.
+    /// Converts sums to means in place, four at a time, because single divisions and square roots would wait for each
+    /// other.
     void finishMeans() {
         const Tangents none{};
         for (unsigned i = means_; i < means_ + 3; ++i) std::fill_n(sums_[i], 4, 1.0f);
@@ -262,7 +267,7 @@ class SmallMesh {
         if (wants_rest_) rest_[0] = restOf(none);
     }
 
-    /// A sum that vanishes, or is not finite.
+    /// Converts a sum that is zero or not finite.
     [[gnu::cold]] void finishUnusual(unsigned i) {
         const Vec3 mean = unit(vectorOf(sums_[i]));
         const float row[4] = {mean.x, mean.y, mean.z, signs_[i]};
@@ -272,7 +277,7 @@ class SmallMesh {
 
     // Steps 7 and 8.
 
-    /// A degenerate triangle copies, for each corner, the first other corner at its node.
+    /// For each corner of a degenerate triangle, copies the result of the first other corner at its node.
     void copyToDegenerate() {
         for (unsigned t = 0; t < count_; ++t) {
             for (unsigned k = 0; (good_ & bitOf(t)) == 0 && k < 3; ++k) {
@@ -313,16 +318,17 @@ class SmallMesh {
     std::uint64_t good_ = 0;              // triangles that are not degenerate
     std::uint64_t adding_ = 0;            // triangles with UV area
     std::uint64_t up_ = 0;                // triangles that face up
-    std::uint64_t around_[kTermCorners];  // one per node: its triangles
+    std::uint64_t around_[kTermCorners];  // one per node: the set of its triangles
     std::uint32_t vertices_[kTermCorners], nodes_[kTermCorners];
     PackedEdge neighbors_[4 * kTermTriangles];
-    std::uint8_t corner_of_[kTermTriangles];   // for members of the current group: their corner at its node
-    std::uint8_t mean_of_[kTermCorners] = {};  // one per corner
-    // One per mean.
+    // for members of the current group: index of the corner at the group's node
+    std::uint8_t corner_of_[kTermTriangles];
+    std::uint8_t mean_of_[kTermCorners] = {};  // number of the mean of each corner
+    // Data per mean.
     unsigned means_ = 1;
     float sums_[kTermCorners + 4][4];
     float signs_[kTermCorners + 4];
-    Buffer<GroupRest> rest_;  // empty where only tangents are wanted
+    Buffer<GroupRest> rest_;  // empty if only tangents are requested
     CornerTerms terms_;
     CornerDirections directions_;
 };
