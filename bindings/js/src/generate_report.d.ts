@@ -12,13 +12,13 @@ export interface GenerateReport {
   error: null;
   /** Time for this file. */
   seconds: number;
-  /** Nothing was done, because the manifest says that it was done before and nothing has changed. */
+  /** The file was skipped, because it was processed before according to the manifest, and nothing has changed. */
   skipped: boolean;
-  /** False when the output is byte for byte the input. */
+  /** False if the output is identical to the input. */
   changed: boolean;
-  /** The model file and the files that it loads. */
+  /** Size of the model file and the files that it references. */
   inputBytes: number;
-  /** All written files. */
+  /** Total size of all written files. */
   outputBytes: number;
   /** Paths of all written files, the model first. */
   outputFiles: string[];
@@ -29,16 +29,16 @@ export interface GenerateReport {
   coordinateOffset: [number, number, number];
   /** Sums over the primitives. */
   totals: GenerateTotals;
-  /** With "--fix-winding", one entry per mesh with triangles; from OBJ one for the file. */
+  /** With "--fix-winding", one entry per mesh with triangles; for OBJ one entry for the file. */
   windings: MendedWinding[];
-  /** With "--flip-green", "--flip-green-all" or "--fix-maps", one entry per image that is a normal map; from OBJ one for each
-   * material whose height map became a normal map. */
+  /** With "--flip-green", "--flip-green-all" or "--fix-maps", one entry per image that is a normal map; for OBJ one entry per
+   * material whose height map was converted to a normal map. */
   normalMaps: JudgedMap[];
   /** With "--convert-maps", one entry for each normal map and the primitives that share it. */
   convertedMaps: ConvertedMap[];
   /** One entry per primitive, in file order. */
   primitives: GeneratedPrimitive[];
-  /** That of the tool: 0, or 1 where something was found. */
+  /** Exit code of the tool: 0, or 1 if there is a finding. */
   exitCode: 0 | 1;
 }
 
@@ -49,7 +49,7 @@ export interface GenerateTotals {
   actions: ActionCounts;
   /** Triangles of the primitives that were computed. */
   triangles: number;
-  /** Their vertices in the input; vertices that several of them share count once. */
+  /** Vertices of these primitives in the input; shared vertices are counted once. */
   verticesBefore: number;
   /** Vertices after splitting. */
   verticesAfter: number;
@@ -66,17 +66,17 @@ export interface MendedWinding {
   mesh: number;
   /** May be empty. */
   meshName: string;
-  /** Faces with at least 3 corners; faces that several primitives draw count once. */
+  /** Faces with at least 3 corners; faces that several primitives draw are counted once. */
   faces: number;
-  /** Faces that were turned. */
+  /** Faces that were flipped. */
   turned: number;
-  /** Neighboring faces that traverse their common edge in the same direction. */
+  /** Pairs of neighboring faces that traverse their common edge in the same direction. */
   conflictsBefore: number;
   /** Conflicting edges afterwards. */
   conflictsAfter: number;
   /** Components connected by edges. */
   components: number;
-  /** Components with more than half of their faces turned. */
+  /** Components with more than half of their faces flipped. */
   turnedComponents: number;
   /** Components oriented by the normals of the file. */
   byNormals: number;
@@ -99,9 +99,9 @@ export interface JudgedMap {
   image: number;
   /** Name or URI of the image; may be empty. */
   name: string;
-  /** Its green channel was inverted. */
+  /** The green channel was inverted. */
   flipped: boolean;
-  /** It was rewritten: its encoding was not that of glTF, or it was a height map. */
+  /** The image was rewritten, because its encoding was not that of glTF, or because it was a height map. */
   mended: boolean;
   /** Human-readable reason why the map is unchanged, or its former encoding; empty if only green was inverted. */
   reason: string;
@@ -114,21 +114,21 @@ export interface ConvertedMap {
   name: string;
   /** The primitives show a new map. */
   converted: boolean;
-  /** Human-readable reason; empty where they do. */
+  /** Human-readable reason why the primitives show no new map; empty if they do. */
   reason: string;
-  /** Index of the new image in the output; null where there is none. */
+  /** Index of the new image in the output; null if there is none. */
   newImage: number | null;
-  /** Indices of the input's materials that use it. */
+  /** Indices of the materials of the input that use the map. */
   materials: number[];
-  /** Number of primitives that use it. */
+  /** Number of primitives that use the map. */
   primitives: number;
   /** Bits per channel of the new map; 0 if there is none. */
   bits: number;
-  /** Texels that changed. */
+  /** Number of texels that changed. */
   changed: number;
   /** Remaining error: mean angle between the shaded normals before and after, over the texels of the primitives. */
   meanErrorDeg: number;
-  /** That error with the old map. */
+  /** Mean angle with the old map. */
   meanErrorUnconvertedDeg: number;
   /** Human-readable warnings. */
   notes: string[];
@@ -143,7 +143,7 @@ export interface GeneratedPrimitive {
   meshName: string;
   /** May be empty. */
   materialName: string;
-  /** What was done with its tangents, as in "totals.actions". */
+  /** Action on the primitive's tangents, as in "totals.actions". */
   action: "generated" | "replaced" | "unchanged" | "kept" | "notNeeded" | "notTriangles" | "impossible" | "removed";
   /** Human-readable reason. */
   reason: string;
@@ -151,7 +151,7 @@ export interface GeneratedPrimitive {
   notes: string[];
   /** The n of the "TEXCOORD_n" that the tangents follow, or -1. */
   uvSet: number;
-  /** Faces that its tangents were computed on: "triangles" or "quads". */
+  /** Faces used to compute the tangents: "triangles" or "quads". */
   faces: "triangles" | "quads";
   /** Number of those faces that are quads, or polygons with more corners (OBJ). */
   quads: number;
@@ -159,11 +159,11 @@ export interface GeneratedPrimitive {
   verticesBefore: number;
   /** Vertices in the output; more than in the input if vertices were split. */
   verticesAfter: number;
-  /** "--repair": vertices of "verticesBefore" whose tangents were wrong; all others keep theirs. */
+  /** With "--repair": vertices of "verticesBefore" whose tangents were repaired; all others are unchanged. */
   mendedVertices: number;
-  /** Normals were computed: the input had none, or they were to be recomputed. */
+  /** Normals were computed, because the input had none or because recomputing them was requested. */
   normalsGenerated: boolean;
-  /** It had normals, and they were recomputed. */
+  /** Existing normals were recomputed. */
   normalsReplaced: boolean;
   /** Positions whose normals were also computed from triangles of other primitives. */
   normalsJoined: number;
@@ -174,14 +174,14 @@ export interface GeneratedPrimitive {
   turnedTriangles: number;
   /** Triangles of two-sided sheets: other triangles have the same positions and the opposite winding. */
   twoSidedTriangles: number;
-  /** Faces that were turned ("--fix-winding"). */
+  /** Faces that were flipped ("--fix-winding"). */
   windingMended: number;
-  /** Which these are, in ascending order: the first 256 ranges of triangles of the primitive; from OBJ of faces, numbered
-   * through the file. */
+  /** The flipped faces in ascending order: the first 256 ranges of triangles of the primitive; for OBJ, ranges of faces,
+   * numbered within the file. */
   windingMendedRanges: FaceRange[];
   /** "_BITANGENT" was computed ("--bitangents"). */
   bitangentsGenerated: boolean;
-  /** "--pack": its frames are packed; if they are not, a note gives the reason. */
+  /** With "--pack": the frames are packed; if not, a note gives the reason. */
   packed: boolean;
   /** Vertices whose frame was repaired before it was packed. */
   packedMended: number;
@@ -189,7 +189,7 @@ export interface GeneratedPrimitive {
   normalsDropped: boolean;
   /** TANGENT was removed ("--pack-drop"). */
   tangentsDropped: boolean;
-  /** Morph targets that the primitive has. */
+  /** Number of morph targets of the primitive. */
   morphTargets: number;
   /** Morph targets whose tangent deltas were computed. */
   morphDeltas: number;
@@ -197,10 +197,10 @@ export interface GeneratedPrimitive {
   morphNormals: number;
   /** Corners, over all targets, whose frame changes its sign in the morphed shape, which glTF cannot express. */
   morphSignFlips: number;
-  /** About generated normals; zeros when there are none. For OBJ the counts cover the whole file and stand with the first
-   * primitive that got normals. */
+  /** Counts of generated normals; zeros if there are none. For OBJ, the first primitive with generated normals contains the
+   * counts of the whole file. */
   normals: GeneratedNormals;
-  /** Zeros where nothing was computed. */
+  /** Zeros if nothing was computed. */
   tangents: GeneratedTangents;
   /** Corners that were repaired. */
   sanitize: MendedTangents;
@@ -211,7 +211,7 @@ export interface ActionCounts {
   generated: number;
   /** Existing tangents were recomputed. */
   replaced: number;
-  /** Computed anew with the same bits as those in the file. */
+  /** Tangents were recomputed and are bit-identical to those in the file. */
   unchanged: number;
   /** Existing tangents were kept. */
   kept: number;
@@ -221,7 +221,7 @@ export interface ActionCounts {
   notTriangles: number;
   /** No UVs, no positions, or nothing to compute. */
   impossible: number;
-  /** No material needs the tangents, and they were removed. */
+  /** Tangents were removed, because no material needs them. */
   removed: number;
 }
 
@@ -235,7 +235,7 @@ export interface FaceRange {
 export interface GeneratedNormals {
   /** Faces with at least 3 corners. */
   faces: number;
-  /** Faces without a normal of their own. */
+  /** Faces without a face normal. */
   degenerateFaces: number;
   /** Corners whose weighted mean is zero. */
   fallbackCorners: number;
@@ -248,12 +248,12 @@ export interface GeneratedNormals {
 export interface GeneratedTangents {
   /** Triangles that tangents were computed on. */
   triangles: number;
-  /** Two corners at the same position. */
+  /** Triangles with two corners at the same position. */
   degenerateTriangles: number;
-  /** No UV area. */
+  /** Triangles without UV area. */
   degenerateUvTriangles: number;
-  /** Negative UV area in the stored values. In glTF, where V runs down, that is the usual case; "tspace inspect" reports what
-   * looks mirrored. */
+  /** Triangles with negative UV area in the stored values. This is the usual case in glTF, where V points down; "tspace
+   * inspect" reports mirrored triangles. */
   negativeUvTriangles: number;
   /** Faces for which nothing was computed. */
   skippedFaces: number;
@@ -281,13 +281,13 @@ export interface MendedTangents {
 export interface MendCauses {
   /** NaN or infinity. */
   notFinite: number;
-  /** No length. */
+  /** Zero length. */
   zero: number;
-  /** Length off by more than 0.0005. */
+  /** Length deviates from 1 by more than 0.0005. */
   notUnit: number;
   /** Within 1 degree of the normal or its opposite. */
   parallel: number;
-  /** The (1, 0, 0) that corners without UV area get, out of the surface. */
+  /** The default (1, 0, 0) of corners without UV area, if not perpendicular to the normal. */
   placeholder: number;
   /** Sign not +1 or -1. */
   badSign: number;
@@ -298,9 +298,9 @@ export interface MendCauses {
 }
 
 export interface MendCures {
-  /** Own direction, made unit and orthogonal. */
+  /** The original direction, made unit and orthogonal. */
   normalized: number;
-  /** Direction of a sound corner nearby. */
+  /** Direction of a nearby valid corner. */
   fromNeighbor: number;
   /** Tangents computed from the normal alone. */
   fromBasis: number;

@@ -29,9 +29,9 @@ export interface CheckReport {
   packedFrames: CheckedPackedFrames[];
   /** Findings by severity. */
   counts: FindingCounts;
-  /** Errors first; among equals in file order. */
+  /** Findings by severity, errors first, then in file order. */
   findings: Finding[];
-  /** That of the tool: 0, or 1 where something was found. */
+  /** Exit code of the tool: 0, or 1 if there is a finding. */
   exitCode: 0 | 1;
 }
 
@@ -41,7 +41,7 @@ export interface CheckedImage {
   /** "normals" in tangent space as glTF reads them, "twoChannels", "unsignedZ", "xInAlpha", "exchanged", "encoded" (sRGB),
    * "hemiOctahedral", "objectSpace", "height", "picture" or "constant". */
   content: string;
-  /** Direction of green, or of y where that is in another channel, if x is right: "up", "down", "mixed" or "unknown". */
+  /** Direction of green (or of the channel with y), assuming x is correct: "up", "down", "mixed" or "unknown". */
   green: string;
   /** Share of texel blocks that agree, beyond an even split, 0 to 1. */
   greenConfidence: number;
@@ -50,7 +50,7 @@ export interface CheckedImage {
 export interface CheckedPackedFrames {
   /** JSON pointer of the attribute. */
   place: string;
-  /** Its name, such as "_FRAME32"; of two that hold one frame the first. */
+  /** Name of the attribute, such as "_FRAME32"; the first one if two attributes contain a frame. */
   attribute: string;
   /** Format name, such as "frame32". */
   format: string;
@@ -59,7 +59,7 @@ export interface CheckedPackedFrames {
   /** Index of the primitive in its mesh. */
   primitive: number;
   vertices: number;
-  /** False: a finding "packedFramesUnreadable" says why. */
+  /** False: a finding "packedFramesUnreadable" gives the reason. */
   readable: boolean;
   /** NORMAL and TANGENT exist; if not, angles and signs here are 0. */
   compared: boolean;
@@ -101,13 +101,13 @@ export interface Finding {
   count: number;
   /** Number of candidates. */
   total: number;
-  /** Their share of the primitive's surface, 0 to 1; 0 if not applicable. */
+  /** Share of the primitive's surface that is affected, 0 to 1; 0 if not applicable. */
   surfaceShare: number;
   /** The largest angle, for findings about angles; else 0. */
   worstDegrees: number;
   /** 0 to 1; below 1 for statistical findings. */
   confidence: number;
-  /** The first of them. */
+  /** The first affected vertices. */
   vertices: number[];
   /** The fault, in a sentence that is the same for all findings of the code. */
   summary: string;
@@ -128,7 +128,7 @@ export interface RemedyCommand {
   verb: string;
   /** Files; empty: the model that was checked. */
   inputs: string[];
-  /** In the order of the command line. */
+  /** Options in the order of the command line. */
   options: RemedyOption[];
   /** Words among inputs and values that the user replaces, such as "OUT.png". */
   placeholders: string[];
@@ -174,7 +174,7 @@ export interface InspectReport {
   coordinateOffset: [number, number, number];
   /** One entry per primitive, in file order. */
   primitives: InspectedPrimitive[];
-  /** That of the tool: 0, or 1 where something was found. */
+  /** Exit code of the tool: 0, or 1 if there is a finding. */
   exitCode: 0 | 1;
 }
 
@@ -189,7 +189,7 @@ export interface InspectedPrimitive {
   materialName: string;
   /** "triangles", "triangle strip", "points", ...; for OBJ also "polygons". */
   mode: string;
-  /** After cutting polygons. */
+  /** Number of triangles after triangulation of polygons. */
   triangles: number;
   vertices: number;
   indexType: "u8" | "u16" | "u32" | "none";
@@ -203,11 +203,11 @@ export interface InspectedPrimitive {
   hasTangents: boolean;
   /** "hasTangents" is false, but the file may have tangents that the importer cannot read. */
   tangentsNotRead: boolean;
-  /** Names of the formats of packed frames that it has, such as "frame32". */
+  /** Names of the formats of packed frames in the primitive, such as "frame32". */
   packedFrames: string[];
-  /** The material needs them. */
+  /** The material needs tangents. */
   needsTangents: boolean;
-  /** What reads the tangents: "normalTexture", "clearcoatNormalTexture", "anisotropy", or empty. */
+  /** User of the tangents: "normalTexture", "clearcoatNormalTexture", "anisotropy", or empty. */
   neededBy: "normalTexture" | "clearcoatNormalTexture" | "anisotropy" | "";
   /** The textures of its materials that need tangents; the tangents follow the first one. */
   tangentUses: TangentUse[];
@@ -228,14 +228,14 @@ export interface InspectedPrimitive {
   positionNoise: number;
   /** Triangles that show the texture mirrored. */
   mirroredTriangles: number;
-  /** Connected pieces of the UV map. */
+  /** Connected components of the UV map. */
   uvIslands: number;
   /** UV islands whose area is mostly mirrored. */
   mirroredUvIslands: number;
 }
 
 export interface TangentUse {
-  /** What reads the tangents. */
+  /** User of the tangents. */
   neededBy: "normalTexture" | "clearcoatNormalTexture" | "anisotropy";
   /** JSON pointer; empty for OBJ. */
   place: string;
@@ -247,7 +247,7 @@ export interface TangentUse {
   onlyInVariant: boolean;
   /** The n of "TEXCOORD_n". */
   uvSet: number;
-  /** Of KHR_texture_transform. */
+  /** Offset of KHR_texture_transform. */
   uvOffset: [number, number];
   /** Rotation in radians. */
   uvRotation: number;
@@ -276,7 +276,7 @@ export interface IdentifyReport {
   explanations: Explanation[];
   /** In file order. */
   primitives: IdentifiedPrimitive[];
-  /** That of the tool: 0, or 1 where something was found. */
+  /** Exit code of the tool: 0, or 1 if there is a finding. */
   exitCode: 0 | 1;
 }
 
@@ -295,9 +295,9 @@ export interface Explanation {
   corners: number;
   /** Corners of triangles without UV area, which are ignored. */
   undecidedCorners: number;
-  /** Corners of these within the tolerance of the method's tangent. */
+  /** Compared corners within the tolerance of the method's tangent. */
   near: number;
-  /** Within the tolerance at some corner of the same vertex. */
+  /** Compared corners that are within the tolerance at some corner of their vertex. */
   nearAtVertex: number;
   /** Mean angle to the method's tangent. */
   meanDeg: number;
@@ -360,18 +360,18 @@ export interface DiffReport {
   bitangents: AngleStatistics;
   /** Human-readable warnings, each preceded by the name of its file. */
   warnings: string[];
-  /** The worst places, the largest angle first. */
+  /** Corners with the largest differences, the largest angle first. */
   worst: FrameDifference[];
-  /** The primitives of A in file order, then those of B without a match. */
+  /** Primitives of A in file order, then primitives of B without a match. */
   primitives: DiffedPrimitive[];
-  /** That of the tool: 0, or 1 where something was found. */
+  /** Exit code of the tool: 0, or 1 if there is a finding. */
   exitCode: 0 | 1;
 }
 
 export interface AngleStatistics {
   /** Pairs of corners with a direction in both. */
   corners: number;
-  /** Pairs of which one has no direction (zero or not finite). */
+  /** Pairs in which one vector has no direction (zero or not finite). */
   unusable: number;
   meanDeg: number;
   /** Median. */

@@ -36,9 +36,9 @@ class CheckReport(Findings):
     packed_frames: List[CheckedPackedFrames]
     #: Findings by severity.
     counts: FindingCounts
-    #: Errors first; among equals in file order.
+    #: Findings by severity, errors first, then in file order.
     findings: List[Finding]
-    #: That of the tool: 0, or 1 where something was found.
+    #: Exit code of the tool: 0, or 1 if there is a finding.
     exit_code: int
 
 
@@ -48,7 +48,7 @@ class CheckedImage(Report):
     #: "normals" in tangent space as glTF reads them, "twoChannels", "unsignedZ", "xInAlpha", "exchanged", "encoded"
     #: (sRGB), "hemiOctahedral", "objectSpace", "height", "picture" or "constant".
     content: str
-    #: Direction of green, or of y where that is in another channel, if x is right: "up", "down", "mixed" or "unknown".
+    #: Direction of green (or of the channel with y), assuming x is correct: "up", "down", "mixed" or "unknown".
     green: str
     #: Share of texel blocks that agree, beyond an even split, 0 to 1.
     green_confidence: float
@@ -57,7 +57,7 @@ class CheckedImage(Report):
 class CheckedPackedFrames(Report):
     #: JSON pointer of the attribute.
     place: str
-    #: Its name, such as "_FRAME32"; of two that hold one frame the first.
+    #: Name of the attribute, such as "_FRAME32"; the first one if two attributes contain a frame.
     attribute: str
     #: Format name, such as "frame32".
     format: str
@@ -66,7 +66,7 @@ class CheckedPackedFrames(Report):
     #: Index of the primitive in its mesh.
     primitive: int
     vertices: int
-    #: False: a finding "packedFramesUnreadable" says why.
+    #: False: a finding "packedFramesUnreadable" gives the reason.
     readable: bool
     #: NORMAL and TANGENT exist; if not, angles and signs here are 0.
     compared: bool
@@ -109,13 +109,13 @@ class Finding:
     count: int
     #: Number of candidates.
     total: int
-    #: Their share of the primitive's surface, 0 to 1; 0 if not applicable.
+    #: Share of the primitive's surface that is affected, 0 to 1; 0 if not applicable.
     surface_share: float
     #: The largest angle, for findings about angles; else 0.
     worst_degrees: float
     #: 0 to 1; below 1 for statistical findings.
     confidence: float
-    #: The first of them.
+    #: The first affected vertices.
     vertices: Tuple[int, ...]
     #: The fault, in a sentence that is the same for all findings of the code.
     summary: str
@@ -137,7 +137,7 @@ class RemedyCommand:
     verb: str
     #: Files; empty: the model that was checked.
     inputs: Tuple[str, ...]
-    #: In the order of the command line.
+    #: Options in the order of the command line.
     options: Tuple[RemedyOption, ...]
     #: Words among inputs and values that the user replaces, such as "OUT.png".
     placeholders: Tuple[str, ...]
@@ -184,7 +184,7 @@ class InspectReport(Report):
     coordinate_offset: List[float]
     #: One entry per primitive, in file order.
     primitives: List[InspectedPrimitive]
-    #: That of the tool: 0, or 1 where something was found.
+    #: Exit code of the tool: 0, or 1 if there is a finding.
     exit_code: int
 
 
@@ -199,7 +199,7 @@ class InspectedPrimitive(Report):
     material_name: str
     #: "triangles", "triangle strip", "points", ...; for OBJ also "polygons".
     mode: str
-    #: After cutting polygons.
+    #: Number of triangles after triangulation of polygons.
     triangles: int
     vertices: int
     index_type: str
@@ -213,11 +213,11 @@ class InspectedPrimitive(Report):
     has_tangents: bool
     #: "hasTangents" is false, but the file may have tangents that the importer cannot read.
     tangents_not_read: bool
-    #: Names of the formats of packed frames that it has, such as "frame32".
+    #: Names of the formats of packed frames in the primitive, such as "frame32".
     packed_frames: List[str]
-    #: The material needs them.
+    #: The material needs tangents.
     needs_tangents: bool
-    #: What reads the tangents: "normalTexture", "clearcoatNormalTexture", "anisotropy", or empty.
+    #: User of the tangents: "normalTexture", "clearcoatNormalTexture", "anisotropy", or empty.
     needed_by: str
     #: The textures of its materials that need tangents; the tangents follow the first one.
     tangent_uses: List[TangentUse]
@@ -238,14 +238,14 @@ class InspectedPrimitive(Report):
     position_noise: float
     #: Triangles that show the texture mirrored.
     mirrored_triangles: int
-    #: Connected pieces of the UV map.
+    #: Connected components of the UV map.
     uv_islands: int
     #: UV islands whose area is mostly mirrored.
     mirrored_uv_islands: int
 
 
 class TangentUse(Report):
-    #: What reads the tangents.
+    #: User of the tangents.
     needed_by: str
     #: JSON pointer; empty for OBJ.
     place: str
@@ -257,7 +257,7 @@ class TangentUse(Report):
     only_in_variant: bool
     #: The n of "TEXCOORD_n".
     uv_set: int
-    #: Of KHR_texture_transform.
+    #: Offset of KHR_texture_transform.
     uv_offset: List[float]
     #: Rotation in radians.
     uv_rotation: float
@@ -286,7 +286,7 @@ class IdentifyReport(Report):
     explanations: List[Explanation]
     #: In file order.
     primitives: List[IdentifiedPrimitive]
-    #: That of the tool: 0, or 1 where something was found.
+    #: Exit code of the tool: 0, or 1 if there is a finding.
     exit_code: int
 
 
@@ -305,9 +305,9 @@ class Explanation(Report):
     corners: int
     #: Corners of triangles without UV area, which are ignored.
     undecided_corners: int
-    #: Corners of these within the tolerance of the method's tangent.
+    #: Compared corners within the tolerance of the method's tangent.
     near: int
-    #: Within the tolerance at some corner of the same vertex.
+    #: Compared corners that are within the tolerance at some corner of their vertex.
     near_at_vertex: int
     #: Mean angle to the method's tangent.
     mean_deg: float
@@ -371,18 +371,18 @@ class DiffReport(Report):
     bitangents: AngleStatistics
     #: Human-readable warnings, each preceded by the name of its file.
     warnings: List[str]
-    #: The worst places, the largest angle first.
+    #: Corners with the largest differences, the largest angle first.
     worst: List[FrameDifference]
-    #: The primitives of A in file order, then those of B without a match.
+    #: Primitives of A in file order, then primitives of B without a match.
     primitives: List[DiffedPrimitive]
-    #: That of the tool: 0, or 1 where something was found.
+    #: Exit code of the tool: 0, or 1 if there is a finding.
     exit_code: int
 
 
 class AngleStatistics(Report):
     #: Pairs of corners with a direction in both.
     corners: int
-    #: Pairs of which one has no direction (zero or not finite).
+    #: Pairs in which one vector has no direction (zero or not finite).
     unusable: int
     mean_deg: float
     #: Median.
@@ -447,7 +447,7 @@ class BakeReport(Report):
     schema: str
     #: Version of the tool.
     version: str
-    #: The bake succeeded; if no ray hit anything, nothing is written all the same.
+    #: The bake succeeded; if no ray hit anything, it still counts as success, but nothing is written.
     ok: bool
     #: Path of the low poly.
     low: str
@@ -475,12 +475,12 @@ class BakeReport(Report):
     findings: List[str]
     #: Human-readable warnings.
     warnings: List[str]
-    #: That of the tool: 0, or 1 where something was found.
+    #: Exit code of the tool: 0, or 1 if there is a finding.
     exit_code: int
 
 
 class HighMap(Report):
-    #: Its URI or name in the high poly.
+    #: URI or name of the image in the high poly.
     image: str
     #: The first material that shows it; may be empty.
     material: str
@@ -497,7 +497,7 @@ class HighMap(Report):
 class BakedMap(Report):
     #: Path of the normal map; empty if "--maps" does not include it.
     path: str
-    #: Its material's name; may be empty.
+    #: Name of the material; may be empty.
     material: str
     #: UDIM tile number (1001, ...) with "--udim"; else 0.
     tile: int
@@ -505,7 +505,7 @@ class BakedMap(Report):
     height: int
     #: Bits per channel of the normal map.
     bits: int
-    #: Of the low poly.
+    #: Triangles of the low poly.
     triangles: int
     #: Texel counts by state.
     texels: BakedTexels
@@ -528,7 +528,7 @@ class BakedMap(Report):
     #: Angles between the shaded normals of the map and the outermost front face of the high poly; null without a
     #: normal map.
     error: Optional[MapAngles]
-    #: With "--rays nearest", the angles to the hits of its own rays; else null.
+    #: With "--rays nearest", the angles to the hits of these rays; else null.
     own_error: Optional[MapAngles]
     #: With "--heat", the value mapped to white; else 0.
     heat_top_deg: float
@@ -554,7 +554,7 @@ class MapAngles(Report):
     points: int
     #: Samples whose ray hit no front face; each counts as 90 degrees.
     missed: int
-    #: Samples whose ray hit another front face of the high poly further out than the baked one.
+    #: Samples whose ray hit another front face of the high poly outside the baked one.
     hidden: int
     #: Samples whose ray passed a back face of the high poly before the baked front face, or hit only back faces.
     backs: int
@@ -579,26 +579,26 @@ class MapAngles(Report):
 class BakedLayer(Report):
     #: Name of the map, as in "--maps".
     map: str
-    #: Path of its file.
+    #: Path of the map's file.
     path: str
     #: Bits per channel.
     bits: int
-    #: Its values are sRGB-encoded.
+    #: The values are sRGB-encoded.
     srgb: bool
     #: Value that 0 represents, for each of the three channels: lengths in model units; for "curvature", 1/length.
     black: List[float]
-    #: Value that the largest number of each channel represents.
+    #: Value that the maximum of each channel represents.
     white: List[float]
     #: For "id", the number of materials, objects or shells of the high poly; else 0.
     id_count: int
-    #: For "id", its first 256 entries; else empty.
+    #: For "id", the first 256 entries; else empty.
     ids: List[BakedId]
 
 
 class BakedId(Report):
     #: Name of the material or object; empty for shells.
     name: str
-    #: Its color in the map: "#rrggbb".
+    #: Color in the map: "#rrggbb".
     color: str
 
 
@@ -608,7 +608,7 @@ class FinishReport(Report):
     schema: str
     #: Version of the tool.
     version: str
-    #: Nothing failed; if no ray of a bake hit anything, nothing is written all the same.
+    #: Nothing failed; if no ray of a bake hit anything, this still counts as success, but nothing is written.
     ok: bool
     #: Path of the input.
     input: str
@@ -632,7 +632,7 @@ class FinishReport(Report):
     output_bytes: int
     #: Human-readable sentences on what could not be done, and which tools do it.
     remarks: List[str]
-    #: That of the tool: 0, or 1 where something was found.
+    #: Exit code of the tool: 0, or 1 if there is a finding.
     exit_code: int
 
 

@@ -19,13 +19,13 @@ class GenerateReport(Report):
     error: None
     #: Time for this file.
     seconds: float
-    #: Nothing was done, because the manifest says that it was done before and nothing has changed.
+    #: The file was skipped, because it was processed before according to the manifest, and nothing has changed.
     skipped: bool
-    #: False when the output is byte for byte the input.
+    #: False if the output is identical to the input.
     changed: bool
-    #: The model file and the files that it loads.
+    #: Size of the model file and the files that it references.
     input_bytes: int
-    #: All written files.
+    #: Total size of all written files.
     output_bytes: int
     #: Paths of all written files, the model first.
     output_files: List[str]
@@ -36,16 +36,16 @@ class GenerateReport(Report):
     coordinate_offset: List[float]
     #: Sums over the primitives.
     totals: GenerateTotals
-    #: With "--fix-winding", one entry per mesh with triangles; from OBJ one for the file.
+    #: With "--fix-winding", one entry per mesh with triangles; for OBJ one entry for the file.
     windings: List[MendedWinding]
-    #: With "--flip-green", "--flip-green-all" or "--fix-maps", one entry per image that is a normal map; from OBJ one
-    #: for each material whose height map became a normal map.
+    #: With "--flip-green", "--flip-green-all" or "--fix-maps", one entry per image that is a normal map; for OBJ one
+    #: entry per material whose height map was converted to a normal map.
     normal_maps: List[JudgedMap]
     #: With "--convert-maps", one entry for each normal map and the primitives that share it.
     converted_maps: List[ConvertedMap]
     #: One entry per primitive, in file order.
     primitives: List[GeneratedPrimitive]
-    #: That of the tool: 0, or 1 where something was found.
+    #: Exit code of the tool: 0, or 1 if there is a finding.
     exit_code: int
 
 
@@ -56,7 +56,7 @@ class GenerateTotals(Report):
     actions: ActionCounts
     #: Triangles of the primitives that were computed.
     triangles: int
-    #: Their vertices in the input; vertices that several of them share count once.
+    #: Vertices of these primitives in the input; shared vertices are counted once.
     vertices_before: int
     #: Vertices after splitting.
     vertices_after: int
@@ -73,17 +73,17 @@ class MendedWinding(Report):
     mesh: int
     #: May be empty.
     mesh_name: str
-    #: Faces with at least 3 corners; faces that several primitives draw count once.
+    #: Faces with at least 3 corners; faces that several primitives draw are counted once.
     faces: int
-    #: Faces that were turned.
+    #: Faces that were flipped.
     turned: int
-    #: Neighboring faces that traverse their common edge in the same direction.
+    #: Pairs of neighboring faces that traverse their common edge in the same direction.
     conflicts_before: int
     #: Conflicting edges afterwards.
     conflicts_after: int
     #: Components connected by edges.
     components: int
-    #: Components with more than half of their faces turned.
+    #: Components with more than half of their faces flipped.
     turned_components: int
     #: Components oriented by the normals of the file.
     by_normals: int
@@ -106,9 +106,9 @@ class JudgedMap(Report):
     image: int
     #: Name or URI of the image; may be empty.
     name: str
-    #: Its green channel was inverted.
+    #: The green channel was inverted.
     flipped: bool
-    #: It was rewritten: its encoding was not that of glTF, or it was a height map.
+    #: The image was rewritten, because its encoding was not that of glTF, or because it was a height map.
     mended: bool
     #: Human-readable reason why the map is unchanged, or its former encoding; empty if only green was inverted.
     reason: str
@@ -121,21 +121,21 @@ class ConvertedMap(Report):
     name: str
     #: The primitives show a new map.
     converted: bool
-    #: Human-readable reason; empty where they do.
+    #: Human-readable reason why the primitives show no new map; empty if they do.
     reason: str
-    #: Index of the new image in the output; null where there is none.
+    #: Index of the new image in the output; null if there is none.
     new_image: Optional[int]
-    #: Indices of the input's materials that use it.
+    #: Indices of the materials of the input that use the map.
     materials: List[int]
-    #: Number of primitives that use it.
+    #: Number of primitives that use the map.
     primitives: int
     #: Bits per channel of the new map; 0 if there is none.
     bits: int
-    #: Texels that changed.
+    #: Number of texels that changed.
     changed: int
     #: Remaining error: mean angle between the shaded normals before and after, over the texels of the primitives.
     mean_error_deg: float
-    #: That error with the old map.
+    #: Mean angle with the old map.
     mean_error_unconverted_deg: float
     #: Human-readable warnings.
     notes: List[str]
@@ -150,7 +150,7 @@ class GeneratedPrimitive(Report):
     mesh_name: str
     #: May be empty.
     material_name: str
-    #: What was done with its tangents, as in "totals.actions".
+    #: Action on the primitive's tangents, as in "totals.actions".
     action: str
     #: Human-readable reason.
     reason: str
@@ -158,7 +158,7 @@ class GeneratedPrimitive(Report):
     notes: List[str]
     #: The n of the "TEXCOORD_n" that the tangents follow, or -1.
     uv_set: int
-    #: Faces that its tangents were computed on: "triangles" or "quads".
+    #: Faces used to compute the tangents: "triangles" or "quads".
     faces: str
     #: Number of those faces that are quads, or polygons with more corners (OBJ).
     quads: int
@@ -166,11 +166,11 @@ class GeneratedPrimitive(Report):
     vertices_before: int
     #: Vertices in the output; more than in the input if vertices were split.
     vertices_after: int
-    #: "--repair": vertices of "verticesBefore" whose tangents were wrong; all others keep theirs.
+    #: With "--repair": vertices of "verticesBefore" whose tangents were repaired; all others are unchanged.
     mended_vertices: int
-    #: Normals were computed: the input had none, or they were to be recomputed.
+    #: Normals were computed, because the input had none or because recomputing them was requested.
     normals_generated: bool
-    #: It had normals, and they were recomputed.
+    #: Existing normals were recomputed.
     normals_replaced: bool
     #: Positions whose normals were also computed from triangles of other primitives.
     normals_joined: int
@@ -181,14 +181,14 @@ class GeneratedPrimitive(Report):
     turned_triangles: int
     #: Triangles of two-sided sheets: other triangles have the same positions and the opposite winding.
     two_sided_triangles: int
-    #: Faces that were turned ("--fix-winding").
+    #: Faces that were flipped ("--fix-winding").
     winding_mended: int
-    #: Which these are, in ascending order: the first 256 ranges of triangles of the primitive; from OBJ of faces,
-    #: numbered through the file.
+    #: The flipped faces in ascending order: the first 256 ranges of triangles of the primitive; for OBJ, ranges of
+    #: faces, numbered within the file.
     winding_mended_ranges: List[FaceRange]
     #: "_BITANGENT" was computed ("--bitangents").
     bitangents_generated: bool
-    #: "--pack": its frames are packed; if they are not, a note gives the reason.
+    #: With "--pack": the frames are packed; if not, a note gives the reason.
     packed: bool
     #: Vertices whose frame was repaired before it was packed.
     packed_mended: int
@@ -196,7 +196,7 @@ class GeneratedPrimitive(Report):
     normals_dropped: bool
     #: TANGENT was removed ("--pack-drop").
     tangents_dropped: bool
-    #: Morph targets that the primitive has.
+    #: Number of morph targets of the primitive.
     morph_targets: int
     #: Morph targets whose tangent deltas were computed.
     morph_deltas: int
@@ -204,10 +204,10 @@ class GeneratedPrimitive(Report):
     morph_normals: int
     #: Corners, over all targets, whose frame changes its sign in the morphed shape, which glTF cannot express.
     morph_sign_flips: int
-    #: About generated normals; zeros when there are none. For OBJ the counts cover the whole file and stand with the
-    #: first primitive that got normals.
+    #: Counts of generated normals; zeros if there are none. For OBJ, the first primitive with generated normals
+    #: contains the counts of the whole file.
     normals: GeneratedNormals
-    #: Zeros where nothing was computed.
+    #: Zeros if nothing was computed.
     tangents: GeneratedTangents
     #: Corners that were repaired.
     sanitize: MendedTangents
@@ -218,7 +218,7 @@ class ActionCounts(Report):
     generated: int
     #: Existing tangents were recomputed.
     replaced: int
-    #: Computed anew with the same bits as those in the file.
+    #: Tangents were recomputed and are bit-identical to those in the file.
     unchanged: int
     #: Existing tangents were kept.
     kept: int
@@ -228,7 +228,7 @@ class ActionCounts(Report):
     not_triangles: int
     #: No UVs, no positions, or nothing to compute.
     impossible: int
-    #: No material needs the tangents, and they were removed.
+    #: Tangents were removed, because no material needs them.
     removed: int
 
 
@@ -242,7 +242,7 @@ class FaceRange(Report):
 class GeneratedNormals(Report):
     #: Faces with at least 3 corners.
     faces: int
-    #: Faces without a normal of their own.
+    #: Faces without a face normal.
     degenerate_faces: int
     #: Corners whose weighted mean is zero.
     fallback_corners: int
@@ -255,12 +255,12 @@ class GeneratedNormals(Report):
 class GeneratedTangents(Report):
     #: Triangles that tangents were computed on.
     triangles: int
-    #: Two corners at the same position.
+    #: Triangles with two corners at the same position.
     degenerate_triangles: int
-    #: No UV area.
+    #: Triangles without UV area.
     degenerate_uv_triangles: int
-    #: Negative UV area in the stored values. In glTF, where V runs down, that is the usual case; "tspace inspect"
-    #: reports what looks mirrored.
+    #: Triangles with negative UV area in the stored values. This is the usual case in glTF, where V points down;
+    #: "tspace inspect" reports mirrored triangles.
     negative_uv_triangles: int
     #: Faces for which nothing was computed.
     skipped_faces: int
@@ -288,13 +288,13 @@ class MendedTangents(Report):
 class MendCauses(Report):
     #: NaN or infinity.
     not_finite: int
-    #: No length.
+    #: Zero length.
     zero: int
-    #: Length off by more than 0.0005.
+    #: Length deviates from 1 by more than 0.0005.
     not_unit: int
     #: Within 1 degree of the normal or its opposite.
     parallel: int
-    #: The (1, 0, 0) that corners without UV area get, out of the surface.
+    #: The default (1, 0, 0) of corners without UV area, if not perpendicular to the normal.
     placeholder: int
     #: Sign not +1 or -1.
     bad_sign: int
@@ -305,9 +305,9 @@ class MendCauses(Report):
 
 
 class MendCures(Report):
-    #: Own direction, made unit and orthogonal.
+    #: The original direction, made unit and orthogonal.
     normalized: int
-    #: Direction of a sound corner nearby.
+    #: Direction of a nearby valid corner.
     from_neighbor: int
     #: Tangents computed from the normal alone.
     from_basis: int

@@ -34,7 +34,7 @@ class FlipGreenReport(Report):
     exact: bool
     #: Human-readable warnings.
     warnings: List[str]
-    #: That of the tool: 0, or 1 where something was found.
+    #: Exit code of the tool: 0, or 1 if there is a finding.
     exit_code: int
 
 
@@ -66,7 +66,7 @@ class ConvertMapReport(Report):
     to: Optional[MapMesh]
     #: Texels inside triangles or their padding.
     converted: int
-    #: Texels of these whose value changed.
+    #: Converted texels whose value changed.
     changed: int
     #: Texels in no triangle; they are unchanged.
     background: int
@@ -95,16 +95,16 @@ class ConvertMapReport(Report):
     below_half_step: bool
     #: Human-readable warnings.
     warnings: List[str]
-    #: That of the tool: 0, or 1 where something was found.
+    #: Exit code of the tool: 0, or 1 if there is a finding.
     exit_code: int
 
 
 class MapMesh(Report):
     #: Number of primitives that use the map.
     primitives: int
-    #: Their triangles.
+    #: Number of triangles of these primitives.
     triangles: int
-    #: Their names, each once.
+    #: Names of their materials, without duplicates.
     materials: List[str]
     #: Some primitives had no tangents, which were computed.
     tangents_made: bool
@@ -145,7 +145,7 @@ class HeightToNormalReport(Report):
     max_lean_deg: float
     #: Human-readable warnings.
     warnings: List[str]
-    #: That of the tool: 0, or 1 where something was found.
+    #: Exit code of the tool: 0, or 1 if there is a finding.
     exit_code: int
 
 
@@ -169,9 +169,9 @@ class CompressMapReport(Report):
     height: int
     #: Bits per channel of the input.
     bits_before: int
-    #: What was written: BC5, EAC RG11 signed, ASTC 4x4, PNG of 16 bits.
+    #: Format of the output: BC5, EAC RG11 signed, ASTC 4x4, PNG of 16 bits.
     format: str
-    #: In the output.
+    #: Number of mip levels in the output.
     levels: int
     #: Size of the output.
     output_bytes: int
@@ -182,9 +182,9 @@ class CompressMapReport(Report):
     #: 99th percentile.
     p99_error_deg: float
     max_error_deg: float
-    #: X coordinate of that place, in texels from the left.
+    #: X coordinate of the maximum, in texels from the left.
     max_error_x: float
-    #: Y coordinate of that place, in texels from the top.
+    #: Y coordinate of the maximum, in texels from the top.
     max_error_y: float
     #: Texels whose z is below 0.
     below_horizon: int
@@ -196,5 +196,5 @@ class CompressMapReport(Report):
     mean_widened_roughness: float
     #: Human-readable warnings.
     warnings: List[str]
-    #: That of the tool: 0, or 1 where something was found.
+    #: Exit code of the tool: 0, or 1 if there is a finding.
     exit_code: int
