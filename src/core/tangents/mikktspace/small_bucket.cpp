@@ -29,9 +29,9 @@ class SmallBucket {
     bool mayMatter() {
         findCandidates();
         std::uint32_t crowded[kMostNodes];
-        const auto end = std::ranges::copy_if(candidates(), crowded, [&](std::uint32_t node) {
-                             return hasThree(in_.around[node] & twice_);
-                         }).out;
+        const std::span<const std::uint32_t> all = candidates();
+        std::uint32_t* end = std::copy_if(all.begin(), all.end(), crowded,
+                                          [&](std::uint32_t node) { return hasThree(in_.around[node] & twice_); });
         if (end == crowded) return false;
         makeGrid();
         findRepresentatives({crowded, end});

@@ -186,9 +186,10 @@ class SmallMesh {
             std::copy_n(&own_s.x, 3, s[a]);
             std::copy_n(&own_t.x, 3, t[a]);
             forTriangles(adding & (bitOf(a) - 1), [&](unsigned b) {
-                const bool are_within = (dot(own_s, vectorOf(s[b])) > cosine_) & (dot(own_t, vectorOf(t[b])) > cosine_);
-                apart[a] |= are_within ? 0 : bitOf(b);
-                apart[b] |= are_within ? 0 : bitOf(a);
+                const int are_within =
+                    int{dot(own_s, vectorOf(s[b])) > cosine_} & int{dot(own_t, vectorOf(t[b])) > cosine_};
+                apart[a] |= are_within != 0 ? 0 : bitOf(b);
+                apart[b] |= are_within != 0 ? 0 : bitOf(a);
             });
             any |= apart[a];
         });
@@ -211,7 +212,9 @@ class SmallMesh {
         const float least = 2 * kSideMargin * std::sqrt(dot(sum, sum));
         bool all = least > kSideMargin;
         forTriangles(set, [&](unsigned t) {
-            all &= (dot(sum, directionOf(directions, t)) > least) & ((marksOf(t) & kTangentSides) != 0);
+            const int is_clear =
+                int{dot(sum, directionOf(directions, t)) > least} & int{(marksOf(t) & kTangentSides) != 0};
+            all &= is_clear != 0;
         });
         return all;
     }
