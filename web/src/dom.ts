@@ -67,3 +67,14 @@ export function slider(label: string, { min, max, step, value, unit }: { min: nu
 export const count = (n: number): string => n.toLocaleString("en");
 
 export const plural = (n: number, one: string): string => `${count(n)} ${one}${n === 1 ? "" : "s"}`;
+
+/** Returns a button that opens the file dialog. */
+export function filePicker(text: string, properties: Properties, take: (files: File[]) => void): HTMLElement {
+  const input = el("input", { type: "file", tabindex: "-1", ...properties });
+  input.addEventListener("change", () => {
+    const files = [...(input.files ?? [])];
+    input.value = "";
+    if (files.length > 0) take(files);
+  });
+  return el("span", { class: "picker" }, input, el("button", { type: "button", onclick: () => input.click() }, text));
+}

@@ -88,7 +88,7 @@ export async function droppedFiles(data: DataTransfer): Promise<Named[]> {
   return found;
 }
 
-export const pickedFiles = (files: FileList): Named[] => [...files].map((file) => ({ path: file.webkitRelativePath || file.name, file }));
+export const pickedFiles = (files: File[]): Named[] => files.map((file) => ({ path: file.webkitRelativePath || file.name, file }));
 
 /** Returns the files of an archive, in a folder with its name. Sizes are checked before anything is unpacked. */
 async function unpacked({ path, file }: Named): Promise<Named[]> {

@@ -2,7 +2,7 @@
 // The page: assembles its parts, and handles all ways to open a model.
 import "./style.css";
 import { App } from "./app.js";
-import { el, replaceChildren } from "./dom.js";
+import { el, filePicker, replaceChildren } from "./dom.js";
 import { chooseModel, droppedFiles, modelsIn, pickedFiles, Pile, type ModelFiles, type Named } from "./files.js";
 import { embeddedModel, pageOrigin } from "./embedded.js";
 import { lessonLink } from "./lesson.js";
@@ -206,15 +206,8 @@ async function compare(dropped: Named[]): Promise<void> {
   }
 }
 
-function picker(text: string, properties: Record<string, unknown>, take: (files: Named[]) => void = openFiles): HTMLElement {
-  const input = el("input", { type: "file", multiple: true, tabindex: "-1", ...properties }) as HTMLInputElement;
-  input.addEventListener("change", () => {
-    const files = input.files ? pickedFiles(input.files) : [];
-    input.value = "";
-    if (files.length > 0) take(files);
-  });
-  return el("span", { class: "picker" }, input, el("button", { type: "button", onclick: () => input.click() }, text));
-}
+const picker = (text: string, properties: Record<string, unknown>, take: (files: Named[]) => void = openFiles): HTMLElement =>
+  filePicker(text, { multiple: true, ...properties }, (files) => take(pickedFiles(files)));
 
 function filesOf({ file, bytes }: Sample): ModelFiles {
   return { name: file, bytes: bytes(), others: new Map() };

@@ -18,14 +18,19 @@ test("the first view says what is wrong, stands on it, and one click fixes it ev
   await withPage(async (tab) => {
     assert.match(await tab.locator("h1").textContent(), /^Drop a model: see where its bumps are lit inside out, and fix it\. Nothing is uploaded\.$/);
     assert.match(await seen(tab), /^Bumps look like dents on a part of the model/);
-    assert.match(await tab.locator(".fix button").textContent(), /^Fix it.*correct the wrong tangents/);
+    assert.match(await tab.locator(".fix button").textContent(), /^Fix it.*correct the wrong tangents.*Your file stays as it is until you download the result/);
     assert.deepEqual(await badges(tab), ["1 error", "0 warnings", "0 notes"]);
-    // The line stands where wrong triangles are: both sides of it differ from the right frames' picture.
+    // The line halves what is wrong: about half of the pixels that differ from the correct frames' picture lie left of it.
     const at = await split(tab), before = await pixelsOf(tab);
     await tab.locator(".split").fill("0");
     const right = await pixelsOf(tab);
-    const near = shareOf(before, (i) => farApart(before.data, i, right.data, i) > 6);
-    assert.ok(at >= 0.2 && at <= 0.8 && near > 0.01, `${at}: left of the line ${near} of the picture is wrong`);
+    await tab.locator(".split").fill("1000");
+    const left = await pixelsOf(tab);
+    const near = shareOf(before, (i) => farApart(before.data, i, right.data, i) > 16), all = shareOf(left, (i) => farApart(left.data, i, right.data, i) > 16);
+    assert.ok(at >= 0.4 && at <= 0.6 && near > 0.01 && near > 0.4 * all && near < 0.6 * all, `${at}: left of the line ${near} of the picture is wrong, in all ${all}`);
+    // The entry says the effect once.
+    assert.equal((await tab.locator(".finding").textContent()).match(/dents/g).length, 1);
+    for (const panel of [".inspector", ".findings"]) assert.ok(await tab.locator(panel).evaluate((one) => one.scrollWidth <= one.clientWidth), `${panel} overflows`);
     await tab.locator(".split").fill(String(Math.round(1000 * at)));
     await tab.locator(".finding").click();
     assert.equal(await tab.evaluate(() => window.tspaceView.views.stage.viewport.settings.look), "signs");
@@ -49,6 +54,8 @@ test("at 390 pixels the picture and the button come before everything else, and 
     assert.ok(await top(".fix .large") < 560 && await top(".samples") > await top(".frame") && await top(".findings") > await top(".samples"));
     assert.deepEqual(await tab.locator(".inspector details[open]").count(), 0);
     assert.equal(await tab.evaluate(() => document.documentElement.scrollWidth), 390);
+    const [button, light] = await Promise.all([".fix .large", ".light"].map((selector) => tab.locator(selector).boundingBox()));
+    assert.ok(button.x + button.width <= light.x && button.height < 90, "the button lies beside the light, at the bottom edge");
     await fix(tab);
     assert.match(await seen(tab), /^Fixed: 1 error → 0 errors/);
   }, { width: 390, height: 844, hasTouch: true });

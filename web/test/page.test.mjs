@@ -54,7 +54,7 @@ test("signs, mirrored parts, errors and islands have the colours of their legend
     await tab.locator(".split").fill("0");
     await drawn(tab);
     seen = await shares(tab, { blue, amber, red });
-    assert.ok(seen.red < 0.002 && seen.amber > 0.03, `right frames have both signs: ${JSON.stringify(seen)}`);
+    assert.ok(seen.red < 0.002 && seen.amber > 0.03, `correct frames have both signs: ${JSON.stringify(seen)}`);
     await tab.locator(".split").fill("500");
     await shoot(tab, "signs");
     await choose(tab, "Error");

@@ -22,7 +22,7 @@ async function picture(tab, split) {
 test("where green points down, the right side is what the file with turned green looks like", { skip: missing }, async () => {
   await withPage(async (tab) => {
     await openSample(tab, "ring-directx.glb");
-    assert.equal(await rightLabel(tab), "right frames (mikktspace), green flipped");
+    assert.equal(await rightLabel(tab), "correct frames (mikktspace), green flipped");
     const left = await picture(tab, "1000"), right = await picture(tab, "0");
     assert.ok(differing(left, right) > 0.02, "as the file is, bumps are dents");
     await tab.locator(".split").fill("500");
@@ -35,7 +35,7 @@ test("where green points down, the right side is what the file with turned green
     assert.equal(await rightLabel(tab), "fixed");
     assert.ok(differing(right, await picture(tab, "0")) < 0.002, "and the mended file looks the same");
     await openSample(tab, "crate.glb");
-    assert.equal(await rightLabel(tab), "right frames (mikktspace)", "nothing of it is left on the next model");
+    assert.equal(await rightLabel(tab), "correct frames (mikktspace)", "nothing of it is left on the next model");
   });
 });
 
@@ -75,7 +75,7 @@ test("inverted signs and green that cancel out are mended both or not at all", {
   await withPage(async (tab) => {
     await openFile(tab, cat());
     await tab.locator(".mend > summary").click();
-    assert.match(await tab.locator(".reasons").textContent(), /cancel out, so this file renders right/);
+    assert.match(await tab.locator(".reasons").textContent(), /cancel out, so this file renders correctly/);
     assert.match(await tab.locator(".command").textContent(), / --repair$/);
     await mended(tab);
     assert.match(await tab.locator(".result .counts").textContent(), /^3 errors, .* → 0 errors, /);
@@ -85,7 +85,7 @@ test("inverted signs and green that cancel out are mended both or not at all", {
     await choose(tab, "inverted", ".mend");
     assert.match(await tab.locator(".command").textContent(), / --overwrite --convention opengl$/);
     await tab.locator(".look select").first().selectOption("mikktspace");
-    await tab.locator(".figures", { hasText: "from mikktspace" }).waitFor();
+    await tab.locator(".figures", { hasText: "mikktspace" }).waitFor();
     const left = await picture(tab, "1000"), right = await picture(tab, "0");
     assert.ok(differing(left, right) < 0.03, "both sides are right, and look the same");
   }, { allowMessages: true });
@@ -134,7 +134,7 @@ test("without WebGL there are findings and mends, and a sentence where the pictu
     assert.equal(await tab.evaluate(() => document.documentElement.dataset.picture), "none");
     assert.match(await tab.locator(".remark").textContent(), /no WebGL, so there is no picture/);
     assert.equal(await tab.locator(".finding").getAttribute("data-code"), "signsWrong");
-    assert.match(await tab.locator(".figures").textContent(), /1,728 of 5,184 corners have another sign/);
+    assert.match(await tab.locator(".figures").textContent(), /1,728 of 5,184 corners have the wrong sign/);
     await shoot(tab, "no-webgl");
     await tab.locator(".mend > summary").click();
     await mended(tab);

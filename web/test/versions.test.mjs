@@ -30,7 +30,7 @@ test("two versions stand left and right of the line, with the degrees between th
     await tab.locator(".seen", { hasText: "Two versions" }).waitFor();
     assert.match(await tab.locator(".seen").textContent(), /left crate-signs-lost\.glb \(1 error\), right right\.glb \(nothing wrong\)/);
     assert.deepEqual(await tab.locator(".side").allTextContents(), ["crate-signs-lost.glb", "right.glb"]);
-    assert.match(await tab.locator(".figures").textContent(), /1,728 of 5,184 corners have another sign/);
+    assert.match(await tab.locator(".figures").textContent(), /1,728 of 5,184 corners have a different sign/);
     await choose(tab, "Difference");
     await drawn(tab);
     await shoot(tab, "two-versions");

@@ -94,7 +94,7 @@ vec3 shadingNormal(bool isRight) {
   return normalize(texel.x * t + texel.y * b + texel.z * n);
 }
 
-// Degrees between the directions that light falls on, by the file and by the right frames.
+// Degrees between the directions that light falls on, by the file and by the correct frames.
 float degreesApart() {
   vec3 a = shadingNormal(false), b = shadingNormal(true);
   return degrees(atan(length(cross(a, b)), dot(a, b)));

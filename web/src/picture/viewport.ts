@@ -5,13 +5,16 @@ import { Vector3, WebGLRenderTarget, type Matrix4, type Object3D, type Perspecti
 import { Eye } from "./camera.js";
 import { moveByKey } from "./keys.js";
 import { drawUvMap, pickTriangle } from "./picking.js";
-import { halfOf, Picture, type Settings } from "./renderer.js";
+import { halfOf, hasSplit, Picture, type Settings } from "./renderer.js";
 import { Scene } from "./scene.js";
 import type { Surroundings } from "./environment.js";
 import type { Look, PictureValues } from "./shader.js";
 import type { MapCorners } from "../worker/protocol.js";
 
-export { hasSplit } from "./renderer.js";
+export { hasSplit };
+
+/** Width in pixels of the downscaled pictures that are compared, and the smallest visible difference of a channel. */
+const kCoarse = 256, kSeenStep = 16;
 
 export class Viewport {
   readonly canvas: HTMLCanvasElement;
@@ -69,7 +72,7 @@ export class Viewport {
     this.ask();
   }
 
-  /** Shows another file right of the line; null: the scene itself, with the frames of the right side. */
+  /** Shows another file right of the line; null: the scene itself, with the correct frames. */
   showRight(right: Scene | null): void {
     this.#picture.showRight(right);
     this.ask();
@@ -159,9 +162,32 @@ export class Viewport {
     return copy;
   }
 
-  #values(): PictureValues & Settings {
-    const light = this.light.clone().transformDirection(this.camera.matrixWorld);
-    return { ...this.settings, split: this.settings.split * this.canvas.width, light, eye: this.camera.position };
+  /**
+   * Returns the position (0 to 1 along the width) that halves the area where both sides of the split line visibly
+   * differ in the view of a camera; null if nothing differs, and without WebGL.
+   */
+  middleOfDifference(camera: PerspectiveCamera): number | null {
+    const width = kCoarse, height = Math.max(1, Math.round((kCoarse * this.canvas.height) / this.canvas.width));
+    if (!this.hasPicture || this.settings.isBeside || !hasSplit(this.settings.look)) return null;
+    const [left, right] = [1, 0].map((split) => {
+      this.#picture.draw(camera, { ...this.#values(camera), split: split * this.canvas.width }, split);
+      const context = new OffscreenCanvas(width, height).getContext("2d")!;
+      context.drawImage(this.canvas, 0, 0, width, height);
+      return context.getImageData(0, 0, width, height).data;
+    });
+    this.ask();
+    const columns = new Uint32Array(width);
+    for (let i = 0; i < left.length; i += 4) {
+      if ([0, 1, 2].some((k) => Math.abs(left[i + k] - right[i + k]) > kSeenStep)) columns[(i / 4) % width] += 1;
+    }
+    let rest = columns.reduce((sum, n) => sum + n, 0) / 2;
+    const middle = columns.findIndex((n) => n > 0 && (rest -= n) <= 0);
+    return middle < 0 ? null : (middle + 0.5) / width;
+  }
+
+  #values(camera = this.camera): PictureValues & Settings {
+    const light = this.light.clone().transformDirection(camera.matrixWorld);
+    return { ...this.settings, split: this.settings.split * this.canvas.width, light, eye: camera.position };
   }
 
   #draw(): void {

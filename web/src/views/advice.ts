@@ -89,8 +89,8 @@ export function adviceFor(report: CheckReport | null, tangents: Tangents, isTurn
   const isOverwritten = tangents === "overwrite" && !isTurned;
   if (cancels(report)) {
     reasons.push(isOverwritten
-      ? "Inverted signs and a green that points down cancel out in this file. Recomputed tangents have right signs, so green has to be flipped with them: that is switched on."
-      : "Inverted signs and a green that points down cancel out, so this file renders right. The fix keeps both.");
+      ? "Inverted signs and a green that points down cancel out in this file. Recomputed tangents have correct signs, so green has to be flipped with them: that is switched on."
+      : "Inverted signs and a green that points down cancel out, so this file renders correctly. The fix keeps both.");
   }
   if (isTurned && tangents === "overwrite") {
     if (down.length > 0) reasons.push("Inverted signs require a green that points down: the fix keeps it.");

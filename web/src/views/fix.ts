@@ -35,7 +35,7 @@ export class FixView {
     if (!plan) return;
     const left = plan.left > 0 ? ` ${plural(plan.left, "fault")} must be fixed where the model was made.` : "";
     this.#button.disabled = false;
-    replaceChildren(this.#button, el("strong", {}, "Fix it"), el("span", {}, `${plan.steps.join(", ")}${left === "" ? "" : "."}${left}`));
+    replaceChildren(this.#button, el("strong", {}, "Fix it"), el("span", {}, `${plan.steps.join(", ")}${left === "" ? "" : "."}${left}`), el("span", {}, "Your file stays as it is until you download the result."));
     replaceChildren(this.element, this.#button);
   }
 

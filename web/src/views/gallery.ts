@@ -11,7 +11,7 @@ export class GalleryView {
     this.#buttons = samples.map((sample) =>
       el("button", { type: "button", class: "sample", "data-file": sample.file, title: sample.hint, "aria-pressed": "false", onclick: () => open(sample) },
         el("img", { src: sample.picture, alt: "", width: 72, height: 48 }), el("span", {}, sample.name)));
-    this.element = el("nav", { class: "samples", "aria-label": "Samples" }, ...this.#buttons);
+    this.element = el("nav", { class: "samples", "aria-label": "Samples" }, el("p", { class: "quiet" }, "Examples"), ...this.#buttons);
   }
 
   /** Marks the sample that is shown, by file name. */

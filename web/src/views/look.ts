@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Controls of the view: the method of the right frames, the normal map, lines and edges.
-import { checkbox, choice, count, el, replaceChildren, select, slider } from "../dom.js";
+// Controls of the view: the method of the correct frames, the normal map, lines and edges.
+import { checkbox, choice, count, el, filePicker, replaceChildren, select, slider } from "../dom.js";
 import { frameLines, usualEdge, type Axis } from "../picture/overlays.js";
 import { surroundings } from "../picture/environment.js";
 import { replaceOverlay, type Viewport } from "../picture/viewport.js";
@@ -26,7 +26,7 @@ export class LookView {
     const { viewport } = stage;
     this.#viewport = viewport;
     const names = [...methods, "mended", "other"] as const;
-    const frames = select("Right frames by", names.map((name) => [name, nameOf(name)] as const), this.right, (right) => this.#choose(right));
+    const frames = select("Correct frames by", names.map((name) => [name, nameOf(name)] as const), this.right, (right) => this.#choose(right));
     this.#choice = frames.input;
     const map = choice("Normal map", [["1", "on"], ["0", "off"], ["2", "green flipped"]] as const, "1", (value) => {
       viewport.settings.map = Number(value) as 0 | 1 | 2;
@@ -43,18 +43,17 @@ export class LookView {
       box.element.classList.add(`axis-${axis}`);
       return box.element;
     });
-    const whose = choice("Lines of", [["file", "the file"], ["right", "right frames"]] as const, "file", (value) => {
+    const whose = choice("Lines of", [["file", "the file"], ["right", "correct frames"]] as const, "file", (value) => {
       this.#isRight = value === "right";
       this.showLines();
     });
     const around = choice("Surroundings", surroundings.map((name) => [name, name] as const), "room", (name) => viewport.setSurroundings(name));
-    const panorama = el("input", { type: "file", accept: ".hdr", "aria-label": "Panorama as an HDR file" });
-    panorama.addEventListener("change", () => void this.#usePanorama(panorama.files?.[0]));
-    const turn = slider("Turn the surroundings", { min: -180, max: 180, step: 5, value: 0, unit: "°" }, (value) => this.#set({ turn: value }));
+    const panorama = filePicker("Open .hdr…", { accept: ".hdr", "aria-label": "Panorama as an HDR file" }, ([file]) => void this.#usePanorama(file));
+    const turn = slider("Rotation", { min: -180, max: 180, step: 5, value: 0, unit: "°" }, (value) => this.#set({ turn: value }));
     const exposure = slider("Exposure", { min: -3, max: 3, step: 0.25, value: 0, unit: " stops" }, (value) => this.#set({ stops: value }));
     const shadows = checkbox("Shadows", false, (on) => viewport.setShadows(on));
     const ground = choice("Ground", [["grey", "gray"], ["light", "light"], ["dark", "dark"]] as const, "grey", (value) => stage.setGround(value));
-    const length = el("input", { type: "range", min: "-10", max: "10", value: "0", "aria-label": "Length of the lines" });
+    const length = el("input", { type: "range", min: "-10", max: "10", value: "0" });
     length.addEventListener("input", () => {
       this.#length = 2 ** (Number(length.value) / 4);
       this.showLines();
@@ -62,15 +61,14 @@ export class LookView {
     this.element.append(
       el("div", { class: "rows" }, this.#variants, frames.element, this.#figures, map.element,
         el("div", { class: "row" }, wire.element, colors.element, shadows.element),
-        el("div", { class: "row lines" }, ...axes, length), whose.element, around.element, el("label", { class: "select" }, el("span", {}, "Your own (.hdr)"), panorama), this.#panoramaSaid, turn, exposure, ground.element));
+        el("div", { class: "row lines" }, ...axes), el("label", { class: "select slider" }, el("span", {}, "Length of the lines"), length), whose.element, around.element, el("div", { class: "select" }, el("span", {}, "Your own panorama"), panorama), this.#panoramaSaid, turn, exposure, ground.element));
     this.offerFile(null);
   }
 
-  async #usePanorama(file: File | undefined): Promise<void> {
-    if (!file) return;
+  async #usePanorama(file: File): Promise<void> {
     const bytes = await file.arrayBuffer(), head = new TextDecoder().decode(bytes.slice(0, 11));
     const isHdr = head.startsWith("#?RADIANCE") || head.startsWith("#?RGBE");
-    this.#panoramaSaid.textContent = isHdr ? "" : `${file.name} is not an HDR panorama (Radiance).`;
+    this.#panoramaSaid.textContent = isHdr ? `Shown: ${file.name}` : `${file.name} is not an HDR panorama (Radiance).`;
     if (isHdr) this.#viewport.setPanorama(bytes);
   }
 
@@ -120,8 +118,9 @@ export class LookView {
       most = Math.max(most, frames.maxDegrees);
       signs += frames.wrongSigns;
     }
-    replaceChildren(this.#figures, compared === 0
-      ? "There are no tangents in the file to compare."
-      : `Tangents of the file: ${(sum / compared).toFixed(2)}° from ${nameOf(this.right)} on average, ${most.toFixed(1)}° at most; ${count(signs)} of ${count(compared)} corners have another sign.`);
+    const directions = `${(sum / compared).toFixed(2)}° on average, ${most.toFixed(1)}° at most`, name = nameOf(this.right);
+    replaceChildren(this.#figures, compared === 0 ? "There are no tangents in the file to compare."
+      : signs > 0 ? `Compared with ${name}, ${count(signs)} of ${count(compared)} corners have ${this.right === "other" ? "a different sign" : "the wrong sign"}; directions differ by ${directions}.`
+      : `Tangents of the file differ from ${name} by ${directions}; all signs agree.`);
   }
 }

@@ -20,6 +20,9 @@ const kMostAimed = 50, kMostFaces = 2000;
 /** If a finding affects a larger fraction of the surface, the camera does not move. */
 const kEverywhere = 0.5;
 
+/** The view mirrored in x is considered if it shows more than this fraction of the area that the first view shows. */
+const kNearlyAsMuch = 0.75;
+
 /** Thresholds of `check` for tangents that are not unit, and for normals that point backward. */
 const kUnit = 0.00674, kBack = -0.1;
 
@@ -57,17 +60,40 @@ function trianglesOf(drawn: Drawn, finding: Finding): number[] {
   return found.length > 0 ? found : trianglesAt(drawn, finding.vertices);
 }
 
+interface Face {
+  center: Vector3;
+  out: Vector3;
+}
+
+/** Clamps a position of the split line so that both sides remain visible. */
+const inPicture = (share: number): number => Math.min(0.8, Math.max(0.2, share));
+
+/** Returns the area of the faces that a camera sees, and the position (0 to 1 along the width) that halves it; null if it sees none. */
+function middleOf(faces: Face[], camera: Camera): { seen: number; middle: number | null } {
+  const spots: { x: number; size: number }[] = [];
+  for (const { center, out } of faces) {
+    const size = out.dot(camera.position.clone().sub(center).normalize());
+    if (size > 0) spots.push({ x: center.clone().project(camera).x, size });
+  }
+  spots.sort((a, b) => a.x - b.x);
+  const seen = spots.reduce((sum, { size }) => sum + size, 0);
+  let left = seen / 2;
+  const middle = spots.find(({ size }) => (left -= size) <= 0);
+  return { seen, middle: middle ? (middle.x + 1) / 2 : null };
+}
+
 export class PlaceView {
   #outline: Object3D | null = null;
 
   constructor(private viewport: Viewport, private setLook: (look: Look) => void, private setSplit: (share: number) => void) {}
 
   /**
-   * Moves the camera to where most of the findings' area is visible, with the split line at its center: one half shows
-   * the file, the other half the correct frames.
+   * Moves the camera to where most of the findings' area is visible, with the split line at the center of the visible
+   * difference: one half shows the file, the other half the correct frames. Of the best view and the one mirrored in x,
+   * selects the view whose split line is closer to the center of the picture.
    */
   aim(findings: Finding[]): void {
-    const faces: { center: Vector3; out: Vector3 }[] = [], { scene } = this.viewport;
+    const faces: Face[] = [], { scene } = this.viewport;
     for (const finding of findings.slice(0, kMostAimed)) {
       const drawn = finding.place === "" ? undefined : scene.find(finding.mesh, finding.primitive);
       if (!drawn) continue;
@@ -76,20 +102,20 @@ export class PlaceView {
     }
     const toEye = this.viewport.camera.position.clone().sub(this.viewport.target), isEverywhere = findings[0].surfaceShare >= kEverywhere, toward = isEverywhere ? toEye.normalize() : bestDirection(faces.map(({ out }) => out), toEye);
     if (!toward) return this.setSplit(0.5);
-    this.#splitAt(faces, this.viewport.reset(false, toward));
+    const views = [toward, new Vector3(-toward.x, toward.y, toward.z)].map((direction) => {
+      const { seen, middle } = middleOf(faces, this.viewport.reset(false, direction));
+      return { direction, seen, distance: Math.abs((middle ?? 0) - 0.5) };
+    });
+    const isOtherBetter = !isEverywhere && views[1].seen > kNearlyAsMuch * views[0].seen && views[1].distance < views[0].distance;
+    const camera = this.viewport.reset(false, views[isOtherBetter ? 1 : 0].direction), middle = this.viewport.middleOfDifference(camera);
+    if (middle === null) this.#splitAt(faces, camera);
+    else this.setSplit(inPicture(middle));
   }
 
   /** Moves the split line to the center of the visible faces. */
-  #splitAt(faces: { center: Vector3; out: Vector3 }[], camera: Camera): void {
-    const spots: { x: number; size: number }[] = [];
-    for (const { center, out } of faces) {
-      const size = out.dot(camera.position.clone().sub(center).normalize());
-      if (size > 0) spots.push({ x: center.clone().project(camera).x, size });
-    }
-    spots.sort((a, b) => a.x - b.x);
-    let left = spots.reduce((sum, { size }) => sum + size, 0) / 2;
-    const middle = spots.find(({ size }) => (left -= size) <= 0);
-    if (middle) this.setSplit(Math.min(0.8, Math.max(0.2, (middle.x + 1) / 2)));
+  #splitAt(faces: Face[], camera: Camera): void {
+    const { middle } = middleOf(faces, camera);
+    if (middle !== null) this.setSplit(inPicture(middle));
   }
 
   clear(): void {
@@ -103,7 +129,7 @@ export class PlaceView {
   show(findings: Finding[], isOne: boolean, isOther: boolean): number {
     this.clear();
     this.setLook(lookOf(findings[0]));
-    const { scene } = this.viewport, outline = new Group(), places: Omit<Place, "outline">[] = [], faces: { center: Vector3; out: Vector3 }[] = [];
+    const { scene } = this.viewport, outline = new Group(), places: Omit<Place, "outline">[] = [], faces: Face[] = [];
     let outlined = 0, seen = 0, isWhole = false;
     for (const finding of findings) {
       const drawn = finding.place === "" ? undefined : scene.find(finding.mesh, finding.primitive);

@@ -18,6 +18,9 @@ const lookNames: readonly (readonly [Look, string])[] = [
 
 const isTyping = ({ target, ctrlKey, metaKey, altKey }: KeyboardEvent): boolean => ctrlKey || metaKey || altKey || target instanceof HTMLSelectElement || (target instanceof HTMLInputElement && target.type === "text");
 
+/** From this position of the split line on, the fix button is left of it, because the light control needs room on the right. */
+const kFixLeftFrom = 0.45;
+
 /** How many of the normal maps right of the split line have inverted green. */
 export type TurnedGreen = "none" | "some" | "all";
 const greenText: Record<TurnedGreen, string> = { none: "", some: ", green flipped where it points down", all: ", green flipped" };
@@ -31,10 +34,10 @@ export class Stage {
     "aria-label": "The model. Arrow keys turn it, with Shift they move it, plus and minus come nearer or go away, 0 shows all of it.",
   });
   #legend = new Legend();
-  #split = el("input", { type: "range", min: "0", max: "1000", value: "500", class: "split", "aria-label": "Frames of the file on the left, right frames on the right" });
+  #split = el("input", { type: "range", min: "0", max: "1000", value: "500", class: "split", "aria-label": "Frames of the file on the left, correct frames on the right" });
   #line = el("div", { class: "split-line", "aria-hidden": "true" });
   #leftLabel = el("span", { class: "side left" }, "as the file is");
-  #rightLabel = el("span", { class: "side right" }, "right frames");
+  #rightLabel = el("span", { class: "side right" }, "correct frames");
   #light = el("div", { class: "light", tabindex: "0", role: "slider", "aria-label": "Light", "aria-valuemin": "-1", "aria-valuemax": "1" }, el("i"));
   #remark = el("p", { class: "remark", role: "status", hidden: true });
   #frame: HTMLElement;
@@ -61,7 +64,7 @@ export class Stage {
     this.#line.addEventListener("pointermove", (event) => event.buttons & 1 && this.#dragLine(event));
     this.#line.addEventListener("contextmenu", (event) => event.preventDefault());
     this.#line.addEventListener("wheel", (event) => (event.preventDefault(), this.canvas.dispatchEvent(new WheelEvent("wheel", event))));
-    // While the key is held, the whole picture uses the right frames; on release the previous state is restored.
+    // While the key is held, the whole picture uses the correct frames; on release the previous state is restored.
     addEventListener("keydown", (event) => event.key === "b" && !event.repeat && !isTyping(event) && this.#blink(true));
     addEventListener("keyup", (event) => event.key === "b" && this.#blink(false));
     addEventListener("blur", () => this.#blink(false));
@@ -132,7 +135,7 @@ export class Stage {
     this.viewport.settings.split = share;
     this.#split.value = String(Math.round(share * 1000));
     this.#frame.style.setProperty("--split", `${share * 100}%`);
-    this.#frame.dataset.side = share > 0.55 ? "left" : "right";
+    this.#frame.dataset.side = share > kFixLeftFrom ? "left" : "right";
     this.#leftLabel.style.opacity = share > 0.12 ? "1" : "0";
     this.#rightLabel.style.opacity = share < 0.88 ? "1" : "0";
     this.viewport.ask();
@@ -143,7 +146,7 @@ export class Stage {
     const isSplit = hasSplit(look), { isBeside } = this.viewport.settings;
     this.#split.hidden = !isSplit || isBeside;
     for (const element of [this.#line, this.#leftLabel, this.#rightLabel]) element.hidden = !isSplit && !isBeside;
-    this.#rightLabel.textContent = isFile(this.#right) ? (this.#right === "mended" ? "fixed" : this.#otherName) : `right frames (${this.#right})${greenText[this.#green]}`;
+    this.#rightLabel.textContent = isFile(this.#right) ? (this.#right === "mended" ? "fixed" : this.#otherName) : `correct frames (${this.#right})${greenText[this.#green]}`;
     this.#legend.show(look, nameOf(this.#right));
     this.viewport.ask();
   }
