@@ -275,7 +275,8 @@ export class App {
       if (!stage.viewport.hasPicture) remarks.unshift("This browser has no WebGL, so there is no picture. Findings and fixes are complete.");
       stage.viewport.show(scene);
       if (!isOther) {
-        stage.viewport.reset(true, model.loneMap && kMapDirection);
+        stage.viewport.setHome(model.loneMap && kMapDirection);
+        stage.viewport.reset(true);
         this.views.offered(variants);
       }
       this.views.uvMap.reset();

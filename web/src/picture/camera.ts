@@ -12,6 +12,8 @@ const kFirstDirection = new Vector3(0.55, 0.42, 1).normalize();
 export class Eye {
   readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
   readonly controls: OrbitControls;
+  /** Direction from which the whole model is shown, unless another one is given. */
+  #home = kFirstDirection;
   #flight: { from: Vector3; to: Vector3; fromTarget: Vector3; toTarget: Vector3; start: number } | null = null;
 
   constructor(canvas: HTMLCanvasElement, private sceneNow: () => Scene, private ask: () => void) {
@@ -77,7 +79,7 @@ export class Eye {
   }
 
   /** Shows the whole model from a direction, and returns the final camera. */
-  reset(isInstant = false, toward = kFirstDirection): PerspectiveCamera {
+  reset(isInstant = false, toward = this.#home): PerspectiveCamera {
     const scene = this.sceneNow(), { center, radius } = scene.sphere();
     const { middle, distance } = this.#frameFor(scene.points(), center, radius, toward);
     return this.#flyTo(middle, distance, toward, isInstant);
@@ -104,6 +106,10 @@ export class Eye {
       distance = Math.max((distance * Math.max(high[0] - low[0], high[1] - low[1])) / (2 * kFilled), 1.02 * radius * 0.1);
     }
     return { middle, distance };
+  }
+
+  setHome(toward = kFirstDirection): void {
+    this.#home = toward;
   }
 
   stopFlight(): void {

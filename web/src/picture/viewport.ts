@@ -135,6 +135,11 @@ export class Viewport {
     return this.#eye.fly(center, radius, toward, isInstant);
   }
 
+  /** Sets the direction of the view that `reset` shows; without an argument, the default direction. */
+  setHome(toward?: Vector3): void {
+    this.#eye.setHome(toward);
+  }
+
   /** Shows the whole model, and returns the final camera. */
   reset(isInstant = false, toward?: Vector3): PerspectiveCamera {
     return this.#eye.reset(isInstant, toward);

@@ -107,7 +107,8 @@ export class PlaceView {
       return { direction, seen, distance: Math.abs((middle ?? 0) - 0.5) };
     });
     const isOtherBetter = !isEverywhere && views[1].seen > kNearlyAsMuch * views[0].seen && views[1].distance < views[0].distance;
-    const camera = this.viewport.reset(false, views[isOtherBetter ? 1 : 0].direction), middle = this.viewport.middleOfDifference(camera);
+    this.viewport.setHome(views[isOtherBetter ? 1 : 0].direction);
+    const camera = this.viewport.reset(), middle = this.viewport.middleOfDifference(camera);
     if (middle === null) this.#splitAt(faces, camera);
     else this.setSplit(inPicture(middle));
   }
