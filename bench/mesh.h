@@ -39,7 +39,7 @@ Mesh torusOf(std::size_t triangles);
 Mesh boxMesh();
 /// Returns a torus of about that many triangles that is mirrored every tenth column: 10 % of its vertices split.
 Mesh foldsOf(std::size_t triangles);
-/// Returns a sphere in longitude and latitude, with one vertex for each column at the poles.
+/// Returns a UV sphere, with one vertex per column at each pole.
 Mesh sphereOf(std::size_t triangles);
 /// Returns a wavy sheet without seams.
 Mesh gridOf(std::size_t triangles);

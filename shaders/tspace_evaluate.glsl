@@ -8,12 +8,12 @@
 
 // The words of a plan: PlanBuffers in plan_buffers.h.
 layout(std430, binding = 0) readonly buffer tspace_plan_buffer { uint tspace_plan[]; };
-// How the arrays of a pose lie in their buffers: 32 words, see tspace_setting.
+// Layout of the arrays of a pose in their buffers: 32 words, see tspace_setting.
 layout(std430, binding = 1) readonly buffer tspace_settings_buffer { uint tspace_settings[]; };
 layout(std430, binding = 2) readonly buffer tspace_positions_buffer { uint tspace_positions[]; };
-// Morph deltas, joints, weights and matrices, where the settings ask for them.
+// Morph deltas, joints, weights and matrices, if the settings enable them.
 layout(std430, binding = 3) readonly buffer tspace_deform_buffer { uint tspace_deform[]; };
-// Read where the plan makes no normals, else written.
+// Written if the plan computes normals, otherwise read.
 layout(std430, binding = 4) buffer tspace_normals_buffer { uint tspace_normals[]; };
 layout(std430, binding = 5) buffer tspace_tangents_buffer { uint tspace_tangents[]; };
 
@@ -29,13 +29,13 @@ const uint tspace_tangent_format = 9u;  // 0: T and sign as four floats; 2: oct3
 const uint tspace_tangent_offset = 10u;
 const uint tspace_tangent_stride = 11u;
 const uint tspace_morph_count = 12u;    // targets, of three floats per vertex one after the other; 0: none
-const uint tspace_morph_weights = 13u;  // where the weights lie in tspace_deform, in words
-const uint tspace_morph_deltas = 14u;   // where the deltas lie, in words
+const uint tspace_morph_weights = 13u;  // word offset of the weights in tspace_deform
+const uint tspace_morph_deltas = 14u;   // word offset of the deltas in tspace_deform
 const uint tspace_vertex_count = 15u;   // of morph targets
 const uint tspace_skin = 16u;           // 1: skinned, by four joints per vertex
-const uint tspace_skin_joints = 17u;    // where four words per vertex lie in tspace_deform
-const uint tspace_skin_weights = 18u;   // where four floats per vertex lie
-const uint tspace_skin_matrices = 19u;  // where three rows of four floats per joint lie
+const uint tspace_skin_joints = 17u;    // word offset of the joints in tspace_deform: 4 words per vertex
+const uint tspace_skin_weights = 18u;   // word offset of the joint weights: 4 floats per vertex
+const uint tspace_skin_matrices = 19u;  // word offset of the matrices: 3 rows of 4 floats per joint
 const uint tspace_first_result = 20u;   // of this dispatch
 
 const uint tspace_no_tangent = 0x80000000u;
@@ -202,7 +202,7 @@ struct tspace_Corner {
     vec3 next;      // from this corner to the next one
     vec3 previous;  // from this corner to the one before
     uint vertex_number;
-    uint uvs;  // where the coefficients of its UVs lie in tspace_plan
+    uint uvs;  // offset of the UV coefficients in tspace_plan
 };
 
 uint tspace_vertexOf(uint entry) {
@@ -356,7 +356,7 @@ struct tspace_Sums {
     vec3 b;
 };
 
-// What a corner adds for mikktspace, uniform, angle and area: its tangent across the normal, unit, times its weight.
+// Returns the term of a corner for mikktspace, uniform, angle, area: its tangent across the normal, unit, times its weight.
 vec3 tspace_weightedTangent(tspace_Corner corner, vec3 n, uint method) {
     float a = uintBitsToFloat(tspace_plan[corner.uvs]);
     float b = uintBitsToFloat(tspace_plan[corner.uvs + 1u]);
@@ -380,7 +380,7 @@ vec3 tspace_weightedTangent(tspace_Corner corner, vec3 n, uint method) {
     return weight * tangent;
 }
 
-// What a corner adds for fast: one sum that is accurate on smooth surfaces, one that is robust.
+// Returns the terms of a corner for fast: one sum that is accurate on smooth surfaces, one that is robust.
 tspace_Sums tspace_twoWeights(tspace_Corner corner, float scale) {
     tspace_Sums sums;
     sums.a = vec3(0.0, 0.0, 0.0);
@@ -600,7 +600,7 @@ vec3 tspace_octTangent(vec4 n, uint k) {
     return tspace_direction(t);
 }
 
-// Where a unit vector lies on the unfolded octahedron, from -1 to 1: the b with b (2.5 - b) along |n| and sum 1, by three
+// Returns the point of a unit vector on the unfolded octahedron, -1 to 1: the b with b (2.5 - b) along |n| and sum 1, by three
 // steps of Newton's method.
 vec2 tspace_octPoint(vec3 n) {
     vec3 size = abs(n);
@@ -627,7 +627,7 @@ vec2 tspace_octPoint(vec3 n) {
     return vec2(x, y);
 }
 
-// The last of the 2048 angles that is not after one whose cosine and sine are as c to s.
+// Returns the largest of the 2048 angle steps that does not exceed atan2(s, c). (c, s) need not be a unit vector.
 uint tspace_octAngle(float c, float s) {
     float run = abs(c);
     float rise = abs(s);

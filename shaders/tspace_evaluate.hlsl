@@ -6,12 +6,12 @@
 
 // The words of a plan: PlanBuffers in plan_buffers.h.
 StructuredBuffer<uint> tspace_plan : register(t0);
-// How the arrays of a pose lie in their buffers: 32 words, see tspace_setting.
+// Layout of the arrays of a pose in their buffers: 32 words, see tspace_setting.
 StructuredBuffer<uint> tspace_settings : register(t1);
 StructuredBuffer<uint> tspace_positions : register(t2);
-// Morph deltas, joints, weights and matrices, where the settings ask for them.
+// Morph deltas, joints, weights and matrices, if the settings enable them.
 StructuredBuffer<uint> tspace_deform : register(t3);
-// Read where the plan makes no normals, else written.
+// Written if the plan computes normals, otherwise read.
 RWStructuredBuffer<uint> tspace_normals : register(u4);
 RWStructuredBuffer<uint> tspace_tangents : register(u5);
 
@@ -27,13 +27,13 @@ static const uint tspace_tangent_format = 9u;  // 0: T and sign as four floats; 
 static const uint tspace_tangent_offset = 10u;
 static const uint tspace_tangent_stride = 11u;
 static const uint tspace_morph_count = 12u;      // targets, of three floats per vertex one after the other; 0: none
-static const uint tspace_morph_weights = 13u;    // where the weights lie in tspace_deform, in words
-static const uint tspace_morph_deltas = 14u;     // where the deltas lie, in words
+static const uint tspace_morph_weights = 13u;    // word offset of the weights in tspace_deform
+static const uint tspace_morph_deltas = 14u;     // word offset of the deltas in tspace_deform
 static const uint tspace_vertex_count = 15u;     // of morph targets
 static const uint tspace_skin = 16u;             // 1: skinned, by four joints per vertex
-static const uint tspace_skin_joints = 17u;      // where four words per vertex lie in tspace_deform
-static const uint tspace_skin_weights = 18u;     // where four floats per vertex lie
-static const uint tspace_skin_matrices = 19u;    // where three rows of four floats per joint lie
+static const uint tspace_skin_joints = 17u;      // word offset of the joints in tspace_deform: 4 words per vertex
+static const uint tspace_skin_weights = 18u;     // word offset of the joint weights: 4 floats per vertex
+static const uint tspace_skin_matrices = 19u;    // word offset of the matrices: 3 rows of 4 floats per joint
 static const uint tspace_first_result = 20u;     // of this dispatch
 
 static const uint tspace_no_tangent = 0x80000000u;
@@ -199,7 +199,7 @@ struct tspace_Corner {
     float3 next;      // from this corner to the next one
     float3 previous;  // from this corner to the one before
     uint vertex_number;
-    uint uvs;  // where the coefficients of its UVs lie in tspace_plan
+    uint uvs;  // offset of the UV coefficients in tspace_plan
 };
 
 uint tspace_vertexOf(uint entry) {
@@ -353,7 +353,7 @@ struct tspace_Sums {
     float3 b;
 };
 
-// What a corner adds for mikktspace, uniform, angle and area: its tangent across the normal, unit, times its weight.
+// Returns the term of a corner for mikktspace, uniform, angle, area: its tangent across the normal, unit, times its weight.
 float3 tspace_weightedTangent(tspace_Corner corner, float3 n, uint method) {
     float a = asfloat(tspace_plan[corner.uvs]);
     float b = asfloat(tspace_plan[corner.uvs + 1u]);
@@ -377,7 +377,7 @@ float3 tspace_weightedTangent(tspace_Corner corner, float3 n, uint method) {
     return weight * tangent;
 }
 
-// What a corner adds for fast: one sum that is accurate on smooth surfaces, one that is robust.
+// Returns the terms of a corner for fast: one sum that is accurate on smooth surfaces, one that is robust.
 tspace_Sums tspace_twoWeights(tspace_Corner corner, float scale) {
     tspace_Sums sums;
     sums.a = float3(0.0, 0.0, 0.0);
@@ -595,7 +595,7 @@ float3 tspace_octTangent(float4 n, uint k) {
     return tspace_direction(t);
 }
 
-// Where a unit vector lies on the unfolded octahedron, from -1 to 1: the b with b (2.5 - b) along |n| and sum 1, by three
+// Returns the point of a unit vector on the unfolded octahedron, -1 to 1: the b with b (2.5 - b) along |n| and sum 1, by three
 // steps of Newton's method.
 float2 tspace_octPoint(float3 n) {
     float3 size = abs(n);
@@ -622,7 +622,7 @@ float2 tspace_octPoint(float3 n) {
     return float2(x, y);
 }
 
-// The last of the 2048 angles that is not after one whose cosine and sine are as c to s.
+// Returns the largest of the 2048 angle steps that does not exceed atan2(s, c). (c, s) need not be a unit vector.
 uint tspace_octAngle(float c, float s) {
     float run = abs(c);
     float rise = abs(s);

@@ -19,13 +19,13 @@ constant uint tspace_tangent_format = 9u;  // 0: T and sign as four floats; 2: o
 constant uint tspace_tangent_offset = 10u;
 constant uint tspace_tangent_stride = 11u;
 constant uint tspace_morph_count = 12u;    // targets, of three floats per vertex one after the other; 0: none
-constant uint tspace_morph_weights = 13u;  // where the weights lie in tspace_deform, in words
-constant uint tspace_morph_deltas = 14u;   // where the deltas lie, in words
+constant uint tspace_morph_weights = 13u;  // word offset of the weights in tspace_deform
+constant uint tspace_morph_deltas = 14u;   // word offset of the deltas in tspace_deform
 constant uint tspace_vertex_count = 15u;   // of morph targets
 constant uint tspace_skin = 16u;           // 1: skinned, by four joints per vertex
-constant uint tspace_skin_joints = 17u;    // where four words per vertex lie in tspace_deform
-constant uint tspace_skin_weights = 18u;   // where four floats per vertex lie
-constant uint tspace_skin_matrices = 19u;  // where three rows of four floats per joint lie
+constant uint tspace_skin_joints = 17u;    // word offset of the joints in tspace_deform: 4 words per vertex
+constant uint tspace_skin_weights = 18u;   // word offset of the joint weights: 4 floats per vertex
+constant uint tspace_skin_matrices = 19u;  // word offset of the matrices: 3 rows of 4 floats per joint
 constant uint tspace_first_result = 20u;   // of this dispatch
 
 constant uint tspace_no_tangent = 0x80000000u;
@@ -37,12 +37,12 @@ constant float tspace_greatest = 3.4e38f;
 struct tspace_Evaluator {
     // The words of a plan: PlanBuffers in plan_buffers.h.
     const device uint* tspace_plan;
-    // How the arrays of a pose lie in their buffers: 32 words, see tspace_setting.
+    // Layout of the arrays of a pose in their buffers: 32 words, see tspace_setting.
     const device uint* tspace_settings;
     const device uint* tspace_positions;
-    // Morph deltas, joints, weights and matrices, where the settings ask for them.
+    // Morph deltas, joints, weights and matrices, if the settings enable them.
     const device uint* tspace_deform;
-    // Read where the plan makes no normals, else written.
+    // Written if the plan computes normals, otherwise read.
     device uint* tspace_normals;
     device uint* tspace_tangents;
 
@@ -207,7 +207,7 @@ struct tspace_Evaluator {
         float3 next;      // from this corner to the next one
         float3 previous;  // from this corner to the one before
         uint vertex_number;
-        uint uvs;  // where the coefficients of its UVs lie in tspace_plan
+        uint uvs;  // offset of the UV coefficients in tspace_plan
     };
 
     uint tspace_vertexOf(uint entry) {
@@ -361,7 +361,7 @@ struct tspace_Evaluator {
         float3 b;
     };
 
-    // What a corner adds for mikktspace, uniform, angle and area: its tangent across the normal, unit, times its weight.
+    // Returns the term of a corner for mikktspace, uniform, angle, area: its tangent across the normal, unit, times its weight.
     float3 tspace_weightedTangent(tspace_Corner corner, float3 n, uint method) {
         float a = as_type<float>(tspace_plan[corner.uvs]);
         float b = as_type<float>(tspace_plan[corner.uvs + 1u]);
@@ -385,7 +385,7 @@ struct tspace_Evaluator {
         return weight * tangent;
     }
 
-    // What a corner adds for fast: one sum that is accurate on smooth surfaces, one that is robust.
+    // Returns the terms of a corner for fast: one sum that is accurate on smooth surfaces, one that is robust.
     tspace_Sums tspace_twoWeights(tspace_Corner corner, float scale) {
         tspace_Sums sums;
         sums.a = float3(0.0f, 0.0f, 0.0f);
@@ -605,7 +605,7 @@ struct tspace_Evaluator {
         return tspace_direction(t);
     }
 
-    // Where a unit vector lies on the unfolded octahedron, from -1 to 1: the b with b (2.5 - b) along |n| and sum 1, by three
+    // Returns the point of a unit vector on the unfolded octahedron, -1 to 1: the b with b (2.5 - b) along |n| and sum 1, by three
     // steps of Newton's method.
     float2 tspace_octPoint(float3 n) {
         float3 size = metal::abs(n);
@@ -632,7 +632,7 @@ struct tspace_Evaluator {
         return float2(x, y);
     }
 
-    // The last of the 2048 angles that is not after one whose cosine and sine are as c to s.
+    // Returns the largest of the 2048 angle steps that does not exceed atan2(s, c). (c, s) need not be a unit vector.
     uint tspace_octAngle(float c, float s) {
         float run = metal::abs(c);
         float rise = metal::abs(s);

@@ -7,12 +7,12 @@
 
 // The words of a plan: PlanBuffers in plan_buffers.h.
 @group(0) @binding(0) var<storage, read> tspace_plan: array<u32>;
-// How the arrays of a pose lie in their buffers: 32 words, see tspace_setting.
+// Layout of the arrays of a pose in their buffers: 32 words, see tspace_setting.
 @group(0) @binding(1) var<storage, read> tspace_settings: array<u32>;
 @group(0) @binding(2) var<storage, read> tspace_positions: array<u32>;
-// Morph deltas, joints, weights and matrices, where the settings ask for them.
+// Morph deltas, joints, weights and matrices, if the settings enable them.
 @group(0) @binding(3) var<storage, read> tspace_deform: array<u32>;
-// Read where the plan makes no normals, else written.
+// Written if the plan computes normals, otherwise read.
 @group(0) @binding(4) var<storage, read_write> tspace_normals: array<u32>;
 @group(0) @binding(5) var<storage, read_write> tspace_tangents: array<u32>;
 
@@ -28,13 +28,13 @@ const tspace_tangent_format: u32 = 9u;  // 0: T and sign as four floats; 2: oct3
 const tspace_tangent_offset: u32 = 10u;
 const tspace_tangent_stride: u32 = 11u;
 const tspace_morph_count: u32 = 12u;      // targets, of three floats per vertex one after the other; 0: none
-const tspace_morph_weights: u32 = 13u;    // where the weights lie in tspace_deform, in words
-const tspace_morph_deltas: u32 = 14u;     // where the deltas lie, in words
+const tspace_morph_weights: u32 = 13u;    // word offset of the weights in tspace_deform
+const tspace_morph_deltas: u32 = 14u;     // word offset of the deltas in tspace_deform
 const tspace_vertex_count: u32 = 15u;     // of morph targets
 const tspace_skin: u32 = 16u;             // 1: skinned, by four joints per vertex
-const tspace_skin_joints: u32 = 17u;      // where four words per vertex lie in tspace_deform
-const tspace_skin_weights: u32 = 18u;     // where four floats per vertex lie
-const tspace_skin_matrices: u32 = 19u;    // where three rows of four floats per joint lie
+const tspace_skin_joints: u32 = 17u;      // word offset of the joints in tspace_deform: 4 words per vertex
+const tspace_skin_weights: u32 = 18u;     // word offset of the joint weights: 4 floats per vertex
+const tspace_skin_matrices: u32 = 19u;    // word offset of the matrices: 3 rows of 4 floats per joint
 const tspace_first_result: u32 = 20u;     // of this dispatch
 
 const tspace_no_tangent: u32 = 0x80000000u;
@@ -200,7 +200,7 @@ struct tspace_Corner {
     next: vec3f,      // from this corner to the next one
     previous: vec3f,  // from this corner to the one before
     vertex_number: u32,
-    uvs: u32,  // where the coefficients of its UVs lie in tspace_plan
+    uvs: u32,  // offset of the UV coefficients in tspace_plan
 }
 
 fn tspace_vertexOf(entry: u32) -> u32 {
@@ -354,7 +354,7 @@ struct tspace_Sums {
     b: vec3f,
 }
 
-// What a corner adds for mikktspace, uniform, angle and area: its tangent across the normal, unit, times its weight.
+// Returns the term of a corner for mikktspace, uniform, angle, area: its tangent across the normal, unit, times its weight.
 fn tspace_weightedTangent(corner: tspace_Corner, n: vec3f, method: u32) -> vec3f {
     var a: f32 = bitcast<f32>(tspace_plan[corner.uvs]);
     var b: f32 = bitcast<f32>(tspace_plan[corner.uvs + 1u]);
@@ -378,7 +378,7 @@ fn tspace_weightedTangent(corner: tspace_Corner, n: vec3f, method: u32) -> vec3f
     return weight * tangent;
 }
 
-// What a corner adds for fast: one sum that is accurate on smooth surfaces, one that is robust.
+// Returns the terms of a corner for fast: one sum that is accurate on smooth surfaces, one that is robust.
 fn tspace_twoWeights(corner: tspace_Corner, scale: f32) -> tspace_Sums {
     var sums: tspace_Sums;
     sums.a = vec3f(0.0, 0.0, 0.0);
@@ -596,7 +596,7 @@ fn tspace_octTangent(n: vec4f, k: u32) -> vec3f {
     return tspace_direction(t);
 }
 
-// Where a unit vector lies on the unfolded octahedron, from -1 to 1: the b with b (2.5 - b) along |n| and sum 1, by three
+// Returns the point of a unit vector on the unfolded octahedron, -1 to 1: the b with b (2.5 - b) along |n| and sum 1, by three
 // steps of Newton's method.
 fn tspace_octPoint(n: vec3f) -> vec2f {
     var size: vec3f = abs(n);
@@ -623,7 +623,7 @@ fn tspace_octPoint(n: vec3f) -> vec2f {
     return vec2f(x, y);
 }
 
-// The last of the 2048 angles that is not after one whose cosine and sine are as c to s.
+// Returns the largest of the 2048 angle steps that does not exceed atan2(s, c). (c, s) need not be a unit vector.
 fn tspace_octAngle(c: f32, s: f32) -> u32 {
     var run: f32 = abs(c);
     var rise: f32 = abs(s);

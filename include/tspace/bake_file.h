@@ -187,7 +187,7 @@ struct ExplainedRays {
 struct MapErrorFileReport {
     std::uint32_t width = 0, height = 0;
     unsigned bits = 8;
-    MapError error = {};  ///< error as requested, without heat
+    MapError error = {};  ///< error with the requested interpretation and rays; `heat` is empty
     /// All ray settings that were tried, best first; the first is how the map was probably baked. Measured at 20,000
     /// points with the best interpretation for the requested rays. With a cage mesh no other setting is tried.
     std::vector<ExplainedRays> rays = {};

@@ -49,8 +49,8 @@ struct FileOptions {
     /// Called with the path of each file that is read, immediately, and of each image on disk that a glTF refers to,
     /// read or not. May be called by several threads at the same time.
     std::function<void(const std::string& path)> opened = {};
-    /// Called with the paths of images that a glTF refers to, instead of `opened`, if set; these need not have been
-    /// read.
+    /// If set, called instead of `opened` with the path of each image that a glTF references, whether or not the image
+    /// is read.
     std::function<void(const std::string& path)> named = {};
     /// true: flush a written file to disk before it is renamed to its final name, so that after a power failure either
     /// the complete old file or the complete new file exists. false: faster for many small files.

@@ -109,9 +109,9 @@ struct GenerateOptions {
     struct Tangents {
         TangentOptions compute{.convention = conventions::gltf};
         TextureTransform texture_transform = TextureTransform::apply;
-        /// Faces that mikktspace is computed on; other methods use triangles. Pairs of triangles become quads if the
-        /// file's own tangents indicate them, otherwise by shape. Polygons of an OBJ file are known: `quads` uses
-        /// them directly. ExistingTangents::repair keeps tangents that are correct on either kind of face.
+        /// Faces that mikktspace is computed on; other methods use triangles. `quads` merges pairs of triangles
+        /// as the file's tangents indicate, or by shape if the tangents do not indicate pairs; for OBJ files it uses
+        /// the polygons of the file. ExistingTangents::repair keeps tangents that are correct on either kind of face.
         Faces faces = Faces::triangles;
         /// Also write the direction of dP/dv (TangentOutput::bitangents) with computed tangents, as the attribute
         /// _BITANGENT (VEC3, in Storage::format). Its differences also cause splits. Morph targets get no deltas for
@@ -153,7 +153,8 @@ struct GenerateOptions {
         /// computed or not, from their stored values. Morph targets get none: packed frames are those of the base
         /// mesh.
         std::optional<FrameFormat> pack = {};
-        /// Attributes that morph targets modify are kept. Without `pack` it must be `nothing` (invalidOption).
+        /// Attributes to remove where frames were packed; those that morph targets modify are kept. Must be `nothing`
+        /// if `pack` is empty (invalidOption).
         PackDrop pack_drop = PackDrop::nothing;
     };
 

@@ -113,7 +113,8 @@ struct Explanation {
     /// quads: the method ran on quads formed from pairs of triangles (mikktspace only). Such an entry exists only if it
     /// explains clearly more corners than triangles do.
     Faces faces = Faces::triangles;
-    std::int32_t uv_set = -1;     ///< n of the TEXCOORD_n used; -1 over several primitives: the UV set of the texture
+    /// Index n of the TEXCOORD_n used. -1 in results over several primitives: each uses the UV set of its texture.
+    std::int32_t uv_set = -1;
     bool is_textures_set = true;  ///< it is the UV set that the material's texture uses
     /// true: with UVs after the texture's transform (KHR_texture_transform); false: with UVs as stored.
     bool is_transformed = false;

@@ -277,7 +277,7 @@ struct ConvertMapReport {
     std::uint64_t conflicting = 0;
     // Ignored triangles:
     std::uint64_t degenerate_uv_count = 0;  ///< triangles without UV area
-    std::uint64_t bad_uv_count = 0;         ///< triangles whose UVs are not finite, or span more than 64 images
+    std::uint64_t bad_uv_count = 0;         ///< triangles whose UVs are not finite, or span over 64 texture repeats
     std::uint64_t unmatched = 0;  ///< texels of the source's triangles that the other side does not cover: unchanged
     /// Texels whose triangles on the two sides do not have equal corners and are over a fiftieth of the mesh's size
     /// apart in space, if both have positions: the sides are not the same surface with the same UV map.
@@ -411,9 +411,9 @@ struct BakedMap {
     std::vector<bool> overlaps = {};        ///< one per texel: its center is inside several triangles
     std::uint64_t hit_count = 0, missed_count = 0, padding_count = 0;  ///< numbers of texels
     std::uint64_t overlap_count = 0;  ///< texels whose center is inside several triangles
-    /// Overlapping texels whose triangles require normals over 2 degrees apart, which MapOverlap resolves, and the
-    /// angles between these normals: between two triangles that share a texel, or between the piece used and the mean
-    /// of the others.
+    /// Overlapping texels whose triangles require normals over 2 degrees apart; MapOverlap selects the result. Angles:
+    /// between the normals of two triangles at a texel, or between the normal of the selected UV piece and the mean of
+    /// the others.
     std::uint64_t conflict_count = 0;
     double conflict_mean_deg = 0, conflict_max_deg = 0;
     std::uint64_t degenerate_uv_count = 0;  ///< triangles that have no UV area or UVs that are not finite: not drawn

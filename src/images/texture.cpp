@@ -156,7 +156,7 @@ ImageClaim claimOfTexture(ByteSpan bytes) {
     if (!texture) return {};
     const std::uint64_t pixel_bytes = texture->format.is_float ? 16 + 3 : 3;
     std::uint64_t unpacked = texture->repacking == Repacking::none ? 0 : texture->levelBytes();
-    // ASTC decodes all texels at once, as floats; plus the library's tables.
+    // The ASTC decoder needs memory for all texels as floats, and for its own tables.
     constexpr std::uint64_t kTables = std::uint64_t{8} << 20;
     if (texture->format.decode == nullptr) unpacked += sizeof(Rgba) * texture->size.pixels() + kTables;
     return {texture->size, pixel_bytes * texture->size.pixels() + unpacked + rowBytes(*texture)};

@@ -10,7 +10,7 @@
 namespace tspace::test {
 namespace {
 
-/// Returns a runner that sets the variables of failing_calls.
+/// Returns a command prefix that preloads failing_calls and sets its environment variables.
 std::string with(const std::string& settings) { return settings + " LD_PRELOAD='" TSPACE_FAILING_CALLS "'"; }
 
 std::string writeModel(const TempFolder& folder) {

@@ -369,7 +369,7 @@ double meansApart(const std::vector<Vec3>& a, const std::vector<Vec3>& b, std::u
     return sum / count;
 }
 
-// Like baked maps: with 8 bits, smaller levels show the means of texels.
+// As in baked maps, 8-bit maps with `even` lengths have smaller direction errors in mip levels than with `free`.
 TEST(ConvertMap, EvenLengthsLeanLessInSmallerLevelsThanFreeOnes) {
     const Corners from = cornersOf({}), to = cornersOf({.twist = 0.3, .lean = 0.2});
     const auto texels = gentleTexels(), exact = converted(texels, from.side(), to.side(), {.bits = 32});

@@ -387,7 +387,7 @@ TEST(ConvertMaps, RefusesOptionsThatChangeThePictureOnPurpose) {
 TEST(ConvertMaps, KeepThePicturesOfModels) {
     struct Model {
         const char* path;
-        double most;  ///< error with the old maps, as mean over primitives
+        double most;  ///< upper limit: the mean error over primitives with the unconverted maps
     };
     for (const Model& model :
          {Model{"features/DuplicateMeshes/duplicate_meshes.gltf", 1.02},

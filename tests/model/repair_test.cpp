@@ -334,7 +334,7 @@ TEST(Repair, DecidesForEachPrimitiveOverSharedVertices) {
     EXPECT_EQ(readTangents(document, after[1])[0].w, 1);
 }
 
-/// A warning of `check`, and cases without any finding.
+/// Repair keeps tangents for which `check` reports only a warning or nothing.
 TEST(Repair, LeavesWhatIsNoError) {
     for (const float degrees : {20.0f, 40.0f}) {
         MappedModel model(1, pngFile(normalMapOf(256, bumps, false)));

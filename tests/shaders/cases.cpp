@@ -317,7 +317,7 @@ void threeItem(RandomBits& random, Item& item) {
     item.add(face);
     item.expect(face * unitOf(combined(texel, unitOf(in.tangent), unitOf(in.bitangent), unitOf(in.normal))));
 }
-/// Adds the channels that follow (r, g) in a two-channel map.
+/// Adds the interpolated frame, and the normal expected for the two-channel texel (r, g).
 void addTwoChannelRest(RandomBits& random, Item& item, double r, double g) {
     const Interpolated in = someInterpolated(random);
     item.add(in.normal);

@@ -443,7 +443,7 @@ TEST(CompressMapCommand, SaysWhatTwoChannelsDoNotHold) {
     }
 }
 
-/// Writes texels that lean in all directions, with lengths alternating between `sizes`.
+/// Returns a PNG file of vectors tilted in all directions, with lengths alternating between the two `sizes`.
 std::string vectorsOfSizes(std::array<double, 2> sizes) {
     FloatImage image{64, 64, 8, {}, {}};
     for (std::uint32_t i = 0; i < 64 * 64; ++i) {

@@ -204,7 +204,7 @@ class PairsRun {
         done.outcome.input = pair.job.input;
         done.outcome.output = pair.job.output;
         std::vector<std::string> read = {pair.job.input, pair.high};
-        // A different high poly or output gives a different result.
+        // With --resume, a pair is baked again if its high poly or output model has changed, so both are recorded.
         const std::string options =
             arguments_.option_text + " high=" + pair.high + (pair.model.empty() ? "" : " model=" + pair.model);
         const auto make = [&]() -> Result<BakeFileReport> {

@@ -55,7 +55,7 @@ std::vector<Job> inputJobs(const std::vector<std::string>& inputs, SearchedFiles
 /// invalidOption describes a fault of the command line.
 Result<std::vector<Job>> generateJobs(const JobRequest& request);
 
-/// Returns the folders that the jobs write into, without subfolders of others.
+/// Returns the folders that the jobs write into; folders inside another listed folder are omitted.
 std::vector<std::string> outputFolders(const std::vector<Job>& jobs);
 
 }  // namespace tspace::tool

@@ -18,7 +18,7 @@ export function showAverage(host: HTMLElement, rows: HTMLElement) {
   const ring: Vec2[] = Array.from({ length: kRing }, (_, i) => [0.9 * Math.cos(0.3 + (i * 2 * Math.PI) / kRing), 0.9 * Math.sin(0.3 + (i * 2 * Math.PI) / kRing)]);
   // The texture is sheared a little differently on each triangle, so that they disagree.
   const uvs: Vec2[] = [[0, 0], ...ring.map(([x, y], i): Vec2 => [x + 0.3 * Math.sin(2.1 * i), y + 0.3 * Math.cos(2.7 * i)])];
-  let lean: Vec2 = [0.3, 0.95];  // where N ends, in the side view
+  let lean: Vec2 = [0.3, 0.95];  // end of N in the side view
 
   const place = (at: Vec2): Vec3 => [at[0], at[1], height(at)];
 

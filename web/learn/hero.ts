@@ -91,7 +91,7 @@ export function showHero(canvas: HTMLCanvasElement, line: HTMLInputElement, said
     if (typeof hit === "number") return;
     const style = getComputedStyle(document.documentElement), from: Vec2 = [kWidth / 2 + probe[0] * kScale, kHeight / 2 - probe[1] * kScale];
     const names = [["T", hit.tangent, "--tangent"], ["B", hit.bitangent, "--bitangent"], ["N", hit.normal, "--normal"]] as const;
-    // What points away from the eye is drawn first.
+    // Draw arrows that point away from the eye first.
     for (const [name, v, colour] of [...names].sort((a, b) => seen(a[1])[2] - seen(b[1])[2])) {
       const s = seen(v);
       arrow(from, [from[0] + 62 * s[0], from[1] - 62 * s[1]], name, style.getPropertyValue(colour));

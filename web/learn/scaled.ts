@@ -11,7 +11,7 @@ const kArrow = 0.62, kSteps = 72;
 export function showScale(host: HTMLElement, rows: HTMLElement) {
   const figure = new Figure(host, 600, 300, "T and N at a point of a circle, before and after a scale");
   const numbers = new Numbers(rows);
-  let factors: Vec2 = [1.6, 0.6], turn = 0.75;  // where N points on the circle, in radians
+  let factors: Vec2 = [1.6, 0.6], turn = 0.75;  // direction of N on the circle, in radians
 
   figure.show(() => {
     const [sx, sy] = factors, matrix = ([x, y]: Vec3): Vec3 => [sx * x, sy * y, 0];

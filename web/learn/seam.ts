@@ -14,7 +14,7 @@ const kHeight = 150;
 export function showSeam(host: HTMLElement, rows: HTMLElement, shared: HTMLInputElement) {
   const figure = new Figure(host, 600, 275, "Two squares that share an edge, and how the texture of the right one is turned");
   const numbers = new Numbers(rows);
-  let turn: Vec2 = [0.2, 1];  // where u runs on the right square
+  let turn: Vec2 = [0.2, 1];  // direction of u on the right square
 
   figure.show(() => {
     const a = Math.atan2(turn[1], turn[0]), c = Math.cos(a), s = Math.sin(a);

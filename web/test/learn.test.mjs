@@ -175,7 +175,7 @@ it("takes typed edges and frames, and says what follows", { skip }, async () => 
   await tab.fill('[aria-label="edges in the texture: row 1, column 1"]', "-0.1");
   assert.match(await number(tab, "triangle", "determinant"), /= \u2212/);
   assert.match(await number(tab, "triangle", "which means"), /mirrored/);
-  // What T and B must give: the edges, by the matrix.
+  // Expected T and B: computed from the edges by the matrix.
   const cells = await tab.$$eval("#triangle .system .matrix", (all) => all.map((one) => [...one.children].map((cell) => Number((cell.value ?? cell.textContent).replace("\u2212", "-")))));
   const [[s1, t1, s2, t2], [tx, ty, bx, by], [x1, y1, x2, y2]] = cells;
   [[s1 * tx + t1 * bx, x1], [s1 * ty + t1 * by, y1], [s2 * tx + t2 * bx, x2], [s2 * ty + t2 * by, y2]].forEach(([made, edge]) => assert.ok(Math.abs(made - edge) < 0.05, cells.join(" | ")));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the page mends is, byte for byte, what the tool writes.
+// Files that the page repairs are byte-identical to the output of the tool.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";

@@ -15,7 +15,7 @@ const looks = ["lit", "clay", "difference", "normals", "signs", "mirrored", "err
 /** Both sides of every look, each over all of the picture. */
 async function pictures(tab, bytes, wanted = looks) {
   await openBytes(tab, "crate.glb", bytes);
-  // What else the page shows must not change the size of the picture.
+  // Other content of the page must not change the size of the picture.
   await tab.addStyleTag({ content: ".frame { position: fixed !important; inset: 0 auto auto 0; width: 360px !important; height: 300px !important; }" });
   await drawn(tab);
   await tab.evaluate(() => window.tspaceView.views.stage.viewport.reset(true));

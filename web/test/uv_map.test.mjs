@@ -48,7 +48,7 @@ for (const [width, height, scheme] of [[1280, 800, "light"], [390, 844, "light"]
       assert.ok((await inModel(tab)).split(" ").includes(triangle), `${triangle} among ${await inModel(tab)}`);
       assert.equal(await inModel(tab), await inMap(tab));
       assert.match(await tab.locator(".large-map [role=status]").textContent(), /^UV 0\.\d{4} {2}0\.\d{4}: .*triangle/);
-      // What is seen is what is outlined: its middle is under the outline's colour.
+      // The visible part is the outlined one: its center has the color of the outline.
       const eye = () => tab.evaluate(() => window.tspaceView.views.stage.viewport.camera.position.toArray());
       const before = await eye();
       await tab.mouse.click(place.x, place.y);

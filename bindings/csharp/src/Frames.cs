@@ -256,8 +256,8 @@ namespace Tspace
             return true;
         }
 
-        /// <summary>Computes tangents for a pose: as many positions and normals as in the mesh; writes 4 floats for
-        /// each of OutputCount.</summary>
+        /// <summary>Computes tangents for a pose, which must have as many positions and normals as the mesh. Writes
+        /// 4 * OutputCount floats.</summary>
         public void Evaluate(Points positions, Points normals, Span<float> tangents, int threads = 1)
         {
             Native.Execution execution = TangentOptions.Execution(threads);

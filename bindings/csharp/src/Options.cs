@@ -127,7 +127,7 @@ namespace Tspace
     /// <summary>Options for normals. A new instance holds the defaults.</summary>
     public sealed class NormalOptions
     {
-        /// <summary>Its handedness and winding define the outside.</summary>
+        /// <summary>Convention whose handedness and winding define the outside of faces.</summary>
         public Convention Convention { get; set; }
         public NormalWeighting Weighting { get; set; }
         /// <summary>Degrees, 0..180: edges where face normals differ by more are hard. 180: no hard edges. -1: derived
@@ -136,8 +136,8 @@ namespace Tspace
         /// <summary>Welds vertices at the same position.</summary>
         public bool WeldPositions { get; set; }
         /// <summary>With WeldPositions: positions that differ by at most this in each coordinate are welded. 0: only
-        /// equal positions. -1: twice the spacing of floats at the largest coordinate, if edges are at least 32 times
-        /// as long.</summary>
+        /// equal positions. -1: twice the spacing of floats at the largest coordinate, applied only to positions with
+        /// an edge of at least 32 times that length.</summary>
         public float WeldDistance { get; set; }
         /// <summary>Number of refinement steps of Best after its fit: 0, 1 or 2.</summary>
         public int Refine { get; set; }

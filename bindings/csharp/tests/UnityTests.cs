@@ -26,7 +26,7 @@ internal static class UnityTests
         foreach (int[] part in mesh.parts)
         {
             float x = mesh.tangents[part[0]].x, w = mesh.tangents[part[0]].w;
-            // T points along increasing u, and both halves have different signs.
+            // T points along increasing u, and the two mirrored halves have opposite signs.
             isRight &= part.All(v => mesh.tangents[v].x == x && mesh.tangents[v].w == w) && x == (part == mesh.parts[0] ? 1 : -1);
         }
         isRight &= mesh.tangents[mesh.parts[0][0]].w == -mesh.tangents[mesh.parts[1][0]].w;

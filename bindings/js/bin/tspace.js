@@ -10,7 +10,7 @@ import { toolWord } from "./paths.js";
 import { mostPages } from "./system.js";
 import { instanceOf, newTable, programEnd } from "./threads.js";
 
-// The server runs this program for each call, and ends the process.
+// The MCP server starts this program for each tool call, and serve() does not return.
 if (process.argv[2] === "mcp") await (await import("./mcp.js")).serve(process.argv.slice(3));
 
 // A command calls few of the functions, so they are validated and compiled on first use.

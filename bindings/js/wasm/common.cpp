@@ -21,7 +21,7 @@ Convention conventionOf(std::uint32_t bits) {
 }
 
 void keep(const TangentReport& r) {
-    // The counts in their order, then the flag.
+    // Layout of TangentReport: eight counts, then reference_order_abandoned.
     struct Words {
         std::uint64_t counts[8], flag;
     };

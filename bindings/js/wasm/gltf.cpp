@@ -59,7 +59,7 @@ tspace_Model modelOf(const ModelWords& words, std::uintptr_t number) {
 
 extern "C" {
 
-/// Whether the next call can be stopped.
+/// true: the next call can be stopped.
 TSPACE_JS_EXPORT(setCanStop) void setCanStop(bool can_stop) { tspace_js_can_stop = can_stop; }
 
 /// `models`: one model, or two for diff. `results`: receives four words, address and size of output and report, to be

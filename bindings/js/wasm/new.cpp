@@ -8,7 +8,7 @@
 extern "C" {
 
 void tspace_endCallOutOfMemory() { tspace_js_endCall(9); }
-/// Called by the C++ library for lists that exceed the address space.
+/// Called by the C++ standard library if a container would exceed its maximum size.
 void abort() { tspace_js_endCall(9); }
 
 }  // extern "C"

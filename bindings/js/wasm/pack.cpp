@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The module of the entry "tspace/pack".
+// WebAssembly module of the package entry point "tspace/pack".
 #include "tspace/pack.h"
 
 #include "exports.h"

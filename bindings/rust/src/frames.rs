@@ -252,7 +252,7 @@ pub struct IndexedFrames {
     pub normal_report: Option<NormalReport>,
     /// Counts of tangents.
     pub tangent_report: TangentReport,
-    /// What was mended.
+    /// Counts of repaired values.
     pub sanitize_report: SanitizeReport,
 }
 

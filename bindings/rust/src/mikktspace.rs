@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-//! For code that calls the crate `mikktspace` 0.3, or `bevy_mikktspace` up to 0.16: their trait, and their function, with the
-//! same bits. The trait of versions 0.17 and 1.0 of `bevy_mikktspace` is in [`bevy_mikktspace`](crate::bevy_mikktspace).
+//! Drop-in replacement for the crates `mikktspace` 0.3 and `bevy_mikktspace` up to 0.16: same trait, same function, and
+//! bit-identical results. The trait of versions 0.17 and 1.0 of `bevy_mikktspace` is in
+//! [`bevy_mikktspace`](crate::bevy_mikktspace).
 //!
 //! ```
 //! use tspace::mikktspace::{generate_tangents, Geometry};

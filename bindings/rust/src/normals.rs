@@ -9,7 +9,7 @@ use crate::tangents::{new_report, span};
 /// Options for normals. [`NormalOptions::new`] sets the defaults.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormalOptions<'a> {
-    /// Its handedness and winding define the outside.
+    /// Convention whose handedness and winding define the outside of faces.
     pub convention: Convention,
     /// Default: [`NormalWeighting::Angle`].
     pub weighting: NormalWeighting,

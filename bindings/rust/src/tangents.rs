@@ -285,7 +285,7 @@ impl Plan {
         self.info().map_or(0, |info| info.memory_bytes)
     }
 
-    /// Computes tangents for a pose: as many positions and normals as in the mesh.
+    /// Computes tangents for a pose. `positions` and `normals` must have as many entries as those of the mesh.
     pub fn evaluate<'a>(
         &self,
         positions: impl Into<Points<'a, 3>>,

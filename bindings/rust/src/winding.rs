@@ -8,7 +8,7 @@ use std::ptr::null_mut;
 /// Options for [`mend_winding`]. [`WindingOptions::new`] sets the defaults.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WindingOptions {
-    /// Its handedness and winding define the correct order of corners, seen from outside.
+    /// Convention whose handedness and winding define the correct order of corners, seen from outside.
     pub convention: Convention,
     /// The mesh's normals, if consistent, define the outside. Default: true.
     pub use_normals: bool,

@@ -142,7 +142,7 @@ class MapPlacing {
         }
     }
 
-    /// Returns true if a .gltf references the map as a separate file.
+    /// Makes the map the texture of its materials. Returns true if a .gltf references the map as a separate file.
     bool place(const ModelMap& map) {
         const std::vector<std::size_t> materials = giveMaterials(map);
         const std::optional<std::size_t> old = oldTexture(materials, map.slot);

@@ -57,7 +57,7 @@ std::vector<Vec2> mapUvs(const ScenePrimitive& primitive) {
     return textureUvs(primitive.uv_sets[set].span(), use == nullptr ? UvTransform{} : use->transform);
 }
 
-/// Whether something that draws triangles lacks normals or tangents.
+/// Returns whether a primitive that draws triangles lacks normals or tangents.
 bool lacksFrames(gltf::Model& model) {
     const std::vector<gltf::Primitive>& primitives = model.primitives();
     return std::any_of(primitives.begin(), primitives.end(), [](const gltf::Primitive& primitive) {

@@ -162,7 +162,7 @@ struct OtherReading {
     std::optional<std::size_t> use = {};
 };
 
-/// All shares are relative to the surface with UV area.
+/// Thresholds of wrong tangents, as shares of the surface that has UV area.
 constexpr double kClearlyWrong = 0.2;
 /// Wrong signs without wrong directions are explained only by the primitive's own texture transform, which may mirror.
 constexpr double kSomeSigns = 0.1;

@@ -40,7 +40,7 @@ std::string decimalText(double value);
 std::vector<Finding> tangentFindings(const FrameHealth& health, const CheckOptions& options);
 
 /// Returns why the tangents certainly render wrong if a material reads them: the message of the first finding that is
-/// an error. Empty: they are good enough to be kept.
+/// an error. Returns an empty string if no finding is an error.
 std::string whyTangentsAreWrong(const FrameHealth& health, const CheckOptions& options);
 
 }  // namespace tspace

@@ -27,7 +27,8 @@ std::string setName(std::size_t set) { return "TEXCOORD_" + std::to_string(set);
 
 namespace {
 
-/// Normals at more than 96 degrees point to the back; the margin allows for coarse smooth shading.
+/// A normal points to the back if the cosine of its angle to the face normal is smaller (angles over 96 degrees). The
+/// margin over 90 degrees allows for coarse smooth shading.
 constexpr double kLeastFacing = -0.1;
 /// Share of the surface from which the whole mesh is reported as inside out.
 constexpr double kMostOfSurface = 0.5;

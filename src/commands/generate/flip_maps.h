@@ -45,9 +45,9 @@ std::vector<JudgedMap> judgeMaps(const Scene& scene, const std::vector<bool>& ke
 
 // Rewrites images with contents that glTF does not support as normal maps.
 
-/// Returns the image of `map` as a PNG with the encoding of glTF. `bytes`: the image file, or its inverted version. If
-/// the image is unchanged, returns nothing, and `map.report` has the reason; otherwise `map.report` describes the
-/// former contents. Throws FileError.
+/// Returns the image of `map` as a PNG with the encoding of glTF. `bytes`: the image file, possibly with green
+/// inverted. If the image is unchanged, returns nothing, and `map.report` has the reason; otherwise `map.report`
+/// describes the former contents. Throws FileError.
 Bytes mendMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options, JudgedMap& map);
 
 struct MadeOfHeights {

@@ -53,7 +53,7 @@ void warnOfWinding(const GenerateOptions& options, GenerateReport& report) {
 
 namespace {
 
-/// Formats such as "--a has no effect: ..." and "--a and --b have no effect: ..."
+/// Adds a warning such as "--a has no effect: <why>" or "--a and --b have no effect: <why>".
 void warn(const std::vector<std::string>& options, const std::string& why, GenerateReport& report) {
     if (options.empty()) return;
     std::string text;

@@ -105,7 +105,7 @@ class Explainer {
           mesh_(primitive.view(reading.uvs)),
           votes_(uvVotes(mesh_)) {}
 
-    /// Whether any triangle has UV area.
+    /// Returns whether any triangle has UV area.
     [[nodiscard]] bool hasVotes() const { return std::find(votes_.begin(), votes_.end(), 1) != votes_.end(); }
 
     Result<Done> tryMethods(std::vector<Explanation>& explanations) const {

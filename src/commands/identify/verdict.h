@@ -31,7 +31,7 @@ Result<std::vector<Explanation>> explainTangents(const ScenePrimitive& primitive
 /// set of the texture is first, and among these the best-known method.
 void sortExplanations(std::vector<Explanation>& explanations);
 
-/// Returns the best explanation along the UV set of the texture, with or without its transform; null: none.
+/// Returns the best explanation that uses the UV set of the texture, transformed if `is_transformed`; null: none.
 const Explanation* bestReading(const PrimitiveIdentity& primitive, bool is_transformed);
 
 /// Returns whether the transformed UVs explain more corners than the stored UVs. Signs are compared too, because a

@@ -179,7 +179,7 @@ class FileMeasuring {
             }
         }
         for (const Green green : {Green::up, Green::down}) {
-            // If nearly all texels agree in both cases, the two interpretations cannot be distinguished.
+            // If ignoring blue changes nearly no texel, maps of two and three channels cannot be distinguished.
             if (in_object || !blueMatters()) break;
             MapReading reading = asked;
             reading.green = green;

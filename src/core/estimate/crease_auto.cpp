@@ -279,7 +279,7 @@ class CreaseFinder {
     /// Faces are stored in rows of four; entries after the last face are zero.
     [[nodiscard]] std::size_t paddedCount() const { return (call_.mesh.faceCount() + 3) / 4 * 4; }
 
-    /// Computes the angle in degrees at both corners of each pair; -1 without a pair.
+    /// Stores the angle between the two faces of each edge, in degrees, at both corners of the edge; -1 without a pair.
     void measureAngles() {
         angles_ = Buffer<float>(call_.allocator, call_.mesh.cornerCount(), -1.0f);
         forCorners([&](std::uint32_t c) {
@@ -317,8 +317,8 @@ class CreaseFinder {
         return of;
     }
 
-    /// Returns whether noise must be measured. Noise rotates half of the edges by at least 126 degrees times its size:
-    /// if half of the edges have angles below 2 degrees, the noise is too small to need filtering.
+    /// Returns whether noise must be measured. Noise of standard deviation s, relative to the edge length, rotates half
+    /// of the edges by at least 126 s degrees: if half of them have angles below 2 degrees, no filtering is needed.
     [[nodiscard]] static bool mayBeNoisy(const Histogram& angles) {
         return angles.lengths[0] + angles.lengths[1] < angles.all / 2;
     }

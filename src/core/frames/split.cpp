@@ -76,8 +76,8 @@ std::uint64_t cellOf(float value, float tolerance) {
 /// Variants of vertices: a vertex with its first corner, and the copies for later corners.
 class Variants {
   public:
-    /// `result` must have a first corner in source_corners for each vertex that is looked up. Copies are appended to
-    /// it; until all corners are done, its source_vertices link the variants of a vertex.
+    /// result.source_corners must hold the first corner of each vertex; copies are appended. Until all corners are
+    /// done, result.source_vertices holds linked lists of the variants of each vertex.
     Variants(AttributeSpan attributes, SplitResult& result)
         : attributes_(attributes), corners_(result.source_corners), next_(result.source_vertices) {}
 

@@ -47,7 +47,7 @@ constexpr double kNoTrust = 1e12;  // large enough that a blend has exactly the 
 constexpr std::size_t kFitStep = 12 * kFitRows;  // floats per triangle
 
 // Values at which the trust in a step is one half, tuned in the same way.
-constexpr double kStepLeft = 0.5;          // unexplained / explained change at which trust is one half
+constexpr double kStepLeft = 0.5;          // ratio of unexplained to explained change of the normal
 constexpr double kStepNoise = 1.0 / 30.0;  // part of the step's residual relative to the edge angles
 
 constexpr std::size_t kStepStride = 12 * kStepRows;  // floats per triangle

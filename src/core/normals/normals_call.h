@@ -89,8 +89,8 @@ class PointItems final : public TriangleGroups {
     const MeshFaces& faces_;
     const Buffer<std::uint32_t>& points_;
     const std::uint32_t* in_place_;  ///< the indices; null if they are not triangles with 32-bit numbers
-    /// Result of inPlace for each block. Nearly all are `own` if triangles are stored close together, and one
-    /// comparison is cheaper than looking up points in each pass.
+    /// Cached results of inPlace, one per block: a comparison replaces looking up points in each pass. Nearly all
+    /// blocks are `own` if neighboring triangles are stored close together.
     mutable Buffer<std::uint8_t> blocks_;
 };
 

@@ -311,7 +311,7 @@ class RangeWork {
     const Setting& setting_;
     const NormalsCall& call_;
     Room room_;
-    std::uint32_t first_ = 0, count_ = 0;  ///< points of the range
+    std::uint32_t first_ = 0, count_ = 0;  ///< first point and number of points of the current range
     std::uint32_t size_ = 0;               ///< number of local triangles
     std::uint32_t last_face_ = 0;
     std::uint64_t degenerate_ = 0;

@@ -171,8 +171,8 @@ class PointComponents {
         return end;
     }
 
-    /// Returns the slot of `wanted`, the corner before that of `near`: the previous slot, or at the end of the face if
-    /// `near` is the first corner of the face.
+    /// Returns the slot of corner `wanted`, which precedes the corner of slot `near` in its face: the previous slot, or
+    /// the last slot of the face if `near` is its first.
     [[nodiscard]] std::uint32_t slotOf(std::uint32_t wanted, std::uint32_t near) const {
         if (wanted < corner(near)) return near - 1;
         while (corner(near) != wanted) ++near;

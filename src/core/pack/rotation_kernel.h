@@ -98,7 +98,7 @@ void findMatrices(const FrameBlock& frames, std::size_t count, Matrices& rotatio
     }
 }
 
-/// Frames, and the charts that contain them.
+/// Candidate encodings: for each, a frame and a chart that contains its rotation.
 struct Places {
     static constexpr std::size_t kMost = 4 * kBlockFrames;
     alignas(64) float p[3][kMost], scale[kMost];  ///< the Rodrigues vector is p / scale

@@ -259,7 +259,7 @@ struct OwnAngles {
     }
 
   private:
-    /// Returns the squared length of the longest edge at the first corner.
+    /// Returns the largest squared distance of a corner of the face from its first corner.
     [[nodiscard]] double longestEdge(std::uint32_t face) const {
         const MeshFaces& faces = call.surface.faces;
         const DVec3 origin = call.surface.position(faces.first(face));

@@ -30,7 +30,7 @@ struct ChannelBlock {
     std::array<float, 16> targets = {};  ///< in steps of the format, 0 to `most`
     /// rows of H; entries for texels outside the block are contained in `pull` only
     std::array<Stencil, 16> mix = {};
-    std::array<float, 16> own_parts = {};  ///< sums of each row of H over the texels inside the block
+    std::array<float, 16> own_parts = {};  ///< for each row of H: the sum of its entries for texels inside the block
     std::array<float, 16> pull = {};       ///< g
 };
 

@@ -39,7 +39,7 @@ namespace {
 
 Moments momentsOf(const Vec3& n) { return {n.x * n.x, n.x * n.y, n.x * n.z, n.y * n.y, n.y * n.z}; }
 
-/// Sums part(texel, weight) over the source texels that a texel covers.
+/// Calls part(texel, weight) for each source texel that a texel of the smaller level covers.
 template <class Part>
 void forCovered(const MeanLevel& from, const Cover& across, const Cover& down, const Part& part) {
     for (std::size_t j = 0; j < down.weights.size(); ++j) {

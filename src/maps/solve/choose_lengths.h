@@ -25,9 +25,10 @@ struct VectorMap {
     float scale = 1;  ///< factor by which readers multiply x and y
 };
 
-/// Replaces vectors by vectors that integers represent and for which the filtered map keeps its directions. A vector
-/// whose length is outside the requested range keeps it within 5 %, as do neighbors of vectors that differ by more than
-/// 9 degrees. Memory: 150 bytes per texel, for 130 rows at a time. The result does not depend on the number of threads.
+/// Quantizes vectors to integers such that the filtered map keeps its directions. Lengths within the requested range
+/// may change. Vectors whose length is outside it, and vectors next to one that differs by more than 9 degrees, keep
+/// their length within 5 %. Memory: 150 bytes per texel, for 130 rows at a time. The result does not depend on the
+/// number of threads.
 void chooseLengths(const VectorMap& map, TexelLengths lengths, Parallel& parallel, const Allocator* allocator);
 
 }  // namespace tspace

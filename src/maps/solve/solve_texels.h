@@ -72,8 +72,8 @@ class TexelSystem {
     [[nodiscard]] std::uint32_t texelOf(std::size_t row) const { return texel_of_[row]; }
     [[nodiscard]] bool isUnknown(std::size_t row) const { return is_unknown_[row]; }
 
-    /// Adds a sample at the offset `fx`, `fy` (0 to 1) to the right of and below the center of a texel. Skips a sample
-    /// that mixes a texel with the role `apart`.
+    /// Adds a sample at the offset `fx`, `fy` (0 to 1) to the right of and below the center of a texel. Ignores a
+    /// sample that interpolates a texel with the role `apart`.
     void add(std::uint32_t x, std::uint32_t y, float fx, float fy, const FitSample& sample);
 
     /// Returns the row of a texel multiplied by its neighbors, given by `at(x, y)`, without the diagonal block.

@@ -52,7 +52,7 @@ std::string whyUnreadable(const Accessor& accessor, bool is_base, std::size_t ve
     return "there are " + std::to_string(accessor.count) + " of them for " + std::to_string(vertex_count) + " vertices";
 }
 
-/// An invalid TANGENT does not make a file invalid either.
+/// Moves TANGENT attributes that cannot be read to unreadable_tangents, so that they do not make the file invalid.
 void setUnreadableApart(const Document& document, Primitive& primitive) {
     const auto setApart = [&](AttributeList& list, std::ptrdiff_t target) {
         const auto entry =

@@ -32,8 +32,8 @@ std::vector<ScenePlacement> readPlacements(const Document& document, std::span<c
 std::vector<ScenePose> readPoses(const Document& document, DecodedArrays& arrays, std::span<const Primitive> primitives,
                                  const DrawnScene& drawn);
 
-/// Sets `places` of the scene's primitives, which must be the given ones in the same order. Nodes that cannot be read
-/// draw nothing.
+/// Sets `places` of the scene's primitives. `primitives` must list the same primitives in the same order. Nodes that
+/// cannot be read are skipped.
 void tellPlaces(const Document& document, std::span<const Primitive> primitives, Scene& scene);
 
 /// Returns the images that these looks reference and pictures show: base colors and normal maps.

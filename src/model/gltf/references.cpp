@@ -66,7 +66,8 @@ Extent solidExtent(const Document& document, std::size_t accessor, std::size_t v
     return {accessor, view.buffer, view.begin + offset, view.begin + offset + byte_count, 0, 0};
 }
 
-/// Returns the ranges to cut from one buffer: freed, unused and aligned; sorted and disjoint.
+/// Returns the ranges to remove from one buffer: parts of `vacated` that no live extent uses, shrunk to aligned bounds.
+/// They are sorted and disjoint.
 std::vector<ByteRange> cutsOf(std::size_t buffer, std::span<const ByteRange> vacated, std::span<const Extent> live) {
     std::vector<ByteRange> holes, cuts;
     for (const ByteRange& range : vacated) {

@@ -34,7 +34,7 @@ class ByteMaker {
     [[nodiscard]] virtual std::size_t size() const = 0;
     /// Fills `to` with the bytes from `begin` on. Must be thread-safe and deterministic.
     virtual void make(std::size_t begin, std::span<std::uint8_t> to) const = 0;
-    /// Returns all bytes if they already exist, valid as long as this object; otherwise an empty span.
+    /// Returns all bytes if they already exist (valid for the lifetime of this object); otherwise an empty span.
     [[nodiscard]] virtual std::span<const std::uint8_t> there() const { return {}; }
 };
 
@@ -119,7 +119,7 @@ class InputFiles {
     void watch(FileOptions& options);
     /// Allows outputs to replace this file if a model references it as an image and nothing reads it.
     void letOff(const Path& path);
-    /// Whether `path` is one of the inputs, under any name (links, relative paths).
+    /// Returns whether `path` is one of the inputs, under any name (links, relative paths).
     [[nodiscard]] bool has(const Path& path) const;
     /// Number of the call; unique in this process.
     [[nodiscard]] std::uint64_t call() const { return call_; }

@@ -16,7 +16,8 @@
 namespace tspace::test {
 namespace {
 
-/// One file, with shares in percent of its corners. The table uses raw UVs, so "flipped" is correct for glTF.
+/// One file, with shares in percent of its corners. The table was computed with glTF UVs as stored (v down), so the
+/// inverted sign, `sign_flipped`, is the correct one.
 struct Row {
     std::string file = {};
     std::uint64_t corner_count = 0;

@@ -100,7 +100,7 @@ TEST(Sanitize, FindsABrokenCornerWhereverItLies) {
     Scene scene = twoTriangles();
     scene.face_sizes = {};
     for (std::uint32_t face = 2; face < 130; ++face) scene.indices.insert(scene.indices.end(), {0, 1, 2});
-    // Faces of either sign alternate.
+    // Every fourth face has the sign -1.
     for (std::size_t c = scene.tangents.size(); c < scene.indices.size(); ++c)
         scene.tangents.push_back({1, 0, 0, c / 3 % 4 == 1 ? -1.0f : 1.0f});
     ASSERT_EQ(scene.sanitize().mendedCount(), 0u);

@@ -120,7 +120,7 @@ TEST(WeldDistance, GivesTheSameBitsForAnyNumberOfThreads) {
     EXPECT_EQ(normalsOf(mesh, options, 1), normalsOf(mesh, options, 3));
 }
 
-/// Its edges are a few float spacings long: the remaining shape must be preserved.
+/// Edges are a few float spacings long: the remaining shape must be preserved.
 TEST(WeldDistance, LeavesSmallMeshesFarFromTheOriginAlone) {
     const SimpleMesh mesh = torus(0.01, {4096, 0, 0});
     Parallel parallel({});

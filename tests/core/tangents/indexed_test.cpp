@@ -350,7 +350,7 @@ TEST(Lengyel, TellsSliversOfTheUvMapFromCollinearUvs) {
     mesh.addFace({0, 1, 2});
     for (const int bits : {0, 8, 16, 22}) {
         const float height = std::ldexp(1.0f, -bits);
-        // s = (1, 1 + height) rotated by the diagonal; the determinant is exactly `height`.
+        // In UV space a sliver along the diagonal, whose determinant is exactly `height`.
         mesh.uvs = {{0, 0}, {1, 1}, {1, 1 + height}};
         const Outputs out = tangentsOf(mesh.view(), {.method = Method::lengyel, .convention = conventions::opengl});
         // dP/du = ((1 + h) E1 - E2) / h, dP/dv = (E2 - E1) / h

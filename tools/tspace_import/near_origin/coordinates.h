@@ -21,7 +21,7 @@ struct VertexList {
 class FileCoordinates {
   public:
     virtual ~FileCoordinates() = default;
-    /// Returns the file with the values of the moved lists.
+    /// Returns the bytes of the file with the coordinates of all moved vertex lists replaced.
     virtual std::vector<char> rewritten() = 0;
 
     std::vector<VertexList> lists = {};

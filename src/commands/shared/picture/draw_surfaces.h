@@ -69,7 +69,7 @@ struct PlacedTexture {
 Vec3 sampleAt(const PlacedTexture& texture, const std::array<std::uint32_t, 3>& vertices,
               const std::array<double, 3>& weights);
 
-/// Whether a triangle shows its texture mirrored.
+/// Returns whether a triangle shows its texture mirrored.
 enum class UvSide : std::uint8_t { unknown, plain, mirrored };
 
 /// Data of one primitive that views show.

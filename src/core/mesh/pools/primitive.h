@@ -205,8 +205,8 @@ void countFaults(std::span<const Vec3> positions, std::span<const Vec3> normals,
 
 // Repair of tangents and bitangents: invalid values are repaired, and all others keep their bits.
 
-/// Returns the kept tangent with valid values (hasSoundValues): normalizes an invalid length, sets w to +1 or -1, and
-/// uses the direction of `instead`, which must be valid, if there is none. Valid values keep their bits.
+/// Returns `kept` with valid values (hasSoundValues): normalized if its length is invalid, with w = +1 or -1, and with
+/// the direction of `instead` (which must be valid) if `kept` has none. Valid values keep their bits.
 Vec4 withSoundValues(const Vec4& kept, const Vec4& instead, const Vec3& normal);
 
 /// Returns a unit tangent perpendicular to N.

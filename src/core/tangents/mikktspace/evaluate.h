@@ -75,8 +75,8 @@ struct EvaluationPlan {
     [[nodiscard]] std::size_t memoryBytes() const;
 };
 
-/// Creates a plan to be kept. Requires a validated mesh with normals and UVs and at most kMaxHalfEdges. Throws
-/// OutOfMemory.
+/// Creates a plan, by default for repeated evaluation. Requires a validated mesh with normals and UVs and at most
+/// kMaxHalfEdges. Throws OutOfMemory.
 EvaluationPlan planGrouped(const MeshView& mesh, const Call<TangentOptions>& options, Parallel& parallel,
                            PlanUse use = PlanUse::kept);
 
@@ -149,7 +149,7 @@ struct Tangents {
     bool positive = false;
 };
 
-/// Returns a result without tangent and orientation, to be stored in place of the sum.
+/// Returns the bitangent and both magnitudes of a result, in the struct that otherwise holds the sums of a group.
 inline GroupRest restOf(const Tangents& r) { return {{r.t.x, r.t.y, r.t.z, r.mag_s}, r.mag_t}; }
 
 /// Returns the result of a group whose members' rows (corner_terms.h) sum up to s and `rest`.

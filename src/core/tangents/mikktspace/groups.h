@@ -55,7 +55,8 @@ struct NodeGroups {
 
 class Grouping {
   public:
-    /// Sets the orientation of contested triangles in corners.flags. The arguments must outlive the object.
+    /// Sets the orientation of contested triangles (no UV area, and groups of both orientations may claim them) in
+    /// corners.flags. The arguments must outlive the object.
     Grouping(const VertexPath& path, VertexCorners& corners);
 
     /// The result is valid until the next call.

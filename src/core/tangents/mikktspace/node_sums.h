@@ -73,8 +73,8 @@ class Fan {
         const bool is_complex = laneBits(std::bit_cast<Mask4>(ends_ == own)) != 0;
         if (is_complex || (laneBits(std::bit_cast<Mask4>(other == 0)) & 5) == 0) [[unlikely]]
             return addToMany({own[0], own[1]}, room);
-        // If the triangle extends a path, the path's far end replaces the triangle's end. A closed ring keeps stale
-        // ends, which match no triangle.
+        // A triangle that extends a path replaces the end of the path that it touches by its other end. The ends of a
+        // closed ring are stale, but match no triangle.
         const Four changes = ((ends_ ^ own) | extended) & kept;
         const Four grown = own ^ changes ^ turned(changes);
         ends_ = __builtin_shufflevector(grown, other | turned(other), 0, 1, 4, 5);

@@ -52,7 +52,7 @@ inline const std::uint32_t* readTriangles(const MeshView& mesh, const TriangleLi
 /// corners.
 struct Nodes {
     std::size_t count = 0;
-    /// Whether no corner has a NaN, an infinity or a huge position.
+    /// true: no corner has a NaN, an infinity or a huge position.
     bool all_finite = true;
     /// Whether any node mixes -0 and +0: the node's data are then those of vertex(node), not of any of its vertices.
     bool mixed = false;

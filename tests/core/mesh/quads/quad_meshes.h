@@ -79,7 +79,7 @@ inline std::vector<std::uint32_t> cutQuads(const PolygonMesh& mesh, const Cut& c
     return corners;
 }
 
-/// Returns the triangles over the same vertices.
+/// Returns the mesh with its quads split into triangles according to `cut`; vertices are unchanged.
 inline ModelData trianglesOf(const PolygonMesh& mesh, const Cut& cut) {
     ModelData data = mesh.data;
     for (const std::uint32_t corner : cutQuads(mesh, cut)) data.indices.push_back(mesh.corners[corner]);
