@@ -143,7 +143,7 @@ TEST(FlipGreen, SaysOfADdsThatIsCutShortWhatStaysAsItWas) {
     const Result<FlippedImage> cut = flipGreen(bytesOf(ddsFile(83, 32, 32, blocks + "half of a level", 3)));
     ASSERT_TRUE(cut);
     ASSERT_EQ(cut->report.warnings.size(), 1U);
-    EXPECT_NE(cut->report.warnings[0].find("the last 2 of 3 levels"), std::string::npos) << cut->report.warnings[0];
+    EXPECT_NE(cut->report.warnings[0].find("the last 2 of 3 mip levels"), std::string::npos) << cut->report.warnings[0];
     EXPECT_EQ(std::string(cut->bytes.end() - 15, cut->bytes.end()), "half of a level");
 }
 

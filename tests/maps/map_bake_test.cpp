@@ -483,10 +483,10 @@ TEST_F(MapBake, SaysWhatKeepsMeshesApart) {
     EXPECT_EQ(said([](const Vec3& at) { return 3.0F * at; }), "") << "a part may be baked from a whole";
     EXPECT_EQ(said([](const Vec3& at) { return Vec3{at.x + 9, at.y, at.z}; }), "");
     EXPECT_EQ(said([](const Vec3& at) { return 100.0F * at; }),
-              "the high poly is 100 times as large as the low poly: scale the high poly by 0.01to align it with the "
+              "the high poly is 100 times as large as the low poly: scale the high poly by 0.01 to align it with the "
               "low poly");
     EXPECT_EQ(said([](const Vec3& at) { return (1 / 39.37F) * at; }),
-              "the low poly is 39.4 times as large as the high poly: scale the high poly by 39.4to align it with the "
+              "the low poly is 39.4 times as large as the high poly: scale the high poly by 39.4 to align it with the "
               "low poly");
     EXPECT_EQ(said([](const Vec3& at) {
                   return Vec3{100 * at.x + 90, 100 * at.y, 100 * at.z};

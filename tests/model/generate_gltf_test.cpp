@@ -536,7 +536,7 @@ TEST(GenerateGltf, SignsThatWereAllInvertedStaySoWhereNormalsAreMadeAnew) {
                 notes.begin(), notes.end(),
                 [](const std::string& note) {
                     return note.find(
-                               "most tangent signs of the file were inverted, so all new ones are inverted too") == 0;
+                               "most tangent signs of the file were inverted, so all new signs were inverted too") == 0;
                 }),
             stays);
     }

@@ -60,7 +60,7 @@ TEST(Locale, ChangesNoNumber) {
     EXPECT_EQ(plain[0], "0.5 is 500000");
     EXPECT_NE(plain[1].find("wrong"), std::string::npos);
     EXPECT_EQ(plain[4],
-              "the high poly is 12.5 times as large as the low poly: scale the high poly by 0.08to align it with the "
+              "the high poly is 12.5 times as large as the low poly: scale the high poly by 0.08 to align it with the "
               "low poly");
     const CommaLocale german;
     if (!german.isThere()) GTEST_SKIP() << "localedef makes no German locale here";

@@ -261,7 +261,7 @@ TEST(NormalsOverPrimitives, NormalsThatAreThereStayAndAreTakenOnWhereTheyFit) {
     const Made made = make(parts, smooth());
     EXPECT_EQ(made.vec3(1, "NORMAL"), right.normals);
     EXPECT_LT(borderOf(made).worst_deg, 0.05);
-    EXPECT_NE(made.report.primitives[0].notes.back().find("are kept"), std::string::npos);
+    EXPECT_NE(made.report.primitives[0].notes.back().find("were kept"), std::string::npos);
 
     right.normals.assign(right.positions.size(), Vec3{1, 0, 0});
     GltfBuilder apart;
@@ -357,7 +357,7 @@ TEST(OverwriteNormals, NormalsStayWhereTangentsCouldNotFollow) {
     EXPECT_EQ(made.vec3(0, "NORMAL"), data.normals);
     EXPECT_FALSE(made.report.primitives[0].normals_replaced);
     ASSERT_FALSE(made.report.primitives[0].notes.empty());
-    EXPECT_NE(made.report.primitives[0].notes[0].find("its normals are kept"), std::string::npos);
+    EXPECT_NE(made.report.primitives[0].notes[0].find("its normals were kept"), std::string::npos);
 }
 
 TEST(OverwriteNormals, InvertedSignsStayBecauseTheMapMayBeMadeForThem) {

@@ -146,7 +146,7 @@ TEST(PackedGltf, IsLeftOutWithTheReasonWhereAFrameIsMissing) {
     EXPECT_FALSE(outcome.report.changed);
     EXPECT_FALSE(report.frames_packed);
     ASSERT_EQ(report.notes.size(), 1u);
-    EXPECT_EQ(report.notes[0], "its frames were not packed: it has no TANGENT ; use --all to add what is missing");
+    EXPECT_EQ(report.notes[0], "its frames were not packed: it has no TANGENT; use --all to add what is missing");
     GenerateOptions all = packing(FrameFormat::frame32);
     all.selection.all = true;
     EXPECT_TRUE(run(model, all).report.primitives.at(0).frames_packed) << "the advice holds";
@@ -207,7 +207,7 @@ TEST(PackedGltf, MayStandInPlaceOfWhatItWasPackedFrom) {
         const auto other = generateFile(output, output, packing(FrameFormat::oct32));
         ASSERT_TRUE(other && other->primitives[0].notes.size() == 1);
         EXPECT_EQ(other->primitives[0].notes[0],
-                  "its frames were not packed: it only has other packed frames in _FRAME32and not the data that they "
+                  "its frames were not packed: it only has other packed frames in _FRAME32 and not the data that they "
                   "were packed from");
     }
 }

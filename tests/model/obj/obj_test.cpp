@@ -324,7 +324,7 @@ TEST(Obj, TexturesThatAreMovedGiveAWarning) {
         const auto& warnings = made.report.warnings;
         EXPECT_EQ(
             std::any_of(warnings.begin(), warnings.end(),
-                        [](const std::string& text) { return text.find("which is ignored") != std::string::npos; }),
+                        [](const std::string& text) { return text.find("which are ignored") != std::string::npos; }),
             moves);
     }
 }
