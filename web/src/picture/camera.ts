@@ -9,6 +9,14 @@ const kFilled = 0.85;
 /** Initial viewing direction. */
 const kFirstDirection = new Vector3(0.55, 0.42, 1).normalize();
 
+/** Returns a unit direction to look from; replaces a zero one, and one along the vertical, which has no "up" in the picture. */
+function usable(toward: Vector3): Vector3 {
+  const direction = toward.clone().normalize();
+  if (direction.lengthSq() === 0 || !Number.isFinite(direction.x)) direction.set(0.5, 0.4, 1).normalize();
+  if (Math.abs(direction.y) > 0.985) direction.set(0.12, Math.sign(direction.y), 0.12).normalize();
+  return direction;
+}
+
 export class Eye {
   readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
   readonly controls: OrbitControls;
@@ -48,10 +56,7 @@ export class Eye {
   fly(center: Vector3, radius: number, toward: Vector3 | null, isInstant = false): PerspectiveCamera {
     const angle = (this.camera.fov * Math.PI) / 360, narrow = Math.min(1, this.camera.aspect);
     const distance = (radius / Math.sin(Math.atan(Math.tan(angle) * narrow))) * 1.08;
-    const direction = (toward ?? this.camera.position.clone().sub(this.controls.target)).clone().normalize();
-    if (direction.lengthSq() === 0 || !Number.isFinite(direction.x)) direction.set(0.5, 0.4, 1).normalize();
-    // Looking straight down, the "up" direction would be undefined.
-    if (Math.abs(direction.y) > 0.985) direction.set(0.12, Math.sign(direction.y), 0.12).normalize();
+    const direction = usable(toward ?? this.camera.position.clone().sub(this.controls.target));
     return this.#flyTo(center, distance, direction, isInstant);
   }
 
@@ -79,8 +84,8 @@ export class Eye {
   }
 
   /** Shows the whole model from a direction, and returns the final camera. */
-  reset(isInstant = false, toward = this.#home): PerspectiveCamera {
-    const scene = this.sceneNow(), { center, radius } = scene.sphere();
+  reset(isInstant = false, from = this.#home): PerspectiveCamera {
+    const toward = usable(from), scene = this.sceneNow(), { center, radius } = scene.sphere();
     const { middle, distance } = this.#frameFor(scene.points(), center, radius, toward);
     return this.#flyTo(middle, distance, toward, isInstant);
   }
