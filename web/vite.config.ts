@@ -56,7 +56,7 @@ function oneFile(): Plugin {
       // "</script" inside of a string would end the script.
       const code = script.code.replaceAll("</script", "<\\/script");
       const css = style?.type === "asset" ? String(style.source) : "";
-      // Of the page, not of the lesson: narrows the policy to no server, or to the one that its address names.
+      // In the page, not in the lesson: narrows the policy to no server, or to the one that its address names.
       const guard = String(page.source).includes("<!-- guard -->") ? readFileSync(resolve(import.meta.dirname, "src/guard.js"), "utf8") : null;
       const head = `<meta http-equiv="Content-Security-Policy" content="${policy(guard ? [guard, code] : [code])}" />${guard ? `\n    <script>${guard}</script>` : ""}\n    <style>${css}</style>`;
       const html = String(page.source)

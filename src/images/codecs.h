@@ -41,7 +41,7 @@ std::vector<std::uint8_t> decodePngRgba(ByteSpan bytes);
 std::optional<RgbImage> decodeJpeg(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
 std::optional<RgbImage> decodeWebp(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
 
-/// Decode KTX2 and DDS: the first level, or the given one.
+/// Decode the first level of KTX2 and DDS; decodeFloatTexture can decode another.
 std::optional<RgbImage> decodeTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why, ImageUse use);
 std::optional<FloatImage> decodeFloatTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why,
                                              std::size_t level = 0, ImageUse use = ImageUse::vectors);

@@ -206,7 +206,7 @@ TEST_F(BakeModels, AMapInObjectSpaceMayHaveZUp) {
     EXPECT_EQ(folder.read("z.png"), folder.read("same.png"));
     const DVec3 y = middleOf("y.png"), z = middleOf("z.png");
     EXPECT_LT(degreesBetween(z, {y.x, -y.z, y.y}), 0.02);
-    // Such a map is recognized, and both interpretations give one map in tangent space.
+    // The map is recognized, and both interpretations give the same map in tangent space.
     const ToolRun run = runTool(folder, "map-error z.png low.obj --high high.obj --json");
     const json measured = json::parse(run.out);
     EXPECT_EQ(measured["readings"][0]["frames"], "object");

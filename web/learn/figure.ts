@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A figure: a drawing that is made anew on every change, and handles that a mouse, a finger or the arrow keys move.
+// A figure: a drawing that is redrawn on every change, and handles that a mouse, a finger or the arrow keys move.
 
 import type { Vec2 } from "./vector";
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Vectors, as far as the page itself computes: what it draws, and the formulas that it shows beside the library's results.
+// Vector functions for drawing, and for the formulas whose results the page shows next to those of the library.
 
 export type Vec2 = readonly [number, number];
 export type Vec3 = readonly [number, number, number];

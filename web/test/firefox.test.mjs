@@ -62,7 +62,7 @@ async function withTab(url, viewport, run) {
 const text = (tab, selector) => tab.$eval(selector, (element) => element.textContent);
 
 async function shoot(tab, name) {
-  // What was changed is drawn before the second frame after it.
+  // A change is drawn before the second frame after it.
   await tab.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 200)))));
   const png = await tab.screenshot();
   if (screenshots) mkdirSync(screenshots, { recursive: true }), writeFileSync(join(screenshots, `firefox-${name}.png`), png);

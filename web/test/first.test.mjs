@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The first view and one click: what is wrong is said and shown, the button says what it will do, and everything follows the fix.
+// The first view and one click: faults are listed and shown, the button names the fix, and the page updates after it.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { drawn, farApart, isLong, missing, openSample, pixelsOf, settled, shareOf, shoot, withPage } from "./support.mjs";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A normal map without a model: what it is, which way green points, and one click that flips it.
+// A normal map without a model: its contents, the direction of green, and one click that inverts it.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The picture under the hands: its line, its frame, its pointer, and what its colours say.
+// Interaction with the picture: split line, frame, pointer, and the meaning of its colors.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { join } from "node:path";
@@ -120,7 +120,7 @@ for (const [width, height] of [[390, 844], [820, 1180], [1280, 800]]) {
           return [canvas.width / canvas.height, camera.aspect, width / height];
         });
         assert.ok(aspects.every((one) => Math.abs(one / aspects[2] - 1) < 0.01), aspects.join());
-        // Triangles that face the eye, each at the middle of its own image.
+        // Triangles that face the camera, each at the center of its projection.
         const places = await tab.evaluate(() => {
           const { scene, camera, canvas } = window.tspaceView.views.stage.viewport, [drawn] = scene.drawn, { left, top, width, height } = canvas.getBoundingClientRect();
           const p = drawn.corners.positions, found = [], v = camera.position.clone();

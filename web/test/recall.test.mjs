@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What check finds of damage that was done to sound models, and that it finds nothing on these: as a table, of the tool and of the page.
+// Share of the damage in damaged models that check finds, and that it finds none in the intact ones: a table for the tool and the page.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the page calls right is right, what it advises mends, and what it cannot show takes nothing else away.
+// Models that the page calls correct are correct, its advice fixes faults, and parts that it cannot show affect no others.
 import assert from "node:assert/strict";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";

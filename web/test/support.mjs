@@ -90,7 +90,7 @@ export function named(path) {
       if (!relative(dirname(path), file).startsWith("..") && existsSync(file) && statSync(file).isFile()) found[decodeURIComponent(uri)] = file;
     }
   } catch {
-    // Broken files name what they like.
+    // Broken files may have any names.
   }
   return found;
 }
@@ -148,7 +148,7 @@ export async function shares(tab, colors, area = { left: 0, top: 0, right: 1, bo
     const { data } = context.getImageData(x, y, Math.ceil(image.width * area.right) - x, Math.ceil(image.height * area.bottom) - y);
     const counts = Object.fromEntries([...Object.keys(colors), "other"].map((name) => [name, 0]));
     for (let i = 0; i < data.length; i += 4) {
-      // Shading makes colours darker, so only their hue and saturation count.
+      // Shading darkens colors, so only hue and saturation are compared.
       const most = Math.max(data[i], data[i + 1], data[i + 2], 1);
       let best = "other", nearest = 0.12;
       for (const [name, color] of Object.entries(colors)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is in a file, and what one takes along: parts, images, the report as text, the picture with its words.
+// Contents of a file, and exports: parts, images, the report as text, the picture with its labels.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";

@@ -84,7 +84,7 @@ test("the page reads the pixels of KTX2 and DDS that the tool reads", { skip: no
     for (const file of files) {
       const own = await decoded(tab, file), theirs = byTool(file);
       assert.deepEqual([own.width, own.height], [theirs.width, theirs.height], file);
-      // Of two channels the tool makes z; in a glTF blue is what the file holds, which is nothing.
+      // The tool reconstructs z of two-channel files; in a glTF, blue is read from the file, where it is absent.
       const hasBlue = !file.includes("map.");
       const most = own.rgba.reduce((most, value, i) => (i % 4 === 2 && !hasBlue ? most : Math.max(most, Math.abs(value - theirs.rgba[i]))), 0);
       // Where the tool writes 16 bits, those are rounded here.

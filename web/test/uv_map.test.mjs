@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The UV map: linked with the model both ways, zoomed, and of each set that the file has.
+// The UV map: linked with the model in both directions, zoomed, and for each UV set of the file.
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { test } from "node:test";

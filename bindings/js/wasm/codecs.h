@@ -13,10 +13,10 @@ enum class Codec { meshoptDecoder, meshoptEncoder, dracoDecoder, dracoEncoder, i
 
 extern "C" {
 
-/// Whether the caller may stop the call.
+/// true: the caller may stop the call.
 extern bool tspace_js_can_stop;
 
-/// Whether the caller passed this codec in.
+/// Returns whether the caller passed this codec in.
 TSPACE_JS_IMPORT(hasCodec) int tspace_js_hasCodec(tspace::js::Codec codec);
 
 }  // extern "C"

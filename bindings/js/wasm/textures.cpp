@@ -209,8 +209,8 @@ std::uint32_t readTexture(const std::uint8_t* data, std::size_t size, std::size_
     return 0;
 }
 
-/// What `tspace convert-map` does without a mesh. `channels`: the value of --channels, or null; `curve`: the number of a MapCurve. The
-/// pixels are in textureWords(): of 16 bits, or of 8 where those of the input are kept.
+/// Converts a map as `tspace convert-map` does without a mesh. `channels`: the value of --channels, or null; `curve`: the
+/// number of a MapCurve. The pixels are in textureWords(): 16 bits per channel, or 8 if the bytes of the input are kept.
 TSPACE_JS_EXPORT(convertMap)
 std::uint32_t convertMap(const ImageWords* given, const char* channels, std::uint32_t curve, bool flips_red,
                          bool flips_green) {

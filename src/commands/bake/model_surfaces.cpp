@@ -430,7 +430,7 @@ FloatImage readFloatImage(const std::string& path, const FileOptions& options, I
 
 namespace {
 
-/// How a model is opened whose bytes are there, if they are: a GLB, whatever its name says.
+/// Name and options with which a model is opened. If its bytes are in memory, they are a GLB, whatever the extension.
 struct OpenedModel {
     OpenedModel(const std::string& path, ByteSpan bytes, const FileOptions& options) : name(path), file(options) {
         if (bytes.empty()) return;

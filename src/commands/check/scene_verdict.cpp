@@ -203,7 +203,7 @@ Remedy signsFirst() {
             {toCommand("generate --overwrite --flip-green")}};
 }
 
-/// Whether the normal maps of a primitive cancel inverted signs: no, unknown, yes.
+/// States whether the normal maps of a primitive cancel inverted signs: no, unknown, yes.
 enum class MapsSay { nothing, open, cancel };
 
 class Maps {

@@ -18,7 +18,7 @@ struct VertexFaults {
     std::uint32_t bits = 0;  ///< faults, see FrameHealth::faults
 };
 
-/// Whether the normal maps of a primitive cancel its wrong signs.
+/// States whether the normal maps of a primitive cancel its wrong signs.
 enum class SignVerdict {
     plain,      ///< no: the signs are wrong if a finding reports it
     cancelled,  ///< yes: green is inverted too

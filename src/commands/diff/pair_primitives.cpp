@@ -134,7 +134,7 @@ class TriangleGrid {
     }
     [[nodiscard]] DVec3 centreOf(std::uint32_t t) const { return (1.0 / 3) * (at(t, 0) + at(t, 1) + at(t, 2)); }
 
-    /// Calls visit(triangle) for triangles near `centre`, the first hundred of each cell, until it returns true.
+    /// Calls visit(triangle) for triangles near `centre`, at most 100 per cell, until it returns true.
     template <class Visit>
     void visitNear(const DVec3& centre, Visit&& visit) const {
         constexpr std::size_t kMostPerCell = 100;

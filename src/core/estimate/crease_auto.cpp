@@ -145,7 +145,7 @@ class CreaseFinder {
     /// Returns the face normal, with twice the area as fourth component.
     [[nodiscard]] Float4 normal(std::size_t face) const { return loadFloat4(normals_.data() + 4 * face); }
 
-    /// Replaces each face normal by the weighted mean of its own and those of the neighboring faces: close and similar
+    /// Replaces each face normal by the weighted mean of itself and the normals of neighboring faces: close and similar
     /// normals have larger weights.
     void filter() {
         const std::size_t count = call_.mesh.faceCount();

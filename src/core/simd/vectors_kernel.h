@@ -19,7 +19,7 @@ inline Vectors cross(Vectors a, Vectors b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Whether reading past the end of an array is forbidden. With TSPACE_SMALL arrays are copies, with padding.
+/// true: reading past the end of an array is forbidden. With TSPACE_SMALL arrays are copies, with padding.
 #ifdef TSPACE_SMALL
 inline constexpr bool kEndsMatter = false;
 #else

@@ -34,7 +34,7 @@ constexpr std::uint64_t tangentWork(Method method, std::uint64_t corners) {
     return (isEstimated(method) ? 4 : 1) * corners;
 }
 
-/// Whether a plan outlives its mesh (and may be used for other poses), or is used once within a call.
+/// Use of a plan. kept: it outlives its mesh, and may be used for other poses; once: it is used once within a call.
 enum class PlanUse { kept, once };
 
 }  // namespace tspace

@@ -61,7 +61,7 @@ class Planning {
     /// applied.
     struct Around {
         std::array<std::size_t, 4> columns = {}, rows = {};
-        /// Whether the texel is at the edge of an image that does not repeat, where neighbors are missing.
+        /// true: the texel is at the edge of an image that does not repeat, where neighbors are missing.
         bool is_at_edge = false;
 
         [[nodiscard]] std::size_t at(std::size_t x, std::size_t y) const { return rows[y] + columns[x]; }

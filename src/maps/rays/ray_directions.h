@@ -88,7 +88,7 @@ class RayField {
 
     [[nodiscard]] DVec3 faceOf(std::size_t triangle) const;
     [[nodiscard]] double painted(std::size_t triangle, const std::array<double, 3>& weights) const;
-    /// Whether a corner of a triangle has hard edges nearby.
+    /// Returns whether a corner of the triangle has hard edges nearby.
     [[nodiscard]] bool isNearEdges(std::size_t triangle) const {
         if (near_.empty()) return false;
         const NearEdges* const corners = near_.data() + 3 * triangle;

@@ -60,7 +60,7 @@ const Embree& embree() {
     return loaded;
 }
 
-/// Whether Embree ran out of memory in this process; after that it must not be called again.
+/// true: Embree ran out of memory in this process and must not be called again.
 std::atomic<bool> has_embree_failed = false;
 
 #if RTC_VERSION_MAJOR >= 4

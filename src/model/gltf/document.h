@@ -48,7 +48,7 @@ struct Buffer {
     BufferSource source = BufferSource::absent;
     BufferBytes bytes = {};  ///< exactly `byteLength` bytes, unless absent
     Path path = {};          ///< path of the file, for BufferSource::file
-    /// Whether the output stores these bytes itself (BIN, data URI, a file named after the output), so that they may be
+    /// true: the output stores these bytes itself (BIN, data URI, a file named after the output), so that they may be
     /// edited. Other files belong to the input and are never changed.
     bool own = false;
     bool edited = false;  ///< the bytes differ from those read

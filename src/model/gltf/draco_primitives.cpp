@@ -146,7 +146,7 @@ class Decoder {
         }
     }
 
-    /// Returns the accessor that represents `source` in this primitive: the given one, or a copy if the accessor
+    /// Returns the accessor that represents `source` in this primitive: `source` itself, or a copy if the accessor
     /// represents other data elsewhere.
     std::size_t own(std::size_t accessor, const Source& source) {
         const auto [entry, is_new] = sources_.try_emplace(accessor, source);

@@ -34,7 +34,7 @@ std::string otherTangentReader(const Document& document, const Primitive& primit
 /// once.
 std::vector<std::size_t> variantMaterials(const Document& document, const Primitive& primitive);
 
-/// Whether a material ignores normals and normal maps: it has KHR_materials_unlit, no extension that takes precedence over
+/// Returns whether a material ignores normals and normal maps: it has KHR_materials_unlit, no extension that overrides
 /// it (VRMC_materials_mtoon; VRM 0.x with a `_BumpMap`), and no extension unknown to tspace that names a normal or bump map.
 bool isUnlit(const Document& document, std::size_t material);
 

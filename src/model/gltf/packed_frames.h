@@ -17,7 +17,7 @@ namespace tspace::gltf {
 struct StoredPacking {
     const PackedLayout* layout = nullptr;
     std::string attribute = {};  ///< the first attribute of the format, or the one that `fault` is about
-    /// Why the attributes are not valid packed frames, as half a sentence about `attribute`; empty if they are valid.
+    /// Reason why the attributes are not valid packed frames, as a clause about `attribute`; empty if they are valid.
     std::string fault = {};
 };
 

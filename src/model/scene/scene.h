@@ -24,7 +24,7 @@
 
 namespace tspace {
 
-// How a material reads a texture.
+// Texture references of materials.
 
 /// KHR_texture_transform: uv' = translation * rotation * scale * uv. `rotation` in radians, counter-clockwise as the
 /// extension defines it.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What three.js alone makes of a model, in the environment, light and pose of the page: what plain.test.mjs compares the page with.
+// Renders a model with three.js alone, in the environment, light and pose of the page: the reference of plain.test.mjs.
 import { DirectionalLight, LoadingManager, NeutralToneMapping, PerspectiveCamera, Scene, WebGLRenderer } from "three";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { environmentFor } from "../../src/picture/environment.ts";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What goes wrong with frames on their way from one program to another, done to a sound model.
+// Damages intact models in the ways in which frames are damaged between programs.
 import { png } from "../../samples/png.mjs";
 
 const kMapSize = 256;

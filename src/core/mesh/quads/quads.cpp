@@ -308,7 +308,7 @@ class Fitter {
     QuadFit fit_ = {};
 };
 
-/// Returns pairs that are disjoint from the given ones.
+/// Returns pairs that share no triangle with the pairs of the argument.
 QuadPairs otherPairs(const QuadCandidates& candidates, const QuadPairs& pairs) {
     std::vector<float> gains(pairs.size());
     for (std::size_t t = 0; t < pairs.size(); ++t) gains[t] = pairs[t] == PairKind::none ? 1.0F : 0.0F;

@@ -344,7 +344,7 @@ void sortEdges(std::vector<Edge>& edges, Pairing pairing) {
     }
 }
 
-/// Pairs each edge with the next edge in the list between the same nodes that runs the other way and is still free.
+/// Pairs each edge with the next edge in the list between the same nodes that is opposite and not yet paired.
 void pairEdges(std::vector<Triangle>& triangles, Pairing pairing) {
     std::vector<Edge> edges;
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
@@ -379,7 +379,7 @@ void walk(std::vector<Triangle>& triangles, HalfEdge from, bool forward, std::ui
         const HalfEdge& across = triangles[from.triangle].neighbors[forward ? from.k : previous(from.k)];
         if (across.triangle == kNone) return;
         Triangle& triangle = triangles[across.triangle];
-        // The neighbor's edge runs the other way: it ends at the node where the edge that is crossed begins.
+        // The neighbor's edge has the opposite direction: it ends at the node where the edge that is crossed begins.
         const int k = forward ? next(across.k) : across.k;
         if (triangle.groups[k] != kNone) return;
         const auto& taken = triangle.groups;

@@ -110,7 +110,7 @@ EvaluationPlan planChosen(const VertexPath& path);
 TangentReport evaluateInOnePass(const NodeSetting& setting, const TangentOutput& out, ScratchBlock& transient,
                                 Parallel& parallel, unsigned range_shift = 0);
 
-/// Whether evaluateSmall applies: at most 64 triangles, which are the faces, with few vertices, and finite; mikktspace.
+/// Returns whether evaluateSmall applies: mikktspace, at most 64 triangular faces with few vertices and finite values.
 bool isSmall(const WeldedMesh& welded, Method method);
 /// The results of evaluateInOnePass, and of plans for any angular threshold, for a small mesh (small_mesh.cpp), after
 /// listVertices. `transient`: allocates what is released before tangents are written.

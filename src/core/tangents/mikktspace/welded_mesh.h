@@ -54,7 +54,7 @@ struct Nodes {
     std::size_t count = 0;
     /// true: no corner has a NaN, an infinity or a huge position.
     bool all_finite = true;
-    /// Whether any node mixes -0 and +0: the node's data are then those of vertex(node), not of any of its vertices.
+    /// true: some nodes mix -0 and +0: the node's data are then those of vertex(node), not of any of its vertices.
     bool mixed = false;
     Buffer<std::uint32_t> of_vertex;  ///< node of each vertex; empty: no two vertices are equal, node == vertex
     /// One per node: the vertex that provides its data. Available if `mixed`, and after listVertices; empty: node ==
