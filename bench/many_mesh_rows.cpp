@@ -19,7 +19,7 @@ namespace {
 
 /// One mesh of a row: two calls, measured alternately.
 struct Pair {
-    double seconds = 0, base_seconds = 0;  ///< of the best round
+    double seconds = 0, base_seconds = 0;  ///< times of the best round
     double ratio = 0;                      ///< median over rounds
     std::size_t triangles = 0;
 };

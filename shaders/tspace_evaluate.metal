@@ -21,12 +21,12 @@ constant uint tspace_tangent_stride = 11u;
 constant uint tspace_morph_count = 12u;    // targets, of three floats per vertex one after the other; 0: none
 constant uint tspace_morph_weights = 13u;  // word offset of the weights in tspace_deform
 constant uint tspace_morph_deltas = 14u;   // word offset of the deltas in tspace_deform
-constant uint tspace_vertex_count = 15u;   // of morph targets
+constant uint tspace_vertex_count = 15u;   // number of vertices of the morph targets
 constant uint tspace_skin = 16u;           // 1: skinned, by four joints per vertex
 constant uint tspace_skin_joints = 17u;    // word offset of the joints in tspace_deform: 4 words per vertex
 constant uint tspace_skin_weights = 18u;   // word offset of the joint weights: 4 floats per vertex
 constant uint tspace_skin_matrices = 19u;  // word offset of the matrices: 3 rows of 4 floats per joint
-constant uint tspace_first_result = 20u;   // of this dispatch
+constant uint tspace_first_result = 20u;   // first result of this dispatch
 
 constant uint tspace_no_tangent = 0x80000000u;
 constant uint tspace_no_normal = 0x40000000u;
@@ -202,10 +202,10 @@ struct tspace_Evaluator {
 
     // A corner of a triangle.
     struct tspace_Corner {
-        float3 e1;        // from the triangle's first corner to its second
-        float3 e2;        // from its first to its third
+        float3 e1;        // first edge of the triangle: from corner 0 to corner 1
+        float3 e2;        // second edge: from corner 0 to corner 2
         float3 next;      // from this corner to the next one
-        float3 previous;  // from this corner to the one before
+        float3 previous;  // from this corner to the previous one
         uint vertex_number;
         uint uvs;  // offset of the UV coefficients in tspace_plan
     };
@@ -220,7 +220,7 @@ struct tspace_Evaluator {
         float3 p0 = float3(0.0f, 0.0f, 0.0f);
         float3 p1 = p0;
         float3 p2 = p0;
-        for (uint i = 0u; i < 3u; ++i) {  // a loop, so that compilers have one copy of what it calls
+        for (uint i = 0u; i < 3u; ++i) {  // a loop, so that compilers inline the called functions only once
             p0 = p1;
             p1 = p2;
             p2 = tspace_positionOf(tspace_plan[at + i]);

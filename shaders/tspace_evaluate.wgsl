@@ -30,12 +30,12 @@ const tspace_tangent_stride: u32 = 11u;
 const tspace_morph_count: u32 = 12u;      // targets, of three floats per vertex one after the other; 0: none
 const tspace_morph_weights: u32 = 13u;    // word offset of the weights in tspace_deform
 const tspace_morph_deltas: u32 = 14u;     // word offset of the deltas in tspace_deform
-const tspace_vertex_count: u32 = 15u;     // of morph targets
+const tspace_vertex_count: u32 = 15u;     // number of vertices of the morph targets
 const tspace_skin: u32 = 16u;             // 1: skinned, by four joints per vertex
 const tspace_skin_joints: u32 = 17u;      // word offset of the joints in tspace_deform: 4 words per vertex
 const tspace_skin_weights: u32 = 18u;     // word offset of the joint weights: 4 floats per vertex
 const tspace_skin_matrices: u32 = 19u;    // word offset of the matrices: 3 rows of 4 floats per joint
-const tspace_first_result: u32 = 20u;     // of this dispatch
+const tspace_first_result: u32 = 20u;     // first result of this dispatch
 
 const tspace_no_tangent: u32 = 0x80000000u;
 const tspace_no_normal: u32 = 0x40000000u;
@@ -195,10 +195,10 @@ fn tspace_normalOf(vertex_number: u32) -> vec3f {
 
 // A corner of a triangle.
 struct tspace_Corner {
-    e1: vec3f,        // from the triangle's first corner to its second
-    e2: vec3f,        // from its first to its third
+    e1: vec3f,        // first edge of the triangle: from corner 0 to corner 1
+    e2: vec3f,        // second edge: from corner 0 to corner 2
     next: vec3f,      // from this corner to the next one
-    previous: vec3f,  // from this corner to the one before
+    previous: vec3f,  // from this corner to the previous one
     vertex_number: u32,
     uvs: u32,  // offset of the UV coefficients in tspace_plan
 }
@@ -213,7 +213,7 @@ fn tspace_cornerOf(entry: u32) -> tspace_Corner {
     var p0: vec3f = vec3f(0.0, 0.0, 0.0);
     var p1: vec3f = p0;
     var p2: vec3f = p0;
-    for (var i: u32 = 0u; i < 3u; i++) {  // a loop, so that compilers have one copy of what it calls
+    for (var i: u32 = 0u; i < 3u; i++) {  // a loop, so that compilers inline the called functions only once
         p0 = p1;
         p1 = p2;
         p2 = tspace_positionOf(tspace_plan[at + i]);

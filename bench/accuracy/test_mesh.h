@@ -51,7 +51,7 @@ struct Bevel {
     int strips = 1;                     ///< across the rounded part
     int flat_cells = 1;                 ///< along each side of the flat part
     int diagonal = 0;                   ///< 0 or 1: one of the two; 2: random
-    double stretch = 1, shear_deg = 0;  ///< of the UV map across the rounded part
+    double stretch = 1, shear_deg = 0;  ///< stretch and shear of the UV map across the rounded part
 };
 
 /// Returns the configurations over which the results are averaged.

@@ -57,7 +57,7 @@ enum class TexelKind : std::uint8_t {
     eacRg,
     eacRgs,
     uastc,
-    etc1s,       ///< as decoded by unpackBasisLz
+    etc1s,       ///< blocks that unpackBasisLz decodes
     etc1sAlpha,  ///< with a second slice, whose green channel is alpha
     astc,        ///< 4 x 4 texels; other block sizes must be set
     none

@@ -29,7 +29,7 @@ struct Sheet {
     unsigned seed = 1;
     int cells = 4;
     double bend = 0.3;
-    Vec2 first{0, 0}, last{1, 1};  ///< its UVs
+    Vec2 first{0, 0}, last{1, 1};  ///< corners of the UV rectangle
 };
 
 struct SheetArrays {

@@ -13,7 +13,7 @@
 namespace tspace::test {
 
 struct FaultyModel {
-    const char* name;       ///< of the test
+    const char* name;       ///< name of the test
     const char* attribute;  ///< the faulty attribute
     int target;             ///< index of the morph target; -1: the primitive itself
     int component_count;

@@ -59,7 +59,7 @@ pub struct Error {
     pub code: ErrorCode,
     /// Index of the invalid element, if any.
     pub element: Option<u64>,
-    /// One sentence.
+    /// Description in one sentence.
     pub message: String,
 }
 

@@ -22,7 +22,7 @@ std::string bakeText(const Outcome<BakeFileReport>& outcome, const std::string& 
 /// Returns the report as one line, for use in a list of bakes.
 std::string bakeLine(const Outcome<BakeFileReport>& outcome);
 
-/// One of several bakes.
+/// Result of one of several bakes.
 struct BakedPair {
     Outcome<BakeFileReport> outcome = {};
     std::string high = {};

@@ -225,7 +225,7 @@ void checkCage(const Scene& low, const Scene& cage) {
     if (!fits) failFile(ErrorCode::countMismatch, "the cage must have the same triangles as the low poly");
 }
 
-/// One vertex per corner where triangles are flat: their normals are their own.
+/// Adds the flat triangles of a primitive, with one vertex per corner, because each triangle has a normal of its own.
 void addFlat(const ScenePrimitive& primitive, const Affine& place, OwnedMesh& mesh) {
     for (std::size_t i = 0; i < primitive.corners.size(); i += 3) {
         std::array<Vec3, 3> at{};

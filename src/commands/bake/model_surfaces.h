@@ -27,7 +27,7 @@ namespace tspace {
 /// A primitive, and the UVs with which its map is sampled.
 struct MappedPrimitive {
     std::uint32_t mesh = 0, primitive = 0;
-    bool had_map = false;  ///< its material already has a normal map with these UVs
+    bool had_map = false;  ///< the material already has a normal map with these UVs
     std::size_t uv_set = 0;
     UvTransform transform = {};
 };
@@ -72,7 +72,7 @@ struct LowPart {
     OwnedMesh corners = {};  ///< one vertex per corner
     std::vector<Vec3> cage = {};
     std::vector<std::uint32_t> groups = {};
-    std::vector<Vec3> rest_positions = {}, rest_normals = {};  ///< as in LowPoly
+    std::vector<Vec3> rest_positions = {}, rest_normals = {};  ///< see LowPoly
 
     [[nodiscard]] LowPoly view() const {
         return {.positions = corners.positions,
@@ -151,7 +151,7 @@ struct BakeModels {
     /// Returns the ray options of a bake or a measurement: the requested ones, with the skew image and these wrap
     /// modes.
     [[nodiscard]] RayOptions rays(const RayOptions& asked, TextureWrap wrap_u, TextureWrap wrap_v) const;
-    /// Ray distance for all images: as requested, or derived from the sizes of both models.
+    /// Ray distance for all images: the requested one, or one derived from the sizes of both models.
     [[nodiscard]] double reach(double asked) const;
     /// Bounding box of the low poly: of the first instances or of all, whichever is nearer to that of the high poly, which may
     /// have as many instances or only one.

@@ -170,7 +170,7 @@ void findUndecided(const TangentView& mesh, const SignAreas& areas, FrameHealth&
     for (const std::uint32_t vertex : mesh.corners) {
         const float fits = mesh.tangents[vertex].w > 0 ? areas.plus[vertex] : areas.minus[vertex];
         const float other = mesh.tangents[vertex].w > 0 ? areas.minus[vertex] : areas.plus[vertex];
-        if (fits > 0 && other == 0) continue;  // its own triangles show that it is correct
+        if (fits > 0 && other == 0) continue;  // the triangles of the vertex show that it is correct
         const std::uint32_t patch = patches.of(vertex);
         if (wrong[patch] >= right[patch]) health.addFaults(vertex, kUndecidedSign, right.size());
     }

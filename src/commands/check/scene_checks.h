@@ -63,7 +63,7 @@ inline constexpr const char* kUnnamed = "MAP";
 /// Names of an image in findings.
 struct NamedImage {
     std::string name = {};  ///< in quotes
-    std::string file = {};  ///< as a word of a command line; or kUnnamed
+    std::string file = {};  ///< name, quoted for a command line; or kUnnamed
     bool is_alone = false;  ///< no model shows the image, so generate does not apply
 };
 

@@ -10,7 +10,7 @@
 
 namespace tspace {
 
-// One primitive against every method.
+// Comparison of one primitive with every method.
 
 /// Methods whose share of corners is this close to the best are considered equal to it.
 inline constexpr double kTieShare = 0.005;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A model prepared for pictures: its surfaces, their frames and textures, and height maps converted to normal maps.
-// Also draws it.
+// Also functions that draw it.
 #pragma once
 
 #include <compare>

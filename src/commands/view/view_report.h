@@ -15,7 +15,7 @@
 
 namespace tspace {
 
-// One HTML file that shows a model: the page of web/, with the model and the files that it names inside.
+// One HTML file that shows a model: the page of web/, with the model and the files that it references embedded.
 
 struct ViewReport {
     std::vector<std::string> files = {};  ///< the embedded files: the model, then the files that it references

@@ -127,7 +127,7 @@ class RangeLists {
         const TriangleGroups& triangles_;
         std::size_t block_size_;
         const std::uint32_t* entries_ = nullptr;  ///< null: all blocks
-        bool are_whole_ = true;                   ///< whether the blocks are whole
+        bool are_whole_ = true;                   ///< true: the blocks are whole
         std::size_t next_, end_;                  ///< positions in entries or blocks
     };
 

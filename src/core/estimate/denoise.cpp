@@ -90,7 +90,7 @@ constexpr double kTurnOfNoise = 126, kLeastTurnOfNoise = 90;
 }  // namespace
 
 double noisePart(double sigma, double kink_share, const Dihedrals& dihedrals) {
-    constexpr double kLeast = 1e-3;  // in edge lengths: below this, a fit costs more than it gains
+    constexpr double kLeast = 1e-3;  // unit: edge length; below this, a fit costs more than it gains
     if (!(sigma > 0) || !(dihedrals.median > 0)) return 0;
     // On a clean mesh both the kink share and sigma grow with curvature.
     const double high = std::min(0.4, kNoisyShare + 3 * sigma);

@@ -234,7 +234,7 @@ struct PointSums {
 
 /// Linear part of the fit, and of other fits to the same edges.
 struct Slopes {
-    Mask spanned;  ///< whether edges point in more than one direction
+    Mask spanned;  ///< lanes whose edges point in more than one direction
     Floats xx, xy, yy;
 
     /// Arguments: sums of squares and products of the two coordinates of the edges.

@@ -73,7 +73,7 @@ inline constexpr std::size_t kBestGroup = 16;      ///< lanes; vertices and poin
 inline constexpr std::size_t kFitRows = 8;         ///< rows of four floats; the last one has maxima instead of sums
 inline constexpr std::size_t kStepRows = 2;        ///< rows of four floats
 
-/// One round, for one CPU.
+/// Function of one round, compiled for one CPU.
 struct BestKernel {
     std::size_t row_count;  ///< rows of four floats per corner and point
     /// `vertices` and `points`: three per triangle, valid up to the end of the last group. Corner k of triangle t

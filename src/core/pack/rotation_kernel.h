@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Kernel of frame32. Included once per instruction set, after lanes_*.h and with TSPACE_LANES set to its namespace.
-// Each lane is one frame.
+// Each lane processes one frame.
 #pragma once
 
 #include "core/pack/frame_kernel.h"

@@ -56,7 +56,7 @@ IndexedPlan planIndexed(const MeshView& mesh, const Call<TangentOptions>& option
 TangentReport evaluateIndexed(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out,
                               const Execution& execution, Parallel& parallel);
 
-// One function for each method without groups, and shared code.
+// Contains one function for each method without groups, and shared code.
 
 /// All outputs for one corner.
 struct CornerFrame {

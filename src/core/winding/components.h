@@ -167,8 +167,8 @@ struct WindingCall {
 
 struct FloodMemory {
     Buffer<std::uint32_t> order;
-    Buffer<std::uint8_t> reached;    ///< whether a face was reached
-    Buffer<std::uint8_t> at_border;  ///< whether a point is at the border; empty until needed
+    Buffer<std::uint8_t> reached;    ///< one flag per face: it was reached
+    Buffer<std::uint8_t> at_border;  ///< one flag per point: it is at the border; empty until needed
 
     FloodMemory(const Allocator* allocator, std::size_t face_count)
         : order(allocator, face_count), reached(allocator, face_count, 0) {}

@@ -297,7 +297,7 @@ void addSmoothCells(const TexelPlan& plan, const TexelWindow& window, std::span<
     // Two-point Gauss quadrature in each direction: exact for the integral over the cell, whose integrand is a product
     // of two bilinear filters.
     constexpr float kNear = 0.21132487F, kFar = 1 - kNear;
-    // Same total weight as a cell sampled by rays.
+    // The total weight equals that of a cell sampled by rays.
     const float weight = points == 2 ? 1 + kCornerOfCell : static_cast<float>(points * points) / 4;
     const auto addCell = [&](std::uint32_t x, std::uint32_t row) {
         const std::size_t here = std::size_t{row} * plan.width, below = std::size_t{system.below(row)} * plan.width;

@@ -142,7 +142,7 @@ class TriangleSearch {
         return {entries_.data() + begin_[band], begin_[band + 1] - begin_[band]};
     }
 
-    // One band.
+    // Functions for one band.
 
     /// Calls visit(row, row in the image) for the rows of a triangle in a band.
     template <class Visit>

@@ -41,7 +41,7 @@ struct TexelTriangles {
     TextureShape shape = {};
     Buffer<TexelPlace> places = {};  ///< width * height entries, like kinds
     Buffer<TexelCoverage> kinds = {};
-    Buffer<bool> overlaps = {};  ///< whether several triangles cover the texel
+    Buffer<bool> overlaps = {};  ///< one flag per texel: several triangles cover it
     Buffer<bool> is_read =
         {};  ///< outside all triangles, but read by bilinear filtering inside one; requires a padding of 2
     TexelTriangleCounts counts = {};

@@ -38,7 +38,7 @@ struct HardEdges {
     static constexpr std::uint32_t kNone = 0xffffffffu;
 
     struct Edge {
-        std::array<std::uint32_t, 2> corners = {};  ///< its two end points
+        std::array<std::uint32_t, 2> corners = {};  ///< the two ends of the edge
         DVec3 way = {};                             ///< unit mean of its face normals, or zero
     };
     std::vector<Edge> edges = {};
@@ -47,7 +47,7 @@ struct HardEdges {
     std::vector<std::array<std::uint32_t, 2>> nearest = {};
     /// equal for corners with the same position whose faces meet smoothly: one corner of the group
     std::vector<std::uint32_t> groups = {};
-    std::vector<bool> at_edge = {};  ///< whether a hard edge starts or ends at a corner of its group
+    std::vector<bool> at_edge = {};  ///< flags: a hard edge starts or ends at a corner of the group
 };
 
 /// Finds hard edges. `positions`: three per triangle. `roots`: for each corner the first corner with the same position.

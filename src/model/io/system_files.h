@@ -42,7 +42,7 @@ PathKind kindOf(const Path& path);
 /// File or folder in a folder.
 struct FolderEntry {
     std::string name = {};
-    PathKind kind = PathKind::nothing;  ///< as returned by kindOf()
+    PathKind kind = PathKind::nothing;  ///< result of kindOf()
     bool is_link = false;
 };
 /// Appends the entries of a folder. Returns 0, or errno if it could not be read completely. (The increment of GCC's

@@ -21,7 +21,7 @@ struct ObjPrimitive {
     std::uint32_t shape = 0;
     std::uint32_t material = 0;
     bool has_uvs = false;
-    bool normals_generated = false;         ///< whether normals were generated for any of its faces
+    bool normals_generated = false;         ///< true: normals were generated for some of the faces
     std::vector<std::uint32_t> faces = {};  ///< indices into Model::faces, in file order
 };
 

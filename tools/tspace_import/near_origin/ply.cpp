@@ -118,7 +118,7 @@ class BinaryPly : public FileCoordinates {
 Coordinates readTextPly(std::vector<char> bytes, const Header& header) {
     if (header.vertex_count > bytes.size() / (2 * header.vertex_size)) return {};
     auto file = std::make_unique<TextCoordinates>(std::move(bytes));
-    // Reads word by word, because a vertex need not be on a line of its own.
+    // Reads word by word, because several vertices may share a line.
     std::size_t at = header.end;
     std::vector<std::string_view> vertex(header.vertex_size);
     file->addList();

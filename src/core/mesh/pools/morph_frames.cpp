@@ -26,7 +26,7 @@ namespace tspace {
 namespace {
 
 constexpr double kCosineOfFiveDegrees = 0.99619469809174555;
-constexpr double kTenthOfADegree = 0.0017453283658983088;  // as a sine
+constexpr double kTenthOfADegree = 0.0017453283658983088;  // sine of the angle
 
 Vec3 sum(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 

@@ -101,7 +101,7 @@ struct FramesOptions {
 /// Result for one primitive of a pool.
 struct FramesReport {
     std::uint64_t triangle_count = 0;
-    std::uint64_t vertices_before = 0, vertices_after = 0;  ///< of the pool
+    std::uint64_t vertices_before = 0, vertices_after = 0;  ///< vertex counts of the pool
     std::uint64_t mended_vertex_count = 0;                  ///< vertices whose wrong tangents were repaired
     /// Corners, over all targets, at which the frame of the moved shape has the opposite sign, which offsets cannot
     /// represent.

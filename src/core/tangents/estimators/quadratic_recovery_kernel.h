@@ -312,7 +312,7 @@ void finishRecovery(float* sums, const float* normals, std::size_t count) {
         const Vectors t = directionOf(plane, best.j[1], fit.robust_v, share);
         storeRows<kStep>(at, s.x, s.y, s.z, lengthOf(best.j[0], fit.scale_u));
         storeRows<kStep>(at + 4, t.x, t.y, t.z, lengthOf(best.j[1], fit.scale_v));
-        storeRows<kStep>(at + 8, share, zero(), zero(), zero());  // for the steps
+        storeRows<kStep>(at + 8, share, zero(), zero(), zero());  // `share`: for the steps
     }
 }
 

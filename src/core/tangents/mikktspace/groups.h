@@ -66,7 +66,7 @@ class Grouping {
     struct Contested {
         std::uint32_t place;
         std::uint32_t cursor = 0, group_count = 0;
-        std::size_t begin = 0;  // in contested_groups_
+        std::size_t begin = 0;  // index in contested_groups_
     };
     void findContested(const Allocator* allocator);
     void spreadContested(const Allocator* allocator);

@@ -36,7 +36,7 @@ struct VertexPath {
     /// Ascending. Must include all nodes of degenerate triangles, of contested triangles (unless a node has no other
     /// triangle), and of faces whose triangles differ in orientation or degeneracy (checkPolygons in one_pass.cpp).
     std::span<const std::uint32_t> chosen;
-    bool are_all;  ///< whether `chosen` contains all nodes
+    bool are_all;  ///< true: `chosen` contains all nodes
     PlanUse use;   ///< once: the plan has the mesh's own terms, except for estimators
     Parallel& parallel;
 };
@@ -50,7 +50,7 @@ enum TriangleFlag : std::uint8_t {
 
 /// A corner of a triangle that is not degenerate. The corners of a node are contiguous.
 struct NodeCorner {
-    const float* s;                ///< its row of CornerTerms::s
+    const float* s;                ///< row of the corner in CornerTerms::s
     std::uint32_t half_edge;       ///< 3 * the triangle's number in `found` + k
     std::uint32_t next, previous;  ///< nodes
     std::uint32_t facing;          ///< kFacesUp or kFacesDown; 0: its triangle has no UV area and contributes nothing
