@@ -39,7 +39,7 @@ test("right of the slider are the very tangents of the download, whatever made t
     }
     // A method is there again when it is asked for, and the mended file after that.
     await tab.locator(".look select").first().selectOption("lengyel");
-    await tab.locator(".figures", { hasText: "from lengyel" }).waitFor();
+    await tab.locator(".figures", { hasText: "lengyel" }).waitFor();
     await tab.locator(".look select").first().selectOption("mended");
     await tab.locator(".figures", { hasText: "the fixed file" }).waitFor();
   });
