@@ -41,8 +41,8 @@ class RangeEvidence {
             return "its floats are " + lengths() + " as stored, and not after 2c - 1" + read;
         if (negative >= kSome && stored >= moved)
             return "floats of " + std::to_string(negative_) + " of " + std::to_string(count_) + " texels are below 0" +
-                   read + ", though few are " + lengths() +
-                   ", as stored or after 2c - 1: check that the image is a normal map";
+                   read + ", but few are " + lengths() +
+                   ", as stored or decoded as 2c - 1; check that the image is a normal map";
         return {};
     }
 

@@ -146,7 +146,7 @@ TEST(PackedGltf, IsLeftOutWithTheReasonWhereAFrameIsMissing) {
     EXPECT_FALSE(outcome.report.changed);
     EXPECT_FALSE(report.frames_packed);
     ASSERT_EQ(report.notes.size(), 1u);
-    EXPECT_EQ(report.notes[0], "its frames were not packed: it has no TANGENT; use --all to add what is missing");
+    EXPECT_EQ(report.notes[0], "its frames were not packed: it has no TANGENT; use --all to add it");
     GenerateOptions all = packing(FrameFormat::frame32);
     all.selection.all = true;
     EXPECT_TRUE(run(model, all).report.primitives.at(0).frames_packed) << "the advice holds";

@@ -254,7 +254,7 @@ TEST(Generate, AFailedRunLeavesTheOldOutput) {
     folder.write("out.glb", "old");
     const ToolRun run = runTool(folder, "generate bad.obj -o out.glb");
     EXPECT_EQ(run.exit_code, 3);
-    EXPECT_EQ(run.err, "tspace: bad.obj: a face refers to vertex 2 of 1 (at line 2)\n");
+    EXPECT_EQ(run.err, "tspace: bad.obj: a face refers to vertex 2, but the number of vertices is 1 (at line 2)\n");
     EXPECT_EQ(folder.read("out.glb"), "old");
     EXPECT_EQ(folder.files(), (std::set<std::string>{"bad.obj", "out.glb"}));
 }

@@ -146,6 +146,10 @@ Command bakeCommand() {
         if ((option.group == kManyFiles || option.name() == "--verbose") && option.needs.empty())
             option.needs = "--pairs";
         if (option.name() == "--manifest") option.excludes.clear();
+        if (option.name() == "--shard")
+            option.help =
+                "Process only shard I of N (1-based), to split a batch across machines. The shard of a pair depends "
+                "only on the name of LOW in the file, so adding or removing other pairs does not change it.";
     }
     command.add(kReporting, text("--report", "JSON", arguments.report, "Also write the report as JSON to this file."))
         .is_file = true;

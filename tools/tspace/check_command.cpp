@@ -159,10 +159,10 @@ Command checkCommand() {
         .operands = "IN...",
         .description =
             "Compares tangents with the UVs that the material's textures use: signs, directions, seams, UV sets and "
-            "texture transforms. Also checks for values that are not finite or not of unit length, and checks normals, "
-            "morph targets, and normal maps whose green channel points down. Every finding states how to fix it. An "
-            "error causes wrong shading everywhere; a warning causes it in some renderers, in a small area, or only "
-            "possibly; a note does no harm. No input is changed. An image as input (PNG, JPEG, WebP, EXR, KTX2, DDS, "
+            "texture transforms. Also reports values that are not finite or not of unit length, wrong normals and "
+            "morph targets, and normal maps with inverted green. Every finding states how to fix it. Severities: "
+            "error: wrong shading in every renderer; warning: wrong shading in some renderers or in a small area, or "
+            "uncertain; note: harmless. No input is changed. An image as input (PNG, JPEG, WebP, EXR, KTX2, DDS, "
             "TGA) is checked as a normal map, without a model: direction of green, channels, encoding, lengths. A "
             "folder or pattern without models is searched for images; images that neither look like a normal map nor "
             "are named like one get no findings.",

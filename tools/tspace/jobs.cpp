@@ -160,7 +160,9 @@ Result<std::vector<Job>> jobWithNamedOutput(const JobRequest& request) {
     }
     if (extension.empty()) {
         job.output += extensionFor(request.container, job.input);
-        job.remark = "the output has no extension, so it would be the file " + job.output + "; a folder would be " +
+        job.remark = "the output has no extension, so it was read as the file " + job.output +
+                     "; to write into a "
+                     "folder, use " +
                      request.output + "/";
     } else if (!isGltfName(job.output)) {
         return usage("the output '" + job.output + "' must end in .glb, .vrm or .gltf");

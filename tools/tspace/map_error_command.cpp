@@ -82,7 +82,7 @@ Command mapErrorCommand() {
     MapErrorArguments& arguments = *owned;
     arguments.options.execution.thread_count = kAllThreads;
     Command command{
-        .summary = "measure how far a normal map is from its high poly, and why",
+        .summary = "measure the error of a normal map against its high poly, and find its cause",
         .operands = "{MAP LOW --high HIGH | MAP --source IMAGE}",
         .description =
             "Measures a normal map from any source: the angle, in degrees, between the normals that a renderer shades "

@@ -272,7 +272,7 @@ export class App {
         if (corners) scene.add(i, part, corners);
         progress.at("Drawing", 0.1 + (0.2 * (i + 1)) / parts.length);
       }
-      if (!stage.viewport.hasPicture) remarks.unshift("This browser has no WebGL, so there is no picture. Findings and fixes are complete.");
+      if (!stage.viewport.hasPicture) remarks.unshift("This browser has no WebGL, so there is no picture. Findings and fixes still work.");
       stage.viewport.show(scene);
       if (!isOther) {
         stage.viewport.setHome(model.loneMap && kMapDirection);

@@ -170,7 +170,7 @@ def load_map(path, name):
 
 
 class Standing:
-    """The mesh of an object as it stands in the scene, with its modifiers: a copy that is removed at the end."""
+    """Context manager for a temporary copy of the evaluated mesh of an object, with modifiers applied; removed on exit."""
 
     def __init__(self, thing, context):
         evaluated = thing.evaluated_get(context.evaluated_depsgraph_get())

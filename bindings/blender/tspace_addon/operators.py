@@ -164,7 +164,7 @@ class TSPACE_OT_compare(Tspace):
 
 
 def read_tangents(path, arrays):
-    """Tangents per loop of a GLB that was made of these arrays; vertices that were split name their place by position and UV."""
+    """Returns the tangent of each loop from a GLB that was written from `arrays`. Vertices may have been split; the order of corners is unchanged."""
     import json
     import struct
 

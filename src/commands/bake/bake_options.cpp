@@ -127,9 +127,9 @@ void addRayOptions(OptionList& list, double& reach, RayOptions& rays, std::strin
     const char* group = "Rays";
     add(list, group,
         choice("--rays", "WHICH", kTargets, rays.target,
-               "Hit of a ray on the high poly that is used. outermost: the first front face from the cage inwards, "
-               "which is the visible one, or, if there is none, the nearest one outside the cage; nearest: the front "
-               "face nearest to the low poly on either side, for fingers and thin parts."));
+               "Ray hit to use on the high poly. outermost: the first front face from the cage inwards, which is the "
+               "visible one; if there is none, the nearest one outside the cage. nearest: the front face nearest to "
+               "the low poly on either side, for fingers and thin parts."));
     add(list, group,
         choice("--directions", "HOW", kDirections, rays.directions,
                "Ray directions. averaged: along the mean of the normals at each position, which avoids gaps at hard "
@@ -142,8 +142,8 @@ void addRayOptions(OptionList& list, double& reach, RayOptions& rays, std::strin
     add(list, group,
         lengthOption("--reach", reach,
                      "Maximum search distance from the low poly, outwards and inwards, in model units. Default: 5% of "
-                     "the diagonal of the larger bounding box, or more if the two bounding boxes differ by more; the "
-                     "report states the value."));
+                     "the diagonal of the larger bounding box, or 1.5 times the difference of the two boxes if that "
+                     "is larger, up to 25% of the diagonal; the report states the value."));
     add(list, group,
         numberOrAuto("--weld-distance", "DISTANCE", "a distance", rays.weld_distance, NormalOptions::weld_auto,
                      1000000000,
@@ -260,9 +260,9 @@ OptionList bakeOptions(BakeFileOptions& options) {
     add(list, "High poly",
         numberOrAuto("--denoise", "FACTOR", "a number", options.denoise, NormalOptions::denoise_auto, 4,
                      "Denoising for a high poly with noisy positions, such as a scan: its normals are recomputed from "
-                     "a larger neighborhood, so that noise is not baked. auto: by the measured noise level, and not at "
-                     "all where the deviations look like real detail; 0 to 4: this multiple of the measured noise "
-                     "level, even where it looks like real detail."));
+                     "a larger neighborhood, so that noise is not baked. auto: strength from the measured noise "
+                     "level, or off if the deviations look like real detail; 0: off; up to 4: multiple of the "
+                     "measured noise level, applied even if the deviations look like real detail."));
     addRunning(list, options.execution, "Number of threads; 0: one per core. The output is the same for every number.",
                options.file);
     return list;

@@ -307,11 +307,10 @@ Finding unreadable(const std::string& name, const std::string& why_not) {
 
 Finding flipped(const std::string& name, const GreenTest& test) {
     const Tally blocks{.count = test.down_block_count, .total = test.block_count};
-    return makeFinding(
-        FindingCode::greenFlipped, Severity::warning, blocks, "blocks",
-        "bumps probably look like dents: red or green is inverted in the normal map " + name +
-            "; nearly always it is green, which then points down as in DirectX. This is the result for " +
-            countText(blocks, "blocks") + " of 16 x 16 pixels with relief");
+    return makeFinding(FindingCode::greenFlipped, Severity::warning, blocks, "blocks",
+                       "bumps probably look like dents: red or green is inverted in the normal map " + name +
+                           "; nearly always it is green, which then points down as in DirectX. Found in " +
+                           countText(blocks, "blocks") + " of 16 x 16 pixels with relief");
 }
 
 /// Remedy for an image without a model, to which generate does not apply.

@@ -50,8 +50,8 @@ void addChecking(OptionList& list, CheckRequest& request) {
                "Expected sign convention: gltf, opengl, directx, unreal, unity, blender or godot, as in generate."));
     add(list, group,
         choice("--faces", "FACES", kFaces, options.faces,
-               "Faces whose tangents are the reference. auto: quads where the stored tangents clearly fit quads "
-               "better, as Blender's do, otherwise triangles; triangles or quads: always these."));
+               "Faces on which the reference tangents are computed: triangles; quads; or auto: quads where the stored "
+               "tangents clearly fit quads better, as in files from Blender, otherwise triangles."));
     add(list, group,
         numberOrAuto("--weld-distance", "DISTANCE", "a distance", options.weld_distance, NormalOptions::weld_auto,
                      1000000000,

@@ -110,7 +110,7 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      {"generate --fix-maps", "convert-map MAP -o OUT.png --channels LETTERS"}},
     {"normalMapIsSrgb",
      "To fix the map in the model: {}. To fix the image alone: {}; or, if the sRGB curve was removed by mistake: {}",
-     {"generate --fix-maps", "convert-map MAP -o OUT.png --srgb", "convert-map MAP -o OUT.png --linearised"}},
+     {"generate --fix-maps", "convert-map MAP -o OUT.png --srgb", "convert-map MAP -o OUT.png --linearized"}},
     {"normalMapInObjectSpace",
      "To fix the map in the model: {}. To fix the image alone: {}",
      {"generate --fix-maps", "convert-map MAP -o OUT.png --from object --mesh MODEL"}},

@@ -233,7 +233,7 @@ Option formatOption(TextureFormat& format) {
     made.take = [take = made.take](const std::string& name) {
         if (name == "uastc")
             return std::string(
-                "not supported; use basisu to encode UASTC (in a glTF, PNG and lossless WebP are exact)");
+                "not supported; use basisu to encode UASTC, or PNG or lossless WebP for a lossless map in a glTF");
         return take(name);
     };
     return made;
@@ -279,7 +279,7 @@ OptionList compressMapOptions(CompressMapFileOptions& options) {
     add(list, "Texture",
         choice("--quality", "QUALITY", kQualities, options.quality,
                "Encoder quality. quick: encodes each channel separately; fast: minimizes the error of the filtered "
-               "texture; best: as fast does, with more iterations. Compared with fast, quick has about 20% more error "
+               "texture; best: like fast, with more iterations. Compared with fast, quick has about 20% more error "
                "and takes 25% of the time; best has about 1% less error and takes 2.5 times as long."));
     add(list, "Texture",
         flag("--signed", options.is_signed,
@@ -298,7 +298,7 @@ OptionList compressMapOptions(CompressMapFileOptions& options) {
                "Zstandard supercompression level of a .ktx2, from 1 (fast) to 22 (smallest); 0: none. Textures of "
                "detailed maps hardly become smaller."));
     add(list, "Texture",
-        number("--bits", options.bits, 16, "Bits per channel of the PNGs of normals, if OUT is a folder: 8 or 16."));
+        number("--bits", options.bits, 16, "Bits per channel of the normal-map PNGs, if OUT is a folder: 8 or 16."));
     addRoughness(list, options);
     add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything except writing the output."));
     addRunning(list, options.execution, "Number of threads; 0: one per core. The output is the same for every number.",

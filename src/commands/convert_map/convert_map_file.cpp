@@ -395,13 +395,13 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
             "Program that will show the output: gltf, opengl, directx, unreal, unity, blender, godot or three."));
     add(list, group,
         choice("--from-bitangent", "WHERE", kBitangents, options.from_reading.bitangent,
-               "Where the program of --from-convention computes bitangents: per vertex or per pixel. Default: as that "
-               "program does; pixel for gltf."))
+               "Bitangents that the map was made for: interpolated per vertex or computed per pixel. Default: as in "
+               "the program of --from-convention; for gltf: pixel."))
         .default_text.clear();
     add(list, group,
         choice("--to-bitangent", "WHERE", kBitangents, options.to_reading.bitangent,
-               "Where the program of --to-convention computes bitangents: per vertex or per pixel. Default: as that "
-               "program does; pixel for gltf."))
+               "Bitangents that the output is made for: interpolated per vertex or computed per pixel. Default: as in "
+               "the program of --to-convention; for gltf: pixel."))
         .default_text.clear();
     add(list, group,
         option(
@@ -413,10 +413,11 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
     add(list, group,
         setting("--srgb", options.layout.curve, MapCurve::srgb,
                 "Undo an sRGB encoding: the values of IN were stored as colors, with the sRGB curve."));
-    add(list, group,
-        setting("--linearised", options.layout.curve, MapCurve::linearised,
-                "Reapply the sRGB curve: the values of IN were decoded as sRGB by mistake."))
-        .excludes = {"--srgb"};
+    Option linearized = setting("--linearized", options.layout.curve, MapCurve::linearised,
+                                "Reapply the sRGB curve: the values of IN were decoded as sRGB by mistake.");
+    linearized.old_names = {"--linearised"};
+    linearized.excludes = {"--srgb"};
+    add(list, group, std::move(linearized));
     add(list, group,
         option(
             "--flip-red", "", [](const std::string&) { return std::string(); },

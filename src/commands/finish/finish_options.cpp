@@ -48,7 +48,8 @@ OptionList finishOptions(FinishOptions& options) {
     add(list, "Normals",
         choice("--normals", "WHICH", kFinishNormals, options.normals,
                "Normals to recompute, by method best. missing: missing normals and normals that check reports as "
-               "errors; all: every normal; none: only missing normals that tangents require."));
+               "errors; all: every normal; none: keep all existing normals; missing normals are computed only if "
+               "tangents require them."));
     add(list, "Normals",
         numberOrAuto(
             "--crease", "DEG", "a number of degrees", options.crease_angle_deg, NormalOptions::crease_auto, 180,
@@ -58,8 +59,9 @@ OptionList finishOptions(FinishOptions& options) {
         numberOrAuto(
             "--denoise", "FACTOR", "a number", options.denoise, NormalOptions::denoise_auto, 4,
             "Denoising for recomputed normals on noisy positions, such as scans: normals are computed from a larger "
-            "neighborhood. auto: by the measured noise level, and not at all where the deviations look like real "
-            "detail; 0 to 4: this multiple of the measured noise level, even where it looks like real detail."));
+            "neighborhood. auto: strength from the measured noise level, or off if the deviations look like real "
+            "detail; 0: off; up to 4: multiple of the measured noise level, applied even if the deviations look like "
+            "real detail."));
     add(list, "Normals",
         numberOrAuto("--weld-distance", "DISTANCE", "a distance", options.weld_distance, NormalOptions::weld_auto,
                      1000000000,

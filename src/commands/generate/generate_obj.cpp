@@ -191,7 +191,7 @@ void packWritten(const GenerateOptions& options, FinishedPrimitive& finished, Pr
     if (mesh.tangents.empty()) {
         const bool can_have = report.action == PrimitiveAction::notNeeded;
         report.notes.emplace_back(std::string("its frames were not packed: it has no TANGENT") +
-                                  (can_have ? "; use --all to add what is missing" : ""));
+                                  (can_have ? "; use --all to add it" : ""));
         return;
     }
     roundUnits(std::span(mesh.tangents), finished.tangent_format);

@@ -63,7 +63,7 @@ void addOutput(OptionList& list, GenerateOptions& options) {
         choice("--compress", "HOW", kCompressions, options.storage.compression,
                "Geometry compression of the output. keep: the compression of the input; none: uncompressed; meshopt: "
                "EXT_meshopt_compression, which is lossless; draco: KHR_draco_mesh_compression, which quantizes "
-               "positions, normals and UVs, except those that were Draco data before."));
+               "positions, normals and UVs, except attributes that are already Draco-compressed in the input."));
     addKeepCoordinates(list, options.file);
     addAllowExternal(list, options.file);
 }
@@ -100,8 +100,9 @@ void addTangentOptions(OptionList& list, GenerateOptions& options) {
     add(list, group,
         choice("--method", "NAME", kMethods, tangents.method,
                "Tangent method. mikktspace: bit-identical to what bakers and engines use; lengyel: one tangent per "
-               "vertex, no splits; uniform, angle, area: means with these weights; fast, best: more accurate, for maps "
-               "that were not baked; flat: one per face; basis: from the normals alone, without UVs."));
+               "vertex, no splits; uniform, angle, area: averages over the adjacent triangles with these weights; "
+               "fast, best: more accurate, for maps that were not baked; flat: one per face; basis: from the normals "
+               "alone, without UVs."));
     add(list, group,
         choice("--faces", "FACES", kFaces, options.tangents.faces,
                "Faces that mikktspace works on. triangles: the triangles of the file, for maps baked from triangulated "
@@ -168,8 +169,8 @@ Option compressMapsOption() {
     };
     Option made = option(
         "--compress-maps", "HOW", take,
-        "Texture compression of normal maps. keep, the only value: images are not changed, including KTX2 and DDS; "
-        "normal maps that another option rewrites become PNG. For engine textures see tspace compress-map.");
+        "Texture compression of normal maps. Only keep is supported: images are not changed, including KTX2 and DDS; "
+        "normal maps that another option rewrites become PNG. To compress maps for engines, use tspace compress-map.");
     made.choices = {"keep"};
     made.default_text = "keep";
     return made;
@@ -199,8 +200,8 @@ void addMapOptions(OptionList& list, GenerateOptions& options) {
         .excludes = {"--flip-green", "--flip-green-all", "--fix-maps", "--repair"};
     add(list, group,
         setting("--no-images", options.maps.read, false,
-                "Do not read the pixels of normal maps. By default --repair reads them if most tangent signs are "
-                "inverted. With this option it keeps inverted signs, because the maps may be inverted too."))
+                "Do not read the pixels of normal maps. --repair then keeps inverted tangent signs, because it cannot "
+                "determine whether the maps are inverted too."))
         .excludes = {"--flip-green", "--flip-green-all", "--fix-maps", "--convert-maps"};
     add(list, group, compressMapsOption());
 }
@@ -221,9 +222,9 @@ void addOtherOptions(OptionList& list, GenerateOptions& options) {
     add(list, "Normals",
         numberOrAuto("--denoise", "FACTOR", "a number", options.normals.compute.denoise, NormalOptions::denoise_auto, 4,
                      "Denoising for --normals best on noisy positions, such as scans: normals are computed from a "
-                     "larger neighborhood, so that noise is not shaded. Vertices do not move. auto: by the measured "
-                     "noise level, and not at all where the deviations look like real detail; 0 to 4: this multiple of "
-                     "the measured noise level, even where it looks like real detail."));
+                     "larger neighborhood, so that noise is not shaded. Vertices do not move. auto: strength from the "
+                     "measured noise level, or off if the deviations look like real detail; 0: off; up to 4: multiple "
+                     "of the measured noise level, applied even if the deviations look like real detail."));
     add(list, "Normals",
         numberOrAuto("--weld-distance", "DISTANCE", "a distance", options.normals.compute.weld_distance,
                      NormalOptions::weld_auto, 1000000000,

@@ -31,11 +31,11 @@ void warnOfWinding(const GenerateOptions& options, GenerateReport& report) {
     }
     if (turned != 0) {
         std::string text = std::to_string(turned) + " of " + counted(triangles, "triangle") +
-                           (turned == 1 ? " is" : " are") + " wound opposite to the neighbors" +
-                           (options.mend_winding ? "" : "; use --fix-winding to flip them");
+                           (turned == 1 ? " is" : " are") + " wound opposite to the neighbors";
         if (vertices.after() > vertices.before())
             text += ", and vertices were split between them (" + std::to_string(vertices.before()) + " -> " +
                     std::to_string(vertices.after()) + ")";
+        if (!options.mend_winding) text += "; use --fix-winding to flip them";
         report.warnings.push_back(text);
     }
     if (two_sided != 0) {

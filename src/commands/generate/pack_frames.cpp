@@ -103,7 +103,7 @@ class PackedWriter {
             const auto index = primitive.find(name);
             if (!index) {
                 const bool can_have = report.action == PrimitiveAction::notNeeded && name[0] != 'P';
-                return std::string("it has no ") + name + (can_have ? "; use --all to add what is missing" : "");
+                return std::string("it has no ") + name + (can_have ? "; use --all to add it" : "");
             }
             const Accessor accessor = readAccessor(document_, *index);
             if (*type == '\0') continue;

@@ -284,8 +284,9 @@ std::string checkPage(const std::vector<report::CheckOutcome>& outcomes, const F
     std::string html = pageHead("tspace check");
     html += "<h1>Frames of " + counted(outcomes.size(), "file") + "</h1>\n";
     html += originHtml(origin) +
-            "<p class=\"dim\">An error causes wrong shading everywhere; a warning causes it in some renderers, in a "
-            "small area, or only possibly; a note does no harm. A frame marks the place of a finding. Pictures before "
+            "<p class=\"dim\">Severities: error: wrong shading in every renderer; warning: wrong shading in some "
+            "renderers or in a small area, or uncertain; note: harmless. A frame marks the location of a finding. "
+            "Pictures before "
             "and after the fix use the camera and the light that show the difference best.</p>\n";
     if (outcomes.size() > 1) html += overviewHtml(outcomes);
     for (std::size_t i = 0; i < outcomes.size(); ++i) {

@@ -52,8 +52,8 @@ Option axesOption(std::function<void(const MapAxes&)> give) {
     };
     Option axes =
         option("--axes", "AXES", take,
-               "Axes of a map in object or world space: the model axes that its x, y and z point along. y-up: the "
-               "axes of glTF; z-up: those of Blender and 3ds Max, which are x,-z,y; or three signed axes.");
+               "Axes of a map that is not in tangent space. y-up: as in glTF; z-up: as in Blender and 3ds Max, the "
+               "same as x,-z,y; or three comma-separated signed axes of the model, for x, y and z of the map.");
     axes.default_text = "y-up";
     return axes;
 }

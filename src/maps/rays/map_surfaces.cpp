@@ -149,8 +149,8 @@ Error checkSurfaces(const LowPoly& low, const HighPoly& high, bool needs_tangent
         then(checkSpan(low.rest_normals, low.rest_positions.count, "low.rest_normals"));
         if (low.rest_positions.count % 3 != 0 || low.rest_positions.count > kMaxCorners - corners)
             then(makeError(ErrorCode::countMismatch, kNoElement,
-                           "the number of rest positions of the low poly must be a multiple of 3, and with the "
-                           "positions at most 2^31-1"));
+                           "the number of rest positions of the low poly must be a multiple of 3, and the number of "
+                           "positions and rest positions together must not exceed 2^31-1"));
     }
     then(checkSpan(high.positions, kAnyCount, "high.positions"));
     if (!high.normals.empty()) then(checkSpan(high.normals, high.positions.count, "high.normals"));

@@ -471,7 +471,8 @@ void AtomicOutput::leaveSharedFiles() {
         });
         if (kindOf(file.target) == PathKind::nothing || !(file.is_shared || is_of_other || is_read_by_other)) continue;
         if (!hasBytes(file.target, readFile(file.temporary)))
-            failToWrite(file.target, is_read_by_other ? "another model of this run reads this file"
+            failToWrite(file.target, is_read_by_other ? "it is an input of another model in this run; choose another "
+                                                        "output folder"
                                      : is_of_other    ? "this run has already written a different file with this name"
                                                       : "a different file with this name was created in the meantime");
         leave(file);

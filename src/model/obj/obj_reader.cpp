@@ -430,8 +430,8 @@ void checkIndices(Build& build) {
             Corner& corner = model.corners[face.first_corner + i];
             if (corner.position >= build.positions.size()) {
                 failFile(ErrorCode::invalidFile,
-                         "a face refers to vertex " + std::to_string(std::uint64_t{corner.position} + 1) + " of " +
-                             std::to_string(build.positions.size()),
+                         "a face refers to vertex " + std::to_string(std::uint64_t{corner.position} + 1) +
+                             ", but the number of vertices is " + std::to_string(build.positions.size()),
                          "line " + std::to_string(face.line));
             }
             if (corner.uv != kNone && corner.uv >= model.uvs.size()) {

@@ -49,9 +49,9 @@ export class UvMapView {
       void this.draw();
     });
     const wire = checkbox("Triangles", true, (on) => ((this.#isWire = on), void this.draw()));
-    const cover = el("input", { type: "range", min: "0", max: "100", value: String(100 * this.#cover), "aria-label": "How much the islands cover the image" });
+    const cover = el("input", { type: "range", min: "0", max: "100", value: String(100 * this.#cover), "aria-label": "Opacity of the UV islands over the image" });
     cover.addEventListener("input", () => ((this.#cover = Number(cover.value) / 100), void this.draw()));
-    this.#rows.append(this.#part, this.#sets, looks.element, el("div", { class: "row" }, wire.element, el("label", { class: "select" }, el("span", {}, "Cover"), cover)),
+    this.#rows.append(this.#part, this.#sets, looks.element, el("div", { class: "row" }, wire.element, el("label", { class: "select" }, el("span", {}, "Opacity"), cover)),
       el("div", { class: "row" }, this.#enlarge, el("button", { type: "button", class: "small", onclick: () => this.#map.fit() }, "Show all")), this.#map.element, this.#caption);
     this.element.append(this.#rows);
     this.element.addEventListener("toggle", () => (this.element as HTMLDetailsElement).open && void this.#choose(this.#index()));

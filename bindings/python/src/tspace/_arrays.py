@@ -101,7 +101,7 @@ def output_array(out: Optional[numpy.ndarray], count: int, components: int) -> n
 
 
 def write_span(array: numpy.ndarray) -> _abi.Span:
-    """Returns a span over an array of output_array."""
+    """Returns a span over an array that output_array() returned."""
     return _abi.Span(array.ctypes.data, len(array), array.strides[0])
 
 

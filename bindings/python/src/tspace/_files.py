@@ -418,7 +418,7 @@ def finish_file(input: PathLike, output: PathLike, **options: Any) -> FinishRepo
 
 
 def _with_exit_codes(document: Dict[str, Any]) -> Dict[str, Any]:
-    """Adds the exit codes that separate calls would return to the reports of the steps of finish."""
+    """Adds to the report of each step of finish the exit code that a separate call would return."""
 
     def checked(report: Optional[Dict[str, Any]]) -> Optional[Dict[str, Any]]:
         return report and {**report, "exitCode": 1 if report["counts"]["error"] else 0}

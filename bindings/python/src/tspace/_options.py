@@ -118,5 +118,5 @@ def small_number(option: str, value: Any) -> int:
         raise TypeError(f"{option} must be an integer, not {shown(value)}")
     number = int(value)
     if not 0 <= number < 2**32:
-        raise InputError(f"{option} is {value}, which is out of range", "invalidOption")
+        raise InputError(f"{option} is {value}, but must be from 0 to 4294967295", "invalidOption")
     return number
