@@ -7,6 +7,7 @@
 #include "commands/check/frame_health.h"
 #include "commands/check/remedy.h"
 #include "commands/check/scene_checks.h"
+#include "core/base/numbers.h"
 
 namespace tspace {
 const char* severityName(Severity severity) {
@@ -104,6 +105,8 @@ std::string decimalText(double value) {
 }
 
 std::string stepText(double value) {
+    constexpr double kLeast = 1e-9, kMost = 1e15;
+    if (value >= kMost || (value > 0 && value < kLeast)) return shortNumber(value);
     if (value >= 10) return std::to_string(static_cast<std::uint64_t>(std::llround(value)));
     int digits = 1;
     for (double scaled = value; scaled > 0 && scaled < 1 && digits < 12; scaled *= 10) ++digits;

@@ -56,11 +56,11 @@ void checkNormalValues(PrimitiveFacts& facts) {
             continue;
         }
         // Uses the stored length, because the mesh has the scaled normals.
-        const double size = scales != nullptr && scales->of_vertices[v] != 1 ? 1 / scales->of_vertices[v]
-                                                                             : length(toDouble(mesh.normals[v]));
+        const bool is_scaled = scales != nullptr && scales->of_vertices[v] != 1;
+        const double size = is_scaled ? 1 / scales->of_vertices[v] : length(toDouble(mesh.normals[v]));
         if (std::fabs(size - 1) > facts.options.unit_tolerance) not_unit.add(v, facts.surface.vertex_areas[v]);
         if (std::fabs(size - 1) > kFarFromUnit + kRounding) far_share += facts.surface.vertex_areas[v];
-        zero_count += size < kLeastLength ? 1 : 0;
+        zero_count += !is_scaled && size < kLeastLength ? 1 : 0;
     }
     not_finite.finish(facts.surface.area);
     not_unit.finish(facts.surface.area);
@@ -277,8 +277,12 @@ void reportAttributeFaults(PrimitiveFacts& facts) {
     for (const SceneAttributeFault& fault : facts.primitive.attribute_faults) {
         const Tally all{.count = fault.vertex_count, .total = fault.vertex_count};
         const std::string name = attributeText(fault.name, fault.target);
-        facts.add(FindingCode::attributeUnreadable, Severity::error, all, "vertices",
-                  "the elements of " + name + " cannot be read: " + fault.why);
+        const bool was_read = fault.target < 0 && fault.name == "NORMAL" && !facts.primitive.normals.empty();
+        // Unsigned normals of unit length are correct if no component was meant to be negative.
+        const bool may_be_right = was_read && facts.primitive.normal_scales == nullptr;
+        facts.add(FindingCode::attributeUnreadable, may_be_right ? Severity::warning : Severity::error, all, "vertices",
+                  was_read ? "the surface may be lit from wrong directions: the elements of NORMAL " + fault.why
+                           : "the elements of " + name + " cannot be read: " + fault.why);
         setRemedy(facts.findings.back(), attributeRemedy(facts.primitive, fault));
     }
 }

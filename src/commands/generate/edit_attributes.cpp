@@ -13,6 +13,7 @@
 #include "model/gltf/compression_extensions.h"
 #include "model/gltf/gather_elements.h"
 #include "model/gltf/packed_layout.h"
+#include "model/gltf/unsigned_normals.h"
 
 namespace tspace::gltf {
 
@@ -296,12 +297,16 @@ ElementData unitNormals(const Document& document, const Primitive& primitive, st
 
 }  // namespace
 
+bool canScaleNormals(const Document& document, const Primitive& primitive) {
+    return primitive.normal_scales != nullptr && !areUnsigned(document, primitive.find("NORMAL"));
+}
+
 void writeUnitNormals(Document& document, const std::string& new_file, std::span<const Primitive> primitives) {
     // The key is the target, its NORMAL accessor, and the NORMAL accessor of the base.
     std::map<std::tuple<std::ptrdiff_t, std::size_t, std::size_t>, std::vector<std::size_t>> sharing;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         const Primitive& primitive = primitives[i];
-        if (primitive.normal_scales == nullptr) continue;
+        if (!canScaleNormals(document, primitive)) continue;
         const std::size_t base = *primitive.find("NORMAL");
         sharing[{kBase, base, base}].push_back(i);
         for (std::size_t target = 0; target < primitive.targets.size(); ++target) {

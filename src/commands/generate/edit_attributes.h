@@ -75,9 +75,13 @@ void eraseAttribute(Editor& editor, const Primitive& primitive, const char* name
 void turnTriangles(Document& document, const std::string& new_file, std::span<const Primitive> primitives,
                    std::span<const std::vector<std::uint8_t>> turned);
 
-/// Writes the normals of primitives with Primitive::normal_scales with length 1, and scales the offsets of morph
-/// targets accordingly. Floats and normalized signed integers keep their format, other formats become floats; normals
-/// that have unit length keep their bits. Parameters as for turnTriangles.
+/// Returns whether normals need to be scaled to length 1 and can be. Scaled unsigned normals would still have wrong
+/// directions, and their lengths would no longer reveal it.
+bool canScaleNormals(const Document& document, const Primitive& primitive);
+
+/// Writes the normals of primitives with canScaleNormals with length 1, and scales the offsets of morph targets
+/// accordingly. Floats and normalized signed integers keep their format, other formats become floats; normals that
+/// have unit length keep their bits. Parameters as for turnTriangles.
 void writeUnitNormals(Document& document, const std::string& new_file, std::span<const Primitive> primitives);
 
 }  // namespace tspace::gltf

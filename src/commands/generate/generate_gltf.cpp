@@ -235,11 +235,11 @@ bool repairFaults(Input& input, const Storage& storage, bool is_asked_for, Norma
 
 /// Normalizes normals of other lengths if tangents are repaired. Returns whether there were any.
 bool mendNormalLengths(Input& input, const Storage& storage, std::vector<std::string>& warnings) {
-    const auto is_scaled = [](const Primitive& primitive) { return primitive.normal_scales != nullptr; };
     const std::vector<Primitive>& primitives = input.model.primitives();
-    if (input.options.selection.existing != ExistingTangents::repair) return false;
-    if (std::none_of(primitives.begin(), primitives.end(), is_scaled)) return false;
     Document& document = input.model.document();
+    const auto can_scale = [&](const Primitive& primitive) { return canScaleNormals(document, primitive); };
+    if (input.options.selection.existing != ExistingTangents::repair) return false;
+    if (std::none_of(primitives.begin(), primitives.end(), can_scale)) return false;
     if (input.options.storage.compression == Compression::keep)
         convertContainer(document, input.target, true, warnings);
     writeUnitNormals(document, storage.new_file, primitives);
@@ -247,11 +247,11 @@ bool mendNormalLengths(Input& input, const Storage& storage, std::vector<std::st
     return true;
 }
 
-/// Completes the warning about normals with other lengths if the output has only unit normals.
-void noteUnitNormals(std::span<const std::size_t> scaled, bool were_mended, GenerateReport& report) {
-    const bool are_unit = were_mended || std::all_of(scaled.begin(), scaled.end(), [&](std::size_t number) {
-                              return report.primitives[number].normals_generated;
-                          });
+/// Completes the warning about normals with other lengths if the output has only unit normals. `scaled`: primitives
+/// whose normals have other lengths and were not repaired.
+void noteUnitNormals(std::span<const std::size_t> scaled, GenerateReport& report) {
+    const bool are_unit = std::all_of(scaled.begin(), scaled.end(),
+                                      [&](std::size_t number) { return report.primitives[number].normals_generated; });
     for (std::string& warning : report.warnings) {
         if (are_unit && warning.rfind(kNormalLengths, 0) == 0)
             warning = warning.substr(0, warning.find(". ")) + ". The normals in the output have unit length";
@@ -263,7 +263,10 @@ WorkedOn generate(Input& input, bool with_images, const GenerateStep& step, Gene
     Document& document = input.model.document();
     std::vector<std::size_t> scaled;
     for (std::size_t i = 0; i < input.model.primitives().size(); ++i) {
-        if (input.model.primitives()[i].normal_scales != nullptr) scaled.push_back(i);
+        const Primitive& primitive = input.model.primitives()[i];
+        const bool is_repaired =
+            input.options.selection.existing == ExistingTangents::repair && canScaleNormals(document, primitive);
+        if (primitive.normal_scales != nullptr && !is_repaired) scaled.push_back(i);
     }
     report.warnings = document.warnings;
     std::copy_n(document.coordinate_offset.begin(), 3, report.coordinate_offset);
@@ -288,7 +291,7 @@ WorkedOn generate(Input& input, bool with_images, const GenerateStep& step, Gene
     tell(input.options, "reading", 1, 1);
     const WorkedOn worked_on = edit(input, storage, std::move(decisions), report);
     report.changed = report.changed || was_turned || were_mended || was_repaired;
-    noteUnitNormals(scaled, were_mended, report);
+    noteUnitNormals(scaled, report);
     countTurned(winding, report.primitives);
     return worked_on;
 }

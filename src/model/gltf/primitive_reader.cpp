@@ -11,6 +11,7 @@
 #include "core/base/sort.h"
 #include "core/base/vec_math.h"
 #include "model/gltf/packed_layout.h"
+#include "model/gltf/unsigned_normals.h"
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {
@@ -197,6 +198,14 @@ std::optional<StridedSpan<const Vec>> viewVectors(const Document& document, cons
     return StridedSpan<const Vec>(reinterpret_cast<const Vec*>(elements->data), accessor.count, elements->stride);
 }
 
+/// Returns the scale to unit length, as unitScale does, and also for shorter normals whose squared length is a
+/// normalized float, since shaders can normalize those.
+double storedScale(const Vec3& normal) {
+    constexpr double kLeast = 0x1p-63;
+    const double size = length(toDouble(normal));
+    return size >= kLeast && size < kLeastLength ? 1 / size : unitScale(normal);
+}
+
 std::shared_ptr<const NormalScales> findScales(const Document& document, const Accessor& accessor) {
     // Without a view all normals are zero, regardless of their number.
     const bool is_stored = accessor.view || accessor.sparse || document.elements.count(accessor.index) != 0;
@@ -210,7 +219,7 @@ std::shared_ptr<const NormalScales> findScales(const Document& document, const A
     }
     std::shared_ptr<NormalScales> scales;
     for (std::size_t v = 0; v < normals->count; ++v) {
-        const double scale = unitScale((*normals)[v]);
+        const double scale = storedScale((*normals)[v]);
         if (scale == 1) continue;
         if (scales == nullptr) {
             document.memory->take(std::uint64_t{normals->count} * sizeof(double), accessor.place());
@@ -338,9 +347,11 @@ void warnOfScaledNormals(Document& document, std::span<const Primitive> primitiv
     std::string named;
     std::size_t count = 0, primitive_count = 0;
     double least = 0, most = 0;
+    bool are_some_unsigned = false;
     for (const Primitive& primitive : primitives) {
         const NormalScales* const scales = primitive.normal_scales.get();
         if (scales == nullptr) continue;
+        are_some_unsigned = are_some_unsigned || areUnsigned(document, primitive.find("NORMAL"));
         if (primitive_count++ < kMostNamed)
             named += (named.empty() ? "mesh " : "; mesh ") + std::to_string(primitive.mesh) + ", primitive " +
                      std::to_string(primitive.index);
@@ -351,11 +362,12 @@ void warnOfScaledNormals(Document& document, std::span<const Primitive> primitiv
     }
     if (count == 0) return;
     if (primitive_count > kMostNamed) named += "; and " + std::to_string(primitive_count - kMostNamed) + " more";
-    document.warnings.push_back(kNormalLengths + std::string(": ") + std::to_string(count) +
-                                (count == 1 ? " vertex" : " vertices") + " (" + named + ") of lengths from " +
-                                shortNumber(least) + " to " + shortNumber(most) +
-                                ". They were normalized for the computation, and the file keeps them unchanged (tspace "
-                                "generate --repair writes unit normals)");
+    document.warnings.push_back(
+        kNormalLengths + std::string(": ") + std::to_string(count) + (count == 1 ? " vertex" : " vertices") + " (" +
+        named + ") of lengths from " + shortNumber(least) + " to " + shortNumber(most) +
+        ". They were normalized for the computation, and the file keeps them unchanged (tspace "
+        "generate --repair writes unit normals" +
+        (are_some_unsigned ? ", but keeps unsigned ones; --overwrite-normals replaces them)" : ")"));
 }
 
 std::vector<std::uint32_t> readTriangleCorners(const Document& document, const Primitive& primitive) {

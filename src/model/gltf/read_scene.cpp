@@ -11,6 +11,7 @@
 #include "model/gltf/document.h"
 #include "model/gltf/material_needs.h"
 #include "model/gltf/packed_frames.h"
+#include "model/gltf/unsigned_normals.h"
 #include "model/io/file_error.h"
 #include "model/io/uri.h"
 
@@ -428,6 +429,13 @@ class PrimitiveLoader {
         for (const AttributeFault& fault : primitive.attribute_faults)
             result.attribute_faults.push_back(
                 {fault.name, fault.target, fault.why, fault.repair, primitive.vertex_count});
+        if (areUnsigned(document_, primitive.find("NORMAL")))
+            result.attribute_faults.push_back(
+                {.name = "NORMAL",
+                 .why =
+                     "are unsigned integers, which glTF does not allow. They are used unchanged, so no normal points "
+                     "toward -x, -y or -z; if they encode (n + 1) / 2, all of them are wrong",
+                 .vertex_count = primitive.vertex_count});
         result.tangents_not_read = result.tangents.empty() && document_.may_hide_tangents;
         for (std::size_t i = 0; i < primitive.targets.size(); ++i) {
             const AttributeList& list = primitive.targets[i];

@@ -113,7 +113,7 @@ TEST(NormalLengths, TangentsAreThoseOfUnitNormals) {
 
 TEST(NormalLengths, AreSaidOnceAndOnlyWhereTheyAreOff) {
     const std::vector<Vec4> wanted = tangentsOf(sheetOf(1));
-    for (const float length : {0.5f, 0.99f, 2.0f, 100.0f}) {
+    for (const float length : {0.5f, 0.99f, 2.0f, 100.0f, 1e-6f, 1e-10f, 1e-18f, 1e30f}) {
         const Files files;
         EXPECT_EQ(warningsOnLengths(generated(files.input(sheetOf(length)), files.output())), 1u) << length;
         EXPECT_LT(worstDegrees(Stored(files.output()).tangents(), wanted), 0.01) << length;
@@ -212,7 +212,7 @@ const Finding* findingOf(const CheckReport& report, FindingCode code) {
 
 /// The remedy is `tspace generate --repair`.
 TEST(NormalLengths, AreAnErrorOfCheckThatItsRemedyRemoves) {
-    for (const float length : {0.5f, 2.0f, 127.0f}) {
+    for (const float length : {0.5f, 2.0f, 127.0f, 1e-6f, 1e-18f, 1e30f}) {
         const Files files;
         const std::string input = files.input(sheetOf(length));
         const auto before = checkFile(input);
@@ -221,8 +221,65 @@ TEST(NormalLengths, AreAnErrorOfCheckThatItsRemedyRemoves) {
         ASSERT_NE(finding, nullptr);
         EXPECT_EQ(finding->severity, Severity::error);
         EXPECT_NE(finding->remedy.find("tspace generate --repair"), std::string::npos);
+        EXPECT_EQ(finding->message.find("length 0"), std::string::npos) << finding->message;
+        if (length == 1e30f) {
+            EXPECT_NE(finding->message.find("(from 1e+30 to 1e+30)"), std::string::npos) << finding->message;
+        }
         EXPECT_EQ(findingOf(*before, FindingCode::fileRemark), nullptr);
         generated(input, files.output(), {.selection = {.existing = ExistingTangents::repair}});
+        const auto after = checkFile(files.output());
+        ASSERT_TRUE(after);
+        for (const Finding& left : after->findings) EXPECT_EQ(left.severity, Severity::note) << left.message;
+    }
+}
+
+/// Returns the sheet with NORMAL as normalized unsigned bytes. `encoded`: stores (n + 1) / 2 for each component;
+/// otherwise clamps negative components to 0.
+GltfBuilder unsignedSheet(bool encoded) {
+    GltfBuilder builder = sheetOf(1);
+    const Files files;
+    const std::vector<Vec3> normals = Stored(files.input(builder)).normals();
+    std::vector<std::uint8_t> bytes;
+    for (const Vec3& n : normals) {
+        for (const float c : {n.x, n.y, n.z, 0.0f})
+            bytes.push_back(static_cast<std::uint8_t>(std::lround(255 * std::max(0.0f, encoded ? (c + 1) / 2 : c))));
+    }
+    const std::size_t accessor = builder.addAccessor(bytes, 5121, "VEC3", normals.size());
+    Json& json = builder.json();
+    json["accessors"][accessor]["normalized"] = true;
+    json["bufferViews"][json["accessors"][accessor]["bufferView"].get<std::size_t>()]["byteStride"] = 4;
+    firstPrimitive(builder)["attributes"]["NORMAL"] = accessor;
+    return builder;
+}
+
+/// glTF does not allow unsigned normals. A repair cannot know their encoding, so it must keep the finding.
+TEST(UnsignedNormals, AreAFindingThatOnlyNewNormalsRemove) {
+    for (const bool encoded : {false, true}) {
+        const Files files;
+        const std::string input = files.input(unsignedSheet(encoded));
+        const auto before = checkFile(input);
+        ASSERT_TRUE(before);
+        const Finding* const finding = findingOf(*before, FindingCode::attributeUnreadable);
+        ASSERT_NE(finding, nullptr);
+        EXPECT_EQ(finding->severity, Severity::error);
+        EXPECT_NE(finding->remedy.find("tspace generate --overwrite-normals"), std::string::npos);
+        for (const Finding& other : before->findings)
+            EXPECT_EQ(other.remedy.find("generate --repair"), std::string::npos) << other.message;
+
+        const std::vector<Vec3> stored = Stored(input).normals();
+        const GenerateReport plain = generated(input, files.output());
+        EXPECT_EQ(plain.primitives[0].action, PrimitiveAction::generated);
+        EXPECT_EQ(Stored(files.output()).normals(), stored);
+        EXPECT_EQ(warningsOnLengths(plain), 1u);
+        for (const std::string& warning : plain.warnings)
+            EXPECT_NE(warning.find("--overwrite-normals"), std::string::npos) << warning;
+        generated(input, files.output(), {.selection = {.existing = ExistingTangents::repair}});
+        EXPECT_EQ(Stored(files.output()).normals(), stored);
+        const auto still = checkFile(files.output());
+        ASSERT_TRUE(still);
+        EXPECT_NE(findingOf(*still, FindingCode::attributeUnreadable), nullptr);
+
+        generated(input, files.output(), {.normals = {.overwrite = true}});
         const auto after = checkFile(files.output());
         ASSERT_TRUE(after);
         for (const Finding& left : after->findings) EXPECT_EQ(left.severity, Severity::note) << left.message;
