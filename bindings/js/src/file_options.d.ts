@@ -7,7 +7,7 @@ export interface GenerateFileOptions {
   /**
    * Geometry compression of the output. keep: the compression of the input; none: uncompressed; meshopt:
    * EXT_meshopt_compression, which is lossless; draco: KHR_draco_mesh_compression, which quantizes positions, normals
-   * and UVs, except those that were Draco data before. Default: keep.
+   * and UVs, except attributes that are already Draco-compressed in the input. Default: keep.
    */
   compress?: "keep" | "none" | "meshopt" | "draco";
   /**
@@ -36,8 +36,8 @@ export interface GenerateFileOptions {
   textureTransform?: "apply" | "ignore";
   /**
    * Tangent method. mikktspace: bit-identical to what bakers and engines use; lengyel: one tangent per vertex, no
-   * splits; uniform, angle, area: means with these weights; fast, best: more accurate, for maps that were not baked;
-   * flat: one per face; basis: from the normals alone, without UVs. Default: mikktspace.
+   * splits; uniform, angle, area: averages over the adjacent triangles with these weights; fast, best: more accurate,
+   * for maps that were not baked; flat: one per face; basis: from the normals alone, without UVs. Default: mikktspace.
    */
   method?: "mikktspace" | "lengyel" | "uniform" | "angle" | "area" | "flat" | "basis" | "fast" | "best";
   /**
@@ -111,13 +111,13 @@ export interface GenerateFileOptions {
   /** The name of fix-maps before 0.1. */
   mendMaps?: boolean;
   /**
-   * Do not read the pixels of normal maps. By default `repair` reads them if most tangent signs are inverted. With this
-   * option it keeps inverted signs, because the maps may be inverted too.
+   * Do not read the pixels of normal maps. `repair` then keeps inverted tangent signs, because it cannot determine
+   * whether the maps are inverted too.
    */
   noImages?: boolean;
   /**
-   * Texture compression of normal maps. keep, the only value: images are not changed, including KTX2 and DDS; normal
-   * maps that another option rewrites become PNG. For engine textures see tspace compress-map. Default: keep.
+   * Texture compression of normal maps. Only keep is supported: images are not changed, including KTX2 and DDS; normal
+   * maps that another option rewrites become PNG. To compress maps for engines, use tspace compress-map. Default: keep.
    */
   compressMaps?: "keep";
   /**
@@ -133,9 +133,9 @@ export interface GenerateFileOptions {
   crease?: number | string;
   /**
    * Denoising for `normals` best on noisy positions, such as scans: normals are computed from a larger neighborhood, so
-   * that noise is not shaded. Vertices do not move. auto: by the measured noise level, and not at all where the
-   * deviations look like real detail; 0 to 4: this multiple of the measured noise level, even where it looks like real
-   * detail. Default: 0.
+   * that noise is not shaded. Vertices do not move. auto: strength from the measured noise level, or off if the
+   * deviations look like real detail; 0: off; up to 4: multiple of the measured noise level, applied even if the
+   * deviations look like real detail. Default: 0.
    */
   denoise?: number | string;
   /**
@@ -203,8 +203,8 @@ export interface CheckFileOptions {
   /** Expected sign convention: gltf, opengl, directx, unreal, unity, blender or godot, as in generate. Default: gltf. */
   convention?: "gltf" | "opengl" | "directx" | "unreal" | "unity" | "blender" | "godot";
   /**
-   * Faces whose tangents are the reference. auto: quads where the stored tangents clearly fit quads better, as Blender's
-   * do, otherwise triangles; triangles or quads: always these. Default: auto.
+   * Faces on which the reference tangents are computed: triangles; quads; or auto: quads where the stored tangents
+   * clearly fit quads better, as in files from Blender, otherwise triangles. Default: auto.
    */
   faces?: "triangles" | "quads" | "auto";
   /**

@@ -186,6 +186,7 @@ def convert_map_file(
     to_bitangent: Literal["pixel", "vertex"] = ...,
     channels: str = ...,
     srgb: bool = ...,
+    linearized: bool = ...,
     linearised: bool = ...,
     flip_red: bool = ...,
     flip_green: bool = ...,

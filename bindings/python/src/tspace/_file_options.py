@@ -101,6 +101,7 @@ OPTIONS = {
         "to_bitangent",
         "channels",
         "srgb",
+        "linearized",
         "linearised",
         "flip_red",
         "flip_green",
