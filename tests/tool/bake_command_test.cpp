@@ -287,7 +287,7 @@ TEST_F(BakeCommand, WhatIsWrongIsOneLineAndNothingIsWritten) {
          {std::tuple("bake low.obj --high high.obj -o n.png --size 0", 2, "1 to 16384"),
           {"bake low.obj --high high.obj -o n.png --size 65536", 2, "1 to 16384"},
           {"bake low.obj --high high.obj -o n.png --bits 12 --size 32", 2, "--bits"},
-          {"bake low.obj --high high.obj -o n.png --reach 0 --size 32", 2, "above 0"},
+          {"bake low.obj --high high.obj -o n.png --reach 0 --size 32", 2, "greater than 0"},
           {"bake low.obj -o n.png", 2, "--high"},
           {"bake low.obj --high high.obj", 2, "--output"},
           {"bake low.obj --high high.obj -o n.jpg", 2, ".png"},
@@ -462,7 +462,7 @@ TEST_F(BakeCommand, AModelIsWrittenWithItsMapsOrNotAtAll) {
          {std::tuple("--out-mesh new.obj", 2, "must end in .glb, .vrm or .gltf"),
           {"--out-mesh new.glb --udim", 2, "--udim"},
           {"--out-mesh new.glb --space object", 2, "tangent space"},
-          {"--out-mesh new.glb --convention directx", 2, "green points up"},
+          {"--out-mesh new.glb --convention directx", 2, "green must point up"},
           {"--out-mesh low.obj", 2, "is an input"},
           {"--out-mesh n.png", 2, "n.png"},
           {"--out-mesh /proc/new.glb", 4, ""}}) {

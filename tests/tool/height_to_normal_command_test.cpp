@@ -199,7 +199,7 @@ TEST(HeightToNormalCommand, TakesMapBumpForHeightsOnlyWhereItIsGrey) {
     const ToolRun check = runTool(folder, "check wall.obj");
     EXPECT_NE(check.out.find("normalMapIsPicture"), std::string::npos) << check.out;
     const ToolRun picture = runTool(folder, "generate wall.obj -o picture.glb");
-    EXPECT_NE(picture.out.find("it is a color image"), std::string::npos) << picture.out;
+    EXPECT_NE(picture.out.find("the image is a color image"), std::string::npos) << picture.out;
 }
 
 /// The picture of the OBJ equals that of the GLB that generate converts it to.

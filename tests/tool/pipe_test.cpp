@@ -53,7 +53,8 @@ TEST(Pipe, IsReadByTheCommandsThatOnlyRead) {
     }
     ASSERT_EQ(runTool(folder, "generate plain.glb -q -o text.gltf").exit_code, 0);
     EXPECT_EQ(runTool(folder, "inspect - < text.gltf").exit_code, 3) << "its buffer is another file";
-    EXPECT_NE(runTool(folder, "inspect - < text.gltf").err.find("the model is not a file"), std::string::npos);
+    EXPECT_NE(runTool(folder, "inspect - < text.gltf").err.find("the model was not read from a file"),
+              std::string::npos);
     EXPECT_EQ(runTool(folder, "inspect -", R"(echo ' {"asset":{"version":"2.0"}}' |)").exit_code, 0);
 }
 

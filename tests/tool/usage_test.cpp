@@ -250,8 +250,8 @@ TEST(Usage, HelpNamesCommandsAndExitCodes) {
         const ToolRun run = runTool(TempFolder(), arguments);
         EXPECT_EQ(run.exit_code, 0);
         EXPECT_EQ(run.err, "");
-        for (const char* text :
-             {"Exit codes:", "0  success", "2  wrong usage", "3  bad input", "4  cannot", "5  out of memory"}) {
+        for (const char* text : {"Exit codes:", "0  success", "2  wrong usage", "3  invalid input", "4  a file cannot",
+                                 "5  out of memory"}) {
             EXPECT_NE(run.out.find(text), std::string::npos) << arguments << " lacks " << text;
         }
     }

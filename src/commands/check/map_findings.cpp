@@ -180,8 +180,8 @@ Remedy remedyOf(const NamedImage& image, const MapLook& look, bool green_is_down
     if (look.content == MapContent::picture) return usualRemedy(FindingCode::normalMapIsPicture);
     if (look.content == MapContent::hemiOctahedral) {
         return {
-            "Decode the map with the program that encoded it, and export x, y and z. No tspace command can decode it, "
-            "and reading the two channels as x and y results in a different surface."};
+            "Decode the map with the program that encoded it, and export x, y and z. Its encoding is not "
+            "supported here, and reading the two channels as x and y results in a different surface."};
     }
     if (look.content == MapContent::height) {
         RemedyCommand command = withOption(imageCommand("height-to-normal", image), "strength", "S");
