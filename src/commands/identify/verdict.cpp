@@ -395,8 +395,8 @@ std::string signSentence(const Identification& result) {
         mixed += own->signs() == SignReading::mixed ? 1 : 0;
     }
     if (mixed == 0 && right != 0 && inverted != 0) {
-        return " The signs follow glTF in " + primitivesText(right) + ", and inverted in " + std::to_string(inverted) +
-               ".";
+        return " The signs follow glTF in " + primitivesText(right) + ", and are inverted in " +
+               std::to_string(inverted) + ".";
     }
     return " The signs match neither convention: " +
            percent(static_cast<double>(best.gltf_sign_count) / static_cast<double>(best.corner_count)) +
