@@ -63,7 +63,7 @@ test("signs, mirrored parts, errors and islands have the colours of their legend
     assert.ok(seen.none > 0.05 && seen.red > 0.01, `no angle, but other signs: ${JSON.stringify(seen)}`);
     await shoot(tab, "error-signs");
     await tab.locator(".look select").first().selectOption("flat");
-    await tab.locator(".figures", { hasText: "from flat" }).waitFor();
+    await tab.locator(".figures", { hasText: "flat" }).waitFor();
     seen = await shares(tab, { high: [237, 224, 64], middle: [51, 181, 122], low: [33, 120, 181] });
     assert.ok(seen.high + seen.middle + seen.low > 0.002, `flat differs on bevels: ${JSON.stringify(seen)}`);
     await shoot(tab, "error-flat");
