@@ -81,7 +81,7 @@ describe("tspace mcp", { skip: missing }, () => {
     assert.match(JSON.stringify(identified), /best/);
     await good("inspect", { file: "within/grid.gltf" }); // a link inside the folder
     await good("inspect", { file: join(home, "alias/grid.gltf") }); // the folder under another name
-    await refused("generate", { file: "grid.gltf", output: "deep/out.glb", all: true }, /there already/);
+    await refused("generate", { file: "grid.gltf", output: "deep/out.glb", all: true }, /exists already/);
     await good("generate", { file: "grid.gltf", output: "deep/out.glb", all: true, replace: true });
     rmSync(join(root, "deep/out.glb"));
   });
@@ -157,7 +157,7 @@ describe("tspace mcp", { skip: missing }, () => {
       const made = await bake({ low: "deep/grid.gltf", high: "deep/grid.gltf", output: "deep/map.png" });
       assert.ok(!made.isError, textOf(made));
       assert.equal(readFileSync(join(root, "deep/map.png")).subarray(1, 4).toString(), "PNG");
-      assert.match(textOf(await bake({ low: "deep/grid.gltf", high: "deep/grid.gltf", output: "deep/map.png" })), /there already/);
+      assert.match(textOf(await bake({ low: "deep/grid.gltf", high: "deep/grid.gltf", output: "deep/map.png" })), /exists already/);
     } finally {
       await other.close();
     }
