@@ -145,10 +145,11 @@ test("one finger turns the model, and two come nearer", { skip: missing }, async
     const turned = await eye(tab);
     assert.ok(degrees(start.direction, turned.direction) > 10, "turned");
     assert.ok(Math.abs(turned.distance / start.distance - 1) < 0.01, "and came no nearer");
-    await drag([[0.45, 0.5], [0.55, 0.5]], [[0.25, 0.5], [0.75, 0.5]]);
+    // Both fingers start beside the split line, which a finger on it drags.
+    await drag([[0.3, 0.3], [0.4, 0.3]], [[0.1, 0.3], [0.6, 0.3]]);
     const near = await eye(tab);
     assert.ok(near.distance < 0.8 * turned.distance, `${near.distance} of ${turned.distance}`);
-    await drag([[0.2, 0.5], [0.8, 0.5]], [[0.45, 0.5], [0.55, 0.5]]);
+    await drag([[0.1, 0.3], [0.8, 0.3]], [[0.45, 0.3], [0.55, 0.3]]);
     assert.ok((await eye(tab)).distance > 1.2 * near.distance, "and away again");
     assert.equal(await tab.evaluate(() => scrollY), 0, "the page does not scroll under the fingers");
     await tab.waitForSelector(".texel dl", { state: "attached" }); // what a finger touches is read

@@ -32,8 +32,9 @@ test("the broken crate is shown at once: wrong signs are found, and its triangle
     assert.equal(await tab.locator(".details a.lesson").getAttribute("href"), "learn.html#mirror");
     const outlined = await shares(tab, { outline: [255, 45, 111] });
     assert.ok(outlined.outline > 0.0001, JSON.stringify(outlined));
-    // The mirrored parts lie around a face that is right: the picture flies to where they are seen, not to that.
-    const left = await shares(tab, { blue, red }, { left: 0, top: 0.1, right: 0.49, bottom: 0.85 });
+    // The mirrored parts lie around a face that is right: the picture flies to where they are seen, and the line halves them.
+    const line = await tab.evaluate(() => window.tspaceView.views.stage.viewport.settings.split);
+    const left = await shares(tab, { blue, red }, { left: 0, top: 0.1, right: line - 0.01, bottom: 0.85 });
     assert.ok(left.red > 0.03, `what is wrong is in the picture: ${JSON.stringify(left)}`);
     await shoot(tab, "finding");
   });

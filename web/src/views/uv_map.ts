@@ -41,6 +41,8 @@ export class UvMapView {
   /** Index of the overlapping triangle that the next click shows. */
   #next = 0;
   #sentence = "";
+  /** Description of the position under the pointer, before the sentence about the part. */
+  #pointedText = "";
 
   /** `large`: element next to the picture that contains the map when it is large. */
   constructor(private viewport: Viewport, private work: Work, private large: HTMLElement) {
@@ -147,7 +149,7 @@ export class UvMapView {
     const at = (k: number) => weights.reduce((sum, weight, corner) => sum + weight * uvs[6 * triangle + 2 * corner + k], 0);
     this.#map.show(at(0), at(1));
     this.#mark([triangle], [at(0), at(1)]);
-    this.#caption.textContent = `Triangle ${triangle}. ${this.#sentence}`;
+    this.#setCaption(`Triangle ${triangle}. `);
   }
 
   #pointed(uv: [number, number] | null): void {
@@ -157,7 +159,7 @@ export class UvMapView {
     if (!uv) return;
     const place = `UV ${uv.map((x) => x.toFixed(4)).join("  ")}`;
     const named = found.length === 0 ? "no triangle" : found.length === 1 ? `triangle ${found[0]}` : `${plural(found.length, "triangle")} (${found.slice(0, 6).join(", ")}${found.length > 6 ? ", …" : ""})`;
-    this.#caption.textContent = `${place}: ${named}. ${this.#sentence}`;
+    this.#setCaption(`${place}: ${named}. `);
   }
 
   /** Moves the camera to the clicked position; another click shows the next of several triangles. */
@@ -197,6 +199,11 @@ export class UvMapView {
     this.#map.canvas.dataset.marked = this.#marked.join(" ");
   }
 
+  #setCaption(pointedText: string): void {
+    this.#pointedText = pointedText;
+    this.#caption.textContent = pointedText + this.#sentence;
+  }
+
   async draw(): Promise<void> {
     const turn = ++this.#turn, drawn = this.#drawn, corners = this.#corners;
     if (!this.isOpen) return;
@@ -221,7 +228,7 @@ export class UvMapView {
     this.#drawSquare(context, area);
     const triangles = corners.uvs.length / 6;
     this.#sentence = `${plural(corners.islandCount, "island")}; ${plural(corners.mirroredCount, "triangle")} of ${triangles.toLocaleString("en")} mirrored.`;
-    if (this.#marked.length === 0) replaceChildren(this.#caption, this.#sentence);
+    this.#setCaption(this.#marked.length === 0 ? "" : this.#pointedText);
     this.#showMarks();
   }
 
