@@ -129,7 +129,7 @@ describe("refused", () => {
 
   it("wrong shapes", () => {
     refuses("countMismatch", [/positions has 10 numbers/], tangentsOf({ positions: new Float32Array(10) }));
-    refuses("countMismatch", [/normals has 1 entries, 16/], tangentsOf({ normals: new Float32Array(3) }));
+    refuses("countMismatch", [/normals has 1 entries, but needs 16/], tangentsOf({ normals: new Float32Array(3) }));
     refuses("countMismatch", [/uvs has 17/], tangentsOf({ uvs: new Float32Array(34) }));
     refuses("countMismatch", [/face/], tangentsOf({ faceSizes: Uint32Array.of(3, 3) }));
     refuses("countMismatch", [/more corners than the 53/], tangentsOf({ indices: mesh.indices.subarray(1), faceSizes: new Uint8Array(18).fill(3) }));

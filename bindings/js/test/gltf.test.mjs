@@ -121,7 +121,7 @@ describe("models in memory", () => {
     for (const [name, call] of Object.entries(calls)) {
       const wanted = membersOf(`${name}Options`).filter((member) => name !== "Diff" || member !== "name").sort();
       assert.throws(() => call(model, { "": 0 }), (error) => {
-        assert.deepEqual(error.message.split("known are ")[1].split(", ").sort(), wanted, name);
+        assert.deepEqual(error.message.split("known names are ")[1].split(", ").sort(), wanted, name);
         return true;
       });
       for (const option of wanted) // a wrong value is rejected by the module, if at all, and never as an unknown name
