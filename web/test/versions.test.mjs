@@ -25,7 +25,7 @@ test("two versions stand left and right of the line, with the degrees between th
     await openSample(tab, "crate.glb");
     writeFileSync(path, await bytesOf(tab));
     await openSample(tab, "crate-signs-lost.glb");
-    await tab.locator(".picker input").last().setInputFiles(path);
+    await tab.locator(".open .picker input").last().setInputFiles(path);
     await tab.locator(".figures", { hasText: "the other file" }).waitFor();
     await tab.locator(".seen", { hasText: "Two versions" }).waitFor();
     assert.match(await tab.locator(".seen").textContent(), /left crate-signs-lost\.glb \(1 error\), right right\.glb \(nothing wrong\)/);
@@ -57,7 +57,7 @@ test("side by side both files have a picture of their own, seen by one camera, a
     assert.equal(await beside.isVisible(), false, "it is for two files");
     writeFileSync(right, await bytesOf(tab));
     const compare = async () => {
-      await tab.locator(".picker input").last().setInputFiles(right);
+      await tab.locator(".open .picker input").last().setInputFiles(right);
       await tab.locator(".seen", { hasText: "Two versions" }).waitFor();
       await tab.locator(".figures", { hasText: "the other file" }).waitFor();
       await beside.locator("input").check();
