@@ -117,7 +117,7 @@ describe("numbers beyond 32 bits", () => {
     for (const accessor of Object.values(json.meshes[0].primitives[0].attributes)) json.accessors[accessor].count = 2 ** 30;
     json.buffers[0].uri = `data:application/octet-stream;base64,${data.toString("base64")}`;
     // 2^30 elements of 12, 8 and 16 bytes: a multiple of 2^32, which is 0 in 32 bits.
-    assert.throws(() => check(Buffer.from(JSON.stringify(json)), codecs), { code: "invalidFile", message: /claim [0-9]{11} bytes/ });
+    assert.throws(() => check(Buffer.from(JSON.stringify(json)), codecs), { code: "invalidFile", message: /declare [0-9]{11} bytes/ });
   });
 
   it("do not make large compressed data too small", { skip: !codecs && "npm's codecs are not installed" }, () => {

@@ -36,7 +36,7 @@ describe("OBJ in memory", () => {
   it("is told by the name alone, and refused with a place where it is broken", () => {
     assert.throws(() => check(obj), { code: "invalidFile" });
     const broken = (line) => () => check(text(["v 0 0 0", "vt 0 0", line, ""]), { name: "a.OBJ" });
-    assert.throws(broken("f 1 2 3"), (error) => error instanceof TspaceError && /vertex 2 of 1/.test(error.message) && /line 3/.test(error.message));
+    assert.throws(broken("f 1 2 3"), (error) => error instanceof TspaceError && /vertex 2, but the number of vertices is 1/.test(error.message) && /line 3/.test(error.message));
     assert.throws(broken("f -2 1 1"), /a relative index/);
     assert.throws(broken("# nothing"), /no faces/);
     assert.equal(generate(obj, options).report.ok, true);
