@@ -3,6 +3,7 @@
 
 import ctypes
 from ctypes import POINTER, byref, pointer
+from inspect import signature
 from typing import Any, Dict, Optional
 
 import numpy
@@ -12,6 +13,7 @@ from ._arrays import UINT32, copied, uint32_array
 from ._errors import raise_error
 from ._mesh import Mesh
 from ._normals import normal_options
+from ._normals import normals as make_normals
 from ._options import execution
 from ._tangents import Plan
 from ._types import Numbers, Threads
@@ -62,16 +64,11 @@ def _check_names(argument: str, given: Any, known: Any) -> None:
             raise TypeError(f"{argument}[{name!r}] is not a known option; known options are {', '.join(known)}")
 
 
+# Options of tspace.normals that describe the normals, and their defaults.
 _NORMAL_DEFAULTS = {
-    "weighting": "angle",
-    "crease_angle": 180.0,
-    "smoothing_groups": None,
-    "smoothing_groups_are_masks": False,
-    "weld_positions": True,
-    "convention": None,
-    "refine": 2,
-    "denoise": 0,
-    "weld_distance": 0,
+    name: parameter.default
+    for name, parameter in signature(make_normals).parameters.items()
+    if name == "smoothing_groups" or name in signature(normal_options).parameters
 }
 
 
