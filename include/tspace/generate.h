@@ -73,7 +73,7 @@ struct GenerateOptions {
     /// Primitives that get tangents, and the treatment of existing tangents.
     struct Selection {
         bool all = false;    ///< also primitives whose material needs no tangents
-        bool strip = false;  ///< remove tangents that no material needs; not together with `all` (invalidOption)
+        bool strip = false;  ///< remove tangents that no material needs; cannot be combined with `all` (invalidOption)
         ExistingTangents existing = ExistingTangents::keep;
     };
 
@@ -97,7 +97,8 @@ struct GenerateOptions {
         /// (normals, tangents, their morph deltas) are first merged, and are split if the new normals differ.
         /// Existing tangents are recomputed too, even with ExistingTangents::keep, because they would not match; if
         /// that is impossible (no UVs), the normals are kept. With `keep`, signs stay inverted if most were: normal
-        /// maps may depend on it. Not together with Maps::convert (invalidOption).
+        /// maps may depend on it. Cannot be combined with Maps::convert
+        /// (invalidOption).
         bool overwrite = false;
         /// Treatment of normal deltas of morph targets for normals that are kept; computed normals always get
         /// computed deltas. The base normal is rotated as the surface around the vertex rotates. Tangent deltas of
@@ -139,8 +140,8 @@ struct GenerateOptions {
         /// ExistingTangents::repair, TextureTransform::ignore or flip_green (invalidOption).
         bool convert = false;
         /// Read the pixels of normal maps if ExistingTangents::repair needs them. false: inverted signs are kept,
-        /// since green of the maps may point down too. Not together with flip_green, mend and convert
-        /// (invalidOption).
+        /// since green of the maps may point down too. Cannot be combined with flip_green, mend or
+        /// convert (invalidOption).
         bool read = true;
     };
 

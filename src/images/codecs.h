@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Common interface to all image libraries. Reasons (`why`) are half a sentence: "it is a broken PNG".
+// Common interface to all image libraries. Reasons (`why`) are clauses, such as "the PNG is damaged".
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Inverts the green channel of encoded images, by format. Error messages are half a sentence: "it is a broken PNG".
+// Inverts the green channel of encoded images, by format. Error messages are clauses, such as "the PNG is damaged".
 #pragma once
 
 #include "images/pixels.h"

@@ -50,7 +50,7 @@ const atCurrent = -100, noFollow = 0x100, removesFolder = 0x200;
 
 /**
  * Returns the imports of one thread. memory: memory of the program; exports(): functions of this thread's instance;
- * program: path of the tool itself. Raises signal 13 if nobody reads the output.
+ * program: path of the tool itself. Raises SIGPIPE (13) if the output pipe is closed.
  */
 export function systemOf({ memory, exports, program }) {
   let bytes = new Uint8Array(memory.buffer), data = new DataView(memory.buffer);
