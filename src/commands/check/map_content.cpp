@@ -139,6 +139,11 @@ auto colorsOf(std::span<const TexelBytes> texels) {
     };
 }
 
+bool isConstant(std::span<const TexelBytes> texels, std::size_t channel) {
+    return spreadOf(texels, [&](const TexelBytes& texel) { return static_cast<double>(texel[channel]); }).deviation <=
+           kConstant;
+}
+
 bool isGreyTexels(std::span<const TexelBytes> texels) { return isGrey(texels.size(), colorsOf(texels)); }
 
 /// Returns all texels except black and white ones, which were never painted or baked.
@@ -571,15 +576,6 @@ MapLook lookAtTexels(std::span<const TexelBytes> texels, bool has_alpha, std::sp
     if (texels.empty()) return {};
     return Looker(texels, has_alpha, surface, in_world).look();
 }
-
-namespace {
-
-bool isConstant(std::span<const TexelBytes> texels, std::size_t channel) {
-    return spreadOf(texels, [&](const TexelBytes& texel) { return static_cast<double>(texel[channel]); }).deviation <=
-           kConstant;
-}
-
-}  // namespace
 
 bool mayHaveXInAlpha(std::span<const TexelBytes> texels) {
     return !texels.empty() && (isConstant(texels, 0) || isGreyTexels(texels));
