@@ -78,7 +78,7 @@ def test_progress():
     long = {
         "check": (["check", *["large.glb"] * 8], "check|read|compar"),
         "render": (["render", "large.glb", "-o", "turn.png", "--turntable", "12", "--size", "256"], "drawing"),
-        "bake": (["bake", "low.obj", "--high", "high.obj", "-o", "map.png", "--size", "1024", "--threads", "1"], "solving|fitting"),
+        "bake": (["bake", "low.obj", "--high", "high.obj", "-o", "map.png", "--size", "2048", "--threads", "1"], "solving|fitting"),
         "diff": (["diff", "large.glb", "large.glb"], "comparing"),
         "identify": (["identify", *["large.glb"] * 8], "reading"),
     }
