@@ -174,9 +174,7 @@ class SmallMesh {
     /// Assigns to each member the mean of the members whose directions differ from its own by less than the threshold.
     [[gnu::noinline]] void separate(bool up, std::uint64_t members) {
         const std::uint64_t adding = members & adding_;
-        if (cosine_ == -1.0f && areOnOneSide(adding, directions_.unit_s) &&
-            areOnOneSide(adding, directions_.projected_t))
-            return addMean(adding, up);
+        if (areTogether(adding)) return addMean(adding, up);
         float s[kTermTriangles][3], t[kTermTriangles][3];
         std::uint64_t apart[kTermTriangles], any = 0;
         forTriangles(members, [&](unsigned a) { apart[a] = 0; });
@@ -203,20 +201,27 @@ class SmallMesh {
         });
     }
 
-    /// Returns whether each direction has a component along the sum of all that exceeds the margin of marks, so that no
-    /// two directions are opposite. A mark of tangents guarantees that normalization was accurate enough
-    /// (corner_terms.h).
-    [[nodiscard]] bool areOnOneSide(std::uint64_t set, const float (&directions)[3][3][kTermTriangles]) const {
-        Vec3 sum;
-        forTriangles(set, [&](unsigned t) { sum = sum + directionOf(directions, t); });
-        const float least = 2 * kSideMargin * std::sqrt(dot(sum, sum));
-        bool all = least > kSideMargin;
-        forTriangles(set, [&](unsigned t) {
-            const int is_clear =
-                int{dot(sum, directionOf(directions, t)) > least} & int{(marksOf(t) & kTangentSides) != 0};
-            all &= is_clear != 0;
-        });
-        return all;
+    /// Returns whether every two of the corners are within the threshold. Their marks decide for most pairs.
+    [[nodiscard]] bool areTogether(std::uint64_t set) const {
+        std::uint32_t marks[kTermTriangles];
+        std::uint8_t triangles[kTermTriangles];
+        unsigned count = 0;
+        for (; set != 0; set &= set - 1, ++count) {
+            const auto t = static_cast<unsigned>(std::countr_zero(set));
+            triangles[count] = static_cast<std::uint8_t>(t);
+            marks[count] = marksOf(t);
+            for (unsigned i = 0; i < count; ++i) {
+                if (!areNear(marks[count] & marks[i]) && !areWithin(triangles[i], t)) return false;
+            }
+        }
+        return true;
+    }
+
+    /// Returns whether two corners are within the threshold.
+    [[nodiscard]] bool areWithin(unsigned a, unsigned b) const {
+        const auto& [s, t] = directions_;
+        return dot(directionOf(s, a), directionOf(s, b)) > cosine_ &&
+               dot(unit(directionOf(t, a)), unit(directionOf(t, b))) > cosine_;
     }
 
     [[nodiscard]] Vec3 directionOf(const float (&directions)[3][3][kTermTriangles], unsigned t) const {
@@ -249,15 +254,13 @@ class SmallMesh {
             Float4 x = loadFloat4(sums_[i]), y = loadFloat4(sums_[i + 1]), z = loadFloat4(sums_[i + 2]),
                    w = loadFloat4(sums_[i + 3]);
             transpose4(x, y, z, w);
-            const Float4 square = dot(Vec3x4{x, y, z}, Vec3x4{x, y, z});
-            if (laneBits((square > splat(0)) & (square < splat(__builtin_huge_valf()))) != 15u) {
-                for (unsigned j = i; j < i + 4; ++j) finishUnusual(j);
-                continue;
-            }
-            const Float4 inverse = splat(1) / sqrt4(square);
-            x = inverse * x;
-            y = inverse * y;
-            z = inverse * z;
+            const Float4 inverse = splat(1) / sqrt4(dot(Vec3x4{x, y, z}, Vec3x4{x, y, z}));
+            const auto counts = [](Float4 c) { return (c > splat(FLT_MIN)) | (c < splat(-FLT_MIN)); };
+            const Mask4 not_zero = counts(x) | counts(y) | counts(z);  // see unit()
+            x = select4(not_zero, inverse * x, x);
+            y = select4(not_zero, inverse * y, y);
+            z = select4(not_zero, inverse * z, z);
+            finite_ &= laneBits(dot(Vec3x4{x, y, z}, Vec3x4{x, y, z}) < splat(__builtin_huge_valf())) == 15u;
             w = loadFloat4(signs_ + i);
             transpose4(x, y, z, w);
             storeFloat4(sums_[i], x);
@@ -268,14 +271,6 @@ class SmallMesh {
         const float first[4] = {none.s.x, none.s.y, none.s.z, sink_.sign(none.positive)};
         std::copy_n(first, 4, sums_[0]);
         if (wants_rest_) rest_[0] = restOf(none);
-    }
-
-    /// Converts a sum that is zero or not finite.
-    [[gnu::cold]] void finishUnusual(unsigned i) {
-        const Vec3 mean = unit(vectorOf(sums_[i]));
-        const float row[4] = {mean.x, mean.y, mean.z, signs_[i]};
-        std::copy_n(row, 4, sums_[i]);
-        finite_ &= isFinite(mean);
     }
 
     // Steps 7 and 8.

@@ -143,27 +143,46 @@ using Fours = float __attribute__((vector_size(16)));
 using Words = std::uint32_t __attribute__((vector_size(16)));
 using Pairs = std::uint64_t __attribute__((vector_size(16)));
 
-/// Hashes the vertices in [begin, end). Vertices that compare equal have equal hashes: adding +0 changes -0 to +0.
-/// Returns whether all of them are finite and not huge; large normals and UVs count as huge here.
-bool hashVertices(const MeshView& mesh, std::size_t begin, std::size_t end, std::uint32_t* hashes) {
-    const Fours limit = Fours{} + kHugePosition;
-    const Words no_sign = Words{} + 0x7fffffffu;
-    auto finite = limit == limit;
-    const StridedSpan<const Vec3> positions = mesh.positions, normals = mesh.normals;
-    const StridedSpan<const Vec2> uvs = mesh.uvs;
-    for (std::size_t v = begin; v < end; ++v) {
-        const Vec3 &p = positions[v], &n = normals[v];
-        const Fours z = {p.z, n.z, 0, 0};
-        const Fours a = std::bit_cast<Fours>(Pairs{pairAt(&p), pairAt(&n)}) + Fours{};
-        const Fours b = std::bit_cast<Fours>(Pairs{std::bit_cast<Pairs>(z)[0], pairAt(&uvs[v])}) + Fours{};
-        finite &= (std::bit_cast<Fours>(std::bit_cast<Words>(a) & no_sign) < limit) &
-                  (std::bit_cast<Fours>(std::bit_cast<Words>(b) & no_sign) < limit);
+/// The eight floats of a vertex, reordered. Adding +0 changes -0 to +0, so vertices that compare equal have equal bits.
+struct VertexWords {
+    Fours a, b;
+
+    VertexWords(const Vec3& p, const Vec3& n, const Vec2& uv)
+        : a(std::bit_cast<Fours>(Pairs{pairAt(&p), pairAt(&n)}) + Fours{}),
+          b(std::bit_cast<Fours>(Pairs{std::bit_cast<Pairs>(Fours{p.z, n.z, 0, 0})[0], pairAt(&uv)}) + Fours{}) {}
+
+    /// Large normals and UVs count as huge here.
+    [[nodiscard]] auto isFinite() const {
+        const Fours limit = Fours{} + kHugePosition;
+        const Words no_sign = Words{} + 0x7fffffffu;
+        return (std::bit_cast<Fours>(std::bit_cast<Words>(a) & no_sign) < limit) &
+               (std::bit_cast<Fours>(std::bit_cast<Words>(b) & no_sign) < limit);
+    }
+    [[nodiscard]] std::uint32_t hash() const {
         // Rotated, so that signs that change together (mirrored shapes) do not cancel.
         const Words turned = std::bit_cast<Words>(b) << 13 | std::bit_cast<Words>(b) >> 19;
         const Pairs both = std::bit_cast<Pairs>(std::bit_cast<Words>(a) ^ turned);
         std::uint64_t h = both[0] * 0xbf58476d1ce4e5b9u ^ std::rotl(both[1] * 0x94d049bb133111ebu, 32);
         h = (h ^ h >> 29) * 0x9e3779b97f4a7c15u;
-        hashes[v] = static_cast<std::uint32_t>(h >> 32);
+        return static_cast<std::uint32_t>(h >> 32);
+    }
+    [[nodiscard]] bool operator==(const VertexWords& other) const {
+        const Words differences = (std::bit_cast<Words>(a) ^ std::bit_cast<Words>(other.a)) |
+                                  (std::bit_cast<Words>(b) ^ std::bit_cast<Words>(other.b));
+        const Pairs both = std::bit_cast<Pairs>(differences);
+        return (both[0] | both[1]) == 0;
+    }
+};
+
+/// Hashes the vertices in [begin, end). Returns whether all of them are finite and not huge.
+bool hashVertices(const MeshView& mesh, std::size_t begin, std::size_t end, std::uint32_t* hashes) {
+    auto finite = Fours{} == Fours{};
+    const StridedSpan<const Vec3> positions = mesh.positions, normals = mesh.normals;
+    const StridedSpan<const Vec2> uvs = mesh.uvs;
+    for (std::size_t v = begin; v < end; ++v) {
+        const VertexWords words(positions[v], normals[v], uvs[v]);
+        finite &= words.isFinite();
+        hashes[v] = words.hash();
     }
     return (finite[0] & finite[1] & finite[2] & finite[3]) != 0;
 }
@@ -241,6 +260,39 @@ void numberNodes(Buffer<std::uint32_t> root_of, Nodes& nodes) {
     nodes.of_vertex = std::move(root_of);
 }
 
+/// Like findRoots and numberNodes for a mesh of at most kFewVertices, with a hash table on the stack.
+constexpr std::size_t kFewVertices = 192;
+void weldFew(const MeshView& mesh, const Allocator* allocator, Nodes& nodes) {
+    constexpr unsigned kLog2 = 9;
+    constexpr std::size_t kPlaces = std::size_t{1} << kLog2;
+    static_assert(kFewVertices < 256 && 2 * kFewVertices < kPlaces);
+    alignas(VertexWords) std::byte room[kFewVertices * sizeof(VertexWords)];
+    auto* const known = reinterpret_cast<VertexWords*>(room);  // one per node
+    std::uint8_t table[kPlaces] = {};                          // nodes, from 1
+    Buffer<std::uint32_t> of_vertex(allocator, mesh.vertexCount()), vertices(allocator, mesh.vertexCount());
+    auto finite = Fours{} == Fours{};
+    std::uint32_t count = 0;
+    for (std::uint32_t v = 0; v < of_vertex.size(); ++v) {
+        const VertexWords words(mesh.positions[v], mesh.normals[v], mesh.uvs[v]);
+        finite &= words.isFinite();
+        std::size_t place = words.hash() >> (32 - kLog2);
+        while (table[place] != 0 && !(known[table[place] - 1] == words)) place = (place + 1) % kPlaces;
+        if (table[place] == 0) {
+            known[count] = words;
+            vertices[count] = v;
+            table[place] = static_cast<std::uint8_t>(++count);
+        } else {
+            nodes.mixed |= !sameBits(mesh, v, vertices[table[place] - 1]);
+        }
+        of_vertex[v] = table[place] - 1u;
+    }
+    nodes.all_finite = (finite[0] & finite[1] & finite[2] & finite[3]) != 0;
+    if (count == of_vertex.size()) return;
+    nodes.count = count;
+    nodes.of_vertex = std::move(of_vertex);
+    nodes.vertices = std::move(vertices);
+}
+
 /// If nodes mix -0 and +0, selects the data of the reference's representative, whose bits matter.
 [[gnu::cold]] void resolveMixed(const MeshView& mesh, const TriangleList& triangles, Nodes& nodes,
                                 const Allocator* allocator, Parallel& parallel) {
@@ -270,14 +322,19 @@ void numberNodes(Buffer<std::uint32_t> root_of, Nodes& nodes) {
 Nodes weld(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator, Parallel& parallel,
            const Allocator* transient) {
     if (transient == nullptr) transient = allocator;
-    CornerData data(mesh);
     const std::size_t count = mesh.vertexCount();
     Nodes nodes;
     nodes.count = count;
-    const bool is_indexed = mesh.indices.type != IndexType::none;
-    numberNodes(findRoots(data, count, is_indexed, allocator, transient, parallel), nodes);
-    nodes.mixed = data.mixed();
-    nodes.all_finite = data.allFinite() || usesFiniteVerticesOnly(mesh, triangles);
+    if (count <= kFewVertices) {
+        weldFew(mesh, allocator, nodes);
+    } else {
+        CornerData data(mesh);
+        const bool is_indexed = mesh.indices.type != IndexType::none;
+        numberNodes(findRoots(data, count, is_indexed, allocator, transient, parallel), nodes);
+        nodes.mixed = data.mixed();
+        nodes.all_finite = data.allFinite();
+    }
+    nodes.all_finite = nodes.all_finite || usesFiniteVerticesOnly(mesh, triangles);
     if (nodes.mixed && nodes.all_finite) resolveMixed(mesh, triangles, nodes, allocator, parallel);
     return nodes;
 }
