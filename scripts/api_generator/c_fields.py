@@ -20,7 +20,7 @@ def fields(headers):
             lines.append(f"static_assert({full} == static_cast<std::uint32_t>({entity.name}));")
         elif entity.kind == "constant":
             lines.append(f"static_assert({full} == {entity.name});")
-        elif field and f"{owner}.struct_size" in pairs.c_only:
+        elif field and pairs.is_sized(owner):
             structs.setdefault(owner, []).append((field, entity))
     largest = {entity.owner: full for full, entity in pairs.twin.items() if entity.kind == "enumerator"}
     used = [structs[owner][0][1].header for owner in structs if owner.endswith(("Options", "Report", "Noise"))]
@@ -57,3 +57,35 @@ def _checks(members, largest):
             yield f"[&] {{ return checkConvention(options.{field}); }}"
         elif entity.type == "bool" or entity.type in largest:
             yield f'[&] {{ return checkChoice(options.{field}, {largest.get(entity.type, 1)}, "{field}"); }}'
+
+
+VISITORS = """\
+// SPDX-License-Identifier: MIT
+// Names of enumerators, and of the numbers in sized structs, for tests that are driven by tables. Written by scripts/api.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tspace/tspace.h"
+
+namespace tspace::test {
+
+/// The numbers of enumerators, by type and name.
+inline const std::map<std::string, std::map<std::string, double>> kEnumerators = {"""
+
+
+def visitors(model):
+    """Functions that call visit(name, type, value) for each number in a struct."""
+    lines = [VISITORS]
+    for name, values in model.enums.items():
+        lines.append(f'{{"{name}", {{{", ".join(f"{{{chr(34)}{value.lower()}{chr(34)}, {number}}}" for value, number in values.items())}}}}},')
+    lines.append("};")
+    for struct, fields in model.structs.items():
+        numbers = [(name, kind.name) for name, kind in fields if kind.is_number() and name not in ("struct_size", "reserved", "code")
+                   and (kind.name in model.enums or model.is_sized(struct) and kind.name in ("uint32_t", "uint64_t", "float"))]
+        if numbers:
+            lines += ["", "template <class Visit>", f"void visitFields(tspace_{struct}& all, Visit visit) {{",
+                      *(f'    visit("{name}", "{kind}", all.{name});' for name, kind in numbers), "}"]
+    return "\n".join([*lines, "", "}  // namespace tspace::test", ""])

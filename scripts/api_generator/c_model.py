@@ -1,8 +1,52 @@
 # SPDX-License-Identifier: MIT
-"""The C API as data: enumerations, constants, structs and functions, from which other languages are written."""
+"""The declarations of C headers: items with their comments, and types, structs and functions for other languages."""
 import dataclasses
 import os
 import re
+
+ITEM = re.compile(r"""
+    (?P<above>/\*(?:[^*]|\*(?!/))*\*/\n)?
+    (?P<code>
+      typedef\ struct\ (?P<struct>tspace_\w+)\ \{
+    | typedef\ (?:uint32_t\ (?P<number>tspace_\w+)|struct\ (?P<opaque>tspace_\w+)\ \w+);
+    | typedef\ [^;(]*\(\*(?P<callback>tspace_\w+)\)\([^;]*;
+    | \w[\w\ *]*?(?P<function>tspace_\w+)\([^{};]*\)\ TSPACE_NOEXCEPT;
+    | \#define\ (?P<constant>TSPACE_[A-Z_]+)\ (?:UINT\d+_MAX|0x\w+)
+    | \ +(?P<enumerator>TSPACE_\w+)\ =\ (?P<value>\d+),?
+    | enum\ \{\ (?P<enumerators>TSPACE_\w+\ =\ .*?)\ \};
+    | \ {4}[\w\ *]*\(\*(?P<pointer>\w+)\)\([^;]*;
+    | \ {4}\w[\w\ *]*?(?P<field>(?:\w+,\ )*\w+)(?:\[\d+\])?;
+    )(?P<behind>\ */\*.*?\*/)?$""", re.X | re.M)
+KINDS = {"struct": "type", "number": "type", "opaque": "type", "pointer": "field", "enumerators": "enumerator"}
+
+
+@dataclasses.dataclass
+class Item:
+    """A declaration, and where it and its comment stand in the header."""
+    kind: str  # that of an Entity, or "callback"
+    name: str
+    owner: str  # the type of a member
+    value: str  # of an enumerator
+    code: str
+    comment: str
+    start: int
+    end: int
+
+    def full(self):
+        return f"{self.owner}.{self.name}" if self.kind == "field" else self.name
+
+
+def items(text):
+    owner = ""
+    for found in ITEM.finditer(text):
+        group = next(name for name in reversed(ITEM.groupindex) if found[name] and name not in ("above", "code", "behind", "value"))
+        kind = KINDS.get(group, group)
+        names = re.findall(r"TSPACE_\w+" if group == "enumerators" else r"\w+", found[group])
+        values = re.findall(r"= (\d+)", found["code"]) if kind == "enumerator" else [""] * len(names)
+        owner = found[group] if kind == "type" else owner
+        for name, value in zip(names, values):
+            yield Item(kind, name, owner if kind in ("field", "enumerator") else "", value, found["code"],
+                       found["above"] or found["behind"] or "", found.start(), found.end())
 
 
 @dataclasses.dataclass(frozen=True)
@@ -12,91 +56,72 @@ class Type:
     pointers: tuple = ()
     count: str = ""  # of an array
 
-
-@dataclasses.dataclass
-class Struct:
-    name: str
-    fields: list  # (name, Type or Callback)
-
-    @property
-    def is_sized(self):
-        return self.fields[0][0] == "struct_size"
+    def is_number(self):
+        return not self.pointers and not self.count
 
 
 @dataclasses.dataclass
 class Function:
+    """A function, or a callback as the type of a field or parameter."""
     name: str
     result: Type
-    parameters: list  # (name, Type or Callback)
+    parameters: list  # (name, Type or Function)
 
-
-Callback = Function  # as the type of a field or parameter
+    def is_number(self):
+        return False
 
 
 class Model:
-    """All that a C header declares, in its order."""
-
-    def __init__(self, text):
-        text = re.sub(r"/\*.*?\*/", "", text, flags=re.S)
+    def __init__(self, declared):
         self.enums = {}  # name -> {"MIKKTSPACE": 0}, without what stands for a value that was forgotten
-        self.values = {}  # "METHOD_MIKKTSPACE": 0
-        for name, body in re.findall(r"typedef uint32_t tspace_(\w+);\s*enum \{(.*?)\};", text, re.S):
-            values = re.findall(r"TSPACE_(\w+) = (\d+)", body)
-            common = os.path.commonprefix([value for value, _ in values if value != "OK"])
+        self.values, self.constants, self.callbacks, self.structs = {}, {}, {}, {}  # structs: name -> [(field, Type or Function)]
+        self.functions, self.opaque = [], set()
+        for item in declared:
+            name, owner = (re.sub("^tspace_|^TSPACE_", "", text) for text in (item.name, item.owner))
+            if item.kind == "enumerator":
+                self.values[name] = int(item.value)
+                self.enums.setdefault(owner, {})[name] = int(item.value)
+            elif item.kind == "constant":
+                bits = re.search(r"UINT(\d+)_MAX", item.code)
+                self.constants[name] = 2 ** int(bits[1]) - 1 if bits else int(item.code.split()[-1], 16)
+            elif item.kind == "function":
+                self.functions.append(_function(item.code.removesuffix(" TSPACE_NOEXCEPT;")))
+            elif item.kind == "callback":
+                self.callbacks[name] = _function(item.code[len("typedef "):-1])
+            elif item.code.endswith("{"):
+                self.structs[name] = []
+            elif item.code.startswith("typedef struct"):
+                self.opaque.add(name)
+            elif item.kind == "field" and item.name not in (field for field, _ in self.structs[owner]):
+                self.structs[owner] += _variables(" ".join(item.code.split()))
+        for name, values in self.enums.items():
+            common = os.path.commonprefix([value for value in values if value != "OK"])
             cut = len(common[: common.rfind("_") + 1])
-            named = {value if value == "OK" else value[cut:]: int(number) for value, number in values}
+            named = {value if value == "OK" else value[cut:]: number for value, number in values.items()}
             self.enums[name] = {value: number for value, number in named.items() if value != "UNSET"}
-            self.values.update({value: int(number) for value, number in values})
-        numbers = re.findall(r"#define TSPACE_(\w+) (?:UINT(\d+)_MAX|(0x\w+))", text)
-        self.constants = {name: 2 ** int(bits) - 1 if bits else int(number, 16) for name, bits, number in numbers}
-        self.opaque = set(re.findall(r"typedef struct tspace_(\w+) tspace_\1;", text))
-        self.callbacks = {name: _function(name, result, parameters) for result, name, parameters in
-                          re.findall(r"typedef (\w+) \(\*tspace_(\w+)\)\((.*?)\);", text, re.S)}
-        self.structs = {name: Struct(name, list(_variables(body)))
-                        for name, body in re.findall(r"typedef struct tspace_(\w+) \{(.*?)\} tspace_\w+;", text, re.S)}
-        self.functions = [_function(name, result, parameters) for result, name, parameters in
-                          re.findall(r"^(\w[\w ]*?\**)\s*\b(tspace_\w+)\(([^()]*)\) TSPACE_NOEXCEPT;", text, re.M)]
+
+    def is_sized(self, struct):
+        return self.structs[struct][0][0] == "struct_size"
 
 
-def _function(name, result, parameters):
+def _function(code):
+    result, name, parameters = re.match(r"(.*?) ?\(?\*?\b(\w+)\)?\((.*)\)$", " ".join(code.split())).groups()
     ends = re.sub(r",(?![^(]*\))", ";", parameters) + ";"  # commas between parameters, not those of callbacks
-    return Function(name, _type(result)[1], [] if parameters == "void" else list(_variables(ends)))
+    return Function(name, _variable(result)[1], [] if parameters == "void" else list(_variables(ends)))
 
 
 def _variables(text):
-    for code in filter(None, (" ".join(part.split()) for part in re.split(r";(?![^()]*\))", text))):
-        callback = re.match(r"(.*?) ?\(\*(\w+)\)\((.*)\)$", code)
-        if callback:
-            yield callback[2], _function(callback[2], callback[1], callback[3])
+    for code in filter(None, (part.strip() for part in re.split(r";(?![^()]*\))", text))):
+        if "(*" in code:
+            made = _function(code)
+            yield made.name, made
             continue
         first, *others = code.split(", ")
-        name, kind = _type(first)
-        yield name, kind
-        for other in others:
-            yield other, kind
+        name, kind = _variable(first)
+        yield from ((name, kind) for name in (name, *others))
 
 
-def _type(code):
+def _variable(code):
     """(name, Type) of a declaration; the name is empty where it has none."""
     found = re.match(r"(const )?(?:tspace_)?(\w+)(\**)(?: (\w+)(?:\[(\w+)\])?)?$", code)
-    pointers = tuple(bool(found[1]) and i == 0 for i in range(len(found[3])))
-    return found[4] or "", Type(found[2], pointers, found[5] or "")
-
-
-def snake(name):
-    """CounterClockwise: counter_clockwise."""
-    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
-
-
-def pascal(name):
-    """counter_clockwise: CounterClockwise."""
-    return "".join(part[:1].upper() + part[1:].lower() for part in name.split("_"))
-
-
-def camel(name):
-    made = pascal(name)
-    return made[:1].lower() + made[1:]
-
-
-def plural(name):
-    return re.sub("iss$", "es", name + "s") if not name.endswith(("ness", "gons")) else name + "es" * name.endswith("ness")
+    return found[4] or "", Type(found[2], tuple(bool(found[1]) and i == 0 for i in range(len(found[3]))), found[5] or "")

@@ -16,6 +16,10 @@ class Entity:
     indent: int = 0  # of the comment
     header: str = ""
 
+    def member(self):
+        """The name without that of its type."""
+        return self.name.rpartition("::")[2]
+
 
 def parse(text):
     """(head, entities): the comment at the top of a header, as lines, and all that it declares."""

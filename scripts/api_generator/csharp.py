@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """C#: the C API as Native.cs."""
-from c_model import Callback, pascal
+from c_model import Function
+from names import pascal
 
 SCALARS = {"uint32_t": "uint", "uint64_t": "ulong", "uint8_t": "byte", "size_t": "UIntPtr", "char": "byte",
            "ConstSpan": "Span"}  # pointers are never const here
@@ -21,15 +22,15 @@ namespace Tspace
 
 
 def _type(kind, model):
-    if isinstance(kind, Callback):
+    if isinstance(kind, Function):
         return "IntPtr"
     if kind.name in model.opaque:
         return "IntPtr" + "*" * (len(kind.pointers) - 1)
     return SCALARS.get(kind.name, "uint" if kind.name in model.enums else kind.name) + "*" * len(kind.pointers)
 
 
-def _fields(struct, model):
-    for name, kind in struct.fields:
+def _fields(members, model):
+    for name, kind in members:
         name, made, count = pascal(name), _type(kind, model), getattr(kind, "count", "")
         if not count:
             yield f"            public {made} {name};"
@@ -41,10 +42,10 @@ def _fields(struct, model):
 
 def native(model):
     lines = [HEAD.rstrip("\n")]
-    for struct in model.structs.values():
-        if struct.name not in SCALARS:
-            lines += ["", "        [StructLayout(LayoutKind.Sequential)]", f"        internal partial struct {struct.name}",
-                      "        {", *_fields(struct, model), "        }"]
+    for struct, members in model.structs.items():
+        if struct not in SCALARS:
+            lines += ["", "        [StructLayout(LayoutKind.Sequential)]", f"        internal partial struct {struct}",
+                      "        {", *_fields(members, model), "        }"]
     lines.append("")
     for function in model.functions:
         taken = ", ".join(f"{_type(kind, model)} @{name}" for name, kind in function.parameters)

@@ -3,7 +3,7 @@
 import re
 import textwrap
 
-from c_model import camel, pascal
+from names import camel, pascal
 from cpp import blocks
 
 SHOWN = ("Method", "Pairing", "Ngons", "OutputDomain", "FrameShape", "NormalWeighting", "FrameFormat", "VAxis", "Green",

@@ -4,7 +4,7 @@ import ast
 import re
 import textwrap
 
-from c_model import camel
+from names import camel
 
 PATHS = ("match",)  # a name or a path
 # What the module of JavaScript does not have: threads, disks, importers, and copies of maps.

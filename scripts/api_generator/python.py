@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Python: the C API as ctypes (_abi.py), and names of choices for type checkers (_names.py)."""
-from c_model import Callback, plural, snake
+from c_model import Function
+from names import plural, snake
 
 SCALARS = {"uint32_t": "c_uint32", "uint64_t": "c_uint64", "uint8_t": "c_uint8", "size_t": "c_size_t", "int": "c_int",
            "float": "c_float", "double": "c_double", "char": "c_char"}
@@ -12,7 +13,7 @@ class Abi:
 
     def type(self, kind):
         """Pointers to structs are typed; others are addresses, as arrays give them."""
-        if isinstance(kind, Callback):
+        if isinstance(kind, Function):
             return f"CFUNCTYPE({', '.join([self.type(kind.result), *(self.type(taken) for _, taken in kind.parameters)])})"
         name = SCALARS.get(kind.name, "c_uint32" if kind.name in self.model.enums else kind.name)
         if not kind.pointers:
@@ -40,15 +41,15 @@ def abi(model, file_model, presets):
     lines += ["CONVENTIONS = (", *(f'    "{preset}",' for preset in presets), ")"]
     lines += [f"{name} = {number}" for name, number in model.constants.items()]
     seen = {}
-    for struct in file_model.structs.values():
-        fields = [f'        ("{name}", {both.type(kind)}),' for name, kind in struct.fields]
-        same = seen.setdefault(tuple(fields), struct.name)
-        if same != struct.name:
-            lines += ["", f"{struct.name} = {same}"]
+    for struct, members in file_model.structs.items():
+        fields = [f'        ("{name}", {both.type(kind)}),' for name, kind in members]
+        same = seen.setdefault(tuple(fields), struct)
+        if same != struct:
+            lines += ["", f"{struct} = {same}"]
             continue
-        for callback in {kind.name for _, kind in struct.fields if kind.name in file_model.callbacks}:
+        for callback in {kind.name for _, kind in members if kind.name in file_model.callbacks}:
             lines += ["", f"{callback} = {both.type(file_model.callbacks[callback])}"]
-        lines += ["", "", f"class {struct.name}(Structure):", "    _fields_ = [", *fields, "    ]", ""]
+        lines += ["", "", f"class {struct}(Structure):", "    _fields_ = [", *fields, "    ]", ""]
     core = {function.name for function in model.functions}
     lines += ["", "SIGNATURES = {", *both.signatures(model.functions), "}", "FILE_SIGNATURES = {",
               *both.signatures(function for function in file_model.functions if function.name not in core), "}", "",

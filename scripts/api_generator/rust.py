@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Rust: the C API as sys.rs, in the style of rustfmt."""
-from c_model import Callback
+from c_model import Function
 
 SCALARS = {"uint32_t": "u32", "uint64_t": "u64", "uint8_t": "u8", "size_t": "usize", "int": "i32", "float": "f32",
            "double": "f64", "char": "c_char", "void": "c_void"}
@@ -17,7 +17,7 @@ INIT = 'pub type Init<Struct> = unsafe extern "C" fn(*mut Struct, u32, *mut Erro
 
 
 def _type(kind, model):
-    if isinstance(kind, Callback):
+    if isinstance(kind, Function):
         taken = ", ".join(_type(parameter, model) for _, parameter in kind.parameters)
         return f'Option<unsafe extern "C" fn({taken}){_result(kind, model)}>'
     made = SCALARS.get(kind.name, "u32" if kind.name in model.enums else kind.name)
@@ -39,9 +39,9 @@ def sys(model):
     lines = [HEAD]
     lines += [f"pub const {name}: {'u64' if number >> 32 else 'u32'} = {number:#x};" for name, number in model.constants.items()]
     lines += [f"pub const {name}: u32 = {number};" for name, number in model.values.items()]
-    for struct in model.structs.values():
-        fields = (f"    pub {WORDS.get(name, name)}: {_type(kind, model)}," for name, kind in struct.fields)
-        lines += ["", "#[repr(C)]", "#[derive(Clone, Copy)]", f"pub struct {struct.name} {{", *fields, "}"]
+    for struct, members in model.structs.items():
+        fields = (f"    pub {WORDS.get(name, name)}: {_type(kind, model)}," for name, kind in members)
+        lines += ["", "#[repr(C)]", "#[derive(Clone, Copy)]", f"pub struct {struct} {{", *fields, "}"]
     for name in sorted(model.opaque):
         lines += ["", "#[repr(C)]", f"pub struct {name} {{", "    _private: [u8; 0],", "}"]
     lines += ["", "/// The function that prepares a sized struct.", INIT, "", 'extern "C" {']
