@@ -62,6 +62,7 @@ describe("refused", () => {
     refuses("invalidOption", [/refine/], tangentsOf({}, { refine: -1 }));
     refuses("invalidOption", [/symmetric/], tangentsOf({}, { frame: "symmetric" }));
     refuses("invalidOption", [/crease/], () => generateNormals(mesh, { creaseAngle: 181 }));
+    refuses("invalidOption", [/uvIndices/], () => triangulate({ ...mesh, uvIndices: mesh.indices }));
     refuses("invalidOption", [/weighting/], () => generateNormals(mesh, { weighting: "heavy" }));
   });
 
@@ -137,22 +138,6 @@ describe("refused", () => {
     refuses("countMismatch", [/attribute 0/], () => splitVertices({ vertexCount: 3 }, [{ data: new Float32Array(4), size: 2 }]), 0);
   });
 
-  it("what is missing", () => {
-    refuses("missingAttribute", [/positions/], tangentsOf({ positions: undefined }));
-    refuses("missingAttribute", [/normals/], tangentsOf({ normals: null }));
-    refuses("missingAttribute", [/UVs/], tangentsOf({ uvs: undefined }));
-    refuses("missingAttribute", [/normals/], () => sanitizeTangents({ positions: mesh.positions }, good));
-  });
-
-  it("indices out of range, and where", () => {
-    const indices = mesh.indices.slice();
-    indices[7] = 16;
-    refuses("indexOutOfRange", [/index 16 of corner 7/, /16 vertices/], tangentsOf({ indices }), 7);
-    refuses("indexOutOfRange", [/index 4294967295/], tangentsOf({ indices: Uint32Array.of(0, 1, 0xffffffff) }), 2);
-    refuses("indexOutOfRange", [/corner 1/], () =>
-      splitVertices({ indices: Uint32Array.of(0, 5), vertexCount: 2 }, [{ data: new Float32Array(2), size: 1 }]), 1);
-  });
-
   it("counts of 2^31 and more", () => {
     refuses("countMismatch", [/face sizes/, /54/], tangentsOf({ faceSizes: new Uint32Array(3).fill(0x80000000) }));
     refuses("tooLarge", [/2\^31/], () => splitVertices({ indices: Uint32Array.of(0), vertexCount: 2 ** 31 }, [{ data: new Float32Array(1), size: 1 }]));
@@ -205,19 +190,6 @@ describe("taken as it is", () => {
     assert.equal(tangents.length, good.length);
     assert.ok(sanitizeTangents({ ...mesh, positions }, tangents).every(Number.isFinite));
     assert.equal(generateNormals({ ...mesh, positions }).length, 3 * mesh.indices.length);
-  });
-
-  it("an empty mesh", () => {
-    const empty = { positions: new Float32Array(0), normals: new Float32Array(0), uvs: new Float32Array(0) };
-    for (const indices of [undefined, new Uint32Array(0)]) {
-      assert.equal(generateTangents({ ...empty, indices }, options).length, 0);
-      assert.equal(generateNormals({ ...empty, indices }).length, 0);
-      assert.equal(sanitizeTangents({ ...empty, indices }, new Float32Array(0)).length, 0);
-      const plan = new Plan({ ...empty, indices }, options);
-      assert.equal(plan.evaluate(empty).length, 0);
-      plan.destroy();
-    }
-    assert.equal(splitVertices({ vertexCount: 0 }, []).indices.length, 0);
   });
 
   it("views into larger buffers, and shared ones", () => {

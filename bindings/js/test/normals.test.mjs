@@ -78,11 +78,4 @@ describe("mendWinding", () => {
     assert.equal(mended.report.byVolumeCount, 1);
     assert.equal(indices[4], 3); // the caller's indices are not changed
   });
-  it("follows normals, unless it is not to", () => {
-    const normals = positions.map((x) => 0.2 - x);
-    const mesh = { positions, normals, indices: new Uint32Array(sound) };
-    assert.equal(whole.mendWinding(mesh).report.turnedCount, 4);
-    assert.equal(whole.mendWinding(mesh, { useNormals: false }).report.turnedCount, 0);
-    assert.throws(() => whole.mendWinding(mesh, { useNormal: false }), /useNormal/);
-  });
 });

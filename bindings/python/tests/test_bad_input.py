@@ -73,10 +73,6 @@ class BadInput(unittest.TestCase):
         self.refuses_tangents(ValueError, "face_sizes", face_sizes=[[3, 3]])
         self.refuses_tangents(ValueError, "face_sizes", face_sizes=3, indices=self.indices.reshape(-1, 3))
 
-    def test_attributes_that_are_missing(self):
-        self.assertEqual(self.refuses_tangents(ValueError, "normals", normals=None).code, "missingAttribute")
-        self.assertEqual(self.refuses_tangents(ValueError, "UVs", uvs=None).code, "missingAttribute")
-
     def test_indices_out_of_range(self):
         for kind in (numpy.uint8, numpy.uint16, numpy.uint32, numpy.int32, numpy.int64, numpy.uint64, numpy.int16):
             indices = self.indices.astype(kind)

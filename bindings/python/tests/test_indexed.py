@@ -8,14 +8,6 @@ import tspace
 from support import cube, same_bits, torus
 
 
-def mirrored_strip():
-    """Returns two adjacent quads; the texture is mirrored on the second one, so that two vertices need two tangents."""
-    positions = numpy.float32([[x, y, 0] for y in (0, 1) for x in (0, 1, 2)])
-    uvs = numpy.float32([[u, y] for y in (0, 1) for u in (0, 1, 0)])
-    normals = numpy.float32([[0, 0, 1]] * 6)
-    return positions, normals, uvs, numpy.uint32([[0, 1, 4, 3], [1, 2, 5, 4]])
-
-
 class IndexedFrames(unittest.TestCase):
     def test_every_corner_has_the_tangent_of_the_single_steps(self):
         for method in ("mikktspace", "best", "flat"):
@@ -28,24 +20,6 @@ class IndexedFrames(unittest.TestCase):
             self.assertTrue(same_bits(made.normals[made.indices], shape.normals[shape.indices]))
             self.assertIsNone(made.report.normals)
 
-    def test_vertices_whose_corners_disagree_are_copied(self):
-        positions, normals, uvs, quads = mirrored_strip()
-        made = tspace.make_indexed_frames(positions, normals, uvs, quads, convention="opengl")
-        self.assertEqual(made.source_vertices.tolist(), [0, 1, 2, 3, 4, 5, 1, 4])
-        self.assertTrue((numpy.sign(made.tangents[made.indices, 0]) == [1, 1, 1, 1, -1, -1, -1, -1]).all())
-        self.assertEqual(made.report.tangents.mirrored_count, 2)
-        self.assertEqual(made.report.sanitize.mended_count, 0)
-
-    def test_normals_are_made_where_they_are_missing_or_asked_for(self):
-        shape = cube()
-        want = tspace.normals(shape.positions, shape.indices, crease_angle=60)
-        for normals, options in ((None, {}), (shape.normals * 0, dict(make_normals=True))):
-            made = tspace.make_indexed_frames(
-                shape.positions, normals, shape.uvs, shape.indices, convention="gltf", crease_angle=60, **options
-            )
-            self.assertTrue(same_bits(made.normals[made.indices], want))
-            self.assertEqual(made.report.normals.face_count, 12)
-
     def test_a_mesh_without_indices_comes_out_indexed(self):
         shape = torus(10, 12)
         arrays = shape.positions[shape.indices], shape.normals[shape.indices], shape.uvs[shape.indices]
@@ -56,27 +30,14 @@ class IndexedFrames(unittest.TestCase):
         apart = tspace.make_indexed_frames(*arrays, convention="gltf", keep_apart=[colours])
         self.assertEqual(apart.indices.tolist(), list(range(len(shape.indices))))
 
-    def test_broken_tangents_are_mended_unless_told_otherwise(self):
-        positions, normals, uvs, quads = mirrored_strip()
-        arguments = dict(indices=quads, convention="gltf", threshold=180)
-        positions[5] = numpy.nan
-        made = tspace.make_indexed_frames(positions, normals, uvs, **arguments)
-        self.assertTrue(numpy.isfinite(made.tangents).all())
-        left = tspace.make_indexed_frames(positions, normals, uvs, sanitize=False, **arguments)
-        self.assertIsNone(left.report.sanitize)
-
     def test_wrong_input_is_refused(self):
         shape = cube()
         with self.assertRaisesRegex(TypeError, "keep_apart"):
             tspace.make_indexed_frames(*shape, convention="gltf", keep_apart=shape.normals)
         with self.assertRaisesRegex(ValueError, "24 rows.*36 corners"):
             tspace.make_indexed_frames(*shape, convention="gltf", keep_apart=[shape.normals])
-        with self.assertRaisesRegex(ValueError, "UVs"):
-            tspace.make_indexed_frames(shape.positions, None, None, shape.indices, convention="gltf")
         with self.assertRaisesRegex(TypeError, "convention"):
             tspace.make_indexed_frames(*shape)
-        with self.assertRaisesRegex(IndexError, "indices"):
-            tspace.make_indexed_frames(*list(shape)[:3], [0, 1, 24], convention="gltf")
 
 
 class IndexLists(unittest.TestCase):

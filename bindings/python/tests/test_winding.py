@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""mend_winding: indices of every shape, and the influence of normals."""
+"""mend_winding: indices of every shape."""
 
 import unittest
 
@@ -16,18 +16,10 @@ def damaged(indices, faces):
 
 class MendWinding(unittest.TestCase):
     def setUp(self):
-        self.positions, self.normals, _, indices = cube()
+        self.positions, _, _, indices = cube()
         self.sound = numpy.array(indices, numpy.uint32).reshape(-1, 3)
         # The faces of the cube may have either winding, so the expected winding is the one chosen by volume.
         self.sound = tspace.mend_winding(self.positions, self.sound).indices
-
-    def test_turns_what_was_turned(self):
-        result = tspace.mend_winding(self.positions, damaged(self.sound, [2, 7]))
-        self.assertTrue((result.indices == self.sound).all())
-        self.assertEqual(numpy.flatnonzero(result.turned).tolist(), [2, 7])
-        self.assertEqual(result.report.turned_count, 2)
-        self.assertEqual(result.report.conflict_count_after, 0)
-        self.assertEqual(result.report.by_volume_count, 1)
 
     def test_keeps_the_shape_and_the_type_of_indices(self):
         flat = damaged(self.sound, [3]).astype(numpy.uint8).ravel()
@@ -52,13 +44,6 @@ class MendWinding(unittest.TestCase):
         self.assertTrue((tspace.mend_winding(points, wrong).indices == sound).all())
         by_sizes = tspace.mend_winding(points, wrong.ravel(), face_sizes=[4] * 6)
         self.assertTrue((by_sizes.indices == sound.ravel()).all())
-
-    def test_follows_normals(self):
-        normals = numpy.float32(self.positions) - numpy.float32(self.positions).mean(axis=0)
-        inside = tspace.mend_winding(self.positions, self.sound, normals=-normals)
-        self.assertEqual(inside.report.by_normals_count, 1)
-        self.assertEqual(inside.report.turned_count, len(self.sound))
-
 
 if __name__ == "__main__":
     unittest.main()
