@@ -2,6 +2,48 @@
 // Choices, with the numbers of the C API. Written by scripts/api.
 namespace Tspace
 {
+    /// <summary>Reason why a call failed. The numbers are stable, equal in C and C++, and never reused.</summary>
+    public enum ErrorCode : uint
+    {
+        /// <summary>Not an error.</summary>
+        Ok = 0,
+        /// <summary>A required pointer is null, or a null array has a nonzero count.</summary>
+        NullData = 1,
+        /// <summary>Two arrays that must have equal lengths differ in length.</summary>
+        CountMismatch = 2,
+        /// <summary>An index is not less than the number of vertices; `element` is its position.</summary>
+        IndexOutOfRange = 3,
+        /// <summary>Elements of a span would overlap.</summary>
+        StrideTooSmall = 4,
+        /// <summary>A pointer or stride is not a multiple of its element's alignment.</summary>
+        Misaligned = 5,
+        /// <summary>A size exceeds a limit: the sum of face sizes, or a limit stated by the function.</summary>
+        TooLarge = 6,
+        /// <summary>The method needs an attribute (normals, UVs) that the mesh does not have.</summary>
+        MissingAttribute = 7,
+        /// <summary>An option has a value outside its stated range.</summary>
+        InvalidOption = 8,
+        /// <summary>The allocator returned null.</summary>
+        OutOfMemory = 9,
+        /// <summary>Arrays do not fit the plan they are evaluated with.</summary>
+        PlanMismatch = 10,
+        /// <summary>A bug in tspace; please report it.</summary>
+        Internal = 11,
+        /// <summary>A callback of the caller canceled the call; no result was returned or written.</summary>
+        Cancelled = 12,
+        /// <summary>Asset layer: the file violates its format; the error states where.</summary>
+        InvalidFile = 100,
+        /// <summary>Asset layer: the file is valid, but needs a feature that this version does not
+        /// support.</summary>
+        UnsupportedFile = 101,
+        /// <summary>Asset layer: a URI leads outside the folder of the model.</summary>
+        ForbiddenPath = 102,
+        /// <summary>Asset layer: a file cannot be opened or read.</summary>
+        CannotRead = 103,
+        /// <summary>Asset layer: a file cannot be written; nothing was changed.</summary>
+        CannotWrite = 104,
+    }
+
     /// <summary>Method of computing tangents. `docs/concepts/methods/` has a page for each.</summary>
     public enum Method : uint
     {

@@ -4,26 +4,6 @@ using System.Runtime.InteropServices;
 
 namespace Tspace
 {
-    /// <summary>Counts of triangles, groups and defects of the input. Invalid geometry is counted, and is not an
-    /// error.</summary>
-    public readonly struct TangentReport
-    {
-        public readonly long TriangleCount, DegenerateTriangleCount, DegenerateUvCount, MirroredCount, SkippedFaceCount,
-            GroupCount, DefaultCornerCount, NotFiniteCount;
-
-        internal TangentReport(in Native.TangentReport raw)
-        {
-            TriangleCount = (long)raw.TriangleCount;
-            DegenerateTriangleCount = (long)raw.DegenerateTriangleCount;
-            DegenerateUvCount = (long)raw.DegenerateUvCount;
-            MirroredCount = (long)raw.MirroredCount;
-            SkippedFaceCount = (long)raw.SkippedFaceCount;
-            GroupCount = (long)raw.GroupCount;
-            DefaultCornerCount = (long)raw.DefaultCornerCount;
-            NotFiniteCount = (long)raw.NotFiniteCount;
-        }
-    }
-
     /// <summary>Indexed mesh with the same faces as the input, whose vertices can be shared by corners.</summary>
     public sealed class IndexedFrames
     {

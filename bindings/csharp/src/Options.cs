@@ -4,13 +4,6 @@ using System.Text;
 
 namespace Tspace
 {
-    /// <summary>Reason for the failure of a call. The numbers are those of the C API, and are never reused.</summary>
-    public enum ErrorCode
-    {
-        NullData = 1, CountMismatch = 2, IndexOutOfRange = 3, StrideTooSmall = 4, Misaligned = 5, TooLarge = 6,
-        MissingAttribute = 7, InvalidOption = 8, OutOfMemory = 9, PlanMismatch = 10, Internal = 11
-    }
-
     /// <summary>Error of a failed call, with a human-readable message and the location of the fault.</summary>
     public sealed class TspaceException : Exception
     {
@@ -54,56 +47,11 @@ namespace Tspace
         public static Convention Unity => Preset("unity");
     }
 
-    /// <summary>Options for tangents. A new instance holds the defaults.</summary>
-    public sealed class TangentOptions
+    public sealed partial class TangentOptions
     {
-        /// <summary>Determines the stored sign.</summary>
-        public Convention Convention { get; set; }
-        public Method Method { get; set; }
-        public Ngons Ngons { get; set; }
-        public FrameShape Frame { get; set; }
-        /// <summary>Degrees; only for Mikktspace. Tangents of faces that differ by this or more are not
-        /// averaged.</summary>
-        public float AngularThresholdDeg { get; set; }
-        public Pairing Pairing { get; set; }
-        /// <summary>Number of refinement steps of Best after its fit: 0, 1 or 2.</summary>
-        public int Refine { get; set; }
-        /// <summary>Normalizes normals whose length differs from 1 by more than 0.00674.</summary>
-        public bool NormalizeNormals { get; set; }
-        /// <summary>Number of threads; int.MaxValue: one per core. Results have the same bits for any number.</summary>
-        public int Threads { get; set; } = 1;
-
-        public TangentOptions(Convention convention)
-        {
-            Native.TangentOptions raw = Prepared();
-            Convention = convention;
-            Method = (Method)raw.Method;
-            Ngons = (Ngons)raw.Ngons;
-            Frame = (FrameShape)raw.Frame;
-            AngularThresholdDeg = raw.AngularThresholdDeg;
-            Pairing = (Pairing)raw.Pairing;
-            Refine = (int)raw.Refine;
-        }
-
-        private static unsafe Native.TangentOptions Prepared()
-        {
-            Native.TangentOptions raw;
-            Native.Error error;
-            Native.Check(Native.tspace_initTangentOptions(&raw, (uint)sizeof(Native.TangentOptions), &error), ref error);
-            return raw;
-        }
-
         internal Native.TangentOptions Raw()
         {
-            Native.TangentOptions raw = Prepared();
-            raw.Convention = Convention.Raw;
-            raw.Method = (uint)Method;
-            raw.Ngons = (uint)Ngons;
-            raw.Frame = (uint)Frame;
-            raw.AngularThresholdDeg = AngularThresholdDeg;
-            raw.Pairing = (uint)Pairing;
-            raw.Refine = (uint)Refine;
-            raw.NormalizeNormals = NormalizeNormals ? 1u : 0u;
+            Native.TangentOptions raw = Fields();
             // The C API rejects zero for both as uninitialized; no method uses both.
             if (AngularThresholdDeg == 0 && Refine == 0)
             {
@@ -124,59 +72,13 @@ namespace Tspace
         }
     }
 
-    /// <summary>Options for normals. A new instance holds the defaults.</summary>
-    public sealed class NormalOptions
+    public sealed partial class NormalOptions
     {
-        /// <summary>Convention whose handedness and winding define the outside of faces.</summary>
-        public Convention Convention { get; set; }
-        public NormalWeighting Weighting { get; set; }
-        /// <summary>Degrees, 0..180: edges where face normals differ by more are hard. 180: no hard edges. -1: derived
-        /// from the mesh.</summary>
-        public float CreaseAngleDeg { get; set; }
-        /// <summary>Welds vertices at the same position.</summary>
-        public bool WeldPositions { get; set; }
-        /// <summary>With WeldPositions: positions that differ by at most this in each coordinate are welded. 0: only
-        /// equal positions. -1: twice the spacing of floats at the largest coordinate, applied only to positions with
-        /// an edge of at least 32 times that length.</summary>
-        public float WeldDistance { get; set; }
-        /// <summary>Number of refinement steps of Best after its fit: 0, 1 or 2.</summary>
-        public int Refine { get; set; }
-        /// <summary>For noisy positions: 0: off; -1: the measured noise; up to 4: multiple of the measured
-        /// noise.</summary>
-        public float Denoise { get; set; }
-        public int Threads { get; set; } = 1;
-
-        public NormalOptions(Convention convention)
-        {
-            Native.NormalOptions raw = Prepared();
-            Convention = convention;
-            Weighting = (NormalWeighting)raw.Weighting;
-            CreaseAngleDeg = raw.CreaseAngleDeg;
-            WeldPositions = raw.WeldPositions != 0;
-            WeldDistance = raw.WeldDistance;
-            Refine = (int)raw.Refine;
-            Denoise = raw.Denoise;
-        }
-
-        private static unsafe Native.NormalOptions Prepared()
-        {
-            Native.NormalOptions raw;
-            Native.Error error;
-            Native.Check(Native.tspace_initNormalOptions(&raw, (uint)sizeof(Native.NormalOptions), &error), ref error);
-            return raw;
-        }
-
         internal Native.NormalOptions Raw()
         {
-            Native.NormalOptions raw = Prepared();
-            raw.Convention = Convention.Raw;
-            raw.Weighting = (uint)Weighting;
-            raw.CreaseAngleDeg = CreaseAngleDeg;
-            raw.WeldPositions = WeldPositions ? 1u : 0u;
-            raw.WeldDistance = WeldDistance;
+            Native.NormalOptions raw = Fields();
             // The C API rejects all-zero options as uninitialized; Flat, which is 0, does not use this option.
-            raw.Refine = Weighting == NormalWeighting.Flat && Refine == 0 ? 1u : (uint)Refine;
-            raw.Denoise = Denoise;
+            if (Weighting == NormalWeighting.Flat && Refine == 0) raw.Refine = 1;
             return raw;
         }
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import type {
-  Convention, ConventionName, Indices, Mesh, MikktspaceOptions, NewFloat32Array, NewUint32Array, SanitizeReport, TangentOutputs, TangentReport,
+  Convention, ConventionName, Indices, Mesh, MikktspaceOptions, NewFloat32Array, NewUint32Array, NormalReport, SanitizeReport, TangentOutputs, TangentReport,
   TspaceError,
 } from "./types.js";
 
@@ -34,20 +34,6 @@ export interface MeshJob {
  * the others.
  */
 export function generateTangentsOfMeshes(jobs: readonly MeshJob[]): (NewFloat32Array | TspaceError | TypeError)[];
-
-export interface NormalReport {
-  faceCount: number;
-  /** Faces without a normal: zero area or not finite. */
-  degenerateFaceCount: number;
-  /** Corners whose weighted mean is zero and that got a fallback. */
-  fallbackCornerCount: number;
-  /** Position noise that `denoise` removed: standard deviation in mean edge lengths; 0: none. */
-  noise: number;
-  /** The crease angle used: the given one, or the one that "auto" determined. */
-  creaseAngle: number;
-  /** Given options that the weighting does not use, such as `refine` for `angle`. */
-  ignoredOptions?: string[];
-}
 
 export interface NormalOptions {
   /** Weight of a face at a corner. Default: `angle`. */

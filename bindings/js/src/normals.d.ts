@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 import type { NormalOptions } from "./index.js";
-import type { Convention, ConventionName, Mesh, NewFloat32Array, NewUint32Array, NewUint8Array } from "./types.js";
+import type { Convention, ConventionName, Mesh, NewFloat32Array, NewUint32Array, NewUint8Array, PositionNoise, WindingReport } from "./types.js";
 
 export { conventions, TspaceError } from "./types.js";
 export type * from "./types.js";
-export type { NormalOptions, NormalReport } from "./index.js";
+export type { NormalOptions } from "./index.js";
 
 /** Resolves when the module is ready for calls. */
 export const ready: Promise<void>;
@@ -14,17 +14,6 @@ export function release(): void;
 
 /** Like generateNormals of "tspace", with `denoise` and `creaseAngle: "auto"`. */
 export function generateNormals(mesh: Mesh, options?: NormalOptions): NewFloat32Array;
-
-/** Measured noise of positions. Lengths are relative to `meanEdge`. */
-export interface PositionNoise {
-  /** Distance of positions from a smooth surface through their neighbors: standard deviation along the normal. */
-  sigma: number;
-  /** Median part of the normal difference along an edge that no smooth surface has, 0 to 1. */
-  kinkShare: number;
-  /** The part of `sigma` that is noise, which `denoise: "auto"` removes; 0: positions are not noisy. */
-  noise: number;
-  meanEdge: number;
-}
 
 /** Measures the noise of positions from samples. UVs and normals are ignored. */
 export function measurePositionNoise(mesh: Mesh): PositionNoise;
@@ -44,31 +33,6 @@ export interface WindingOptions {
    * outside.
    */
   convention?: ConventionName | Convention;
-}
-
-/**
- * A component consists of faces connected by edges; a conflict is a pair of faces that traverse their common edge in
- * the same direction.
- */
-export interface WindingReport {
-  /** Faces with at least 3 corners. */
-  faceCount: number;
-  turnedCount: number;
-  conflictCountBefore: number;
-  conflictCountAfter: number;
-  componentCount: number;
-  /** Components with more than half of their faces flipped. */
-  turnedComponentCount: number;
-  /** Components oriented by normals of the mesh; the following counts are for the other criteria. */
-  byNormalsCount: number;
-  byVolumeCount: number;
-  byNestingCount: number;
-  byWindingNumberCount: number;
-  byMajorityCount: number;
-  /** Components with fewer than 4 faces, which are not changed. */
-  smallCount: number;
-  /** One-sided components, such as a Moebius strip, which are not changed. */
-  oneSidedCount: number;
 }
 
 /** Flips faces whose winding differs from their neighbors, and components that are inside out. UVs are ignored. */

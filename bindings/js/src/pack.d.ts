@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
+import type { PackReport } from "./core_reports.js";
 import type { NewFloat32Array, NewUint8Array } from "./types.js";
 
 export { TspaceError } from "./types.js";
-export type { NewFloat32Array, NewUint8Array };
+export type { NewFloat32Array, NewUint8Array, PackReport };
 
 /** Resolves when the module is ready for calls. */
 export const ready: Promise<void>;
@@ -22,18 +23,6 @@ export type FrameFormat =
 /** All formats. */
 export const frameFormats: readonly FrameFormat[];
 
-/** Frames repaired before packing, by cause. */
-export interface PackReport {
-  badNormalCount?: number;
-  notFiniteCount?: number;
-  zeroCount?: number;
-  parallelCount?: number;
-  notUnitCount?: number;
-  notOrthogonalCount?: number;
-  badSignCount?: number;
-  mendedCount?: number;
-}
-
 /** Returns the bytes of one frame. */
 export function frameBytes(format: FrameFormat): number;
 
@@ -45,7 +34,7 @@ export function frameBytes(format: FrameFormat): number;
  * @returns `frameBytes(format)` bytes per frame, for the shaders of tspace or unpackFrames
  */
 export function packFrames(
-  normals: Float32Array, tangents: Float32Array, format: FrameFormat, options?: { report?: PackReport },
+  normals: Float32Array, tangents: Float32Array, format: FrameFormat, options?: { report?: Partial<PackReport> },
 ): NewUint8Array;
 
 /** Unpacks frames: all bytes are valid frames, finite and unit. */

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+import type { SanitizeReport, TangentReport } from "./core_reports.js";
+
+export type * from "./core_reports.js";
 
 /** A mesh: arrays of the caller, which are copied and never changed. */
 export interface Mesh {
@@ -45,29 +48,6 @@ export type ConventionName = "gltf" | "opengl" | "directx" | "unreal" | "unity" 
 /** Presets, keyed by the name of a format or an engine. */
 export const conventions: Readonly<Record<ConventionName, Convention>>;
 
-export interface TangentReport {
-  /** Triangles after triangulation of quads and n-gons. */
-  triangleCount: number;
-  /** Two corners at the same position. */
-  degenerateTriangleCount: number;
-  /** Triangles without UV area: they use the frame of their neighbors. */
-  degenerateUvCount: number;
-  /** Triangles with negative UV area. */
-  mirroredCount: number;
-  /** Faces for which nothing was computed. */
-  skippedFaceCount: number;
-  /** Sets of corners that share one tangent. */
-  groupCount: number;
-  /** Corners to which no face contributes: the method's default. */
-  defaultCornerCount: number;
-  /** Tangents that contain NaN or infinity. */
-  notFiniteCount: number;
-  /** 1: the reference would take quadratic time for this input, so its last step was skipped. */
-  referenceOrderAbandoned: number;
-  /** Given options that the method does not use, such as `refine` for `mikktspace`. */
-  ignoredOptions?: string[];
-}
-
 /** Outputs that the caller provides. */
 export interface TangentOutputs {
   /**
@@ -100,23 +80,6 @@ export interface MikktspaceOptions extends TangentOutputs {
    * used as given.
    */
   normalizeNormals?: boolean;
-}
-
-export interface SanitizeReport {
-  notFiniteCount: number;
-  zeroCount: number;
-  notUnitCount: number;
-  parallelCount: number;
-  placeholderCount: number;
-  badSignCount: number;
-  mixedSignCount: number;
-  orthogonalizedCount: number;
-  normalizedCount: number;
-  fromNeighborCount: number;
-  fromBasisCount: number;
-  badNormalCount: number;
-  /** All repaired corners. */
-  mendedCount: number;
 }
 
 export interface SanitizeOptions {

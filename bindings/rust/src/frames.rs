@@ -1,63 +1,11 @@
 // SPDX-License-Identifier: MIT
 use crate::error::{checked, mismatch, Error};
 use crate::mesh::{Indices, Mesh};
-use crate::normals::{NormalOptions, NormalReport};
 use crate::options::{prepared, Convention, Execution};
+use crate::structs::{NormalOptions, NormalReport, SanitizeReport, TangentOptions, TangentReport};
 use crate::sys;
-use crate::tangents::{new_report, span, TangentOptions, TangentReport};
+use crate::tangents::{new_report, span};
 use std::ptr::{null, null_mut};
-
-/// Repaired tangents, by cause and by kind of repair.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct SanitizeReport {
-    /// Cause: the tangent contains NaN or infinity.
-    pub not_finite_count: u64,
-    /// Length 0.
-    pub zero_count: u64,
-    /// Cause: length off by more than 5e-4.
-    pub not_unit_count: u64,
-    /// Cause: within 1 degree of N or -N.
-    pub parallel_count: u64,
-    /// Cause: (1, 0, 0), and not perpendicular to N.
-    pub placeholder_count: u64,
-    /// Cause: sign neither +1 nor -1.
-    pub bad_sign_count: u64,
-    /// Cause: the corners of the face have different signs.
-    pub mixed_sign_count: u64,
-    /// Valid tangents that were changed because of `orthogonalize_all`.
-    pub orthogonalized_count: u64,
-    /// Repair: original direction, normalized and made orthogonal to N.
-    pub normalized_count: u64,
-    /// Repair: direction of a valid corner of the same face or position.
-    pub from_neighbor_count: u64,
-    /// Repair: tangent computed from N only.
-    pub from_basis_count: u64,
-    /// Corners whose N is zero or not finite.
-    pub bad_normal_count: u64,
-    /// Number of all repaired corners.
-    pub mended_count: u64,
-}
-
-impl SanitizeReport {
-    fn of(raw: &sys::SanitizeReport) -> Self {
-        SanitizeReport {
-            not_finite_count: raw.not_finite_count,
-            zero_count: raw.zero_count,
-            not_unit_count: raw.not_unit_count,
-            parallel_count: raw.parallel_count,
-            placeholder_count: raw.placeholder_count,
-            bad_sign_count: raw.bad_sign_count,
-            mixed_sign_count: raw.mixed_sign_count,
-            orthogonalized_count: raw.orthogonalized_count,
-            normalized_count: raw.normalized_count,
-            from_neighbor_count: raw.from_neighbor_count,
-            from_basis_count: raw.from_basis_count,
-            bad_normal_count: raw.bad_normal_count,
-            mended_count: raw.mended_count,
-        }
-    }
-}
 
 /// Repairs tangents in place that are not finite, zero, not unit, parallel to N, or whose signs differ within a face.
 /// Valid tangents keep all bits, unless `orthogonalize_all`. The mesh needs normals.

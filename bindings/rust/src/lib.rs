@@ -43,6 +43,7 @@ pub mod mikktspace;
 mod normals;
 mod options;
 mod pack;
+mod structs;
 mod sys;
 mod tangents;
 #[cfg(test)]
@@ -54,17 +55,15 @@ pub use enums::{
 };
 pub use error::{Error, ErrorCode};
 pub use frames::{
-    make_indexed_frames, sanitize, split, triangulate, Attribute, IndexedFrames, IndexedFramesOptions, SanitizeReport,
-    Split, Triangles,
+    make_indexed_frames, sanitize, split, triangulate, Attribute, IndexedFrames, IndexedFramesOptions, Split, Triangles,
 };
 pub use mesh::{Indices, Mesh, Points};
-pub use normals::{normals, normals_into, NormalOptions, NormalReport};
+pub use normals::{normals, normals_into};
 pub use options::{Convention, Execution};
 pub use pack::{pack_frames, unpack_frames};
-pub use tangents::{
-    tangents, tangents_full, tangents_into, Plan, TangentOptions, TangentReport, Tangents,
-};
-pub use winding::{mend_winding, WindingOptions};
+pub use structs::{NormalOptions, NormalReport, SanitizeReport, TangentOptions, TangentReport, WindingOptions};
+pub use tangents::{tangents, tangents_full, tangents_into, Plan, Tangents};
+pub use winding::mend_winding;
 
 /// Version of the library: 10000 * major + 100 * minor + patch.
 pub fn version() -> u32 {

@@ -1,66 +1,16 @@
 // SPDX-License-Identifier: MIT
-use crate::enums::{FrameShape, Method, Ngons, OutputDomain, Pairing};
+use crate::enums::{Method, OutputDomain};
 use crate::error::{checked, mismatch, Error};
 use crate::mesh::{Mesh, Points};
-use crate::options::{prepared, Convention, Execution};
+use crate::options::Execution;
+use crate::structs::{TangentOptions, TangentReport};
 use crate::sys;
 use std::mem::{size_of, MaybeUninit};
 use std::ptr::null_mut;
 
-/// Options for tangents. [`TangentOptions::new`] sets the defaults.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TangentOptions {
-    /// Determines the stored sign.
-    pub convention: Convention,
-    /// Default: [`Method::Mikktspace`].
-    pub method: Method,
-    /// Default: [`Ngons::Triangulate`].
-    pub ngons: Ngons,
-    /// Default: [`OutputDomain::Corner`].
-    pub domain: OutputDomain,
-    /// Default: [`FrameShape::GramSchmidt`].
-    pub frame: FrameShape,
-    /// Degrees; only for mikktspace. Tangents of faces that differ by this or more are not averaged. Default: 180.
-    pub angular_threshold_deg: f32,
-    /// Default: [`Pairing::Reference`].
-    pub pairing: Pairing,
-    /// Number of refinement steps of [`Method::Best`]: 0, 1 or 2. Default: 1.
-    pub refine: u32,
-    /// Normalize normals whose length differs from 1 by more than 0.00674. Default: they are used as given.
-    pub normalize_normals: bool,
-    /// Default: the calling thread.
-    pub execution: Execution,
-}
-
 impl TangentOptions {
-    /// The defaults.
-    pub fn new(convention: Convention) -> Self {
-        let raw = prepared(sys::tspace_initTangentOptions);
-        TangentOptions {
-            convention,
-            method: Method::default(),
-            ngons: Ngons::default(),
-            domain: OutputDomain::default(),
-            frame: FrameShape::default(),
-            angular_threshold_deg: raw.angular_threshold_deg,
-            pairing: Pairing::default(),
-            refine: raw.refine,
-            normalize_normals: false,
-            execution: Execution::default(),
-        }
-    }
-
     pub(crate) fn raw(&self) -> sys::TangentOptions {
-        let mut raw = prepared(sys::tspace_initTangentOptions);
-        raw.method = self.method as u32;
-        raw.convention = self.convention.raw();
-        raw.ngons = self.ngons as u32;
-        raw.domain = self.domain as u32;
-        raw.frame = self.frame as u32;
-        raw.angular_threshold_deg = self.angular_threshold_deg;
-        raw.pairing = self.pairing as u32;
-        raw.refine = self.refine;
-        raw.normalize_normals = self.normalize_normals.into();
+        let mut raw = self.fields();
         // The C API rejects zero for both as uninitialized; no method uses both.
         if raw.angular_threshold_deg == 0.0 && raw.refine == 0 {
             if self.method == Method::Best {
@@ -76,46 +26,6 @@ impl TangentOptions {
         match self.domain {
             OutputDomain::Corner => mesh.corner_count(),
             OutputDomain::Vertex => mesh.vertex_count(),
-        }
-    }
-}
-
-/// Counts of triangles, groups and defects of the input.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct TangentReport {
-    /// The reference would take quadratic time for this input, so its last step was skipped.
-    pub reference_order_abandoned: bool,
-    /// Triangles after triangulation.
-    pub triangle_count: u64,
-    /// Triangles with two corners at the same position.
-    pub degenerate_triangle_count: u64,
-    /// Triangles without UV area: they use the frame of their neighbors.
-    pub degenerate_uv_count: u64,
-    /// Triangles whose texture is mirrored, according to the convention.
-    pub mirrored_count: u64,
-    /// Faces for which nothing was computed.
-    pub skipped_face_count: u64,
-    /// Sets of corners that share one tangent.
-    pub group_count: u64,
-    /// Results to which no face contributes: the method's default.
-    pub default_corner_count: u64,
-    /// Results that contain NaN or infinity.
-    pub not_finite_count: u64,
-}
-
-impl TangentReport {
-    pub(crate) fn of(raw: &sys::TangentReport) -> Self {
-        TangentReport {
-            reference_order_abandoned: raw.reference_order_abandoned != 0,
-            triangle_count: raw.triangle_count,
-            degenerate_triangle_count: raw.degenerate_triangle_count,
-            degenerate_uv_count: raw.degenerate_uv_count,
-            mirrored_count: raw.mirrored_count,
-            skipped_face_count: raw.skipped_face_count,
-            group_count: raw.group_count,
-            default_corner_count: raw.default_corner_count,
-            not_finite_count: raw.not_finite_count,
         }
     }
 }

@@ -7,7 +7,7 @@ values that cannot be converted raise an error.
 
 import ctypes
 import math
-from typing import Any, Optional, Sequence, Tuple
+from typing import Any, Optional, Sequence, Tuple, Type, TypeVar
 
 import numpy
 
@@ -15,6 +15,7 @@ from . import _abi
 from ._errors import IndexRangeError, InputError, raise_error
 from ._memory import new_array
 
+T = TypeVar("T")
 FLOAT32 = numpy.dtype(numpy.float32)
 UINT32 = numpy.dtype(numpy.uint32)
 INT32 = numpy.dtype(numpy.int32)
@@ -189,3 +190,10 @@ def copied(address: Optional[int], shape: Tuple[int, ...], dtype: numpy.dtype) -
     if size == 0 or address is None:
         return numpy.empty(shape, dtype)
     return numpy.frombuffer(memoryview((ctypes.c_char * size).from_address(address)), dtype).reshape(shape).copy()
+
+
+def report(kind: Type[T], struct: Any) -> T:
+    """Returns the named tuple for a C API struct with the same fields."""
+    values = (getattr(struct, field) for field in kind._fields)  # type: ignore[attr-defined]
+    kinds = kind.__annotations__.values()
+    return kind(*(bool(value) if kind is bool else value for kind, value in zip(kinds, values)))

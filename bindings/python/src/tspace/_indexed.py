@@ -8,11 +8,11 @@ from typing import Any, NamedTuple, Optional, Sequence, Union
 import numpy
 
 from . import _abi
-from ._arrays import FLOAT32, UINT32, copied, uint32_array
+from ._arrays import FLOAT32, UINT32, copied, report, uint32_array
 from ._mesh import Mesh
 from ._normals import normal_options
 from ._options import ConventionLike, execution
-from ._reports import NormalReport, SanitizeReport, TangentReport, report
+from ._reports import NormalReport, SanitizeReport, TangentReport
 from ._split import corner_attributes
 from ._tangents import tangent_options
 from ._types import (

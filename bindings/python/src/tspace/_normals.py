@@ -8,10 +8,10 @@ from typing import Any, Literal, NamedTuple, Optional, Union, overload
 import numpy
 
 from . import _abi
-from ._arrays import check_apart, output_array, uint32_array, write_span
+from ._arrays import check_apart, output_array, report, uint32_array, write_span
 from ._mesh import Mesh
 from ._options import ConventionLike, convention_struct, execution, named, real_or_auto, small_number
-from ._reports import NormalReport, PositionNoise, report
+from ._reports import NormalReport, PositionNoise
 from ._types import DegreesOrAuto, FaceSizes, FloatArray, Numbers, Rows, Threads, NormalWeightingName
 
 

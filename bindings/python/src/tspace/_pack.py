@@ -8,10 +8,10 @@ from typing import Any, Literal, NamedTuple, Tuple, Union, overload
 import numpy
 
 from . import _abi
-from ._arrays import FLOAT32, float_array, read_span, write_span
+from ._arrays import FLOAT32, float_array, read_span, report, write_span
 from ._errors import InputError, raise_error
 from ._options import named
-from ._reports import PackReport, report
+from ._reports import PackReport
 from ._types import ByteArray, FloatArray, FrameFormatName, Rows
 
 _library = _abi.library

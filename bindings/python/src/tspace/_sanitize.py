@@ -8,11 +8,11 @@ from typing import Any, Literal, NamedTuple, Optional, Union, overload
 import numpy
 
 from . import _abi
-from ._arrays import check_apart, float_array, output_array, read_span, write_span
+from ._arrays import check_apart, float_array, output_array, read_span, report, write_span
 from ._errors import InputError
 from ._mesh import Mesh
 from ._options import execution
-from ._reports import SanitizeReport, report
+from ._reports import SanitizeReport
 from ._types import AttributeIndices, FaceSizes, FloatArray, Numbers, Rows, Threads
 
 _library = _abi.library

@@ -10,11 +10,11 @@ from typing import Any, Iterable, List, Literal, NamedTuple, Optional, Tuple, Un
 import numpy
 
 from . import _abi
-from ._arrays import EMPTY_SPAN, check_apart, float_array, output_array, read_span, write_span
+from ._arrays import EMPTY_SPAN, check_apart, float_array, output_array, read_span, report, write_span
 from ._errors import InputError, raise_error
 from ._mesh import Mesh
 from ._options import ConventionLike, convention_struct, execution, named, real, small_number
-from ._reports import TangentReport, report
+from ._reports import TangentReport
 from ._types import (
     AttributeIndices,
     BoolArray,

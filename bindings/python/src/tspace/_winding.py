@@ -8,9 +8,10 @@ from typing import Any, NamedTuple, Optional, Union
 import numpy
 
 from . import _abi
+from ._arrays import report
 from ._mesh import Mesh
 from ._options import ConventionLike, convention_struct, execution, real_or_auto
-from ._reports import WindingReport, report
+from ._reports import WindingReport
 from ._types import DegreesOrAuto, FaceSizes, IndexArray, Numbers, Rows, Threads
 
 

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+// Options and reports, with the fields of the C API. Written by scripts/api.
+namespace Tspace
+{
+    /// <summary>Options of generateTangents: first those for all methods, then those of a single method, which
+    /// others ignore. A new instance holds the defaults.</summary>
+    public sealed partial class TangentOptions
+    {
+        /// <summary>The default is what bakers and glTF expect.</summary>
+        public Method Method { get; set; }
+        /// <summary>Determines the stored sign; there is no default: "gltf" for glTF; "opengl" stores the raw sign,
+        /// as the reference does. If unset: invalidOption.</summary>
+        public Convention Convention { get; set; }
+        /// <summary>By default every corner gets a tangent.</summary>
+        public Ngons Ngons { get; set; }
+        /// <summary>`symmetric` is rejected for `mikktspace`, whose results are those of the reference, and for
+        /// `basis`, which uses no UVs. The default is what bakers and engines expect.</summary>
+        public FrameShape Frame { get; set; }
+        /// <summary>Angular threshold in degrees, usually 0..360: faces of a group whose tangents (or bitangents)
+        /// differ by this or more are not averaged. 180 is the default of the reference and of every baker. As in
+        /// the reference, any float is accepted: only its cosine is used, and with NaN no two faces are
+        /// averaged.</summary>
+        public float AngularThresholdDeg { get; set; }
+        /// <summary>The default is bit-identical to every other MikkTSpace.</summary>
+        public Pairing Pairing { get; set; }
+        /// <summary>Number of refinement steps after the fit: 0, 1 or 2. A step changes each frame so that,
+        /// interpolated along the edges around it, it reproduces these edges, as far as they agree. 1: a fifth less
+        /// shading error. 2: another twentieth less.</summary>
+        public int Refine { get; set; }
+        /// <summary>true: normalize normals whose length deviates from 1 by more than 8-bit rounding does (0.00674)
+        /// before they are used; all others, and those without a direction, keep their bits. false, the default: use
+        /// normals as given, as the reference does. A tangent is then not perpendicular to a normal that is not
+        /// unit: on a sphere it deviates by up to 28 degrees at length 2.</summary>
+        public bool NormalizeNormals { get; set; }
+        /// <summary>Number of threads; int.MaxValue: one per core. Results have the same bits for any
+        /// number.</summary>
+        public int Threads { get; set; } = 1;
+
+        public TangentOptions(Convention convention)
+        {
+            Native.TangentOptions raw = Prepared();
+            Method = (Method)raw.Method;
+            Convention = convention;
+            Ngons = (Ngons)raw.Ngons;
+            Frame = (FrameShape)raw.Frame;
+            AngularThresholdDeg = (float)raw.AngularThresholdDeg;
+            Pairing = (Pairing)raw.Pairing;
+            Refine = (int)raw.Refine;
+            NormalizeNormals = raw.NormalizeNormals != 0;
+        }
+
+        private static unsafe Native.TangentOptions Prepared()
+        {
+            Native.TangentOptions raw;
+            Native.Error error;
+            Native.Check(Native.tspace_initTangentOptions(&raw, (uint)sizeof(Native.TangentOptions), &error), ref error);
+            return raw;
+        }
+
+        private Native.TangentOptions Fields()
+        {
+            Native.TangentOptions raw = Prepared();
+            raw.Method = (uint)Method;
+            raw.Convention = Convention.Raw;
+            raw.Ngons = (uint)Ngons;
+            raw.Frame = (uint)Frame;
+            raw.AngularThresholdDeg = AngularThresholdDeg;
+            raw.Pairing = (uint)Pairing;
+            raw.Refine = (uint)Refine;
+            raw.NormalizeNormals = NormalizeNormals ? 1u : 0u;
+            return raw;
+        }
+    }
+
+    /// <summary>Options of generateNormals: first those that apply to all weightings, then those that apply to some.
+    /// A new instance holds the defaults.</summary>
+    public sealed partial class NormalOptions
+    {
+        /// <summary>The default does not depend on how faces were triangulated.</summary>
+        public NormalWeighting Weighting { get; set; }
+        /// <summary>Handedness and winding define the outside of faces. Default: glTF.</summary>
+        public Convention Convention { get; set; }
+        /// <summary>Maximum angle between the normals of two faces whose shared edge is smooth, in degrees, 0..180
+        /// (plus 1e-6 rad for rounding). Default: 180, because no angle suits all models: no hard edges (except from
+        /// smoothing groups), and all faces at a point are smoothed together, also faces that share no edge. -1:
+        /// derived from the mesh. The angle lies in the widest gap between the angles of most edges and those of few
+        /// edges; noise of positions is filtered out first. NormalReport contains the angle that was used.</summary>
+        public float CreaseAngleDeg { get; set; }
+        /// <summary>true: weld vertices with equal positions (so UV seams stay smooth); false: weld by index
+        /// only.</summary>
+        public bool WeldPositions { get; set; }
+        /// <summary>Number of refinement steps after the fit: 0, 1 or 2. A step moves each normal so that,
+        /// interpolated along the edges around it, it is perpendicular to these edges, as far as they agree. 1: a
+        /// third less error at vertices and in the shading between them. 2: another quarter less.</summary>
+        public int Refine { get; set; }
+        /// <summary>Denoising for meshes with noisy positions: scans, marching cubes of a noisy field. Vertices are
+        /// not moved; at each vertex the normals of quadratic surfaces through two and three rings are blended with
+        /// the normal of `best`, weighted by their expected errors. 0, the default: off. -1: by the measured noise;
+        /// if there is none, or it looks like shape (CAD, bevels, decimated meshes), results have the bits of 0.
+        /// Above 0, up to 4: factor of the measured noise, without that check; 3 suits noise that is smooth from
+        /// vertex to vertex, which cannot be distinguished from detail. Hard edges are preserved: no surface is
+        /// fitted across them.</summary>
+        public float Denoise { get; set; }
+        /// <summary>With `weld_positions`: maximum difference per coordinate, in the unit of positions, of positions
+        /// that are welded to the lowest vertex among them. For meshes closed by computed coordinates, such as a
+        /// torus whose last ring has sin(2 pi) = -2.4e-16 instead of 0. 0, the default: only equal positions. -1:
+        /// twice the spacing of floats at the largest coordinate, and only at positions with an edge of at least 32
+        /// times that length. Vertices are processed in order: each joins the lowest earlier vertex within the
+        /// distance that has not joined another one, so chains of close positions are not all welded.</summary>
+        public float WeldDistance { get; set; }
+        /// <summary>Number of threads; int.MaxValue: one per core. Results have the same bits for any
+        /// number.</summary>
+        public int Threads { get; set; } = 1;
+
+        public NormalOptions(Convention convention)
+        {
+            Native.NormalOptions raw = Prepared();
+            Weighting = (NormalWeighting)raw.Weighting;
+            Convention = convention;
+            CreaseAngleDeg = (float)raw.CreaseAngleDeg;
+            WeldPositions = raw.WeldPositions != 0;
+            Refine = (int)raw.Refine;
+            Denoise = (float)raw.Denoise;
+            WeldDistance = (float)raw.WeldDistance;
+        }
+
+        private static unsafe Native.NormalOptions Prepared()
+        {
+            Native.NormalOptions raw;
+            Native.Error error;
+            Native.Check(Native.tspace_initNormalOptions(&raw, (uint)sizeof(Native.NormalOptions), &error), ref error);
+            return raw;
+        }
+
+        private Native.NormalOptions Fields()
+        {
+            Native.NormalOptions raw = Prepared();
+            raw.Weighting = (uint)Weighting;
+            raw.Convention = Convention.Raw;
+            raw.CreaseAngleDeg = CreaseAngleDeg;
+            raw.WeldPositions = WeldPositions ? 1u : 0u;
+            raw.Refine = (uint)Refine;
+            raw.Denoise = Denoise;
+            raw.WeldDistance = WeldDistance;
+            return raw;
+        }
+    }
+
+    /// <summary>Counts of triangles, groups and defects of the input. Invalid geometry never makes a call
+    /// fail.</summary>
+    public readonly struct TangentReport
+    {
+        /// <summary>`mikktspace`: the input would drive the reference into quadratic time, so its last step was
+        /// skipped. Either its sort (with Pairing::reference): the corrected pairing was used for the last bucket;
+        /// only crafted inputs cause this. Or its angular test: a group of more than 4096 faces whose tangents
+        /// spread too far was not split.</summary>
+        public readonly bool ReferenceOrderAbandoned;
+        /// <summary>Processed triangles, after triangulation of quads and n-gons.</summary>
+        public readonly long TriangleCount;
+        /// <summary>Triangles with two corners at the same position.</summary>
+        public readonly long DegenerateTriangleCount;
+        /// <summary>Triangles without UV area: they use the frames of their neighbors.</summary>
+        public readonly long DegenerateUvCount;
+        /// <summary>Triangles that show the image mirrored, in the chosen convention.</summary>
+        public readonly long MirroredCount;
+        /// <summary>Faces for which nothing was computed.</summary>
+        public readonly long SkippedFaceCount;
+        /// <summary>Groups: sets of corners that share one tangent.</summary>
+        public readonly long GroupCount;
+        /// <summary>Outputs without a tangent from any face: default of the method.</summary>
+        public readonly long DefaultCornerCount;
+        /// <summary>Outputs whose tangent has a NaN or infinity.</summary>
+        public readonly long NotFiniteCount;
+
+        internal TangentReport(in Native.TangentReport raw)
+        {
+            ReferenceOrderAbandoned = raw.ReferenceOrderAbandoned != 0;
+            TriangleCount = (long)raw.TriangleCount;
+            DegenerateTriangleCount = (long)raw.DegenerateTriangleCount;
+            DegenerateUvCount = (long)raw.DegenerateUvCount;
+            MirroredCount = (long)raw.MirroredCount;
+            SkippedFaceCount = (long)raw.SkippedFaceCount;
+            GroupCount = (long)raw.GroupCount;
+            DefaultCornerCount = (long)raw.DefaultCornerCount;
+            NotFiniteCount = (long)raw.NotFiniteCount;
+        }
+    }
+}
