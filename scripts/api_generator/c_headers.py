@@ -20,7 +20,7 @@ problems = []
 
 def listed(name, table):
     """Whether a pattern of this table of exceptions is the name."""
-    return any(re.fullmatch(pattern, name) for pattern in table)
+    return any(re.fullmatch(pattern, name) for pattern in table.values())
 
 
 def twin_type(owner):
@@ -306,6 +306,6 @@ class Headers:
                 text += defaults_code(defaults, pairs) + end[end.rindex("\n#if defined(__GNUC__)"):]
             self.texts[name] = re.sub(r"/\* == (\w+\.h) ==.*?\*/", section, text, flags=re.S)
         known = {*pairs.c_only, *pairs.twin, *entities, *(entity.owner for entity in entities.values())}
-        for pattern in [*twins.C_ALONE, *twins.CPP_ALONE, *twins.OTHER_DEFAULTS]:
-            if not any(re.fullmatch(pattern, name) for name in known):
-                problems.append(f"twins.py: nothing is \"{pattern}\"")
+        for table in (twins.C_ALONE, twins.CPP_ALONE, twins.OTHER_DEFAULTS):
+            problems.extend(f"twins.py: nothing is \"{pattern}\"" for pattern in table.values()
+                            if not any(re.fullmatch(pattern, name) for name in known))

@@ -34,6 +34,7 @@ class Mirrors:
         text = " ".join(part for kind, _, part in blocks(entity.doc) if kind == "text")
         for phrase, said in PHRASES.items():
             text = re.sub(phrase, said, text)
+        text = re.sub(r"`?\b[A-Z]\w+::(\w+)`?", r"`\1`", text)
         text = re.sub(r"`(\w+)`", lambda found: f"`{dict(own).get(found[1], found[1])}`", text)
         text = text[:1].upper() + text[1:] if re.match(r"(?!true\b|false\b)(a [a-z]|[a-z]{2,}[ ,:])", text) else text  # a sentence, not a formula
         return text if not text or text.endswith(".") else f"{text}."
@@ -67,6 +68,14 @@ def rust_choices(mirrors):
         for cpp_name, member, number, comment in rows:
             lines += [*_wrapped(comment, "    /// "), *(["    #[default]"] if cpp_name in chosen else []), f"    {member} = {number},"]
         lines.append("}")
+    rows, text = mirrors.choice("ErrorCode")
+    lines += ["", *_wrapped(text, "/// "), "#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]", "#[non_exhaustive]", "pub enum ErrorCode {"]
+    for _, member, _, comment in rows[1:]:  # not that of success
+        lines += [*_wrapped(comment, "    /// "), f"    {member},"]
+    lines += ["    /// An error number that this crate does not know.", "    Other(u32),", "}", "", "impl ErrorCode {",
+              "    pub(crate) fn of(code: u32) -> ErrorCode {", "        match code {",
+              *(f"            {number} => ErrorCode::{member}," for _, member, number, _ in rows[1:]),
+              "            other => ErrorCode::Other(other),", "        }", "    }", "}"]
     return "\n".join([*lines, ""])
 
 
@@ -172,6 +181,13 @@ def python_reports(mirrors):
         lines += ["", "", f"class {name}(NamedTuple):", f'    """{mirrors.text(mirrors.entities[name]) or "Report."}"""', ""]
         for field, kind, comment in mirrors.fields(name):
             lines += [*_wrapped(comment, "    #: "), f"    {field}: {'float' if kind in ('float', 'double') else 'bool' if kind == 'bool' else 'int'}"]
+    return "\n".join([*lines, ""])
+
+
+def python_names(model, presets):
+    lines = ["# SPDX-License-Identifier: MIT", '"""Names of choices, for type checkers. Written by scripts/api."""', "", "from typing import Literal", ""]
+    for name, values in {**model.enums, "Preset": presets}.items():
+        lines += [f"{name}Name = Literal[", *(f'    "{value.lower()}",' for value in values), "]"]
     return "\n".join([*lines, ""])
 
 

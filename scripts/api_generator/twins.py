@@ -13,57 +13,45 @@ TWINS = {
     "tspace_faceCount": "MeshView::faceCount",
     "tspace_arenaAllocator": "Arena::allocator",
     "tspace_arenaHeldBytes": "Arena::heldBytes",
-    "tspace_generateTangentsOfMeshes": "generateTangents(jobs)",  # an overload, by its first parameter
-    "tspace_trimArena": "Arena::trim",
-    "tspace_TangentPlanInfo": "TangentPlan",
     "tspace_arenaUsedBytes": "Arena::usedBytes",
+    "tspace_trimArena": "Arena::trim",
+    "tspace_generateTangentsOfMeshes": "generateTangents(jobs)",  # an overload, by its first parameter
+    "tspace_TangentPlanInfo": "TangentPlan",
     "tspace_flipGreenBytes": "flipGreen",
 }
 
-# Only in C (regular expressions; a type stands for its fields) -> why.
+# Why something is only in C -> what it is (regular expressions; a type stands for its fields).
 C_ALONE = {
-    r"tspace_init\w+": "constructors",
-    r"tspace_version": "C++ programs read version.h: they are linked with the library that they were compiled with",
-    r"\w+\.(struct_size|reserved(_end)?)": "old programs with newer libraries",
-    r"tspace_(Byte)?Span": "a StridedSpan of what is not const",
-    r"tspace_(Mesh\.face|NormalOptions\.smoothing_group|IndexedFramesOptions\.keep_apart)_count": "a span has its length",
-    r"tspace_((SplitResult|IndexedFrames)\.corner|Triangulation\.triangle|PlanBuffers\.word)_count": "a vector has its length",
-    r"tspace_PlanBufferOptions\.(index|source_corner)_count": "a span has its length",
-    r"tspace_PlanBuffers\.result_count": "PlanBuffers gives words of its header by their names",
-    r"tspace_MeshJob\.(report|error)": "the results that C++ returns in a list",
-    r"tspace_createArena|tspace_destroy(?!Bytes)\w+": "constructors and destructors",
-    r"tspace_describeTangentPlan|tspace_TangentPlanInfo": "TangentPlan has a function for each field",
-    r"tspace_IndexedFrames\.\w+_report": "members of IndexedFramesReport; null stands for normals_made",
-    r"tspace_Bytes|tspace_destroyBytes|tspace_Model|tspace_FindFile": "FileOptions::content and find_file, Sink",
-    r"tspace_(generate|check|inspect|identify|diff|compressMap)Bytes": "in C++ those on files take bytes: FileOptions::content",
+    "constructors and destructors": r"tspace_init\w+|tspace_createArena|tspace_destroy\w+",
+    "C++ programs are linked with the library that they were compiled with": r"tspace_version",
+    "old programs with newer libraries": r"\w+\.(struct_size|reserved(_end)?)",
+    "a StridedSpan of what is not const": r"tspace_(Byte)?Span",
+    "spans and vectors have their lengths": r"tspace_(Mesh\.face|NormalOptions\.smoothing_group|IndexedFramesOptions\.keep_apart"
+    r"|(SplitResult|IndexedFrames)\.corner|Triangulation\.triangle|PlanBuffers\.(word|result)|PlanBufferOptions\.(index|source_corner))_count",
+    "results that C++ returns": r"tspace_MeshJob\.(report|error)|tspace_IndexedFrames\.\w+_report",
+    "TangentPlan has a function for each field": r"tspace_describeTangentPlan|tspace_TangentPlanInfo",
+    "in C++ the calls on files take bytes: FileOptions::content and find_file, Sink": r"tspace_(Bytes|Model|FindFile)"
+    r"|tspace_(generate|check|inspect|identify|diff|compressMap)Bytes",
 }
 
-# Only in C++ (regular expressions; a type stands for its members) -> why.
+# Why something is only in C++ -> what it is.
 CPP_ALONE = {
-    r"conventions::\w+": "tspace_findConvention gives them by their names",
-    r"TexelDecode": "C takes its fields as parameters",
-    r"IndexedFramesReport|IndexedFrames::report": "three reports in tspace_IndexedFrames",
-    r"MeshView::(vertexCount|hasOwnLists)|\w+::empty|\w+Result::vertexCount": "shorthand for what fields say",
-    r"vec[234]Span|cornerAttribute|xyz": "shorthand for C++ types",
-    r"Result|Done|Error::place": "C returns a code, and the place is part of the message",
-    r"State|TangentPlan::state": "private",
-    r"(Faces|VectorFormat)(::\w+)?": "options of files, which are in tspace_files.h",
-    r"(action|faces|frameFormat|severity|signReading)Name|finding\w+|commandLine": "reports of files have these names and texts in their JSON",
-    r"NormalOptions::(crease|denoise|weld)_auto": "-1 in C",
-    r"removeAbandonedFiles": "a matter of the tool",
-    r"[tT]extureError\w+": "a part of `tspace map-error`, which is for C++ and the tool",
-    r"Cancelled": "C has no function that is told of progress",
-    r"mapErrorFile": "`tspace map-error`, which is for C++ and the tool",
-    r"MapLayout|MapComponent|readTexel": "of maps in arrays, which C does not have",
-    r"PlanBuffers::kVersion": "the first word",
-    r"allMaps": "the default of FinishOptions::bake",
+    "tspace_findConvention gives them by their names": r"conventions::\w+",
+    "C takes its fields as parameters": r"TexelDecode",
+    "three reports in tspace_IndexedFrames": r"IndexedFramesReport|IndexedFrames::report",
+    "shorthand": r"MeshView::(vertexCount|hasOwnLists)|\w+::empty|\w+Result::vertexCount|vec[234]Span|cornerAttribute|xyz",
+    "C returns a code, and the place is part of the message": r"Result|Done|Error::place",
+    "private": r"State|TangentPlan::state",
+    "options of files, which are in tspace_files.h": r"(Faces|VectorFormat)(::\w+)?",
+    "reports of files have these in their JSON": r"(action|faces|frameFormat|severity|signReading)Name|finding\w+|commandLine",
+    "-1 in C": r"NormalOptions::(crease|denoise|weld)_auto",
+    "for C++ and the tool": r"removeAbandonedFiles|[tT]extureError\w+|mapErrorFile|MapLayout|MapComponent|readTexel|allMaps",
+    "C has no function that is told of progress": r"Cancelled",
+    "the first word of PlanBuffers": r"PlanBuffers::kVersion",
 }
 
-# Fields whose default in C is zero (regular expressions) -> how it is that of C++.
-OTHER_DEFAULTS = {
-    r"tspace_Mesh\.face_size": "0 means 3",
-    r"tspace_Execution\.thread_count": "0 and 1 are the same",
-}
+# Fields whose default in C is zero: what that means -> which they are.
+OTHER_DEFAULTS = {"3": r"tspace_Mesh\.face_size", "the same as 1": r"tspace_Execution\.thread_count"}
 
 # Regular expressions -> how C says it.
 PHRASES = {

@@ -151,9 +151,9 @@ namespace Tspace
     public readonly struct TangentReport
     {
         /// <summary>`mikktspace`: the input would drive the reference into quadratic time, so its last step was
-        /// skipped. Either its sort (with Pairing::reference): the corrected pairing was used for the last bucket;
-        /// only crafted inputs cause this. Or its angular test: a group of more than 4096 faces whose tangents
-        /// spread too far was not split.</summary>
+        /// skipped. Either its sort (with `reference`): the corrected pairing was used for the last bucket; only
+        /// crafted inputs cause this. Or its angular test: a group of more than 4096 faces whose tangents spread too
+        /// far was not split.</summary>
         public readonly bool ReferenceOrderAbandoned;
         /// <summary>Processed triangles, after triangulation of quads and n-gons.</summary>
         public readonly long TriangleCount;

@@ -5,8 +5,8 @@
 export interface TangentReport {
   /**
    * `mikktspace`: the input would drive the reference into quadratic time, so its last step was skipped. Either its
-   * sort (with Pairing::reference): the corrected pairing was used for the last bucket; only crafted inputs cause
-   * this. Or its angular test: a group of more than 4096 faces whose tangents spread too far was not split.
+   * sort (with `reference`): the corrected pairing was used for the last bucket; only crafted inputs cause this. Or
+   * its angular test: a group of more than 4096 faces whose tangents spread too far was not split.
    */
   referenceOrderAbandoned: number;
   /** Processed triangles, after triangulation of quads and n-gons. */
@@ -64,8 +64,8 @@ export interface PositionNoise {
    */
   kinkShare: number;
   /**
-   * Part of `sigma` that is noise, which NormalOptions::denoise removes automatically. 0: positions are not noisy, or
-   * most edges are flatter than noise would leave them.
+   * Part of `sigma` that is noise, which `denoise` removes automatically. 0: positions are not noisy, or most edges
+   * are flatter than noise would leave them.
    */
   noise: number;
   /** Mean edge length of a sample, in the unit of positions, minus the share that noise of sigma adds. */

@@ -159,3 +159,70 @@ pub enum Winding {
     CounterClockwise = 0,
     Clockwise = 1,
 }
+
+/// Reason why a call failed. The numbers are stable, equal in C and C++, and never reused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum ErrorCode {
+    /// A required pointer is null, or a null array has a nonzero count.
+    NullData,
+    /// Two arrays that must have equal lengths differ in length.
+    CountMismatch,
+    /// An index is not less than the number of vertices; `element` is its position.
+    IndexOutOfRange,
+    /// Elements of a span would overlap.
+    StrideTooSmall,
+    /// A pointer or stride is not a multiple of its element's alignment.
+    Misaligned,
+    /// A size exceeds a limit: the sum of face sizes, or a limit stated by the function.
+    TooLarge,
+    /// The method needs an attribute (normals, UVs) that the mesh does not have.
+    MissingAttribute,
+    /// An option has a value outside its stated range.
+    InvalidOption,
+    /// The allocator returned null.
+    OutOfMemory,
+    /// Arrays do not fit the plan they are evaluated with.
+    PlanMismatch,
+    /// A bug in tspace; please report it.
+    Internal,
+    /// A callback of the caller canceled the call; no result was returned or written.
+    Cancelled,
+    /// Asset layer: the file violates its format; the error states where.
+    InvalidFile,
+    /// Asset layer: the file is valid, but needs a feature that this version does not support.
+    UnsupportedFile,
+    /// Asset layer: a URI leads outside the folder of the model.
+    ForbiddenPath,
+    /// Asset layer: a file cannot be opened or read.
+    CannotRead,
+    /// Asset layer: a file cannot be written; nothing was changed.
+    CannotWrite,
+    /// An error number that this crate does not know.
+    Other(u32),
+}
+
+impl ErrorCode {
+    pub(crate) fn of(code: u32) -> ErrorCode {
+        match code {
+            1 => ErrorCode::NullData,
+            2 => ErrorCode::CountMismatch,
+            3 => ErrorCode::IndexOutOfRange,
+            4 => ErrorCode::StrideTooSmall,
+            5 => ErrorCode::Misaligned,
+            6 => ErrorCode::TooLarge,
+            7 => ErrorCode::MissingAttribute,
+            8 => ErrorCode::InvalidOption,
+            9 => ErrorCode::OutOfMemory,
+            10 => ErrorCode::PlanMismatch,
+            11 => ErrorCode::Internal,
+            12 => ErrorCode::Cancelled,
+            100 => ErrorCode::InvalidFile,
+            101 => ErrorCode::UnsupportedFile,
+            102 => ErrorCode::ForbiddenPath,
+            103 => ErrorCode::CannotRead,
+            104 => ErrorCode::CannotWrite,
+            other => ErrorCode::Other(other),
+        }
+    }
+}

@@ -51,9 +51,9 @@ mod tests;
 mod winding;
 
 pub use enums::{
-    FrameFormat, FrameShape, Green, Handedness, Method, Ngons, NormalWeighting, OutputDomain, Pairing, StoredSign, VAxis, Winding,
+    ErrorCode, FrameFormat, FrameShape, Green, Handedness, Method, Ngons, NormalWeighting, OutputDomain, Pairing, StoredSign, VAxis, Winding,
 };
-pub use error::{Error, ErrorCode};
+pub use error::Error;
 pub use frames::{
     make_indexed_frames, sanitize, split, triangulate, Attribute, IndexedFrames, IndexedFramesOptions, Split, Triangles,
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-use crate::error::{checked, mismatch, Error, ErrorCode};
+use crate::enums::ErrorCode;
+use crate::error::{checked, mismatch, Error};
 use crate::sys;
 use std::marker::PhantomData;
 use std::mem::size_of;

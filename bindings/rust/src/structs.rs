@@ -160,8 +160,8 @@ pub struct WindingOptions {
     /// true: weld vertices with equal positions (so a non-indexed mesh is a connected surface); false: weld by index
     /// only.
     pub weld_positions: bool,
-    /// With `weld_positions`: maximum difference per coordinate of welded positions, as in
-    /// NormalOptions::weld_distance. 0, the default: only equal positions. -1: derived from the spacing of floats.
+    /// With `weld_positions`: maximum difference per coordinate of welded positions, as in `weld_distance`. 0, the
+    /// default: only equal positions. -1: derived from the spacing of floats.
     pub weld_distance: f32,
     /// Default: the calling thread.
     pub execution: Execution,
@@ -195,8 +195,8 @@ impl WindingOptions {
 #[non_exhaustive]
 pub struct TangentReport {
     /// `mikktspace`: the input would drive the reference into quadratic time, so its last step was skipped. Either
-    /// its sort (with Pairing::reference): the corrected pairing was used for the last bucket; only crafted inputs
-    /// cause this. Or its angular test: a group of more than 4096 faces whose tangents spread too far was not split.
+    /// its sort (with `reference`): the corrected pairing was used for the last bucket; only crafted inputs cause
+    /// this. Or its angular test: a group of more than 4096 faces whose tangents spread too far was not split.
     pub reference_order_abandoned: bool,
     /// Processed triangles, after triangulation of quads and n-gons.
     pub triangle_count: u64,

@@ -507,70 +507,25 @@ extern "C" {
     pub fn tspace_cornerCount(mesh: *const Mesh) -> usize;
     pub fn tspace_faceCount(mesh: *const Mesh) -> usize;
     pub fn tspace_validate(mesh: *const Mesh, error: *mut Error) -> u32;
-    pub fn tspace_initExecution(
-        execution: *mut Execution,
-        struct_size: u32,
-        error: *mut Error,
-    ) -> u32;
+    pub fn tspace_initExecution(execution: *mut Execution, struct_size: u32, error: *mut Error) -> u32;
     pub fn tspace_createArena(arena: *mut *mut Arena, error: *mut Error) -> u32;
     pub fn tspace_arenaAllocator(arena: *const Arena) -> *const Allocator;
     pub fn tspace_arenaHeldBytes(arena: *const Arena) -> usize;
     pub fn tspace_arenaUsedBytes(arena: *const Arena) -> usize;
     pub fn tspace_trimArena(arena: *mut Arena);
     pub fn tspace_destroyArena(arena: *mut Arena);
-    pub fn tspace_findConvention(
-        name: *const c_char,
-        out: *mut Convention,
-        error: *mut Error,
-    ) -> u32;
+    pub fn tspace_findConvention(name: *const c_char, out: *mut Convention, error: *mut Error) -> u32;
     pub fn tspace_signFactor(convention: Convention) -> f32;
     pub fn tspace_normalFactor(convention: Convention) -> f32;
     pub fn tspace_methodName(method: u32) -> *const c_char;
-    pub fn tspace_initTangentOptions(
-        options: *mut TangentOptions,
-        struct_size: u32,
-        error: *mut Error,
-    ) -> u32;
-    pub fn tspace_generateTangents(
-        mesh: *const Mesh,
-        options: *const TangentOptions,
-        out: *const TangentOutput,
-        execution: *const Execution,
-        report: *mut TangentReport,
-        error: *mut Error,
-    ) -> u32;
-    pub fn tspace_generateTangentsOfMeshes(
-        jobs: *const MeshJob,
-        job_count: usize,
-        execution: *const Execution,
-        error: *mut Error,
-    ) -> u32;
-    pub fn tspace_planTangents(
-        mesh: *const Mesh,
-        options: *const TangentOptions,
-        execution: *const Execution,
-        plan: *mut *mut TangentPlan,
-        error: *mut Error,
-    ) -> u32;
-    pub fn tspace_evaluateTangents(
-        plan: *const TangentPlan,
-        pose: *const Pose,
-        out: *const TangentOutput,
-        execution: *const Execution,
-        report: *mut TangentReport,
-        error: *mut Error,
-    ) -> u32;
-    pub fn tspace_describeTangentPlan(
-        plan: *const TangentPlan,
-        info: *mut TangentPlanInfo,
-        error: *mut Error,
-    ) -> u32;
+    pub fn tspace_initTangentOptions(options: *mut TangentOptions, struct_size: u32, error: *mut Error) -> u32;
+    pub fn tspace_generateTangents(mesh: *const Mesh, options: *const TangentOptions, out: *const TangentOutput, execution: *const Execution, report: *mut TangentReport, error: *mut Error) -> u32;
+    pub fn tspace_generateTangentsOfMeshes(jobs: *const MeshJob, job_count: usize, execution: *const Execution, error: *mut Error) -> u32;
+    pub fn tspace_planTangents(mesh: *const Mesh, options: *const TangentOptions, execution: *const Execution, plan: *mut *mut TangentPlan, error: *mut Error) -> u32;
+    pub fn tspace_evaluateTangents(plan: *const TangentPlan, pose: *const Pose, out: *const TangentOutput, execution: *const Execution, report: *mut TangentReport, error: *mut Error) -> u32;
+    pub fn tspace_describeTangentPlan(plan: *const TangentPlan, info: *mut TangentPlanInfo, error: *mut Error) -> u32;
     pub fn tspace_destroyTangentPlan(plan: *mut TangentPlan);
-    pub fn tspace_triangulate(
-        mesh: *const Mesh,
-        result: *mut *mut Triangulation,
-        error: *mut Error,
-    ) -> u32;
+    pub fn tspace_triangulate(mesh: *const Mesh, result: *mut *mut Triangulation, error: *mut Error) -> u32;
     pub fn tspace_destroyTriangulation(result: *mut Triangulation);
     pub fn tspace_faceFrame(positions: *const Vec3, uvs: *const Vec2) -> FaceFrame;
     pub fn tspace_faceFrameFromPath(positions: *const Vec3, uvs: *const Vec2) -> FaceFrame;
@@ -590,106 +545,23 @@ extern "C" {
     pub fn tspace_tileUv(uv: Vec2, tiling: Vec2, offset: Vec2) -> Vec2;
     pub fn tspace_lambert(frame: Frame, light_direction: Vec3, tangent_space_normal: Vec3) -> f32;
     pub fn tspace_objectNormal(frame: Frame, tangent_space_normal: Vec3) -> Vec3;
-    pub fn tspace_objectNormalMikktspace(
-        interpolated_normal: Vec3,
-        interpolated_tangent: Vec4,
-        tangent_space_normal: Vec3,
-    ) -> Vec3;
-    pub fn tspace_initNormalOptions(
-        options: *mut NormalOptions,
-        struct_size: u32,
-        error: *mut Error,
-    ) -> u32;
-    pub fn tspace_generateNormals(
-        mesh: *const Mesh,
-        options: *const NormalOptions,
-        out: Span,
-        execution: *const Execution,
-        report: *mut NormalReport,
-        error: *mut Error,
-    ) -> u32;
-    pub fn tspace_measurePositionNoise(
-        mesh: *const Mesh,
-        execution: *const Execution,
-        noise: *mut PositionNoise,
-        error: *mut Error,
-    ) -> u32;
-    pub fn tspace_initSanitizeOptions(
-        options: *mut SanitizeOptions,
-        struct_size: u32,
-        error: *mut Error,
-    ) -> u32;
-    pub fn tspace_sanitizeTangents(
-        mesh: *const Mesh,
-        options: *const SanitizeOptions,
-        tangents: Span,
-        execution: *const Execution,
-        report: *mut SanitizeReport,
-        error: *mut Error,
-    ) -> u32;
-    pub fn tspace_splitVertices(
-        indices: *const Indices,
-        vertex_count: usize,
-        corner_count: usize,
-        attributes: *const CornerAttribute,
-        attribute_count: usize,
-        execution: *const Execution,
-        result: *mut *mut SplitResult,
-        error: *mut Error,
-    ) -> u32;
+    pub fn tspace_objectNormalMikktspace(interpolated_normal: Vec3, interpolated_tangent: Vec4, tangent_space_normal: Vec3) -> Vec3;
+    pub fn tspace_initNormalOptions(options: *mut NormalOptions, struct_size: u32, error: *mut Error) -> u32;
+    pub fn tspace_generateNormals(mesh: *const Mesh, options: *const NormalOptions, out: Span, execution: *const Execution, report: *mut NormalReport, error: *mut Error) -> u32;
+    pub fn tspace_measurePositionNoise(mesh: *const Mesh, execution: *const Execution, noise: *mut PositionNoise, error: *mut Error) -> u32;
+    pub fn tspace_initSanitizeOptions(options: *mut SanitizeOptions, struct_size: u32, error: *mut Error) -> u32;
+    pub fn tspace_sanitizeTangents(mesh: *const Mesh, options: *const SanitizeOptions, tangents: Span, execution: *const Execution, report: *mut SanitizeReport, error: *mut Error) -> u32;
+    pub fn tspace_splitVertices(indices: *const Indices, vertex_count: usize, corner_count: usize, attributes: *const CornerAttribute, attribute_count: usize, execution: *const Execution, result: *mut *mut SplitResult, error: *mut Error) -> u32;
     pub fn tspace_destroySplitResult(result: *mut SplitResult);
-    pub fn tspace_initIndexedFramesOptions(
-        options: *mut IndexedFramesOptions,
-        struct_size: u32,
-        error: *mut Error,
-    ) -> u32;
-    pub fn tspace_makeIndexedFrames(
-        mesh: *const Mesh,
-        options: *const IndexedFramesOptions,
-        execution: *const Execution,
-        frames: *mut *mut IndexedFrames,
-        error: *mut Error,
-    ) -> u32;
+    pub fn tspace_initIndexedFramesOptions(options: *mut IndexedFramesOptions, struct_size: u32, error: *mut Error) -> u32;
+    pub fn tspace_makeIndexedFrames(mesh: *const Mesh, options: *const IndexedFramesOptions, execution: *const Execution, frames: *mut *mut IndexedFrames, error: *mut Error) -> u32;
     pub fn tspace_destroyIndexedFrames(frames: *mut IndexedFrames);
-    pub fn tspace_planBuffers(
-        plan: *const TangentPlan,
-        options: *const PlanBufferOptions,
-        execution: *const Execution,
-        buffers: *mut *mut PlanBuffers,
-        error: *mut Error,
-    ) -> u32;
+    pub fn tspace_planBuffers(plan: *const TangentPlan, options: *const PlanBufferOptions, execution: *const Execution, buffers: *mut *mut PlanBuffers, error: *mut Error) -> u32;
     pub fn tspace_destroyPlanBuffers(buffers: *mut PlanBuffers);
     pub fn tspace_frameBytes(format: u32) -> usize;
     pub fn tspace_frameErrorBound(format: u32) -> FrameErrorBound;
-    pub fn tspace_packFrames(
-        normals: ConstSpan,
-        tangents: ConstSpan,
-        format: u32,
-        out: *mut c_void,
-        out_bytes: usize,
-        report: *mut PackReport,
-        error: *mut Error,
-    ) -> u32;
-    pub fn tspace_unpackFrames(
-        bytes: *const c_void,
-        byte_count: usize,
-        format: u32,
-        normals: Span,
-        tangents: Span,
-        error: *mut Error,
-    ) -> u32;
-    pub fn tspace_initWindingOptions(
-        options: *mut WindingOptions,
-        struct_size: u32,
-        error: *mut Error,
-    ) -> u32;
-    pub fn tspace_mendWinding(
-        mesh: *const Mesh,
-        options: *const WindingOptions,
-        turned: *mut u8,
-        turned_count: usize,
-        execution: *const Execution,
-        report: *mut WindingReport,
-        error: *mut Error,
-    ) -> u32;
+    pub fn tspace_packFrames(normals: ConstSpan, tangents: ConstSpan, format: u32, out: *mut c_void, out_bytes: usize, report: *mut PackReport, error: *mut Error) -> u32;
+    pub fn tspace_unpackFrames(bytes: *const c_void, byte_count: usize, format: u32, normals: Span, tangents: Span, error: *mut Error) -> u32;
+    pub fn tspace_initWindingOptions(options: *mut WindingOptions, struct_size: u32, error: *mut Error) -> u32;
+    pub fn tspace_mendWinding(mesh: *const Mesh, options: *const WindingOptions, turned: *mut u8, turned_count: usize, execution: *const Execution, report: *mut WindingReport, error: *mut Error) -> u32;
 }

@@ -4,20 +4,8 @@
 ctypes lets go of the interpreter's lock for the time of each call.
 """
 
-from ctypes import (
-    CFUNCTYPE,
-    POINTER,
-    Structure,
-    c_char,
-    c_char_p,
-    c_double,
-    c_float,
-    c_int,
-    c_size_t,
-    c_uint32,
-    c_uint64,
-    c_void_p,
-)
+from ctypes import CFUNCTYPE, POINTER, Structure
+from ctypes import c_char, c_char_p, c_double, c_float, c_int, c_size_t, c_uint32, c_uint64, c_void_p
 
 from ._library import declare, load
 
@@ -153,7 +141,6 @@ class ConstSpan(Structure):
         ("count", c_size_t),
         ("stride_bytes", c_size_t),
     ]
-
 
 Span = ConstSpan
 
@@ -537,7 +524,6 @@ class Bytes(Structure):
         ("data", c_void_p),
         ("size", c_size_t),
     ]
-
 
 FindFile = CFUNCTYPE(c_uint32, c_void_p, c_char_p, POINTER(c_void_p), POINTER(c_size_t))
 

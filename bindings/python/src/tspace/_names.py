@@ -1,10 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Names of choices, for type checkers. Written by scripts/api."""
 
-try:
-    from typing import Literal
-except ImportError:  # pragma: no cover
-    from typing_extensions import Literal  # type: ignore
+from typing import Literal
 
 ErrorCodeName = Literal[
     "ok",

@@ -8,8 +8,8 @@ class TangentReport(NamedTuple):
     """Counts of triangles, groups and defects of the input. Invalid geometry never makes a call fail."""
 
     #: `mikktspace`: the input would drive the reference into quadratic time, so its last step was skipped. Either
-    #: its sort (with Pairing::reference): the corrected pairing was used for the last bucket; only crafted inputs
-    #: cause this. Or its angular test: a group of more than 4096 faces whose tangents spread too far was not split.
+    #: its sort (with `reference`): the corrected pairing was used for the last bucket; only crafted inputs cause
+    #: this. Or its angular test: a group of more than 4096 faces whose tangents spread too far was not split.
     reference_order_abandoned: bool
     #: Processed triangles, after triangulation of quads and n-gons.
     triangle_count: int
@@ -55,8 +55,8 @@ class PositionNoise(NamedTuple):
     #: Median share, 0..1, of the change of normals along an edge that no smooth surface can have. Noise: 0.3 to 0.8;
     #: CAD, bevels and decimated meshes: less, for the same sigma.
     kink_share: float
-    #: Part of `sigma` that is noise, which NormalOptions::denoise removes automatically. 0: positions are not noisy,
-    #: or most edges are flatter than noise would leave them.
+    #: Part of `sigma` that is noise, which `denoise` removes automatically. 0: positions are not noisy, or most
+    #: edges are flatter than noise would leave them.
     noise: float
     #: Mean edge length of a sample, in the unit of positions, minus the share that noise of sigma adds.
     mean_edge: float
