@@ -513,32 +513,41 @@ TEST(GenerateGltf, VerticesWithoutDataCostNoMemory) {
     EXPECT_TRUE(report) << "it has no UVs, so nothing is read";
 }
 
-/// The normal map may have been created for these signs.
-TEST(GenerateGltf, SignsThatWereAllInvertedStaySoWhereNormalsAreMadeAnew) {
-    GltfBuilder builder = gridModel(Grid(4, false));
+/// A grid of 5 x 5 vertices whose signs are inverted. The triangles of the first rows have no UV area, and their signs
+/// are 1.
+GltfBuilder invertedGrid(std::size_t flat_rows) {
+    Grid grid(4, false);
+    if (flat_rows != 0) std::fill_n(grid.uvs.begin(), 10 * (flat_rows + 1), 0.5f);
+    GltfBuilder builder = gridModel(grid);
     std::vector<float> tangents;
-    for (std::size_t v = 0; v < 25; ++v) tangents.insert(tangents.end(), {1, 0, 0, -1});
+    for (std::size_t v = 0; v < 25; ++v) tangents.insert(tangents.end(), {1, 0, 0, v < 5 * flat_rows ? 1.0f : -1.0f});
     firstPrimitive(builder)["attributes"]["TANGENT"] = builder.addFloats(tangents, 4);
-    for (const ExistingTangents existing : {ExistingTangents::keep, ExistingTangents::replace}) {
-        GenerateOptions options{.selection = {.existing = existing}};
-        options.normals.overwrite = true;
-        const TempFolder folder;
-        const std::string output = folder.path("out.glb").string();
-        const auto report = generateFile(folder.write("in.glb", builder.glb()), output, options);
-        ASSERT_TRUE(report);
-        const bool stays = existing == ExistingTangents::keep;
-        const Document after = gltf::loadDocument(output, {});
-        for (const Vec4& tangent : readTangents(after, readPrimitives(after)[0]))
-            EXPECT_EQ(tangent.w, stays ? -1.0f : 1.0f);
-        const std::vector<std::string>& notes = report->primitives[0].notes;
-        EXPECT_EQ(
-            std::any_of(
-                notes.begin(), notes.end(),
-                [](const std::string& note) {
-                    return note.find(
-                               "most tangent signs of the file were inverted, so all new signs were inverted too") == 0;
-                }),
-            stays);
+    return builder;
+}
+
+/// The normal map may have been created for these signs. Vertices whose UVs determine no sign do not count.
+TEST(GenerateGltf, SignsThatWereAllInvertedStaySoWhereNormalsAreMadeAnew) {
+    for (const std::size_t flat_rows : {0, 2}) {
+        for (const ExistingTangents existing : {ExistingTangents::keep, ExistingTangents::replace}) {
+            GenerateOptions options{.selection = {.existing = existing}};
+            options.normals.overwrite = true;
+            const TempFolder folder;
+            const std::string output = folder.path("out.glb").string();
+            const auto report = generateFile(folder.write("in.glb", invertedGrid(flat_rows).glb()), output, options);
+            ASSERT_TRUE(report);
+            const bool stays = existing == ExistingTangents::keep;
+            const Document after = gltf::loadDocument(output, {});
+            const std::vector<Vec4> tangents = readTangents(after, readPrimitives(after)[0]);
+            EXPECT_EQ(tangents.back().w, stays ? -1.0f : 1.0f) << flat_rows;
+            EXPECT_TRUE(flat_rows != 0 || std::all_of(tangents.begin(), tangents.end(), [&](const Vec4& tangent) {
+                            return tangent.w == tangents.back().w;
+                        }));
+            const std::vector<std::string>& notes = report->primitives[0].notes;
+            const bool is_noted = std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+                return note.starts_with("most tangent signs of the file were inverted, so all new signs were");
+            });
+            EXPECT_EQ(is_noted, stays) << flat_rows;
+        }
     }
 }
 

@@ -236,14 +236,30 @@ class NewMorphNormals {
     std::vector<std::optional<VertexOffsets>> made_;
 };
 
+/// Returns for each vertex whether UVs determine its sign: whether it belongs to a triangle with UV area.
+std::vector<bool> findVerticesWithSign(const PoolView& vertices, std::span<const PrimitiveGeometry> geometries) {
+    std::vector<bool> found(vertices.positions.count, false);
+    for (const PrimitiveGeometry& geometry : geometries) {
+        const std::vector<std::uint8_t> votes =
+            uvVotes({.positions = vertices.positions, .uvs = vertices.uvs, .indices = geometry.indices});
+        for (std::size_t corner = 0; corner < 3 * votes.size(); ++corner) {
+            if (votes[corner / 3] != 0) found[geometry.indices[corner]] = true;
+        }
+    }
+    return found;
+}
+
 /// Returns whether at least two thirds of the existing tangents have the opposite sign, as in files whose green points
-/// down.
-bool haveInvertedSigns(std::span<const Vec4> old, const PoolFrames& frames) {
-    if (old.empty() || frames.tangents.empty()) return false;
-    std::size_t inverted = 0;
-    for (std::size_t v = 0; v < frames.tangents.size(); ++v)
+/// down. `have_signs`: for each new vertex, whether UVs determine its sign; others do not count.
+bool haveInvertedSigns(std::span<const Vec4> old, const PoolFrames& frames, const std::vector<bool>& have_signs) {
+    if (old.empty()) return false;
+    std::size_t inverted = 0, count = 0;
+    for (std::size_t v = 0; v < frames.tangents.size(); ++v) {
+        if (!have_signs[v]) continue;
+        ++count;
         inverted += frames.tangents[v].w * old[frames.source_vertices[v]].w < 0 ? 1U : 0U;
-    return 3 * inverted >= 2 * frames.tangents.size();
+    }
+    return count != 0 && 3 * inverted >= 2 * count;
 }
 
 /// Returns frames that keep all vertices unchanged.
@@ -349,10 +365,15 @@ PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& exe
     }
     const bool has_tangent_deltas = pool.makes_tangents && !frames.morphs.empty();
     if (morph_normals) morph_normals->write(vertices, frames);
+    std::vector<bool> have_signs;
+    if (keeps_signs && !vertices.old_tangents.empty()) {
+        const std::vector<bool> sources = findVerticesWithSign(vertices, geometries);
+        for (const std::uint32_t source : frames.source_vertices) have_signs.push_back(sources[source]);
+    }
     if (was_welded) {
         for (std::uint32_t& source : frames.source_vertices) source = welded.kept[source];
     }
-    if (keeps_signs && haveInvertedSigns(vertices.old_tangents, frames)) {
+    if (keeps_signs && haveInvertedSigns(vertices.old_tangents, frames, have_signs)) {
         for (Vec4& tangent : frames.tangents) tangent.w = -tangent.w;
         for (const std::size_t number : pool.primitives) {
             reports[number].notes.emplace_back(
