@@ -116,9 +116,9 @@ CheckReport check(const std::string& input, const CheckOptions& options) {
     std::move(packed.findings.begin(), packed.findings.end(), std::back_inserter(report.findings));
     for (Finding& finding : images.findings) report.findings.push_back(std::move(finding));
     for (Finding& finding : checkMapScales(scene)) report.findings.push_back(std::move(finding));
-    for (const std::string& warning : scene.warnings) {
+    for (std::size_t i = 0; i < scene.warnings.size(); ++i) {
         // Normal lengths are already reported by a finding on the primitives concerned.
-        if (warning.rfind(kNormalLengths, 0) != 0) report.findings.push_back(fileRemark(warning));
+        if (i != scene.scaled_normals_warning) report.findings.push_back(fileRemark(scene.warnings[i]));
     }
     finishFindings(report);
     return report;

@@ -249,13 +249,10 @@ bool mendNormalLengths(Input& input, const Storage& storage, std::vector<std::st
 
 /// Completes the warning about normals with other lengths if the output has only unit normals. `scaled`: primitives
 /// whose normals have other lengths and were not repaired.
-void noteUnitNormals(std::span<const std::size_t> scaled, GenerateReport& report) {
+void noteUnitNormals(std::span<const std::size_t> scaled, const ScaledNormalsWarning& warning, GenerateReport& report) {
     const bool are_unit = std::all_of(scaled.begin(), scaled.end(),
                                       [&](std::size_t number) { return report.primitives[number].normals_generated; });
-    for (std::string& warning : report.warnings) {
-        if (are_unit && warning.rfind(kNormalLengths, 0) == 0)
-            warning = warning.substr(0, warning.find(". ")) + ". The normals in the output have unit length";
-    }
+    if (are_unit) report.warnings[warning.number] = warning.lengths + ". The normals in the output have unit length";
 }
 
 /// Performs all steps except reading and writing.
@@ -269,6 +266,7 @@ WorkedOn generate(Input& input, bool with_images, const GenerateStep& step, Gene
         if (primitive.normal_scales != nullptr && !is_repaired) scaled.push_back(i);
     }
     report.warnings = document.warnings;
+    const std::optional<ScaledNormalsWarning> scaled_normals = document.scaled_normals;
     std::copy_n(document.coordinate_offset.begin(), 3, report.coordinate_offset);
     const Storage storage = prepareStorage(input, report.warnings);
     NormalWishes wishes = step.normals;
@@ -291,7 +289,7 @@ WorkedOn generate(Input& input, bool with_images, const GenerateStep& step, Gene
     tell(input.options, "reading", 1, 1);
     const WorkedOn worked_on = edit(input, storage, std::move(decisions), report);
     report.changed = report.changed || was_turned || were_mended || was_repaired;
-    noteUnitNormals(scaled, report);
+    if (scaled_normals) noteUnitNormals(scaled, *scaled_normals, report);
     countTurned(winding, report.primitives);
     return worked_on;
 }

@@ -59,6 +59,12 @@ struct Buffer {
     }
 };
 
+/// Warning about normals whose length is not 1: see NormalScales.
+struct ScaledNormalsWarning {
+    std::size_t number = 0;    ///< index in Document::warnings
+    std::string lengths = {};  ///< first sentence, without the period: how many normals, where, and their lengths
+};
+
 struct Document {
     Path path = {};
     NamedFiles files = {};  ///< files that the model references
@@ -89,6 +95,7 @@ struct Document {
     /// Images that are written next to the output, keyed by the path of their URI.
     std::map<std::string, Bytes> new_files = {};
     std::vector<std::string> warnings = {};                                   ///< warnings from reading
+    std::optional<ScaledNormalsWarning> scaled_normals = {};                  ///< describes one of the warnings
     std::shared_ptr<MemoryBudget> memory = std::make_shared<MemoryBudget>();  ///< remaining memory budget
 };
 

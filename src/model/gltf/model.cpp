@@ -114,6 +114,7 @@ void Model::readAnew() {
     }
     document.imported = document.may_hide_tangents = false;
     document.warnings.clear();
+    document.scaled_normals.reset();
     checkRequiredExtensions(document);
     document.views_without_data.clear();
     document.elements.clear();

@@ -341,7 +341,11 @@ std::vector<Primitive> readPrimitives(const Document& document) {
 }
 
 void warnOfScaledNormals(Document& document, std::span<const Primitive> primitives) {
-    std::erase_if(document.warnings, [](const std::string& warning) { return warning.rfind(kNormalLengths, 0) == 0; });
+    if (document.scaled_normals) {
+        document.warnings.erase(document.warnings.begin() +
+                                static_cast<std::ptrdiff_t>(document.scaled_normals->number));
+        document.scaled_normals.reset();
+    }
     constexpr std::size_t kMostNamed = 3;
     std::map<const NormalScales*, const Primitive*> first_with;
     std::string named;
@@ -362,9 +366,12 @@ void warnOfScaledNormals(Document& document, std::span<const Primitive> primitiv
     }
     if (count == 0) return;
     if (primitive_count > kMostNamed) named += "; and " + std::to_string(primitive_count - kMostNamed) + " more";
+    const std::string lengths = "normals that do not have unit length: " + std::to_string(count) +
+                                (count == 1 ? " vertex" : " vertices") + " (" + named + ") of lengths from " +
+                                shortNumber(least) + " to " + shortNumber(most);
+    document.scaled_normals = {.number = document.warnings.size(), .lengths = lengths};
     document.warnings.push_back(
-        kNormalLengths + std::string(": ") + std::to_string(count) + (count == 1 ? " vertex" : " vertices") + " (" +
-        named + ") of lengths from " + shortNumber(least) + " to " + shortNumber(most) +
+        lengths +
         ". They were normalized for the computation, and the file keeps them unchanged (tspace "
         "generate --repair writes unit normals" +
         (are_some_unsigned ? ", but keeps unsigned ones; --overwrite-normals replaces them)" : ")"));

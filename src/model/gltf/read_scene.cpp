@@ -569,6 +569,7 @@ void readImages(const Document& document, const std::set<std::size_t>& wanted, S
 Scene sceneOf(const Document& document, DecodedArrays& arrays, std::span<const Primitive> primitives) {
     Scene scene;
     scene.warnings = document.warnings;
+    if (document.scaled_normals) scene.scaled_normals_warning = document.scaled_normals->number;
     scene.memory = document.memory;
     scene.format = formatOf(document);
     scene.generator = generatorOf(document);

@@ -150,9 +150,6 @@ struct NormalScales {
     double least_length = 0, most_length = 0;  ///< range of the lengths of the scaled normals
 };
 
-/// Prefix of warnings about normals of other lengths.
-inline constexpr const char* kNormalLengths = "normals that do not have unit length";
-
 struct ScenePrimitive {
     std::string place = {};  ///< JSON pointer (glTF), or "usemtl NAME" (OBJ)
     std::uint32_t mesh = 0;
@@ -240,8 +237,10 @@ struct Scene {
     std::vector<ScenePrimitive> primitives = {};  ///< in file order
     std::vector<SceneImage> images = {};          ///< referenced by TangentUse::image
     std::vector<std::string> warnings = {};       ///< warnings of the reader
-    DVec3 offset = {};                            ///< offset subtracted from all positions while reading (OBJ)
-    std::shared_ptr<MemoryBudget> memory = {};    ///< remaining memory budget
+    /// index of the warning about scaled normals, which findings on their primitives report too
+    std::optional<std::size_t> scaled_normals_warning = {};
+    DVec3 offset = {};                          ///< offset subtracted from all positions while reading (OBJ)
+    std::shared_ptr<MemoryBudget> memory = {};  ///< remaining memory budget
 };
 
 // Scene with data for rendering in addition to frames: placements and looks of its primitives.

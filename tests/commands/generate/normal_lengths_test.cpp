@@ -54,6 +54,8 @@ GenerateReport generated(const std::string& input, const std::string& output, co
     return report ? *std::move(report) : GenerateReport{};
 }
 
+constexpr const char* kNormalLengths = "normals that do not have unit length";
+
 template <class Report>
 std::size_t warningsOnLengths(const Report& report) {
     return static_cast<std::size_t>(
