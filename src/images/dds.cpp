@@ -63,25 +63,27 @@ constexpr NamedFormat kOldFormats[] = {{codeOf("DXT1"), TexelKind::bc1},
 
 class DdsReader {
   public:
-    DdsReader(ByteSpan bytes, std::string& why) : bytes_(bytes), why_(why) {}
+    explicit DdsReader(ByteSpan bytes) : bytes_(bytes) {}
 
-    std::optional<TextureFile> read() {
+    Result<TextureFile> read() {
         constexpr std::size_t kHeadBytes = 128, kHeightAt = 12, kWidthAt = 16;
-        why_ = "the DDS is damaged";
-        if (bytes_.size() < kHeadBytes || number(4) != kHeadBytes - 4) return {};
+        if (bytes_.size() < kHeadBytes || number(4) != kHeadBytes - 4) return why_;
         texture_.container = "DDS";
         texture_.size = {std::min(number(kWidthAt), kMostTextureSide), std::min(number(kHeightAt), kMostTextureSide)};
         data_at_ = kHeadBytes;
-        if (texture_.size.pixels() == 0 || !isPicture() || !findFormat()) return {};
-        why_ = "the DDS is damaged";
+        if (texture_.size.pixels() == 0 || !isPicture() || !findFormat()) return why_;
+        why_ = damaged();
         const std::uint64_t wanted = texture_.levelBytes();
-        if (wanted > bytes_.size() - data_at_) return {};
+        if (wanted > bytes_.size() - data_at_) return why_;
         texture_.level = bytes_.subspan(data_at_, static_cast<std::size_t>(wanted));
         listLevels();
         return std::move(texture_);
     }
 
   private:
+    static Error damaged() { return {ErrorCode::invalidFile, "the DDS is damaged"}; }
+    static Error unsupported(std::string why) { return {ErrorCode::unsupportedFile, std::move(why)}; }
+
     [[nodiscard]] std::uint32_t number(std::size_t at) const { return little32(bytes_.data() + at); }
 
     /// Lists the levels in order; truncated levels are skipped.
@@ -106,8 +108,8 @@ class DdsReader {
         constexpr std::size_t kCapsAt = 112;
         constexpr std::uint32_t kCube = 0x200, kVolume = 0x200000;
         const std::uint32_t caps = number(kCapsAt);
-        if ((caps & kCube) != 0) why_ = "the DDS is a cube map, not a single image";
-        if ((caps & kVolume) != 0) why_ = "the DDS is three-dimensional, not a single image";
+        if ((caps & kCube) != 0) why_ = unsupported("the DDS is a cube map, not a single image");
+        if ((caps & kVolume) != 0) why_ = unsupported("the DDS is three-dimensional, not a single image");
         return (caps & (kCube | kVolume)) == 0;
     }
 
@@ -118,7 +120,7 @@ class DdsReader {
         const std::uint32_t code = number(kCodeAt);
         if (code == codeOf("DX10")) return findDxgi();
         if (!choose(kOldFormats, code)) {
-            why_ = "the DDS has the format " + codeText(code) + ", which is not supported";
+            why_ = unsupported("the DDS has the format " + codeText(code) + ", which is not supported");
             return false;
         }
         // Used by the game Doom 3: DXT5 with red in alpha.
@@ -144,12 +146,12 @@ class DdsReader {
         const std::uint32_t format = number(data_at_), dimension = number(data_at_ + 4), flags = number(data_at_ + 8),
                             layers = number(data_at_ + 12);
         data_at_ += kMoreBytes;
-        if (dimension != kFlat) why_ = "the DDS is one- or three-dimensional, not an image";
-        if (layers > 1) why_ = "the DDS is an array of several images";
-        if ((flags & kCube) != 0) why_ = "the DDS is a cube map, not a single image";
+        if (dimension != kFlat) why_ = unsupported("the DDS is one- or three-dimensional, not an image");
+        if (layers > 1) why_ = unsupported("the DDS is an array of several images");
+        if ((flags & kCube) != 0) why_ = unsupported("the DDS is a cube map, not a single image");
         if (dimension != kFlat || layers > 1 || (flags & kCube) != 0) return false;
         if (choose(kDxgiFormats, format)) return true;
-        why_ = "the DDS has the DXGI format " + std::to_string(format) + ", which is not supported";
+        why_ = unsupported("the DDS has the DXGI format " + std::to_string(format) + ", which is not supported");
         return false;
     }
 
@@ -158,10 +160,10 @@ class DdsReader {
         constexpr std::uint32_t kAlpha = 1, kOnlyAlpha = 2, kColors = 0x40, kGrey = 0x20000, kSigned = 0x80000;
         constexpr std::size_t kBitsAt = 88, kMasksAt = 92;
         const std::uint32_t bits = number(kBitsAt);
-        why_ = "the pixel format of the DDS is not supported";
+        why_ = unsupported("the pixel format of the DDS is not supported");
         if ((flags & kSigned) != 0) return findSigned(bits);
         if ((flags & (kColors | kGrey)) == 0 || (flags & kOnlyAlpha) != 0) return false;
-        why_ = "the DDS is damaged";
+        why_ = damaged();
         if (bits == 0 || bits > 32 || bits % 8 != 0) return false;
         texture_.format = texelFormat(TexelKind::masked);
         texture_.format.block_bytes = static_cast<std::uint8_t>(bits / 8);
@@ -204,13 +206,13 @@ class DdsReader {
     }
 
     ByteSpan bytes_;
-    std::string& why_;
+    Error why_ = damaged();
     TextureFile texture_ = {};
     std::size_t data_at_ = 0;
 };
 
 }  // namespace
 
-std::optional<TextureFile> readDdsHead(ByteSpan bytes, std::string& why) { return DdsReader(bytes, why).read(); }
+Result<TextureFile> readDdsHead(ByteSpan bytes) { return DdsReader(bytes).read(); }
 
 }  // namespace tspace

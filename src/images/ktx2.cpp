@@ -44,24 +44,26 @@ struct Description {
 
 class Ktx2Reader {
   public:
-    Ktx2Reader(ByteSpan bytes, std::string& why) : bytes_(bytes), why_(why) {}
+    explicit Ktx2Reader(ByteSpan bytes) : bytes_(bytes) {}
 
-    std::optional<TextureFile> read() {
+    Result<TextureFile> read() {
         constexpr std::size_t kHeadBytes = 80;
         constexpr std::uint8_t kIdentifier[] = {0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb, '\r', '\n', 0x1a, '\n'};
-        why_ = "the KTX2 is damaged";
         if (bytes_.size() < kHeadBytes || !std::equal(std::begin(kIdentifier), std::end(kIdentifier), bytes_.begin()))
-            return {};
+            return why_;
         texture_.container = "KTX2";
         texture_.size = {std::min(number(20), kMostTextureSide), std::min(number(24), kMostTextureSide)};
         if (texture_.size.pixels() == 0 || !isPicture() || !readDescription() || !findFormat() || !findRepacking() ||
             !findLevel())
-            return {};
+            return why_;
         readValues();
         return std::move(texture_);
     }
 
   private:
+    static Error damaged() { return {ErrorCode::invalidFile, "the KTX2 is damaged"}; }
+    static Error unsupported(std::string why) { return {ErrorCode::unsupportedFile, std::move(why)}; }
+
     [[nodiscard]] std::uint32_t number(std::size_t at) const { return little32(bytes_.data() + at); }
 
     /// Returns `count` bytes from `at` on; nullopt if they exceed the file.
@@ -72,9 +74,9 @@ class Ktx2Reader {
 
     bool isPicture() {
         const std::uint32_t depth = number(28), layers = number(32), faces = number(36);
-        if (depth > 1) why_ = "the KTX2 is three-dimensional, not a single image";
-        if (layers > 1) why_ = "the KTX2 is an array of several images";
-        if (faces == 6) why_ = "the KTX2 is a cube map, not a single image";
+        if (depth > 1) why_ = unsupported("the KTX2 is three-dimensional, not a single image");
+        if (layers > 1) why_ = unsupported("the KTX2 is an array of several images");
+        if (faces == 6) why_ = unsupported("the KTX2 is a cube map, not a single image");
         return depth <= 1 && layers <= 1 && faces == 1;
     }
 
@@ -116,9 +118,9 @@ class Ktx2Reader {
             return true;
         }
         if (findAstc(vulkan)) return true;
-        why_ = "the KTX2 has the Vulkan format " + std::to_string(vulkan) + ", which is not supported";
-        if (description_.model == kAstc && whyNotAstc() != nullptr) why_ = whyNotAstc();
-        if (description_.model == kUastcHdr) why_ = "the KTX2 contains UASTC HDR, which is not supported";
+        why_ = unsupported("the KTX2 has the Vulkan format " + std::to_string(vulkan) + ", which is not supported");
+        if (description_.model == kAstc && whyNotAstc() != nullptr) why_ = unsupported(whyNotAstc());
+        if (description_.model == kUastcHdr) why_ = unsupported("the KTX2 contains UASTC HDR, which is not supported");
         return false;
     }
 
@@ -142,13 +144,14 @@ class Ktx2Reader {
         if (is_etc1s != (scheme == kBasisLz)) return false;
         if (is_etc1s) return findGlobalData();
         if (scheme != kPlain && scheme != kZstd && scheme != kZlib) {
-            why_ = "the KTX2 uses the supercompression scheme " + std::to_string(scheme) + ", which is not supported";
+            why_ = unsupported("the KTX2 uses the supercompression scheme " + std::to_string(scheme) +
+                               ", which is not supported");
             return false;
         }
         if (scheme == kZstd) texture_.repacking = Repacking::zstd;
         if (scheme == kZlib) texture_.repacking = Repacking::zlib;
         if (const char* why_not = whyNotUnpacked(texture_.repacking)) {
-            why_ = why_not;
+            why_ = unsupported(why_not);
             return false;
         }
         return true;
@@ -164,7 +167,6 @@ class Ktx2Reader {
     /// Checks that all levels are after the header and do not overlap.
     bool findLevel() {
         constexpr std::size_t kHeadBytes = 80, kEntry = 24, kMostLevels = 31;
-        why_ = "the KTX2 is damaged";
         const std::size_t count = std::max<std::uint32_t>(number(40), 1);
         if (count > kMostLevels || !part(kHeadBytes, kEntry * count)) return false;
         struct Range {
@@ -242,7 +244,7 @@ class Ktx2Reader {
     }
 
     ByteSpan bytes_;
-    std::string& why_;
+    Error why_ = damaged();
     TextureFile texture_ = {};
     Description description_ = {};
     std::uint8_t x_ = 0, y_ = 0;
@@ -258,6 +260,6 @@ MapLayout twoChannelLayout(MapChannel x, MapChannel y) {
     return layout;
 }
 
-std::optional<TextureFile> readKtx2Head(ByteSpan bytes, std::string& why) { return Ktx2Reader(bytes, why).read(); }
+Result<TextureFile> readKtx2Head(ByteSpan bytes) { return Ktx2Reader(bytes).read(); }
 
 }  // namespace tspace

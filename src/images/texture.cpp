@@ -100,8 +100,12 @@ std::uint8_t byteOf(float part) {
 
 std::optional<TextureFile> openTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why,
                                        std::size_t level = 0) {
-    std::optional<TextureFile> texture = readTextureHead(bytes, why);
-    if (texture && level != 0) {
+    Result<TextureFile> texture = readTextureHead(bytes);
+    if (!texture) {
+        why = texture.error().message;
+        return {};
+    }
+    if (level != 0) {
         if (level >= texture->levels.size()) {
             why = "it has no level " + std::to_string(level) + "; its last level is " +
                   std::to_string(texture->levels.size() - 1);
@@ -113,8 +117,8 @@ std::optional<TextureFile> openTexture(ByteSpan bytes, std::uint64_t most_pixels
         for (std::uint32_t* side : {&texture->size.width, &texture->size.height})
             *side = std::max<std::uint32_t>(*side >> level, 1);
     }
-    if (texture && isTooLarge(texture->size, bytes.size(), most_pixels, why)) return {};
-    return texture;
+    if (isTooLarge(texture->size, bytes.size(), most_pixels, why)) return {};
+    return *std::move(texture);
 }
 
 std::string brokenTexture(const TextureFile& texture) {
@@ -133,15 +137,14 @@ void guessLayout(FloatImage& image) {
 
 }  // namespace
 
-std::optional<TextureFile> readTextureHead(ByteSpan bytes, std::string& why) {
-    return imageFormat(bytes) == ImageFormat::ktx2 ? readKtx2Head(bytes, why) : readDdsHead(bytes, why);
+Result<TextureFile> readTextureHead(ByteSpan bytes) {
+    return imageFormat(bytes) == ImageFormat::ktx2 ? readKtx2Head(bytes) : readDdsHead(bytes);
 }
 
 std::optional<TextureFacts> textureFacts(ByteSpan bytes) {
     const ImageFormat format = imageFormat(bytes);
     if (format != ImageFormat::ktx2 && format != ImageFormat::dds) return {};
-    std::string why;
-    const std::optional<TextureFile> texture = readTextureHead(bytes, why);
+    const Result<TextureFile> texture = readTextureHead(bytes);
     if (!texture) return {};
     return TextureFacts{.name = texture->name(),
                         .layout = texture->layout,
@@ -151,8 +154,7 @@ std::optional<TextureFacts> textureFacts(ByteSpan bytes) {
 }
 
 ImageClaim claimOfTexture(ByteSpan bytes) {
-    std::string why;
-    const std::optional<TextureFile> texture = readTextureHead(bytes, why);
+    const Result<TextureFile> texture = readTextureHead(bytes);
     if (!texture) return {};
     const std::uint64_t pixel_bytes = texture->format.is_float ? 16 + 3 : 3;
     std::uint64_t unpacked = texture->repacking == Repacking::none ? 0 : texture->levelBytes();
@@ -214,8 +216,7 @@ std::optional<RgbImage> decodeTexture(ByteSpan bytes, std::uint64_t most_pixels,
 }
 
 std::vector<std::uint8_t> decodeTextureAlpha(ByteSpan bytes) {
-    std::string why;
-    const std::optional<TextureFile> texture = readTextureHead(bytes, why);
+    const Result<TextureFile> texture = readTextureHead(bytes);
     if (!texture || !hasAlpha(*texture)) return {};
     TextureLevel level(*texture);
     if (!level.unpack()) return {};
@@ -230,10 +231,8 @@ std::vector<std::uint8_t> decodeTextureAlpha(ByteSpan bytes) {
 // Inverts green of a texture file in place, in all levels.
 
 Result<FlippedImage> flipTexture(ByteSpan bytes, ImageFileFormat format) {
-    std::string why;
-    const std::optional<TextureFile> texture = readTextureHead(bytes, why);
-    if (!texture)
-        return Error{why.find("damaged") != why.npos ? ErrorCode::invalidFile : ErrorCode::unsupportedFile, why};
+    const Result<TextureFile> texture = readTextureHead(bytes);
+    if (!texture) return texture.error();
     const TexelFormat& texels = texture->format;
     constexpr const char* kWritePng = "; use flip-green -o OUT.png to write a PNG";
     if (texture->repacking != Repacking::none)
@@ -242,6 +241,7 @@ Result<FlippedImage> flipTexture(ByteSpan bytes, ImageFileFormat format) {
                          std::string(kWritePng)};
     TextureFacts facts{.layout = texture->layout};
     if (texels.channels == 4 && facts.layout == MapLayout{}) {
+        std::string why;
         const std::optional<FloatImage> image = decodeFloatTexture(bytes, kMostModelMapPixels, why);
         if (!image) return Error{ErrorCode::invalidFile, why};
         facts = image->texture;

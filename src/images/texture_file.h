@@ -118,11 +118,10 @@ struct TextureFile {
     }
 };
 
-/// Parses the header. Returns nullopt, with the reason in `why`, for a corrupt file, for cube maps, volumes and arrays,
-/// and for unsupported formats.
-std::optional<TextureFile> readTextureHead(ByteSpan bytes, std::string& why);
-std::optional<TextureFile> readKtx2Head(ByteSpan bytes, std::string& why);
-std::optional<TextureFile> readDdsHead(ByteSpan bytes, std::string& why);
+/// Parses the header. A corrupt file is an error, and so are cube maps, volumes, arrays and unsupported formats.
+Result<TextureFile> readTextureHead(ByteSpan bytes);
+Result<TextureFile> readKtx2Head(ByteSpan bytes);
+Result<TextureFile> readDdsHead(ByteSpan bytes);
 
 /// Unpacks the blocks of the first level from BasisLZ. Returns false if it is corrupt.
 bool unpackBasisLz(const TextureFile& texture, std::span<std::uint8_t> blocks);
