@@ -406,5 +406,34 @@ TEST(Descriptors, AFullStdoutIsOneLineWhereItIsTheProduct) {
     }
 }
 
+TEST(Descriptors, AFullStdoutKeepsTheOutputsAndTheMessageNamesThem) {
+    const TempFolder folder;
+    writeModels(folder);
+    for (const char* command :
+         {"generate plain.glb -o new.glb", "generate plain.glb --json -o new.glb", "finish folded.obj -o new.glb",
+          "bake plain.glb --high plain.glb --size 16 --json -o new.png", "render plain.glb --size 16 -o new.png",
+          "flip-green bump.png --json -o new.png", "compress-map bump.png -o new.ktx2",
+          "check plain.glb --json --sarif new.sarif", "height-to-normal bump.png -o new.png"}) {
+        const std::string name = std::string(command).substr(std::string(command).rfind(' ') + 1);
+        ASSERT_LE(runTool(folder, command).exit_code, 1) << command;
+        const std::string whole = folder.read(name);
+        fs::remove(folder.path(name));
+        const ToolRun run = runTool(folder, command, kIntoFullDisk);
+        EXPECT_EQ(run.exit_code, 4) << command;
+        EXPECT_EQ(run.errorLines(), 1) << command << run.err;
+        EXPECT_NE(run.err.find("; the outputs are complete: "), std::string::npos) << command << run.err;
+        EXPECT_NE(run.err.find(name), std::string::npos) << command << run.err;
+        EXPECT_EQ(folder.read(name).size(), whole.size()) << command;
+        fs::remove(folder.path(name));
+    }
+    folder.write("pairs.txt", "plain.glb = plain.glb = a.png\nplain.glb = plain.glb = b.png\n");
+    for (const char* command : {"bake --pairs pairs.txt --size 16 -o maps/ --jobs 1",
+                                "bake --pairs pairs.txt --size 16 -o maps/ --jobs 1 --json"}) {
+        const ToolRun run = runTool(folder, command, kIntoFullDisk);
+        EXPECT_EQ(run.exit_code, 4) << command << run.err;
+        EXPECT_NE(run.err.find("the outputs are complete: maps/a.png"), std::string::npos) << command << run.err;
+    }
+}
+
 }  // namespace
 }  // namespace tspace::test

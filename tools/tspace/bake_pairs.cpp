@@ -145,6 +145,7 @@ class PairsRun {
           pairs_(std::move(pairs)),
           done_(pairs_.size()),
           texts_(pairs_.size()),
+          failures_(pairs_.size()),
           workers_(workerCount(arguments.batch, pairs_.size())) {
         progressLine().setFileCount(pairs_.size());
     }
@@ -180,8 +181,19 @@ class PairsRun {
                 written = writeTextFile(arguments_.report, json());
             }
             if (!written) exit_code_ = worse(exit_code_, printError(arguments_.report, written.error()));
-            return PreparedReport{.exit_code = exit_code_, .text = arguments_.json ? json() : std::string()};
+            return PreparedReport{.exit_code = exit_code_,
+                                  .text = arguments_.json ? json() : std::string(),
+                                  .earlier_files = mapsInPlace()};
         });
+    }
+
+    [[nodiscard]] std::vector<std::string> mapsInPlace() const {
+        std::vector<std::string> files;
+        for (const report::BakedPair& pair : done_) {
+            if (!pair.outcome.result) continue;
+            for (const std::string& file : pair.outcome.result->output_files) files.push_back(file);
+        }
+        return files;
     }
 
     Result<BakeFileReport> bake(const Pair& pair, std::vector<std::string>& read) {
@@ -218,6 +230,7 @@ class PairsRun {
                 texts_[number] = fitted(arguments_.batch.verbose && !done.outcome.was_done_before
                                             ? report::bakeText(done.outcome, pair.model)
                                             : report::bakeLine(done.outcome));
+            if (done.outcome.result) failures_[number] = lineWithoutReport(done.outcome.result->output_files);
         });
         if (record_.isKept() && !done.outcome.was_done_before) record(pair, options, read, done);
         progressLine().fileDone(done.outcome.result.ok());
@@ -262,7 +275,7 @@ class PairsRun {
                 for (const std::string& finding : findings) printRemark(finding);
             }
             if (!arguments_.json && !arguments_.quiet && !output_is_closed_) {
-                output_is_closed_ = !printResult(texts_[number]);
+                output_is_closed_ = !printResult(texts_[number], stdout, failures_[number]);
             }
         }
         take(done.exit_code);
@@ -272,7 +285,8 @@ class PairsRun {
     const Clock::time_point start_ = Clock::now();
     std::vector<Pair> pairs_;
     std::vector<report::BakedPair> done_;
-    std::vector<std::string> texts_;  ///< printed text of each pair
+    std::vector<std::string> texts_;     ///< printed text of each pair
+    std::vector<std::string> failures_;  ///< lineWithoutReport() of each pair
     unsigned workers_;
     BatchRecord record_ = {};
     std::mutex mutex_;  ///< guards the following members

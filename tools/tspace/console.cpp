@@ -46,13 +46,13 @@ ExitCode printUsageError(const std::string& message) {
 
 void printRemark(const std::string& message) { printLine("tspace: " + printable(message)); }
 
-bool printResult(std::string_view text, std::FILE* to) {
+bool printResult(std::string_view text, std::FILE* to, std::string_view failure) {
     if (to == stderr) {
         printPlain(text);
         return true;
     }
     const bool written = progressLine().write(text, to) == text.size() && std::fflush(to) == 0;
-    if (!written) printPlain("tspace: cannot write to standard output\n");
+    if (!written) printPlain(failure);
     return written;
 }
 

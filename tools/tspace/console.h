@@ -43,9 +43,11 @@ ExitCode printUsageError(const std::string& message);
 /// Prints "tspace: message" for a remark that is not an error.
 void printRemark(const std::string& message);
 
-/// Writes text to stdout, or to stderr if a model is written to stdout. Returns false if stdout cannot be written
-/// (closed pipe, full disk), which is reported on stderr.
-bool printResult(std::string_view text, std::FILE* to = stdout);
+inline constexpr const char* kCannotPrint = "tspace: cannot write to standard output\n";
+
+/// Writes text to stdout, or to stderr if a model is written to stdout. If stdout cannot be written (closed pipe, full
+/// disk), prints the line `failure` to stderr and returns false.
+bool printResult(std::string_view text, std::FILE* to = stdout, std::string_view failure = kCannotPrint);
 
 /// Wraps a text to terminalWidth(). If the width is unknown, lines stay unwrapped, for programs that search them.
 std::string fitted(std::string_view text, std::FILE* to = stdout);

@@ -96,6 +96,7 @@ class GenerateRun {
           jobs_(std::move(jobs)),
           outcomes_(jobs_.size()),
           texts_(jobs_.size()),
+          failures_(jobs_.size()),
           workers_(workerCount(arguments.batch, jobs_.size())),
           report_to_(arguments.jobs.output == "-" ? stderr : stdout),
           wants_text_(!arguments.json && !arguments.quiet) {
@@ -111,6 +112,8 @@ class GenerateRun {
             [this] { return wasInterrupted() || output_is_closed_; });
         if (wasInterrupted()) endByInterrupt();
         if (output_is_closed_) return ExitCode::cannotReadOrWrite;
+        const auto is_written = [](const report::GenerateOutcome& outcome) { return outcome.result.ok(); };
+        const bool has_outputs = std::any_of(outcomes_.begin(), outcomes_.end(), is_written);
         const auto report = [&] {
             std::string last;
             if (arguments_.json) {
@@ -120,10 +123,11 @@ class GenerateRun {
             } else if (wants_text_ && outcomes_.size() > 1) {
                 last = fitted(report::generateSummary(outcomes_, secondsSince(start_)), report_to_);
             }
-            return printResult(last, report_to_) ? exit_code_ : ExitCode::cannotReadOrWrite;
+            const std::string_view failure = !has_outputs            ? kCannotPrint
+                                             : outcomes_.size() == 1 ? std::string_view(failures_[0])
+                                                                     : kCannotPrintReport;
+            return printResult(last, report_to_, failure) ? exit_code_ : ExitCode::cannotReadOrWrite;
         };
-        const auto is_written = [](const report::GenerateOutcome& outcome) { return outcome.result.ok(); };
-        const bool has_outputs = std::any_of(outcomes_.begin(), outcomes_.end(), is_written);
         return has_outputs ? afterOutputs(kNoMemoryForReport, report) : report();
     }
 
@@ -155,7 +159,10 @@ class GenerateRun {
         };
         makeAndCommit(outcome, make, [&] {
             outcome.seconds = secondsSince(start);
-            if (outcome.result) texts_[number] = textOf(outcome);
+            if (outcome.result) {
+                texts_[number] = textOf(outcome);
+                failures_[number] = lineWithoutReport(outcome.result->output_files);
+            }
         });
         if (record_.isKept() && !outcome.was_done_before) record(job, outcome);
         progressLine().fileDone(outcome.result.ok());
@@ -187,7 +194,7 @@ class GenerateRun {
             const std::lock_guard lock(mutex_);
             exit_code_ = worse(exit_code_, code);
         } else if (wants_text_ && !output_is_closed_) {
-            output_is_closed_ = !printResult(texts_[number], report_to_);
+            output_is_closed_ = !printResult(texts_[number], report_to_, failures_[number]);
         }
     }
 
@@ -195,7 +202,8 @@ class GenerateRun {
     const Clock::time_point start_ = Clock::now();
     std::vector<Job> jobs_;
     std::vector<report::GenerateOutcome> outcomes_;
-    std::vector<std::string> texts_;  ///< textOf() each
+    std::vector<std::string> texts_;     ///< textOf() each
+    std::vector<std::string> failures_;  ///< lineWithoutReport() each
     unsigned workers_;
     std::FILE* report_to_;
     bool wants_text_;

@@ -2,8 +2,11 @@
 // Final steps of every command that writes files: prepare the report, put the outputs in place, print the report.
 #pragma once
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "console.h"
 #include "core/base/border.h"
@@ -16,7 +19,18 @@ struct PreparedReport {
     ExitCode exit_code = ExitCode::done;
     std::string text = {};
     std::FILE* to = stdout;
+    std::vector<std::string> earlier_files = {};  ///< outputs that are in place already
 };
+
+/// Returns the line to print if standard output fails although `files` are in place.
+inline std::string lineWithoutReport(const std::vector<std::string>& files) {
+    constexpr std::size_t kMostNamed = 8;
+    std::string line = "tspace: cannot write to standard output";
+    for (std::size_t i = 0; i < std::min(files.size(), kMostNamed); ++i)
+        line += (i == 0 ? "; the outputs are complete: " : ", ") + printable(files[i]);
+    if (files.size() > kMostNamed) line += ", and " + std::to_string(files.size() - kMostNamed) + " more";
+    return line + "\n";
+}
 
 /// Ends a command whose outputs are held. prepare(failure) composes the report: `failure` is null before the outputs
 /// are put in place; if that fails, prepare is called again with the reason, and no output exists. Files that it writes
@@ -24,12 +38,19 @@ struct PreparedReport {
 template <class Prepare>
 ExitCode commitAndPrint(HeldOutputs& outputs, const Prepare& prepare) {
     PreparedReport report = prepare(static_cast<const Error*>(nullptr));
+    const auto lineOf = [&] {
+        std::vector<std::string> files = report.earlier_files;
+        for (std::string& file : outputs.files()) files.push_back(std::move(file));
+        return lineWithoutReport(files);
+    };
+    std::string failure = lineOf();
     if (const Result<Done> done = outputs.commit(); !done) {
         report = prepare(&done.error());
+        failure = lineOf();
         // Only a report file is held now; the exit code is already that of an error.
         static_cast<void>(outputs.commit());
     }
-    return printResult(report.text, report.to) ? report.exit_code : ExitCode::cannotReadOrWrite;
+    return printResult(report.text, report.to, failure) ? report.exit_code : ExitCode::cannotReadOrWrite;
 }
 
 /// Processes one of several files: sets outcome.result to make(), composes its report with prepare(), and puts its
@@ -46,6 +67,7 @@ void makeAndCommit(Outcome& outcome, const Make& make, const Prepare& prepare) {
     if (!done) outcome.result = done.error();
 }
 
+inline constexpr const char* kCannotPrintReport = "tspace: cannot write to standard output; the outputs are complete\n";
 inline constexpr const char* kNoMemoryForReport =
     "tspace: out of memory: cannot write the report to standard output; the outputs are complete\n";
 inline constexpr const char* kNoMemoryForManifest =

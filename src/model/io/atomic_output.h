@@ -257,6 +257,8 @@ class HeldOutputs {
     HeldOutputs(const HeldOutputs&) = delete;
     HeldOutputs& operator=(const HeldOutputs&) = delete;
 
+    /// Returns the files that commit() puts in place.
+    [[nodiscard]] std::vector<std::string> files() const { return all_.files(); }
     /// Puts all held files in place. After an error no file is in place, and none is held any more.
     [[nodiscard]] Result<Done> commit();
 
