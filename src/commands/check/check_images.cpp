@@ -407,8 +407,11 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
         findings.push_back(unreadable(name, map.why_not));
         if (scene.images[map.image].is_unavailable) {
             findings.back().severity = Severity::warning;
+            // An image without a URI of its own is in a data URI.
             setRemedy(findings.back(),
-                      "Put the image where the model references it, or correct its path in the model.");
+                      scene.images[map.image].uri.empty()
+                          ? "Embed the image again: its data URI is broken."
+                          : "Put the image where the model references it, or correct its path in the model.");
         }
     } else {
         const bool has_own_green = hasOwnGreen(map.look.layout);

@@ -291,6 +291,11 @@ TEST(CheckFile, SaysThatAnImageWasNotLookedAt) {
     EXPECT_EQ(codes(report), CodeCounts{"warning normalMapUnreadable"});
     EXPECT_NE(report.findings[0].message.find("does not exist"), std::string::npos) << report.findings[0].message;
     EXPECT_EQ(report.findings[0].remedy.find("PNG"), std::string::npos) << report.findings[0].remedy;
+    EXPECT_NE(report.findings[0].remedy.find("path"), std::string::npos) << report.findings[0].remedy;
+    model.builder.json()["images"][0]["uri"] = "data:image/png;base64,iVBORw0KGgo=!!";
+    report = model.check();
+    EXPECT_EQ(codes(report), CodeCounts{"warning normalMapUnreadable"});
+    EXPECT_EQ(report.findings[0].remedy.find("path"), std::string::npos) << "a data URI has none";
 }
 
 TEST(CheckFile, GivesEachPrimitiveItsOwnFindings) {
