@@ -6,6 +6,7 @@ import { once } from "node:events";
 import { describe, it } from "node:test";
 import { isMainThread, parentPort, Worker, workerData } from "node:worker_threads";
 import { grid } from "./meshes.mjs";
+import { gridModel } from "./models.mjs";
 
 const kMemorySection = 5;
 
@@ -37,7 +38,7 @@ function withMaximum(source, pages) {
 }
 
 const options = { convention: "gltf" };
-const calls = {
+const meshCalls = {
   generateTangents: (tspace, mesh) => tspace.generateTangents(mesh, options),
   generateNormals: (tspace, mesh) => tspace.generateNormals(mesh),
   makeIndexedFrames: (tspace, mesh) => tspace.makeIndexedFrames(mesh, options),
@@ -50,45 +51,60 @@ const calls = {
     }
   },
 };
+const modelCalls = {
+  generate: (gltf, model) => gltf.generate(model).bytes,
+  check: (gltf, model) => gltf.check(model).findings,
+  identify: (gltf, model) => gltf.identify(model).explanations,
+  inspect: (gltf, model) => gltf.inspect(model).primitives,
+  diff: (gltf, model) => gltf.diff(model, model).primitives,
+};
+const model = (size) => gridModel({ size, tangents: new Float32Array(4 * (size + 1) ** 2).map((_, i) => (i % 4 === 1 || i % 4 === 2 ? 0 : 1)) }).model;
+const entries = {
+  tspace: { calls: meshCalls, large: () => grid(90), small: () => grid(2) },
+  "tspace/gltf": { calls: modelCalls, large: () => model(60), small: () => model(2) },
+};
 
-/** What each call gives with a memory that can grow by so many pages: for a large mesh, and for a small one afterwards. */
-async function outcomes(pages) {
+/** What each call of an entry gives with a memory that can grow by so many pages: for a large input, and for a small one afterwards. */
+async function outcomes({ entry, pages }) {
   const compile = WebAssembly.compile;
   WebAssembly.compile = (bytes) => compile(withMaximum(bytes, pages));
-  const tspace = await import("tspace");
+  const { calls, large, small } = entries[entry], tspace = await import(entry);
   await tspace.ready;
-  const outcome = (call, mesh) => {
+  const outcome = (call, input) => {
     try {
-      return call(tspace, mesh);
+      return call(tspace, input);
     } catch (error) {
       return error.code ?? error.stack;
     }
   };
-  return Object.entries(calls).map(([name, call]) => [name, outcome(call, grid(90)), outcome(call, grid(2))]);
+  return Object.entries(calls).map(([name, call]) => [name, outcome(call, large()), outcome(call, small())]);
 }
 
 if (!isMainThread) {
   parentPort.postMessage(await outcomes(workerData));
 } else {
-  const outcomesIn = async (pages) => {
-    const worker = new Worker(new URL(import.meta.url), { workerData: pages });
+  const outcomesIn = async (entry, pages) => {
+    const worker = new Worker(new URL(import.meta.url), { workerData: { entry, pages } });
     const [made] = await once(worker, "message");
     await worker.terminate();
     return made;
   };
   describe("with little memory", () => {
-    it("each call succeeds or runs out of memory, and the module works afterwards", async () => {
-      const wanted = await outcomesIn(2048);
-      const failures = wanted.map(() => 0);
-      for (const pages of [0, 1, 2, 4, 7, 12, 20, 33, 54, 90]) {
-        for (const [i, [name, large, small]] of (await outcomesIn(pages)).entries()) {
-          const where = `${name} with ${pages} pages`;
-          failures[i] += large === "outOfMemory";
-          if (large !== "outOfMemory") assert.deepEqual(large, wanted[i][1], where);
-          assert.deepEqual(small, wanted[i][2], `${where}, afterwards`);
+    for (const entry of Object.keys(entries)) {
+      it(`each call of ${entry} succeeds or runs out of memory, and the module works afterwards`, async () => {
+        const wanted = await outcomesIn(entry, 2048);
+        for (const [name, large] of wanted) assert.notEqual(typeof large, "string", `${name}: ${large}`);
+        const failures = wanted.map(() => 0);
+        for (const pages of [0, 1, 2, 4, 7, 12, 20, 33, 54, 90]) {
+          for (const [i, [name, large, small]] of (await outcomesIn(entry, pages)).entries()) {
+            const where = `${name} with ${pages} pages`;
+            failures[i] += large === "outOfMemory";
+            if (large !== "outOfMemory") assert.deepEqual(large, wanted[i][1], where);
+            assert.deepEqual(small, wanted[i][2], `${where}, afterwards`);
+          }
         }
-      }
-      for (const count of failures) assert.ok(count > 0 && count < 10, `${failures}`);
-    });
+        for (const count of failures) assert.ok(count > 0 && count < 10, `${failures}`);
+      });
+    }
   });
 }
