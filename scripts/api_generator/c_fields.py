@@ -84,7 +84,7 @@ def visitors(model):
     lines.append("};")
     for struct, fields in model.structs.items():
         numbers = [(name, kind.name) for name, kind in fields if kind.is_number() and name not in ("struct_size", "reserved", "code")
-                   and (kind.name in model.enums or model.is_sized(struct) and kind.name in ("uint32_t", "uint64_t", "float"))]
+                   and (kind.name in model.enums or model.is_sized(struct) and kind.name in ("uint32_t", "uint64_t", "float", "double"))]
         if numbers:
             lines += ["", "template <class Visit>", f"void visitFields(tspace_{struct}& all, Visit visit) {{",
                       *(f'    visit("{name}", "{kind}", all.{name});' for name, kind in numbers), "}"]

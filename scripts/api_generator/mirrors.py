@@ -191,17 +191,48 @@ def python_names(model, presets):
     return "\n".join([*lines, ""])
 
 
+def _report_members(mirrors, name):
+    """In the order in which the WebAssembly modules store them: counts first."""
+    members = [entity for entity in mirrors.entities.values() if entity.owner == name and entity.kind in ("field", "method")]
+    return sorted(members, key=lambda entity: entity.type != "std::uint64_t")
+
+
 def js_names(mirrors):
-    """Names of choices in the order of their numbers, and of the numbers of reports in the order of their fields in C++."""
+    """Names of choices in the order of their numbers, and of the numbers of reports."""
     lines = ["// SPDX-License-Identifier: MIT", "// Names of choices, and of numbers of reports. Written by scripts/api."]
     lists = {name: [value.lower() if name == "FrameFormat" else camel(value) for value in mirrors.model.enums[name]] for name in CHOICES[:7]}
-    for name in ("TangentReport", "SanitizeReport", "NormalReport", "PackReport", "WindingReport"):
-        lists[name] = [camel(snake(entity.member()).removesuffix("_deg")) for entity in mirrors.entities.values()
-                       if entity.owner == name and entity.kind in ("field", "method")]
+    lists.update({name: [camel(snake(entity.member()).removesuffix("_deg")) for entity in _report_members(mirrors, name)] for name in REPORTS})
     for name, words in lists.items():
         text = ", ".join(f'"{word}"' for word in words) + ","
         lines += [f"export const {name[:1].lower()}{name[1:]}Names = [", *textwrap.wrap(text, 118, initial_indent="  ", subsequent_indent="  "), "];"]
     return "\n".join([*lines, ""])
+
+
+WASM_HEAD = """\
+// SPDX-License-Identifier: MIT
+// Stores the numbers of reports for JavaScript, in the order of their names in names.js. Each function starts at index
+// `first`, and returns the index after its last number. Written by scripts/api.
+#pragma once
+
+#include "exports.h"
+#include "tspace/tspace.hpp"
+
+namespace tspace::js {
+"""
+
+
+def wasm_reports(mirrors):
+    lines = [WASM_HEAD]
+    for name in REPORTS:
+        members = _report_members(mirrors, name)
+        counts = [f"&{name}::{entity.member()}" for entity in members if entity.type == "std::uint64_t"]
+        others = [f"{entity.member()}{'()' * (entity.kind == 'method')}" for entity in members[len(counts):]]
+        lines.append(f"inline std::size_t keep(const {name}& from, std::size_t first = 0) {{")
+        if counts:  # a loop over them takes fewer bytes than a statement for each
+            lines += [f"    static constexpr std::uint64_t {name}::* kCounts[] = {{{', '.join(counts)}}};",
+                      "    for (const auto count : kCounts) report[first++] = static_cast<double>(from.*count);"]
+        lines += [*(f"    report[first++] = static_cast<double>(from.{other});" for other in others), "    return first;", "}", ""]
+    return "\n".join([*lines, "}  // namespace tspace::js", ""])
 
 
 def js_reports(mirrors):

@@ -168,6 +168,13 @@ void runNormals(CaseCall& call) {
     call.keepReport("report", report);
 }
 
+void runPositionNoise(CaseCall& call) {
+    tspace_PositionNoise report;
+    TSPACE_INIT(report);
+    tspace_measurePositionNoise(&call.mesh, nullptr, &report, &call.error);
+    call.keepReport("report", report);
+}
+
 void runSanitize(CaseCall& call) {
     const auto options = call.prepared<tspace_SanitizeOptions>();
     auto tangents = listOf<float>(call.options, "tangents");
@@ -295,6 +302,7 @@ const std::map<std::string, void (*)(CaseCall&)> kCalls = {
     {"mend_winding", runWinding},
     {"plan_buffers", runPlanBuffers},
     {"convention", runConvention},
+    {"position_noise", runPositionNoise},
 };
 
 void expectOutputs(CaseCall& call, const Json& wanted) {

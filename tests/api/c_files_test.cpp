@@ -300,15 +300,6 @@ TEST(CFilesInMemory, NobodyIsAskedForFilesOutsideOfTheModelsFolder) {
     EXPECT_EQ(tspace_inspectBytes(&view, R"({"allow-external": true})", nullptr, nullptr), TSPACE_OK);
 }
 
-TEST(CFilesInMemory, AFileThatIsTooShortIsAnError) {
-    for (const std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{95}}) {
-        MemoryModel model("a.gltf", triangleModel("b.bin"));
-        model.files = {{"b.bin", triangleBytes().substr(0, size)}};
-        const tspace_Model view = model.view();
-        EXPECT_EQ(tspace_checkBytes(&view, nullptr, nullptr, nullptr), TSPACE_ERROR_INVALID_FILE) << size;
-    }
-}
-
 TEST(CFilesInMemory, BrokenBytesAreAnErrorAndGiveNothing) {
     NEEDS_MODELS;
     std::ifstream file(shared("models/khronos/AnimatedMorphCube.glb"), std::ios::binary);
@@ -367,20 +358,6 @@ TEST(CFilesOptions, WhatIsNoOptionIsRefused) {
     EXPECT_EQ(messageOf(R"({"method": {}})"), "--method needs a value: NAME");
     EXPECT_EQ(messageOf(R"({"output": "c.glb"})").rfind("unknown option '--output'", 0), 0u);
     EXPECT_EQ(messageOf(R"({"a\nb": 1})").find('\n'), std::string::npos);
-}
-
-TEST(CFilesOptions, FalseAndNullAreNotGiven) {
-    MemoryModel model("a.gltf", triangleModel("b.bin"));
-    model.files = {{"b.bin", triangleBytes()}};
-    const tspace_Model view = model.view();
-    Made report, output;
-    tspace_Error error;
-    ASSERT_EQ(tspace_generateBytes(&view, R"({"all": false, "strip": true, "method": null, "dry-run": true})",
-                                   &output.bytes, &report.bytes, &error),
-              TSPACE_OK)
-        << error.message;
-    EXPECT_TRUE(Json::parse(report.text()).at("dryRun").get<bool>());
-    EXPECT_TRUE(output.isEmpty());
 }
 
 TEST(CFilesNull, WhatIsNeededAndNullIsAnError) {

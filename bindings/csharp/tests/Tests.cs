@@ -175,15 +175,6 @@ internal static class Tests
         Check(Cases.RunAll(File.ReadAllText(cases)) > 60, "this binding has most calls on arrays");
     }
 
-    public static void TestDefaultsAreThoseOfTheLibrary()
-    {
-        TangentOptions tangents = new TangentOptions(Convention.Gltf);
-        Check(tangents.AngularThresholdDeg == 180 && tangents.Refine == 1 && tangents.Method == Method.Mikktspace, "tangents");
-        NormalOptions normals = new NormalOptions(Convention.Gltf);
-        Check(normals.Weighting == NormalWeighting.Angle && normals.CreaseAngleDeg == 180 && normals.WeldPositions &&
-              normals.Refine == 2 && normals.WeldDistance == 0, "normals");
-    }
-
     public static void TestWrongInputIsAnErrorThatSaysWhere()
     {
         TangentOptions gltf = new TangentOptions(Convention.Gltf);

@@ -69,9 +69,9 @@ export function makeIndexedFrames(mesh, options = {}) {
     const take = (Type, i, size) => call.take(Type, words[2 * i], size * words[2 * i + 1]);
     const makesNormals = chosen[0] || !checked.normals;
     const report = withIgnored({
-      normals: makesNormals ? call.report(normalReportNames, {}, 22) : null,
+      normals: makesNormals ? call.report(normalReportNames, {}, tangentReportNames.length + sanitizeReportNames.length) : null,
       tangents: call.report(tangentReportNames, {}),
-      sanitize: chosen[1] ? call.report(sanitizeReportNames, {}, 9) : null,
+      sanitize: chosen[1] ? call.report(sanitizeReportNames, {}, tangentReportNames.length) : null,
     }, ignoredFrameOptions(options, makesNormals));
     if (options.report) Object.assign(withIgnored(options.report, []), report);
     return {

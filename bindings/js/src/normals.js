@@ -5,7 +5,7 @@ import { givenMesh, meshOf, setMesh } from "./calls.js";
 import { boolean, optionsOf } from "./check.js";
 import { conventionBits } from "./convention.js";
 import { normalsOf, numberOrAuto } from "./normal_calls.js";
-import { windingReportNames } from "./names.js";
+import { positionNoiseNames, windingReportNames } from "./names.js";
 import { Wasm } from "./wasm.js";
 
 export { conventions } from "./convention.js";
@@ -24,7 +24,7 @@ export function measurePositionNoise(mesh) {
     setMesh(call, checked);
     call.check(call.wasm.measurePositionNoise());
     const noise = {};
-    call.report(["sigma", "kinkShare", "noise", "meanEdge"], noise);
+    call.report(positionNoiseNames, noise);
     return noise;
   });
 }

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The cases that all languages share: tests/cases/arrays.json.
+// The cases that all languages share: tests/cases/arrays.json and files.json.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { describe, it } from "node:test";
 import * as core from "tspace";
+import * as gltf from "tspace/gltf";
 import * as normals from "tspace/normals";
 import * as pack from "tspace/pack";
 import * as small from "tspace/mikktspace";
 
-await Promise.all([core.ready, normals.ready, pack.ready, small.ready]);
-const { meshes, cases } = JSON.parse(readFileSync(`${process.env.TSPACE_CASES ?? new URL("../../../tests/cases", import.meta.url).pathname}/arrays.json`));
+await Promise.all([core.ready, gltf.ready, normals.ready, pack.ready, small.ready]);
+const textOf = (name) => readFileSync(`${process.env.TSPACE_CASES ?? new URL("../../../tests/cases", import.meta.url).pathname}/${name}`);
+const { meshes, cases } = JSON.parse(textOf("arrays.json"));
 
 /** Options that this binding does not have: these cases are left to other languages. */
 const lacks = ["domain"];
@@ -43,6 +45,7 @@ const calls = {
     }),
   normals: (mesh, options) =>
     withReport((report) => ({ normals: normals.generateNormals(mesh, { ...options, smoothingGroups: options.smoothingGroups && Uint32Array.from(options.smoothingGroups), report }) })),
+  position_noise: (mesh) => ({ report: normals.measurePositionNoise(mesh) }),
   sanitize: (mesh, { tangents, ...options }) =>
     withReport((report) => {
       const given = Float32Array.from(tangents), repaired = core.sanitizeTangents(mesh, given, { ...options, report });
@@ -89,6 +92,25 @@ describe("the cases of all languages", () => {
         else if (wanted === null) assert.equal(got, null, output);
         else for (const [field, value] of Object.entries(wanted)) assert.equal(inSnakeCase(got)[field.replace(/_deg$/, "")], value, `${output}.${field}`);
       }
+    });
+  }
+});
+
+describe("the cases of all languages, for files", () => {
+  const table = textOf("files.json");
+  for (const { name, call, change, options = {}, gives, error } of JSON.parse(table).cases) {
+    it(name, () => {
+      const { model } = JSON.parse(table);
+      if (change) {
+        const [path, value] = change, keys = path.split("/"), last = keys.pop(), parent = keys.reduce((at, key) => at[key], model);
+        parent[last] = value ?? undefined;
+      }
+      const given = Object.fromEntries(Object.entries(options).map(([option, value]) => [camel(option.replaceAll("-", "_")), value]));
+      const bytes = new TextEncoder().encode(JSON.stringify(model));
+      const run = () => (call === "diff" ? gltf.diff(bytes, bytes, given) : call === "generate" ? gltf.generate(bytes, given).report : gltf[call](bytes, given));
+      if (error) return assert.throws(run, { code: error });
+      const report = run();
+      for (const [path, wanted] of Object.entries(gives)) assert.deepEqual(path.split("/").reduce((at, key) => at[key], report), wanted, path);
     });
   }
 });

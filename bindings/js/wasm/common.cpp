@@ -2,8 +2,6 @@
 // Exports of all modules that compute frames: the mesh of the next call, and the three functions of `mikktspace`.
 #include "common.h"
 
-#include <bit>
-
 namespace tspace::js {
 
 namespace {
@@ -18,24 +16,6 @@ Convention conventionOf(std::uint32_t bits) {
             .stored_sign = static_cast<StoredSign>(bits >> 3 & 1),
             .handedness = static_cast<Handedness>(bits >> 4 & 1),
             .winding = static_cast<Winding>(bits >> 5 & 1)};
-}
-
-void keep(const TangentReport& r) {
-    // Layout of TangentReport: eight counts, then reference_order_abandoned.
-    struct Words {
-        std::uint64_t counts[8], flag;
-    };
-    static_assert(sizeof(Words) == sizeof(r));
-    keepCounts(std::bit_cast<Words>(r).counts);
-    report[8] = r.reference_order_abandoned;
-}
-
-void keep(const SanitizeReport& r, std::size_t first) {
-    struct Words {
-        std::uint64_t counts[12];
-    };
-    keepCounts(std::bit_cast<Words>(r).counts, first);
-    report[first + 12] = static_cast<double>(r.mendedCount());
 }
 
 }  // namespace tspace::js

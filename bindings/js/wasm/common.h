@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "exports.h"
+#include "reports.h"
 #include "tspace/indexed_frames.h"
 #include "tspace/tangents.h"
 
@@ -24,11 +24,6 @@ Convention conventionOf(std::uint32_t bits);
 inline TangentOutput outputOf(float* tangents, std::uint8_t* has_tangent, std::size_t count) {
     return {.tangents = vec4Span(tangents, count), .has_tangent = {has_tangent, has_tangent == nullptr ? 0 : count}};
 }
-
-void keep(const TangentReport& r);
-
-/// Stores the 13 numbers of `r` in the report, starting at index `first`.
-void keep(const SanitizeReport& r, std::size_t first = 0);
 
 /// Layout shared with JavaScript.
 struct AttributeWords {

@@ -107,9 +107,7 @@ std::uint32_t frames(std::uint32_t method, float threshold_deg, std::uint32_t pa
     giveArray(made->source_corners, result + 4);
     giveArray(made->normals, result + 6);
     giveArray(made->tangents, result + 8);
-    keep(made->report.tangents);
-    keep(made->report.sanitize, 9);
-    keep(made->report.normals, 22);
+    keep(made->report.normals, keep(made->report.sanitize, keep(made->report.tangents)));
     return 0;
 }
 

@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "tspace/result.h"
 
@@ -30,11 +29,6 @@ extern Error& error;
 /// after the other.
 inline constexpr std::size_t kReportNumbers = 32;
 extern double report[kReportNumbers];
-
-/// Stores counts in the report, starting at index `first`.
-inline void keepCounts(std::span<const std::uint64_t> counts, std::size_t first = 0) {
-    for (std::size_t i = 0; i < counts.size(); ++i) report[first + i] = static_cast<double>(counts[i]);
-}
 
 /// Returns the result's error code, 0 for success; keeps the error.
 template <class T>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Options and reports of normals, for the modules that compute them.
+// Options of normals, for the modules that compute them.
 #pragma once
 
 #include "common.h"
@@ -21,14 +21,6 @@ inline NormalOptions normalOptions(std::uint32_t weighting, float crease_angle_d
     options.denoise = denoise;
     options.weld_distance = weld_distance;
     return options;
-}
-
-/// Stores five numbers in the report, starting at index `first`.
-inline void keep(const NormalReport& report, std::size_t first = 0) {
-    const std::uint64_t counts[] = {report.face_count, report.degenerate_face_count, report.fallback_corner_count};
-    keepCounts(counts, first);
-    js::report[first + 3] = double{report.noise};
-    js::report[first + 4] = double{report.crease_angle_deg};
 }
 
 }  // namespace tspace::js

@@ -9,14 +9,10 @@ using namespace tspace::js;
 
 extern "C" {
 
-/// The report contains sigma, kink share, noise, and mean edge length.
 TSPACE_JS_EXPORT(measurePositionNoise) std::uint32_t measureNoise() {
     auto result = measurePositionNoise(mesh());
     if (!result) return codeOf(result);
-    js::report[0] = double{result->sigma};
-    js::report[1] = double{result->kink_share};
-    js::report[2] = double{result->noise};
-    js::report[3] = result->mean_edge;
+    keep(*result);
     return 0;
 }
 
@@ -30,13 +26,7 @@ std::uint32_t mend(bool use_normals, bool weld_positions, std::uint32_t conventi
                                  .weld_distance = weld_distance};
     auto result = mendWinding(mesh(), options, {turned, mesh().faceCount(), 1});
     if (!result) return codeOf(result);
-    const std::uint64_t counts[] = {
-        result->face_count,        result->turned_count,           result->conflict_count_before,
-        result->conflict_count_after, result->component_count,     result->turned_component_count,
-        result->by_normals_count,  result->by_volume_count,        result->by_nesting_count,
-        result->by_winding_number_count, result->by_majority_count, result->small_count,
-        result->one_sided_count};
-    keepCounts(counts);
+    keep(*result);
     return 0;
 }
 

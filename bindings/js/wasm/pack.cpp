@@ -2,7 +2,7 @@
 // WebAssembly module of the package entry point "tspace/pack".
 #include "tspace/pack.h"
 
-#include "exports.h"
+#include "reports.h"
 
 using namespace tspace;
 using namespace tspace::js;
@@ -20,10 +20,7 @@ std::uint32_t pack(const float* normals, std::size_t normal_count, const float* 
     auto result = packFrames(vec3Span(normals, normal_count), vec4Span(tangents, tangent_count),
                              static_cast<FrameFormat>(format), {out, out_bytes});
     if (!result) return codeOf(result);
-    const PackReport& r = *result;
-    const std::uint64_t counts[] = {r.bad_normal_count, r.not_finite_count,     r.zero_count,     r.parallel_count,
-                                    r.not_unit_count,   r.not_orthogonal_count, r.bad_sign_count, r.mendedCount()};
-    keepCounts(counts);
+    keep(*result);
     return 0;
 }
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""The cases that all languages share: tests/cases/arrays.json."""
+"""The cases that all languages share: tests/cases/arrays.json and files.json."""
 
+import functools
 import json
 import unittest
 from pathlib import Path
@@ -8,7 +9,7 @@ from pathlib import Path
 import numpy
 import tspace
 
-CASES = Path(__file__).resolve().parents[3] / "tests" / "cases" / "arrays.json"
+CASES = Path(__file__).resolve().parents[3] / "tests" / "cases"
 RENAMED = {"angular_threshold_deg": "threshold", "crease_angle_deg": "crease_angle"}
 SIZES = {"positions": 3, "normals": 3, "uvs": 2}
 
@@ -32,6 +33,10 @@ def tangents(mesh, **options):
 def normals(mesh, **options):
     result = tspace.normals(mesh["positions"], mesh.get("indices"), face_sizes=mesh.get("face_sizes"), full=True, **options)
     return {"normals": result.normals, "report": result.report._asdict()}
+
+
+def position_noise(mesh):
+    return {"report": tspace.position_noise(**mesh)._asdict()}
 
 
 def sanitize(mesh, tangents, **options):
@@ -90,8 +95,8 @@ def flat(value):
 
 class Cases(unittest.TestCase):
     def test_every_case(self):
-        table = json.loads(CASES.read_text())
-        calls = (tangents, normals, sanitize, make_indexed_frames, mend_winding, triangulate, split, pack, convention, plan_buffers)
+        table = json.loads((CASES / "arrays.json").read_text())
+        calls = (tangents, normals, sanitize, make_indexed_frames, mend_winding, triangulate, split, pack, convention, plan_buffers, position_noise)
         by_name = {call.__name__: call for call in calls}
         for case in table["cases"]:
             mesh = {**table["meshes"].get(case.get("mesh"), {}), **case.get("change", {})}
@@ -116,6 +121,38 @@ class Cases(unittest.TestCase):
                 self.assertEqual(flat(array), flat(numpy.array(wanted, array.dtype)), name)
             else:
                 self.assertEqual(made[name], wanted, name)
+
+
+class FileCases(unittest.TestCase):
+    def test_every_case(self):
+        text = (CASES / "files.json").read_text()
+        for case in json.loads(text)["cases"]:
+            model = json.loads(text)["model"]
+            if "change" in case:
+                (*path, last), value = case["change"][0].split("/"), case["change"][1]
+                parent = functools.reduce(member, path, model)
+                parent[last] = value
+                if value is None:
+                    del parent[last]
+            options = {name.replace("-", "_"): value for name, value in case.get("options", {}).items()}
+            with self.subTest(case["name"]):
+                if "error" in case:
+                    with self.assertRaises(tspace.Error) as caught:
+                        self.report(case["call"], json.dumps(model).encode(), options)
+                    self.assertEqual(caught.exception.code, case["error"])
+                    continue
+                report = self.report(case["call"], json.dumps(model).encode(), options)
+                for path, wanted in case["gives"].items():
+                    self.assertEqual(functools.reduce(member, path.split("/"), report), wanted, path)
+
+    def report(self, call, model, options):
+        if call == "generate":
+            return tspace.generate_bytes(model, **options).report.json
+        return getattr(tspace, call)(model, *[model] * (call == "diff"), **options).json
+
+
+def member(value, name):
+    return value[int(name)] if isinstance(value, list) else value[name]
 
 
 if __name__ == "__main__":

@@ -272,10 +272,6 @@ class Failures(Files):
 
 
 class Look(Files):
-    def test_check_finds_nothing_in_what_generate_made(self):
-        report = tspace.check(self.framed)
-        self.assertEqual([finding for finding in report if finding.severity != "note"], [])
-
     def test_bytes_of_an_obj_without_a_name_say_what_to_do(self):
         obj = b"# a triangle\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
         for name in (None, "model", "model.glb"):
@@ -371,10 +367,6 @@ class Refused(Files):
         self.refuses(TypeError, "name", tspace.check, self.plain, name=b"a")
 
     def test_options(self):
-        for options in (dict(method="mikk"), dict(crease="sharp"), dict(crease=-1), dict(all="yes")):
-            with self.subTest(options):
-                error = self.refuses(ValueError, "", tspace.generate_bytes, self.plain, **options)
-                self.assertEqual(error.code, "invalidOption")
         for call in (tspace.generate_bytes, tspace.check, tspace.identify, tspace.inspect):
             error = self.refuses(TypeError, "unknown option .treshold.; .*memory_limit", call, self.plain, treshold=1)
             self.assertEqual(error.code, "invalidOption")

@@ -149,24 +149,6 @@ class Names(unittest.TestCase):
         with self.assertRaisesRegex(tspace.InputError, '^domain is "vertex"'):
             tangents(method="lengyel", domain="vertex", uv_indices=indices)()
 
-    def test_noise_is_taken_out_of_normals(self):
-        side = 40
-        x, y = numpy.meshgrid(numpy.arange(side), numpy.arange(side))
-        height = 0.2 * numpy.random.default_rng(1).standard_normal((side, side))
-        positions = numpy.stack([x, y, height], -1).reshape(-1, 3).astype(numpy.float32)
-        place = numpy.arange(side * side).reshape(side, side)
-        a, b, c, d = place[:-1, :-1], place[:-1, 1:], place[1:, 1:], place[1:, :-1]
-        triangles = numpy.stack([a, b, c, a, c, d], -1).reshape(-1, 3).astype(numpy.uint32)
-        noise = tspace.position_noise(positions, triangles)
-        self.assertAlmostEqual(noise.noise * noise.mean_edge, 0.2, delta=0.04)
-        plain = tspace.normals(positions, triangles, weighting="best")
-        denoised = tspace.normals(positions, triangles, weighting="best", denoise="auto", crease_angle="auto", full=True)
-        self.assertAlmostEqual(denoised.report.noise, noise.noise)
-        self.assertLess((1 - denoised.normals[:, 2]).mean(), 0.3 * (1 - plain[:, 2]).mean())
-        for wrong in (5, -0.5):
-            with self.assertRaises(tspace.InputError):
-                tspace.normals(positions, triangles, weighting="best", denoise=wrong)
-
 
 if __name__ == "__main__":
     unittest.main()

@@ -207,18 +207,6 @@ fn no_mesh_is_no_error_for_the_new_trait() {
 }
 
 #[test]
-fn defaults_are_those_of_the_library() {
-    let options = TangentOptions::new(gltf());
-    assert_eq!((options.angular_threshold_deg, options.refine), (180.0, 1));
-    let options = NormalOptions::new(gltf());
-    assert_eq!((options.crease_angle_deg, options.weld_positions, options.refine), (180.0, true, 2));
-    assert_eq!(options.weighting as u32, NormalOptions::new(gltf()).raw().weighting);
-    let options = WindingOptions::new(gltf());
-    assert!(options.use_normals && options.weld_positions);
-    assert!(IndexedFramesOptions::new(gltf()).sanitize);
-}
-
-#[test]
 fn wrong_input_is_an_error_that_says_where() {
     let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
     let mesh = Mesh::new(&positions).normals(&[[0.0, 0.0, 1.0]; 3]).uvs(&[[0.0, 1.0]; 3]);

@@ -8,7 +8,6 @@
 #include <cstring>
 #include <memory>
 #include <new>
-#include <random>
 #include <vector>
 
 #include "core/c_api/outputs.h"
@@ -18,32 +17,6 @@
 
 namespace tspace::test {
 namespace {
-
-TEST(CApi, DefaultsOfTangentsAreThoseOfCpp) {
-    const RandomMesh mesh(2, 60);
-    CApiOutputs cpp(mesh.cornerCount()), c(mesh.cornerCount());
-    ASSERT_TRUE(generateTangents(mesh.view(), {.convention = conventions::opengl}, cpp.view()));
-    const tspace_Mesh c_mesh = mesh.c();
-    const tspace_TangentOutput out = c.c();
-    const tspace_TangentOptions options = tangentOptions();
-    ASSERT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr, nullptr));
-    expectSame(cpp, c);
-    EXPECT_EQ(TangentOptions{}.angular_threshold_deg, options.angular_threshold_deg);
-    EXPECT_EQ(TangentOptions{}.refine, options.refine);
-    tspace_Execution execution;
-    TSPACE_INIT(execution);
-    EXPECT_EQ(0u, execution.thread_count);  // equivalent to 1, the default in C++
-    tspace_NormalOptions normals;
-    TSPACE_INIT(normals);
-    EXPECT_EQ(static_cast<std::uint32_t>(NormalOptions{}.weighting), normals.weighting);
-    EXPECT_EQ(NormalOptions{}.crease_angle_deg, normals.crease_angle_deg);
-    EXPECT_EQ(NormalOptions{}.weld_positions ? 1u : 0u, normals.weld_positions);
-    EXPECT_EQ(NormalOptions{}.refine, normals.refine);
-    tspace_IndexedFramesOptions frames;
-    TSPACE_INIT(frames);
-    EXPECT_EQ(IndexedFramesOptions{}.sanitize ? 1u : 0u, frames.sanitize);
-    EXPECT_EQ(IndexedFramesOptions{}.make_normals ? 1u : 0u, frames.make_normals);
-}
 
 TEST(CApi, TheConventionHasNoDefault) {
     const RandomMesh mesh(2, 60);
@@ -184,66 +157,6 @@ TEST(CApi, ZerosAreTheDefaultsOfExecutionAndOfSanitizing) {
     TSPACE_INIT(sanitize);
     const auto no_sanitize = zerosWithSize<tspace_SanitizeOptions>();
     EXPECT_EQ(0, std::memcmp(&sanitize, &no_sanitize, sizeof sanitize));
-}
-
-/// Returns a bent sheet of 60 x 60 squares with noisy positions.
-SimpleMesh noisySheet() {
-    constexpr std::uint32_t kSide = 60;
-    SimpleMesh sheet;
-    std::mt19937 random(3);
-    for (std::uint32_t i = 0; i <= kSide * kSide + 2 * kSide; ++i) {
-        const auto x = static_cast<float>(i % (kSide + 1)), y = static_cast<float>(i / (kSide + 1));
-        const float noise = 0.3f * (static_cast<float>(random()) / 4294967296.0f - 0.5f);
-        sheet.positions.push_back({x, y, 0.01f * (x * x + y * y) + noise});
-    }
-    for (std::uint32_t j = 0; j < kSide; ++j) {
-        for (std::uint32_t i = 0; i < kSide; ++i) {
-            const std::uint32_t a = j * (kSide + 1) + i, b = a + kSide + 1;
-            sheet.addTriangle(a, a + 1, b + 1);
-            sheet.addTriangle(a, b + 1, b);
-        }
-    }
-    return sheet;
-}
-
-TEST(CApi, TakesNoiseOutOfNormalsAsTheCppApi) {
-    const SimpleMesh sheet = noisySheet();
-    tspace_Mesh c_mesh;
-    TSPACE_INIT(c_mesh);
-    c_mesh.positions = {&sheet.positions[0].x, sheet.positions.size(), 0};
-    c_mesh.indices.data = sheet.indices.data();
-    c_mesh.indices.count = sheet.indices.size();
-    c_mesh.indices.type = TSPACE_INDEX_U32;
-    std::vector<Vec3> cpp(sheet.indices.size()), c(sheet.indices.size());
-    const auto expected = generateNormals(sheet.view(),
-                                          {.weighting = NormalWeighting::best,
-                                           .crease_angle_deg = NormalOptions::crease_auto,
-                                           .denoise = NormalOptions::denoise_auto},
-                                          cpp);
-    ASSERT_TRUE(expected);
-    tspace_NormalOptions options;
-    TSPACE_INIT(options);
-    options.weighting = TSPACE_NORMAL_WEIGHTING_BEST;
-    options.crease_angle_deg = -1;
-    options.denoise = -1;
-    tspace_NormalReport report;
-    TSPACE_INIT(report);
-    ASSERT_EQ(TSPACE_OK, tspace_generateNormals(&c_mesh, &options, {&c[0].x, c.size(), 0}, nullptr, &report, nullptr));
-    EXPECT_TRUE(sameBits(cpp, c));
-    EXPECT_EQ(report.noise, expected->noise);
-    EXPECT_GT(report.noise, 0.03f);
-    EXPECT_EQ(report.crease_angle_deg, expected->crease_angle_deg);
-
-    tspace_PositionNoise noise;
-    TSPACE_INIT(noise);
-    ASSERT_EQ(TSPACE_OK, tspace_measurePositionNoise(&c_mesh, nullptr, &noise, nullptr));
-    const auto measured = measurePositionNoise(sheet.view());
-    ASSERT_TRUE(measured);
-    EXPECT_EQ(noise.sigma, measured->sigma);
-    EXPECT_EQ(noise.kink_share, measured->kink_share);
-    EXPECT_EQ(noise.noise, report.noise);
-    EXPECT_EQ(noise.mean_edge, measured->mean_edge);
-    EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_measurePositionNoise(&c_mesh, nullptr, nullptr, nullptr));
 }
 
 }  // namespace

@@ -146,6 +146,7 @@ void visitFields(tspace_PositionNoise& all, Visit visit) {
     visit("sigma", "float", all.sigma);
     visit("kink_share", "float", all.kink_share);
     visit("noise", "float", all.noise);
+    visit("mean_edge", "double", all.mean_edge);
 }
 
 template <class Visit>

@@ -86,7 +86,7 @@ fn normal_options<'a>(options: &Json, groups: &'a [u32]) -> NormalOptions<'a> {
     let mut made = NormalOptions { smoothing_groups: groups, ..NormalOptions::new(convention(options)) };
     set!(made, options,
         weighting: |name| choice(name, &[Flat, Uniform, Angle, Area, AngleArea, Max, Best]),
-        crease_angle_deg: float, weld_distance: float, refine: integer,
+        crease_angle_deg: float, denoise: float, weld_distance: float, refine: integer,
         smoothing_groups_are_masks: Json::is_true, weld_positions: Json::is_true);
     made
 }
@@ -120,8 +120,10 @@ impl Made {
         } else if let Some((_, report)) = self.1.iter().find(|(output, _)| *output == name) {
             let report = report.to_lowercase();
             for (field, value) in wanted.members() {
-                let value = if let Json::Text(text) = value { text.replace('_', "") } else { value.number().to_string() };
-                assert!(report.contains(&format!("{field}: {value},")), "{case}: {field} of {report}");
+                // Debug shows whole floats as "0.0".
+                let shown = [value.text().replace('_', ""), float(value).to_string(), format!("{:?}", float(value))];
+                let is_there = shown.iter().any(|value| report.contains(&format!("{field}: {value},")));
+                assert!(is_there, "{case}: {field} of {report}");
             }
         }
     }
@@ -209,7 +211,7 @@ fn every_case_of_the_table() {
     let table = Json::parse(&text);
     for case in table.get("cases").list() {
         let (name, call, wanted) = (case.get("name").text(), case.get("call").text(), case.get("error"));
-        if call == "plan_buffers" {
+        if call == "plan_buffers" || call == "position_noise" {
             continue; // not in this crate
         }
         let arrays = Arrays::new(table.get("meshes").get(case.get("mesh").text()), case.get("change"));
