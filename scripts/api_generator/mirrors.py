@@ -197,11 +197,11 @@ def _report_members(mirrors, name):
     return sorted(members, key=lambda entity: entity.type != "std::uint64_t")
 
 
-def js_names(mirrors):
+def js_names(mirrors, choices, reports):
     """Names of choices in the order of their numbers, and of the numbers of reports."""
     lines = ["// SPDX-License-Identifier: MIT", "// Names of choices, and of numbers of reports. Written by scripts/api."]
-    lists = {name: [value.lower() if name == "FrameFormat" else camel(value) for value in mirrors.model.enums[name]] for name in CHOICES[:7]}
-    lists.update({name: [camel(snake(entity.member()).removesuffix("_deg")) for entity in _report_members(mirrors, name)] for name in REPORTS})
+    lists = {name: [value.lower() if name == "FrameFormat" else camel(value) for value in mirrors.model.enums[name]] for name in choices}
+    lists.update({name: [camel(snake(entity.member()).removesuffix("_deg")) for entity in _report_members(mirrors, name)] for name in reports})
     for name, words in lists.items():
         text = ", ".join(f'"{word}"' for word in words) + ","
         lines += [f"export const {name[:1].lower()}{name[1:]}Names = [", *textwrap.wrap(text, 118, initial_indent="  ", subsequent_indent="  "), "];"]

@@ -26,23 +26,11 @@ export const tangentReportNames = [
   "triangleCount", "degenerateTriangleCount", "degenerateUvCount", "mirroredCount", "skippedFaceCount", "groupCount",
   "defaultCornerCount", "notFiniteCount", "referenceOrderAbandoned",
 ];
-export const normalReportNames = [
-  "faceCount", "degenerateFaceCount", "fallbackCornerCount", "noise", "creaseAngle",
-];
-export const positionNoiseNames = [
-  "sigma", "kinkShare", "noise", "meanEdge",
-];
 export const sanitizeReportNames = [
   "notFiniteCount", "zeroCount", "notUnitCount", "parallelCount", "placeholderCount", "badSignCount",
   "mixedSignCount", "orthogonalizedCount", "normalizedCount", "fromNeighborCount", "fromBasisCount", "badNormalCount",
   "mendedCount",
 ];
-export const windingReportNames = [
-  "faceCount", "turnedCount", "conflictCountBefore", "conflictCountAfter", "componentCount", "turnedComponentCount",
-  "byNormalsCount", "byVolumeCount", "byNestingCount", "byWindingNumberCount", "byMajorityCount", "smallCount",
-  "oneSidedCount",
-];
-export const packReportNames = [
-  "badNormalCount", "notFiniteCount", "zeroCount", "parallelCount", "notUnitCount", "notOrthogonalCount",
-  "badSignCount", "mendedCount",
+export const normalReportNames = [
+  "faceCount", "degenerateFaceCount", "fallbackCornerCount", "noise", "creaseAngle",
 ];

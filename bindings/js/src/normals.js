@@ -5,7 +5,7 @@ import { givenMesh, meshOf, setMesh } from "./calls.js";
 import { boolean, optionsOf } from "./check.js";
 import { conventionBits } from "./convention.js";
 import { normalsOf, numberOrAuto } from "./normal_calls.js";
-import { positionNoiseNames, windingReportNames } from "./names.js";
+import { positionNoiseNames, windingReportNames } from "./report_names.js";
 import { Wasm } from "./wasm.js";
 
 export { conventions } from "./convention.js";

@@ -2,7 +2,8 @@
 // The entry "tspace/pack": complete frames in 4 to 16 bytes.
 import { source } from "#pack";
 import { bytes as bytesOf, choice, fail, floats, optionsOf } from "./check.js";
-import { frameFormatNames, packReportNames } from "./names.js";
+import { frameFormatNames } from "./names.js";
+import { packReportNames } from "./report_names.js";
 import { Wasm } from "./wasm.js";
 
 export { TspaceError } from "./error.js";
