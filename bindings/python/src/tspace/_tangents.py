@@ -48,24 +48,13 @@ class TangentResult(NamedTuple):
     report: TangentReport
 
 
-def tangent_options(
-    method: Any,
-    convention: Any,
-    threshold: Any,
-    pairing: Any,
-    ngons: Any,
-    domain: Any,
-    frame: Any,
-    refine: Any,
-    normalize_normals: Any,
-) -> _abi.TangentOptions:
-    """Returns the struct of the C API. It is shared, so it must not be modified."""
-    key = (method, convention, threshold, pairing, ngons, domain, frame, refine, normalize_normals)
+def tangent_options(*values: Any) -> _abi.TangentOptions:
+    """Returns the struct of the C API for the arguments of `_tangent_options`. It is shared, so it must not be modified."""
     try:
-        hash(key)
+        hash(values)
     except TypeError:  # wrong types; the function below reports them
-        return _tangent_options.__wrapped__(*key)
-    return _tangent_options(*key)
+        return _tangent_options.__wrapped__(*values)
+    return _tangent_options(*values)
 
 
 @functools.lru_cache(maxsize=64, typed=True)
