@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # Every relative link in the documentation leads to a file, and its #part to a heading there.
+# The page of a method ends with functions and the files that implement them.
 # usage: links.sh SOURCE_FOLDER
 set -euo pipefail
 cd "${1:?usage: links.sh SOURCE_FOLDER}"
@@ -33,6 +34,19 @@ while read -r page; do
         fi
     done < <(prose "$page" | grep -oE '\]\([^) ]+\)' | sed -E 's/^\]\(//; s/\)$//')
 done < <(find . \( -name '*.md' -o -path ./llms.txt \) -not -path './build/*' -not -path './.git/*' -not -path '*/node_modules/*' | sort)
+
+# In each item, every `function` is in a linked file that follows it.
+for page in docs/concepts/methods/*.md; do
+    items=$(awk '/^## / { part = ""; inside = $0 == "## Implementation" } inside && !/^## / { part = part $0 "\n" }
+                 END { printf "%s", part }' "$page" | grep '`' || true)
+    [ -n "$items" ] || complain "$page" "the last section is not Implementation, with functions and files"
+    while read -r item; do
+        files=$(grep -oE '\]\([^) ]+\)' <<<"$item" | sed -E 's/^\]\(//; s/\)$//' || true)
+        for name in $(grep -oE '`[A-Za-z0-9]+`' <<<"$item" | tr -d '`'); do
+            (cd "$(dirname "$page")" && grep -qw -- "$name" ${files:-/dev/null}) || complain "$page" "no $name in $files"
+        done
+    done <<<"$items"
+done
 
 echo "$checked links, $broken broken"
 [ $checked -gt 0 ] && [ $broken = 0 ]
