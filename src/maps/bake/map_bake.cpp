@@ -58,7 +58,7 @@ class Baking {
             return makeError(ErrorCode::missingAttribute, kNoElement,
                              "the UVs of the low poly cover no texel of the map");
         traceTexels(*surfaces, *triangles, options_, work_, traced_);
-        tell("tracing");
+        tell("tracing", 1);
         countOrigins(*triangles);
         if (map_.hit_count == 0 && shared_ == nullptr)
             return makeError(ErrorCode::missingAttribute, kNoElement, "no ray from the low poly hits the high poly");
@@ -69,7 +69,7 @@ class Baking {
         if (solves()) {
             solve(*surfaces, *triangles);
         } else {
-            tell("fitting");
+            tell("rounding");
             if (options_.bits == 8) takeNearest();
         }
         writeTexels();
@@ -107,8 +107,8 @@ class Baking {
         return std::move(map_);
     }
 
-    void tell(const char* what) const {
-        if (work_.progress) work_.progress(what, 0, 1);
+    void tell(const char* what, std::uint64_t done = 0, std::uint64_t total = 1) const {
+        if (work_.progress) work_.progress(what, done, total);
     }
 
     /// Consumes the triangles: their memory is freed before the system is allocated.
@@ -118,15 +118,17 @@ class Baking {
         const TexelPlan plan = planTexels(traced_, triangles, sampling.tolerance, has_integers, parallel_, allocator_);
         triangles = {};
         solveInStrips(surfaces, plan, sampling.points, options_, work_, traced_);
-        tell("fitting");
+        tell("rounding");
         if (has_integers) return;
         const std::span<Vec3> texels(traced_.wanted.data(), traced_.wanted.size());
         // Background texels are skipped here; writing rounds them.
         Buffer<bool> background(allocator_, texels.size(), false);
         for (std::size_t i = 0; i < texels.size(); ++i) background[i] = traced_.origins[i] == TexelOrigin::background;
+        TellStep tell_row;
+        if (work_.progress) tell_row = [&](std::uint64_t done, std::uint64_t total) { tell("rounding", done, total); };
         roundTexels(texels, options_.width,
                     {.keeps_lengths = options_.reading.two_channels, .keeps = {background.data(), background.size()}},
-                    parallel_, allocator_);
+                    parallel_, allocator_, tell_row);
         if (options_.reading.two_channels) completeThirds(texels);
     }
 

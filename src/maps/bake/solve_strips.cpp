@@ -56,19 +56,15 @@ class Solving {
             for (Vec3& texel : texels_) texel = kWantedLength * texel;
         }
         const std::vector<Strip> strips = stripsOf(options_.height, strip_rows);
-        for (const Strip& strip : strips) steps_.total += bandsOf(strip.window).size();
+        // Half of the steps of a strip trace rays, the others solve its system.
+        for (const Strip& strip : strips) steps_.total += 2 * bandsOf(strip.window).size();
         first_row_ = rowsFrom(0, 1);
-        for (std::size_t i = 0; i < strips.size(); ++i) {
-            const TellStep tell = [&](std::uint64_t done, std::uint64_t total) {
-                if (work_.progress) work_.progress("solving", i * total + done, strips.size() * total);
-            };
-            solve(strips[i], tell);
-        }
+        for (const Strip& strip : strips) solve(strip);
         traced_.wanted = std::move(texels_);
     }
 
   private:
-    void solve(const Strip& strip, const TellStep& tell) {
+    void solve(const Strip& strip) {
         const TexelWindow& window = strip.window;
         const std::size_t width = plan_.width, size = width * window.count;
         Buffer<TexelRole> roles(work_.allocator, size);
@@ -85,6 +81,13 @@ class Solving {
         }
         TexelSystem system(work_.allocator, options_.width, window.count, {roles.data(), roles.size()});
         traceBetween(surfaces_, traced_, plan_, window, points_, options_, work_, steps_, system);
+        const std::uint64_t bands = bandsOf(window).size();
+        TellStep tell;
+        if (work_.progress) {
+            tell = [&](std::uint64_t done, std::uint64_t total) {
+                work_.progress("solving", steps_.before + done * bands / total, steps_.total);
+            };
+        }
         const std::span<Vec3> found(texels.data(), texels.size());
         if (options_.bits == 8) {
             addSmooth(strip, found, system);
@@ -94,6 +97,7 @@ class Solving {
         } else {
             solveTexels(system, found, work_.parallel, work_.allocator, tell);
         }
+        steps_.before += bands;
         rows_above_ = rowsFrom(strip.end - kRowsStay, kRowsStay);
         std::copy_n(texels.begin() + window.local(strip.first) * width, (strip.end - strip.first) * width,
                     texels_.begin() + strip.first * width);

@@ -285,8 +285,7 @@ void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const
     const std::vector<std::size_t> bands = bandsOf(window);
     // Adjacent bands share a row of texels, so they must not run at the same time.
     forApart(bands.size(), [&](std::size_t begin, std::size_t number) {
-        forTasksTold(work, number, "tracing between texels", steps,
-                     [&](std::size_t i) { traceBand(bands[begin + 2 * i]); });
+        forTasksTold(work, number, "solving", steps, [&](std::size_t i) { traceBand(bands[begin + 2 * i]); });
         steps.before += number;
     });
     if (points.n == 2) addCentres(traced, plan, window, options, work.parallel, system);

@@ -25,7 +25,8 @@ struct PointsBetween {
 std::vector<std::size_t> bandsOf(const TexelWindow& window);
 
 /// Traces rays at points in the `asked` and `rough` cells of the plan, and adds the results to the system of the
-/// window, including centers that are none of these points. Advances `steps` by the number of bands in the window.
+/// window, including centers that are none of these points. Advances `steps` by the number of bands in the window. Its progress
+/// is part of the stage that solves the system.
 void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const TexelPlan& plan,
                   const TexelWindow& window, const PointsBetween& points, const BakeOptions& options,
                   const MapWork& work, ToldSteps& steps, TexelSystem& system);

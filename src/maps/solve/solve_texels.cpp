@@ -453,8 +453,10 @@ void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std:
         }
     };
     for (unsigned round = 0; round < rounds; ++round) {
-        if (tell) tell(round, rounds);
-        forRowsApart(parallel, height, chooseRow);
+        const TellStep tell_row = [&](std::uint64_t done, std::uint64_t total) {
+            tell(round * total + done, rounds * total);
+        };
+        forRowsApart(parallel, height, chooseRow, tell ? tell_row : TellStep());
     }
 }
 
@@ -523,7 +525,7 @@ class StepRounding {
 }  // namespace
 
 void roundTexels(std::span<Vec3> texels, std::uint32_t width, const TexelRounding& rounding, Parallel& parallel,
-                 const Allocator* allocator) {
+                 const Allocator* allocator, const TellStep& tell) {
     const auto height = static_cast<std::uint32_t>(texels.size() / width);
     const StepRounding steps(rounding);
     // Rounding errors so far, in steps; each texel is rounded with its neighbors fixed. An error along the vector does
@@ -556,7 +558,13 @@ void roundTexels(std::span<Vec3> texels, std::uint32_t width, const TexelRoundin
         }
     };
     // If lengths are free, a second round gains almost nothing.
-    for (int round = 0; round < (rounding.keeps_lengths ? 2 : 1); ++round) forRowsApart(parallel, height, roundRow);
+    const std::uint64_t rounds = rounding.keeps_lengths ? 2 : 1;
+    for (std::uint64_t round = 0; round < rounds; ++round) {
+        const TellStep tell_row = [&](std::uint64_t done, std::uint64_t total) {
+            tell(round * total + done, rounds * total);
+        };
+        forRowsApart(parallel, height, roundRow, tell ? tell_row : TellStep());
+    }
 }
 
 }  // namespace tspace

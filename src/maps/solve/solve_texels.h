@@ -2,6 +2,7 @@
 // Solves a TexelSystem for texels: real numbers or integers.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -118,18 +119,26 @@ void forApart(std::size_t count, const Some& some) {
     some(count - 1, count % 2);
 }
 
-/// Calls row(y) for all rows of an image that repeats; adjacent rows never run at the same time.
-template <class Row>
-void forRowsApart(Parallel& parallel, std::uint32_t height, const Row& row) {
-    forApart(height, [&](std::size_t first, std::size_t number) {
-        parallel.forRanges(number, 4, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) row(static_cast<std::uint32_t>(first + 2 * i));
-        });
-    });
-}
-
 /// Called before step `done` of at most `total` steps; may throw, which ends the call.
 using TellStep = std::function<void(std::uint64_t done, std::uint64_t total)>;
+
+/// Calls row(y) for all rows of an image that repeats; adjacent rows never run at the same time. The steps of `tell` are
+/// rows.
+template <class Row>
+void forRowsApart(Parallel& parallel, std::uint32_t height, const Row& row, const TellStep& tell = {}) {
+    constexpr std::size_t kRowsTold = 128;
+    std::uint64_t done = 0;
+    forApart(height, [&](std::size_t first, std::size_t number) {
+        const std::size_t at_once = tell ? kRowsTold : number;
+        for (std::size_t from = 0; from < number; from += at_once) {
+            if (tell) tell(done + from, height);
+            parallel.forRanges(std::min(at_once, number - from), 4, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) row(static_cast<std::uint32_t>(first + 2 * (from + i)));
+            });
+        }
+        done += number;
+    });
+}
 
 /// Solves the unknown `texels` (width * height) by least squares, with conjugate gradients. The result does not depend
 /// on the number of threads.
@@ -164,6 +173,6 @@ struct TexelRounding {
 /// texels compensate for rounding errors under filtering. Like chooseIntegers, but for so many integers that all errors
 /// have equal weight. The image repeats. The result does not depend on the number of threads.
 void roundTexels(std::span<Vec3> texels, std::uint32_t width, const TexelRounding& rounding, Parallel& parallel,
-                 const Allocator* allocator);
+                 const Allocator* allocator, const TellStep& tell = {});
 
 }  // namespace tspace
