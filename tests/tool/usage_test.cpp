@@ -80,7 +80,7 @@ TEST(Usage, AnOutputIsAskedForInWords) {
 }
 
 TEST(Usage, ACommandThatDoesNotExistIsNamed) {
-    for (const std::string name : {"a.glb", "polish", "x"}) {
+    for (const std::string name : {"a.txt", "polish", "x"}) {
         EXPECT_EQ(runTool(TempFolder(), name).err, "tspace: unknown command '" + name + "' (see tspace --help)\n");
     }
 }

@@ -6,8 +6,11 @@
 
 #include "common_options.h"
 #include "console.h"
+#include "core/base/ascii.h"
 #include "depfile.h"
 #include "help.h"
+#include "input_kinds.h"
+#include "model/io/path.h"
 
 namespace tspace::tool {
 namespace {
@@ -45,6 +48,25 @@ constexpr Entry kCommands[] = {
     {"finish", finishCommand},
     {"map-error", mapErrorCommand, kHasBaking},
     {"help", helpCommand},
+};
+
+/// A common wrong command name, and the command line to suggest.
+struct Synonym {
+    const char* word;
+    const char* command_line;
+};
+constexpr Synonym kSynonyms[] = {
+    {"add", "generate IN -o OUT"},
+    {"compare", "diff A B"},
+    {"convert", "convert-map IN -o OUT"},
+    {"fix", "generate --repair IN -o OUT"},
+    {"flip", "flip-green IN -o OUT"},
+    {"info", "inspect IN"},
+    {"lint", "check IN"},
+    {"repair", "generate --repair IN -o OUT"},
+    {"tangents", "generate IN -o OUT"},
+    {"validate", "check IN"},
+    {"version", "--version"},
 };
 
 Command commandOf(const Entry& entry) {
@@ -89,6 +111,18 @@ ToolTable toolTable() {
     version.group = "Options";
     tool.options = {help, version};
     return tool;
+}
+
+std::string unknownCommand(const std::string& word) {
+    const std::string known = lowerAscii(word);
+    const std::string unknown = "unknown command '" + word + "'";
+    for (const Synonym& synonym : kSynonyms)
+        if (known == synonym.word) return unknown + "; use tspace " + synonym.command_line;
+    if (isModelName(word) || isImageName(word)) return unknown + "; use tspace check IN to examine a file";
+    std::vector<std::string> names;
+    for (const Entry& entry : kCommands)
+        if (entry.is_there) names.emplace_back(entry.name);
+    return unknown + didYouMean(known, names);
 }
 
 std::optional<Command> findCommand(const std::string& name) {

@@ -79,6 +79,9 @@ ToolTable toolTable();
 /// nullopt if there is no command of this name.
 std::optional<Command> findCommand(const std::string& name);
 
+/// Returns the error message for a word that is not a command. It names the command that the word suggests.
+std::string unknownCommand(const std::string& word);
+
 /// Returns an option for a file operand; for several if `target` is a list.
 Option operand(const char* value_name, std::string& target, HelpText help);
 Option operand(const char* value_name, std::vector<std::string>& target, HelpText help);

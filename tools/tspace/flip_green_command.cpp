@@ -25,7 +25,7 @@ struct FlipGreenArguments {
 std::string finish(FlipGreenArguments& arguments) {
     if (arguments.in_place && arguments.input == "-")
         return "--in-place cannot be used with standard input; use -o OUT";
-    if (arguments.output.empty() && !arguments.in_place) return "the output is missing: use -o OUT, or --in-place";
+    if (arguments.output.empty() && !arguments.in_place) return "--output is missing: use -o OUT, or --in-place";
     if (arguments.in_place) arguments.output = arguments.input;
     return {};
 }

@@ -259,14 +259,18 @@ Result<std::vector<Job>> generateJobs(const JobRequest& request) {
     const std::string& output = request.output;
     if (request.in_place && !output.empty()) return usage("--in-place and -o cannot be used together");
     if (request.in_place) return jobsInPlace(request);
-    if (output.empty()) return usage("the output is missing: use -o OUT, or --in-place to overwrite the inputs");
+    if (output.empty())
+        return usage(
+            "--output is missing: use -o OUT, or --in-place to overwrite the inputs (see tspace generate --help)");
 
     const bool several = request.has_list || request.inputs.size() > 1 || isFolder(request.inputs.front()) ||
                          isPatternInput(request.inputs.front());
     if (output == "-") return jobToStandardOutput(request, several);
     const bool is_file = isThere(output) && !isFolder(output);
     if (several && (is_file || (isGltfName(output) && !isFolder(output)))) {
-        return usage("with several inputs the output must be a folder, not " + output);
+        const bool is_search = !request.has_list && request.inputs.size() == 1;
+        return usage(std::string("with ") + (is_search ? "a folder or a pattern as input" : "several inputs") +
+                     " the output must be a folder, not " + output);
     }
     if (several || isFolder(output) || fs::path(Path(output)).filename().empty()) return jobsIntoFolder(request);
     return jobWithNamedOutput(request);

@@ -6,7 +6,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #ifdef __GLIBC__
@@ -18,9 +17,9 @@
 #include "console.h"
 #include "core/base/border.h"
 #include "help.h"
+#include "input_kinds.h"
 #include "interrupt.h"
 #include "model/io/atomic_output.h"
-#include "model/io/path.h"
 #include "page_origin.h"
 #include "read_command_line.h"
 #include "system.h"
@@ -49,47 +48,6 @@ void giveMemoryBack() {
 
 constexpr const char* kOutOfMemory = "tspace: out of memory\n";
 
-/// A common wrong command name, and the command line to suggest.
-struct Synonym {
-    std::string_view word;
-    const char* command_line;
-};
-constexpr Synonym kSynonyms[] = {
-    {"add", "generate IN -o OUT"},
-    {"compare", "diff A B"},
-    {"convert", "convert-map IN -o OUT"},
-    {"fix", "generate --repair IN -o OUT"},
-    {"flip", "flip-green IN -o OUT"},
-    {"info", "inspect IN"},
-    {"lint", "check IN"},
-    {"repair", "generate --repair IN -o OUT"},
-    {"tangents", "generate IN -o OUT"},
-    {"validate", "check IN"},
-    {"version", "--version"},
-};
-
-bool isModelName(const std::string& name) {
-    const std::string extension = tspace::lowerExtension(name);
-    return tspace::isGltfName(name) || extension == ".obj" || extension == ".fbx";
-}
-
-/// Returns a message if the names of all inputs show that a different command was intended.
-std::string wrongKindOfInput(const Command& command, const Given& given) {
-    if (command.reads == Reads::anything) return {};
-    const bool reads_models = command.reads == Reads::models;
-    std::string input;
-    for (const Given::Item& item : given.items) {
-        if (!item.option->names.empty()) continue;
-        if (!(reads_models ? tspace::isImageName(item.value) : isModelName(item.value))) return {};
-        if (input.empty()) input = item.value;
-    }
-    if (input.empty()) return {};
-    if (reads_models)
-        return command.name + " reads models, but '" + input + "' is an image; tspace check examines a normal map";
-    return command.name + " reads images, but '" + input +
-           "' is a model; tspace generate --flip-green and --convert-maps change the maps of a model";
-}
-
 /// Handles a first argument that is not a command.
 ExitCode runWithoutCommand(const std::string& word) {
     const ToolTable tool = toolTable();
@@ -98,18 +56,10 @@ ExitCode runWithoutCommand(const std::string& word) {
         return printResult("tspace " TSPACE_VERSION "\n" + leftOut()) ? ExitCode::done : ExitCode::cannotReadOrWrite;
     }
     const char* see = " (see tspace --help)";
+    if (!word.starts_with('-')) return printUsageError(unknownCommand(word) + see);
     std::vector<std::string> names;
-    if (!word.starts_with('-')) {
-        for (const Command& command : tool.commands) names.push_back(command.name);
-        for (const Synonym& synonym : kSynonyms) {
-            if (word == synonym.word)
-                return printUsageError("unknown command '" + word + "'; use tspace " + synonym.command_line + see);
-        }
-        return printUsageError("unknown command '" + word + "'" + didYouMean(word, names) + see);
-    }
     for (const Option& option : tool.options) names.insert(names.end(), option.names.begin(), option.names.end());
-    const std::string nearest = didYouMean(word, names);
-    return printUsageError("expected a command, not '" + word + "'" + nearest + see);
+    return printUsageError("expected a command, not '" + word + "'" + didYouMean(word, names) + see);
 }
 
 ExitCode run(int argc, char** argv) {
@@ -117,6 +67,8 @@ ExitCode run(int argc, char** argv) {
         return printPage(helpPage(toolTable())) == ExitCode::done ? ExitCode::usage : ExitCode::cannotReadOrWrite;
     const std::optional<Command> command = findCommand(argv[1]);
     if (!command) return runWithoutCommand(argv[1]);
+    const bool has_topic = command->name == "help" && argc > 2 && argv[2][0] != '-' && argv[2][0] != 0;
+    if (has_topic && !findCommand(argv[2])) return runWithoutCommand(argv[2]);
     Given given;
     const std::span<const char* const> arguments(argv + 2, static_cast<std::size_t>(argc - 2));
     const std::string wrong = readCommandLine(*command, arguments, given);

@@ -87,15 +87,12 @@ Command viewCommand() {
             "It shows the findings of tspace check, lights the model with its own and with correct frames, and can "
             "repair it. The page itself is built by scripts/web and installed with the tool.",
         .examples = {"tspace view helmet.glb -o helmet.html"},
-        .finish =
-            [&arguments](const Given&) {
-                return arguments.output.empty() ? std::string("the output is missing: use -o OUT.html") : std::string();
-            },
     };
     const char* group = kInputAndOutput;
     command.add(group, operand("IN", arguments.input,
                                "A model: .glb, .vrm, .gltf or .obj. The files that it references are embedded."));
-    command.add(group, htmlOutput("-o, --output", "OUT", arguments.output, "Output file: .html or .htm."));
+    command.add(group, htmlOutput("-o, --output", "OUT", arguments.output, "Output file: .html or .htm.")).is_required =
+        true;
     command.add(inspectOptions(arguments.file));
     addReporting(command, arguments.json, arguments.quiet);
     command.reads = Reads::models;

@@ -57,6 +57,8 @@ class FileBaking {
         high_ = high;
         checkOutput();
         checkOutMesh();
+        requireEndingIfAny(options_.misses, {".png"});
+        requireEndingIfAny(options_.heat, {".png"});
         if (!options_.layers.has_normal && !options_.heat.empty())
             failFile(ErrorCode::invalidOption, "--heat requires the normal map; add normal to --maps");
         if (Error error = checkBakeOptions(options_.map, 0, 0); error.code != ErrorCode::ok) throw FileError{error};

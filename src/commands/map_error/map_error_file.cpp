@@ -13,6 +13,7 @@
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
+#include "model/io/output_name.h"
 #include "tspace/bake_file.h"
 
 namespace tspace {
@@ -85,6 +86,7 @@ class FileMeasuring {
     }
 
     MapErrorFileReport run(const std::string& map, const std::string& low, const std::string& high) {
+        requireEndingIfAny(options_.heat, {".png"});
         inputs_.add(map);
         image_ = tagInput(BakeInput::map, [&] { return readFloatImage(map, bake_.file); });
         const std::string how_read = readTextureVectors(image_);

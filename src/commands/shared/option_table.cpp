@@ -172,7 +172,8 @@ Option text(const char* names, const char* value_name, std::string& target, Help
 Option htmlOutput(const char* names, const char* value_name, std::string& target, HelpText help) {
     const auto take = [&target](const std::string& given) -> std::string {
         const std::string extension = lowerExtension(given);
-        if (!extension.empty() && extension != ".html" && extension != ".htm") return "must end in .html";
+        const bool is_page = extension == ".html" || extension == ".htm";
+        if (given.empty() || !(extension.empty() || is_page)) return "must end in .html";
         target = given;
         return {};
     };

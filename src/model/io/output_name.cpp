@@ -21,4 +21,8 @@ void requireEnding(const Path& output, std::initializer_list<std::string_view> e
     if (std::find(endings.begin(), endings.end(), lowerExtension(output)) == endings.end()) failEnding(output, endings);
 }
 
+void requireEndingIfAny(const Path& output, std::initializer_list<std::string_view> endings) {
+    if (!lowerExtension(output).empty()) requireEnding(output, endings);
+}
+
 }  // namespace tspace
