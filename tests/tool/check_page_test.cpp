@@ -32,7 +32,7 @@ TEST(CheckPage, ShowsEachFindingBeforeAndAfter) {
     EXPECT_EQ(run.exit_code, 1);
     const std::string page = folder.read("report.html");
     EXPECT_NE(page.find("signsInverted"), std::string::npos);
-    EXPECT_NE(page.find("Mend: "), std::string::npos);
+    EXPECT_NE(page.find("Fix: "), std::string::npos);
     EXPECT_GE(countOf(page, "src=\"data:image/png;base64,"), 2U);
     EXPECT_EQ(countOf(page, "<figcaption>after tspace generate --repair</figcaption>"), 1U);
     EXPECT_LT(page.size(), 2000000U);

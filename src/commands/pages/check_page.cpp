@@ -159,11 +159,16 @@ std::string whereHtml(const Finding& finding) {
     return "<p class=\"dim\">" + text + " (at " + htmlText(finding.place) + ")</p>\n";
 }
 
-std::string figuresOf(const FindingPicture& picture) {
+/// Returns whether a finding is about morph targets, which pictures of the base mesh do not show.
+bool isOfTargets(const Finding& finding) { return finding.place.find("/targets/") != std::string::npos; }
+
+std::string figuresOf(const Finding& finding, const FindingPicture& picture) {
     if (picture.before.empty())
         return picture.why_no_after.empty()
                    ? ""
-                   : noFigureHtml("No pictures: " + picture.command + " changes nothing that is visible in a picture.");
+                   : noFigureHtml(
+                         "No pictures: " + picture.command + " changes nothing that is visible in a picture" +
+                         (isOfTargets(finding) ? " of the base mesh; the fault appears when it deforms." : "."));
     const std::string command = "after " + picture.command;
     std::string figures = figureHtml(picture.before, kPlaceWidth, kPlaceHeight,
                                      picture.is_clay ? "as in the file, without base color" : "as the file is");
@@ -191,7 +196,7 @@ class PictureSource {
         if (progress_) progress_("drawing pictures", count_, kMostPicturedFindings);
         try {
             if (!pictures_) pictures_ = std::make_unique<FindingPictures>(input_, file_);
-            figures = figuresOf(pictures_->draw(finding));
+            figures = figuresOf(finding, pictures_->draw(finding));
         } catch (const FileError&) {
             // The error of the file has been reported before.
             is_over_ = true;
@@ -217,7 +222,7 @@ std::string findingHtml(const Finding& finding, PictureSource* pictures) {
     std::string html = "<article class=\"" + std::string(severityName(finding.severity)) + "\">\n<h3><b>" +
                        severityName(finding.severity) + "</b> " + findingName(finding.code) + "</h3>\n";
     html += "<p>" + htmlText(finding.message) + "</p>\n" + whereHtml(finding);
-    html += "<p>Mend: " + htmlText(finding.remedy) + "</p>\n";
+    html += "<p>Fix: " + htmlText(finding.remedy) + "</p>\n";
     if (pictures == nullptr) return html + "</article>\n";
     html += pictures->html(finding);
     if (const char* look = findingLook(finding.code);

@@ -2,6 +2,7 @@
 #include "commands/pages/picture_pair.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <numeric>
@@ -68,7 +69,8 @@ DVec3 pixelNormal(const RgbImage& image, std::size_t pixel) {
     return {component(0), component(1), component(2)};
 }
 
-/// A camera and a light, and the mean difference of the two pictures, from 0 to 1.
+/// A camera and a light, and the mean difference of the two pictures, from 0 to 1. Pixels without surface after the fix
+/// do not count: seen from behind, a surface whose winding was fixed is not drawn.
 struct Trial {
     PlaceView view = {};
     DVec3 to_light = {};
@@ -85,12 +87,15 @@ class PairSearch {
                        b = after_.draw(RenderShow::mapped, view, kTrial, {0, 0, 1}, after_.model.surfaces());
         const Camera camera = view.camera(kTrial);
         const std::size_t pixels = std::size_t{kTrial.width} * kTrial.height;
+        const std::array<std::uint8_t, 3> background{storedByte(kBackground.x), storedByte(kBackground.y),
+                                                     storedByte(kBackground.z)};
         Trial best{.view = view, .to_light = ringLight(camera, 0)};
         for (int i = 0; i < kLights; ++i) {
             const DVec3 light = ringLight(camera, i);
             std::vector<double> differences(pixels, 0.0);
             for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
                 if (std::equal(&a.rgb[3 * pixel], &a.rgb[3 * pixel] + 3, &b.rgb[3 * pixel])) continue;
+                if (std::equal(background.begin(), background.end(), &b.rgb[3 * pixel])) continue;
                 differences[pixel] = std::fabs(std::max(0.0, dot(pixelNormal(a, pixel), light)) -
                                                std::max(0.0, dot(pixelNormal(b, pixel), light)));
             }
@@ -175,7 +180,14 @@ Trial bestTrial(const Side& before, const Side& after, std::span<const std::size
     const PairSearch search(before, after);
     const DrawnMesh& mesh = before.model.meshes()[before.number];
     Trial place;
-    if (!triangles.empty()) place = search.tryView(viewOver(before.model.meshes(), before.number, triangles));
+    if (!triangles.empty()) {
+        PlaceView view = viewOver(before.model.meshes(), before.number, triangles);
+        place = search.tryView(view);
+        if (!(place.difference > 0)) {  // the triangles face away from the side of the surface
+            view.angles = {view.angles.yaw_deg + 180, -view.angles.pitch_deg};
+            place = search.tryView(view);
+        }
+    }
     std::vector<std::size_t> all(mesh.corners.size() / 3);
     std::iota(all.begin(), all.end(), std::size_t{0});
     const PlacePoints whole(mesh, all);
@@ -184,7 +196,8 @@ Trial bestTrial(const Side& before, const Side& after, std::span<const std::size
         const Trial trial = search.tryView({.points = whole, .angles = angles, .is_alone = true});
         if (trial.difference > best.difference) best = trial;
     }
-    if (best.difference > 0) {
+    const double whole_difference = best.difference;
+    if (whole_difference > 0) {
         const std::vector<std::size_t> near = search.trianglesAt(best);
         if (!near.empty()) {
             const Trial trial = search.tryView(
@@ -192,7 +205,10 @@ Trial bestTrial(const Side& before, const Side& after, std::span<const std::size
             if (trial.difference > best.difference) best = trial;
         }
     }
-    return !triangles.empty() && place.difference > 0 && 2 * place.difference >= best.difference ? place : best;
+    // A fault that is plain to see on the whole surface is shown there, where the model is recognizable.
+    constexpr double kPlain = 0.08;
+    const bool is_plain = whole_difference > kPlain;
+    return place.difference > 0 && !is_plain && 2 * place.difference >= best.difference ? place : best;
 }
 
 int largestDifference(const RgbImage& a, const RgbImage& b, std::size_t pixel) {
@@ -201,9 +217,17 @@ int largestDifference(const RgbImage& a, const RgbImage& b, std::size_t pixel) {
     return most;
 }
 
+/// Returns the difference of the brightness that people perceive, in thousandths: blue hardly contributes.
+std::uint64_t brightnessDifference(const RgbImage& a, const RgbImage& b, std::size_t pixel) {
+    constexpr int kWeights[] = {213, 715, 72};
+    int sum = 0;
+    for (std::size_t c = 0; c < 3; ++c) sum += kWeights[c] * (a.rgb[3 * pixel + c] - b.rgb[3 * pixel + c]);
+    return static_cast<std::uint64_t>(std::abs(sum));
+}
+
 struct Compared {
     RgbImage before = {}, after = {};
-    std::uint64_t sum = 0;
+    std::uint64_t sum = 0;  ///< of brightness differences
     std::size_t seen_count = 0;
     int most = 0;
 };
@@ -217,7 +241,7 @@ Compared comparedSides(const Side& before, const Side& after, const Trial& trial
     Compared result{.before = drawn(before), .after = drawn(after)};
     for (std::size_t pixel = 0; 3 * pixel < result.before.rgb.size(); ++pixel) {
         const int difference = largestDifference(result.before, result.after, pixel);
-        result.sum += static_cast<std::uint64_t>(difference);
+        result.sum += brightnessDifference(result.before, result.after, pixel);
         result.seen_count += difference >= kSeenStep;
         result.most = std::max(result.most, difference);
     }

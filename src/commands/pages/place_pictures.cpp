@@ -33,6 +33,17 @@ ViewAngles anglesOf(DVec3 direction) {
     return {kDegrees * (direction.x < 0 ? -yaw : yaw), kDegrees * (direction.y < 0 ? -pitch : pitch)};
 }
 
+/// Returns the diagonal of the bounding box.
+double sizeOf(std::span<const DVec3> points) {
+    DVec3 least{INFINITY, INFINITY, INFINITY}, most{-INFINITY, -INFINITY, -INFINITY};
+    for (const DVec3& p : points) {
+        least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
+        most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
+    }
+    const DVec3 box = most - least;
+    return points.empty() ? 0 : std::sqrt(dot(box, box));
+}
+
 }  // namespace
 
 PlacePoints::PlacePoints(const DrawnMesh& mesh, std::span<const std::size_t> triangles) {
@@ -55,12 +66,26 @@ Camera PlaceView::camera(const PictureSize& size) const {
         angles, 30, size.width * size.samples, size.height * size.samples);
 }
 
+namespace {
+
+/// Returns the scale of a location at which its picture shows some of the surroundings, but nothing beyond the mesh.
+double aroundOf(const DrawnMesh& mesh, const PlacePoints& place) {
+    constexpr double kMost = 2.5, kLeast = 1.2;
+    std::vector<std::size_t> all(mesh.corners.size() / 3);
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const double whole = sizeOf(PlacePoints(mesh, all).points), part = sizeOf(place.points);
+    return part > 0 ? std::clamp(kLeast * whole / part, kLeast, kMost) : kMost;
+}
+
+}  // namespace
+
 PlaceView viewOver(std::span<const DrawnMesh> meshes, std::size_t mesh, std::span<const std::size_t> triangles) {
     constexpr ViewAngles kTurns[] = {{12, 8}, {-30, 8}, {40, 8}, {12, 40}, {12, -40}, {-65, 8}, {70, 8}};
     constexpr PictureSize kGlance{80, 60, 1};
     constexpr std::size_t kEnoughSamples = 60;
     constexpr std::size_t kMostTriangles = 2000000;  // meshes with more triangles get no small preview pictures
-    PlaceView best{.points = PlacePoints(meshes[mesh], triangles), .around = 2.5, .is_alone = true, .is_place = true};
+    PlaceView best{.points = PlacePoints(meshes[mesh], triangles), .is_alone = true, .is_place = true};
+    best.around = aroundOf(meshes[mesh], best.points);
     const ViewAngles over = anglesOf(best.points.normal);
     PlaceView view = best;
     view.is_alone = false;

@@ -163,12 +163,30 @@ TEST(FindingPictures, ShowNothingWhereNothingCanBeSeen) {
 }
 
 TEST(FindingPictures, LeaveOutColorsThatHideTheDifference) {
-    GltfBuilder builder = turnedSquare(0, -1).build();
-    builder.json()["materials"][0]["normalTexture"] = {{"index", addTexture(builder, plainImage(200, 90, 200))}};
-    builder.json()["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0.004, 0.004, 0.004, 1};
-    const FindingPicture picture = pictureOf(builder.glb(), findingAt(FindingCode::signsInverted, {0, 1, 2, 3}));
-    EXPECT_TRUE(picture.is_clay);
-    EXPECT_GT(differingPixels(decoded(picture.before), decoded(picture.after)), 5000U);
+    // Nearly black, and blue, whose brightness people hardly see.
+    for (const auto& color : {Json{0.004, 0.004, 0.004, 1}, Json{0, 0, 1, 1}}) {
+        GltfBuilder builder = turnedSquare(0, -1).build();
+        builder.json()["materials"][0]["normalTexture"] = {{"index", addTexture(builder, plainImage(200, 90, 200))}};
+        builder.json()["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = color;
+        const FindingPicture picture = pictureOf(builder.glb(), findingAt(FindingCode::signsInverted, {0, 1, 2, 3}));
+        EXPECT_TRUE(picture.is_clay) << color;
+        EXPECT_GT(differingPixels(decoded(picture.before), decoded(picture.after)), 5000U) << color;
+    }
+}
+
+TEST(FindingPictures, ShowTheSideThatIsVisibleAfterTheFix) {
+    SquareModel square = turnedSquare(0);
+    for (std::size_t i = 0; i < square.indices.size(); i += 3) std::swap(square.indices[i], square.indices[i + 1]);
+    for (const std::vector<std::uint32_t>& vertices : {std::vector<std::uint32_t>{0, 1, 2, 3}, {}}) {
+        Finding finding = findingAt(FindingCode::normalsAgainstWinding, vertices);
+        setRemedy(finding, {"Reverse the winding: {}.", {toCommand("generate --fix-winding")}});
+        const FindingPicture picture = pictureOf(mapped(square), finding);
+        ASSERT_FALSE(picture.after.empty()) << picture.why_no_after;
+        const RgbImage after = decoded(picture.after);
+        RgbImage background = after;
+        fillRect(background, 0, 0, after.width, after.height, kBackground);
+        EXPECT_GT(differingPixels(after, background), 5000U);
+    }
 }
 
 TEST(FindingPictures, PlacesAreSeenWhereSomethingStandsInFront) {
