@@ -48,8 +48,8 @@ Result<ImageFileFormat> outputFormat(ImageFileFormat input, const FlipGreenOptio
     }
     const ImageFileFormat format = options.format == ImageFileFormat::sameAsInput ? input : options.format;
     if (format != input && format != ImageFileFormat::png) {
-        return Error{ErrorCode::invalidOption,
-                     "the output must have the format of the input, or PNG: another format would lose data"};
+        return Error{ErrorCode::unsupportedFile,
+                     "converting to the format of the output would lose data; write the format of the input, or PNG"};
     }
     if (format == ImageFileFormat::png && whyNotRead(ImageFormat::png) != nullptr) {
         return Error{ErrorCode::unsupportedFile, whyNotRead(ImageFormat::png)};

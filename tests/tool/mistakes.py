@@ -98,7 +98,7 @@ def test_outputs():
     for name in ("flip-green", "render", "height-to-normal"):
         expect(line_of(name, output="folder.png"), 4, "it is a folder")
     for wrong in ("out.jpg", "out.webp", "out.ktx2", "out.dds"):
-        expect(["flip-green", "map.png", "-o", wrong], 2, "tspace: the output")
+        expect(["flip-green", "map.png", "-o", wrong], 2, f"the output '{wrong}' must end in .png")
     for name in each(lambda name: name in ("check", "diff", "finish")):
         expect(line_of(name, more=["--html", "page.pdf"]), 2, "must end in .html")
     for option in ("--heat", "--misses") if "bake" in COMMANDS else ():

@@ -56,6 +56,26 @@ ImageFileFormat namedFormat(const std::string& output) {
     failEnding(output, {".png", ".jpg", ".jpeg", ".webp", ".ktx2", ".dds"});
 }
 
+/// Throws a FileError if the name of the output asks for a format that is neither that of the input nor PNG: it would lose
+/// data.
+void requireLosslessName(const std::string& output, ImageFileFormat named, ByteSpan input) {
+    if (named == ImageFileFormat::png) return;
+    switch (imageFormat(input)) {
+        case ImageFormat::png:
+            failEnding(output, {".png"});
+        case ImageFormat::jpeg:
+            return requireEnding(output, {".jpg", ".jpeg", ".png"});
+        case ImageFormat::webp:
+            return requireEnding(output, {".webp", ".png"});
+        case ImageFormat::ktx2:
+            return requireEnding(output, {".ktx2", ".png"});
+        case ImageFormat::dds:
+            return requireEnding(output, {".dds", ".png"});
+        default:
+            return;  // flip() states what cannot be read
+    }
+}
+
 }  // namespace
 
 Result<FlippedImage> flipGreen(std::span<const std::uint8_t> image, const FlipGreenOptions& options) {
@@ -66,10 +86,16 @@ Result<FlipGreenReport> flipGreenFile(const std::string& input, const std::strin
                                       const FlipGreenOptions& options) {
     return atFileBorder([&]() -> Result<FlipGreenReport> {
         FlipGreenOptions chosen = options;
-        if (chosen.format == ImageFileFormat::sameAsInput && !options.sink) chosen.format = namedFormat(output);
-        if (options.content.data() == nullptr) recordInput(input);
-        FlippedImage flipped =
-            options.content.data() != nullptr ? flip(options.content, chosen) : flip(readFile(input), chosen);
+        const bool is_named = chosen.format == ImageFileFormat::sameAsInput && !options.sink;
+        if (is_named) chosen.format = namedFormat(output);
+        Bytes read;
+        if (options.content.data() == nullptr) {
+            recordInput(input);
+            read = readFile(input);
+        }
+        const ByteSpan image = options.content.data() != nullptr ? options.content : ByteSpan(read);
+        if (is_named) requireLosslessName(output, chosen.format, image);
+        FlippedImage flipped = flip(image, chosen);
         AtomicOutput files({.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.sync});
         files.add(output, std::span<const std::uint8_t>(flipped.bytes));
         files.commit();
