@@ -11,44 +11,45 @@
 namespace tspace::tool {
 namespace {
 
-enum class Kind { any, model, image, text };
+enum class InputKind { any, model, image, text };
 
 struct Required {
     std::string_view name;
-    Kind kind;
+    InputKind kind;
 };
 /// Operands and options that name a file to read. IN depends on the command.
 constexpr Required kRequired[] = {
-    {"A", Kind::model},           {"B", Kind::model},        {"LOW", Kind::model},         {"--high", Kind::model},
-    {"--low", Kind::model},       {"--cage", Kind::model},   {"--mesh", Kind::model},      {"--to-mesh", Kind::model},
-    {"MAP", Kind::image},         {"--source", Kind::image}, {"--roughness", Kind::image}, {"--skew", Kind::image},
-    {"--files-from", Kind::text}, {"--pairs", Kind::text},
+    {"A", InputKind::model},           {"B", InputKind::model},           {"LOW", InputKind::model},
+    {"--high", InputKind::model},      {"--low", InputKind::model},       {"--cage", InputKind::model},
+    {"--mesh", InputKind::model},      {"--to-mesh", InputKind::model},   {"MAP", InputKind::image},
+    {"--source", InputKind::image},    {"--roughness", InputKind::image}, {"--skew", InputKind::image},
+    {"--files-from", InputKind::text}, {"--pairs", InputKind::text},
 };
 
-Kind requiredKind(const Command& command, const Option& option) {
+InputKind requiredKind(const Command& command, const Option& option) {
     const std::string& name = option.name();
     if (name == "IN" || name == "IN...") {
-        if (command.reads == Reads::anything) return Kind::any;
-        return command.reads == Reads::models ? Kind::model : Kind::image;
+        if (command.reads == Reads::anything) return InputKind::any;
+        return command.reads == Reads::models ? InputKind::model : InputKind::image;
     }
     const auto* const found = std::find_if(std::begin(kRequired), std::end(kRequired),
                                            [&](const Required& required) { return required.name == name; });
-    return found != std::end(kRequired) ? found->kind : Kind::any;
+    return found != std::end(kRequired) ? found->kind : InputKind::any;
 }
 
-Kind kindByName(const std::string& name) {
-    if (isImageName(name)) return isFolder(name) ? Kind::any : Kind::image;
-    if (isModelName(name)) return isFolder(name) ? Kind::any : Kind::model;
-    return Kind::any;
+InputKind kindByName(const std::string& name) {
+    if (isImageName(name)) return isFolder(name) ? InputKind::any : InputKind::image;
+    if (isModelName(name)) return isFolder(name) ? InputKind::any : InputKind::model;
+    return InputKind::any;
 }
 
-std::string messageFor(const Command& command, const Option& option, Kind required, const std::string& file) {
+std::string messageFor(const Command& command, const Option& option, InputKind required, const std::string& file) {
     const std::string is_image = ", but '" + file + "' is an image";
     const std::string is_model = ", but '" + file + "' is a model";
-    if (required == Kind::text)
+    if (required == InputKind::text)
         return option.name() + " must be a text file" + (isImageName(file) ? is_image : is_model);
     const bool is_operand = option.names.empty();
-    if (required == Kind::model)
+    if (required == InputKind::model)
         return is_operand ? command.name + " reads models" + is_image + "; tspace check examines a normal map"
                           : option.name() + " must be a model" + is_image;
     return is_operand ? command.name + " reads images" + is_model +
@@ -66,10 +67,10 @@ std::string wrongKindOfInput(const Command& command, const Given& given) {
     std::string of_several;
     bool has_right = false;
     for (const Given::Item& item : given.items) {
-        const Kind required = requiredKind(command, *item.option);
-        if (required == Kind::any) continue;
-        const Kind kind = kindByName(item.value);
-        const bool is_wrong = kind != Kind::any && kind != required;
+        const InputKind required = requiredKind(command, *item.option);
+        if (required == InputKind::any) continue;
+        const InputKind kind = kindByName(item.value);
+        const bool is_wrong = kind != InputKind::any && kind != required;
         if (is_wrong && !item.option->is_repeatable) return messageFor(command, *item.option, required, item.value);
         if (!item.option->is_repeatable) continue;
         if (!is_wrong) has_right = true;

@@ -16,6 +16,14 @@ namespace {
 constexpr std::uint32_t kViewWidth = 440, kViewHeight = 360;
 constexpr double kYawDeg = 35, kBehindDeg = 215;
 
+/// Returns whether a picture shows nothing: an open surface with a single-sided material is not drawn from behind.
+bool isBlank(const RgbImage& image) {
+    for (std::size_t i = 3; i < image.rgb.size(); ++i) {
+        if (image.rgb[i] != image.rgb[i - 3]) return false;
+    }
+    return true;
+}
+
 /// Returns pictures of a model from both sides, lit and in the colors of the shaded normals.
 std::string viewsHtml(const std::string& path, const FileOptions& file, const std::string& caption) {
     std::string figures;
@@ -29,6 +37,12 @@ std::string viewsHtml(const std::string& path, const FileOptions& file, const st
             options.height = kViewHeight;
             options.yaw_deg = yaw_deg;
             const ModelPicture model(drawn, show, {}, {}, &textures);
+            options.legend = false;
+            if (isBlank(drawModel(model, options).image)) {
+                figures += noFigureHtml(caption + ", " + words + ": nothing is visible from this side.");
+                return;
+            }
+            options.legend = true;
             figures += figureHtml(encodePicture(drawModel(model, options).image), kViewWidth, kViewHeight,
                                   caption + ", " + words);
         };

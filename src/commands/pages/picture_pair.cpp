@@ -206,8 +206,8 @@ Trial bestTrial(const Side& before, const Side& after, std::span<const std::size
         }
     }
     // A fault that is plain to see on the whole surface is shown there, where the model is recognizable.
-    constexpr double kPlain = 0.08;
-    const bool is_plain = whole_difference > kPlain;
+    constexpr double kPlainDifference = 0.08;
+    const bool is_plain = whole_difference > kPlainDifference;
     return place.difference > 0 && !is_plain && 2 * place.difference >= best.difference ? place : best;
 }
 
