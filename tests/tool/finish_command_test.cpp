@@ -183,13 +183,16 @@ TEST_F(Finish, ThePageShowsTheModelBeforeAndAfterAndLoadsNothing) {
     const std::string page = folder.read("page.html");
     std::size_t pictures = 0;
     for (std::size_t at = page.find("<img"); at != std::string::npos; at = page.find("<img", at + 1)) ++pictures;
-    EXPECT_EQ(pictures, 5U);
+    EXPECT_EQ(pictures, 6U);
     for (const char* when : {"as it was", "finished"}) {
         for (const char* what : {", lit<", ", lit, from behind", ", the shaded normals"})
             EXPECT_NE(page.find(std::string(when) + what), std::string::npos) << when << what;
     }
-    EXPECT_NE(page.find("finished, lit, from behind: nothing is visible from this side."), std::string::npos)
-        << "the sheet is open, and a glTF material is single-sided";
+    folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+    (void)report("flat.obj -o flat.glb --html flat.html");
+    EXPECT_NE(folder.read("flat.html").find("finished, lit, from behind: nothing is visible from this side."),
+              std::string::npos)
+        << "a glTF material is single-sided";
     EXPECT_EQ(page.find("<script"), std::string::npos);
     EXPECT_EQ(page.find("http"), page.find("http-equiv"));
 }

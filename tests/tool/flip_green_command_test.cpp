@@ -116,7 +116,7 @@ TEST(FlipGreenCommand, RefusesWithOneLineAndWritesNothing) {
         {"flip-green n.png -o n.png", 2},
         {"flip-green n.png -o ./n.png", 2},
         {"flip-green n.png --in-place -o b.png", 2},
-        {"flip-green n.png -o b.jpg", 3},
+        {"flip-green n.png -o b.jpg", 2},
         {"flip-green n.png -o b.tga", 2},
         {"flip-green broken.png -o b.png", 3},
         {"flip-green broken.png --in-place", 3},
