@@ -140,6 +140,11 @@ TEST(FlipMaps, LeavesMapsAloneThatInvertedSignsCancel) {
     const GenerateReport kept = generate(in, out);
     EXPECT_FALSE(kept.changed || kept.normal_maps[0].flipped);
     EXPECT_NE(kept.normal_maps[0].reason.find("cancel out"), std::string::npos);
+    // New normals keep inverted signs.
+    GenerateOptions normals;
+    normals.normals.overwrite = true;
+    EXPECT_FALSE(generate(in, out, normals).normal_maps[0].flipped);
+    EXPECT_EQ(codes(out), codes(in));
     const GenerateReport both = generate(in, out, {.selection = {.existing = ExistingTangents::replace}});
     EXPECT_TRUE(both.normal_maps[0].flipped);
     EXPECT_EQ(codes(out), Codes{});

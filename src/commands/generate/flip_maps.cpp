@@ -301,7 +301,7 @@ MapFlips planFlips(Model& model, std::span<const PrimitiveReport> reports, const
     std::vector<bool> keeps_tangents;
     for (const PrimitiveReport& report : reports) {
         keeps_tangents.push_back(report.action == PrimitiveAction::kept ||
-                                 options.selection.existing == ExistingTangents::repair);
+                                 options.selection.existing != ExistingTangents::replace);
     }
     Scene scene = model.scene();
     const std::int64_t left = document.memory->left();

@@ -35,9 +35,9 @@ Bytes flipImage(std::span<const std::uint8_t> bytes, const MemoryBudget& budget,
 /// Examines the normal maps of the scene, whose images must be loaded, and inverts those that FlipGreen selects
 /// (FlipGreen::none: no map).
 ///
-/// keeps_tangents    per primitive of the scene: its tangents are kept, or a repair keeps inverted signs that an
-///                   inverted map cancels. If the signs of kept tangents are inverted too, the two inversions cancel
-///                   out, and FlipGreen::down leaves the map unchanged
+/// keeps_tangents    per primitive of the scene: its tangents are kept, or a repair or tangents for new normals keep
+///                   inverted signs that an inverted map cancels. If the signs of kept tangents are inverted too, the
+///                   two inversions cancel out, and FlipGreen::down leaves the map unchanged
 ///
 /// Throws FileError.
 std::vector<JudgedMap> judgeMaps(const Scene& scene, const std::vector<bool>& keeps_tangents,
