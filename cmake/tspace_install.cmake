@@ -12,7 +12,7 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/shaders" DESTINATION "${CMAKE_INSTALL_D
 tspace_install_export(core tspace_core tspace)
 
 if(TARGET tspace_asset)
-    set(wings tspace_mesh tspace_images tspace_maps tspace_model tspace_commands)
+    set(wings tspace_mesh tspace_images tspace_maps tspace_textures tspace_model tspace_commands)
     foreach(wing ${wings})
         tspace_install_built(${wing} tspace_asset EXPORT tspace_asset ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
     endforeach()

@@ -6,7 +6,7 @@
 set -euo pipefail
 cd "${1:?usage: rooms.sh SOURCE_FOLDER}/src"
 wings=$(ls -d -- */ | tr -d / | sort | tr '\n' ' ')
-[ "$wings" = "api commands core images maps model " ] || { echo "these are not the six wings: $wings"; exit 1; }
+[ "$wings" = "api commands core images maps model textures " ] || { echo "these are not the seven wings: $wings"; exit 1; }
 
 # "FOLDER FOLDER" for each include. A room is a folder of a wing; those below mesh/ and shared/ are rooms of their own.
 includes=$(grep -rE '^#include "[a-z_]+/' --include='*.h' --include='*.cpp' . |
@@ -14,15 +14,19 @@ includes=$(grep -rE '^#include "[a-z_]+/' --include='*.h' --include='*.cpp' . |
 [ "$(wc -l <<<"$includes")" -gt 50 ] || { echo "only these includes were found: $includes"; exit 1; }
 
 up=$(awk 'function height(folder) {
-              if (folder ~ /^core\/mesh/) return 2
+              if (folder ~ /^core\/mesh/) return order["mesh"]
               sub(/\/.*/, "", folder)
-              return index("core   mesh   images maps   model  commands api", folder)  # columns of 7
+              return order[folder]
           }
-          { a = height($1); b = height($2); if (a == 2) a = 8; if (b == 2) b = 8; if (b > a) print $1, "includes", $2 }' <<<"$includes")
+          BEGIN { for (i = split("core mesh images maps textures model commands api", wing); i > 0; --i) order[wing[i]] = i }
+          height($2) > height($1) { print $1, "includes", $2 }' <<<"$includes")
 [ -z "$up" ] || { echo "these look up:"; echo "$up"; exit 1; }
 
 up=$(awk '$1 ~ /^commands\/shared/ && $2 ~ /^commands\// && $2 !~ /^commands\/shared/ { print $1, "includes", $2 }' <<<"$includes")
 [ -z "$up" ] || { echo "what commands share includes one of them:"; echo "$up"; exit 1; }
+
+up=$(awk '$2 ~ /^textures/ && $1 !~ /^(textures|commands\/(compress_map|map_error)$)/ { print $1, "includes", $2 }' <<<"$includes")
+[ -z "$up" ] || { echo "only compress_map and map_error know textures, but:"; echo "$up"; exit 1; }
 
 awk '{ for (i = 1; i <= 2; ++i) {
            depth = $i ~ /^core\/mesh|^commands\/shared/ ? 3 : 2

@@ -17,10 +17,10 @@
 
 #include "compressed_cases.h"
 #include "images/float_image.h"
-#include "images/texel_format.h"
-#include "images/write_texture.h"
-#include "maps/blocks/filtered_error.h"
-#include "maps/blocks/fit_blocks.h"
+#include "images/textures/texel_format.h"
+#include "textures/blocks/filtered_error.h"
+#include "textures/blocks/fit_blocks.h"
+#include "textures/write_texture.h"
 
 namespace tspace::bench {
 namespace {

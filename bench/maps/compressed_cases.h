@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "maps/blocks/normal_levels.h"
+#include "textures/blocks/normal_levels.h"
 
 namespace tspace::bench {
 

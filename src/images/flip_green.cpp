@@ -85,7 +85,7 @@ Result<FlippedImage> flipTgaToPng(ByteSpan bytes) {
 #endif
 
 /// Decodes the pixels of a JPEG or WebP.
-Result<ChannelImage> readPixels([[maybe_unused]] ByteSpan bytes, ImageFileFormat format) {
+Result<ChannelImage> readPixels([[maybe_unused]] ByteSpan bytes, [[maybe_unused]] ImageFileFormat format) {
 #ifdef TSPACE_HAS_IMAGES
     if (format == ImageFileFormat::jpeg) return readJpegPixels(bytes);
 #endif
@@ -96,7 +96,8 @@ Result<ChannelImage> readPixels([[maybe_unused]] ByteSpan bytes, ImageFileFormat
 }
 
 /// Encodes pixels. `like`: the file that the pixels were read from.
-Result<std::vector<std::uint8_t>> writePixels([[maybe_unused]] const ChannelImage& image, ImageFileFormat format,
+Result<std::vector<std::uint8_t>> writePixels([[maybe_unused]] const ChannelImage& image,
+                                              [[maybe_unused]] ImageFileFormat format,
                                               [[maybe_unused]] int jpeg_quality, [[maybe_unused]] ByteSpan like) {
 #ifdef TSPACE_HAS_IMAGES
     if (format == ImageFileFormat::png) return writePng(image);

@@ -20,8 +20,8 @@ const rooms = ["base", "frames", "normals", "estimate", "tangents", "tangents/mi
 /// Files that plain_normals.cpp replaces.
 const notPlain = ["crease_auto", "denoise", "noise_screen", "normal_groups"].map((name) => `core/estimate/${name}.cpp`);
 const fileRooms = [
-  ...["surface", "quads", "pools"].map((room) => `core/mesh/${room}`), "images",
-  ...["texels", "layout", "rays", "solve", "convert", "error", "bake", "blocks"].map((room) => `maps/${room}`),
+  ...["surface", "quads", "pools"].map((room) => `core/mesh/${room}`), "images", "images/libraries",
+  ...["texels", "layout", "rays", "solve", "convert", "error", "bake"].map((room) => `maps/${room}`),
   ...["io", "json", "gltf", "gltf/codecs", "obj", "read"].map((room) => `model/${room}`),
   ...["shared", "bake", "check", "convert_map", "diff", "flip_green", "generate", "height_to_normal", "identify", "inspect", "render"]
     .map((room) => `commands/${room}`), "api",
@@ -30,16 +30,15 @@ const fileRooms = [
 /// them.
 const notHere = new Set([
   "core/tangents/mikktspace/plain.cpp", // a readable version, for tests
-  "core/base/parallel.cpp", "core/base/arena.cpp", "core/tangents/many_meshes.cpp", "model/io/atomic_output_disk.cpp", "model/io/bytes.cpp", "model/io/file_io.cpp", "model/io/recorded_files.cpp",
-  "model/obj/tiny_obj_loader.cpp", "model/gltf/codecs/draco_library.cpp", "model/gltf/codecs/meshopt_library.cpp",
-  ...["astc", "basis_lz", "bc7", "dds", "ktx2", "texel_format", "texture", "uastc", "unpack_level", "write_texture"].map((name) => `images/${name}.cpp`),
-  "images/exr.cpp", "images/float_image.cpp", "images/float_range.cpp", "images/jpeg.cpp", "images/png.cpp", "images/read_tga.cpp", "images/webp.cpp", "maps/rays/rays.cpp",
+  "core/base/parallel.cpp", "core/base/arena.cpp", "core/tangents/many_meshes.cpp",
+  "model/obj/tiny_obj_loader.cpp",
+  ...["exr", "jpeg", "png", "webp"].map((name) => `images/libraries/${name}.cpp`),
+  ...["float_image", "float_range", "map_coverage", "read_tga", "texture_vectors"].map((name) => `images/${name}.cpp`), "maps/rays/rays.cpp",
   "commands/generate/convert_maps.cpp", "commands/generate/mend_maps.cpp", "commands/diff/diff_words.cpp",
-  "commands/shared/map_coverage.cpp", "commands/shared/map_image_file.cpp", "commands/shared/texture_vectors.cpp", "commands/flip_green/texture_png.cpp",
+  "commands/shared/map_image_file.cpp", "commands/flip_green/texture_png.cpp",
   ...["bake/all_maps", "bake/bake_file", "bake/high_maps", "bake/match_meshes", "bake/model_maps", "bake/model_surfaces", "convert_map/convert_map_file",
     "height_to_normal/height_to_normal_file", "render/model_picture", "render/render_file"]
     .map((name) => `commands/${name}.cpp`),
-  ...["posix", "windows"].map((system) => `model/io/system_files_${system}.cpp`),
 ]);
 /// Reports as text and SARIF, which only the tool prints.
 const isForPeople = (file) => /^commands\/(.*_text|shared\/text)\.cpp$/.test(file);
@@ -65,9 +64,10 @@ const modules = {
   textures: {
     sources: ["memory.cpp", "textures.cpp"], isFast: true, hot: /fit_blocks|filtered_error/, defines: [], rooms: [], kernels: [], imports: ["canUnpack", "endCall", "unpack"],
     files: [
-      ...["astc", "basis_lz", "bc7", "dds", "float_range", "image", "ktx2", "map_layout", "texel_format", "texture", "uastc", "write_texture"].map((name) => `images/${name}.cpp`),
-      ...["blocks/filtered_error", "blocks/fit_blocks", "blocks/normal_levels", "blocks/roughness_levels", "texels/shading"].map((name) => `maps/${name}.cpp`),
-      "commands/compress_map/texture_levels.cpp", "commands/shared/map_coverage.cpp", "commands/shared/texture_vectors.cpp",
+      ...["float_range", "image", "map_coverage", "map_layout", "texture_vectors"].map((name) => `images/${name}.cpp`),
+      ...["astc", "basis_lz", "bc7", "dds", "ktx2", "texel_format", "texture", "uastc"].map((name) => `images/textures/${name}.cpp`),
+      ...["blocks/filtered_error", "blocks/fit_blocks", "blocks/normal_levels", "blocks/roughness_levels", "texture_levels", "write_astc", "write_texture"].map((name) => `textures/${name}.cpp`),
+      "maps/texels/shading.cpp",
     ],
   },
   gltf: {

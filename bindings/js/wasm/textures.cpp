@@ -6,13 +6,13 @@
 #include <string_view>
 #include <type_traits>
 
-#include "commands/compress_map/texture_levels.h"
-#include "commands/shared/texture_vectors.h"
+#include "textures/texture_levels.h"
+#include "images/texture_vectors.h"
 #include "core/base/vec_math.h"
 #include "exports.h"
 #include "images/codecs.h"
 #include "images/image.h"
-#include "images/texture_file.h"
+#include "images/textures/texture_file.h"
 
 using namespace tspace;
 using namespace tspace::js;

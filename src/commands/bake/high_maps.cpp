@@ -5,7 +5,7 @@
 
 #include "commands/check/normal_map.h"
 #include "commands/shared/map_image_file.h"
-#include "commands/shared/texture_vectors.h"
+#include "images/texture_vectors.h"
 #include "model/io/file_error.h"
 
 namespace tspace {

@@ -16,7 +16,6 @@
 #include "core/base/vec_math.h"
 #include "images/float_image.h"
 #include "images/image.h"
-#include "images/texture_file.h"
 #include "maps/layout/uv_coverage.h"
 #include "maps/texels/texture_sample.h"
 #include "model/io/file_error.h"

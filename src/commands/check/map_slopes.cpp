@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "commands/check/normal_map.h"
-#include "images/texture_file.h"
+#include "images/layout_guess.h"
 
 namespace tspace {
 namespace {

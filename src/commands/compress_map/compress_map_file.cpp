@@ -9,7 +9,6 @@
 
 #include "commands/compress_map/compress_map_report.h"
 #include "commands/compress_map/pack_texture.h"
-#include "commands/compress_map/texture_levels.h"
 #include "commands/shared/file_options.h"
 #include "commands/shared/map_image_file.h"
 #include "commands/shared/request.h"
@@ -17,6 +16,7 @@
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/output_name.h"
+#include "textures/texture_levels.h"
 
 namespace tspace {
 namespace {

@@ -9,7 +9,7 @@
 #include "commands/generate/map_references.h"
 #include "commands/shared/image_budget.h"
 #include "commands/shared/map_image_file.h"
-#include "commands/shared/texture_vectors.h"
+#include "images/texture_vectors.h"
 #include "maps/convert/convert_texel.h"
 #include "maps/layout/uv_coverage.h"
 #include "model/gltf/material_needs.h"

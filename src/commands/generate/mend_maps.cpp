@@ -6,7 +6,7 @@
 
 #include "commands/check/map_slopes.h"
 #include "commands/shared/map_image_file.h"
-#include "commands/shared/texture_vectors.h"
+#include "images/texture_vectors.h"
 #include "model/io/file_error.h"
 #include "tspace/maps.h"
 

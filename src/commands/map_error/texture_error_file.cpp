@@ -4,10 +4,10 @@
 
 #include "commands/map_error/map_error_report.h"
 #include "commands/shared/map_image_file.h"
-#include "commands/shared/texture_vectors.h"
-#include "maps/blocks/filtered_error.h"
+#include "images/texture_vectors.h"
 #include "maps/texels/shading.h"
 #include "model/io/file_error.h"
+#include "textures/blocks/filtered_error.h"
 #include "tspace/map_files.h"
 
 namespace tspace {

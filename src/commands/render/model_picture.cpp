@@ -11,7 +11,6 @@
 #include "commands/generate/flip_maps.h"
 #include "commands/shared/map_image_file.h"
 #include "commands/shared/picture/colors.h"
-#include "commands/shared/texture_vectors.h"
 #include "commands/shared/uv_reading.h"
 #include "core/base/owned_mesh.h"
 #include "core/base/vec_math.h"
@@ -19,6 +18,7 @@
 #include "core/mesh/surface/uvs.h"
 #include "images/float_image.h"
 #include "images/image.h"
+#include "images/texture_vectors.h"
 #include "model/io/file_error.h"
 #include "tspace/tangents.h"
 

@@ -226,7 +226,7 @@ class AtomicOutput {
     };
 
     [[noreturn]] static void failToWrite(const Path& target, const std::string& why);
-    // Implemented in atomic_output_disk.cpp.
+    // Implemented in disk/atomic_output_disk.cpp.
     /// Returns the entry for a target that may be written.
     File planFile(const Path& requested);
     /// Adds a file written by writeTo(sink), which returns 0 or errno.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// System calls that std::filesystem does not provide; implemented in system_files_posix.cpp and
+// System calls that std::filesystem does not provide; implemented in disk/system_files_posix.cpp and
 // system_files_windows.cpp.
 #pragma once
 

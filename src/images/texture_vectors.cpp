@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "images/texture_vectors.h"
+
+#include <string_view>
+#include <utility>
+
+namespace tspace {
+
+std::string takeChannels(const std::string& letters, MapLayout& layout) {
+    constexpr const char* kWrong =
+        "must be two or three of r, g, b and a, such as rg, ag or bgr; a capital letter inverts a channel";
+    constexpr std::string_view kLetters = "rgbaRGBAxyzwXYZW";
+    if (letters.size() != 2 && letters.size() != 3) return kWrong;
+    MapComponent* const components[] = {&layout.x, &layout.y, &layout.z};
+    layout.z = {MapChannel::none, false};
+    for (std::size_t i = 0; i < letters.size(); ++i) {
+        const std::size_t at = kLetters.find(letters[i]);
+        if (at == std::string_view::npos || letters.find(letters[i], i + 1) != std::string::npos) return kWrong;
+        *components[i] = {static_cast<MapChannel>(at % 4), at % 8 >= 4};
+    }
+    return {};
+}
+
+bool readsAlpha(const MapLayout& layout) {
+    return layout.x.channel == MapChannel::alpha || layout.y.channel == MapChannel::alpha ||
+           layout.z.channel == MapChannel::alpha;
+}
+
+void readTexels(const MapLayout& layout, FloatImage& image) {
+    for (std::size_t i = 0; i < image.texels.size(); ++i)
+        image.texels[i] = readTexel(image.texels[i], image.alpha.empty() ? 1 : image.alpha[i], layout);
+    if (readsAlpha(layout)) image.alpha.clear();
+}
+
+namespace {
+
+/// Moves x, y and z to the channels of glTF. Returns part of a sentence that states it.
+std::string applyLayout(FloatImage& image) {
+    const MapLayout layout = image.texture.layout;
+    if (layout == MapLayout{}) return {};
+    readTexels(layout, image);
+    image.texture.layout = {};
+    constexpr const char* kNames[] = {"red", "green", "blue", "alpha", ""};
+    const auto nameOf = [&](const MapComponent& component) {
+        return kNames[static_cast<std::size_t>(component.channel)];
+    };
+    const std::string where = std::string("x is read from ") + nameOf(layout.x) + " and y from " + nameOf(layout.y) +
+                              (layout.z.channel == MapChannel::none ? ", so z is reconstructed from them" : "");
+    return "the map is " + image.texture.name +
+           (image.texture.is_guessed ? ", whose texels look as if only x and y were stored: " : ": ") + where;
+}
+
+}  // namespace
+
+std::string readTextureVectors(FloatImage& image) {
+    std::string text = applyLayout(image);
+    if (!image.range_text.empty()) text += (text.empty() ? "" : "; ") + std::exchange(image.range_text, {});
+    return text;
+}
+
+}  // namespace tspace

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Writes DDS and KTX2 containers for levels of texels or blocks.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/base/vec_math.h"
+#include "images/image.h"
+#include "images/textures/texel_format.h"
+
+namespace tspace {
+
+/// Levels, largest first: each half as wide and high as the previous one, rounded down, but at least 1.
+struct Texture {
+    std::uint32_t width = 0, height = 0;
+    TexelKind kind = TexelKind::bc5;  ///< rg8, rgba8, bc5, eacRg and their signed variants; astc with 4 x 4 texels
+    std::vector<std::vector<std::uint8_t>> levels = {};
+};
+
+/// Returns why DDS does not support the format, as half a sentence, or null if it does.
+const char* whyNotDds(TexelKind kind);
+/// Direct3D 9 header as an alternative to that of Direct3D 10. `four_cc`: FourCC of signed or unsigned BC5; texels are
+/// described by masks.
+struct OldDdsHeader {
+    const char* four_cc = "ATI2";
+};
+/// Writes a DDS with a Direct3D 10 header, or with `old`. Requires whyNotDds(texture.kind) == nullptr.
+std::vector<std::uint8_t> writeDds(const Texture& texture, const OldDdsHeader* old = nullptr);
+
+/// Returns why this build cannot compress levels with Zstandard, as a sentence, or null if it can.
+const char* whyNotZstd();
+/// Writes a linear KTX2 with rows from the top. `zstd_level`: from 1 (fast) to 22 (small), applied to each level
+/// separately; 0: uncompressed. Returns nullopt if memory runs out.
+std::optional<std::vector<std::uint8_t>> writeKtx2(const Texture& texture, int zstd_level = 0);
+
+enum class AstcEffort : std::uint8_t { quick, fast, best };
+
+/// Returns why ASTC cannot be written, as a sentence, or null if it can.
+const char* whyNoAstcWritten();
+/// Encodes x (in red, green and blue) and y (in alpha) as ASTC blocks of 4 x 4 texels, row by row. Replaces `texels`
+/// (-1 to 1) by the decoded values. Returns nullopt if the library fails. The result does not depend on the number of
+/// threads. Requires whyNoAstcWritten() == nullptr.
+std::optional<std::vector<std::uint8_t>> packAstc(std::uint32_t width, std::uint32_t height, AstcEffort effort,
+                                                  std::span<Vec2> texels, Parallel& parallel);
+
+}  // namespace tspace
