@@ -1,5 +1,12 @@
 // SPDX-License-Identifier: MIT
-// bakeFile: reads, bakes, writes maps and their pictures; its report as JSON.
+// bakeFile: reads, bakes, and writes maps and their pictures; its report as JSON. The steps of baking, in the order of this file:
+//
+//   1. setLimits, checkOutput, checkOutMesh: what the options and the names of outputs allow
+//   2. noteNoise: a warning about the positions of the high poly
+//   3. insidePart, beyondEdges: which triangles of an image of the low poly are baked
+//   4. bakeImage: the maps of an image or UDIM tile, with findings and warnings
+//   5. bakeTiles: all tiles of an image
+//   6. bakeModels: all images, then the model with its maps
 #include "tspace/bake_file.h"
 
 #include <algorithm>
@@ -40,345 +47,357 @@ std::vector<std::uint8_t> pngOf(std::uint32_t width, std::uint32_t height, std::
     return imageFileOf(".png", width, height, std::move(texels), bits);
 }
 
-class FileBaking {
-  public:
-    FileBaking(const std::string& output, const BakeFileOptions& options, const BakeStep& step)
-        : output_(output), options_(options), step_(step) {
-        step_.inputs.watch(options_.file);
-        options_.map.reading.two_channels = options_.map.reading.two_channels || options_.unit;
-        // The image size is an option, so a limit derived from the size of the input file is not applicable.
-        constexpr std::uint64_t kUsualLimit = std::uint64_t{16} << 30;
-        std::uint64_t& limit = options_.map.memory_limit_bytes;
-        if (limit == 0) limit = options_.file.memory_limit_bytes;
-        if (limit == 0) limit = kUsualLimit;
-    }
+/// The state of a call that its steps share.
+struct FileBaking {
+    const std::string& output;
+    std::string high = {};
+    bool is_without_map = false;  ///< no ray of an image hit anything
+    BakeFileOptions options;
+    const BakeStep& step;
+    BakeModels models = {};
+    SharedRays shared = {};                 ///< rays on the high poly, shared by all images
+    std::optional<HighDetail> detail = {};  ///< refers to the models
+    AtomicOutput& files = step.map_files;
+    std::vector<ModelMap> maps = {};
+    BakeFileReport report = {};
+};
 
-    BakeFileReport run(const std::string& low, const std::string& high) {
-        high_ = high;
-        checkOutput();
-        checkOutMesh();
-        requireEndingIfAny(options_.misses, {".png"});
-        requireEndingIfAny(options_.heat, {".png"});
-        if (!options_.layers.has_normal && !options_.heat.empty())
-            failFile(ErrorCode::invalidOption, "--heat requires the normal map; add normal to --maps");
-        if (Error error = checkBakeOptions(options_.map, 0, 0); error.code != ErrorCode::ok) throw FileError{error};
-        models_ = readBakeModels(low, high, options_, step_.sources);
-        report_.frames_made = models_.low.frames_made;
-        report_.matched_by_name = models_.matched_by_name;
-        report_.low_triangle_count = models_.low.triangleCount();
-        report_.high_triangle_count = models_.high.triangleCount();
-        report_.warnings = models_.low.warnings;
-        report_.warnings.insert(report_.warnings.end(), models_.high.warnings.begin(), models_.high.warnings.end());
-        report_.high_maps = models_.high.shown.reports;
-        if (options_.denoise == 0 && step_.notes_noise) noteNoise();
-        options_.map.reach = models_.reach(options_.map.reach);
-        tagInput(BakeInput::high, [&] { return &detail_.emplace(models_, high, options_); });
-        const std::vector<std::string>& seen = detail_->warnings();
-        report_.warnings.insert(report_.warnings.end(), seen.begin(), seen.end());
-        const std::vector<std::string> words = imageWords(models_.low);
-        for (std::size_t i = 0; i < words.size(); ++i) bakeTiles(models_.low.images[i], words[i]);
-        if (!options_.out_mesh.empty() && !is_without_map_)
-            addModelWithMaps({*std::move(models_.low_model), options_.out_mesh, std::move(maps_)}, step_.model_files,
-                             files_, report_.warnings);
-        if (!is_without_map_) report_.output_files = files_.files();
-        return std::move(report_);
-    }
+// -- 1. checks --
 
-  private:
-    void noteNoise() {
-        const HighPoly high = models_.high.view();
-        MeshView mesh;
-        mesh.positions = high.positions;
-        mesh.indices = high.corners;
-        if (const double noise = notedNoise(mesh, models_.high.position_step); noise > 0)
-            report_.warnings.push_back(
-                "the positions of the high poly are noisy, by " + shortNumber(noise) +
-                " of an edge length, and the map shows this noise; use --denoise auto to bake normals without it");
-    }
+void setLimits(FileBaking& state) {
+    state.step.inputs.watch(state.options.file);
+    state.options.map.reading.two_channels = state.options.map.reading.two_channels || state.options.unit;
+    // The image size is an option, so a limit derived from the size of the input file is not applicable.
+    constexpr std::uint64_t kUsualLimit = std::uint64_t{16} << 30;
+    std::uint64_t& limit = state.options.map.memory_limit_bytes;
+    if (limit == 0) limit = state.options.file.memory_limit_bytes;
+    if (limit == 0) limit = kUsualLimit;
+}
 
-    /// Accepted outputs: .png; .tga with 8 bits; or a texture, whose blocks are fitted to the filtered 16-bit texels.
-    void checkOutput() {
-        if (lowerExtension(output_) == ".png") return;
-        if (isTgaName(output_)) {
-            if (!options_.out_mesh.empty())
-                failFile(ErrorCode::invalidOption, "a glTF model cannot contain a TGA; bake a .png to use --out-mesh");
-            options_.map.bits = 8;
-            return;
-        }
-        if (!isTextureName(output_)) failEnding(output_, {".png", ".tga", ".ktx2", ".dds"});
-        if (!options_.layers.layers.empty() || !options_.layers.has_normal)
-            failFile(ErrorCode::invalidOption, "maps other than the normal map can only be written as .png");
-        if (!options_.out_mesh.empty())
-            failFile(ErrorCode::invalidOption,
-                     "a glTF model cannot contain a two-channel texture; bake a .png to use --out-mesh");
-        if (options_.map.space == MapSpace::object)
-            failFile(ErrorCode::invalidOption,
-                     "two-channel textures can only store normals in tangent space; bake a .png");
-        options_.map.bits = 16;
+/// Accepted outputs: .png; .tga with 8 bits; or a texture, whose blocks are fitted to the filtered 16-bit texels.
+void checkOutput(FileBaking& state) {
+    if (lowerExtension(state.output) == ".png") return;
+    if (isTgaName(state.output)) {
+        if (!state.options.out_mesh.empty())
+            failFile(ErrorCode::invalidOption, "a glTF model cannot contain a TGA; bake a .png to use --out-mesh");
+        state.options.map.bits = 8;
+        return;
     }
+    if (!isTextureName(state.output)) failEnding(state.output, {".png", ".tga", ".ktx2", ".dds"});
+    if (!state.options.layers.layers.empty() || !state.options.layers.has_normal)
+        failFile(ErrorCode::invalidOption, "maps other than the normal map can only be written as .png");
+    if (!state.options.out_mesh.empty())
+        failFile(ErrorCode::invalidOption,
+                 "a glTF model cannot contain a two-channel texture; bake a .png to use --out-mesh");
+    if (state.options.map.space == MapSpace::object)
+        failFile(ErrorCode::invalidOption, "two-channel textures can only store normals in tangent space; bake a .png");
+    state.options.map.bits = 16;
+}
 
-    /// Encodes the normal map, and frees its texels.
-    std::vector<std::uint8_t> takeNormalFile(BakedMap& map) const {
-        std::vector<Vec3> texels = std::exchange(map.texels, {});
-        if (isTextureName(output_)) return packTexture(output_, map.width, map.height, texels, options_.execution);
-        return imageFileOf(output_, map.width, map.height, std::move(texels), map.bits);
-    }
+/// The written model interprets the map according to glTF, so options that contradict it are refused.
+void checkOutMesh(const FileBaking& state) {
+    if (state.options.out_mesh.empty()) return;
+    if (!isGltfName(state.options.out_mesh)) failEnding(state.options.out_mesh, {".glb", ".vrm", ".gltf"});
+    if (state.options.udim)
+        failFile(ErrorCode::invalidOption,
+                 "a glTF model has one image per material and cannot use UDIM tiles; --out-mesh and --udim cannot "
+                 "be combined");
+    if (state.options.map.space == MapSpace::object)
+        failFile(ErrorCode::invalidOption,
+                 "normal maps of glTF models must be in tangent space; --out-mesh requires --space tangent");
+    if (state.options.map.reading.green == Green::down)
+        failFile(ErrorCode::invalidOption,
+                 "green must point up in the normal maps of glTF models; use another --convention with --out-mesh");
+}
 
-    /// The written model interprets the map according to glTF, so options that contradict it are refused.
-    void checkOutMesh() const {
-        if (options_.out_mesh.empty()) return;
-        if (!isGltfName(options_.out_mesh)) failEnding(options_.out_mesh, {".glb", ".vrm", ".gltf"});
-        if (options_.udim)
-            failFile(ErrorCode::invalidOption,
-                     "a glTF model has one image per material and cannot use UDIM tiles; --out-mesh and --udim cannot "
-                     "be combined");
-        if (options_.map.space == MapSpace::object)
-            failFile(ErrorCode::invalidOption,
-                     "normal maps of glTF models must be in tangent space; --out-mesh requires --space tangent");
-        if (options_.map.reading.green == Green::down)
-            failFile(ErrorCode::invalidOption,
-                     "green must point up in the normal maps of glTF models; use another --convention with --out-mesh");
-    }
+// -- 2. noise --
 
-    /// Number of triangles that extend more than half a texel beyond a clamped image.
-    [[nodiscard]] std::size_t beyondEdges(const LowModel::Image& image, const LowPart& part) const {
-        const auto isBeyond = [](TextureWrap wrap, float at, std::uint32_t size) {
-            return wrap == TextureWrap::clamp && std::fabs(at - 0.5F) > 0.5F + 0.5F / static_cast<float>(size);
+void noteNoise(FileBaking& state) {
+    const HighPoly high = state.models.high.view();
+    MeshView mesh;
+    mesh.positions = high.positions;
+    mesh.indices = high.corners;
+    if (const double noise = notedNoise(mesh, state.models.high.position_step); noise > 0)
+        state.report.warnings.push_back(
+            "the positions of the high poly are noisy, by " + shortNumber(noise) +
+            " of an edge length, and the map shows this noise; use --denoise auto to bake normals without it");
+}
+
+// -- 3. triangles --
+
+std::string nameOf(const LowModel::Image& image) {
+    return image.material.empty() ? "the low poly" : inQuotes(image.material);
+}
+
+/// Returns the triangles to bake, with all other triangles in the rest. Non-finite UVs are counted by the bake.
+LowPart insidePart(FileBaking& state, const LowModel::Image& image, std::uint64_t& outside) {
+    const auto isOutside = [&](std::size_t triangle) {
+        const Vec2* const uvs = &image.part.corners.uvs[3 * triangle];
+        const float u = uvs[0].x + uvs[1].x + uvs[2].x, v = uvs[0].y + uvs[1].y + uvs[2].y;
+        // Beyond the edge of a clamped texture, no texel repeats.
+        const auto isBeside = [](TextureWrap wrap, float sum) {
+            return wrap != TextureWrap::clamp && (sum < 0 || sum > 3);
         };
-        std::size_t count = 0;
-        const std::vector<Vec2>& uvs = part.corners.uvs;
-        for (auto corner = uvs.begin(); corner != uvs.end(); corner += 3) {
-            count += std::any_of(corner, corner + 3, [&](const Vec2& uv) {
-                return isBeyond(image.wrap_u, uv.x, options_.map.width) ||
-                       isBeyond(image.wrap_v, uv.y, options_.map.height);
-            });
-        }
-        return count;
+        return std::isfinite(u + v) && (isBeside(image.wrap_u, u) || isBeside(image.wrap_v, v));
+    };
+    const std::size_t count = image.part.triangleCount();
+    for (std::size_t i = 0; !state.options.wrap && i < count; ++i) outside += isOutside(i) ? 1 : 0;
+    if (outside == count) {
+        state.report.warnings.push_back("all triangles of " + nameOf(image) +
+                                        " lie outside the 0-1 UV range and were baked as with --wrap");
+        outside = 0;
     }
-
-    static std::string nameOf(const LowModel::Image& image) {
-        return image.material.empty() ? "the low poly" : inQuotes(image.material);
-    }
-
-    /// Returns the triangles to bake, with all other triangles in the rest. Non-finite UVs are counted by the bake.
-    LowPart insidePart(const LowModel::Image& image, std::uint64_t& outside) {
-        const auto isOutside = [&](std::size_t triangle) {
-            const Vec2* const uvs = &image.part.corners.uvs[3 * triangle];
-            const float u = uvs[0].x + uvs[1].x + uvs[2].x, v = uvs[0].y + uvs[1].y + uvs[2].y;
-            // Beyond the edge of a clamped texture, no texel repeats.
-            const auto isBeside = [](TextureWrap wrap, float sum) {
-                return wrap != TextureWrap::clamp && (sum < 0 || sum > 3);
-            };
-            return std::isfinite(u + v) && (isBeside(image.wrap_u, u) || isBeside(image.wrap_v, v));
-        };
-        const std::size_t count = image.part.triangleCount();
-        for (std::size_t i = 0; !options_.wrap && i < count; ++i) outside += isOutside(i) ? 1 : 0;
-        if (outside == count) {
-            report_.warnings.push_back("all triangles of " + nameOf(image) +
-                                       " lie outside the 0-1 UV range and were baked as with --wrap");
-            outside = 0;
-        }
-        if (outside == 0) return image.part;
-        report_.warnings.push_back(std::to_string(outside) + " of " + std::to_string(count) + " triangles of " +
-                                   nameOf(image) +
-                                   " lie outside the 0-1 UV range and were ignored, because they are assumed to be "
-                                   "offset copies; use --wrap to bake them too, or --udim to write one file per tile");
-        LowPart part;
-        for (std::size_t i = 0; i < count; ++i) {
-            if (isOutside(i)) {
-                part.addToRest(image.part, i);
-            } else {
-                part.addTriangle(image.part, i);
-            }
-        }
-        return part;
-    }
-
-    void bakeTiles(const LowModel::Image& image, const std::string& word) {
-        const auto addOtherImages = [&](LowPart& part) {
-            for (const LowModel::Image& other : models_.low.images) {
-                for (std::size_t i = 0; &other != &image && i < other.part.triangleCount(); ++i)
-                    part.addToRest(other.part, i);
-            }
-        };
-        if (!options_.udim) {
-            std::uint64_t outside = 0;
-            LowPart part = insidePart(image, outside);
-            if (const std::size_t count = beyondEdges(image, part))
-                report_.warnings.push_back(std::to_string(count) + " triangles extend beyond the texture of " +
-                                           nameOf(image) +
-                                           ", whose wrap mode is clamp, so they show its edge texels there");
-            addOtherImages(part);
-            bakeImage(image, word, 0, part, outside);
-            return;
-        }
-        std::map<std::uint32_t, LowPart> tiles;
-        std::uint64_t outside = 0;
-        for (std::size_t i = 0; i < image.part.triangleCount(); ++i) {
-            const std::uint32_t tile = tileOf(&image.part.corners.uvs[3 * i]);
-            if (tile == 0) {
-                ++outside;
-                continue;
-            }
-            LowPart& part = tiles[tile];
+    if (outside == 0) return image.part;
+    state.report.warnings.push_back(std::to_string(outside) + " of " + std::to_string(count) + " triangles of " +
+                                    nameOf(image) +
+                                    " lie outside the 0-1 UV range and were ignored, because they are assumed to be "
+                                    "offset copies; use --wrap to bake them too, or --udim to write one file per tile");
+    LowPart part;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (isOutside(i)) {
+            part.addToRest(image.part, i);
+        } else {
             part.addTriangle(image.part, i);
-            std::vector<Vec2>& uvs = part.corners.uvs;
-            for (auto uv = uvs.end() - 3; uv != uvs.end(); ++uv) {
-                uv->x -= static_cast<float>((tile - 1001) % 10);
-                uv->y += static_cast<float>((tile - 1001) / 10);
-            }
-        }
-        if (outside > 0)
-            report_.warnings.push_back(std::to_string(outside) +
-                                       " triangles are outside all UDIM tiles and were ignored");
-        if (tiles.empty()) failFile(ErrorCode::missingAttribute, "the UVs of the low poly are outside all UDIM tiles");
-        for (auto& [tile, part] : tiles) {
-            for (std::size_t i = 0; i < image.part.triangleCount(); ++i) {
-                if (tileOf(&image.part.corners.uvs[3 * i]) != tile) part.addToRest(image.part, i);
-            }
-            addOtherImages(part);
-            bakeImage(image, tileWord(word, tile), tile, part);
         }
     }
+    return part;
+}
 
-    void bakeImage(const LowModel::Image& image, const std::string& word, std::uint32_t tile, const LowPart& part,
-                   std::uint64_t outside = 0) {
-        BakeOptions options = options_.map;
-        options.heat = options.heat || !options_.heat.empty();
-        if (!options_.udim) {
-            options.wrap_u = image.wrap_u;
-            options.wrap_v = image.wrap_v;
-        }
-        options.rays = models_.rays(options.rays, options.wrap_u, options.wrap_v);
-        BakedMaps maps = tagInput(BakeInput::low, [&] {
-            return valueOrThrow(bakeEvenIfMissed(part.view(), models_.high.view(), options, detail_->layers(),
-                                                 options_.execution, options_.progress, shared_));
+/// Number of triangles that extend more than half a texel beyond a clamped image.
+std::size_t beyondEdges(const FileBaking& state, const LowModel::Image& image, const LowPart& part) {
+    const auto isBeyond = [](TextureWrap wrap, float at, std::uint32_t size) {
+        return wrap == TextureWrap::clamp && std::fabs(at - 0.5F) > 0.5F + 0.5F / static_cast<float>(size);
+    };
+    std::size_t count = 0;
+    const std::vector<Vec2>& uvs = part.corners.uvs;
+    for (auto corner = uvs.begin(); corner != uvs.end(); corner += 3) {
+        count += std::any_of(corner, corner + 3, [&](const Vec2& uv) {
+            return isBeyond(image.wrap_u, uv.x, state.options.map.width) ||
+                   isBeyond(image.wrap_v, uv.y, state.options.map.height);
         });
-        BakedFile file{.path = options_.layers.has_normal ? withWord(output_, word) : "",
-                       .material = image.material,
-                       .tile = tile,
-                       .triangle_count = part.triangleCount(),
-                       .outside_count = outside,
-                       .rays = {options.rays.target, options.rays.directions, !options.rays.skew.texels.empty(),
-                                !part.cage.empty()},
-                       .map = std::move(maps.normal)};
-        BakedMap& map = file.map;
-        findCause(file, part);
-        if (map.hit_count == 0) {
-            is_without_map_ = true;
-            map.origins = {};
-            map.overlaps = {};
-            report_.files.push_back(std::move(file));
-            return;
+    }
+    return count;
+}
+
+// -- 4. one image --
+
+/// Adds a finding if the map is unusable, with the cause.
+void findCause(FileBaking& state, const BakedFile& file, const LowPart& part) {
+    const BakedMap& map = file.map;
+    const auto add = [&](const std::string& what, const std::string& why) {
+        state.report.findings.push_back(pathInQuotes(state.high) + ": " + what + (why.empty() ? "" : "; " + why));
+    };
+    constexpr std::uint64_t kFew = 50;  // "few" means fewer than one in 50
+    if (map.missed_count > map.hit_count) {
+        add(std::to_string(map.missed_count) + " of " + std::to_string(map.missed_count + map.hit_count) +
+                " texels of " + pathInQuotes(file.path) + " hit no front face of it" +
+                (map.hit_count == 0 ? ", so no map was written" : ""),
+            causeOfMisses(part.view(), state.models.high.view(), *state.shared.surface, map.error.reach));
+    } else if (2 * map.error.inward_count > map.error.point_count) {
+        add("its normals point inwards, opposite to its faces, at " + std::to_string(map.error.inward_count) + " of " +
+                std::to_string(map.error.point_count) + " points",
+            "");
+    } else if (kFew * map.missed_count > map.hit_count) {
+        const std::string why = otherPlaceOf(part.view(), state.models.high.view(), *state.shared.surface);
+        if (!why.empty())
+            add(std::to_string(map.missed_count) + " texels of " + pathInQuotes(file.path) + " hit no front face of it",
+                why);
+    }
+}
+
+/// Adds a map to the outputs, or to the model that is written with it.
+void addMap(FileBaking& state, const std::string& path, const std::vector<std::uint8_t>& png,
+            std::optional<MapSlot> slot, const LowModel::Image& image) {
+    // A new bake may overwrite the map that the low poly references.
+    state.step.inputs.letOff(path);
+    if (state.options.out_mesh.empty() || !slot) {
+        state.files.add(path, png);
+    } else {
+        state.maps.push_back(
+            {path, Bytes(png.begin(), png.end()), image.primitives, image.wrap_u, image.wrap_v, *slot});
+    }
+}
+
+/// Encodes the normal map, and frees its texels.
+std::vector<std::uint8_t> takeNormalFile(const FileBaking& state, BakedMap& map) {
+    std::vector<Vec3> texels = std::exchange(map.texels, {});
+    if (isTextureName(state.output))
+        return packTexture(state.output, map.width, map.height, texels, state.options.execution);
+    return imageFileOf(state.output, map.width, map.height, std::move(texels), map.bits);
+}
+
+/// Texture slot of a glTF material for a layer. If `ao` and `orm` are both baked, red of `orm` is the occlusion, so
+/// one image has both slots.
+std::optional<MapSlot> slotOf(const FileBaking& state, MapLayer layer) {
+    switch (layer) {
+        case MapLayer::ao:
+            return shows(state.options.layers, MapLayer::orm) ? std::nullopt : std::optional(MapSlot::occlusion);
+        case MapLayer::orm:
+            return shows(state.options.layers, MapLayer::ao) ? MapSlot::occlusion_and_metal : MapSlot::metal;
+        case MapLayer::color:
+            return MapSlot::color;
+        case MapLayer::emission:
+            return MapSlot::emission;
+        default:
+            return {};
+    }
+}
+
+void addLayers(FileBaking& state, const LowModel::Image& image, const std::string& word,
+               std::vector<BakedLayer>& layers, BakedFile& file) {
+    for (BakedLayer& layer : layers) {
+        const std::string& base = state.step.layers_output.empty() ? state.output : state.step.layers_output;
+        BakedLayerFile made{.path = withWord(withLayer(base, layer.layer), word)};
+        const std::vector<std::uint8_t> png =
+            layerPng(layer, file.map, state.options.map.bits, state.models.low.origin, made);
+        if (layer.layer == MapLayer::id) {
+            made.id_count = state.detail->idCount();
+            made.ids = state.detail->ids();
         }
-        if (options_.layers.has_normal) addMap(file.path, takeNormalFile(map), MapSlot::normal, image);
-        addLayers(image, word, maps.layers, file);
-        if (!options_.misses.empty())
-            files_.add(withWord(options_.misses, word), pngOf(map.width, map.height, pictureOfOrigins(map), 8));
-        if (!options_.heat.empty()) {
-            file.heat_top_deg = map.error.p99_deg;
-            files_.add(withWord(options_.heat, word),
-                       pngOf(map.width, map.height, pictureOfHeat(map.error.heat, file.heat_top_deg), 8));
-        }
+        addMap(state, made.path, png, slotOf(state, layer.layer), image);
+        file.layers.push_back(std::move(made));
+    }
+}
+
+/// Warns about surfaces that rays with the map's own settings did not hit.
+void warnOfRays(FileBaking& state, const BakedFile& file) {
+    const MapError& own = file.map.own_error;
+    if (own.hidden_count == 0) return;
+    state.report.warnings.push_back(
+        std::to_string(own.hidden_count) + " of " + std::to_string(own.point_count + own.missed_count) +
+        " samples would hit another front face of the high poly farther out, which hides the surface that " +
+        pathInQuotes(file.path) + " shows; use --rays outermost to bake the outer one");
+}
+
+void bakeImage(FileBaking& state, const LowModel::Image& image, const std::string& word, std::uint32_t tile,
+               const LowPart& part, std::uint64_t outside = 0) {
+    BakeOptions options = state.options.map;
+    options.heat = options.heat || !state.options.heat.empty();
+    if (!state.options.udim) {
+        options.wrap_u = image.wrap_u;
+        options.wrap_v = image.wrap_v;
+    }
+    options.rays = state.models.rays(options.rays, options.wrap_u, options.wrap_v);
+    BakedMaps maps = tagInput(BakeInput::low, [&] {
+        return valueOrThrow(bakeEvenIfMissed(part.view(), state.models.high.view(), options, state.detail->layers(),
+                                             state.options.execution, state.options.progress, state.shared));
+    });
+    BakedFile file{
+        .path = state.options.layers.has_normal ? withWord(state.output, word) : "",
+        .material = image.material,
+        .tile = tile,
+        .triangle_count = part.triangleCount(),
+        .outside_count = outside,
+        .rays = {options.rays.target, options.rays.directions, !options.rays.skew.texels.empty(), !part.cage.empty()},
+        .map = std::move(maps.normal)};
+    BakedMap& map = file.map;
+    findCause(state, file, part);
+    if (map.hit_count == 0) {
+        state.is_without_map = true;
         map.origins = {};
         map.overlaps = {};
-        map.error.heat = {};
-        warnOfRays(file);
-        report_.files.push_back(std::move(file));
+        state.report.files.push_back(std::move(file));
+        return;
     }
+    if (state.options.layers.has_normal) addMap(state, file.path, takeNormalFile(state, map), MapSlot::normal, image);
+    addLayers(state, image, word, maps.layers, file);
+    if (!state.options.misses.empty())
+        state.files.add(withWord(state.options.misses, word), pngOf(map.width, map.height, pictureOfOrigins(map), 8));
+    if (!state.options.heat.empty()) {
+        file.heat_top_deg = map.error.p99_deg;
+        state.files.add(withWord(state.options.heat, word),
+                        pngOf(map.width, map.height, pictureOfHeat(map.error.heat, file.heat_top_deg), 8));
+    }
+    map.origins = {};
+    map.overlaps = {};
+    map.error.heat = {};
+    warnOfRays(state, file);
+    state.report.files.push_back(std::move(file));
+}
 
-    /// Adds a map to the outputs, or to the model that is written with it.
-    void addMap(const std::string& path, const std::vector<std::uint8_t>& png, std::optional<MapSlot> slot,
-                const LowModel::Image& image) {
-        // A new bake may overwrite the map that the low poly references.
-        step_.inputs.letOff(path);
-        if (options_.out_mesh.empty() || !slot) {
-            files_.add(path, png);
-        } else {
-            maps_.push_back({path, Bytes(png.begin(), png.end()), image.primitives, image.wrap_u, image.wrap_v, *slot});
+// -- 5. tiles --
+
+void bakeTiles(FileBaking& state, const LowModel::Image& image, const std::string& word) {
+    const auto addOtherImages = [&](LowPart& part) {
+        for (const LowModel::Image& other : state.models.low.images) {
+            for (std::size_t i = 0; &other != &image && i < other.part.triangleCount(); ++i)
+                part.addToRest(other.part, i);
+        }
+    };
+    if (!state.options.udim) {
+        std::uint64_t outside = 0;
+        LowPart part = insidePart(state, image, outside);
+        if (const std::size_t count = beyondEdges(state, image, part))
+            state.report.warnings.push_back(std::to_string(count) + " triangles extend beyond the texture of " +
+                                            nameOf(image) +
+                                            ", whose wrap mode is clamp, so they show its edge texels there");
+        addOtherImages(part);
+        bakeImage(state, image, word, 0, part, outside);
+        return;
+    }
+    std::map<std::uint32_t, LowPart> tiles;
+    std::uint64_t outside = 0;
+    for (std::size_t i = 0; i < image.part.triangleCount(); ++i) {
+        const std::uint32_t tile = tileOf(&image.part.corners.uvs[3 * i]);
+        if (tile == 0) {
+            ++outside;
+            continue;
+        }
+        LowPart& part = tiles[tile];
+        part.addTriangle(image.part, i);
+        std::vector<Vec2>& uvs = part.corners.uvs;
+        for (auto uv = uvs.end() - 3; uv != uvs.end(); ++uv) {
+            uv->x -= static_cast<float>((tile - 1001) % 10);
+            uv->y += static_cast<float>((tile - 1001) / 10);
         }
     }
-
-    void addLayers(const LowModel::Image& image, const std::string& word, std::vector<BakedLayer>& layers,
-                   BakedFile& file) {
-        for (BakedLayer& layer : layers) {
-            const std::string& base = step_.layers_output.empty() ? output_ : step_.layers_output;
-            BakedLayerFile made{.path = withWord(withLayer(base, layer.layer), word)};
-            const std::vector<std::uint8_t> png =
-                layerPng(layer, file.map, options_.map.bits, models_.low.origin, made);
-            if (layer.layer == MapLayer::id) {
-                made.id_count = detail_->idCount();
-                made.ids = detail_->ids();
-            }
-            addMap(made.path, png, slotOf(layer.layer), image);
-            file.layers.push_back(std::move(made));
+    if (outside > 0)
+        state.report.warnings.push_back(std::to_string(outside) +
+                                        " triangles are outside all UDIM tiles and were ignored");
+    if (tiles.empty()) failFile(ErrorCode::missingAttribute, "the UVs of the low poly are outside all UDIM tiles");
+    for (auto& [tile, part] : tiles) {
+        for (std::size_t i = 0; i < image.part.triangleCount(); ++i) {
+            if (tileOf(&image.part.corners.uvs[3 * i]) != tile) part.addToRest(image.part, i);
         }
+        addOtherImages(part);
+        bakeImage(state, image, tileWord(word, tile), tile, part);
     }
+}
 
-    /// Texture slot of a glTF material for a layer. If `ao` and `orm` are both baked, red of `orm` is the occlusion, so
-    /// one image has both slots.
-    [[nodiscard]] std::optional<MapSlot> slotOf(MapLayer layer) const {
-        switch (layer) {
-            case MapLayer::ao:
-                return shows(options_.layers, MapLayer::orm) ? std::nullopt : std::optional(MapSlot::occlusion);
-            case MapLayer::orm:
-                return shows(options_.layers, MapLayer::ao) ? MapSlot::occlusion_and_metal : MapSlot::metal;
-            case MapLayer::color:
-                return MapSlot::color;
-            case MapLayer::emission:
-                return MapSlot::emission;
-            default:
-                return {};
-        }
-    }
+// -- 6. models --
 
-    /// Adds a finding if the map is unusable, with the cause.
-    void findCause(const BakedFile& file, const LowPart& part) {
-        const BakedMap& map = file.map;
-        const auto add = [&](const std::string& what, const std::string& why) {
-            report_.findings.push_back(pathInQuotes(high_) + ": " + what + (why.empty() ? "" : "; " + why));
-        };
-        constexpr std::uint64_t kFew = 50;  // "few" means fewer than one in 50
-        if (map.missed_count > map.hit_count) {
-            add(std::to_string(map.missed_count) + " of " + std::to_string(map.missed_count + map.hit_count) +
-                    " texels of " + pathInQuotes(file.path) + " hit no front face of it" +
-                    (map.hit_count == 0 ? ", so no map was written" : ""),
-                causeOfMisses(part.view(), models_.high.view(), *shared_.surface, map.error.reach));
-        } else if (2 * map.error.inward_count > map.error.point_count) {
-            add("its normals point inwards, opposite to its faces, at " + std::to_string(map.error.inward_count) +
-                    " of " + std::to_string(map.error.point_count) + " points",
-                "");
-        } else if (kFew * map.missed_count > map.hit_count) {
-            const std::string why = otherPlaceOf(part.view(), models_.high.view(), *shared_.surface);
-            if (!why.empty())
-                add(std::to_string(map.missed_count) + " texels of " + pathInQuotes(file.path) +
-                        " hit no front face of it",
-                    why);
-        }
-    }
-
-    /// Warns about surfaces that rays with the map's own settings did not hit.
-    void warnOfRays(const BakedFile& file) {
-        const MapError& own = file.map.own_error;
-        if (own.hidden_count == 0) return;
-        report_.warnings.push_back(
-            std::to_string(own.hidden_count) + " of " + std::to_string(own.point_count + own.missed_count) +
-            " samples would hit another front face of the high poly farther out, which hides the surface that " +
-            pathInQuotes(file.path) + " shows; use --rays outermost to bake the outer one");
-    }
-
-    const std::string& output_;
-    std::string high_ = {};
-    bool is_without_map_ = false;  ///< no ray of an image hit anything
-    BakeFileOptions options_;
-    const BakeStep& step_;
-    BakeModels models_ = {};
-    SharedRays shared_ = {};                 ///< rays on the high poly, shared by all images
-    std::optional<HighDetail> detail_ = {};  ///< refers to the models
-    AtomicOutput& files_ = step_.map_files;
-    std::vector<ModelMap> maps_ = {};
-    BakeFileReport report_ = {};
-};
+BakeFileReport bakeModels(FileBaking& state, const std::string& low, const std::string& high) {
+    setLimits(state);
+    state.high = high;
+    checkOutput(state);
+    checkOutMesh(state);
+    requireEndingIfAny(state.options.misses, {".png"});
+    requireEndingIfAny(state.options.heat, {".png"});
+    if (!state.options.layers.has_normal && !state.options.heat.empty())
+        failFile(ErrorCode::invalidOption, "--heat requires the normal map; add normal to --maps");
+    if (Error error = checkBakeOptions(state.options.map, 0, 0); error.code != ErrorCode::ok) throw FileError{error};
+    state.models = readBakeModels(low, high, state.options, state.step.sources);
+    state.report.frames_made = state.models.low.frames_made;
+    state.report.matched_by_name = state.models.matched_by_name;
+    state.report.low_triangle_count = state.models.low.triangleCount();
+    state.report.high_triangle_count = state.models.high.triangleCount();
+    state.report.warnings = state.models.low.warnings;
+    state.report.warnings.insert(state.report.warnings.end(), state.models.high.warnings.begin(),
+                                 state.models.high.warnings.end());
+    state.report.high_maps = state.models.high.shown.reports;
+    if (state.options.denoise == 0 && state.step.notes_noise) noteNoise(state);
+    state.options.map.reach = state.models.reach(state.options.map.reach);
+    tagInput(BakeInput::high, [&] { return &state.detail.emplace(state.models, high, state.options); });
+    const std::vector<std::string>& seen = state.detail->warnings();
+    state.report.warnings.insert(state.report.warnings.end(), seen.begin(), seen.end());
+    const std::vector<std::string> words = imageWords(state.models.low);
+    for (std::size_t i = 0; i < words.size(); ++i) bakeTiles(state, state.models.low.images[i], words[i]);
+    if (!state.options.out_mesh.empty() && !state.is_without_map)
+        addModelWithMaps({*std::move(state.models.low_model), state.options.out_mesh, std::move(state.maps)},
+                         state.step.model_files, state.files, state.report.warnings);
+    if (!state.is_without_map) state.report.output_files = state.files.files();
+    return std::move(state.report);
+}
 
 }  // namespace
 
@@ -396,7 +415,8 @@ Result<BakeFileReport> bakeFile(const std::string& low, const std::string& high,
 
 BakeFileReport bakeAsStep(const std::string& low, const std::string& high, const std::string& output,
                           const BakeFileOptions& options, const BakeStep& step) {
-    return FileBaking(output, options, step).run(low, high);
+    FileBaking state{.output = output, .options = options, .step = step};
+    return bakeModels(state, low, high);
 }
 
 std::vector<Vec3> pictureOfOrigins(const BakedMap& map) {

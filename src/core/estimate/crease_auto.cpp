@@ -1,4 +1,11 @@
 // SPDX-License-Identifier: MIT
+// Finds hard edges of a mesh without normals, in these steps:
+//
+//   1. makeFaces: normals of faces
+//   2. measureAngles: dihedral angles, and their histogram
+//   3. filterNormals: face normals without noise, if the angles show that there may be some
+//   4. angleInGap: the angle from which edges are hard
+//   5. markEdges: the kind of each edge; single gaps and single hard edges are removed
 #include "core/estimate/creases.h"
 
 #include <algorithm>
@@ -17,6 +24,10 @@ namespace tspace {
 namespace {
 
 constexpr std::uint32_t kNoPair = ~std::uint32_t{0};
+constexpr double kLeastFilteredDeg = 3, kLoudDeg = 12, kLouderDeg = 30;
+/// Maximum angle, in degrees, by which noise of one edge length rotates edges.
+constexpr double kMostTurnOfNoise = 183;
+constexpr int kBins = 180;
 
 /// For each edge with exactly two faces: maps the corner on one side to the corner on the other side.
 class EdgePairs {
@@ -89,329 +100,326 @@ struct Columns {
     }
 };
 
-class CreaseFinder {
-  public:
-    CreaseFinder(const NormalsCall& call, const EdgePairs& pairs) : call_(call), pairs_(pairs) {}
-
-    Creases find() {
-        makeFaces();
-        measureAngles();
-        Histogram angles = histogram();
-        if (mayBeNoisy(angles)) noise_deg_ = kTurnOfNoise * roughnessOf(call_);
-        if (noise_deg_ > kLeastFilteredDeg) {
-            filter();
-            measureAngles();
-            angles = histogram();
-        }
-        Creases creases;
-        creases.angle_deg = static_cast<float>(angleInGap(angles));
-        mark(creases);
-        return creases;
-    }
-
-  private:
-    static constexpr double kLeastFilteredDeg = 3, kLoudDeg = 12, kLouderDeg = 30;
-    // maximum angle, in degrees, by which noise of one edge length rotates edges
-    static constexpr double kTurnOfNoise = 183;
-
-    template <class Body>
-    void forFaces(const Body& body) {
-        call_.parallel.forRanges(call_.mesh.faceCount(), Parallel::kGrain / 4, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t f = begin; f < end; ++f) body(static_cast<std::uint32_t>(f));
-        });
-    }
-    template <class Body>
-    void forCorners(const Body& body) {
-        call_.parallel.forRanges(call_.mesh.cornerCount(), Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t c = begin; c < end; ++c) body(static_cast<std::uint32_t>(c));
-        });
-    }
-
-    void makeFaces() {
-        normals_ = Buffer<float>(call_.allocator, 4 * paddedCount(), 0.0f);
-        forFaces([&](std::uint32_t f) {
-            const bool is_used = call_.faces.isUsed(f);
-            const FaceRow row = is_used
-                                    ? faceRow(call_.mesh, call_.faces.first(f), call_.faces.past(f), call_.factor, true)
-                                    : FaceRow{};
-            Float4 normal = splat(0.0f);
-            if (!row.isDegenerate()) {
-                normal = toFloat4(row.unit());
-                normal[3] = static_cast<float>(row.size);
-            }
-            storeFloat4(normals_.data() + 4 * std::size_t{f}, normal);
-        });
-    }
-    /// Returns the face normal, with twice the area as fourth component.
-    [[nodiscard]] Float4 normal(std::size_t face) const { return loadFloat4(normals_.data() + 4 * face); }
-
-    /// Replaces each face normal by the weighted mean of itself and the normals of neighboring faces: close and similar
-    /// normals have larger weights.
-    void filter() {
-        const std::size_t count = call_.mesh.faceCount();
-        Buffer<float> centres(call_.allocator, 4 * count);
-        forFaces([&](std::uint32_t f) {
-            DVec3 sum;
-            const std::uint32_t first = call_.faces.first(f), past = call_.faces.past(f);
-            for (std::uint32_t c = first; c < past; ++c)
-                sum = sum + toDouble(call_.mesh.positions[call_.mesh.indices[c]]);
-            storeFloat4(centres.data() + 4 * std::size_t{f}, toFloat4((1.0 / std::max(1u, past - first)) * sum));
-        });
-        const auto centre = [&](std::size_t face) { return loadFloat4(centres.data() + 4 * face); };
-        double distances = 0;
-        std::size_t edges = 0;
-        for (std::uint32_t c = 0; c < call_.mesh.cornerCount(); ++c) {
-            if (pairs_.other(c) == kNoPair || pairs_.other(c) < c) continue;
-            const Float4 apart = centre(call_.faces.of(c)) - centre(call_.faces.of(pairs_.other(c)));
-            const double square = dotted(apart, apart);
-            if (!std::isfinite(square)) continue;
-            distances += std::sqrt(square);
-            ++edges;
-        }
-        const double mean = distances / static_cast<double>(std::max<std::size_t>(edges, 1));
-        if (!(mean > 0)) return;
-        const double alike = noise_deg_ < kLoudDeg ? 0.25 : noise_deg_ < kLouderDeg ? 0.35 : 0.5;
-        const auto per_place = static_cast<float>(0.5 / (mean * mean)),
-                   per_turn = static_cast<float>(0.5 / (alike * alike));
-        const auto nearOf = [&](std::uint32_t c) {
-            const std::uint32_t f = call_.faces.of(c),
-                                g = pairs_.other(c) == kNoPair ? f : call_.faces.of(pairs_.other(c));
-            const Float4 apart = centre(g) - centre(f);
-            return Near{g, g == f ? 0 : normal(g)[3] * decay(per_place * dotted(apart, apart))};
-        };
-        const int passes = noise_deg_ < kLoudDeg / 2 ? 8 : noise_deg_ < kLoudDeg ? 16 : 32;
-        if (areAllTriangles())
-            filterTriangles(nearOf, per_turn, passes);
-        else
-            filterFaces(nearOf, per_turn, passes);
-    }
-
-    /// Returns true also for OBJ files, whose faces have individual sizes.
-    [[nodiscard]] bool areAllTriangles() const {
-        const auto& sizes = call_.mesh.face_sizes;
-        return call_.are_triangles || (!sizes.empty() && std::all_of(sizes.begin(), sizes.end(),
-                                                                     [](std::uint32_t size) { return size == 3; }));
-    }
-
-    /// A face adjacent across an edge.
-    struct Near {
-        std::uint32_t face;
-        float weight;  ///< weight by the area and the proximity
-    };
-
-    template <class NearOf>
-    void filterFaces(const NearOf& nearOf, float per_turn, int passes) {
-        Buffer<Near> near(call_.allocator, call_.mesh.cornerCount());
-        forCorners([&](std::uint32_t c) { near[c] = nearOf(c); });
-        Buffer<float> before(call_.allocator, normals_.size());
-        for (int pass = 0; pass < passes; ++pass) {
-            std::swap(normals_, before);
-            const float* const from = before.data();
-            forFaces([&](std::uint32_t f) {
-                const Float4 own = loadFloat4(from + 4 * std::size_t{f});
-                Float4 sum = splat(own[3]) * own;
-                for (std::uint32_t c = call_.faces.first(f), past = call_.faces.past(f); c < past; ++c) {
-                    const Float4 other = loadFloat4(from + 4 * std::size_t{near[c].face}), turn = other - own;
-                    sum += splat(near[c].weight * decay(per_turn * dotted(turn, turn))) * other;
-                }
-                const float square = dotted(sum, sum);
-                Float4 mean_normal = square > 0 && std::isfinite(square) ? splat(1 / std::sqrt(square)) * sum : own;
-                mean_normal[3] = own[3];
-                storeFloat4(normals_.data() + 4 * std::size_t{f}, mean_normal);
-            });
-        }
-    }
-
-    /// Like filterFaces, for four triangles at a time, one per lane, with identical bits: 62 instead of 149
-    /// instructions per triangle and pass (callgrind, a torus of 32,000 triangles).
-    template <class NearOf>
-    void filterTriangles(const NearOf& nearOf, float per_turn, int passes) {
-        struct Around {
-            std::uint32_t faces[3][4];
-            float weights[3][4];
-        };
-        const std::size_t count = call_.mesh.faceCount(), fours = paddedCount() / 4;
-        Buffer<Around> around(call_.allocator, fours);
-        const auto forFours = [&](const auto& body) {
-            call_.parallel.forRanges(fours, Parallel::kGrain / 16, [&](std::size_t begin, std::size_t end) {
-                for (std::size_t four = begin; four < end; ++four) body(four);
-            });
-        };
-        forFours([&](std::size_t four) {
-            Around& to = around[four];
-            for (std::size_t lane = 0; lane < 4; ++lane) {
-                const std::size_t face = 4 * four + lane;
-                for (std::size_t k = 0; k < 3; ++k) {
-                    const Near near = face < count ? nearOf(static_cast<std::uint32_t>(3 * face + k)) : Near{0, 0};
-                    to.faces[k][lane] = near.face;
-                    to.weights[k][lane] = near.weight;
-                }
-            }
-        });
-        Buffer<float> before(call_.allocator, normals_.size());
-        for (int pass = 0; pass < passes; ++pass) {
-            std::swap(normals_, before);
-            const float* const from = before.data();
-            const auto row = [from](std::size_t face) { return loadFloat4(from + 4 * face); };
-            forFours([&](std::size_t four) {
-                const Around& near = around[four];
-                const Columns own(row(4 * four), row(4 * four + 1), row(4 * four + 2), row(4 * four + 3));
-                Vec3x4 sum = own.fourths * own.vectors;
-                for (std::size_t k = 0; k < 3; ++k) {
-                    const std::uint32_t* const faces = near.faces[k];
-                    const Columns other(row(faces[0]), row(faces[1]), row(faces[2]), row(faces[3]));
-                    const Vec3x4 turn = other.vectors - own.vectors;
-                    const Float4 alike = decay(splat(per_turn) * dot(turn, turn));
-                    sum = sum + (loadFloat4(near.weights[k]) * alike) * other.vectors;
-                }
-                const Float4 square = dot(sum, sum);
-                const Vec3x4 unit = (splat(1.0f) / sqrt4(square)) * sum;
-                const Mask4 has_mean = (square > splat(0.0f)) & (square <= splat(std::numeric_limits<float>::max()));
-                Float4 rows[4] = {select4(has_mean, unit.x, own.vectors.x), select4(has_mean, unit.y, own.vectors.y),
-                                  select4(has_mean, unit.z, own.vectors.z), own.fourths};
-                transpose4(rows[0], rows[1], rows[2], rows[3]);
-                for (std::size_t lane = 0; lane < 4; ++lane)
-                    storeFloat4(normals_.data() + 4 * (4 * four + lane), rows[lane]);
-            });
-        }
-    }
-
-    /// Faces are stored in rows of four; entries after the last face are zero.
-    [[nodiscard]] std::size_t paddedCount() const { return (call_.mesh.faceCount() + 3) / 4 * 4; }
-
-    /// Stores the angle between the two faces of each edge, in degrees, at both corners of the edge; -1 without a pair.
-    void measureAngles() {
-        angles_ = Buffer<float>(call_.allocator, call_.mesh.cornerCount(), -1.0f);
-        forCorners([&](std::uint32_t c) {
-            const std::uint32_t other = pairs_.other(c);
-            if (other == kNoPair || other < c) return;
-            const Float4 m = normal(call_.faces.of(c)), n = normal(call_.faces.of(other));
-            if (!(m[3] > 0) || !(n[3] > 0)) return;
-            const DVec3 a{m[0], m[1], m[2]}, b{n[0], n[1], n[2]};
-            angles_[c] = angles_[other] = static_cast<float>(angleBetween(a, b) * (180 / kPi));
-        });
-    }
-
-    [[nodiscard]] double edgeLength(std::uint32_t corner) const {
-        const MeshView& mesh = call_.mesh;
-        return length(toDouble(mesh.positions[mesh.indices[call_.faces.next(corner)]]) -
-                      toDouble(mesh.positions[mesh.indices[corner]]));
-    }
-
-    static constexpr int kBins = 180;
-
-    /// Total edge length per degree of the dihedral angle.
-    struct Histogram {
-        std::array<double, kBins> lengths = {};
-        double all = 0;
-    };
-    [[nodiscard]] Histogram histogram() const {
-        Histogram of;
-        for (std::uint32_t c = 0; c < call_.mesh.cornerCount(); ++c) {
-            if (angles_[c] < 0 || pairs_.other(c) < c) continue;
-            const double size = edgeLength(c);
-            if (!std::isfinite(size)) continue;
-            of.lengths[static_cast<std::size_t>(std::min(kBins - 1, static_cast<int>(angles_[c])))] += size;
-            of.all += size;
-        }
-        return of;
-    }
-
-    /// Returns whether noise must be measured. Noise of standard deviation s, relative to the edge length, rotates half
-    /// of the edges by at least 126 s degrees: if half of them have angles below 2 degrees, no filtering is needed.
-    [[nodiscard]] static bool mayBeNoisy(const Histogram& angles) {
-        return angles.lengths[0] + angles.lengths[1] < angles.all / 2;
-    }
-
-    /// Returns whether less than a quarter of the edges, by length, is flat within 8 degrees. For shapes with sharp
-    /// edges, decimated to 1 % or less, a quarter is within 4 degrees; for smooth shapes with so few triangles that the
-    /// histogram has no gap, a quarter is within 12 (scripts/accuracy --kinds): their edges have angles of 40 degrees
-    /// and more, and are soft.
-    [[nodiscard]] static bool isBentEverywhere(const Histogram& angles) {
-        double flat = 0;
-        for (std::size_t bin = 0; bin < 8; ++bin) flat += angles.lengths[bin];
-        return flat < angles.all / 4;
-    }
-
-    /// Returns the middle of the widest range of angles with the fewest edges, by length.
-    [[nodiscard]] double angleInGap(const Histogram& angles) const {
-        constexpr int kBlur = 6;
-        constexpr double kMost = 70;
-        const double all = angles.all;
-        std::array<double, kBins> density{};
-        // Normal distribution with a standard deviation of 2 degrees.
-        constexpr double kWeights[kBlur + 1] = {0.199676, 0.176213, 0.121109, 0.064826, 0.027023, 0.008773, 0.002218};
-        for (int bin = 0; bin < kBins; ++bin) {
-            for (int d = -kBlur; d <= kBlur; ++d) {
-                const int from = std::clamp(bin + d, 0, kBins - 1);
-                density[static_cast<std::size_t>(bin)] +=
-                    kWeights[d < 0 ? -d : d] * angles.lengths[static_cast<std::size_t>(from)];
-            }
-        }
-        const int first = static_cast<int>(std::max(15.0, std::min(25.0, 12 + noise_deg_)));
-        const auto end = static_cast<int>(kMost);
-        double least = density[static_cast<std::size_t>(first)];
-        for (int bin = first; bin < end; ++bin) least = std::min(least, density[static_cast<std::size_t>(bin)]);
-        // Grid meshes cut the edges of shapes at all angles: there is no gap, and this angle was correct for all that
-        // were tried.
-        constexpr double kAngleOfGrids = 30;
-        if (noise_deg_ <= kLeastFilteredDeg && least > 3e-4 * all)
-            return isBentEverywhere(angles) ? kMost : kAngleOfGrids;
-        const double limit = least + 5e-5 * all;
-        int best_begin = first, best_end = first;
-        for (int begin = first; begin < end; ++begin) {
-            int past = begin;
-            while (past < end && density[static_cast<std::size_t>(past)] <= limit) ++past;
-            if (past - begin > best_end - best_begin) best_begin = begin, best_end = past;
-            if (past > begin) begin = past;
-        }
-        return 0.5 * (best_begin + best_end);
-    }
-
-    void mark(Creases& creases) const {
-        const std::size_t corners = call_.mesh.cornerCount();
-        creases.edges = Buffer<EdgeKind>(call_.allocator, corners, EdgeKind::byAngle);
-        Buffer<std::uint8_t> counts(call_.allocator, call_.mesh.vertexCount(),
-                                    std::uint8_t{0});  // number of hard edges; 2 means two or more
-        const auto forPairs = [&](const auto& body) {
-            for (std::uint32_t c = 0; c < corners; ++c) {
-                if (angles_[c] >= 0 && pairs_.other(c) > c) body(c);
-            }
-        };
-        const auto areBothEnds = [&](std::uint32_t c) {
-            const EdgePairs::Ends ends = pairs_.endsOf(c);
-            return counts[ends.low] == 1 && counts[ends.high] == 1;
-        };
-        const auto set = [&](std::uint32_t corner, EdgeKind kind) {
-            creases.edges[corner] = creases.edges[pairs_.other(corner)] = kind;
-        };
-        const auto countHard = [&] {
-            std::fill(counts.begin(), counts.end(), std::uint8_t{0});
-            forPairs([&](std::uint32_t c) {
-                if (creases.edges[c] != EdgeKind::hard) return;
-                const EdgePairs::Ends ends = pairs_.endsOf(c);
-                for (const std::uint32_t point : {ends.low, ends.high}) counts[point] = counts[point] == 0 ? 1 : 2;
-            });
-        };
-        forPairs([&](std::uint32_t c) { set(c, angles_[c] > creases.angle_deg ? EdgeKind::hard : EdgeKind::soft); });
-        countHard();
-        forPairs([&](std::uint32_t c) {
-            if (creases.edges[c] == EdgeKind::hard && areBothEnds(c)) set(c, EdgeKind::soft);
-        });
-        countHard();
-        forPairs([&](std::uint32_t c) {
-            const bool may_be_gap = creases.edges[c] == EdgeKind::soft && angles_[c] > creases.angle_deg / 2;
-            if (may_be_gap && areBothEnds(c)) set(c, EdgeKind::hard);
-        });
-        creases.are_all_soft = !pairs_.hasCrowdedEdges() && std::find(creases.edges.begin(), creases.edges.end(),
-                                                                      EdgeKind::hard) == creases.edges.end();
-    }
-
-    const NormalsCall& call_;
-    const EdgePairs& pairs_;
-    double noise_deg_ = 0;
-    Buffer<float> normals_, angles_;
+/// A face adjacent across an edge.
+struct Near {
+    std::uint32_t face;
+    float weight;  ///< weight by the area and the proximity
 };
+
+/// Total edge length per degree of the dihedral angle.
+struct Histogram {
+    std::array<double, kBins> lengths = {};
+    double all = 0;
+};
+
+/// The state of a search that its steps share.
+struct CreaseFinder {
+    const NormalsCall& call;
+    const EdgePairs& pairs;
+    double noise_deg = 0;
+    Buffer<float> normals = {}, angles = {};
+};
+
+/// Faces are stored in rows of four; entries after the last face are zero.
+std::size_t paddedCount(const CreaseFinder& finder) { return (finder.call.mesh.faceCount() + 3) / 4 * 4; }
+
+template <class Body>
+void forFaces(CreaseFinder& finder, const Body& body) {
+    finder.call.parallel.forRanges(finder.call.mesh.faceCount(), Parallel::kGrain / 4,
+                                   [&](std::size_t begin, std::size_t end) {
+                                       for (std::size_t f = begin; f < end; ++f) body(static_cast<std::uint32_t>(f));
+                                   });
+}
+
+void makeFaces(CreaseFinder& finder) {
+    finder.normals = Buffer<float>(finder.call.allocator, 4 * paddedCount(finder), 0.0f);
+    forFaces(finder, [&](std::uint32_t f) {
+        const bool is_used = finder.call.faces.isUsed(f);
+        const FaceRow row = is_used ? faceRow(finder.call.mesh, finder.call.faces.first(f), finder.call.faces.past(f),
+                                              finder.call.factor, true)
+                                    : FaceRow{};
+        Float4 normal = splat(0.0f);
+        if (!row.isDegenerate()) {
+            normal = toFloat4(row.unit());
+            normal[3] = static_cast<float>(row.size);
+        }
+        storeFloat4(finder.normals.data() + 4 * std::size_t{f}, normal);
+    });
+}
+
+template <class Body>
+void forCorners(CreaseFinder& finder, const Body& body) {
+    finder.call.parallel.forRanges(finder.call.mesh.cornerCount(), Parallel::kGrain,
+                                   [&](std::size_t begin, std::size_t end) {
+                                       for (std::size_t c = begin; c < end; ++c) body(static_cast<std::uint32_t>(c));
+                                   });
+}
+
+/// Returns the face normal, with twice the area as fourth component.
+Float4 filteredNormal(const CreaseFinder& finder, std::size_t face) {
+    return loadFloat4(finder.normals.data() + 4 * face);
+}
+
+/// Stores the angle between the two faces of each edge, in degrees, at both corners of the edge; -1 without a pair.
+void measureAngles(CreaseFinder& finder) {
+    finder.angles = Buffer<float>(finder.call.allocator, finder.call.mesh.cornerCount(), -1.0f);
+    forCorners(finder, [&](std::uint32_t c) {
+        const std::uint32_t other = finder.pairs.other(c);
+        if (other == kNoPair || other < c) return;
+        const Float4 m = filteredNormal(finder, finder.call.faces.of(c)),
+                     n = filteredNormal(finder, finder.call.faces.of(other));
+        if (!(m[3] > 0) || !(n[3] > 0)) return;
+        const DVec3 a{m[0], m[1], m[2]}, b{n[0], n[1], n[2]};
+        finder.angles[c] = finder.angles[other] = static_cast<float>(angleBetween(a, b) * (180 / kPi));
+    });
+}
+
+double edgeLength(const CreaseFinder& finder, std::uint32_t corner) {
+    const MeshView& mesh = finder.call.mesh;
+    return length(toDouble(mesh.positions[mesh.indices[finder.call.faces.next(corner)]]) -
+                  toDouble(mesh.positions[mesh.indices[corner]]));
+}
+
+Histogram histogram(const CreaseFinder& finder) {
+    Histogram of;
+    for (std::uint32_t c = 0; c < finder.call.mesh.cornerCount(); ++c) {
+        if (finder.angles[c] < 0 || finder.pairs.other(c) < c) continue;
+        const double size = edgeLength(finder, c);
+        if (!std::isfinite(size)) continue;
+        of.lengths[static_cast<std::size_t>(std::min(kBins - 1, static_cast<int>(finder.angles[c])))] += size;
+        of.all += size;
+    }
+    return of;
+}
+
+/// Returns whether noise must be measured. Noise of standard deviation s, relative to the edge length, rotates half
+/// of the edges by at least 126 s degrees: if half of them have angles below 2 degrees, no filtering is needed.
+bool mayBeNoisy(const Histogram& angles) { return angles.lengths[0] + angles.lengths[1] < angles.all / 2; }
+
+/// Returns true also for OBJ files, whose faces have individual sizes.
+bool areAllTriangles(const CreaseFinder& finder) {
+    const auto& sizes = finder.call.mesh.face_sizes;
+    return finder.call.are_triangles ||
+           (!sizes.empty() && std::all_of(sizes.begin(), sizes.end(), [](std::uint32_t size) { return size == 3; }));
+}
+
+/// Like filterFaces, for four triangles at a time, one per lane, with identical bits: 62 instead of 149
+/// instructions per triangle and pass (callgrind, a torus of 32,000 triangles).
+template <class NearOf>
+void filterTriangles(CreaseFinder& finder, const NearOf& nearOf, float per_turn, int passes) {
+    struct Around {
+        std::uint32_t faces[3][4];
+        float weights[3][4];
+    };
+    const std::size_t count = finder.call.mesh.faceCount(), fours = paddedCount(finder) / 4;
+    Buffer<Around> around(finder.call.allocator, fours);
+    const auto forFours = [&](const auto& body) {
+        finder.call.parallel.forRanges(fours, Parallel::kGrain / 16, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t four = begin; four < end; ++four) body(four);
+        });
+    };
+    forFours([&](std::size_t four) {
+        Around& to = around[four];
+        for (std::size_t lane = 0; lane < 4; ++lane) {
+            const std::size_t face = 4 * four + lane;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Near near = face < count ? nearOf(static_cast<std::uint32_t>(3 * face + k)) : Near{0, 0};
+                to.faces[k][lane] = near.face;
+                to.weights[k][lane] = near.weight;
+            }
+        }
+    });
+    Buffer<float> before(finder.call.allocator, finder.normals.size());
+    for (int pass = 0; pass < passes; ++pass) {
+        std::swap(finder.normals, before);
+        const float* const from = before.data();
+        const auto row = [from](std::size_t face) { return loadFloat4(from + 4 * face); };
+        forFours([&](std::size_t four) {
+            const Around& near = around[four];
+            const Columns own(row(4 * four), row(4 * four + 1), row(4 * four + 2), row(4 * four + 3));
+            Vec3x4 sum = own.fourths * own.vectors;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t* const faces = near.faces[k];
+                const Columns other(row(faces[0]), row(faces[1]), row(faces[2]), row(faces[3]));
+                const Vec3x4 turn = other.vectors - own.vectors;
+                const Float4 alike = decay(splat(per_turn) * dot(turn, turn));
+                sum = sum + (loadFloat4(near.weights[k]) * alike) * other.vectors;
+            }
+            const Float4 square = dot(sum, sum);
+            const Vec3x4 unit = (splat(1.0f) / sqrt4(square)) * sum;
+            const Mask4 has_mean = (square > splat(0.0f)) & (square <= splat(std::numeric_limits<float>::max()));
+            Float4 rows[4] = {select4(has_mean, unit.x, own.vectors.x), select4(has_mean, unit.y, own.vectors.y),
+                              select4(has_mean, unit.z, own.vectors.z), own.fourths};
+            transpose4(rows[0], rows[1], rows[2], rows[3]);
+            for (std::size_t lane = 0; lane < 4; ++lane)
+                storeFloat4(finder.normals.data() + 4 * (4 * four + lane), rows[lane]);
+        });
+    }
+}
+
+template <class NearOf>
+void filterFaces(CreaseFinder& finder, const NearOf& nearOf, float per_turn, int passes) {
+    Buffer<Near> near(finder.call.allocator, finder.call.mesh.cornerCount());
+    forCorners(finder, [&](std::uint32_t c) { near[c] = nearOf(c); });
+    Buffer<float> before(finder.call.allocator, finder.normals.size());
+    for (int pass = 0; pass < passes; ++pass) {
+        std::swap(finder.normals, before);
+        const float* const from = before.data();
+        forFaces(finder, [&](std::uint32_t f) {
+            const Float4 own = loadFloat4(from + 4 * std::size_t{f});
+            Float4 sum = splat(own[3]) * own;
+            for (std::uint32_t c = finder.call.faces.first(f), past = finder.call.faces.past(f); c < past; ++c) {
+                const Float4 other = loadFloat4(from + 4 * std::size_t{near[c].face}), turn = other - own;
+                sum += splat(near[c].weight * decay(per_turn * dotted(turn, turn))) * other;
+            }
+            const float square = dotted(sum, sum);
+            Float4 mean_normal = square > 0 && std::isfinite(square) ? splat(1 / std::sqrt(square)) * sum : own;
+            mean_normal[3] = own[3];
+            storeFloat4(finder.normals.data() + 4 * std::size_t{f}, mean_normal);
+        });
+    }
+}
+
+/// Replaces each face normal by the weighted mean of itself and the normals of neighboring faces: close and similar
+/// normals have larger weights.
+void filterNormals(CreaseFinder& finder) {
+    const std::size_t count = finder.call.mesh.faceCount();
+    Buffer<float> centres(finder.call.allocator, 4 * count);
+    forFaces(finder, [&](std::uint32_t f) {
+        DVec3 sum;
+        const std::uint32_t first = finder.call.faces.first(f), past = finder.call.faces.past(f);
+        for (std::uint32_t c = first; c < past; ++c)
+            sum = sum + toDouble(finder.call.mesh.positions[finder.call.mesh.indices[c]]);
+        storeFloat4(centres.data() + 4 * std::size_t{f}, toFloat4((1.0 / std::max(1u, past - first)) * sum));
+    });
+    const auto centre = [&](std::size_t face) { return loadFloat4(centres.data() + 4 * face); };
+    double distances = 0;
+    std::size_t edges = 0;
+    for (std::uint32_t c = 0; c < finder.call.mesh.cornerCount(); ++c) {
+        if (finder.pairs.other(c) == kNoPair || finder.pairs.other(c) < c) continue;
+        const Float4 apart = centre(finder.call.faces.of(c)) - centre(finder.call.faces.of(finder.pairs.other(c)));
+        const double square = dotted(apart, apart);
+        if (!std::isfinite(square)) continue;
+        distances += std::sqrt(square);
+        ++edges;
+    }
+    const double mean = distances / static_cast<double>(std::max<std::size_t>(edges, 1));
+    if (!(mean > 0)) return;
+    const double alike = finder.noise_deg < kLoudDeg ? 0.25 : finder.noise_deg < kLouderDeg ? 0.35 : 0.5;
+    const auto per_place = static_cast<float>(0.5 / (mean * mean)),
+               per_turn = static_cast<float>(0.5 / (alike * alike));
+    const auto nearOf = [&](std::uint32_t c) {
+        const std::uint32_t f = finder.call.faces.of(c),
+                            g = finder.pairs.other(c) == kNoPair ? f : finder.call.faces.of(finder.pairs.other(c));
+        const Float4 apart = centre(g) - centre(f);
+        return Near{g, g == f ? 0 : filteredNormal(finder, g)[3] * decay(per_place * dotted(apart, apart))};
+    };
+    const int passes = finder.noise_deg < kLoudDeg / 2 ? 8 : finder.noise_deg < kLoudDeg ? 16 : 32;
+    if (areAllTriangles(finder))
+        filterTriangles(finder, nearOf, per_turn, passes);
+    else
+        filterFaces(finder, nearOf, per_turn, passes);
+}
+
+/// Returns whether less than a quarter of the edges, by length, is flat within 8 degrees. For shapes with sharp
+/// edges, decimated to 1 % or less, a quarter is within 4 degrees; for smooth shapes with so few triangles that the
+/// histogram has no gap, a quarter is within 12 (scripts/accuracy --kinds): their edges have angles of 40 degrees
+/// and more, and are soft.
+bool isBentEverywhere(const Histogram& angles) {
+    double flat = 0;
+    for (std::size_t bin = 0; bin < 8; ++bin) flat += angles.lengths[bin];
+    return flat < angles.all / 4;
+}
+
+/// Returns the middle of the widest range of angles with the fewest edges, by length.
+double angleInGap(const CreaseFinder& finder, const Histogram& angles) {
+    constexpr int kBlur = 6;
+    constexpr double kMost = 70;
+    const double all = angles.all;
+    std::array<double, kBins> density{};
+    // Normal distribution with a standard deviation of 2 degrees.
+    constexpr double kWeights[kBlur + 1] = {0.199676, 0.176213, 0.121109, 0.064826, 0.027023, 0.008773, 0.002218};
+    for (int bin = 0; bin < kBins; ++bin) {
+        for (int d = -kBlur; d <= kBlur; ++d) {
+            const int from = std::clamp(bin + d, 0, kBins - 1);
+            density[static_cast<std::size_t>(bin)] +=
+                kWeights[d < 0 ? -d : d] * angles.lengths[static_cast<std::size_t>(from)];
+        }
+    }
+    const int first = static_cast<int>(std::max(15.0, std::min(25.0, 12 + finder.noise_deg)));
+    const auto end = static_cast<int>(kMost);
+    double least = density[static_cast<std::size_t>(first)];
+    for (int bin = first; bin < end; ++bin) least = std::min(least, density[static_cast<std::size_t>(bin)]);
+    // Grid meshes cut the edges of shapes at all angles: there is no gap, and this angle was correct for all that
+    // were tried.
+    constexpr double kAngleOfGrids = 30;
+    if (finder.noise_deg <= kLeastFilteredDeg && least > 3e-4 * all)
+        return isBentEverywhere(angles) ? kMost : kAngleOfGrids;
+    const double limit = least + 5e-5 * all;
+    int best_begin = first, best_end = first;
+    for (int begin = first; begin < end; ++begin) {
+        int past = begin;
+        while (past < end && density[static_cast<std::size_t>(past)] <= limit) ++past;
+        if (past - begin > best_end - best_begin) best_begin = begin, best_end = past;
+        if (past > begin) begin = past;
+    }
+    return 0.5 * (best_begin + best_end);
+}
+
+void markEdges(const CreaseFinder& finder, Creases& creases) {
+    const std::size_t corners = finder.call.mesh.cornerCount();
+    creases.edges = Buffer<EdgeKind>(finder.call.allocator, corners, EdgeKind::byAngle);
+    Buffer<std::uint8_t> counts(finder.call.allocator, finder.call.mesh.vertexCount(),
+                                std::uint8_t{0});  // number of hard edges; 2 means two or more
+    const auto forPairs = [&](const auto& body) {
+        for (std::uint32_t c = 0; c < corners; ++c) {
+            if (finder.angles[c] >= 0 && finder.pairs.other(c) > c) body(c);
+        }
+    };
+    const auto areBothEnds = [&](std::uint32_t c) {
+        const EdgePairs::Ends ends = finder.pairs.endsOf(c);
+        return counts[ends.low] == 1 && counts[ends.high] == 1;
+    };
+    const auto set = [&](std::uint32_t corner, EdgeKind kind) {
+        creases.edges[corner] = creases.edges[finder.pairs.other(corner)] = kind;
+    };
+    const auto countHard = [&] {
+        std::fill(counts.begin(), counts.end(), std::uint8_t{0});
+        forPairs([&](std::uint32_t c) {
+            if (creases.edges[c] != EdgeKind::hard) return;
+            const EdgePairs::Ends ends = finder.pairs.endsOf(c);
+            for (const std::uint32_t point : {ends.low, ends.high}) counts[point] = counts[point] == 0 ? 1 : 2;
+        });
+    };
+    forPairs([&](std::uint32_t c) { set(c, finder.angles[c] > creases.angle_deg ? EdgeKind::hard : EdgeKind::soft); });
+    countHard();
+    forPairs([&](std::uint32_t c) {
+        if (creases.edges[c] == EdgeKind::hard && areBothEnds(c)) set(c, EdgeKind::soft);
+    });
+    countHard();
+    forPairs([&](std::uint32_t c) {
+        const bool may_be_gap = creases.edges[c] == EdgeKind::soft && finder.angles[c] > creases.angle_deg / 2;
+        if (may_be_gap && areBothEnds(c)) set(c, EdgeKind::hard);
+    });
+    creases.are_all_soft = !finder.pairs.hasCrowdedEdges() &&
+                           std::find(creases.edges.begin(), creases.edges.end(), EdgeKind::hard) == creases.edges.end();
+}
+
+Creases creasesOf(CreaseFinder& finder) {
+    makeFaces(finder);
+    measureAngles(finder);
+    Histogram angles = histogram(finder);
+    if (mayBeNoisy(angles)) finder.noise_deg = kMostTurnOfNoise * roughnessOf(finder.call);
+    if (finder.noise_deg > kLeastFilteredDeg) {
+        filterNormals(finder);
+        measureAngles(finder);
+        angles = histogram(finder);
+    }
+    Creases creases;
+    creases.angle_deg = static_cast<float>(angleInGap(finder, angles));
+    markEdges(finder, creases);
+    return creases;
+}
 
 }  // namespace
 
@@ -422,7 +430,8 @@ Creases findCreases(const MeshView& mesh, const NormalOptions& options, const Ex
     plain.weld_positions = options.weld_positions;
     const NormalsCall call(mesh, mesh, plain, {}, parallel);
     const EdgePairs pairs(call);
-    return CreaseFinder(call, pairs).find();
+    CreaseFinder finder{.call = call, .pairs = pairs};
+    return creasesOf(finder);
 }
 
 }  // namespace tspace

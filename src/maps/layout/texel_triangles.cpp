@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Rasterizes bands of rows in parallel: first texels inside triangles, then the texels next to them. Texels farther
-// away are filled ring by ring.
+// Rasterizes bands of rows in parallel, in these steps:
+//
+//   1. listBands: the triangles with rows in each band
+//   2. addInside: texels inside triangles
+//   3. addNear: texels next to them
+//   4. addRings: texels farther away, ring by ring
+//   5. countTexels
 #include "maps/layout/texel_triangles.h"
 
 #include <unordered_map>
@@ -28,333 +33,331 @@ struct RowRange {
     std::int32_t first = 0, last = -1;
 };
 
-class TriangleSearch {
-  public:
-    TriangleSearch(const UvTriangles& triangles, TexelTriangles& found, std::uint32_t padding, Parallel& parallel,
-                   const Allocator* allocator)
-        : triangles_(triangles),
-          found_(found),
-          shape_(found.shape),
-          near_(std::min<double>(padding, kNearTexels)),
-          padding_(padding),
-          parallel_(parallel),
-          allocator_(allocator),
-          band_count_((shape_.height + kBandRows - 1) / kBandRows) {}
-
-    bool run() {
-        const std::size_t texels = std::size_t{shape_.width} * shape_.height;
-        if (!listBands()) return false;
-        found_.places = Buffer<TexelPlace>(allocator_, texels, TexelPlace{});
-        found_.kinds = Buffer<TexelCoverage>(allocator_, texels, TexelCoverage::none);
-        found_.overlaps = Buffer<bool>(allocator_, texels, false);
-        found_.is_read = Buffer<bool>(allocator_, texels, false);
-        if (near_ > 0) distances_ = Buffer<float>(allocator_, texels, static_cast<float>(near_ * near_));
-        parallel_.forTasks(band_count_, [&](std::size_t band) {
-            for (const std::uint32_t triangle : entries(band)) addInside(triangle, band);
-            if (near_ == 0) return;
-            for (const std::uint32_t triangle : entries(band)) addNear(triangle, band);
-        });
-        if (padding_ > near_) addRings();
-        countTexels();
-        return true;
-    }
-
-  private:
-    // Lists the triangles with rows in each band.
-
-    bool listBands() {
-        const std::size_t count = triangles_.corners.size() / 3;
-        rows_ = Buffer<RowRange>(allocator_, count, RowRange{});
-        begin_ = Buffer<std::size_t>(allocator_, band_count_ + 1, std::size_t{0});
-        std::uint64_t steps = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            steps += placeRows(i);
-            if (steps > kCoverSteps) return false;
-            forBands(rows_[i], [&](std::size_t band) { ++begin_[band]; });
-        }
-        std::size_t total = 0;
-        for (std::size_t band = 0; band <= band_count_; ++band) total += std::exchange(begin_[band], total);
-        entries_ = Buffer<std::uint32_t>(allocator_, total);
-        Buffer<std::size_t> next(allocator_, band_count_, std::size_t{0});
-        for (std::size_t i = 0; i < count; ++i) {
-            forBands(rows_[i],
-                     [&](std::size_t band) { entries_[begin_[band] + next[band]++] = static_cast<std::uint32_t>(i); });
-        }
-        return true;
-    }
-
-    /// Sets the rows of a triangle. Returns its amount of work.
-    std::uint64_t placeRows(std::size_t i) {
-        PlacedTriangle placed;
-        const UvPlacing placing = placed.place(cornerUvs(triangles_, i), shape_);
-        TexelTriangleCounts& counts = found_.counts;
-        if (placing == UvPlacing::notFinite) ++counts.not_finite;
-        if (placing == UvPlacing::tooFar) ++counts.too_far;
-        if (placing != UvPlacing::placed) return 0;
-        const std::int64_t area = std::abs(placed.doubleArea());
-        if (area == 0) {
-            ++counts.without_area;
-            return 0;
-        }
-        const TexelRange rows = placed.rows();
-        if (rows.last - rows.first >= kLargeTriangleRows && isThird(placed)) {
-            ++counts.repeated;
-            return 0;
-        }
-        rows_[i] = {static_cast<std::int32_t>(rows.first - kNearRows),
-                    static_cast<std::int32_t>(rows.last + kNearRows)};
-        const auto row_count = static_cast<std::uint64_t>(rows_[i].last - rows_[i].first + 1);
-        return row_count + static_cast<std::uint64_t>(area) / (2 * kTexelParts * kTexelParts * kTexelsOfStep);
-    }
-
-    /// Returns whether two earlier triangles have the same position. The second one still counts as overlapping.
-    bool isThird(const PlacedTriangle& placed) {
-        const std::array<std::int64_t, 6> key = placed.key();
-        const auto known = known_.find(key);
-        if (known != known_.end()) return ++known->second > 1;
-        if (known_.size() < kMostLarge) known_.emplace(key, 0U);
-        return false;
-    }
-
-    /// Calls visit(band) once for each band. A triangle over three tiles covers one of them completely.
-    template <class Visit>
-    void forBands(RowRange rows, const Visit& visit) {
-        if (rows.last < rows.first) return;
-        ++mark_;
-        if (marks_.empty()) marks_ = Buffer<std::uint64_t>(allocator_, band_count_, std::uint64_t{0});
-        const std::int64_t height = shape_.height;
-        const bool is_clamped = shape_.wrap_v == TextureWrap::clamp;
-        std::int64_t tile = is_clamped ? 0 : floorDiv(rows.first, height);
-        const std::int64_t last_tile = is_clamped ? 0 : std::min(floorDiv(rows.last, height), tile + 2);
-        for (; tile <= last_tile; ++tile) {
-            const TexelRange inside =
-                rowsOfTile({rows.first, rows.last}, tile, shape_.height, shape_.wrap_v, 0, height - 1);
-            if (inside.isEmpty()) continue;
-            for (std::int64_t band = inside.first / kBandRows; band <= inside.last / kBandRows; ++band) {
-                std::uint64_t& mark = marks_[static_cast<std::size_t>(band)];
-                if (mark != mark_) visit(static_cast<std::size_t>(band));
-                mark = mark_;
-            }
-        }
-    }
-
-    [[nodiscard]] std::span<const std::uint32_t> entries(std::size_t band) const {
-        return {entries_.data() + begin_[band], begin_[band + 1] - begin_[band]};
-    }
-
-    // Functions for one band.
-
-    /// Calls visit(row, row in the image) for the rows of a triangle in a band.
-    template <class Visit>
-    void forRows(RowRange rows, std::size_t band, const Visit& visit) const {
-        const std::int64_t height = shape_.height, first = static_cast<std::int64_t>(band) * kBandRows;
-        const std::int64_t last = std::min(first + kBandRows, height) - 1;
-        for (std::int64_t tile = floorDiv(rows.first, height); tile <= floorDiv(rows.last, height); ++tile) {
-            const TexelRange inside =
-                rowsOfTile({rows.first, rows.last}, tile, shape_.height, shape_.wrap_v, first, last);
-            for (std::int64_t at = inside.first; at <= inside.last; ++at) {
-                visit(tile * height + (isFlipped(tile, shape_.wrap_v) ? height - 1 - at : at),
-                      static_cast<std::size_t>(at));
-            }
-        }
-    }
-
-    template <class Visit>
-    void forColumns(TexelRange columns, const Visit& visit) const {
-        forColumnsInImage(columns, shape_.width, shape_.wrap_u, visit);
-    }
-
-    void addInside(std::uint32_t triangle, std::size_t band) {
-        PlacedTriangle placed;
-        placed.place(cornerUvs(triangles_, triangle), shape_);
-        const TexelRange own = placed.rows();
-        const RowRange rows{static_cast<std::int32_t>(own.first), static_cast<std::int32_t>(own.last)};
-        forRows(rows, band, [&](std::int64_t row, std::size_t image_row) {
-            forColumns(placed.columns(row), [&](std::int64_t column, std::size_t image_column) {
-                const std::size_t texel = image_row * shape_.width + image_column;
-                if (found_.kinds[texel] == TexelCoverage::none) {
-                    found_.kinds[texel] = TexelCoverage::inside;
-                    found_.places[texel] = placeOf(triangle, column, row);
-                } else if (!found_.overlaps[texel]) {
-                    found_.overlaps[texel] = placed.isInner(column, row) || isInner(found_.places[texel]);
-                }
-            });
-        });
-    }
-
-    /// Returns whether the texel center is strictly inside its triangle: a center on an edge that two triangles share
-    /// is no overlap.
-    [[nodiscard]] bool isInner(const TexelPlace& place) const {
-        PlacedTriangle placed;
-        placed.place(cornerUvs(triangles_, place.triangle), shape_);
-        return placed.isInner(place.x, place.y);
-    }
-
-    static TexelPlace placeOf(std::uint32_t triangle, std::int64_t column, std::int64_t row) {
-        return {triangle, static_cast<std::int32_t>(column), static_cast<std::int32_t>(row)};
-    }
-
-    [[nodiscard]] ExactTriangle exact(std::uint32_t triangle) const {
-        const std::array<Vec2, 3> uvs = cornerUvs(triangles_, triangle);
-        PlacedTriangle placed;
-        placed.place(uvs, shape_);
-        return {uvs, placed, shape_};
-    }
-
-    void addNear(std::uint32_t triangle, std::size_t band) {
-        const ExactTriangle corners = exact(triangle);
-        forRows(rows_[triangle], band, [&](std::int64_t row, std::size_t image_row) {
-            forColumns(nearColumns(corners, row), [&](std::int64_t column, std::size_t image_column) {
-                const std::size_t texel = image_row * shape_.width + image_column;
-                if (found_.kinds[texel] == TexelCoverage::inside) return;
-                const double x = static_cast<double>(column) + 0.5, y = static_cast<double>(row) + 0.5;
-                const auto distance = static_cast<float>(corners.squaredDistance(x, y));
-                if (distance < 2 && !found_.is_read[texel]) found_.is_read[texel] = corners.isReadAt(x, y);
-                const bool is_first = found_.kinds[texel] == TexelCoverage::none;
-                if (is_first ? distance > distances_[texel] : distance >= distances_[texel]) return;
-                found_.kinds[texel] = TexelCoverage::beside;
-                found_.places[texel] = placeOf(triangle, column, row);
-                distances_[texel] = distance;
-            });
-        });
-    }
-
-    /// Returns the columns of a row that may be close to the triangle.
-    static TexelRange nearColumns(const ExactTriangle& corners, std::int64_t row) {
-        const double low = static_cast<double>(row) + 0.5 - kNearTexels, high = low + 2 * kNearTexels;
-        double least = INFINITY, most = -INFINITY;
-        for (std::size_t a = 0; a < 3; ++a) {
-            const std::size_t b = (a + 1) % 3;
-            const double from = std::min(corners.y[a], corners.y[b]), to = std::max(corners.y[a], corners.y[b]);
-            if (from > high || to < low) continue;
-            for (const double at : {std::max(from, low), std::min(to, high)}) {
-                const double part = from == to ? 0 : (at - corners.y[a]) / (corners.y[b] - corners.y[a]);
-                const double x = corners.x[a] + part * (corners.x[b] - corners.x[a]);
-                least = std::min(least, x);
-                most = std::max(most, x);
-            }
-            if (from == to) {
-                least = std::min(least, corners.x[b]);
-                most = std::max(most, corners.x[b]);
-            }
-        }
-        if (!(least <= most)) return {};
-        return {static_cast<std::int64_t>(std::floor(least - kNearTexels - 0.5)),
-                static_cast<std::int64_t>(std::ceil(most + kNearTexels - 0.5))};
-    }
-
-    // Rings.
-
-    void addRings() {
-        std::vector<std::size_t> ring;
-        for (std::size_t texel = 0; texel < found_.kinds.size(); ++texel) {
-            if (hasTriangle(texel)) pushNeighbours(texel, ring);
-        }
-        std::vector<TexelPlace> places;
-        std::vector<std::size_t> next;
-        while (!ring.empty()) {
-            places.assign(ring.size(), TexelPlace{});
-            parallel_.forRanges(ring.size(), Parallel::kGrain / 16, [&](std::size_t begin, std::size_t end) {
-                for (std::size_t i = begin; i < end; ++i) places[i] = placeFromNeighbours(ring[i]);
-            });
-            for (std::size_t i = 0; i < ring.size(); ++i) {
-                const bool is_far = places[i].triangle == kNoTriangle;
-                found_.kinds[ring[i]] = is_far ? kRefused : TexelCoverage::beside;
-                if (!is_far) found_.places[ring[i]] = places[i];
-            }
-            next.clear();
-            for (const std::size_t texel : ring) {
-                if (hasTriangle(texel)) pushNeighbours(texel, next);
-            }
-            ring.swap(next);
-        }
-    }
-
-    [[nodiscard]] bool hasTriangle(std::size_t texel) const {
-        return found_.kinds[texel] == TexelCoverage::inside || found_.kinds[texel] == TexelCoverage::beside;
-    }
-
-    /// Calls visit(neighbor, dx, dy) for each of up to eight adjacent texels.
-    template <class Visit>
-    void forNeighbours(std::size_t texel, const Visit& visit) const {
-        const auto x = static_cast<std::int64_t>(texel % shape_.width);
-        const auto y = static_cast<std::int64_t>(texel / shape_.width);
-        for (int dy = -1; dy <= 1; ++dy) {
-            for (int dx = -1; dx <= 1; ++dx) {
-                const std::size_t column = neighbour(x + dx, shape_.width, shape_.wrap_u);
-                const std::size_t row = neighbour(y + dy, shape_.height, shape_.wrap_v);
-                if ((dx != 0 || dy != 0) && column < shape_.width && row < shape_.height) {
-                    visit(row * shape_.width + column, dx, dy);
-                }
-            }
-        }
-    }
-
-    /// Returns the position of a neighbor, or `size` if there is none. At the edge of a mirrored image the neighbor
-    /// would be the texel itself, so none is returned.
-    static std::size_t neighbour(std::int64_t at, std::uint32_t size, TextureWrap wrap) {
-        return texelInImage(at, size, wrap == TextureWrap::repeat ? wrap : TextureWrap::clamp);
-    }
-
-    void pushNeighbours(std::size_t texel, std::vector<std::size_t>& ring) {
-        forNeighbours(texel, [&](std::size_t other, int, int) {
-            if (found_.kinds[other] != TexelCoverage::none) return;
-            found_.kinds[other] = kPending;
-            ring.push_back(other);
-        });
-    }
-
-    /// Returns the nearest of the triangles assigned to the adjacent texels.
-    [[nodiscard]] TexelPlace placeFromNeighbours(std::size_t texel) const {
-        TexelPlace best;
-        double best_distance = padding_ * padding_;
-        TexelPlace last;
-        forNeighbours(texel, [&](std::size_t other, int dx, int dy) {
-            if (!hasTriangle(other)) return;
-            const TexelPlace& there = found_.places[other];
-            const TexelPlace here = placeOf(there.triangle, there.x - step(dx, there.x, shape_.width, shape_.wrap_u),
-                                            there.y - step(dy, there.y, shape_.height, shape_.wrap_v));
-            if (here.triangle == last.triangle && here.x == last.x && here.y == last.y) return;
-            last = here;
-            const double distance = exact(here.triangle).squaredDistance(here.x + 0.5, here.y + 0.5);
-            if (best.triangle == kNoTriangle ? distance > best_distance : distance >= best_distance) return;
-            best = here;
-            best_distance = distance;
-        });
-        return best;
-    }
-
-    /// Converts a step in the image to a step in the infinite plane, where the texel is at `at`.
-    [[nodiscard]] std::int64_t step(int in_image, std::int64_t at, std::uint32_t size, TextureWrap wrap) const {
-        return isFlipped(floorDiv(at, size), wrap) ? -in_image : in_image;
-    }
-
-    void countTexels() {
-        TexelTriangleCounts& counts = found_.counts;
-        for (std::size_t texel = 0; texel < found_.kinds.size(); ++texel) {
-            TexelCoverage& kind = found_.kinds[texel];
-            if (kind == kRefused) kind = TexelCoverage::none;
-            counts.inside += kind == TexelCoverage::inside ? 1 : 0;
-            counts.beside += kind == TexelCoverage::beside ? 1 : 0;
-            counts.overlapping += found_.overlaps[texel] ? 1 : 0;
-        }
-    }
-
-    const UvTriangles& triangles_;
-    TexelTriangles& found_;
-    TextureShape shape_;
-    double near_, padding_;
-    Parallel& parallel_;
-    const Allocator* allocator_;
-    std::size_t band_count_;
-    Buffer<RowRange> rows_ = {};  ///< rows near each triangle
-    Buffer<std::size_t> begin_ = {};
-    Buffer<std::uint32_t> entries_ = {};
-    Buffer<std::uint64_t> marks_ = {};
-    std::uint64_t mark_ = 0;
-    Buffer<float> distances_ = {};
-    std::unordered_map<std::array<std::int64_t, 6>, std::uint32_t, HashPlacedKey> known_ = {};
+/// The state of a search that its steps share.
+struct TriangleSearch {
+    const UvTriangles& triangles;
+    TexelTriangles& found;
+    TextureShape shape;
+    double near, padding;
+    Parallel& parallel;
+    const Allocator* allocator;
+    std::size_t band_count;
+    Buffer<RowRange> rows = {};  ///< rows near each triangle
+    Buffer<std::size_t> begin = {};
+    Buffer<std::uint32_t> entries = {};
+    Buffer<std::uint64_t> marks = {};
+    std::uint64_t mark = 0;
+    Buffer<float> distances = {};
+    std::unordered_map<std::array<std::int64_t, 6>, std::uint32_t, HashPlacedKey> known = {};
 };
+
+// -- 1. bands --
+
+/// Returns whether two earlier triangles have the same position. The second one still counts as overlapping.
+bool isThird(TriangleSearch& search, const PlacedTriangle& placed) {
+    const std::array<std::int64_t, 6> key = placed.key();
+    const auto known = search.known.find(key);
+    if (known != search.known.end()) return ++known->second > 1;
+    if (search.known.size() < kMostLarge) search.known.emplace(key, 0U);
+    return false;
+}
+
+/// Sets the rows of a triangle. Returns its amount of work.
+std::uint64_t placeRows(TriangleSearch& search, std::size_t i) {
+    PlacedTriangle placed;
+    const UvPlacing placing = placed.place(cornerUvs(search.triangles, i), search.shape);
+    TexelTriangleCounts& counts = search.found.counts;
+    if (placing == UvPlacing::notFinite) ++counts.not_finite;
+    if (placing == UvPlacing::tooFar) ++counts.too_far;
+    if (placing != UvPlacing::placed) return 0;
+    const std::int64_t area = std::abs(placed.doubleArea());
+    if (area == 0) {
+        ++counts.without_area;
+        return 0;
+    }
+    const TexelRange rows = placed.rows();
+    if (rows.last - rows.first >= kLargeTriangleRows && isThird(search, placed)) {
+        ++counts.repeated;
+        return 0;
+    }
+    search.rows[i] = {static_cast<std::int32_t>(rows.first - kNearRows),
+                      static_cast<std::int32_t>(rows.last + kNearRows)};
+    const auto row_count = static_cast<std::uint64_t>(search.rows[i].last - search.rows[i].first + 1);
+    return row_count + static_cast<std::uint64_t>(area) / (2 * kTexelParts * kTexelParts * kTexelsOfStep);
+}
+
+/// Calls visit(band) once for each band. A triangle over three tiles covers one of them completely.
+template <class Visit>
+void forBands(TriangleSearch& search, RowRange rows, const Visit& visit) {
+    if (rows.last < rows.first) return;
+    ++search.mark;
+    if (search.marks.empty())
+        search.marks = Buffer<std::uint64_t>(search.allocator, search.band_count, std::uint64_t{0});
+    const std::int64_t height = search.shape.height;
+    const bool is_clamped = search.shape.wrap_v == TextureWrap::clamp;
+    std::int64_t tile = is_clamped ? 0 : floorDiv(rows.first, height);
+    const std::int64_t last_tile = is_clamped ? 0 : std::min(floorDiv(rows.last, height), tile + 2);
+    for (; tile <= last_tile; ++tile) {
+        const TexelRange inside =
+            rowsOfTile({rows.first, rows.last}, tile, search.shape.height, search.shape.wrap_v, 0, height - 1);
+        if (inside.isEmpty()) continue;
+        for (std::int64_t band = inside.first / kBandRows; band <= inside.last / kBandRows; ++band) {
+            std::uint64_t& mark = search.marks[static_cast<std::size_t>(band)];
+            if (mark != search.mark) visit(static_cast<std::size_t>(band));
+            mark = search.mark;
+        }
+    }
+}
+
+bool listBands(TriangleSearch& search) {
+    const std::size_t count = search.triangles.corners.size() / 3;
+    search.rows = Buffer<RowRange>(search.allocator, count, RowRange{});
+    search.begin = Buffer<std::size_t>(search.allocator, search.band_count + 1, std::size_t{0});
+    std::uint64_t steps = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        steps += placeRows(search, i);
+        if (steps > kCoverSteps) return false;
+        forBands(search, search.rows[i], [&](std::size_t band) { ++search.begin[band]; });
+    }
+    std::size_t total = 0;
+    for (std::size_t band = 0; band <= search.band_count; ++band) total += std::exchange(search.begin[band], total);
+    search.entries = Buffer<std::uint32_t>(search.allocator, total);
+    Buffer<std::size_t> next(search.allocator, search.band_count, std::size_t{0});
+    for (std::size_t i = 0; i < count; ++i) {
+        forBands(search, search.rows[i], [&](std::size_t band) {
+            search.entries[search.begin[band] + next[band]++] = static_cast<std::uint32_t>(i);
+        });
+    }
+    return true;
+}
+
+std::span<const std::uint32_t> entries(const TriangleSearch& search, std::size_t band) {
+    return {search.entries.data() + search.begin[band], search.begin[band + 1] - search.begin[band]};
+}
+
+// -- 2. texels inside --
+
+/// Calls visit(row, row in the image) for the rows of a triangle in a band.
+template <class Visit>
+void forRows(const TriangleSearch& search, RowRange rows, std::size_t band, const Visit& visit) {
+    const std::int64_t height = search.shape.height, first = static_cast<std::int64_t>(band) * kBandRows;
+    const std::int64_t last = std::min(first + kBandRows, height) - 1;
+    for (std::int64_t tile = floorDiv(rows.first, height); tile <= floorDiv(rows.last, height); ++tile) {
+        const TexelRange inside =
+            rowsOfTile({rows.first, rows.last}, tile, search.shape.height, search.shape.wrap_v, first, last);
+        for (std::int64_t at = inside.first; at <= inside.last; ++at) {
+            visit(tile * height + (isFlipped(tile, search.shape.wrap_v) ? height - 1 - at : at),
+                  static_cast<std::size_t>(at));
+        }
+    }
+}
+
+template <class Visit>
+void forColumns(const TriangleSearch& search, TexelRange columns, const Visit& visit) {
+    forColumnsInImage(columns, search.shape.width, search.shape.wrap_u, visit);
+}
+
+TexelPlace placeOf(std::uint32_t triangle, std::int64_t column, std::int64_t row) {
+    return {triangle, static_cast<std::int32_t>(column), static_cast<std::int32_t>(row)};
+}
+
+/// Returns whether the texel center is strictly inside its triangle: a center on an edge that two triangles share
+/// is no overlap.
+bool isInner(const TriangleSearch& search, const TexelPlace& place) {
+    PlacedTriangle placed;
+    placed.place(cornerUvs(search.triangles, place.triangle), search.shape);
+    return placed.isInner(place.x, place.y);
+}
+
+void addInside(TriangleSearch& search, std::uint32_t triangle, std::size_t band) {
+    PlacedTriangle placed;
+    placed.place(cornerUvs(search.triangles, triangle), search.shape);
+    const TexelRange own = placed.rows();
+    const RowRange rows{static_cast<std::int32_t>(own.first), static_cast<std::int32_t>(own.last)};
+    forRows(search, rows, band, [&](std::int64_t row, std::size_t image_row) {
+        forColumns(search, placed.columns(row), [&](std::int64_t column, std::size_t image_column) {
+            const std::size_t texel = image_row * search.shape.width + image_column;
+            if (search.found.kinds[texel] == TexelCoverage::none) {
+                search.found.kinds[texel] = TexelCoverage::inside;
+                search.found.places[texel] = placeOf(triangle, column, row);
+            } else if (!search.found.overlaps[texel]) {
+                search.found.overlaps[texel] =
+                    placed.isInner(column, row) || isInner(search, search.found.places[texel]);
+            }
+        });
+    });
+}
+
+// -- 3. texels beside --
+
+ExactTriangle exact(const TriangleSearch& search, std::uint32_t triangle) {
+    const std::array<Vec2, 3> uvs = cornerUvs(search.triangles, triangle);
+    PlacedTriangle placed;
+    placed.place(uvs, search.shape);
+    return {uvs, placed, search.shape};
+}
+
+/// Returns the columns of a row that may be close to the triangle.
+TexelRange nearColumns(const ExactTriangle& corners, std::int64_t row) {
+    const double low = static_cast<double>(row) + 0.5 - kNearTexels, high = low + 2 * kNearTexels;
+    double least = INFINITY, most = -INFINITY;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const std::size_t b = (a + 1) % 3;
+        const double from = std::min(corners.y[a], corners.y[b]), to = std::max(corners.y[a], corners.y[b]);
+        if (from > high || to < low) continue;
+        for (const double at : {std::max(from, low), std::min(to, high)}) {
+            const double part = from == to ? 0 : (at - corners.y[a]) / (corners.y[b] - corners.y[a]);
+            const double x = corners.x[a] + part * (corners.x[b] - corners.x[a]);
+            least = std::min(least, x);
+            most = std::max(most, x);
+        }
+        if (from == to) {
+            least = std::min(least, corners.x[b]);
+            most = std::max(most, corners.x[b]);
+        }
+    }
+    if (!(least <= most)) return {};
+    return {static_cast<std::int64_t>(std::floor(least - kNearTexels - 0.5)),
+            static_cast<std::int64_t>(std::ceil(most + kNearTexels - 0.5))};
+}
+
+void addNear(TriangleSearch& search, std::uint32_t triangle, std::size_t band) {
+    const ExactTriangle corners = exact(search, triangle);
+    forRows(search, search.rows[triangle], band, [&](std::int64_t row, std::size_t image_row) {
+        forColumns(search, nearColumns(corners, row), [&](std::int64_t column, std::size_t image_column) {
+            const std::size_t texel = image_row * search.shape.width + image_column;
+            if (search.found.kinds[texel] == TexelCoverage::inside) return;
+            const double x = static_cast<double>(column) + 0.5, y = static_cast<double>(row) + 0.5;
+            const auto distance = static_cast<float>(corners.squaredDistance(x, y));
+            if (distance < 2 && !search.found.is_read[texel]) search.found.is_read[texel] = corners.isReadAt(x, y);
+            const bool is_first = search.found.kinds[texel] == TexelCoverage::none;
+            if (is_first ? distance > search.distances[texel] : distance >= search.distances[texel]) return;
+            search.found.kinds[texel] = TexelCoverage::beside;
+            search.found.places[texel] = placeOf(triangle, column, row);
+            search.distances[texel] = distance;
+        });
+    });
+}
+
+// -- 4. rings --
+
+bool hasTriangle(const TriangleSearch& search, std::size_t texel) {
+    return search.found.kinds[texel] == TexelCoverage::inside || search.found.kinds[texel] == TexelCoverage::beside;
+}
+
+/// Returns the position of a neighbor, or `size` if there is none. At the edge of a mirrored image the neighbor
+/// would be the texel itself, so none is returned.
+std::size_t neighbour(std::int64_t at, std::uint32_t size, TextureWrap wrap) {
+    return texelInImage(at, size, wrap == TextureWrap::repeat ? wrap : TextureWrap::clamp);
+}
+
+/// Calls visit(neighbor, dx, dy) for each of up to eight adjacent texels.
+template <class Visit>
+void forNeighbours(const TriangleSearch& search, std::size_t texel, const Visit& visit) {
+    const auto x = static_cast<std::int64_t>(texel % search.shape.width);
+    const auto y = static_cast<std::int64_t>(texel / search.shape.width);
+    for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+            const std::size_t column = neighbour(x + dx, search.shape.width, search.shape.wrap_u);
+            const std::size_t row = neighbour(y + dy, search.shape.height, search.shape.wrap_v);
+            if ((dx != 0 || dy != 0) && column < search.shape.width && row < search.shape.height) {
+                visit(row * search.shape.width + column, dx, dy);
+            }
+        }
+    }
+}
+
+void pushNeighbours(TriangleSearch& search, std::size_t texel, std::vector<std::size_t>& ring) {
+    forNeighbours(search, texel, [&](std::size_t other, int, int) {
+        if (search.found.kinds[other] != TexelCoverage::none) return;
+        search.found.kinds[other] = kPending;
+        ring.push_back(other);
+    });
+}
+
+/// Converts a step in the image to a step in the infinite plane, where the texel is at `at`.
+std::int64_t step(int in_image, std::int64_t at, std::uint32_t size, TextureWrap wrap) {
+    return isFlipped(floorDiv(at, size), wrap) ? -in_image : in_image;
+}
+
+/// Returns the nearest of the triangles assigned to the adjacent texels.
+TexelPlace placeFromNeighbours(const TriangleSearch& search, std::size_t texel) {
+    TexelPlace best;
+    double best_distance = search.padding * search.padding;
+    TexelPlace last;
+    forNeighbours(search, texel, [&](std::size_t other, int dx, int dy) {
+        if (!hasTriangle(search, other)) return;
+        const TexelPlace& there = search.found.places[other];
+        const TexelPlace here =
+            placeOf(there.triangle, there.x - step(dx, there.x, search.shape.width, search.shape.wrap_u),
+                    there.y - step(dy, there.y, search.shape.height, search.shape.wrap_v));
+        if (here.triangle == last.triangle && here.x == last.x && here.y == last.y) return;
+        last = here;
+        const double distance = exact(search, here.triangle).squaredDistance(here.x + 0.5, here.y + 0.5);
+        if (best.triangle == kNoTriangle ? distance > best_distance : distance >= best_distance) return;
+        best = here;
+        best_distance = distance;
+    });
+    return best;
+}
+
+void addRings(TriangleSearch& search) {
+    std::vector<std::size_t> ring;
+    for (std::size_t texel = 0; texel < search.found.kinds.size(); ++texel) {
+        if (hasTriangle(search, texel)) pushNeighbours(search, texel, ring);
+    }
+    std::vector<TexelPlace> places;
+    std::vector<std::size_t> next;
+    while (!ring.empty()) {
+        places.assign(ring.size(), TexelPlace{});
+        search.parallel.forRanges(ring.size(), Parallel::kGrain / 16, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) places[i] = placeFromNeighbours(search, ring[i]);
+        });
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const bool is_far = places[i].triangle == kNoTriangle;
+            search.found.kinds[ring[i]] = is_far ? kRefused : TexelCoverage::beside;
+            if (!is_far) search.found.places[ring[i]] = places[i];
+        }
+        next.clear();
+        for (const std::size_t texel : ring) {
+            if (hasTriangle(search, texel)) pushNeighbours(search, texel, next);
+        }
+        ring.swap(next);
+    }
+}
+
+// -- 5. counts --
+
+void countTexels(TriangleSearch& search) {
+    TexelTriangleCounts& counts = search.found.counts;
+    for (std::size_t texel = 0; texel < search.found.kinds.size(); ++texel) {
+        TexelCoverage& kind = search.found.kinds[texel];
+        if (kind == kRefused) kind = TexelCoverage::none;
+        counts.inside += kind == TexelCoverage::inside ? 1 : 0;
+        counts.beside += kind == TexelCoverage::beside ? 1 : 0;
+        counts.overlapping += search.found.overlaps[texel] ? 1 : 0;
+    }
+}
+
+/// Returns false if the triangles would take too much work.
+bool findTriangles(TriangleSearch& search) {
+    const std::size_t texels = std::size_t{search.shape.width} * search.shape.height;
+    if (!listBands(search)) return false;
+    search.found.places = Buffer<TexelPlace>(search.allocator, texels, TexelPlace{});
+    search.found.kinds = Buffer<TexelCoverage>(search.allocator, texels, TexelCoverage::none);
+    search.found.overlaps = Buffer<bool>(search.allocator, texels, false);
+    search.found.is_read = Buffer<bool>(search.allocator, texels, false);
+    if (search.near > 0)
+        search.distances = Buffer<float>(search.allocator, texels, static_cast<float>(search.near * search.near));
+    search.parallel.forTasks(search.band_count, [&](std::size_t band) {
+        for (const std::uint32_t triangle : entries(search, band)) addInside(search, triangle, band);
+        if (search.near == 0) return;
+        for (const std::uint32_t triangle : entries(search, band)) addNear(search, triangle, band);
+    });
+    if (search.padding > search.near) addRings(search);
+    countTexels(search);
+    return true;
+}
 
 }  // namespace
 
@@ -363,7 +366,15 @@ std::optional<TexelTriangles> findTexelTriangles(const UvTriangles& triangles, s
                                                  const Allocator* allocator) {
     std::optional<TexelTriangles> found(std::in_place);
     found->shape = {width, height, triangles.wrap_u, triangles.wrap_v};
-    if (!TriangleSearch(triangles, *found, padding, parallel, allocator).run()) found.reset();
+    TriangleSearch search{.triangles = triangles,
+                          .found = *found,
+                          .shape = found->shape,
+                          .near = std::min<double>(padding, kNearTexels),
+                          .padding = static_cast<double>(padding),
+                          .parallel = parallel,
+                          .allocator = allocator,
+                          .band_count = (found->shape.height + kBandRows - 1) / kBandRows};
+    if (!findTriangles(search)) found.reset();
     return found;
 }
 
