@@ -76,12 +76,14 @@ void finishFindings(CheckReport& report) {
     }
 }
 
-CheckReport check(const std::string& input, const CheckOptions& options) {
+}  // namespace
+
+CheckedModel checkModel(const std::string& input, const CheckOptions& options) {
     checkOptions(options);
     if (isImageInput(input, options.file.content)) {
         CheckReport report = checkImageFile(input, options);
         finishFindings(report);
-        return report;
+        return {.report = std::move(report)};
     }
     const auto tell = [&](const char* what, std::uint64_t done) {
         if (options.progress) options.progress(what, done, 1);
@@ -89,7 +91,8 @@ CheckReport check(const std::string& input, const CheckOptions& options) {
     tell("reading", 0);
     const Scene scene = readScene(input, options.file, options.images);
     tell("reading", 1);
-    CheckReport report;
+    CheckedModel checked;
+    CheckReport& report = checked.report;
     report.format = scene.format;
     report.generator = scene.generator;
     report.primitive_count = scene.primitives.size();
@@ -107,6 +110,9 @@ CheckReport check(const std::string& input, const CheckOptions& options) {
     for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
         const ScenePrimitive& primitive = scene.primitives[i];
         report.tangents_count += !primitive.tangents.empty() && !primitive.corners.empty();
+        const bool has_uvs = std::any_of(primitive.uv_sets.begin(), primitive.uv_sets.end(),
+                                         [](const auto& set) { return !set.empty(); });
+        checked.without_uvs_count += !primitive.corners.empty() && !has_uvs ? 1 : 0;
         std::move(judgements[i].findings.begin(), judgements[i].findings.end(), std::back_inserter(report.findings));
     }
     for (Finding& seam : checkSeams(scene, options)) report.findings.push_back(std::move(seam));
@@ -121,13 +127,11 @@ CheckReport check(const std::string& input, const CheckOptions& options) {
         if (i != scene.scaled_normals_warning) report.findings.push_back(fileRemark(scene.warnings[i]));
     }
     finishFindings(report);
-    return report;
+    return checked;
 }
 
-}  // namespace
-
 Result<CheckReport> checkFile(const std::string& input, const CheckOptions& options) {
-    return atFileBorder([&]() -> Result<CheckReport> { return check(input, options); });
+    return atFileBorder([&]() -> Result<CheckReport> { return checkModel(input, options).report; });
 }
 
 }  // namespace tspace

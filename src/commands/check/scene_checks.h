@@ -14,6 +14,14 @@
 
 namespace tspace {
 
+struct CheckedModel {
+    CheckReport report = {};
+    std::uint64_t without_uvs_count = 0;  ///< primitives with triangles, but without UVs
+};
+
+/// checkFile as a step of another command. Throws FileError.
+CheckedModel checkModel(const std::string& input, const CheckOptions& options);
+
 // Normal maps of a scene.
 
 /// Direction of green in one normal map, or in the part of it that one primitive shows. If the file declares green-down

@@ -11,6 +11,7 @@
 #include "commands/bake/bake_report.h"
 #include "commands/bake/bake_step.h"
 #include "commands/check/check_report.h"
+#include "commands/check/scene_checks.h"
 #include "commands/finish/finish_report.h"
 #include "commands/generate/generate_model.h"
 #include "commands/generate/generate_report.h"
@@ -20,7 +21,6 @@
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/io/output_name.h"
-#include "model/read/read_scene.h"
 
 namespace tspace {
 namespace {
@@ -52,7 +52,7 @@ bool asksForMorphNormals(const Finding& finding) {
 }
 
 /// Runs check on the bytes, or on the file if there are none.
-CheckReport checked(const std::string& name, ByteSpan content, const FinishOptions& options) {
+CheckedModel checked(const std::string& name, ByteSpan content, const FinishOptions& options) {
     CheckOptions check;
     check.file = options.file;
     check.file.content = content;
@@ -60,7 +60,7 @@ CheckReport checked(const std::string& name, ByteSpan content, const FinishOptio
     check.weld_distance = options.weld_distance;
     check.execution = options.execution;
     check.progress = options.progress;
-    return valueOrThrow(checkFile(name, check));
+    return checkModel(name, check);
 }
 
 /// A model during processing: a GLB in memory, and its report.
@@ -74,7 +74,8 @@ class ModelInWork {
     }
 
     void finish() {
-        report_.before = check(path_, {});
+        before_ = check(path_, {});
+        report_.before = before_.report;
         GenerateOptions generate = generateOptions();
         runFirst(generate, {});
         if (std::vector<std::uint32_t> right = rightMeshes(); !right.empty()) {
@@ -93,11 +94,11 @@ class ModelInWork {
         generate.mend_winding = true;  // otherwise check would suggest it, under the option name of another command
         warnOfWinding(generate, report_.made);
         report_.made.output_files.clear();
-        countUvs();
+        report_.without_uvs_count = check_.without_uvs_count;
     }
 
     [[nodiscard]] const Bytes& bytes() const { return bytes_; }
-    [[nodiscard]] const CheckReport& checked() const { return check_; }
+    [[nodiscard]] const CheckReport& checked() const { return check_.report; }
 
   private:
     [[nodiscard]] bool isObj() const { return lowerExtension(path_) == ".obj"; }
@@ -108,7 +109,7 @@ class ModelInWork {
         return file;
     }
 
-    [[nodiscard]] CheckReport check(const std::string& name, ByteSpan content) const {
+    [[nodiscard]] CheckedModel check(const std::string& name, ByteSpan content) const {
         return tspace::checked(name, content, options_);
     }
 
@@ -131,7 +132,7 @@ class ModelInWork {
 
     void runFirst(const GenerateOptions& generate, const GenerateStep& step) {
         report_.made = run(path_, {}, generate, step);
-        check_ = report_.made.changed ? check(glbName(path_), bytes_) : report_.before;
+        check_ = report_.made.changed ? check(glbName(path_), bytes_) : before_;
     }
 
     /// Returns meshes whose normals fit their triangles less well after flipping. Recomputed normals fit in either
@@ -152,7 +153,7 @@ class ModelInWork {
         };
         const std::map<std::uint32_t, double> before = sharesOf(report_.before);
         std::vector<std::uint32_t> right;
-        for (const auto& [mesh, share] : sharesOf(check_)) {
+        for (const auto& [mesh, share] : sharesOf(check_.report)) {
             const auto known = before.find(mesh);
             const auto turned = turnedIn(mesh);
             if (turned == 0 || share <= (known == before.end() ? 0 : known->second)) continue;
@@ -199,7 +200,7 @@ class ModelInWork {
         const bool all = options_.normals == FinishNormals::all || lowerExtension(path_) == ".stl";
         gltf::NormalWishes wishes{.anew = std::vector<bool>(primitives.size(), all),
                                   .morphs = std::vector<bool>(primitives.size(), false)};
-        for (const Finding& finding : check_.findings) {
+        for (const Finding& finding : check_.report.findings) {
             const PrimitiveReport* const found = primitiveOf(finding);
             if (found == nullptr) continue;
             const auto i = static_cast<std::size_t>(found - primitives.data());
@@ -233,21 +234,13 @@ class ModelInWork {
         }
     }
 
-    void countUvs() {
-        const Scene scene = readScene(glbName(path_), fileOf(bytes_), false);
-        for (const ScenePrimitive& primitive : scene.primitives) {
-            const bool has_uvs = std::any_of(primitive.uv_sets.begin(), primitive.uv_sets.end(),
-                                             [](const auto& set) { return !set.empty(); });
-            report_.without_uvs_count += !primitive.corners.empty() && !has_uvs;
-        }
-    }
-
     const std::string &path_, &output_;
     bool is_low_;
     const FinishOptions& options_;
     FinishedModel& report_;
     Bytes bytes_ = {};
-    CheckReport check_ = {};  ///< result of check on the bytes
+    CheckedModel before_ = {};  ///< result of check on the file
+    CheckedModel check_ = {};   ///< result of check on the bytes, or on the file if generate changed nothing
 };
 
 BakeNames namesOf(const std::string& output) {
@@ -277,7 +270,7 @@ class Finishing {
         noteNoise();
         const Bytes baked = bake(input, output, low.bytes(), model.bytes());
         if (report_.bake->output_files.empty()) return std::move(report_);
-        report_.check = checked(output, baked, options_);
+        report_.check = checked(output, baked, options_).report;
         addRemarks(*report_.low);
         write(output, baked);
         return std::move(report_);
