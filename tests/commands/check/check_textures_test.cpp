@@ -20,7 +20,7 @@ using gltf::Json;
 TEST(CheckFile, NamesTheFormatOfAnImageThatIsNotRead) {
     TestModel model;
     model.folder.write("normal.png", "\xabKTX 20\xbb\r\n\x1a\n");
-    model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"KHR_texture_basisu":{"source":0}}}])");
+    model.setTextureExtension("KHR_texture_basisu");
     const CheckReport report = model.check();
     ASSERT_EQ(codes(report), CodeCounts{"note normalMapUnreadable"});
     EXPECT_NE(report.findings[0].message.find("the KTX2 is damaged"), std::string::npos);
@@ -37,12 +37,12 @@ std::string plainKtx2(bool green_down) {
 
 TEST(CheckFile, LooksAtKtx2AndDds) {
     TestModel model;
-    model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"KHR_texture_basisu":{"source":0}}}])");
+    model.setTextureExtension("KHR_texture_basisu");
     model.folder.write("normal.png", plainKtx2(false));
     EXPECT_EQ(codes(model.check()), CodeCounts{});
     model.folder.write("normal.png", plainKtx2(true));
     EXPECT_EQ(codes(model.check()), CodeCounts{"warning greenFlipped"});
-    model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"MSFT_texture_dds":{"source":0}}}])");
+    model.setTextureExtension("MSFT_texture_dds");
     model.folder.write("normal.png", ddsFile(83, 256, 256, bc5Blocks(normalMapOf(256, bumps))));
     const CheckReport report = model.check();
     ASSERT_EQ(codes(report), (CodeCounts{"warning normalMapTwoChannels", "note normalMapLevels"}));
@@ -88,7 +88,7 @@ double degreesOff(const std::string& file, std::uint32_t size) {
 
 TEST(CheckFile, SaysAboutHowFarVectorsAreOffThatWerePackedAsColors) {
     TestModel model;
-    model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"EXT_texture_webp":{"source":0}}}])");
+    model.setTextureExtension("EXT_texture_webp");
     const RgbImage map = normalMapOf(256, bumps);
     model.folder.write("normal.png", webpFile(map, true));
     EXPECT_EQ(codes(model.check()), CodeCounts{});
@@ -97,7 +97,7 @@ TEST(CheckFile, SaysAboutHowFarVectorsAreOffThatWerePackedAsColors) {
     const CheckReport lossy = model.check();
     ASSERT_EQ(codes(lossy), CodeCounts{"note normalMapLossy"});
     EXPECT_NEAR(degreesIn(lossy.findings[0]) / degreesOff(webp, 256), 0.9, 0.25) << lossy.findings[0].message;
-    model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"KHR_texture_basisu":{"source":0}}}])");
+    model.setTextureExtension("KHR_texture_basisu");
     model.folder.write("normal.png", etc1s);
     const CheckReport coarse = model.check();
     ASSERT_EQ(codes(coarse), (CodeCounts{"note normalMapLossy", "note normalMapLevels"}));
@@ -111,7 +111,7 @@ TEST(CheckFile, FindsATextureThatClaimsTheSrgbCurveOfLinearNumbers) {
     parts.unpacked = {map.rgb.size()};
     parts.transfer = 2;
     TestModel model;
-    model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"KHR_texture_basisu":{"source":0}}}])");
+    model.setTextureExtension("KHR_texture_basisu");
     model.folder.write("normal.png", ktx2File(parts));
     const CheckReport report = model.check();
     ASSERT_EQ(codes(report), CodeCounts{"warning normalMapIsSrgb"});
@@ -164,7 +164,7 @@ TEST(CheckFile, FindsXAndYInOtherChannelsOfATexture) {
 TEST(CheckFile, LooksAtWebp) {
     TestModel model;
     model.folder.write("normal.png", webpFile(normalMapOf(256, bumps, true), false));
-    model.builder.json()["textures"] = Json::parse(R"([{"extensions":{"EXT_texture_webp":{"source":0}}}])");
+    model.setTextureExtension("EXT_texture_webp");
     EXPECT_EQ(codes(model.check()), (CodeCounts{"warning greenFlipped", "note normalMapLossy"}));
 }
 

@@ -55,6 +55,13 @@ struct TestModel {
         builder.json()["meshes"][0]["name"] = "patch";
     }
 
+    /// Lets the texture name its image by an extension, such as KHR_texture_basisu.
+    void setTextureExtension(const char* name) {
+        gltf::Json texture = gltf::Json::object();
+        texture["extensions"][name]["source"] = 0;
+        builder.json()["textures"] = gltf::Json::array({std::move(texture)});
+    }
+
     [[nodiscard]] CheckReport check(const CheckOptions& options = {}) const {
         const Result<CheckReport> report = checkFile(folder.write("model.gltf", builder.gltfText()), options);
         EXPECT_TRUE(report) << report.error().message;
