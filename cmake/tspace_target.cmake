@@ -68,7 +68,7 @@ function(tspace_batch_folders target)
 endfunction()
 
 # The core promises the same bits everywhere: no relaxed arithmetic either. errno of sqrt is never read. Programs carry all of
-# it, so a release is -O2, but for loops over meshes that -O3 makes faster (tspace_optimise), and linkers that are told to
+# it, so a release is -O2, but for loops over meshes that -O3 makes faster (tspace_optimize), and linkers that are told to
 # (--gc-sections) leave out what a program never calls.
 function(tspace_configure_core target)
     target_compile_options(${target} PRIVATE -fno-fast-math -fno-math-errno -fno-trapping-math -ffunction-sections
@@ -80,8 +80,8 @@ function(tspace_configure_core target)
     endforeach()
 endfunction()
 
-# tspace_optimise(LEVEL FILE...): the level of release builds for sources of the core, if not -O2.
-function(tspace_optimise level)
+# tspace_optimize(LEVEL FILE...): the level of release builds for sources of the core, if not -O2.
+function(tspace_optimize level)
     set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:${level}>")
 endfunction()
 
@@ -128,7 +128,7 @@ function(tspace_wing name)
     endif()
 endfunction()
 
-# A second library from the core's sources with other optimisation flags, to prove that the bits do not change.
+# A second library from the core's sources with other optimization flags, to prove that the bits do not change.
 function(tspace_core_variant target)
     get_target_property(sources tspace SOURCES)
     add_library(${target} STATIC EXCLUDE_FROM_ALL ${sources})

@@ -2,7 +2,7 @@
 """Prints what the packages of a release need and contain, as SPDX 2.3: sbom.py VERSION FOLDER.
 
 Read from the packages themselves: the fields Depends and Recommends of .deb files, Requires-Dist of wheels, dependencies
-of npm archives; and of the libraries that wheels and npm archives have in them, the names of their licences. Versions of these
+of npm archives; and of the libraries that wheels and npm archives have in them, the names of their licenses. Versions of these
 are those of Debian's packages here, where the release is made. The time is SOURCE_DATE_EPOCH, so that the same packages give the same bytes.
 """
 import datetime
@@ -51,8 +51,8 @@ def wheel_contents(path):
 def npm_contents(path):
     with tarfile.open(path) as archive:
         if "package/bin/LICENSES.txt" in archive.getnames():
-            licences = archive.extractfile("package/bin/LICENSES.txt").read().decode()
-            yield from re.findall(r"^==== (\S+) ====$", licences, re.MULTILINE)
+            licenses = archive.extractfile("package/bin/LICENSES.txt").read().decode()
+            yield from re.findall(r"^==== (\S+) ====$", licenses, re.MULTILINE)
 
 
 def debian_versions():

@@ -16,7 +16,7 @@ constexpr std::size_t kColumns = 4;
 
 struct Step {
     double below_deg;
-    const char* colour;
+    const char* color;
 };
 constexpr Step kScale[] = {{0.1, "#ffffff"}, {0.5, "#fff9c4"}, {1, "#ffe082"},  {2, "#ffb74d"},
                            {5, "#ff7043"},   {10, "#d32f2f"},  {20, "#7b1fa2"}, {180, "#311b92"}};
@@ -57,17 +57,17 @@ std::string pixels(const TestMesh& mesh, const BevelPanel& panel, const DVec3& e
             return stepOf(errorAt(mesh, panel, exact, 2 * (column + 0.5) / kPixels - 1, 1 - 2 * (row + 0.5) / kPixels));
         };
         for (int column = 0; column < kPixels;) {
-            const std::size_t colour = step(column);
+            const std::size_t color = step(column);
             int end = column + 1;
-            while (end < kPixels && step(end) == colour) ++end;
-            paths[colour] += fmt::format("M{:g} {:g}h{:g}v{:g}h{:g}z", left + column * size, top + row * size,
-                                         (end - column) * size, size, (column - end) * size);
+            while (end < kPixels && step(end) == color) ++end;
+            paths[color] += fmt::format("M{:g} {:g}h{:g}v{:g}h{:g}z", left + column * size, top + row * size,
+                                        (end - column) * size, size, (column - end) * size);
             column = end;
         }
     }
     std::string svg;
     for (std::size_t i = 0; i < kSteps; ++i) {
-        if (!paths[i].empty()) svg += fmt::format("<path d=\"{}\" fill=\"{}\"/>\n", paths[i], kScale[i].colour);
+        if (!paths[i].empty()) svg += fmt::format("<path d=\"{}\" fill=\"{}\"/>\n", paths[i], kScale[i].color);
     }
     return svg;
 }
@@ -91,7 +91,7 @@ std::string legend(double left, double top) {
     for (std::size_t i = 0; i < kSteps; ++i) {
         const double x = left + 78.0 * static_cast<double>(i);
         svg += fmt::format("<rect x=\"{:g}\" y=\"{:g}\" width=\"16\" height=\"14\" fill=\"{}\" stroke=\"#666\"/>\n", x,
-                           top, kScale[i].colour);
+                           top, kScale[i].color);
         const std::string words = i + 1 < kSteps ? fmt::format("&lt; {:g}°", kScale[i].below_deg) : "more";
         svg += fmt::format("<text x=\"{:g}\" y=\"{:g}\">{}</text>\n", x + 21, top + 12, words);
     }

@@ -26,8 +26,8 @@ std::string text(double x, double y, const std::string& anchor, const std::strin
     return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x, y, anchor, content);
 }
 
-std::string segment(double x1, double y1, double x2, double y2, const char* colour) {
-    return fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"{}\"/>\n", x1, y1, x2, y2, colour);
+std::string segment(double x1, double y1, double x2, double y2, const char* color) {
+    return fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"{}\"/>\n", x1, y1, x2, y2, color);
 }
 
 /// Returns an axis of whole powers of ten that includes all values.
@@ -67,11 +67,11 @@ std::string drawn(const Axis& x_axis, const Axis& y_axis, const std::vector<Line
             path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x, y);
             dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\"/>", x, y);
         }
-        const std::string colour = colourOf(line.name);
-        svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n", path, colour);
-        svg += fmt::format("<g fill=\"{}\">{}</g>\n", colour, dots);
+        const std::string color = colorOf(line.name);
+        svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n", path, color);
+        svg += fmt::format("<g fill=\"{}\">{}</g>\n", color, dots);
         svg += fmt::format("<path d=\"M{0:.1f} {2:.1f}L{1:.1f} {2:.1f}\" stroke=\"{3}\" stroke-width=\"3\"/>\n",
-                           kLeft + kWidth + 12, kLeft + kWidth + 34, legend - 5, colour);
+                           kLeft + kWidth + 12, kLeft + kWidth + 34, legend - 5, color);
         svg += text(kLeft + kWidth + 40, legend, "start", line.name);
         legend += 22;
     }
@@ -80,15 +80,15 @@ std::string drawn(const Axis& x_axis, const Axis& y_axis, const std::vector<Line
 
 }  // namespace
 
-std::string colourOf(const std::string& name) {
-    static const std::map<std::string, std::string> colours = {
+std::string colorOf(const std::string& name) {
+    static const std::map<std::string, std::string> colors = {
         {"mikktspace", "#1565c0"},    {"lengyel", "#8d6e63"}, {"uniform", "#7b1fa2"},    {"angle", "#26a69a"},
         {"area", "#ef6c00"},          {"flat", "#9e9e9e"},    {"fast", "#c0ca33"},       {"best", "#c62828"},
         {"floor", "#212121"},         {"max", "#2e7d32"},     {"angle-area", "#1565c0"}, {"best, 0 steps", "#ef9a9a"},
         {"best, 2 steps", "#6d1b1b"},
     };
-    const auto found = colours.find(name);
-    return found == colours.end() ? "#000" : found->second;
+    const auto found = colors.find(name);
+    return found == colors.end() ? "#000" : found->second;
 }
 
 std::string linePlot(const std::string& title, const std::string& x_title, const std::string& y_title,

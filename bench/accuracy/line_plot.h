@@ -17,6 +17,6 @@ std::string linePlot(const std::string& title, const std::string& x_title, const
                      const std::vector<double>& x_ticks, const std::vector<Line>& lines);
 
 /// Returns the color of a method or weighting, equal in all plots.
-std::string colourOf(const std::string& name);
+std::string colorOf(const std::string& name);
 
 }  // namespace tspace::accuracy

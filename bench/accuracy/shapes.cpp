@@ -16,8 +16,8 @@ double blend(double a, double b, double width) {
     const double h = std::clamp(0.5 + 0.5 * (b - a) / width, 0.0, 1.0);
     return b + h * (a - b) - width * h * (1 - h);
 }
-double ellipsoid(const DVec3& p, const DVec3& centre, const DVec3& radii) {
-    const DVec3 q = p - centre;
+double ellipsoid(const DVec3& p, const DVec3& center, const DVec3& radii) {
+    const DVec3 q = p - center;
     const DVec3 a{q.x / radii.x, q.y / radii.y, q.z / radii.z}, b{a.x / radii.x, a.y / radii.y, a.z / radii.z};
     return length(b) > 0 ? length(a) * (length(a) - 1) / length(b) : -1;
 }

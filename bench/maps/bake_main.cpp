@@ -99,7 +99,7 @@ void printTable(std::uint32_t size, bool held_out) {
     std::printf("%u x %u texels%s. Degrees, mean / p99; geometric means over the surfaces.\n\n", size, size,
                 held_out ? ", surfaces that nothing was tuned on" : "");
     std::printf(
-        "| case | bits | exact at centres (8 bits: rounded) | solved | mean | p99 | seams, exact | seams, solved | "
+        "| case | bits | exact at centers (8 bits: rounded) | solved | mean | p99 | seams, exact | seams, solved | "
         "asked |\n"
         "|---|---|---|---|---|---|---|---|---|\n");
     double slowest = 0;

@@ -187,12 +187,12 @@ def organic():
     high = smooth(lifted(ball(1, 8), lambda at: lumps(at, 0.25) + 0.004 * noise.noise(40 * at)))
     # Islands around the corners of an icosahedron, each rotated.
     corners = ball(1, 1)
-    centres = [vertex.co.normalized() for vertex in corners.data.vertices]
+    centers = [vertex.co.normalized() for vertex in corners.data.vertices]
     bpy.data.objects.remove(corners)
     uvs = low.data.uv_layers.new(name="UVMap").data
     for polygon in low.data.polygons:
-        island = max(range(len(centres)), key=lambda i: centres[i].dot(polygon.center.normalized()))
-        up = centres[island]
+        island = max(range(len(centers)), key=lambda i: centers[i].dot(polygon.center.normalized()))
+        up = centers[island]
         across = up.orthogonal().normalized()
         turn = Matrix.Rotation(math.radians(37 * island), 2)
         for loop in polygon.loop_indices:

@@ -18,7 +18,7 @@ PIXELS = 512
 
 
 def normals(tspace, model, show, view, out):
-    """Vectors, and which pixels show the model: a colour that is a unit vector. A picture that is there is not drawn again."""
+    """Vectors, and which pixels show the model: a color that is a unit vector. A picture that is there is not drawn again."""
     if not os.path.exists(out):
         command = [tspace, "render", "-q", model, "-o", out, "--show", show, "--view", f"{view[0]},{view[1]}"]
         subprocess.run(command + ["--size", str(PIXELS), "--samples", "1", "--no-legend", "--no-sync"], check=True)

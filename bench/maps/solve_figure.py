@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The picture of docs/evidence/bake-theory.md: one row of texels, exact at their centres or solved, and the error in between. SVG."""
+"""The picture of docs/evidence/bake-theory.md: one row of texels, exact at their centers or solved, and the error in between. SVG."""
 import math
 
 TEXELS, FIRST, LAST = 24, 6, 18  # the row repeats; these are shown
@@ -18,7 +18,7 @@ def direction(x):
 
 
 def filtered(texels, x):
-    """As a renderer mixes two texels, whose centres lie at i + 1/2."""
+    """As a renderer mixes two texels, whose centers lie at i + 1/2."""
     left = math.floor(x - 0.5)
     part = x - 0.5 - left
     a, b = texels[left % TEXELS], texels[(left + 1) % TEXELS]
@@ -64,7 +64,7 @@ def main():
     exact = [direction(i + 0.5) for i in range(TEXELS)]
     best = solved(exact)
     places = [FIRST + (LAST - FIRST) * i / 480 for i in range(481)]
-    errors = [("exact at centres", "#c0392b", [error(exact, x) for x in places]),
+    errors = [("exact at centers", "#c0392b", [error(exact, x) for x in places]),
               ("solved", "#1f6fb2", [error(best, x) for x in places])]
     most = max(abs(value) for _, _, values in errors for value in values)
 
@@ -79,19 +79,19 @@ def main():
     middle = 20 + HEIGHT / 2
     scale = HEIGHT / 2 / 30
     print(f'<path d="{path([(at(x), middle - scale * truth(x)) for x in places])}" fill="none" stroke="#444" stroke-width="2"/>')
-    for name, colour, texels in (("exact", "#c0392b", exact), ("solved", "#1f6fb2", best)):
+    for name, color, texels in (("exact", "#c0392b", exact), ("solved", "#1f6fb2", best)):
         for i in range(FIRST, LAST):
             angle = math.degrees(math.atan2(*texels[i]))
-            print(f'<circle cx="{at(i + 0.5):.1f}" cy="{middle - scale * angle:.1f}" r="4" fill="{colour}"/>')
+            print(f'<circle cx="{at(i + 0.5):.1f}" cy="{middle - scale * angle:.1f}" r="4" fill="{color}"/>')
     print(f'<text x="6" y="{middle + 4:.0f}">angle</text>')
     middle = 20 + HEIGHT * 1.5 + GAP
     scale = HEIGHT / 2 / most
     print(f'<path d="M{at(FIRST):.1f} {middle} H{at(LAST):.1f}" stroke="#888"/>')
-    for index, (name, colour, values) in enumerate(errors):
+    for index, (name, color, values) in enumerate(errors):
         points = [(at(x), middle - scale * value) for x, value in zip(places, values)]
-        print(f'<path d="{path(points)}" fill="none" stroke="{colour}" stroke-width="2"/>')
+        print(f'<path d="{path(points)}" fill="none" stroke="{color}" stroke-width="2"/>')
         mean = sum(abs(value) for value in values) / len(values)
-        print(f'<text x="{70 + 330 * index}" y="{total - 10}" fill="{colour}">{name}: {mean:.2f} degrees in the mean, '
+        print(f'<text x="{70 + 330 * index}" y="{total - 10}" fill="{color}">{name}: {mean:.2f} degrees in the mean, '
               f"{max(abs(value) for value in values):.2f} at most</text>")
     print(f'<text x="6" y="{middle + 4:.0f}">error</text>')
     print("</svg>")

@@ -81,7 +81,7 @@ bool writePicture(const std::string& path) {
         }
     }
     const Picture picture = differencePicture(shown, 128);
-    return stbi_write_png(path.c_str(), picture.width, picture.height, 1, picture.grey.data(), picture.width) != 0;
+    return stbi_write_png(path.c_str(), picture.width, picture.height, 1, picture.gray.data(), picture.width) != 0;
 }
 
 }  // namespace

@@ -140,14 +140,14 @@ Pixels draw(const Mesh& mesh, const test::FrameList& frames, int size) {
     return pixels;
 }
 
-std::uint8_t greyOf(double x) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(x, 0.0, 1.0))); }
+std::uint8_t grayOf(double x) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(x, 0.0, 1.0))); }
 
 }  // namespace
 
 Picture differencePicture(const std::vector<Code>& codes, int size) {
     const int columns = static_cast<int>(codes.size()) + 1;
     Picture picture{columns * size, 2 * size, {}};
-    picture.grey.assign(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height), 255);
+    picture.gray.assign(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height), 255);
     const Mesh meshes[] = {sphere(), torus()};
     for (int row = 0; row < 2; ++row) {
         const Mesh& mesh = meshes[row];
@@ -164,8 +164,8 @@ Picture differencePicture(const std::vector<Code>& codes, int size) {
                 if (exact.shade[i] < 0) continue;
                 const std::size_t y = static_cast<std::size_t>(row * size) + i / static_cast<std::size_t>(size);
                 const std::size_t x = static_cast<std::size_t>(column * size) + i % static_cast<std::size_t>(size);
-                picture.grey[y * static_cast<std::size_t>(picture.width) + x] =
-                    greyOf(column == 0 ? exact.shade[i] : kGain * std::fabs(shaded.shade[i] - exact.shade[i]));
+                picture.gray[y * static_cast<std::size_t>(picture.width) + x] =
+                    grayOf(column == 0 ? exact.shade[i] : kGain * std::fabs(shaded.shade[i] - exact.shade[i]));
             }
         }
     }

@@ -32,14 +32,14 @@ enum class Side { top, front, under, back, right, left };
 inline constexpr int kSideCount = 6;
 
 /// Texture coordinates per meter: a side uses half of the texture, the rest is a gutter around it.
-inline constexpr double kUvPerMetre = 0.5;
+inline constexpr double kUvPerMeter = 0.5;
 
 /// Texture coordinates of the center of a side.
 struct Place {
     double u, v;
 };
 constexpr Place placeOf(Side side) {
-    constexpr double half = kUvPerMetre * kHalfUnrolled;
+    constexpr double half = kUvPerMeter * kHalfUnrolled;
     constexpr double strip_u = (0.25 - half) / 2, strip_v = (1 - 4 * half) / 2;
     switch (side) {
         case Side::top:

@@ -59,8 +59,8 @@ void addVertex(Mesh& mesh, const Axes& axes, const Line& column, const Line& row
     }
     const Place place = placeOf(axes.side);
     const double across = isMirrored(axes.side) ? std::abs(column.offset) : column.offset;
-    mesh.uvs.push_back(static_cast<float>(place.u + kUvPerMetre * across));
-    mesh.uvs.push_back(static_cast<float>(place.v + kUvPerMetre * row.offset));
+    mesh.uvs.push_back(static_cast<float>(place.u + kUvPerMeter * across));
+    mesh.uvs.push_back(static_cast<float>(place.v + kUvPerMeter * row.offset));
 }
 
 /// Adds vertically adjacent sides, which share the vertices of their common edge.

@@ -183,7 +183,7 @@ std::uint8_t toByte(double value) { return static_cast<std::uint8_t>(std::clamp(
 }  // namespace
 
 Textures makeTextures(int size) {
-    const double pixel = 1 / (size * kUvPerMetre);  // meters per texel
+    const double pixel = 1 / (size * kUvPerMeter);  // meters per texel
     Textures result;
     result.base_color.size = result.normal.size = size;
     for (int row = 0; row < size; ++row) {
@@ -191,7 +191,7 @@ Textures makeTextures(int size) {
             const double u = (column + 0.5) / size, v = (row + 0.5) / size;
             const Side side = sideAt(u, v);
             const Place place = placeOf(side);
-            const Point p{(u - place.u) / kUvPerMetre, (v - place.v) / kUvPerMetre};
+            const Point p{(u - place.u) / kUvPerMeter, (v - place.v) / kUvPerMeter};
             const Color color = paint(side, p);
             for (const double value : {color.r, color.g, color.b}) {
                 result.base_color.rgb.push_back(toByte(value));

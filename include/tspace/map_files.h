@@ -39,7 +39,7 @@ enum class MapChannel : std::uint32_t {
 enum class MapCurve : std::uint32_t {
     none = 0,
     srgb = 1,       ///< the sRGB curve was applied: a flat texel is (188, 188, 255)
-    linearised = 2  ///< the sRGB curve was removed: a flat texel is (55, 55, 255)
+    linearized = 2  ///< the sRGB curve was removed: a flat texel is (55, 55, 255)
 };
 
 struct MapComponent {

@@ -55,7 +55,7 @@ std::optional<RgbImage> decodeTga(ByteSpan bytes, std::uint64_t most_pixels, std
 struct TgaImage {
     RgbImage image = {};
     std::vector<std::uint8_t> alpha = {};  ///< one byte per pixel; empty: opaque
-    bool is_grey = false;
+    bool is_gray = false;
 };
 std::optional<TgaImage> decodeTgaPixels(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
 

@@ -66,7 +66,7 @@ Result<FlippedImage> flipTgaToPng(ByteSpan bytes) {
     std::string why;
     std::optional<TgaImage> tga = decodeTgaPixels(bytes, ~std::uint64_t{0}, why);
     if (!tga) return Error{ErrorCode::invalidFile, why};
-    if (tga->is_grey) return Error{ErrorCode::unsupportedFile, "the TGA is gray, so it has no separate green channel"};
+    if (tga->is_gray) return Error{ErrorCode::unsupportedFile, "the TGA is gray, so it has no separate green channel"};
     ChannelImage image{tga->image.width, tga->image.height, 3, std::move(tga->image.rgb)};
     if (!tga->alpha.empty()) {
         const std::vector<std::uint8_t> rgb = std::move(image.pixels);

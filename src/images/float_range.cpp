@@ -17,7 +17,7 @@ class RangeEvidence {
 
     void add(const Vec3& texel) {
         constexpr float kBelowZero = -1.0F / 64.0F;  // sharpening filters cause values down to this limit
-        is_grey_ = is_grey_ && texel.x == texel.y && texel.y == texel.z;
+        is_gray_ = is_gray_ && texel.x == texel.y && texel.y == texel.z;
         if (texel == Vec3{}) return;
         const Vec3 moved{2 * texel.x - 1, 2 * texel.y - 1, 2 * texel.z - 1};
         ++count_;
@@ -32,7 +32,7 @@ class RangeEvidence {
     /// Returns why the values are vectors from -1 to 1; empty if they are not.
     [[nodiscard]] std::string whySigned() const {
         constexpr double kMost = 0.9, kHalf = 0.5, kFew = 0.1, kSome = 0.01;
-        if (count_ == 0 || is_grey_) return {};
+        if (count_ == 0 || is_gray_) return {};
         const double stored = share(stored_fit_), moved = share(moved_fit_), negative = share(negative_);
         const std::string read = "; they were read as vectors from -1 to 1";
         if (negative_ > 0 && stored >= kHalf && stored > moved)
@@ -64,7 +64,7 @@ class RangeEvidence {
     }
     [[nodiscard]] std::string lengths() const { return has_z_ ? "unit vectors" : "x and y of unit vectors"; }
 
-    bool has_z_, is_grey_ = true;
+    bool has_z_, is_gray_ = true;
     std::uint64_t count_ = 0, negative_ = 0, stored_fit_ = 0, moved_fit_ = 0;
     double sum_x_ = 0, sum_y_ = 0, sum_z_ = 0;
 };

@@ -15,7 +15,7 @@ double withSrgb(double c) { return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow
 float withoutCurve(float channel, MapCurve curve) {
     const double c = std::clamp(static_cast<double>(channel), 0.0, 1.0);
     if (curve == MapCurve::srgb) return static_cast<float>(withoutSrgb(c));
-    if (curve == MapCurve::linearised) return static_cast<float>(withSrgb(c));
+    if (curve == MapCurve::linearized) return static_cast<float>(withSrgb(c));
     return channel;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kHeadBytes = 18, kMostOfPacket = 128;
 
-enum class TgaKind : std::uint8_t { palette = 1, colors = 2, grey = 3 };
+enum class TgaKind : std::uint8_t { palette = 1, colors = 2, gray = 3 };
 
 struct TgaHead {
     TgaKind kind = TgaKind::colors;
@@ -26,22 +26,22 @@ struct TgaHead {
     /// Returns the bits of a pixel, or of a palette entry, which have the same format.
     [[nodiscard]] unsigned storedBits() const { return kind == TgaKind::palette ? entry_bits : pixel_bits; }
     [[nodiscard]] bool hasAlpha() const {
-        const bool is_bit = kind != TgaKind::grey && storedBits() == 16;
-        return is_bit ? alpha_bits == 1 : storedBits() == (kind == TgaKind::grey ? 16 : 32);
+        const bool is_bit = kind != TgaKind::gray && storedBits() == 16;
+        return is_bit ? alpha_bits == 1 : storedBits() == (kind == TgaKind::gray ? 16 : 32);
     }
 };
 
 bool areBitsRight(const TgaHead& head) {
     const auto is_color = [](unsigned bits) { return bits == 16 || bits == 24 || bits == 32; };
     const unsigned pixel = head.pixel_bits, alpha = head.alpha_bits;
-    if (alpha != 0 && alpha != 8 && !(alpha == 1 && head.kind != TgaKind::grey && head.storedBits() == 16))
+    if (alpha != 0 && alpha != 8 && !(alpha == 1 && head.kind != TgaKind::gray && head.storedBits() == 16))
         return false;
     switch (head.kind) {
         case TgaKind::palette:
             return pixel == 8 && is_color(head.entry_bits) && head.entry_count != 0;
         case TgaKind::colors:
             return is_color(pixel);
-        case TgaKind::grey:
+        case TgaKind::gray:
             return pixel == 8 || pixel == 16;
     }
     return false;
@@ -137,7 +137,7 @@ class TgaReader {
   private:
     [[nodiscard]] Texel texelAt(const std::uint8_t* at) const {
         if (head_.kind == TgaKind::palette) return palette_[*at];
-        if (head_.kind == TgaKind::grey)
+        if (head_.kind == TgaKind::gray)
             return {at[0], at[0], at[0], head_.pixel_bits == 16 ? at[1] : std::uint8_t{255}};
         return colorOf(at, head_.pixel_bits);
     }
@@ -185,7 +185,7 @@ std::optional<TgaImage> decodeTgaPixels(ByteSpan bytes, std::uint64_t most_pixel
     const bool is_said = head->alpha_bits != 0;
     const bool is_nothing = std::all_of(out.alpha.begin(), out.alpha.end(), [](std::uint8_t a) { return a == 0; });
     if (!is_said && is_nothing) out.alpha = {};
-    out.is_grey = head->kind == TgaKind::grey;
+    out.is_gray = head->kind == TgaKind::gray;
     return out;
 }
 

@@ -12,10 +12,10 @@ namespace {
 std::optional<std::vector<std::uint8_t>> headOf(std::uint32_t width, std::uint32_t height, bool has_alpha) {
     constexpr std::uint32_t kMostSide = 65535;
     if (width > kMostSide || height > kMostSide) return {};
-    constexpr std::uint8_t kTrueColour = 2, kFromTheTop = 0x20, kAlphaBits = 8;
+    constexpr std::uint8_t kTrueColor = 2, kFromTheTop = 0x20, kAlphaBits = 8;
     std::vector<std::uint8_t> file(18);
     file.reserve(file.size() + std::size_t{has_alpha ? 4U : 3U} * width * height + 26);
-    file[2] = kTrueColour;
+    file[2] = kTrueColor;
     file[12] = static_cast<std::uint8_t>(width & 0xff);
     file[13] = static_cast<std::uint8_t>(width >> 8);
     file[14] = static_cast<std::uint8_t>(height & 0xff);

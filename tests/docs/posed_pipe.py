@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""posed_pipe.py OUT.glb: a pipe with rings in two colours on three joints, which the file's nodes bend."""
+"""posed_pipe.py OUT.glb: a pipe with rings in two colors on three joints, which the file's nodes bend."""
 import json
 import math
 import struct

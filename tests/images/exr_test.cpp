@@ -67,7 +67,7 @@ TEST_F(Exr, HalvesComeBackRounded) {
     EXPECT_EQ(encodeExr(*decoded, 16), encodeExr(image, 16));
 }
 
-TEST_F(Exr, WhatIsNotFiniteBecomesGrey) {
+TEST_F(Exr, WhatIsNotFiniteBecomesGray) {
     FloatImage image = waves(8, 8);
     image.texels[5].y = std::nanf("");
     image.texels[9].x = std::numeric_limits<float>::infinity();
@@ -209,10 +209,10 @@ TEST_F(Exr, ChannelsHaveManyNames) {
     expectSame(read(mapExr(v, "x", "y", "z")), moved, "x y z");
     expectSame(read(mapExr(v, "normal.R", "normal.G", "normal.B")), moved, "layer.R");
     expectSame(read(mapExr(v, "ViewLayer.Normal.X", "ViewLayer.Normal.Y", "ViewLayer.Normal.Z")), moved, "two dots");
-    const std::vector<float> grey(v.x.size(), 0.25F);
-    const std::vector<ExrChannel> layers{{"Combined.R", grey}, {"Combined.G", grey}, {"Combined.B", grey},
+    const std::vector<float> gray(v.x.size(), 0.25F);
+    const std::vector<ExrChannel> layers{{"Combined.R", gray}, {"Combined.G", gray}, {"Combined.B", gray},
                                          {"Normal.X", v.x},    {"Normal.Y", v.y},    {"Normal.Z", v.z},
-                                         {"Depth.Z", grey}};
+                                         {"Depth.Z", gray}};
     expectSame(read(exrFile(kSide, kSide, layers)), moved, "layers");
     std::string why;
     std::vector<ExrChannel> unclear = layers;

@@ -19,7 +19,7 @@ namespace tspace::test {
 namespace {
 
 using Bytes8 = std::vector<std::uint8_t>;
-constexpr std::uint8_t kGrey = 0, kRgb = 2, kPalette = 3, kRgba = 6;
+constexpr std::uint8_t kGray = 0, kRgb = 2, kPalette = 3, kRgba = 6;
 
 /// Returns a PNG of raw samples, most significant byte first. `more` adds chunks.
 Bytes8 makePng(
@@ -196,7 +196,7 @@ TEST(FlipGreen, MakesAPngOfATextureThatCannotHoldIt) {
     const std::string file = ktx2File(parts);
     EXPECT_EQ(whyNot(bytesOf(file)), ErrorCode::unsupportedFile);
     EXPECT_EQ(whyNot(bytesOf(ddsFile(98, 4, 4, std::string(16, 'x')))), ErrorCode::unsupportedFile);
-    EXPECT_EQ(whyNot(bytesOf(ddsFile(80, 4, 4, std::string(8, 'x')))), ErrorCode::unsupportedFile) << "grey";
+    EXPECT_EQ(whyNot(bytesOf(ddsFile(80, 4, 4, std::string(8, 'x')))), ErrorCode::unsupportedFile) << "gray";
     EXPECT_EQ(whyNot(bytesOf(maskedDdsFile(16, {0xff, 0, 0, 0xff00}, 1, 1, "ab"))), ErrorCode::unsupportedFile);
     EXPECT_EQ(whyNot(bytesOf(file.substr(0, 90))), ErrorCode::invalidFile);
     const Result<FlippedImage> png = flipGreen(bytesOf(file), {.format = ImageFileFormat::png});
@@ -304,9 +304,9 @@ TEST(FlipGreen, WritesWebpWithoutLoss) {
 }
 
 TEST(FlipGreen, RefusesWhatHasNoGreenOrCannotBeRead) {
-    const Bytes8 grey = makePng({2, 2, 8, kGrey, 0, 0, 0}, noise(4));
+    const Bytes8 gray = makePng({2, 2, 8, kGray, 0, 0, 0}, noise(4));
     const Bytes8 color = makePng({8, 8, 8, kRgb, 0, 0, 0}, noise(192));
-    EXPECT_EQ(whyNot(grey), ErrorCode::unsupportedFile);
+    EXPECT_EQ(whyNot(gray), ErrorCode::unsupportedFile);
     EXPECT_EQ(whyNot(bytesOf("\xabKTX 20\xbb\r\n\x1a\n")), ErrorCode::invalidFile);
     EXPECT_EQ(whyNot(bytesOf("")), ErrorCode::unsupportedFile);
     EXPECT_EQ(whyNot(std::span(color).first(color.size() / 2)), ErrorCode::invalidFile);
@@ -373,13 +373,13 @@ TEST(FlipGreen, TakesNoTimeForRowsThatFewBytesClaim) {
         EXPECT_EQ(codeOf(thin, kGigabyte), ErrorCode::tooLarge);
         EXPECT_EQ(codeOf(thin, 4 * kGigabyte), ErrorCode::invalidFile) << "looked at, and found to be broken";
     }
-    EXPECT_EQ(codeOf(claimingPng(16384, 16384, 8, kRgb, 800'000)), ErrorCode::invalidFile) << "of one colour";
+    EXPECT_EQ(codeOf(claimingPng(16384, 16384, 8, kRgb, 800'000)), ErrorCode::invalidFile) << "of one color";
     EXPECT_EQ(codeOf(claimingPng(16384, 16384, 8, kPalette, 40'000)), ErrorCode::invalidFile);
     EXPECT_EQ(codeOf(claimingPng(8192, 8192, 16, kRgba, 500'000)), ErrorCode::invalidFile);
     EXPECT_EQ(codeOf(claimingPng(60000, 60000, 8, kRgb, 200'000'000)), ErrorCode::invalidFile);
 }
 
-TEST(FlipGreen, TakesLargeImagesOfOneColour) {
+TEST(FlipGreen, TakesLargeImagesOfOneColor) {
     constexpr std::uint32_t kSide = 4096;
     spng_ihdr header{};
     header.width = header.height = kSide;

@@ -60,7 +60,7 @@ TEST(FloatImage, ClampsAndRoundsToTheNearest) {
     EXPECT_EQ(decoded->texels[1], (Vec3{0, 1.0f / 255, 1}));
 }
 
-TEST(FloatImage, SaysNothingOfColours) {
+TEST(FloatImage, SaysNothingOfColors) {
     const auto file = encodePng(everyNumber(8), 8);
     const std::string text(file->begin(), file->end());
     for (const char* chunk : {"gAMA", "sRGB", "iCCP", "cHRM"}) EXPECT_EQ(text.find(chunk), std::string::npos) << chunk;

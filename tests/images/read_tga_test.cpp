@@ -93,16 +93,16 @@ TEST(ReadTga, UnpacksRunsAndWhatIsNoRun) {
     const Bytes packed = head(10, 3, 2, 24, kFromTheTop) + Bytes{0x83, 1, 2, 3, 0x01, 4, 5, 6, 7, 8, 9};
     EXPECT_EQ(rgbOf(packed), (Bytes{3, 2, 1, 3, 2, 1, 3, 2, 1, 3, 2, 1, 6, 5, 4, 9, 8, 7}))
         << "runs go on in the next row";
-    const Bytes grey = head(11, 4, 1, 8, 0) + Bytes{0x82, 9, 0x00, 200};
-    EXPECT_EQ(rgbOf(grey), (Bytes{9, 9, 9, 9, 9, 9, 9, 9, 9, 200, 200, 200}));
+    const Bytes gray = head(11, 4, 1, 8, 0) + Bytes{0x82, 9, 0x00, 200};
+    EXPECT_EQ(rgbOf(gray), (Bytes{9, 9, 9, 9, 9, 9, 9, 9, 9, 200, 200, 200}));
     const Bytes with_alpha = head(10, 2, 1, 32, 8) + Bytes{0x81, 1, 2, 3, 77};
     EXPECT_EQ(decodeAlpha(with_alpha), (Bytes{77, 77}));
 }
 
-TEST(ReadTga, ReadsGreyWithAlphaAndFiveBits) {
-    const Bytes grey = head(3, 2, 1, 16, 8) + Bytes{10, 20, 30, 40};
-    EXPECT_EQ(rgbOf(grey), (Bytes{10, 10, 10, 30, 30, 30}));
-    EXPECT_EQ(decodeAlpha(grey), (Bytes{20, 40}));
+TEST(ReadTga, ReadsGrayWithAlphaAndFiveBits) {
+    const Bytes gray = head(3, 2, 1, 16, 8) + Bytes{10, 20, 30, 40};
+    EXPECT_EQ(rgbOf(gray), (Bytes{10, 10, 10, 30, 30, 30}));
+    EXPECT_EQ(decodeAlpha(gray), (Bytes{20, 40}));
     // Red of 31, green of 16, blue of 1.
     constexpr unsigned kWord = 31U << 10 | 16U << 5 | 1U;
     const Bytes word = {kWord & 0xff, kWord >> 8, kWord & 0xff, kWord >> 8 | 0x80};
@@ -213,7 +213,7 @@ TEST(ReadTga, IsInvertedIntoAPngAlone) {
     EXPECT_EQ(rgbOf(flipped->bytes), (Bytes{3, 253, 1, 7, 249, 5}));
     EXPECT_EQ(decodeAlpha(flipped->bytes), (Bytes{4, 8}));
     EXPECT_TRUE(flipped->report.is_exact);
-    EXPECT_FALSE(flipGreen(head(3, 1, 1, 8, 0) + Bytes{9}, {.format = ImageFileFormat::png})) << "grey";
+    EXPECT_FALSE(flipGreen(head(3, 1, 1, 8, 0) + Bytes{9}, {.format = ImageFileFormat::png})) << "gray";
     EXPECT_FALSE(flipGreen(head(10, 3, 1, 24, 0) + Bytes{0x81, 1, 2, 3}, {.format = ImageFileFormat::png})) << "broken";
 }
 

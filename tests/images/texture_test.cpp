@@ -67,8 +67,8 @@ TEST(Texture, DecodesBc4AndBc5ByTheirFormulas) {
     for (const bool is_signed : {false, true}) {
         const std::string data = randomBytes(kBlocks * 16, 7);
         const auto image = decode(ddsFile(is_signed ? 84 : 83, kWidth, kHeight, data));
-        const auto grey = decode(ddsFile(is_signed ? 81 : 80, kWidth, kHeight, data.substr(0, kBlocks * 8)));
-        ASSERT_TRUE(image && grey);
+        const auto gray = decode(ddsFile(is_signed ? 81 : 80, kWidth, kHeight, data.substr(0, kBlocks * 8)));
+        ASSERT_TRUE(image && gray);
         EXPECT_EQ(image->bits, 16u);
         const auto stored = [&](double value) { return is_signed ? (value + 1) / 2 : value; };
         for (std::size_t y = 0; y < kHeight; ++y) {
@@ -78,7 +78,7 @@ TEST(Texture, DecodesBc4AndBc5ByTheirFormulas) {
                 ASSERT_NEAR(read.x, stored(channelOf(data, 16 * block, texel, is_signed)), 1e-7);
                 ASSERT_NEAR(read.y, stored(channelOf(data, 16 * block + 8, texel, is_signed)), 1e-7);
                 ASSERT_EQ(read.z, 0);
-                const Vec3& one = grey->texels[y * kWidth + x];
+                const Vec3& one = gray->texels[y * kWidth + x];
                 ASSERT_NEAR(one.x, stored(channelOf(data, 8 * block, texel, is_signed)), 1e-7);
                 ASSERT_TRUE(one.x == one.y && one.y == one.z);
             }
@@ -168,7 +168,7 @@ TEST(Texture, DecodesEtc1sAsTheBasisTranscoderDoes) {
     for (std::size_t size = 0; size < file.size(); ++size) EXPECT_NE(whyNot(file.substr(0, size)), "") << size;
 }
 
-TEST(Texture, DecodesAstcOfOneColour) {
+TEST(Texture, DecodesAstcOfOneColor) {
     // A block of one color (void extent) without coordinates: 0xdfc, ones, and four 16-bit numbers.
     const std::string block("\xfc\xfd\xff\xff\xff\xff\xff\xff\x00\x40\x00\x80\xff\xff\xff\xff", 16);
     Ktx2Parts parts{.format = 163, .width = 11, .height = 6};
@@ -188,7 +188,7 @@ TEST(Texture, DecodesAstcOfOneColour) {
     }
 }
 
-TEST(Texture, BrokenBlocksHaveTheColoursThatTheirFormatsName) {
+TEST(Texture, BrokenBlocksHaveTheColorsThatTheirFormatsName) {
     const auto bc7 = decode(ddsFile(98, 4, 4, std::string(16, '\0')));
     ASSERT_TRUE(bc7);
     EXPECT_EQ(bc7->texels[5], (Vec3{0, 0, 0}));
@@ -255,7 +255,7 @@ TEST(Texture, DecodesTexelsOfEveryPlainFormat) {
     EXPECT_EQ(bgra->alpha[0], 128.0F / 255);
 }
 
-TEST(Texture, FloatsThatAreNotFiniteAreGrey) {
+TEST(Texture, FloatsThatAreNotFiniteAreGray) {
     const std::string texels("\x00\x7c\x00\x00\x00\x00\x00\x3c\x00\x38\x00\x38\x00\x38\x00\x3c", 16);
     const auto image = decode(ktx2File({.format = 97, .width = 2, .height = 1, .levels = {texels}}));
     ASSERT_TRUE(image);

@@ -407,7 +407,7 @@ TEST(ConvertMap, ChoosesIntegersOfEightBitsTogether) {
 
 // Filtering weights texels by their lengths: if neighbors differ in direction, a changed length is an error between
 // them.
-TEST(ConvertMap, KeepsLengthsWithEightBitsWhereNeighboursPointElsewhere) {
+TEST(ConvertMap, KeepsLengthsWithEightBitsWhereNeighborsPointElsewhere) {
     const Corners from = cornersOf({}), to = cornersOf({.twist = 0.3, .lean = 0.2});
     const auto texels = randomTexels(kSize * kSize, 16, 7);
     const auto wanted = shown(texels, from);

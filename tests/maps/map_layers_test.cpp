@@ -43,10 +43,10 @@ struct Mesh {
             return DVec3{half * (2 * u - 1), half * (2 * (faces_up ? v : 1 - v) - 1), z};
         });
     }
-    void addBall(const DVec3& centre, double radius, int cells) {
+    void addBall(const DVec3& center, double radius, int cells) {
         addGrid(cells, [&](double u, double v) {
             const SineCosine turn = sineCosine(2 * kPi * u), up = sineCosine(kPi * (v - 0.5));
-            return centre + radius * DVec3{up.cosine * turn.cosine, up.cosine * turn.sine, up.sine};
+            return center + radius * DVec3{up.cosine * turn.cosine, up.cosine * turn.sine, up.sine};
         });
     }
 };
@@ -184,7 +184,7 @@ TEST_F(MapLayers, WhatHasNothingBehindSaysNothingOfTheRangeOfThickness) {
     EXPECT_NEAR(layer.most[0], 0.25, 1e-5);
 }
 
-TEST_F(MapLayers, HeightIsTheWayFromTheLowPolyAndGreyIsTheLowPolyItself) {
+TEST_F(MapLayers, HeightIsTheWayFromTheLowPolyAndGrayIsTheLowPolyItself) {
     Mesh high;
     high.addGrid(1, [](double u, double v) { return DVec3{2 * u - 1, 2 * v - 1, 0.2 * u}; });
     const BakedLayer fixed = one(high, MapLayer::height, {.height_range = 0.4}, sized(16));
@@ -198,7 +198,7 @@ TEST_F(MapLayers, HeightIsTheWayFromTheLowPolyAndGreyIsTheLowPolyItself) {
     }
 }
 
-TEST_F(MapLayers, WithoutAnyHeightAllIsGrey) {
+TEST_F(MapLayers, WithoutAnyHeightAllIsGray) {
     Mesh high;
     high.addSquare(1, 0);
     for (const float value : one(high, MapLayer::height, {}, sized(8)).values) EXPECT_EQ(value, 0.5);
@@ -325,7 +325,7 @@ TEST(SurfaceCurvature, AtPositionsThatAreEqualButForRoundingIsThatOfOnePoint) {
     EXPECT_GT(most_apart, 0.1F);
 }
 
-TEST_F(MapLayers, CurvatureIsBrightWhereTheSurfaceIsConvexAndGreyWhereItIsFlat) {
+TEST_F(MapLayers, CurvatureIsBrightWhereTheSurfaceIsConvexAndGrayWhereItIsFlat) {
     Mesh high;
     high.addGrid(64, [](double u, double v) {
         const double x = 2 * u - 1;
@@ -370,7 +370,7 @@ Picture noise(std::uint32_t size) {
     return picture;
 }
 
-TEST_F(MapLayers, FittedColoursOfATextureOfTheSameSizeAreItsTexels) {
+TEST_F(MapLayers, FittedColorsOfATextureOfTheSameSizeAreItsTexels) {
     Mesh high;
     high.addSquare(1, 0, 3);
     const Picture picture = noise(32);
@@ -392,7 +392,7 @@ TEST_F(MapLayers, FittedColoursOfATextureOfTheSameSizeAreItsTexels) {
     }
 }
 
-TEST_F(MapLayers, FittedColoursAreNearerToATextureOfAnotherSizeThanMeans) {
+TEST_F(MapLayers, FittedColorsAreNearerToATextureOfAnotherSizeThanMeans) {
     Mesh high;
     high.addSquare(1, 0, 3);
     const Picture picture = noise(48);

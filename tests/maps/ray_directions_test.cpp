@@ -43,7 +43,7 @@ LowMesh box() {
 }
 
 /// Adds a box with round edges.
-void addRound(HighMesh& high, const Vec3& centre, const Vec3& half, float radius, std::uint32_t cells) {
+void addRound(HighMesh& high, const Vec3& center, const Vec3& half, float radius, std::uint32_t cells) {
     for (int side = 0; side < 6; ++side) {
         const auto first = static_cast<std::uint32_t>(high.positions.size());
         for (std::uint32_t y = 0; y <= cells; ++y) {
@@ -61,7 +61,7 @@ void addRound(HighMesh& high, const Vec3& centre, const Vec3& half, float radius
                 const Vec3 core{inner(at.x, half.x), inner(at.y, half.y), inner(at.z, half.z)};
                 DVec3 out = toDouble(at - core);
                 normalize(out);
-                high.positions.push_back(centre + core + radius * toFloat(out));
+                high.positions.push_back(center + core + radius * toFloat(out));
                 high.normals.push_back(toFloat(out));
             }
         }

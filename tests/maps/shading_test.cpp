@@ -101,7 +101,7 @@ TEST(MapReading, NamesAreThoseOfConventionsAndThree) {
     EXPECT_EQ(findMapReading(nullptr), nullptr);
 }
 
-TEST(BilinearTaps, TexelCentresReadTheTexel) {
+TEST(BilinearTaps, TexelCentersReadTheTexel) {
     const TextureShape shape{4, 2};
     for (std::uint32_t y = 0; y < 2; ++y) {
         for (std::uint32_t x = 0; x < 4; ++x) {

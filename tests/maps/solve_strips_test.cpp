@@ -45,7 +45,7 @@ class Relief {
             findTexelTriangles(uvs.triangles(TextureWrap::repeat, options_.wrap_v), kSide, kSide, 2, parallel);
         TracedTexels traced;
         traceTexels(*surfaces, *triangles, options_, work, traced);
-        fillFromNeighbours(traced, triangles->shape);
+        fillFromNeighbors(traced, triangles->shape);
         const CellSampling sampling = samplingOf(options_);
         const TexelPlan plan =
             planTexels(traced, *triangles, sampling.tolerance, options_.bits == 8, parallel, nullptr);

@@ -58,7 +58,7 @@ double errorOf(const TexelSystem& system, const std::vector<Sample>& samples, co
     return sum / static_cast<double>(samples.size());
 }
 
-std::vector<Vec3> centres(const std::vector<Sample>& samples) {
+std::vector<Vec3> centers(const std::vector<Sample>& samples) {
     std::vector<Vec3> texels;
     for (const Sample& sample : samples) {
         if (sample.fx == 0 && sample.fy == 0) texels.push_back(sample.wanted);
@@ -70,10 +70,10 @@ TEST(SolveTexels, TheFilteredImageIsNearerThanThatOfExactTexels) {
     constexpr std::uint32_t kWidth = 22, kHeight = 17;
     const std::vector<Sample> samples = waves(kWidth, kHeight);
     const TexelSystem system = systemOf(samples, kWidth, kHeight, 0.02F);
-    std::vector<Vec3> texels = centres(samples);
+    std::vector<Vec3> texels = centers(samples);
     const double exact = errorOf(system, samples, texels);
     for (const unsigned threads : {1U, 3U}) {
-        std::vector<Vec3> solved = centres(samples);
+        std::vector<Vec3> solved = centers(samples);
         Parallel parallel({.executor = threadTeam(threads)});
         solveTexels(system, solved, parallel, nullptr);
         EXPECT_LT(errorOf(system, samples, solved), 0.6 * exact);
@@ -86,7 +86,7 @@ TEST(SolveTexels, IntegersCancelEachOthersErrors) {
     constexpr std::uint32_t kWidth = 40, kHeight = 33;
     const std::vector<Sample> samples = waves(kWidth, kHeight);
     const TexelSystem system = systemOf(samples, kWidth, kHeight, 0);
-    std::vector<Vec3> rounded = centres(samples), chosen = rounded;
+    std::vector<Vec3> rounded = centers(samples), chosen = rounded;
     for (Vec3& texel : rounded) {
         const auto round = [](float value) { return std::floor((value + 1) * 127.5F + 0.5F) / 127.5F - 1; };
         texel = {round(texel.x), round(texel.y), round(texel.z)};
@@ -109,7 +109,7 @@ TEST(SolveTexels, IntegersBesideTheChosenOnesAreHardlyBetter) {
     constexpr std::uint32_t kWidth = 5, kHeight = 400;
     const std::vector<Sample> samples = waves(kWidth, kHeight);
     const TexelSystem system = systemOf(samples, kWidth, kHeight, 0);
-    std::vector<Vec3> texels = centres(samples);
+    std::vector<Vec3> texels = centers(samples);
     Parallel parallel({.thread_count = 1});
     chooseIntegers(system, {}, texels, 1, parallel, nullptr);
     double chosen_sum = 0, least_sum = 0;
@@ -150,7 +150,7 @@ TEST(SolveTexels, FreerLengthsAreNoWorseWhereDetailIsFine) {
     const TexelSystem system = systemOf(samples, kWidth, kHeight, 0);
     Parallel parallel({.thread_count = 1});
     const auto errorWith = [&](float least_length) {
-        std::vector<Vec3> texels = centres(samples);
+        std::vector<Vec3> texels = centers(samples);
         chooseIntegers(system, {.least_length = least_length}, texels, 3, parallel, nullptr);
         return errorOf(system, samples, texels);
     };

@@ -45,7 +45,7 @@ UvMap randomMap(int least = -1200, int most = 1900) {
 }
 
 /// Checks that the point of the UV plane at the stored weights is the center of the texel in the image.
-void expectCentre(const UvMap& map, const TexelTriangles& found, std::size_t texel) {
+void expectCenter(const UvMap& map, const TexelTriangles& found, std::size_t texel) {
     const TexelPlace& place = found.places[texel];
     const auto uvs = cornerUvs(map.triangles(), place.triangle);
     const auto weights = weightsAt(map.triangles(), found.shape, place);
@@ -80,7 +80,7 @@ RC_GTEST_PROP(TexelTriangles, AreInsideWhereTheCoverageSays, ()) {
     }
 }
 
-RC_GTEST_PROP(TexelTriangles, GiveTheCentreOfEachTexel, ()) {
+RC_GTEST_PROP(TexelTriangles, GiveTheCenterOfEachTexel, ()) {
     const UvMap map = randomMap();
     const TexelTriangles found =
         find(map, *rc::gen::inRange<std::uint32_t>(4, 40), *rc::gen::inRange<std::uint32_t>(4, 90), 2);
@@ -88,7 +88,7 @@ RC_GTEST_PROP(TexelTriangles, GiveTheCentreOfEachTexel, ()) {
         if (found.kinds[texel] == TexelCoverage::none) continue;
         const auto weights = weightsAt(map.triangles(), found.shape, found.places[texel]);
         const double least = std::min({weights[0], weights[1], weights[2]});
-        if (least > -0.999) expectCentre(map, found, texel);
+        if (least > -0.999) expectCenter(map, found, texel);
         RC_ASSERT(least >= -1.000001);
     }
 }
@@ -162,7 +162,7 @@ RC_GTEST_PROP(TexelTriangles, AreTheSameForAnyNumberOfThreads, ()) {
 
 TEST(TexelTriangles, CountTexelsThatSeveralTrianglesClaim) {
     const std::vector<Vec2> square = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
-    EXPECT_EQ(find(mapOf(square), 8, 8, 0).counts.overlapping, 0u) << "centres on the diagonal are no overlap";
+    EXPECT_EQ(find(mapOf(square), 8, 8, 0).counts.overlapping, 0u) << "centers on the diagonal are no overlap";
     std::vector<Vec2> halves = square;
     for (const Vec2& uv : square) halves.push_back({uv.x, uv.y * 0.5f});
     const TexelTriangles found = find(mapOf(halves), 8, 8, 0);

@@ -33,13 +33,13 @@ std::string picture(const TexelMask& mask) {
     return text;
 }
 
-TEST(UvCoverage, TakesTexelsWhoseCentreIsInside) {
+TEST(UvCoverage, TakesTexelsWhoseCenterIsInside) {
     EXPECT_EQ(picture(cover({{0, 0}, {1, 0}, {0, 1}}, 4, 4)),
               "####\n"
               "###.\n"
               "##..\n"
               "#...\n");
-    EXPECT_EQ(count(cover({{0, 0}, {0.1f, 0}, {0, 0.1f}}, 4, 4)), 0u) << "no centre";
+    EXPECT_EQ(count(cover({{0, 0}, {0.1f, 0}, {0, 0.1f}}, 4, 4)), 0u) << "no center";
 }
 
 TEST(UvCoverage, RepeatsMirrorsOrClampsOutsideOfTheImage) {

@@ -189,7 +189,7 @@ TEST(FlipMaps, GivesNormalMapsAnImageOfTheirOwnWhereItIsSomethingElseToo) {
     const std::string in = folder.write("in.glb", builder.glb()), out = folder.path("out.glb").string();
     generate(in, out);
     EXPECT_FALSE(codes(out).contains("greenFlipped"));
-    EXPECT_EQ(pixelsOf(imageOf(out, 0)).rgb, downMap().rgb) << "the base colour";
+    EXPECT_EQ(pixelsOf(imageOf(out, 0)).rgb, downMap().rgb) << "the base color";
     const Json json = gltf::loadDocument(out, {}).json;
     ASSERT_EQ(json["images"].size(), 2u);
     EXPECT_EQ(json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"], 0);
@@ -213,7 +213,7 @@ TEST(FlipMaps, GivesBothFormatsOfATextureThatIsSomethingElseTooImagesOfTheirOwn)
     generate(folder.write("in.glb", builder.glb()), out);
     const Json json = gltf::loadDocument(out, {}).json;
     ASSERT_EQ(json["textures"].size(), 2u);
-    EXPECT_EQ(json["textures"][0], builder.json()["textures"][0]) << "the base colour";
+    EXPECT_EQ(json["textures"][0], builder.json()["textures"][0]) << "the base color";
     EXPECT_EQ(json["materials"][0]["normalTexture"]["index"], 1);
     const Json& own = json["textures"][1];
     for (const Json* source : {&own["source"], &own["extensions"]["EXT_texture_webp"]["source"]}) {

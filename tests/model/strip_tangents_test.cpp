@@ -70,7 +70,7 @@ TEST(StripTangents, LeavesDataThatSomethingElseUses) {
     EXPECT_EQ(before.buffers[0].bytes.size(), after.buffers[0].bytes.size());
 }
 
-TEST(StripTangents, LeavesInterleavedNeighboursAsTheyAre) {
+TEST(StripTangents, LeavesInterleavedNeighborsAsTheyAre) {
     // POSITION and TANGENT in one view, 28 bytes apart.
     GltfBuilder builder;
     std::vector<float> mixed;

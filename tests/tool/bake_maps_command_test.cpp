@@ -84,7 +84,7 @@ TEST_F(BakeMaps, HeightsAreThoseOfTheSheetByTheRangeOfTheReport) {
     }
 }
 
-TEST_F(BakeMaps, MaterialsAndObjectsAndShellsHaveColoursThatTheReportNames) {
+TEST_F(BakeMaps, MaterialsAndObjectsAndShellsHaveColorsThatTheReportNames) {
     writeTwoSheets();
     for (const std::string by : {"material", "object", "shell"}) {
         const ToolRun run =
@@ -105,7 +105,7 @@ TEST_F(BakeMaps, MaterialsAndObjectsAndShellsHaveColoursThatTheReportNames) {
     }
 }
 
-TEST_F(BakeMaps, ColoursMetalAndEmissionAreThoseOfTheMaterials) {
+TEST_F(BakeMaps, ColorsMetalAndEmissionAreThoseOfTheMaterials) {
     writeTwoSheets();
     ASSERT_EQ(runTool(folder, "generate -q two.obj -o two.glb").exit_code, 0);
     for (const std::string high : {"two.obj", "two.glb"}) {

@@ -108,10 +108,10 @@ TEST_F(BakeModels, GreenOfTheHighPolysMapIsSeenOrTold) {
     EXPECT_GT(degreesBetween(middleOf("of_up.png"), middleOf("told.png")), 1);
 }
 
-TEST_F(BakeModels, AGreyMapOfTheHighPolyIsNoNormalMap) {
-    writeMap("grey.png", 8, [](double u, double) { return DVec3{u, u, u}; });
-    writeMapped("grey", "grey.png");
-    const json report = bake("low.obj --high grey.obj --size 32");
+TEST_F(BakeModels, AGrayMapOfTheHighPolyIsNoNormalMap) {
+    writeMap("gray.png", 8, [](double u, double) { return DVec3{u, u, u}; });
+    writeMapped("gray", "gray.png");
+    const json report = bake("low.obj --high gray.obj --size 32");
     EXPECT_EQ(report["highMaps"].size(), 0U);
     EXPECT_TRUE(warns(report, "height-to-normal")) << report["warnings"];
     EXPECT_LT(degreesBetween(middleOf("out.png"), {0, 0, 1}), 0.02);

@@ -41,7 +41,7 @@ TEST(CheckCommand, BeginsWithASummaryAndEndsEachFindingWithItsRemedy) {
           "(at /meshes/0/primitives/0)", "every sign is inverted", "first at vertices 0, 1", "fix: Negate every w"}) {
         EXPECT_NE(run.out.find(text), std::string::npos) << text << "\n" << run.out;
     }
-    EXPECT_EQ(run.out.find('\x1b'), std::string::npos) << "colours are for terminals";
+    EXPECT_EQ(run.out.find('\x1b'), std::string::npos) << "colors are for terminals";
 }
 
 TEST(CheckCommand, SaysHowGoodPackedFramesAreAndWhatToRunWhereTheyAreOthers) {

@@ -223,11 +223,11 @@ TEST(MapErrorCommand, SaysOfATextureWhatItsFigureDoesNot) {
     };
     std::string why;
     const auto map = decodeFloatImage(bytesOf(folder.read("n8.png")), 1 << 20, why);
-    FloatImage flat_blue = *map, grey = *map;
+    FloatImage flat_blue = *map, gray = *map;
     for (Vec3& texel : flat_blue.texels) texel.z = 0;
-    for (Vec3& texel : grey.texels) texel = {texel.x, texel.x, texel.x};
+    for (Vec3& texel : gray.texels) texel = {texel.x, texel.x, texel.x};
     folder.write("rg.png", std::span<const std::uint8_t>(*encodePng(flat_blue, 8)));
-    folder.write("r.png", std::span<const std::uint8_t>(*encodePng(grey, 8)));
+    folder.write("r.png", std::span<const std::uint8_t>(*encodePng(gray, 8)));
     EXPECT_GT(beside("rg.png")["meanErrorDeg"], 90);
     const Json made = beside("rg.png --two-channels");
     EXPECT_LT(made["meanErrorDeg"], 0.2);

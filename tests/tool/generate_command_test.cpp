@@ -29,7 +29,7 @@ TEST(Generate, WritesTheOutputAndSaysWhatItDid) {
     for (const char* text : {"1 primitive: 1 generated", "triangles", "repaired", "time", "written", "skin"}) {
         EXPECT_NE(run.out.find(text), std::string::npos) << text << "\n" << run.out;
     }
-    EXPECT_EQ(run.out.find('\x1b'), std::string::npos) << "no colours into a pipe";
+    EXPECT_EQ(run.out.find('\x1b'), std::string::npos) << "no colors into a pipe";
 }
 
 TEST(Generate, QuietPrintsNothing) {

@@ -181,7 +181,7 @@ TEST(HeightToNormalCommand, GenerateConvertsMapBumpOfObj) {
 }
 
 /// Heights with a tint are still heights, and a colored picture is neither heights nor a normal map.
-TEST(HeightToNormalCommand, TakesMapBumpForHeightsOnlyWhereItIsGrey) {
+TEST(HeightToNormalCommand, TakesMapBumpForHeightsOnlyWhereItIsGray) {
     const TempFolder folder;
     writeWall(folder);
     const auto write = [&](double green, double blue) {

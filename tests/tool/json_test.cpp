@@ -113,9 +113,9 @@ TEST(JsonOutput, ThatASchemaDoesNotAllowIsFound) {
         EXPECT_NE(reportFaults(spoilt.dump()).find(words), std::string::npos) << place << reportFaults(spoilt.dump());
     };
     const Json nothing(Json::value_t::discarded);
-    expectFault("/colour", "red", "'colour'");
-    expectFault("/files/0/colour", "red", "'colour'");
-    expectFault("/files/1/error/colour", "red", "'colour'");
+    expectFault("/color", "red", "'color'");
+    expectFault("/files/0/color", "red", "'color'");
+    expectFault("/files/1/error/color", "red", "'color'");
     expectFault("/failOn", nothing, "'failOn'");
     expectFault("/failOn", "all", "failOn");
     expectFault("/files/0/counts", nothing, "'counts'");

@@ -38,7 +38,7 @@ class SceneWriter {
             builder_.json()["asset"]["generator"] = generator.C_Str();
         }
         listNodes();
-        const aiMatrix4x4 root = inMetres() * scene_.mRootNode->mTransformation;
+        const aiMatrix4x4 root = inMeters() * scene_.mRootNode->mTransformation;
         meters_ = std::cbrt(std::fabs(static_cast<double>(root.Determinant())));
         addMaterials(builder_, scene_);
         for (std::size_t i = 0; i < nodes_.size(); ++i) builder_.append("nodes", nodeJson(i));
@@ -71,7 +71,7 @@ class SceneWriter {
             for (unsigned k = 0; k < node.mNumChildren; ++k) json["children"].push_back(first_child_[i] + k);
         }
         aiMatrix4x4 place = node.mTransformation;
-        if (i == 0) place = inMetres() * place;
+        if (i == 0) place = inMeters() * place;
         const std::vector<float> matrix = columnsOf(place, builder_.mended());
         if (i > 0) countCoarsePlace(node.mTransformation, meters_, builder_.mended());
         if (isAnimated(node) && isFinite(place[0], 16)) {
@@ -91,12 +91,12 @@ class SceneWriter {
 
     /// Returns the transform to meters. FBX declares the size of its unit in centimeters; for other formats Assimp has
     /// applied it to the root, or it is unknown.
-    [[nodiscard]] aiMatrix4x4 inMetres() const {
-        float centimetres = 100;
-        if (scene_.mMetaData != nullptr) scene_.mMetaData->Get("UnitScaleFactor", centimetres);
+    [[nodiscard]] aiMatrix4x4 inMeters() const {
+        float centimeters = 100;
+        if (scene_.mMetaData != nullptr) scene_.mMetaData->Get("UnitScaleFactor", centimeters);
         aiMatrix4x4 matrix;
-        if (!std::isfinite(centimetres) || !(centimetres > 0)) return matrix;
-        return aiMatrix4x4::Scaling(aiVector3D(centimetres / 100), matrix);
+        if (!std::isfinite(centimeters) || !(centimeters > 0)) return matrix;
+        return aiMatrix4x4::Scaling(aiVector3D(centimeters / 100), matrix);
     }
 
     bool isAnimated(const aiNode& node) const {

@@ -2,7 +2,7 @@
 // Figure 4: what becomes of T between the corners of a triangle, and of the light there.
 
 import { Figure, Numbers, type Plane } from "./figure";
-import { greyOf, picture, texelAt } from "./plate";
+import { grayOf, picture, texelAt } from "./plate";
 import { add, angle, dot, length, scale, text, tuple, unit, type Vec2, type Vec3 } from "./vector";
 
 const kArrows: Plane = { origin: [30, 265], unit: 240 };
@@ -39,7 +39,7 @@ export function showAcross(host: HTMLElement, rows: HTMLElement, perPixel: HTMLI
     const side = kLit.unit;
     figure.add("image", { x: kLit.origin[0], y: kLit.origin[1] - side, width: side, height: side, href: picture(kPixels, kPixels, (x, y) => {
       const w = weightsAt([x, y]);
-      return Math.min(...w) < 0 ? null : Array<number>(3).fill(greyOf(dot(shade(texel([x, y]), used(tangentAt(w))), kLight)));
+      return Math.min(...w) < 0 ? null : Array<number>(3).fill(grayOf(dot(shade(texel([x, y]), used(tangentAt(w))), kLight)));
     }) });
     figure.polygon(kArrows, kCorners, "face front");
     figure.polygon(kLit, kCorners, "face outline");

@@ -2,7 +2,7 @@
 // The picture at the head: a ring in space, left of a line lit by its normals alone, right of it by a normal map that T, B and N
 // carry; and these three at the point under the pointer.
 
-import { greyOf, texelAt } from "./plate";
+import { grayOf, texelAt } from "./plate";
 import { add, dot, scale, text, unit, type Vec2, type Vec3 } from "./vector";
 
 const kWidth = 640, kHeight = 340, kScale = 150;  // pixels, and pixels of a unit
@@ -71,8 +71,8 @@ export function showHero(canvas: HTMLCanvasElement, line: HTMLInputElement, said
       if (typeof hit === "number") continue;
       const n = texelAt(...hit.uv);
       const shaded = x < border ? hit.normal : unit(add(add(scale(n[0], hit.tangent), scale(n[1], hit.bitangent)), scale(n[2], hit.normal)));
-      const grey = greyOf(dot(shaded, light)), rim = 1 - Math.max(0, -dot(hit.normal, along));
-      image.data.set([0.98 * grey, 0.92 * grey + 6 * rim, 0.84 * grey + 26 * rim, 255], 4 * i);
+      const gray = grayOf(dot(shaded, light)), rim = 1 - Math.max(0, -dot(hit.normal, along));
+      image.data.set([0.98 * gray, 0.92 * gray + 6 * rim, 0.84 * gray + 26 * rim, 255], 4 * i);
     }
     pixels.putImageData(image, 0, 0);
     drawLine(border);
@@ -92,17 +92,17 @@ export function showHero(canvas: HTMLCanvasElement, line: HTMLInputElement, said
     const style = getComputedStyle(document.documentElement), from: Vec2 = [kWidth / 2 + probe[0] * kScale, kHeight / 2 - probe[1] * kScale];
     const names = [["T", hit.tangent, "--tangent"], ["B", hit.bitangent, "--bitangent"], ["N", hit.normal, "--normal"]] as const;
     // Draw arrows that point away from the eye first.
-    for (const [name, v, colour] of [...names].sort((a, b) => seen(a[1])[2] - seen(b[1])[2])) {
+    for (const [name, v, color] of [...names].sort((a, b) => seen(a[1])[2] - seen(b[1])[2])) {
       const s = seen(v);
-      arrow(from, [from[0] + 62 * s[0], from[1] - 62 * s[1]], name, style.getPropertyValue(colour));
+      arrow(from, [from[0] + 62 * s[0], from[1] - 62 * s[1]], name, style.getPropertyValue(color));
     }
     const n = texelAt(...hit.uv);
     said.textContent = `Under the pointer: texel (${n.map((c) => text(c)).join(", ")}), so the shaded normal is ${text(n[0])} T + ${text(n[1])} B + ${text(n[2])} N.`;
   };
 
-  const arrow = (from: Vec2, to: Vec2, name: string, colour: string) => {
+  const arrow = (from: Vec2, to: Vec2, name: string, color: string) => {
     const size = Math.hypot(to[0] - from[0], to[1] - from[1]) || 1, x = (to[0] - from[0]) / size, y = (to[1] - from[1]) / size, head = Math.min(13, size);
-    for (const [width, paint] of [[7, "#ffffffd0"], [3.5, colour]] as const) {
+    for (const [width, paint] of [[7, "#ffffffd0"], [3.5, color]] as const) {
       pixels!.strokeStyle = pixels!.fillStyle = paint;
       pixels!.lineWidth = width;
       pixels!.lineJoin = "round";

@@ -52,8 +52,8 @@ export function showLight(host: HTMLElement, rows: HTMLElement, canvas: HTMLCanv
     for (let i = 0; i < kCanvas * kCanvas; ++i) {
       const at: Vec3 = [((i % kCanvas) + 0.5) / kCanvas * 2 - 1, 1 - (Math.floor(i / kCanvas) + 0.5) / kCanvas * 2, 0];
       const lit = Math.max(0, dot(bump(dot(at, tangent), dot(at, bitangent)), inTangentSpace));
-      const grey = Math.round(255 * Math.sqrt(0.04 + 0.9 * lit));
-      image.data.set([grey, grey, grey, 255], 4 * i);
+      const gray = Math.round(255 * Math.sqrt(0.04 + 0.9 * lit));
+      image.data.set([gray, gray, gray, 255], 4 * i);
     }
     pixels.putImageData(image, 0, 0);
   };
@@ -72,12 +72,12 @@ export function showLight(host: HTMLElement, rows: HTMLElement, canvas: HTMLCanv
     const l = onHemisphere(light), n = onHemisphere(texel);
     const inTangentSpace: Vec3 = [dot(tangent, l), dot(bitangent, l), dot(normal, l)];
     const inSpace = add(add(scale(n[0], tangent), scale(n[1], bitangent)), scale(n[2], normal));
-    const colour = n.map((v) => Math.round(255 * (0.5 * v + 0.5)));
+    const color = n.map((v) => Math.round(255 * (0.5 * v + 0.5)));
 
     for (const [plane, words] of [[kLight, "light"], [kFrame, "turn the texture"], [kTexel, "texel"]] as const) {
       const [cx, cy] = Figure.at(plane, [0, 0]);
       const disc = figure.add("circle", { class: "face", cx, cy, r: plane.unit });
-      if (plane === kTexel) disc.setAttribute("style", `fill: rgb(${colour.join(",")})`);
+      if (plane === kTexel) disc.setAttribute("style", `fill: rgb(${color.join(",")})`);
       figure.word(plane, [0, -1.25], words);
     }
     figure.arrow(kLight, [0, 0], [l[0], l[1]], "light");
@@ -95,7 +95,7 @@ export function showLight(host: HTMLElement, rows: HTMLElement, canvas: HTMLCanv
     ofTexel.show(n.map((v) => [v]), text);
     ofSpace.show(inSpace.map((v) => [v]), text);
     numbers.set("light in tangent space", `l = (T\u00b7L, B\u00b7L, N\u00b7L) = ${tuple(inTangentSpace)}`);
-    numbers.set("texel", `rgb(${colour.join(", ")}) = (n + 1) / 2, n = ${tuple(n)}`);
+    numbers.set("texel", `rgb(${color.join(", ")}) = (n + 1) / 2, n = ${tuple(n)}`);
     numbers.set("brightness", `max(0, n\u00b7l) = ${text(Math.max(0, one), 3)}`);
     numbers.set("the other way round", `M n = x T + y B + z N = ${tuple(inSpace)}, and its dot product with L is ${text(Math.max(0, other), 3)} as well`);
     const fromSpace = inverse(shown, l);

@@ -23,10 +23,10 @@ export function showMirror(host: HTMLElement, rows: HTMLElement, dropped: HTMLIn
   const bump = (middle: Vec2, sign: number, name: string) => {
     const [cx, cy] = Figure.at(kModel, middle);
     const gradient = figure.add("linearGradient", { id: name, x1: 0, x2: 0, y1: sign > 0 ? 0 : 1, y2: sign > 0 ? 1 : 0 });
-    for (const [offset, colour] of [[0, "#fff7d6"], [0.5, "#8d8d99"], [1, "#16161d"]] as const) {
+    for (const [offset, color] of [[0, "#fff7d6"], [0.5, "#8d8d99"], [1, "#16161d"]] as const) {
       const stop = document.createElementNS("http://www.w3.org/2000/svg", "stop");
       stop.setAttribute("offset", String(offset));
-      stop.setAttribute("stop-color", colour);
+      stop.setAttribute("stop-color", color);
       gradient.append(stop);
     }
     figure.add("circle", { cx, cy, r: 38, fill: `url(#${name})` });

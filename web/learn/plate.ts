@@ -31,10 +31,10 @@ export function texelAt(u: number, v: number): Vec3 {
   return texels[Math.min(row, kSize - 1) * kSize + Math.min(column, kSize - 1)]!;
 }
 
-export const colourOf = (n: Vec3): number[] => n.map((x) => Math.round(255 * (0.5 * x + 0.5)));
+export const colorOf = (n: Vec3): number[] => n.map((x) => Math.round(255 * (0.5 * x + 0.5)));
 
-/** The grey of a lit surface: a little light from everywhere, and the lamp's by Lambert's law. */
-export const greyOf = (cosine: number): number => Math.round(255 * Math.sqrt(0.03 + 0.92 * Math.max(0, cosine)));
+/** The gray of a lit surface: a little light from everywhere, and the lamp's by Lambert's law. */
+export const grayOf = (cosine: number): number => Math.round(255 * Math.sqrt(0.03 + 0.92 * Math.max(0, cosine)));
 
 /** Pixels as the address of an image; `at` gets where they are, from 0 to 1, y up. Nothing (null) is left clear. */
 export function picture(width: number, height: number, at: (x: number, y: number) => readonly number[] | null): string {
@@ -45,8 +45,8 @@ export function picture(width: number, height: number, at: (x: number, y: number
   if (!pixels) return "";
   const image = pixels.createImageData(width, height);
   for (let i = 0; i < width * height; ++i) {
-    const colour = at(((i % width) + 0.5) / width, 1 - (Math.floor(i / width) + 0.5) / height);
-    if (colour) image.data.set([...colour, 255], 4 * i);
+    const color = at(((i % width) + 0.5) / width, 1 - (Math.floor(i / width) + 0.5) / height);
+    if (color) image.data.set([...color, 255], 4 * i);
   }
   pixels.putImageData(image, 0, 0);
   return canvas.toDataURL();

@@ -2,7 +2,7 @@
 // Figure 1: a normal map, and what becomes of its light when T does not follow u, or green points down.
 
 import { Figure, Numbers, type Plane } from "./figure";
-import { colourOf, greyOf, picture, texelAt } from "./plate";
+import { colorOf, grayOf, picture, texelAt } from "./plate";
 import { add, dot, scale, text, tuple, unit, type Vec2, type Vec3 } from "./vector";
 
 const kSize = 200;
@@ -17,7 +17,7 @@ export function showRelief(host: HTMLElement, rows: HTMLElement, green: HTMLInpu
   let light: Vec2 = [-0.45, 0.6], turn: Vec2 = [1, 0], place: Vec2 = [0.3, 0.3];
   const map = () => picture(kSize, kSize, (u, v) => {
     const [x, y, z] = texelAt(u, v);
-    return colourOf([x, green.checked ? -y : y, z]);
+    return colorOf([x, green.checked ? -y : y, z]);
   });
   let stored = map();
   const pictureAt = ({ origin: [x, y], unit: side }: Plane, href: string) => figure.add("image", { x, y: y - side, width: side, height: side, href });
@@ -27,7 +27,7 @@ export function showRelief(host: HTMLElement, rows: HTMLElement, green: HTMLInpu
     const size = Math.hypot(...light), l = unit([light[0], light[1], Math.sqrt(Math.max(0.05, 1 - Math.min(1, size) ** 2))]);
     const turned = (n: Vec3): Vec3 => add(add(scale(n[0], tangent), scale(green.checked ? -n[1] : n[1], bitangent)), [0, 0, n[2]]);
     pictureAt(kMap, stored);
-    pictureAt(kLit, picture(kSize, kSize, (u, v) => Array<number>(3).fill(greyOf(dot(turned(texelAt(u, v)), l)))));
+    pictureAt(kLit, picture(kSize, kSize, (u, v) => Array<number>(3).fill(grayOf(dot(turned(texelAt(u, v)), l)))));
     figure.word(kMap, [0.5, -0.13], "the map, v up");
     figure.word(kLit, [0.5, -0.13], "lit with T, B and N");
     for (const [plane, words] of [[kLight, "light"], [kFrame, "turn T"]] as const) {
@@ -39,8 +39,8 @@ export function showRelief(host: HTMLElement, rows: HTMLElement, green: HTMLInpu
     figure.arrow(kFrame, [0, 0], [tangent[0], tangent[1]], "tangent");
     figure.arrow(kFrame, [0, 0], [0.7 * bitangent[0], 0.7 * bitangent[1]], "bitangent", "B");
 
-    const n = texelAt(...place), seen: Vec3 = [n[0], green.checked ? -n[1] : n[1], n[2]], colour = colourOf(seen);
-    numbers.set("a texel", `rgb(${colour.join(", ")}), each as 2 c / 255 \u2212 1: (x, y, z) = ${tuple(seen)}`);
+    const n = texelAt(...place), seen: Vec3 = [n[0], green.checked ? -n[1] : n[1], n[2]], color = colorOf(seen);
+    numbers.set("a texel", `rgb(${color.join(", ")}), each as 2 c / 255 \u2212 1: (x, y, z) = ${tuple(seen)}`);
     numbers.set("in space", `x T + y B + z N = ${tuple(turned(n))}`);
     numbers.set("brightness", `its dot product with the light ${tuple(l)} is ${text(Math.max(0, dot(turned(n), l)), 2)}`);
     const degrees = Math.round((a * 180) / Math.PI);

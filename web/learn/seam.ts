@@ -3,7 +3,7 @@
 
 import { generateTangents } from "tspace";
 import { Figure, Numbers, type Plane } from "./figure";
-import { greyOf, picture, texelAt } from "./plate";
+import { grayOf, picture, texelAt } from "./plate";
 import { add, angle, dot, length, scale, text, tuple, unit, type Vec2, type Vec3 } from "./vector";
 
 const kModel: Plane = { origin: [16, 230], unit: 200 };  // two squares, from (0, 0) to (2, 1)
@@ -34,7 +34,7 @@ export function showSeam(host: HTMLElement, rows: HTMLElement, shared: HTMLInput
     const lit = picture(2 * kHeight, kHeight, (px, py) => {
       const x = 2 * px, isRight = x > 1, away = Math.abs(x - 1);
       const t = add(scale(away, isRight ? right : left), scale(1 - away, atSeam(isRight))), n = texelAt(...(isRight ? turned([x, py]) : ([x, py] as const)));
-      return Array<number>(3).fill(greyOf(dot(unit(add(add(scale(n[0], t), scale(n[1], [-t[1], t[0], 0])), [0, 0, n[2]])), kLight)));
+      return Array<number>(3).fill(grayOf(dot(unit(add(add(scale(n[0], t), scale(n[1], [-t[1], t[0], 0])), [0, 0, n[2]])), kLight)));
     });
     figure.add("image", { x: kModel.origin[0], y: kModel.origin[1] - kModel.unit, width: 2 * kModel.unit, height: kModel.unit, href: lit, preserveAspectRatio: "none" });
     figure.line(kModel, [1, -0.04], [1, 1.04], "seam");

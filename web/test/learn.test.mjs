@@ -151,7 +151,7 @@ it("measures methods against the true surface", { skip }, async () => {
 it("shows a ring that turns, with relief on one side of the line only", { skip }, async () => {
   const tab = await open();
   const pixels = () => tab.$eval("#hero canvas", (canvas) => [...canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data].filter((_, i) => i % 4 === 0));
-  /** How rough neighbours are on the ring, left and right of the middle, away from line and arrows. */
+  /** How rough neighbors are on the ring, left and right of the middle, away from line and arrows. */
   const roughness = (red) => [[120, 300], [340, 520]].map(([from, to]) => {
     let sum = 0, count = 0;
     for (let y = 40; y < 160; ++y) for (let x = from; x < to; ++x) if (red[y * 640 + x] > 0 && red[y * 640 + x + 1] > 0) [sum, count] = [sum + Math.abs(red[y * 640 + x] - red[y * 640 + x + 1]), count + 1];

@@ -40,7 +40,7 @@ test("the broken crate is shown at once: wrong signs are found, and its triangle
   });
 });
 
-test("signs, mirrored parts, errors and islands have the colours of their legends", { skip: missing }, async () => {
+test("signs, mirrored parts, errors and islands have the colors of their legends", { skip: missing }, async () => {
   await withPage(async (tab) => {
     await choose(tab, "Mirrored");
     await drawn(tab);

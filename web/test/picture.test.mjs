@@ -41,7 +41,7 @@ async function drag(tab, isTouch, from, to) {
 }
 
 for (const [width, height] of [[390, 844], [820, 1180]]) {
-  test(`at ${width} pixels line, model and light follow mouse and finger, and the colours change at the line`, { skip: missing }, async () => {
+  test(`at ${width} pixels line, model and light follow mouse and finger, and the colors change at the line`, { skip: missing }, async () => {
     await withPage(async (tab) => {
       await choose(tab, "Signs");
       const box = await tab.evaluate(() => document.querySelector(".frame").getBoundingClientRect().toJSON());
@@ -59,7 +59,7 @@ for (const [width, height] of [[390, 844], [820, 1180]]) {
           share = next;
           assert.ok(near(await eye(), start, 1e-6), "the model stays");
           const line = await tab.locator(".split-line").boundingBox();
-          assert.ok(Math.abs(line.x + line.width / 2 - at(share, 0).x) < 1, "the line is drawn where the colours change");
+          assert.ok(Math.abs(line.x + line.width / 2 - at(share, 0).x) < 1, "the line is drawn where the colors change");
           // Left of it the crate's lost signs, striped red; right of it none.
           const left = await shares(tab, { red }, { left: 0, top: 0.1, right: share - 0.01, bottom: 0.85 }), right = await shares(tab, { red }, { left: share + 0.01, top: 0.1, right: 1, bottom: 0.85 });
           assert.ok(left.red > 0.005 && right.red < 0.001, `${left.red} left of ${share}, ${right.red} right of it`);
@@ -144,13 +144,13 @@ for (const [width, height] of [[390, 844], [820, 1180], [1280, 800]]) {
   });
 }
 
-test("surfaces look as their materials say: colours of vertices, what mirrors, what is unlit, and bones", { skip: noShared }, async () => {
+test("surfaces look as their materials say: colors of vertices, what mirrors, what is unlit, and bones", { skip: noShared }, async () => {
   await withPage(async (tab) => {
     const open = (name) => openFile(tab, join(shared, "models/khronos", name));
     await open("BoxVertexColors.glb");
     const image = await pixelsOf(tab), { data } = image;
     const share = shareOf(image, (i) => Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]) > 60);
-    assert.ok(share > 0.2, `vertices have colours: ${share}`);
+    assert.ok(share > 0.2, `vertices have colors: ${share}`);
     await open("CesiumMan.glb");
     const sizes = await tab.evaluate(() => {
       const [drawn] = window.tspaceView.views.stage.viewport.scene.drawn, p = drawn.corners.positions, rest = drawn.part.arrays;

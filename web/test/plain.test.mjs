@@ -6,7 +6,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { Glb } from "./glb.mjs";
-import { difference, drawn, isLong, named, noShared, openBytes, openFile, overGrey, ownPicture, shared, withPage } from "./support.mjs";
+import { difference, drawn, isLong, named, noShared, openBytes, openFile, overGray, ownPicture, shared, withPage } from "./support.mjs";
 
 const plain = process.env.TSPACE_PLAIN;
 // Those with KTX2 textures have the same pictures as PNG: three.js alone reads no KTX2.
@@ -33,7 +33,7 @@ test("models look as three.js alone shows them: 6 of 255 apart in the mean of th
       const files = { ...named(path), [path.split("/").pop()]: path };
       const content = Object.fromEntries(Object.entries(files).map(([name, file]) => [name, readFileSync(file).toString("base64")]));
       const theirs = await tab.evaluate(([name, content, view]) => window.renderPlain(name, content, view), [path.split("/").pop(), content, view]);
-      const { mean, count } = difference(overGrey(text), overGrey(theirs));
+      const { mean, count } = difference(overGray(text), overGray(theirs));
       t.diagnostic(`${path.split("/").pop()}: ${mean.toFixed(2)} of 255 over ${count} pixels`);
       assert.ok(count > 1000, path);
       assert.ok(mean <= 6, `${path}: ${mean}`);

@@ -6,7 +6,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { Glb } from "./glb.mjs";
-import { difference, drawn, missing, noShared, openBytes, openSample, overGrey, ownPicture, shared, shares, shoot, withPage } from "./support.mjs";
+import { difference, drawn, missing, noShared, openBytes, openSample, overGray, ownPicture, shared, shares, shoot, withPage } from "./support.mjs";
 
 const plain = process.env.TSPACE_PLAIN, noPlain = missing || (!plain && "the page of three.js alone is not built");
 const small = { width: 900, height: 700 };
@@ -26,7 +26,7 @@ async function pictures(tab, bytes, wanted = looks) {
       await tab.evaluate(([look, usesColors]) => Object.assign(window.tspaceView.views.stage.viewport.settings, { look, usesColors }), [look === "clay" ? "lit" : look, look !== "clay"]);
       await drawn(tab);
       const { text, view } = await ownPicture(tab, split);
-      found.set(`${look}, ${side}`, { ...overGrey(text), view });
+      found.set(`${look}, ${side}`, { ...overGray(text), view });
     }
   }
   return found;
@@ -101,7 +101,7 @@ test("an uneven or mirroring scale of the node is lit as the same scale in the v
   }, small);
   await withPage(async (tab) => {
     for (const [scale, bytes, other, file, right] of lit) {
-      const alone = async (model) => overGrey(await tab.evaluate(([text, view]) => window.renderPlain("crate.glb", { "crate.glb": text }, view), [model.toString("base64"), file.view]));
+      const alone = async (model) => overGray(await tab.evaluate(([text, view]) => window.renderPlain("crate.glb", { "crate.glb": text }, view), [model.toString("base64"), file.view]));
       const vertices = await alone(other), node = await alone(bytes);
       for (const [side, picture] of [["file", file], ["right", right]]) {
         const { mean } = difference(picture, vertices);

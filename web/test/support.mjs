@@ -135,7 +135,7 @@ export function shareOf({ width, height, channels }, holds) {
 /** The largest difference of red, green and blue between two places. */
 export const farApart = (a, at, b, other) => Math.max(...[0, 1, 2].map((k) => Math.abs(a[at + k] - b[other + k])));
 
-/** Shares of the picture's pixels that are nearest to each of the named colours; what is far from all counts as "other". */
+/** Shares of the picture's pixels that are nearest to each of the named colors; what is far from all counts as "other". */
 export async function shares(tab, colors, area = { left: 0, top: 0, right: 1, bottom: 1 }) {
   await drawn(tab);
   const png = (await tab.locator(".frame canvas").screenshot({ style: ".frame > :not(canvas) { visibility: hidden; }" })).toString("base64");
@@ -178,8 +178,8 @@ export const ownPicture = (tab, split = 1) => tab.evaluate(async (split) => {
   return { text, view: { width, height, position: camera.position.toArray(), target: target.toArray(), up: camera.up.toArray(), fov: camera.fov, near: camera.near, far: camera.far, light: light.toArray() } };
 }, split);
 
-/** Pixels over a grey ground. */
-export function overGrey(text) {
+/** Pixels over a gray ground. */
+export function overGray(text) {
   const { width, height, channels, data } = decode(Buffer.from(text, "base64")), rgb = new Float64Array(3 * width * height), covered = new Uint8Array(width * height);
   for (let i = 0; i < covered.length; ++i) {
     const alpha = channels === 4 ? data[4 * i + 3] / 255 : 1;

@@ -33,7 +33,7 @@ test("parts are hidden and shown, and images have their channels", { skip: noSha
     await torso.check();
     assert.deepEqual(await hiddenPlaces(), []);
     assert.ok((await tab.locator(".parts select option").count()) >= 2);
-    assert.match(await tab.locator(".parts select option").first().textContent(), /^(base colour|normal map) of .*, \d+ x \d+$/);
+    assert.match(await tab.locator(".parts select option").first().textContent(), /^(base color|normal map) of .*, \d+ x \d+$/);
     const shown = () => tab.locator(".parts .map canvas").screenshot();
     const rgb = await shown();
     await choose(tab, "G", ".parts");

@@ -144,7 +144,7 @@ _FLAT = "data:image/png;base64," + base64.b64encode(_png(1, 1, 8, bytes([0, 128,
 
 
 def write_png(path, image):
-    """The image's numbers, of 16 bits, as they are stored: nothing is done about colour spaces."""
+    """The image's numbers, of 16 bits, as they are stored: nothing is done about color spaces."""
     width, height = image.size
     if not width or not height:
         raise Failed(f'"{image.name}" has no pixels')

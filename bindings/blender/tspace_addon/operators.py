@@ -10,7 +10,7 @@ import numpy
 from . import meshes, tool
 from .tool import Failed
 
-COLOURS = "tspace"
+COLORS = "tspace"
 TEXT = "tspace check"
 # A report of ERROR would raise an exception in scripts, and the check did not fail.
 _LEVELS = {"error": {"WARNING"}, "warning": {"WARNING"}, "note": {"INFO"}}
@@ -31,13 +31,13 @@ def chosen_meshes(context):
 
 
 def paint(mesh, values):
-    """Numbers per loop, 0 white to 1 red, as a colour attribute that the viewport shows (Solid, Attribute)."""
-    if COLOURS in mesh.color_attributes:
-        mesh.color_attributes.remove(mesh.color_attributes[COLOURS])
-    attribute = mesh.color_attributes.new(name=COLOURS, type="FLOAT_COLOR", domain="CORNER")
+    """Numbers per loop, 0 white to 1 red, as a color attribute that the viewport shows (Solid, Attribute)."""
+    if COLORS in mesh.color_attributes:
+        mesh.color_attributes.remove(mesh.color_attributes[COLORS])
+    attribute = mesh.color_attributes.new(name=COLORS, type="FLOAT_COLOR", domain="CORNER")
     fade = 1 - numpy.clip(values, 0, 1)
-    colours = numpy.column_stack([numpy.ones_like(fade), fade, fade, numpy.ones_like(fade)])
-    attribute.data.foreach_set("color", colours.astype(numpy.float32).ravel())
+    colors = numpy.column_stack([numpy.ones_like(fade), fade, fade, numpy.ones_like(fade)])
+    attribute.data.foreach_set("color", colors.astype(numpy.float32).ravel())
     mesh.color_attributes.active_color = attribute
 
 

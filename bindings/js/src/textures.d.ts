@@ -83,8 +83,8 @@ export type MapImage = MapPixels | Uint8Array | ArrayBuffer;
 export interface ConvertMapOptions extends Unpackers {
   /** Channels that hold x, y and z, as `tspace convert-map --channels` reads them: "rg", "ag", "bgr"; a capital letter inverts a channel; with two letters z is computed. Default: the layout of the file. */
   channels?: string | null;
-  /** "srgb" removes an sRGB encoding, "linearised" reapplies it. Default: "none". */
-  curve?: "none" | "srgb" | "linearised";
+  /** "srgb" removes an sRGB encoding, "linearized" reapplies it. Default: "none". */
+  curve?: "none" | "srgb" | "linearized";
   /** Inverts x. */
   flipRed?: boolean;
   /** Inverts y: DirectX to OpenGL and back. */

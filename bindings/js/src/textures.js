@@ -79,7 +79,7 @@ export function readTexture(file, options = {}) {
   });
 }
 
-const curves = ["none", "srgb", "linearised"];
+const curves = ["none", "srgb", "linearized"];
 
 export function convertMap(image, options = {}) {
   object(options, "options", ["channels", "curve", "flipRed", "flipGreen", "decodeImage", ...unpacking]);

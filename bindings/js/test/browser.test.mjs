@@ -15,7 +15,7 @@ const project = fileURLToPath(new URL("..", import.meta.url));
 const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
 const [vite, playwright, pngjs] = await Promise.all(["vite", "playwright-core", "pngjs"].map((name) => import(name).catch(() => null)));
 const golden = process.env.TSPACE_GOLDEN;
-/** A normal map as artists have them, with halved colours. */
+/** A normal map as artists have them, with halved colors. */
 const photo = join(shared ?? "", "models/assets/sofa_03/textures/sofa_03_nor_gl_1k.jpg");
 const missing =
   (!chromium && "no Chromium here: scripts/js --all") ||

@@ -39,7 +39,7 @@ describe("models in memory", () => {
     expectReport("inspect", inspect(turned.bytes));
     expectReport("identify", identify(turned.bytes));
     expectReport("diff", diff(good.bytes, turned.bytes));
-    assert.throws(() => expectReport("check", { ...check(good.bytes), colour: "red" }), /colour/);
+    assert.throws(() => expectReport("check", { ...check(good.bytes), color: "red" }), /color/);
     assert.throws(() => expectReport("check", { ...check(good.bytes), findings: undefined }), /findings/);
   });
 

@@ -152,7 +152,7 @@ describe("convertMap", () => {
   it("gives the numbers of the tool for layouts, curves and flips", { skip: noTool }, () => {
     const cases = [
       [{ channels: "rg" }, ["--channels", "rg"]], [{ channels: "bgr" }, ["--channels", "bgr"]], [{ channels: "rG" }, ["--channels", "rG"]],
-      [{ curve: "srgb" }, ["--srgb"]], [{ curve: "linearised", channels: "rg" }, ["--linearized", "--channels", "rg"]],
+      [{ curve: "srgb" }, ["--srgb"]], [{ curve: "linearized", channels: "rg" }, ["--linearized", "--channels", "rg"]],
       [{ flipGreen: true }, ["--flip-green"]], [{ flipRed: true, flipGreen: true }, ["--flip-red", "--flip-green"]],
     ];
     for (const most of [255, 65535]) {

@@ -4,13 +4,13 @@ import assert from "node:assert/strict";
 import { it } from "node:test";
 import { missing, runPage } from "./browser.mjs";
 
-/** A square before the camera, whose texture is mirrored where `mirrored`: its colour is (tangent.x, bitangent.y, sign). */
+/** A square before the camera, whose texture is mirrored where `mirrored`: its color is (tangent.x, bitangent.y, sign). */
 const page = `
 import * as THREE from "three/webgpu";
 import { bitangentWorld, tangentGeometry, tangentWorld, vec3, vec4 } from "three/tsl";
 import { computeTangents, ready } from "tspace/three";
 
-async function colour(renderer, mirrored) {
+async function color(renderer, mirrored) {
   const geometry = new THREE.PlaneGeometry(2, 2);
   if (mirrored) for (let i = 0; i < 4; ++i) geometry.attributes.uv.setX(i, 1 - geometry.attributes.uv.getX(i));
   const material = new THREE.MeshBasicNodeMaterial();
@@ -58,7 +58,7 @@ try {
     const name = renderer.backend.isWebGPUBackend ? "webgpu" : "webgl";
     if (result[name]) continue; // no WebGPU here: the renderer took WebGL
     result[name] = {};
-    for (const mirrored of [false, true]) result[name][mirrored] = { colour: await colour(renderer, mirrored), lit: await lit(renderer, mirrored) };
+    for (const mirrored of [false, true]) result[name][mirrored] = { color: await color(renderer, mirrored), lit: await lit(renderer, mirrored) };
   }
   window.result = result;
 } catch (error) {
@@ -71,8 +71,8 @@ it("three.js's WebGPURenderer draws with tangents of tspace/three", { skip: miss
   assert.ok(result.webgl || result.webgpu);
   t.diagnostic(`drawn by ${Object.keys(result).join(" and ")}`);
   for (const [name, of] of Object.entries(result)) {
-    assert.deepEqual(of.false.colour, [255, 255, 255], `${name}: T along +x, B along +y, sign +1`);
-    assert.deepEqual(of.true.colour, [0, 255, 0], `${name}: T along -x, B along +y, sign -1`);
+    assert.deepEqual(of.false.color, [255, 255, 255], `${name}: T along +x, B along +y, sign +1`);
+    assert.deepEqual(of.true.color, [0, 255, 0], `${name}: T along -x, B along +y, sign -1`);
     const [[right, left], [mirroredRight, mirroredLeft]] = [of.false.lit, of.true.lit];
     assert.ok(right > left + 50 && mirroredLeft > mirroredRight + 50, `${name}: texels lean along u: ${right} ${left}, ${mirroredRight} ${mirroredLeft}`);
   }

@@ -71,7 +71,7 @@ rm -rf "$out/share"
 cp -r "$out/build/tools/tspace/made/share" "$out/share" # completions
 # Whoever passes programs on passes these texts on.
 {
-    echo "tspace.wasm has parts of these libraries in it; tspace's own licence is beside package.json."
+    echo "tspace.wasm has parts of these libraries in it; tspace's own license is beside package.json."
     for library in "$out"/prefix/licenses/*; do
         printf '\n==== %s ====\n\n' "$(basename "$library")"
         cat "$library"

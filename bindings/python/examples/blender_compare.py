@@ -50,8 +50,8 @@ def show(mesh, angles):
         mesh.color_attributes.remove(mesh.color_attributes[name])
     attribute = mesh.color_attributes.new(name=name, type="FLOAT_COLOR", domain="CORNER")
     fade = 1 - numpy.clip(angles, 0, 1)
-    colours = numpy.column_stack([numpy.ones_like(fade), fade, fade, numpy.ones_like(fade)])
-    attribute.data.foreach_set("color", colours.astype(numpy.float32).ravel())
+    colors = numpy.column_stack([numpy.ones_like(fade), fade, fade, numpy.ones_like(fade)])
+    attribute.data.foreach_set("color", colors.astype(numpy.float32).ravel())
     mesh.color_attributes.active_color = attribute
 
 
@@ -78,7 +78,7 @@ def main():
     show(thing.data, angles)
     equal = int((ours == theirs).all(1).sum())
     print(f"{thing.name}: {len(ours)} corners, {equal} with equal bits, largest angle {angles.max():.6f} degrees")
-    print(f"{signs} signs differ; colours are in {thing.data.color_attributes.active_color.name!r}")
+    print(f"{signs} signs differ; colors are in {thing.data.color_attributes.active_color.name!r}")
 
 
 if __name__ == "__main__":

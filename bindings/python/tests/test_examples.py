@@ -76,7 +76,7 @@ class Examples(unittest.TestCase):
         self.assertIsNotNone(found, text)
         self.assertEqual(found[1], str(24 * 12 * 4))
         self.assertLess(float(found[3]), 0.01, text)
-        self.assertIn("0 signs differ; colours are in 'tspace angle'", text)
+        self.assertIn("0 signs differ; colors are in 'tspace angle'", text)
 
 
 if __name__ == "__main__":

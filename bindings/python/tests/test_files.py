@@ -332,8 +332,8 @@ class Look(Files):
         self.assertIn("meshes", dir(report))
 
     def test_reports_say_what_they_have(self):
-        with self.assertRaisesRegex(AttributeError, "no member .colour.*verdict"):
-            tspace.identify(self.framed).colour
+        with self.assertRaisesRegex(AttributeError, "no member .color.*verdict"):
+            tspace.identify(self.framed).color
 
 
 class Refused(Files):

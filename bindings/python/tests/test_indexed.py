@@ -26,8 +26,8 @@ class IndexedFrames(unittest.TestCase):
         made = tspace.make_indexed_frames(*arrays, convention="gltf")
         self.assertEqual(len(made.source_vertices), len(shape.positions))
         self.assertTrue(same_bits(arrays[0][made.source_vertices[made.indices]], arrays[0]))
-        colours = numpy.arange(len(shape.indices), dtype=numpy.float32)[:, None]
-        apart = tspace.make_indexed_frames(*arrays, convention="gltf", keep_apart=[colours])
+        colors = numpy.arange(len(shape.indices), dtype=numpy.float32)[:, None]
+        apart = tspace.make_indexed_frames(*arrays, convention="gltf", keep_apart=[colors])
         self.assertEqual(apart.indices.tolist(), list(range(len(shape.indices))))
 
     def test_wrong_input_is_refused(self):

@@ -22,7 +22,7 @@ class Schema(unittest.TestCase):
         document["files"] = [tspace.inspect(make_glb(torus(4, 5)), name="a.glb").json.copy()]
         del document["files"][0]["exitCode"]
         expect_valid(document)
-        for member, value in (("colour", "red"), ("meshes", -1), ("meshes", None), ("primitives", {}), ("ok", False)):
+        for member, value in (("color", "red"), ("meshes", -1), ("meshes", None), ("primitives", {}), ("ok", False)):
             spoilt = copy.deepcopy(document)
             spoilt["files"][0][member] = value
             with self.assertRaises(ValidationError):

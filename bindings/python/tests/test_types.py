@@ -37,7 +37,7 @@ tspace.check("a.glb", fail_on="warning", ignore=["tangentsUnused"])
 """
 WRONG = """
 tspace.tangents(a, a, a)
-tspace.tangents(a, a, a, convention="gltf", colour=1)
+tspace.tangents(a, a, a, convention="gltf", color=1)
 tspace.tangents(a, a, a, convention="gltf", method="mikk")
 tspace.tangents(a, a, a, convention="gtlf")
 tspace.tangents(a, a, a, convention="gltf", threads="two")

@@ -246,8 +246,8 @@ std::vector<std::uint8_t> layerPng(BakedLayer& layer, const BakedMap& map, unsig
         FloatImage image{.width = map.width, .height = map.height, .bits = bits};
         image.texels.reserve(values.size() / layer.channel_count);
         for (std::size_t i = 0; i + layer.channel_count <= values.size(); i += layer.channel_count) {
-            const bool is_grey = layer.channel_count == 1;
-            image.texels.push_back({values[i], values[is_grey ? i : i + 1], values[is_grey ? i : i + 2]});
+            const bool is_gray = layer.channel_count == 1;
+            image.texels.push_back({values[i], values[is_gray ? i : i + 1], values[is_gray ? i : i + 2]});
         }
         png = encodeByName(file.path, image, bits);
     }

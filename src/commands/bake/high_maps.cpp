@@ -56,7 +56,7 @@ const HighMapReading::Image& HighMapReading::imageOf(std::size_t number) {
     }
     const std::string how_read = readTextureVectors(read);
     if (!how_read.empty()) made_.warnings.push_back("the high poly's normal map: " + how_read);
-    image.is_grey = isGreyImage(read);
+    image.is_gray = isGrayImage(read);
     const GreenVerdict verdict = greenOf(read);
     image.shows_green = verdict == GreenVerdict::up || verdict == GreenVerdict::down;
     image.green = verdict == GreenVerdict::down ? Green::down : Green::up;
@@ -73,7 +73,7 @@ const TangentUse* HighMapReading::find(const ScenePrimitive& primitive) {
         const bool was_known = images_.count(*use.image) > 0;
         const Image& image = imageOf(*use.image);
         if (!image.number) return nullptr;
-        if (!image.is_grey) return &use;
+        if (!image.is_gray) return &use;
         if (!was_known)
             made_.warnings.push_back(
                 "the high poly's map " + inQuotes(nameOf(*use.image)) +

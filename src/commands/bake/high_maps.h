@@ -41,7 +41,7 @@ class HighMapReading {
     using Key = std::tuple<std::size_t, double, bool, TextureWrap, TextureWrap>;
     struct Image {
         std::optional<std::size_t> number = {};  ///< index in HighMaps::images; none: unused
-        bool is_grey = false;
+        bool is_gray = false;
         Green green = Green::up;  ///< direction of green according to its texels
         bool shows_green = false;
     };

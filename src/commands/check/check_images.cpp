@@ -238,9 +238,9 @@ double etc1sDegrees(const RgbImage& image) {
             double sums = 0, squares = 0;
             for (std::size_t k = 0; k < kBlock * kBlock; ++k) {
                 const std::size_t at = 3 * ((top + k / kBlock) * image.width + left + k % kBlock);
-                const double grey = (image.rgb[at] + image.rgb[at + 1] + image.rgb[at + 2]) / (127.5 * std::sqrt(3.0));
-                sums += grey;
-                squares += grey * grey;
+                const double gray = (image.rgb[at] + image.rgb[at + 1] + image.rgb[at + 2]) / (127.5 * std::sqrt(3.0));
+                sums += gray;
+                squares += gray * gray;
             }
             sum += squares - sums * sums / (kBlock * kBlock);
             count += kBlock * kBlock;

@@ -8,7 +8,7 @@
 
 #include "commands/check/normal_map.h"
 #include "core/base/vec_math.h"
-#include "maps/texels/grey.h"
+#include "maps/texels/gray.h"
 
 namespace tspace {
 namespace {
@@ -144,7 +144,7 @@ bool isConstant(std::span<const TexelBytes> texels, std::size_t channel) {
            kConstant;
 }
 
-bool isGreyTexels(std::span<const TexelBytes> texels) { return isGrey(texels.size(), colorsOf(texels)); }
+bool isGrayTexels(std::span<const TexelBytes> texels) { return isGray(texels.size(), colorsOf(texels)); }
 
 /// Returns all texels except black and white ones, which were never painted or baked.
 std::vector<TexelBytes> paintedOf(std::span<const TexelBytes> texels) {
@@ -170,7 +170,7 @@ class Looker {
     [[nodiscard]] MapLook look() const {
         if (const auto found = xInAlpha()) return *found;
         if (const auto found = lostX()) return *found;
-        if (isGreyTexels(texels_)) return made(MapContent::height, {}, 1);
+        if (isGrayTexels(texels_)) return made(MapContent::height, {}, 1);
         if (const auto found = twoChannels(kMostMean)) return *found;
         if (const auto found = encoded()) return *found;
         if (const auto found = leaningTwoChannels()) return *found;
@@ -190,7 +190,7 @@ class Looker {
 
     [[nodiscard]] bool mayBeXInAlpha() const {
         return has_alpha_ && channels_[3].deviation > kConstant && channels_[1].deviation > kConstant &&
-               (channels_[0].deviation <= kConstant || isGreyTexels(texels_));
+               (channels_[0].deviation <= kConstant || isGrayTexels(texels_));
     }
 
     /// Detects x in alpha: red is constant or a copy of green, and alpha varies like x. A gray image with another alpha
@@ -283,7 +283,7 @@ class Looker {
     }
 
     [[nodiscard]] std::optional<MapLook> encoded() const {
-        for (const MapCurve curve : {MapCurve::srgb, MapCurve::linearised}) {
+        for (const MapCurve curve : {MapCurve::srgb, MapCurve::linearized}) {
             const MapLayout layout{.curve = curve};
             const Fit fit = fitOf(texels_, layout);
             if (pointsUp(fit) && fit.unit_share > 0.8 && fit.unit_share > plain_.unit_share + 0.4)
@@ -367,7 +367,7 @@ class Looker {
     /// point up.
     [[nodiscard]] static double unitShareOf(std::span<const TexelBytes> texels) {
         double share = fitOf(texels, {}).unit_share;
-        for (const MapCurve curve : {MapCurve::srgb, MapCurve::linearised}) {
+        for (const MapCurve curve : {MapCurve::srgb, MapCurve::linearized}) {
             const Fit fit = fitOf(texels, {.curve = curve});
             if (pointsUp(fit)) share = std::max(share, fit.unit_share);
         }
@@ -578,7 +578,7 @@ MapLook lookAtTexels(std::span<const TexelBytes> texels, bool has_alpha, std::sp
 }
 
 bool mayHaveXInAlpha(std::span<const TexelBytes> texels) {
-    return !texels.empty() && (isConstant(texels, 0) || isGreyTexels(texels));
+    return !texels.empty() && (isConstant(texels, 0) || isGrayTexels(texels));
 }
 
 bool isBlueConstant(std::span<const TexelBytes> texels) { return !texels.empty() && isConstant(texels, 2); }

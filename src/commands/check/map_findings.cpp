@@ -137,7 +137,7 @@ RemedyCommand withLayout(RemedyCommand command, const MapLayout& layout) {
         command = withOption(std::move(command), "channels", std::move(letters));
     }
     if (layout.curve == MapCurve::srgb) command = withOption(std::move(command), "srgb");
-    if (layout.curve == MapCurve::linearised) command = withOption(std::move(command), "linearized");
+    if (layout.curve == MapCurve::linearized) command = withOption(std::move(command), "linearized");
     return command;
 }
 

@@ -176,10 +176,10 @@ void GreenBlocks::findParts() {
         for (std::size_t next = 0; next < part.size(); ++next) {
             const std::size_t at = part[next], column = at % columns_;
             votes.add(blocks_[at].ab, blocks_[at].aa, blocks_[at].bb);
-            const auto reach = [&](bool exists, std::size_t neighbour) {
-                if (!exists || leaning[neighbour] != side) return;
-                leaning[neighbour] = 0;
-                part.push_back(neighbour);
+            const auto reach = [&](bool exists, std::size_t neighbor) {
+                if (!exists || leaning[neighbor] != side) return;
+                leaning[neighbor] = 0;
+                part.push_back(neighbor);
             };
             reach(column > 0, at - 1);
             reach(column + 1 < columns_, at + 1);

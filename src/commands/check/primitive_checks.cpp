@@ -113,8 +113,8 @@ double facingOf(const PrimitiveFacts& facts, const Directions& directions, std::
 
 /// Returns whether one of these triangles shares an edge with a consistently wound triangle whose normals point to the
 /// front: mendWinding flips both or neither.
-bool haveSoundNeighbours(const PrimitiveFacts& facts, const Directions& directions,
-                         std::span<const std::uint32_t> against) {
+bool haveSoundNeighbors(const PrimitiveFacts& facts, const Directions& directions,
+                        std::span<const std::uint32_t> against) {
     struct Edge {
         std::size_t count = 0;
         std::uint32_t faces[2] = {};
@@ -148,7 +148,7 @@ bool haveSoundNeighbours(const PrimitiveFacts& facts, const Directions& directio
 /// Returns whether no normal would point to the back after flipping triangles as `generate --fix-winding` does.
 bool areTrianglesToBlame(const PrimitiveFacts& facts, const Directions& directions,
                          std::span<const std::uint32_t> against) {
-    if (haveSoundNeighbours(facts, directions, against)) return false;
+    if (haveSoundNeighbors(facts, directions, against)) return false;
     std::vector<std::uint8_t> turned(facts.surface.faces.size());
     const WindingOptions how{.weld_distance = facts.options.weld_distance};
     if (!mendWinding(facts.mesh.triangles(), how, turned, facts.options.execution)) return false;

@@ -413,7 +413,7 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
     add(list, group,
         setting("--srgb", options.layout.curve, MapCurve::srgb,
                 "Undo an sRGB encoding: the values of IN were stored as colors, with the sRGB curve."));
-    Option linearized = setting("--linearized", options.layout.curve, MapCurve::linearised,
+    Option linearized = setting("--linearized", options.layout.curve, MapCurve::linearized,
                                 "Reapply the sRGB curve: the values of IN were decoded as sRGB by mistake.");
     linearized.old_names = {"--linearised"};
     linearized.excludes = {"--srgb"};

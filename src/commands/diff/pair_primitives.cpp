@@ -109,11 +109,11 @@ std::vector<DVec3> boxedPositions(const ScenePrimitive& primitive) {
     const DVec3 extent = high - low;
     const double size = std::max({extent.x, extent.y, extent.z});
     const double scale = size > 0 ? 1 / size : 1;
-    const DVec3 centre = 0.5 * (low + high);
+    const DVec3 center = 0.5 * (low + high);
     std::vector<DVec3> boxed;
     boxed.reserve(primitive.positions.size());
     for (const Vec3& p : primitive.positions) {
-        boxed.push_back(isFinite(p) ? scale * (toDouble(p) - centre) : DVec3{kInfinity, kInfinity, kInfinity});
+        boxed.push_back(isFinite(p) ? scale * (toDouble(p) - center) : DVec3{kInfinity, kInfinity, kInfinity});
     }
     return boxed;
 }
@@ -124,23 +124,23 @@ class TriangleGrid {
     explicit TriangleGrid(const ScenePrimitive& primitive)
         : corners_(primitive.corners), positions_(boxedPositions(primitive)) {
         for (std::uint32_t t = 0; t < corners_.size() / 3; ++t) {
-            const DVec3 centre = centreOf(t);
-            if (std::isfinite(centre.x + centre.y + centre.z)) cells_[cellHash(centre, 0)].push_back(t);
+            const DVec3 center = centerOf(t);
+            if (std::isfinite(center.x + center.y + center.z)) cells_[cellHash(center, 0)].push_back(t);
         }
     }
 
     [[nodiscard]] const DVec3& at(std::uint32_t triangle, std::uint32_t k) const {
         return positions_[corners_[std::size_t{3} * triangle + k]];
     }
-    [[nodiscard]] DVec3 centreOf(std::uint32_t t) const { return (1.0 / 3) * (at(t, 0) + at(t, 1) + at(t, 2)); }
+    [[nodiscard]] DVec3 centerOf(std::uint32_t t) const { return (1.0 / 3) * (at(t, 0) + at(t, 1) + at(t, 2)); }
 
-    /// Calls visit(triangle) for triangles near `centre`, at most 100 per cell, until it returns true.
+    /// Calls visit(triangle) for triangles near `center`, at most 100 per cell, until it returns true.
     template <class Visit>
-    void visitNear(const DVec3& centre, Visit&& visit) const {
+    void visitNear(const DVec3& center, Visit&& visit) const {
         constexpr std::size_t kMostPerCell = 100;
-        if (!std::isfinite(centre.x + centre.y + centre.z)) return;
+        if (!std::isfinite(center.x + center.y + center.z)) return;
         for (unsigned corner = 0; corner < 8; ++corner) {
-            const auto found = cells_.find(cellHash(centre, corner));
+            const auto found = cells_.find(cellHash(center, corner));
             if (found == cells_.end()) continue;
             const std::vector<std::uint32_t>& cell = found->second;
             for (std::size_t i = 0; i < std::min(cell.size(), kMostPerCell); ++i) {
@@ -214,7 +214,7 @@ std::vector<TrianglePair> pairByPlace(const ScenePrimitive& a, const ScenePrimit
         };
         // Most files keep the order of triangles; it also distinguishes coincident triangles.
         if (t < is_paired.size() && pairWith(t)) continue;
-        grid_b.visitNear(grid_a.centreOf(t), pairWith);
+        grid_b.visitNear(grid_a.centerOf(t), pairWith);
     }
     return pairs;
 }

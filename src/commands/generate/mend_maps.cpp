@@ -140,7 +140,7 @@ MadeOfHeights makeOfHeights(const Scene& scene, std::size_t material, std::size_
     }
     std::optional<FloatImage> heights = decodeFloatImage(bytes, kMostModelMapPixels, made.why_not, ImageUse::numbers);
     if (!heights) return made;
-    if (!isGreyImage(*heights)) {
+    if (!isGrayImage(*heights)) {
         made.is_height_map = isPicture(*heights);
         made.why_not = "the image is a color image, neither a height map nor a normal map";
         return made;

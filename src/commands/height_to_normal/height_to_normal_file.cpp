@@ -95,7 +95,7 @@ HeightToNormalFileReport convertHeights(const std::string& input, const std::str
     if (!is_gray) checkTerrain(options.content, image);
     HeightToNormalFileReport report{.width = image.width, .height = image.height, .bits_before = image.bits};
     report.bits = options.bits;
-    if (is_gray && !isGreyImage(image))
+    if (is_gray && !isGrayImage(image))
         report.warnings.emplace_back("the image is not gray; the mean of red, green and blue is used as height");
     MapMesh mesh;
     if (!options.mesh.empty()) {

@@ -33,7 +33,7 @@ void addWarnings(const FloatImage& packed, std::vector<std::string>& warnings) {
         warnings.emplace_back(
             "the texture is declared as sRGB: it was read as linear, but renderers that follow the declaration tilt "
             "all normals");
-    if (packed.texture.layout == MapLayout{} && isGreyImage(packed))
+    if (packed.texture.layout == MapLayout{} && isGrayImage(packed))
         warnings.emplace_back(
             "its channels are equal or nearly equal, so it is a height map or a single channel, not a normal map");
 }

@@ -148,7 +148,7 @@ class PairSearch {
 
     /// Returns triangles within a seventh of the size of the mesh.
     static std::vector<std::size_t> trianglesNear(const DrawnMesh& mesh, std::size_t triangle) {
-        const auto centre = [&](std::size_t i) {
+        const auto center = [&](std::size_t i) {
             DVec3 sum;
             for (std::size_t k = 0; k < 3; ++k) sum = sum + toDouble(mesh.positions[mesh.corners[3 * i + k]]);
             return mesh.to_world.point((1.0 / 3) * sum);
@@ -156,15 +156,15 @@ class PairSearch {
         DVec3 least{INFINITY, INFINITY, INFINITY}, most{-INFINITY, -INFINITY, -INFINITY};
         const std::size_t count = mesh.corners.size() / 3;
         for (std::size_t i = 0; i < count; ++i) {
-            const DVec3 c = centre(i);
+            const DVec3 c = center(i);
             least = {std::min(least.x, c.x), std::min(least.y, c.y), std::min(least.z, c.z)};
             most = {std::max(most.x, c.x), std::max(most.y, c.y), std::max(most.z, c.z)};
         }
-        const DVec3 middle = centre(triangle), size = most - least;
+        const DVec3 middle = center(triangle), size = most - least;
         const double radius_squared = dot(size, size) / (7.0 * 7.0);
         std::vector<std::size_t> near;
         for (std::size_t i = 0; i < count; ++i) {
-            const DVec3 way = centre(i) - middle;
+            const DVec3 way = center(i) - middle;
             if (i == triangle || dot(way, way) <= radius_squared) near.push_back(i);
         }
         return near;

@@ -57,11 +57,11 @@ PlacePoints::PlacePoints(const DrawnMesh& mesh, std::span<const std::size_t> tri
 }
 
 Camera PlaceView::camera(const PictureSize& size) const {
-    DVec3 centre;
-    for (const DVec3& point : points.points) centre = centre + (1 / static_cast<double>(points.points.size())) * point;
+    DVec3 center;
+    for (const DVec3& point : points.points) center = center + (1 / static_cast<double>(points.points.size())) * point;
     return Camera::around(
         [&](const std::function<void(const DVec3&)>& visit) {
-            for (const DVec3& point : points.points) visit(centre + around * (point - centre));
+            for (const DVec3& point : points.points) visit(center + around * (point - center));
         },
         angles, 30, size.width * size.samples, size.height * size.samples);
 }

@@ -18,7 +18,7 @@ std::string renderText(const Outcome<RenderReport>& outcome, Method method) {
                                               methodName(method))});
     }
     if (done.without_tangents_count > 0)
-        table.addRow({"grey", counted(done.without_tangents_count, "primitive") + " without tangents"});
+        table.addRow({"gray", counted(done.without_tangents_count, "primitive") + " without tangents"});
     if (done.error_sample_count > 0) {
         table.addRow({"error", fmt::format("mean {:.4g}, maximum {:.4g} degrees from {}", done.mean_error_deg,
                                            done.max_error_deg, methodName(method))});

@@ -14,7 +14,7 @@
 #include "images/image.h"
 #include "images/tga.h"
 #include "maps/layout/uv_coverage.h"
-#include "maps/texels/grey.h"
+#include "maps/texels/gray.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/read/read_scene.h"
@@ -338,8 +338,8 @@ void writeMapImage(const FloatImage& image, ImageFormat format, unsigned bits, c
     files.commit();
 }
 
-bool isGreyImage(const FloatImage& image) {
-    return isGrey(image.texels.size(), [&](std::size_t i) {
+bool isGrayImage(const FloatImage& image) {
+    return isGray(image.texels.size(), [&](std::size_t i) {
         const Vec3& texel = image.texels[i];
         return std::array<double, 3>{255 * double{texel.x}, 255 * double{texel.y}, 255 * double{texel.z}};
     });

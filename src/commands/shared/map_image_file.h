@@ -77,7 +77,7 @@ void writeMapImage(const FloatImage& image, ImageFormat format, unsigned bits, c
                    const OutputWay& way);
 
 /// Returns whether the channels of all texels are nearly equal: a height map, or an image without colors.
-bool isGreyImage(const FloatImage& image);
+bool isGrayImage(const FloatImage& image);
 /// Returns the mean of the three channels of each texel.
 std::vector<float> heightsOf(const FloatImage& image);
 

@@ -284,20 +284,20 @@ void filterFaces(CreaseFinder& finder, const NearOf& nearOf, float per_turn, int
 /// normals have larger weights.
 void filterNormals(CreaseFinder& finder) {
     const std::size_t count = finder.call.mesh.faceCount();
-    Buffer<float> centres(finder.call.allocator, 4 * count);
+    Buffer<float> centers(finder.call.allocator, 4 * count);
     forFaces(finder, [&](std::uint32_t f) {
         DVec3 sum;
         const std::uint32_t first = finder.call.faces.first(f), past = finder.call.faces.past(f);
         for (std::uint32_t c = first; c < past; ++c)
             sum = sum + toDouble(finder.call.mesh.positions[finder.call.mesh.indices[c]]);
-        storeFloat4(centres.data() + 4 * std::size_t{f}, toFloat4((1.0 / std::max(1u, past - first)) * sum));
+        storeFloat4(centers.data() + 4 * std::size_t{f}, toFloat4((1.0 / std::max(1u, past - first)) * sum));
     });
-    const auto centre = [&](std::size_t face) { return loadFloat4(centres.data() + 4 * face); };
+    const auto center = [&](std::size_t face) { return loadFloat4(centers.data() + 4 * face); };
     double distances = 0;
     std::size_t edges = 0;
     for (std::uint32_t c = 0; c < finder.call.mesh.cornerCount(); ++c) {
         if (finder.pairs.other(c) == kNoPair || finder.pairs.other(c) < c) continue;
-        const Float4 apart = centre(finder.call.faces.of(c)) - centre(finder.call.faces.of(finder.pairs.other(c)));
+        const Float4 apart = center(finder.call.faces.of(c)) - center(finder.call.faces.of(finder.pairs.other(c)));
         const double square = dotted(apart, apart);
         if (!std::isfinite(square)) continue;
         distances += std::sqrt(square);
@@ -311,7 +311,7 @@ void filterNormals(CreaseFinder& finder) {
     const auto nearOf = [&](std::uint32_t c) {
         const std::uint32_t f = finder.call.faces.of(c),
                             g = finder.pairs.other(c) == kNoPair ? f : finder.call.faces.of(finder.pairs.other(c));
-        const Float4 apart = centre(g) - centre(f);
+        const Float4 apart = center(g) - center(f);
         return Near{g, g == f ? 0 : filteredNormal(finder, g)[3] * decay(per_place * dotted(apart, apart))};
     };
     const int passes = finder.noise_deg < kLoudDeg / 2 ? 8 : finder.noise_deg < kLoudDeg ? 16 : 32;

@@ -288,7 +288,7 @@ class Denoiser {
             forRanges([&](std::size_t g) {
                 const Float4 own = loadFloat4(before.data() + 4 * g);
                 Float4 sum = own;
-                for (const std::uint32_t n : groups_.neighbours(g))
+                for (const std::uint32_t n : groups_.neighbors(g))
                     sum += loadFloat4(before.data() + 4 * std::size_t{n});
                 storeFloat4(planes.data() + 4 * g, unitOr(sum, own));
             });
@@ -345,7 +345,7 @@ class Denoiser {
         for (int pass = 0; pass < kBiasPasses; ++pass) {
             std::swap(bias, before);
             forRanges([&](std::size_t g) {
-                const std::span<const std::uint32_t> around = groups_.neighbours(g);
+                const std::span<const std::uint32_t> around = groups_.neighbors(g);
                 for (std::size_t r = 0; r < 2; ++r) {
                     const float own = before[2 * g + r];
                     float sum = own == own ? own : 0, count = own == own ? 1 : 0;

@@ -61,8 +61,8 @@ class NormalGroups {
     /// Returns the variance of the direction of areaNormal (of both angles together, in rad^2) if noise moves all
     /// points except this one by 1 along the normal. Infinite if there is no area normal.
     [[nodiscard]] float areaVariance(std::size_t group) const { return variances_[group]; }
-    [[nodiscard]] std::span<const std::uint32_t> neighbours(std::size_t group) const {
-        return {neighbours_.data() + begins_[group], counts_[group]};
+    [[nodiscard]] std::span<const std::uint32_t> neighbors(std::size_t group) const {
+        return {neighbors_.data() + begins_[group], counts_[group]};
     }
 
     /// Calls body(i, group, marks) for i in [0, count), where group = groupOf(i); each group may occur once. `marks`:
@@ -101,16 +101,16 @@ class NormalGroups {
 
   private:
     void sortCorners(const CornerGroups& corner_groups, double length);
-    void findNeighbours();
-    void findNeighbours(std::uint32_t group, const Ends* begin, const Ends* end, std::uint32_t* places, float* turns);
+    void findNeighbors();
+    void findNeighbors(std::uint32_t group, const Ends* begin, const Ends* end, std::uint32_t* places, float* turns);
 
     const NormalsCall& call_;
     std::size_t count_;
     std::size_t most_corners_ = 0;  ///< maximum corners of any group
     Buffer<float> positions_, normals_, variances_;
     Buffer<Ends> corners_;
-    Buffer<std::uint32_t> begins_, counts_, neighbours_;  ///< two neighbors per corner at most
-    mutable Buffer<std::uint32_t> marks_;                 ///< marks for each task
+    Buffer<std::uint32_t> begins_, counts_, neighbors_;  ///< two neighbors per corner at most
+    mutable Buffer<std::uint32_t> marks_;                ///< marks for each task
 };
 
 /// Walk over the groups around a group, ring by ring. Bounded, so that points with many neighbors cost no more than
@@ -120,9 +120,9 @@ class RingWalk {
     static constexpr std::size_t kMost = 256, kFan = 32;
 
     /// `marks`: the per-thread array that forSome hands out.
-    RingWalk(const NormalGroups& groups, std::uint32_t* marks, std::uint32_t centre)
-        : groups_(groups), marks_(marks), centre_(centre) {
-        add(centre);
+    RingWalk(const NormalGroups& groups, std::uint32_t* marks, std::uint32_t center)
+        : groups_(groups), marks_(marks), center_(center) {
+        add(center);
     }
 
     /// Adds the next ring. Returns false if there are too many groups; the last ring is then incomplete.
@@ -136,13 +136,13 @@ class RingWalk {
     /// Adds a group unless it is marked, without a branch, which would be unpredictable. Requires room for one entry.
     void add(std::uint32_t group) {
         list_[size_] = group;
-        size_ += marks_[group] != centre_ ? 1 : 0;
-        marks_[group] = centre_;
+        size_ += marks_[group] != center_ ? 1 : 0;
+        marks_[group] = center_;
     }
 
     const NormalGroups& groups_;
     std::uint32_t* marks_;
-    std::uint32_t centre_;
+    std::uint32_t center_;
     std::size_t size_ = 0, ring_ = 0;
     std::uint32_t list_[kMost + kFan + 1];
 };

@@ -31,7 +31,7 @@ NormalGroups::NormalGroups(const NormalsCall& call, const CornerGroups& corner_g
       counts_(call.allocator, count_) {
     sortCorners(corner_groups, length);
     marks_ = Buffer<std::uint32_t>(call.allocator, count_ * call.parallel.width());
-    findNeighbours();
+    findNeighbors();
 }
 
 void NormalGroups::sortCorners(const CornerGroups& corner_groups, double length) {
@@ -75,15 +75,15 @@ void NormalGroups::sortCorners(const CornerGroups& corner_groups, double length)
     }
 }
 
-void NormalGroups::findNeighbours() {
-    neighbours_ = Buffer<std::uint32_t>(call_.allocator, 2 * corners_.size());
+void NormalGroups::findNeighbors() {
+    neighbors_ = Buffer<std::uint32_t>(call_.allocator, 2 * corners_.size());
     // begins_ counts corners; each corner adds up to two neighbors.
     const std::size_t turns_each = 4 * 2 * most_corners_, tasks = count_ == 0 ? 0 : marks_.size() / count_;
     Buffer<float> turns(call_.allocator, tasks * turns_each);
     forAll([&](std::uint32_t group, std::uint32_t* places) {
         const std::size_t task = static_cast<std::size_t>(places - marks_.data()) / count_;
-        findNeighbours(group, corners_.data() + begins_[group], corners_.data() + begins_[group + 1], places,
-                       turns.data() + task * turns_each);
+        findNeighbors(group, corners_.data() + begins_[group], corners_.data() + begins_[group + 1], places,
+                      turns.data() + task * turns_each);
     });
     for (std::size_t g = 0; g <= count_; ++g) begins_[g] *= 2;
 }
@@ -91,16 +91,16 @@ void NormalGroups::findNeighbours() {
 /// The vector area is half the sum of (p_j - p) x (p_j+1 - p). Moving p_j by d along the normal changes it by d times
 /// half the vector from the neighbor before p_j to the neighbor after it: the variance is the sum of the squares of
 /// these vectors over the square of the area.
-void NormalGroups::findNeighbours(std::uint32_t group, const Ends* begin, const Ends* end, std::uint32_t* places,
-                                  float* turns) {
-    std::uint32_t* const list = neighbours_.data() + 2 * std::size_t{begins_[group]};
+void NormalGroups::findNeighbors(std::uint32_t group, const Ends* begin, const Ends* end, std::uint32_t* places,
+                                 float* turns) {
+    std::uint32_t* const list = neighbors_.data() + 2 * std::size_t{begins_[group]};
     std::uint32_t count = 0;
-    const auto turnOf = [&](std::uint32_t neighbour) {
-        std::uint32_t place = places[neighbour];
-        if (place >= count || list[place] != neighbour) {
+    const auto turnOf = [&](std::uint32_t neighbor) {
+        std::uint32_t place = places[neighbor];
+        if (place >= count || list[place] != neighbor) {
             place = count++;
-            places[neighbour] = place;
-            list[place] = neighbour;
+            places[neighbor] = place;
+            list[place] = neighbor;
             storeFloat4(turns + 4 * std::size_t{place}, splat(0.0f));
         }
         return turns + 4 * std::size_t{place};
@@ -133,7 +133,7 @@ void NormalGroups::findNeighbours(std::uint32_t group, const Ends* begin, const 
 bool RingWalk::grow() {
     const std::size_t end = size_;
     for (std::size_t i = ring_; i < end; ++i) {
-        const std::span<const std::uint32_t> around = groups_.neighbours(list_[i]);
+        const std::span<const std::uint32_t> around = groups_.neighbors(list_[i]);
         if (around.size() <= kFan) [[likely]] {
             for (const std::uint32_t group : around) add(group);
         } else {

@@ -204,7 +204,7 @@ EdgePairs pairEdges(const Surface& surface, const Allocator* allocator) { return
 
 namespace {
 
-DVec3 centre(const Surface& surface, std::uint32_t face) {
+DVec3 center(const Surface& surface, std::uint32_t face) {
     const std::uint32_t first = surface.faces.first(face), past = surface.faces.past(face);
     DVec3 sum;
     for (std::uint32_t c = first; c < past; ++c) sum = sum + surface.position(c);
@@ -245,7 +245,7 @@ struct OwnAngles {
         // Beyond this many squared edge lengths a face is approximated by a dipole, with an error of some percent.
         constexpr double kFar = 25;
         const Surface& surface = call.surface;
-        const DVec3 middle = centre(surface, face), vector = call.areaVector(face);
+        const DVec3 middle = center(surface, face), vector = call.areaVector(face);
         const double reach = kFar * longestEdge(face);
         double angles[kPoints];
         bool is_far = reach < 1e300;
@@ -500,7 +500,7 @@ double ownWindingNumber(const WindingCall& call, const Buffer<std::uint32_t>& or
     for (std::uint32_t p = 0; p < kPoints; ++p) {
         const std::uint64_t place = (2 * std::uint64_t{p} + 1) * component.size() / (2 * kPoints);
         angles.own[p] = order[component.begin + static_cast<std::uint32_t>(place)];
-        const DVec3 from = centre(call.surface, angles.own[p]);
+        const DVec3 from = center(call.surface, angles.own[p]);
         angles.x[p] = from.x;
         angles.y[p] = from.y;
         angles.z[p] = from.z;

@@ -134,16 +134,16 @@ std::vector<Etc1sEnd> readEnds(ByteSpan data, std::size_t count) {
     std::array<HuffmanCode, 3> of_colors;
     for (HuffmanCode& code : of_colors) code = readCode(bits);
     const HuffmanCode of_tables = readCode(bits);
-    const bool is_grey = bits.bit() != 0;
+    const bool is_gray = bits.bit() != 0;
     std::vector<Etc1sEnd> ends;
     Etc1sEnd last{16, 16, 16, 0};
     while (ends.size() < count && !bits.hasFailed()) {
         last[3] = static_cast<std::uint8_t>((last[3] + of_tables.read(bits)) & 7);
-        for (std::size_t i = 0; i < (is_grey ? 1U : 3U); ++i) {
+        for (std::size_t i = 0; i < (is_gray ? 1U : 3U); ++i) {
             const std::size_t range = last[i] < 10 ? 0 : last[i] < 22 ? 1 : 2;
             last[i] = static_cast<std::uint8_t>((last[i] + of_colors[range].read(bits)) & 31);
         }
-        if (is_grey) last[1] = last[2] = last[0];
+        if (is_gray) last[1] = last[2] = last[0];
         ends.push_back(last);
     }
     if (bits.hasFailed()) ends.clear();

@@ -158,12 +158,12 @@ class DdsReader {
 
     /// Reads channels described by masks, with up to 32 bits per texel.
     bool findMasks(std::uint32_t flags) {
-        constexpr std::uint32_t kAlpha = 1, kOnlyAlpha = 2, kColors = 0x40, kGrey = 0x20000, kSigned = 0x80000;
+        constexpr std::uint32_t kAlpha = 1, kOnlyAlpha = 2, kColors = 0x40, kGray = 0x20000, kSigned = 0x80000;
         constexpr std::size_t kBitsAt = 88, kMasksAt = 92;
         const std::uint32_t bits = number(kBitsAt);
         why_ = unsupported("the pixel format of the DDS is not supported");
         if ((flags & kSigned) != 0) return findSigned(bits);
-        if ((flags & (kColors | kGrey)) == 0 || (flags & kOnlyAlpha) != 0) return false;
+        if ((flags & (kColors | kGray)) == 0 || (flags & kOnlyAlpha) != 0) return false;
         why_ = damaged();
         if (bits == 0 || bits > 32 || bits % 8 != 0) return false;
         texture_.format = texelFormat(TexelKind::masked);

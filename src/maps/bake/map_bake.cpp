@@ -65,7 +65,7 @@ class Baking {
         std::vector<BakedLayer> made;
         if (map_.hit_count > 0) made = traceLayers(*surfaces, *triangles, options_, layers_, work_);
         if (map_.hit_count == 0 || !layers_.has_normal) return BakedMaps{withoutTexels(*surfaces), std::move(made)};
-        fillFromNeighbours(traced_, triangles->shape);
+        fillFromNeighbors(traced_, triangles->shape);
         if (solves()) {
             solve(*surfaces, *triangles);
         } else {

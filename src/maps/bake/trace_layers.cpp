@@ -3,7 +3,7 @@
 //
 //   1. prepareLayers: background values
 //   2. traceMeans: materials inside of triangles, as means over the rays of each texel (without a fit)
-//   3. traceCentres: all layers, by the ray of each texel's center
+//   3. traceCenters: all layers, by the ray of each texel's center
 //   4. fitMaterial: materials by least squares (with a fit)
 //   5. finish: range and missing texels of each layer, then setOcclusion
 #include "maps/bake/trace_layers.h"
@@ -168,7 +168,7 @@ void traceMeans(LayerTracing& tracing) {
                 addMaterial(tracing, texel, tracing.layers.material(hit.triangle, hit.weights));
         });
     };
-    forTasksTold(tracing.work, bands.bandCount(), "colours", traceBand);
+    forTasksTold(tracing.work, bands.bandCount(), "colors", traceBand);
 }
 
 // -- 3. centers --
@@ -216,7 +216,7 @@ void show(LayerTracing& tracing, std::size_t texel, const LowPoint& point, const
         setMaterial(tracing, texel, tracing.layers.material(hit.triangle, hit.weights));
 }
 
-void traceCentres(LayerTracing& tracing) {
+void traceCenters(LayerTracing& tracing) {
     constexpr std::size_t kRows = 4;
     const TextureShape& shape = tracing.triangles.shape;
     const UvTriangles triangles = tracing.uvs.triangles(tracing.options.wrap_u, tracing.options.wrap_v);
@@ -286,7 +286,7 @@ void fitMaterial(LayerTracing& tracing, MapLayer layer) {
     };
     // Adjacent bands share a row of texels, so they must not run at the same time.
     forApart(bands.bandCount(), [&](std::size_t begin, std::size_t number) {
-        forTasksTold(tracing.work, number, "colours", [&](std::size_t i) { traceBand(begin + 2 * i); });
+        forTasksTold(tracing.work, number, "colors", [&](std::size_t i) { traceBand(begin + 2 * i); });
     });
     solveLayer(tracing, layer, system);
 }
@@ -430,7 +430,7 @@ std::vector<BakedLayer> traceAll(LayerTracing& tracing) {
         tracing.curvature = vertexCurvature(tracing.surfaces.high(), tracing.surfaces.rays().weld_distance,
                                             tracing.work.parallel, tracing.work.allocator);
     if (tracing.has_material && !tracing.fits()) traceMeans(tracing);
-    traceCentres(tracing);
+    traceCenters(tracing);
     if (tracing.has_material && tracing.fits()) {
         for (const MapLayer layer : {MapLayer::color, MapLayer::orm, MapLayer::emission}) {
             if (tracing.has(layer)) fitMaterial(tracing, layer);

@@ -218,7 +218,7 @@ namespace {
 /// square of any linear function over a cell is exact: a corner has an eighth of the weight of such a sample.
 constexpr float kCornerOfCell = 0.125F;
 
-void addCentres(const TracedTexels& traced, const TexelPlan& plan, const TexelWindow& window,
+void addCenters(const TracedTexels& traced, const TexelPlan& plan, const TexelWindow& window,
                 const BakeOptions& options, Parallel& parallel, TexelSystem& system) {
     const std::size_t width = plan.width;
     parallel.forRanges(window.count, 8, [&](std::size_t begin, std::size_t end) {
@@ -288,7 +288,7 @@ void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const
         forTasksTold(work, number, "solving", steps, [&](std::size_t i) { traceBand(bands[begin + 2 * i]); });
         steps.before += number;
     });
-    if (points.n == 2) addCentres(traced, plan, window, options, work.parallel, system);
+    if (points.n == 2) addCenters(traced, plan, window, options, work.parallel, system);
 }
 
 void addSmoothCells(const TexelPlan& plan, const TexelWindow& window, std::span<const Vec3> texels,
@@ -317,7 +317,7 @@ void addSmoothCells(const TexelPlan& plan, const TexelWindow& window, std::span<
     });
 }
 
-void fillFromNeighbours(TracedTexels& traced, const TextureShape& shape) {
+void fillFromNeighbors(TracedTexels& traced, const TextureShape& shape) {
     Buffer<Vec3>& wanted = traced.wanted;
     std::vector<std::size_t> empty, next;
     for (std::size_t i = 0; i < wanted.size(); ++i) {

@@ -38,6 +38,6 @@ void addSmoothCells(const TexelPlan& plan, const TexelWindow& window, std::span<
 
 /// Fills texels that have an origin but no vector, ring by ring: the first ring extrapolates the slope before it,
 /// farther rings use the mean of their neighbors. Texels without known neighbors become flat.
-void fillFromNeighbours(TracedTexels& traced, const TextureShape& shape);
+void fillFromNeighbors(TracedTexels& traced, const TextureShape& shape);
 
 }  // namespace tspace

@@ -86,7 +86,7 @@ MeasurePoints MeasurePoints::spread(const MapSurfaces& surfaces, std::uint32_t c
             const std::array<double, 3> weights{1.0 - point.weights[0] - point.weights[1], point.weights[0],
                                                 point.weights[1]};
             DVec3 normal;
-            RayNeighbourhood around;
+            RayNeighborhood around;
             point.is_hit = surfaces.truthAt(point.triangle, weights, guess, normal, &around);
             point.is_hidden = around.has_front_further_out;
             point.met_back = around.met_back;

@@ -27,10 +27,10 @@ inline BetweenTexels betweenTexels(std::uint32_t at, std::uint32_t n, std::uint3
     // Points before the first center belong to the last texel of an image that repeats; other images use the first
     // texel alone there.
     if (at < shift && !repeats) return {};
-    const std::uint32_t from_centre = at < shift ? at + size * n - shift : at - shift, texel = from_centre / n;
+    const std::uint32_t from_center = at < shift ? at + size * n - shift : at - shift, texel = from_center / n;
     if (texel + 1 == size && !repeats) return {texel, 0};
     const float first = n % 2 == 0 ? 0.5F / static_cast<float>(n) : 0.0F;
-    return {texel, first + static_cast<float>(from_centre % n) / static_cast<float>(n)};
+    return {texel, first + static_cast<float>(from_center % n) / static_cast<float>(n)};
 }
 
 /// A point inside of a triangle or on its edge.

@@ -247,19 +247,19 @@ bool hasTriangle(const TriangleSearch& search, std::size_t texel) {
 
 /// Returns the position of a neighbor, or `size` if there is none. At the edge of a mirrored image the neighbor
 /// would be the texel itself, so none is returned.
-std::size_t neighbour(std::int64_t at, std::uint32_t size, TextureWrap wrap) {
+std::size_t neighbor(std::int64_t at, std::uint32_t size, TextureWrap wrap) {
     return texelInImage(at, size, wrap == TextureWrap::repeat ? wrap : TextureWrap::clamp);
 }
 
 /// Calls visit(neighbor, dx, dy) for each of up to eight adjacent texels.
 template <class Visit>
-void forNeighbours(const TriangleSearch& search, std::size_t texel, const Visit& visit) {
+void forNeighbors(const TriangleSearch& search, std::size_t texel, const Visit& visit) {
     const auto x = static_cast<std::int64_t>(texel % search.shape.width);
     const auto y = static_cast<std::int64_t>(texel / search.shape.width);
     for (int dy = -1; dy <= 1; ++dy) {
         for (int dx = -1; dx <= 1; ++dx) {
-            const std::size_t column = neighbour(x + dx, search.shape.width, search.shape.wrap_u);
-            const std::size_t row = neighbour(y + dy, search.shape.height, search.shape.wrap_v);
+            const std::size_t column = neighbor(x + dx, search.shape.width, search.shape.wrap_u);
+            const std::size_t row = neighbor(y + dy, search.shape.height, search.shape.wrap_v);
             if ((dx != 0 || dy != 0) && column < search.shape.width && row < search.shape.height) {
                 visit(row * search.shape.width + column, dx, dy);
             }
@@ -267,8 +267,8 @@ void forNeighbours(const TriangleSearch& search, std::size_t texel, const Visit&
     }
 }
 
-void pushNeighbours(TriangleSearch& search, std::size_t texel, std::vector<std::size_t>& ring) {
-    forNeighbours(search, texel, [&](std::size_t other, int, int) {
+void pushNeighbors(TriangleSearch& search, std::size_t texel, std::vector<std::size_t>& ring) {
+    forNeighbors(search, texel, [&](std::size_t other, int, int) {
         if (search.found.kinds[other] != TexelCoverage::none) return;
         search.found.kinds[other] = kPending;
         ring.push_back(other);
@@ -281,11 +281,11 @@ std::int64_t step(int in_image, std::int64_t at, std::uint32_t size, TextureWrap
 }
 
 /// Returns the nearest of the triangles assigned to the adjacent texels.
-TexelPlace placeFromNeighbours(const TriangleSearch& search, std::size_t texel) {
+TexelPlace placeFromNeighbors(const TriangleSearch& search, std::size_t texel) {
     TexelPlace best;
     double best_distance = search.padding * search.padding;
     TexelPlace last;
-    forNeighbours(search, texel, [&](std::size_t other, int dx, int dy) {
+    forNeighbors(search, texel, [&](std::size_t other, int dx, int dy) {
         if (!hasTriangle(search, other)) return;
         const TexelPlace& there = search.found.places[other];
         const TexelPlace here =
@@ -304,14 +304,14 @@ TexelPlace placeFromNeighbours(const TriangleSearch& search, std::size_t texel) 
 void addRings(TriangleSearch& search) {
     std::vector<std::size_t> ring;
     for (std::size_t texel = 0; texel < search.found.kinds.size(); ++texel) {
-        if (hasTriangle(search, texel)) pushNeighbours(search, texel, ring);
+        if (hasTriangle(search, texel)) pushNeighbors(search, texel, ring);
     }
     std::vector<TexelPlace> places;
     std::vector<std::size_t> next;
     while (!ring.empty()) {
         places.assign(ring.size(), TexelPlace{});
         search.parallel.forRanges(ring.size(), Parallel::kGrain / 16, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) places[i] = placeFromNeighbours(search, ring[i]);
+            for (std::size_t i = begin; i < end; ++i) places[i] = placeFromNeighbors(search, ring[i]);
         });
         for (std::size_t i = 0; i < ring.size(); ++i) {
             const bool is_far = places[i].triangle == kNoTriangle;
@@ -320,7 +320,7 @@ void addRings(TriangleSearch& search) {
         }
         next.clear();
         for (const std::size_t texel : ring) {
-            if (hasTriangle(search, texel)) pushNeighbours(search, texel, next);
+            if (hasTriangle(search, texel)) pushNeighbors(search, texel, next);
         }
         ring.swap(next);
     }

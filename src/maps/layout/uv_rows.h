@@ -127,7 +127,7 @@ struct PlacedTriangle {
 
     /// Returns the texels of a row whose centers are inside the triangle or on its edge.
     [[nodiscard]] TexelRange columns(std::int64_t row) const {
-        const std::int64_t centre = row * kTexelParts + kTexelParts / 2;
+        const std::int64_t center = row * kTexelParts + kTexelParts / 2;
         TexelRange range{INT64_MAX, INT64_MIN};
         const auto include = [&](std::int64_t over, std::int64_t under) {
             range.first = std::min(range.first, ceilDiv(over - kTexelParts / 2 * under, kTexelParts * under));
@@ -136,13 +136,13 @@ struct PlacedTriangle {
         for (std::size_t i = 0; i < 3; ++i) {
             std::size_t a = i, b = (i + 1) % 3;
             if (y.at[a] > y.at[b]) std::swap(a, b);
-            if (centre < y.at[a] || centre > y.at[b]) continue;
+            if (center < y.at[a] || center > y.at[b]) continue;
             if (y.at[a] == y.at[b]) {
                 include(x.at[a], 1);
                 include(x.at[b], 1);
             } else {
                 const std::int64_t height = y.at[b] - y.at[a];
-                include(x.at[a] * height + (centre - y.at[a]) * (x.at[b] - x.at[a]), height);
+                include(x.at[a] * height + (center - y.at[a]) * (x.at[b] - x.at[a]), height);
             }
         }
         return range;

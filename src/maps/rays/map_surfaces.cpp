@@ -283,7 +283,7 @@ bool MapSurfaces::meetBeyond(const Ray& ray, RayHit& hit) const {
     return ray.height < reach_ && rays_->innermost(ray.place, ray.outward, ray.height, reach_, ray.group, hit);
 }
 
-RayNeighbourhood MapSurfaces::around(const Ray& ray, const RayHit* hit) const {
+RayNeighborhood MapSurfaces::around(const Ray& ray, const RayHit* hit) const {
     // A line through an edge hits both adjacent triangles.
     constexpr double kNearby = 1e-6;
     const double most = std::max(ray.height, reach_), least = -reach_;
@@ -294,7 +294,7 @@ RayNeighbourhood MapSurfaces::around(const Ray& ray, const RayHit* hit) const {
 }
 
 bool MapSurfaces::truthAt(std::size_t triangle, const std::array<double, 3>& weights, double& guess, DVec3& normal,
-                          RayNeighbourhood* around) const {
+                          RayNeighborhood* around) const {
     Ray ray;
     if (!rayAt(triangle, weights, ray)) return false;
     RayHit hit;

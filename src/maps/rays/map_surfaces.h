@@ -50,7 +50,7 @@ Error checkBakeOptions(const BakeOptions& options, std::size_t low_triangles, st
 Error checkRays(const RayOptions& rays, double reach);
 
 /// Surroundings of the point where a ray hit the high poly, or of a ray without a hit.
-struct RayNeighbourhood {
+struct RayNeighborhood {
     bool has_front_further_out = false, met_back = false;
     bool normal_is_inward = false;  ///< the shading normal of the high poly points inward at the hit front face
 };
@@ -95,7 +95,7 @@ class MapSurfaces {
     /// false if the ray hits nothing. `guess`: see RaySurface::nearest; initialize it with 0. `around`: null, or
     /// receives the surroundings of the hit. Thread-safe.
     bool truthAt(std::size_t triangle, const std::array<double, 3>& weights, double& guess, DVec3& normal,
-                 RayNeighbourhood* around = nullptr) const;
+                 RayNeighborhood* around = nullptr) const;
     /// Calls truthAt for at most kLinesAtOnce points, which is faster if they are close together. The normal of a point
     /// without a hit is zero.
     void truthsAt(std::span<const LowPoint> points, double& guess, std::span<DVec3> normals) const;
@@ -128,7 +128,7 @@ class MapSurfaces {
     bool meetBeyond(const Ray& ray, RayHit& hit) const;
     /// Calls meet() for several points at once. Bit i of the result is set if hits[i] is valid.
     std::uint32_t meetTogether(std::span<const LowPoint> points, double& guess, std::span<RayHit> hits) const;
-    [[nodiscard]] RayNeighbourhood around(const Ray& ray, const RayHit* hit) const;
+    [[nodiscard]] RayNeighborhood around(const Ray& ray, const RayHit* hit) const;
     void aim(const RayOptions& rays, Parallel& parallel, const Allocator* allocator);
     [[nodiscard]] DVec3 normalOf(const RayHit& hit) const;
     [[nodiscard]] DVec3 faceOf(std::uint32_t triangle) const;

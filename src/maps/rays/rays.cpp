@@ -84,7 +84,7 @@ struct RaySurface::State {
     std::span<const std::uint32_t> corners, groups;
     // The surface is moved and scaled into the unit cube for Embree, which drops very large triangles and rounds
     // bounding boxes.
-    DVec3 centre = {};
+    DVec3 center = {};
     double scale = 1, size = 1;     ///< size: 1 / scale
     std::vector<Vec4> placed = {};  // 16 bytes each, as Embree requires
     RTCDevice device = nullptr, second_device = nullptr;
@@ -256,7 +256,7 @@ void findPlace(RaySurface::State& state) {
         most = {std::fmax(most.x, at.x), std::fmax(most.y, at.y), std::fmax(most.z, at.z)};
     }
     if (!(least.x <= most.x)) return;
-    state.centre = 0.5 * (least + most);
+    state.center = 0.5 * (least + most);
     const double size = std::max({most.x - least.x, most.y - least.y, most.z - least.z});
     state.scale = size > 0 ? 1 / size : 1;
     state.size = 1 / state.scale;
@@ -307,7 +307,7 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
     findPlace(*state);
     state->placed.resize(positions.count);
     for (std::size_t i = 0; i < positions.count; ++i) {
-        const Vec3 at = toFloat(state->scale * (toDouble(positions[i]) - state->centre));
+        const Vec3 at = toFloat(state->scale * (toDouble(positions[i]) - state->center));
         state->placed[i] = {at.x, at.y, at.z, 0};
     }
     // Upper limit of the memory for devices, threads and the BVH. A failed allocation inside Embree may terminate the
@@ -370,10 +370,10 @@ bool placeRay(const Query& query, RTCRay& ray) {
     // whose bounding box has sides of at most 1 about the center.
     constexpr double kBeyond = 2;
     const RaySurface::State& state = *query.surface;
-    const double middle = dot(state.centre - query.from, query.direction);
+    const double middle = dot(state.center - query.from, query.direction);
     const double begin = std::max(query.begin, middle - kBeyond * state.size);
     const double end = std::min(query.end, middle + kBeyond * state.size);
-    const DVec3 place = state.scale * (query.from + begin * query.direction - state.centre);
+    const DVec3 place = state.scale * (query.from + begin * query.direction - state.center);
     if (!(begin <= end) || !(dot(place, place) <= 4 * kBeyond * kBeyond)) return false;
     const Vec3 origin = toFloat(place);
     ray.org_x = origin.x;

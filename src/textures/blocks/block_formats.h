@@ -49,7 +49,7 @@ class Bc4Format {
         new_step = (end - new_origin) / kind;
     }
 
-    [[nodiscard]] Palette neighbour(const Palette& palette, std::size_t i, float by) const {
+    [[nodiscard]] Palette neighbor(const Palette& palette, std::size_t i, float by) const {
         constexpr float kFirst[] = {-1, -1, -1, 0, 0, 1, 1, 1}, kLast[] = {-1, 0, 1, -1, 1, -1, 0, 1};
         const bool is_full = palette.kind > 6;
         const float end = std::clamp(palette.origin + palette.kind * palette.step + by * kLast[i], 0.0F, most_);
@@ -183,7 +183,7 @@ class EacFormat {
         new_origin = onBase(origin + (step - new_step) * mean_code);
     }
 
-    [[nodiscard]] Palette neighbour(const Palette& palette, std::size_t i, float by) const {
+    [[nodiscard]] Palette neighbor(const Palette& palette, std::size_t i, float by) const {
         constexpr float kBases[] = {-1, -1, -1, 0, 0, 1, 1, 1}, kMultipliers[] = {-1, 0, 1, -1, 1, -1, 0, 1};
         const float multiplier = std::clamp(multiplierOf(palette) + by * kMultipliers[i], 0.0F, 15.0F);
         return {onBase(palette.origin + kBaseStep * by * kBases[i])[0], multiplier < 0.5F ? 1 : kBaseStep * multiplier,

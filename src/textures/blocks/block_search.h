@@ -229,7 +229,7 @@ class BlockSearch {
             const float before = least_;
             Lanes lanes;
             for (std::size_t lane = 0; lane < 8; ++lane)
-                lanes.setPalette(lane, format_.neighbour(best_.palette, lane, 1));
+                lanes.setPalette(lane, format_.neighbor(best_.palette, lane, 1));
             for (std::size_t i = 0; i < 16; ++i) {
                 if (block_.is_used[i]) lanes.errors[slotOf(i)] = best_.errors[i];
             }
@@ -310,7 +310,7 @@ class BlockSearch {
             for (int round = 0; round < kMostRounds; ++round) {
                 Eight origin, step, kind;
                 for (std::size_t lane = 0; lane < 8; ++lane) {
-                    const Palette near = format_.neighbour(from, lane, by);
+                    const Palette near = format_.neighbor(from, lane, by);
                     origin.set(lane, near.origin);
                     step.set(lane, near.step);
                     kind.set(lane, near.kind);

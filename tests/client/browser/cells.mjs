@@ -23,9 +23,9 @@ const LEAST_CONTRAST = 0.5;
 const LEAST_DOME_CONTRAST = 5; // minimum contrast of a dome, of 255; it is about 19 here
 
 /// Returns the direction of increasing brightness, scaled by its amount. Pixels are RGBA, starting with the bottom row.
-function litSide(pixels, centre_x, centre_y) {
+function litSide(pixels, center_x, center_y) {
     const scale = VIEW.size / (2 * VIEW.half);
-    const x0 = (centre_x + VIEW.half) * scale, y0 = (centre_y + VIEW.half) * scale, radius = DOME_RADIUS * scale;
+    const x0 = (center_x + VIEW.half) * scale, y0 = (center_y + VIEW.half) * scale, radius = DOME_RADIUS * scale;
     let x_sum = 0, y_sum = 0, count = 0;
     for (let row = Math.ceil(y0 - radius); row <= y0 + radius; ++row) {
         for (let column = Math.ceil(x0 - radius); column <= x0 + radius; ++column) {

@@ -51,12 +51,12 @@ function normalOfOurs(pixels, x, y) {
 
 /// Returns whether neighbors in one picture differ strongly, or are missing.
 function isEdge(normalOf, pixels, x, y) {
-    const centre = normalOf(pixels, x, y);
+    const center = normalOf(pixels, x, y);
     for (let dy = -1; dy <= 1; ++dy) {
         for (let dx = -1; dx <= 1; ++dx) {
             const inside = x + dx >= 0 && y + dy >= 0 && x + dx < size && y + dy < size;
             const beside = inside ? normalOf(pixels, x + dx, y + dy) : undefined;
-            if (beside === undefined || degrees(centre, beside) > EDGE_DEGREES) return true;
+            if (beside === undefined || degrees(center, beside) > EDGE_DEGREES) return true;
         }
     }
     return false;

@@ -29,10 +29,10 @@ function showNormals(root) {
 function cameraFor(model, size) {
     model.updateMatrixWorld(true);
     const box = new THREE.Box3().setFromObject(model, true);
-    const centre = box.getCenter(new THREE.Vector3()), extent = box.getSize(new THREE.Vector3());
+    const center = box.getCenter(new THREE.Vector3()), extent = box.getSize(new THREE.Vector3());
     const half = Math.max(extent.x, extent.y) / 2 / 0.94;
     const camera = new THREE.OrthographicCamera(-half, half, half, -half, 0, extent.z * 2 + half);
-    camera.position.set(centre.x, centre.y, centre.z + extent.z / 2 + half / 2);
+    camera.position.set(center.x, center.y, center.z + extent.z / 2 + half / 2);
     return camera;
 }
 

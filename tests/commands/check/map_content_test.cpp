@@ -178,7 +178,7 @@ TEST(MapContent, TellsColors) {
     EXPECT_EQ(on.content, MapContent::encoded);
     EXPECT_EQ(on.layout.curve, MapCurve::srgb);
     EXPECT_EQ(off.content, MapContent::encoded);
-    EXPECT_EQ(off.layout.curve, MapCurve::linearised);
+    EXPECT_EQ(off.layout.curve, MapCurve::linearized);
 }
 
 /// A map of the normals of a sphere, unchanged and with different axes.

@@ -24,7 +24,7 @@ struct Drawn {
         const std::size_t i = 3 * (std::size_t{y} * image.width + x);
         return {image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]};
     }
-    [[nodiscard]] Pixel centre() const { return at(image.width / 2, image.height / 2); }
+    [[nodiscard]] Pixel center() const { return at(image.width / 2, image.height / 2); }
 };
 
 /// Renders a PNG, as renderFile passes it to a sink.

@@ -41,7 +41,7 @@ TEST(HostileRender, OneWildVertexLeavesTheRest) {
     model.uvs.insert(model.uvs.end(), {0, 0});
     model.indices.insert(model.indices.end(), {0, 1, 4});
     const Drawn drawn = draw(model.build(), plainView(RenderShow::normals));
-    EXPECT_EQ(drawn.centre()[2], 255);
+    EXPECT_EQ(drawn.center()[2], 255);
 }
 
 TEST(HostileRender, NodesInCirclesAreNotFollowed) {
@@ -74,7 +74,7 @@ TEST(HostileRender, TrianglesWithoutEndAreRefused) {
 TEST(HostileRender, AnEmptyModelIsAnEmptyPicture) {
     const Drawn drawn = draw(GltfBuilder(), plainView(RenderShow::lit));
     EXPECT_EQ(drawn.report.triangle_count, 0U);
-    EXPECT_EQ(drawn.centre(), drawn.at(0, 0));
+    EXPECT_EQ(drawn.center(), drawn.at(0, 0));
 }
 
 TEST(HostileRender, TexturesThatCannotBeReadAreSaid) {

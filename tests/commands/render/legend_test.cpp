@@ -81,7 +81,7 @@ TEST(RenderLegend, SaysWhoseTangentsAreShown) {
               "[LEFT: NO TANGENTS, FLAT][RIGHT: TANGENTS BY BEST]");
 }
 
-TEST(RenderLegend, GreyIsExplainedWhereThereIsSome) {
+TEST(RenderLegend, GrayIsExplainedWhereThereIsSome) {
     EXPECT_EQ(wordsOf(legendOf(RenderShow::sign, {.stored = true}, Method::mikktspace)),
               "[W = +1][W = -1][UV MIRRORED][WRONG SIGN][NEITHER][TANGENTS OF THE FILE]");
     EXPECT_EQ(wordsOf(legendOf(RenderShow::tangents, {.missing = true}, Method::mikktspace)),

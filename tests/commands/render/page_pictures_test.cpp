@@ -79,7 +79,7 @@ TEST(DiffPictures, TrianglesAreComparedWithTheirPartners) {
     expectHeat(turnedSquare(0), b, 30);
 }
 
-TEST(DiffPictures, GreyIsWhereNothingCanBeCompared) {
+TEST(DiffPictures, GrayIsWhereNothingCanBeCompared) {
     SquareModel without;
     without.tangents.clear();
     const Bytes file_a = SquareModel().build().glb(), file_b = without.build().glb();

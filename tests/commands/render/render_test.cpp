@@ -63,7 +63,7 @@ TEST(Render, TheCameraStandsWhereTheViewSays) {
     const auto seen = [&](double yaw, double pitch) {
         options.yaw_deg = yaw;
         options.pitch_deg = pitch;
-        return draw(model, options).centre();
+        return draw(model, options).center();
     };
     EXPECT_TRUE(isNearTo(seen(0, 0), {128, 128, 255}, 3));
     EXPECT_TRUE(isNearTo(seen(180, 0), {128, 128, 0}, 3));
@@ -82,11 +82,11 @@ TEST(Render, PerspectiveHoldsAllOfTheModelToo) {
             EXPECT_EQ(pixel, kBackgroundPixel);
     }
     EXPECT_NE(drawn.at(50, 8), kBackgroundPixel);
-    EXPECT_TRUE(isNearTo(drawn.centre(), {128, 128, 255}, 3));
+    EXPECT_TRUE(isNearTo(drawn.center(), {128, 128, 255}, 3));
 }
 
-TEST(Render, TangentsAreColoured) {
-    EXPECT_TRUE(isNearTo(draw(SquareModel().build(), plainView(RenderShow::tangents)).centre(), {255, 128, 128}, 1));
+TEST(Render, TangentsAreColored) {
+    EXPECT_TRUE(isNearTo(draw(SquareModel().build(), plainView(RenderShow::tangents)).center(), {255, 128, 128}, 1));
 }
 
 /// Returns a pair of squares; the left one is mirrored.
@@ -142,7 +142,7 @@ TEST(Render, FlippedGreenIsLitFromTheOtherSide) {
     RenderOptions options = plainView(RenderShow::lit);
     const auto lit = [&](std::uint8_t green, float light_y) {
         options.to_light = {0, light_y, 0.5f};
-        return brightness(draw(leaning(green), options).centre());
+        return brightness(draw(leaning(green), options).center());
     };
     EXPECT_GT(lit(218, 1), lit(218, -1) + 100);
     EXPECT_GT(lit(38, -1), lit(38, 1) + 100);
@@ -157,7 +157,7 @@ TEST(Render, MappedNormalsAreThoseOfTheShadingReference) {
     const DVec3 vector{0.5 * (2.0 * 128 / 255 - 1), 0.5 * (2.0 * 218 / 255 - 1), 2.0 * 218 / 255 - 1};
     const double size = length(vector);
     const Pixel expected{byteOfSigned(vector.x / size), byteOfSigned(vector.y / size), byteOfSigned(vector.z / size)};
-    EXPECT_TRUE(isNearTo(draw(builder, plainView(RenderShow::mapped)).centre(), expected, 1));
+    EXPECT_TRUE(isNearTo(draw(builder, plainView(RenderShow::mapped)).center(), expected, 1));
 }
 
 TEST(Render, TexturesLieAsGltfSays) {
@@ -180,27 +180,27 @@ TEST(Render, TexturesLieAsGltfSays) {
     EXPECT_TRUE(isNearTo(draw(builder, options).at(16, 16), {0, 255, 0}, 60));
 }
 
-TEST(Render, AFlatGreySquareHasTheLightOfLambert) {
+TEST(Render, AFlatGraySquareHasTheLightOfLambert) {
     GltfBuilder builder = SquareModel().build();
     builder.json()["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0.5, 0.5, 0.5, 1};
     RenderOptions options = plainView(RenderShow::lit);
-    const auto grey = [&](const Vec3& to_light) {
+    const auto gray = [&](const Vec3& to_light) {
         options.to_light = to_light;
-        return draw(builder, options).centre()[0];
+        return draw(builder, options).center()[0];
     };
     // Linear 0.5 is 188 in sRGB; 0.5 * (0.12 + 0.88 * 0.5) is 145; 0.06 is 69.
-    EXPECT_EQ(grey({0, 0, 3}), 188);
-    EXPECT_NEAR(grey({std::sqrt(3.0f), 0, 1}), 145, 1);
-    EXPECT_NEAR(grey({0, 0, -1}), 69, 1);
+    EXPECT_EQ(gray({0, 0, 3}), 188);
+    EXPECT_NEAR(gray({std::sqrt(3.0f), 0, 1}), 145, 1);
+    EXPECT_NEAR(gray({0, 0, -1}), 69, 1);
 }
 
 TEST(Render, BackFacesAreDrawnWhereTheMaterialSaysSo) {
     RenderOptions options = plainView(RenderShow::normals);
     options.yaw_deg = 180;
     GltfBuilder builder = SquareModel().build();
-    EXPECT_EQ(draw(builder, options).centre(), kBackgroundPixel);
+    EXPECT_EQ(draw(builder, options).center(), kBackgroundPixel);
     builder.json()["materials"][0]["doubleSided"] = true;
-    EXPECT_TRUE(isNearTo(draw(builder, options).centre(), {128, 128, 0}, 1)) << "turned towards the camera";
+    EXPECT_TRUE(isNearTo(draw(builder, options).center(), {128, 128, 0}, 1)) << "turned towards the camera";
 }
 
 TEST(Render, MaskedTexelsAreNotThere) {
@@ -208,9 +208,9 @@ TEST(Render, MaskedTexelsAreNotThere) {
     Json& material = builder.json()["materials"][0];
     material["alphaMode"] = "MASK";
     material["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1, 0.4};
-    EXPECT_EQ(draw(builder, plainView(RenderShow::normals)).centre(), kBackgroundPixel);
+    EXPECT_EQ(draw(builder, plainView(RenderShow::normals)).center(), kBackgroundPixel);
     material["alphaCutoff"] = 0.3;
-    EXPECT_NE(draw(builder, plainView(RenderShow::normals)).centre(), kBackgroundPixel);
+    EXPECT_NE(draw(builder, plainView(RenderShow::normals)).center(), kBackgroundPixel);
 }
 
 TEST(Render, NodesPlaceTheMesh) {
@@ -223,9 +223,9 @@ TEST(Render, NodesPlaceTheMesh) {
     RenderOptions options = plainView(RenderShow::normals);
     const Drawn front = draw(builder, options);
     EXPECT_EQ(front.report.triangle_count, 4U);
-    EXPECT_TRUE(isNearTo(front.centre(), {128, 128, 255}, 1)) << "mirrored, its front is still its front";
+    EXPECT_TRUE(isNearTo(front.center(), {128, 128, 255}, 1)) << "mirrored, its front is still its front";
     options.yaw_deg = 90;
-    EXPECT_TRUE(isNearTo(draw(builder, options).centre(), {255, 128, 128}, 1));
+    EXPECT_TRUE(isNearTo(draw(builder, options).center(), {255, 128, 128}, 1));
 }
 
 TEST(Render, ASkinStandsAsItWasBound) {
@@ -237,7 +237,7 @@ TEST(Render, ASkinStandsAsItWasBound) {
     builder.json()["skins"] = Json::array({Json{{"joints", {1}}, {"inverseBindMatrices", bind}}});
     builder.json()["scenes"] = Json::parse(R"([{"nodes":[0,1]}])");
     const Drawn drawn = draw(builder, plainView(RenderShow::tangents));
-    EXPECT_TRUE(isNearTo(drawn.centre(), {128, 255, 128}, 1)) << "the bind matrix turns x to y";
+    EXPECT_TRUE(isNearTo(drawn.center(), {128, 255, 128}, 1)) << "the bind matrix turns x to y";
 }
 
 TEST(Render, ErrorIsTheAngleBetweenTheFrames) {
@@ -262,7 +262,7 @@ TEST(Render, TangentsThatAreMissingAreComputed) {
     GltfBuilder builder = model.build();
     RenderOptions options = plainView(RenderShow::tangents);
     const Drawn drawn = draw(builder, options);
-    EXPECT_TRUE(isNearTo(drawn.centre(), {255, 128, 128}, 1));
+    EXPECT_TRUE(isNearTo(drawn.center(), {255, 128, 128}, 1));
     EXPECT_EQ(drawn.report.computed_count, 1U);
     options.frames = RenderFrames::stored;
     EXPECT_EQ(draw(builder, options).report.without_tangents_count, 1U);
@@ -270,7 +270,7 @@ TEST(Render, TangentsThatAreMissingAreComputed) {
 
 TEST(Render, TheUvMapShowsIslands) {
     const Drawn drawn = draw(mirroredPair().build(), plainView(RenderShow::uv));
-    EXPECT_NE(drawn.centre(), kBackgroundPixel);
+    EXPECT_NE(drawn.center(), kBackgroundPixel);
     EXPECT_EQ(drawn.report.triangle_count, 4U);
 }
 

@@ -18,11 +18,11 @@ GltfBuilder unlitSquare(const std::vector<double>& color) {
     return builder;
 }
 
-TEST(RenderSurface, ColoursOfVerticesAreMultipliedWithThatOfTheMaterial) {
+TEST(RenderSurface, ColorsOfVerticesAreMultipliedWithThatOfTheMaterial) {
     GltfBuilder builder = unlitSquare({1, 1, 0.2158605, 1});
     const std::size_t colors = builder.addFloats(std::vector<float>{1, 0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1}, 4);
     builder.json()["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = colors;
-    EXPECT_TRUE(isNear(draw(builder, plainView(RenderShow::lit)).centre(), {255, 0, 128}, 1));
+    EXPECT_TRUE(isNear(draw(builder, plainView(RenderShow::lit)).center(), {255, 0, 128}, 1));
 }
 
 /// Returns two squares with these colors; the second one is closer to the camera.
@@ -42,24 +42,24 @@ GltfBuilder twoSquares(const std::vector<double>& far, const std::vector<double>
 TEST(RenderSurface, NothingShowsThroughBlendedSurfacesWhateverTheirOrder) {
     for (const bool is_near_first : {false, true}) {
         const GltfBuilder builder = twoSquares({0, 1, 0, 1}, {1, 0, 0, 0.25}, is_near_first);
-        EXPECT_TRUE(isNear(draw(builder, plainView(RenderShow::lit)).centre(), {255, 0, 0}, 1)) << is_near_first;
-        EXPECT_TRUE(isNear(draw(builder, plainView(RenderShow::normals)).centre(), {128, 128, 255}, 1));
+        EXPECT_TRUE(isNear(draw(builder, plainView(RenderShow::lit)).center(), {255, 0, 0}, 1)) << is_near_first;
+        EXPECT_TRUE(isNear(draw(builder, plainView(RenderShow::normals)).center(), {128, 128, 255}, 1));
     }
     const GltfBuilder invisible = twoSquares({0, 1, 0, 1}, {1, 0, 0, 0}, false);
-    EXPECT_TRUE(isNear(draw(invisible, plainView(RenderShow::lit)).centre(), {0, 255, 0}, 1));
+    EXPECT_TRUE(isNear(draw(invisible, plainView(RenderShow::lit)).center(), {0, 255, 0}, 1));
 }
 
 TEST(RenderSurface, ABlendedSurfaceIsDrawnWhereItsAlphaIsAtLeastHalfOfTheMaterials) {
-    const auto centreAt = [](float alpha) {
+    const auto centerAt = [](float alpha) {
         GltfBuilder builder = twoSquares({0, 1, 0, 1}, {1, 0, 0, 0.25}, false);
         std::vector<float> values;
         for (int i = 0; i < 4; ++i) values.insert(values.end(), {1, 1, 1, alpha});
         const std::size_t colors = builder.addFloats(values, 4);
         builder.json()["meshes"][1]["primitives"][0]["attributes"]["COLOR_0"] = colors;
-        return draw(builder, plainView(RenderShow::lit)).centre();
+        return draw(builder, plainView(RenderShow::lit)).center();
     };
-    EXPECT_TRUE(isNear(centreAt(0.51f), {255, 0, 0}, 1));
-    EXPECT_TRUE(isNear(centreAt(0.49f), {0, 255, 0}, 1));
+    EXPECT_TRUE(isNear(centerAt(0.51f), {255, 0, 0}, 1));
+    EXPECT_TRUE(isNear(centerAt(0.49f), {0, 255, 0}, 1));
 }
 
 TEST(RenderSurface, WeightsOfMorphTargetsMoveTheSurface) {
@@ -72,12 +72,12 @@ TEST(RenderSurface, WeightsOfMorphTargetsMoveTheSurface) {
     builder.json()["nodes"] = Json::parse(R"([{"mesh":0}])");
     builder.json()["scenes"] = Json::parse(R"([{"nodes":[0]}])");
     const RenderOptions options = plainView(RenderShow::normals);
-    EXPECT_TRUE(isNear(draw(builder, options).centre(), {128, 128, 255}, 1));
+    EXPECT_TRUE(isNear(draw(builder, options).center(), {128, 128, 255}, 1));
     mesh["weights"] = Json::array({0.5});
-    EXPECT_TRUE(isNear(draw(builder, options).centre(), {218, 128, 218}, 1));
+    EXPECT_TRUE(isNear(draw(builder, options).center(), {218, 128, 218}, 1));
     // A node's own weights have priority.
     builder.json()["nodes"][0]["weights"] = Json::array({0});
-    EXPECT_TRUE(isNear(draw(builder, options).centre(), {128, 128, 255}, 1));
+    EXPECT_TRUE(isNear(draw(builder, options).center(), {128, 128, 255}, 1));
 }
 
 TEST(RenderSurface, BonesTurnFramesAndTheNodeOfASkinnedMeshHasNoPartInIt) {
@@ -94,10 +94,10 @@ TEST(RenderSurface, BonesTurnFramesAndTheNodeOfASkinnedMeshHasNoPartInIt) {
     builder.json()["scenes"] = Json::parse(R"([{"nodes":[0,1,2]}])");
     RenderOptions options = plainView(RenderShow::tangents);
     const Drawn posed = draw(builder, options);
-    EXPECT_TRUE(isNear(posed.centre(), {128, 255, 128}, 1));
+    EXPECT_TRUE(isNear(posed.center(), {128, 255, 128}, 1));
     for (const std::uint32_t corner : {8U, 56U}) EXPECT_TRUE(isNear(posed.at(corner, corner), {128, 255, 128}, 1));
     options.pose = false;
-    EXPECT_TRUE(isNear(draw(builder, options).centre(), {255, 128, 128}, 1)) << "where the first joint puts it";
+    EXPECT_TRUE(isNear(draw(builder, options).center(), {255, 128, 128}, 1)) << "where the first joint puts it";
 }
 
 TEST(RenderSurface, BothSidesAreThePicturesOfTheStoredAndTheComputedFrames) {

@@ -24,7 +24,7 @@ Camera cameraFor(const std::vector<Vec3>& points, double field_of_view_deg, cons
 float someNumber(int least, int end) { return 0.01f * static_cast<float>(*rc::gen::inRange(least, end)); }
 
 /// A square divided into a fan around a point in it, with shared corners.
-RC_GTEST_PROP(VisibleTriangles, NeighboursLeaveNoGapAndNoSampleTwice, ()) {
+RC_GTEST_PROP(VisibleTriangles, NeighborsLeaveNoGapAndNoSampleTwice, ()) {
     const Vec3 inner{someNumber(-90, 90), someNumber(-90, 90), 0};
     const std::vector<Vec3> points = {inner, {-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
     const std::vector<std::uint32_t> corners = {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1};

@@ -152,7 +152,7 @@ TEST(Lambert, IsTheCosineAgainstTheBentNormal) {
     EXPECT_EQ(lambert(frame, {0, 0, 0}, {0, 0, 1}), 0);
 }
 
-TEST(ObjectNormalMikktspace, NormalisesOnlyTheResult) {
+TEST(ObjectNormalMikktspace, NormalizesOnlyTheResult) {
     // N is half as long, so the same texel tilts more than in the normalized frame.
     const Vec3 texel{0.6f, 0, 0.8f};
     const Vec3 bent = objectNormalMikktspace({0, 0, 0.5f}, {1, 0, 0, 1}, texel);

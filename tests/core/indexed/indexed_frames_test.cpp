@@ -152,11 +152,11 @@ TEST(IndexedFrames, AMeshWithoutIndicesGetsThem) {
     }
     EXPECT_EQ(different.size(), frames->vertexCount());
 
-    std::vector<float> colours(positions.size());
-    for (std::size_t c = 0; c < colours.size(); ++c) colours[c] = static_cast<float>(c);
-    const CornerAttribute colour{colours.data(), sizeof(float), 1};
+    std::vector<float> colors(positions.size());
+    for (std::size_t c = 0; c < colors.size(); ++c) colors[c] = static_cast<float>(c);
+    const CornerAttribute color{colors.data(), sizeof(float), 1};
     IndexedFramesOptions apart = gltfOptions();
-    apart.keep_apart = {&colour, 1};
+    apart.keep_apart = {&color, 1};
     const auto kept = makeIndexedFrames(soup, apart);
     ASSERT_TRUE(kept);
     EXPECT_EQ(kept->vertexCount(), positions.size());

@@ -255,7 +255,7 @@ RC_GTEST_PROP(NormalsProperty, DoNotDependOnVertexOrderIndexWidthOrStrides, ()) 
 }
 
 RC_GTEST_PROP(MaxWeights, AreExactOnASphere, ()) {
-    const Vec3 centre = randomVec3();
+    const Vec3 center = randomVec3();
     const float radius = randomFloat(0.5f, 2);
     const Vec3 up = randomUnit();
     const Vec3 side = std::fabs(up.x) < 0.5f ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
@@ -266,9 +266,9 @@ RC_GTEST_PROP(MaxWeights, AreExactOnASphere, ()) {
         t = {t.x / l, t.y / l, t.z / l};
         const D3 b = crossOf({up.x, up.y, up.z}, t);
         const double c = std::cos(tilt), s = std::sin(tilt), x = s * std::cos(turn), y = s * std::sin(turn);
-        return Vec3{static_cast<float>(centre.x + radius * (c * up.x + x * t.x + y * b.x)),
-                    static_cast<float>(centre.y + radius * (c * up.y + x * t.y + y * b.y)),
-                    static_cast<float>(centre.z + radius * (c * up.z + x * t.z + y * b.z))};
+        return Vec3{static_cast<float>(center.x + radius * (c * up.x + x * t.x + y * b.x)),
+                    static_cast<float>(center.y + radius * (c * up.y + x * t.y + y * b.y)),
+                    static_cast<float>(center.z + radius * (c * up.z + x * t.z + y * b.z))};
     };
     SimpleMesh fan;
     fan.positions.push_back(onSphere(0, 0));

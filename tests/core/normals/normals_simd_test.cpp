@@ -189,7 +189,7 @@ TEST(Simd, ReadsInterleavedPositionsUpToTheLastByteOnly) {
     }
 }
 
-TEST(Simd, WritesIntoInterleavedVerticesWithoutTouchingTheirNeighbours) {
+TEST(Simd, WritesIntoInterleavedVerticesWithoutTouchingTheirNeighbors) {
     const SimpleMesh mesh = sheet(20);
     const std::size_t count = mesh.indices.size();
     std::vector<float> data(4 * count, 7.0f);

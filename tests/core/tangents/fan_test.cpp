@@ -100,17 +100,17 @@ RC_GTEST_PROP(Links, AreTheSameForSmallAndLargeNodes, ()) {
     RC_ASSERT(right == large_right);
 }
 
-TEST(Fan, KnowsAllFansOfUpToFourCornersWithFourNeighbours) {
-    constexpr std::uint32_t kNeighbours = 4, kKinds = kNeighbours * (kNeighbours - 1);
+TEST(Fan, KnowsAllFansOfUpToFourCornersWithFourNeighbors) {
+    constexpr std::uint32_t kNeighbors = 4, kKinds = kNeighbors * (kNeighbors - 1);
     std::size_t fans = 0;
     for (std::size_t count = 1, ways = kKinds; count <= 4; ++count, ways *= kKinds) {
         for (std::size_t way = 0; way < ways; ++way) {
             Corners corners;
             for (std::size_t i = 0, left = way; i < count; ++i, left /= kKinds) {
-                const auto next = static_cast<std::uint32_t>(left % kNeighbours),
-                           further = static_cast<std::uint32_t>(left % kKinds / kNeighbours);
+                const auto next = static_cast<std::uint32_t>(left % kNeighbors),
+                           further = static_cast<std::uint32_t>(left % kKinds / kNeighbors);
                 corners.next.push_back(next);
-                corners.previous.push_back((next + 1 + further) % kNeighbours);
+                corners.previous.push_back((next + 1 + further) % kNeighbors);
             }
             const bool found = isFoundOne(corners), is_plain = isPlainFan(corners);
             ASSERT_TRUE(found || !is_plain) << count << " corners, way " << way;
@@ -123,13 +123,13 @@ TEST(Fan, KnowsAllFansOfUpToFourCornersWithFourNeighbours) {
 }
 
 TEST(Fan, KnowsRingsAndPathsOfEightInAnyOrder) {
-    for (const std::uint32_t neighbours : {8u, 9u}) {
+    for (const std::uint32_t neighbors : {8u, 9u}) {
         std::uint32_t order[] = {0, 1, 2, 3, 4, 5, 6, 7};
         do {
             ManyPaths place;
             FanRoom room(&place);
             Fan fan;
-            for (const std::uint32_t i : order) fan.add(i, (i + 1) % neighbours, room);
+            for (const std::uint32_t i : order) fan.add(i, (i + 1) % neighbors, room);
             ASSERT_TRUE(fan.isOne());
         } while (std::next_permutation(std::begin(order), std::end(order)));
     }
@@ -179,7 +179,7 @@ TEST(Fan, GivesItsPlaceBackWhereTwoPathsAreLeft) {
     EXPECT_EQ(places[2].paths[0].leaves, 0u);  // never needed
 }
 
-TEST(Fan, StaysComplexOnceTwoWaitForOneNeighbour) {
+TEST(Fan, StaysComplexOnceTwoWaitForOneNeighbor) {
     ManyPaths place;
     FanRoom room(&place);
     Fan fan;

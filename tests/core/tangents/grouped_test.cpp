@@ -108,7 +108,7 @@ TEST(Grouped, NgonsAreCutOrSkipped) {
     }
 }
 
-TEST(Grouped, ATriangleWithoutUvAreaTakesItsNeighboursFrame) {
+TEST(Grouped, ATriangleWithoutUvAreaTakesItsNeighborsFrame) {
     SimpleMesh shape = square();
     const std::uint32_t far = shape.addVertex({2, 2, 0}, kUp, {1, 1});
     shape.addFace({1, far, 2});

@@ -115,7 +115,7 @@ TEST(Lengyel, GivesTheNumbersOfItsPage) {
     for (const Vec4& t : tangentsOf(mesh.view(), gltf).tangents) EXPECT_EQ(t.w, 1);
 }
 
-TEST(Lengyel, SumsUnnormalisedDerivatives) {
+TEST(Lengyel, SumsUnnormalizedDerivatives) {
     // At vertex 0 one face has T = (1, 0, 0), the other T = (0, 3, 0): the longer one has three times the weight.
     SimpleMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 3, 0}, {-1, 0, 0}};

@@ -69,7 +69,7 @@ float largestChange(Pairing pairing) {
 
 TEST(CorrectedPairing, DoesNotDependOnTheOrderOfFaces) { EXPECT_LT(largestChange(Pairing::corrected), 1e-5f); }
 
-TEST(ReferencePairing, LosesNeighboursInSomeOrdersOfFaces) { EXPECT_GT(largestChange(Pairing::reference), 1e-2f); }
+TEST(ReferencePairing, LosesNeighborsInSomeOrdersOfFaces) { EXPECT_GT(largestChange(Pairing::reference), 1e-2f); }
 
 }  // namespace
 }  // namespace tspace

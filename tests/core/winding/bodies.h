@@ -65,16 +65,16 @@ inline Vec3 vec3(double x, double y, double z) {
     return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
 }
 
-inline void addTorus(Bodies& to, Vec3 centre, double large, double small, std::uint32_t cells = 24) {
+inline void addTorus(Bodies& to, Vec3 center, double large, double small, std::uint32_t cells = 24) {
     addSheet(to, 2 * cells, cells, [=](double u, double v) {
         const double r = large + small * cosineOfTurn(v);
-        return vec3(centre.x + r * cosineOfTurn(u), centre.y + r * sineOfTurn(u), centre.z + small * sineOfTurn(v));
+        return vec3(center.x + r * cosineOfTurn(u), center.y + r * sineOfTurn(u), center.z + small * sineOfTurn(v));
     });
 }
 /// Adds a sphere from the south pole to the fraction `top` of the way to the north pole. The triangles at the poles
 /// have no area.
 inline void addSphere(
-    Bodies& to, Vec3 centre, double radius, double top = 1, std::uint32_t cells = 24,
+    Bodies& to, Vec3 center, double radius, double top = 1, std::uint32_t cells = 24,
     const std::function<bool(std::uint32_t, std::uint32_t)>& keeps = [](std::uint32_t, std::uint32_t) {
         return true;
     }) {
@@ -82,8 +82,8 @@ inline void addSphere(
         to, cells, cells,
         [=](double u, double v) {
             const double up = v * top, out = up == 1 || up == 0 ? 0 : radius * sineOfTurn(up / 2);
-            return vec3(centre.x + out * cosineOfTurn(u), centre.y + out * sineOfTurn(u),
-                        centre.z - radius * cosineOfTurn(up / 2));
+            return vec3(center.x + out * cosineOfTurn(u), center.y + out * sineOfTurn(u),
+                        center.z - radius * cosineOfTurn(up / 2));
         },
         keeps);
 }

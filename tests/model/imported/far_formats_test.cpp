@@ -217,7 +217,7 @@ TEST(FarStl, FloatsOfBinaryFilesHaveTheSameNormalsNearTheOrigin) {
     EXPECT_FALSE(made.hasOffset());
     EXPECT_TRUE(made.warns("does not store more digits"));
     const std::span<const Vec3> a = made.normals(), b = moved.normals();
-    EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end())) << "differences of neighbours are exact in floats";
+    EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end())) << "differences of neighbors are exact in floats";
 }
 
 TEST(FarFormatsElsewhere, AreSaidToBeReadAsFloats) {

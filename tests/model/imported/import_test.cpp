@@ -105,7 +105,7 @@ TEST(Import, VerticesAreJoinedOnlyWhereAllBitsAgree) {
     EXPECT_EQ(sceneOf(path).primitives[0].positions.size(), 36U) << "Assimp itself gives every corner its vertex";
 }
 
-TEST(Import, UnitsOfFbxBecomeMetres) {
+TEST(Import, UnitsOfFbxBecomeMeters) {
     const TempFolder folder;
     exported(folder, writeModel(folder, "sheet.glb", {bentSheet(2)}), "fbxa", "fbx");
     const std::string text = folder.read("model.fbx");
@@ -314,7 +314,7 @@ std::string daeTriangle(const char* normals, const char* diffuse) {
            "<scene><instance_visual_scene url='#w'/></scene></COLLADA>";
 }
 
-TEST(Import, NormalsBecomeUnitAndColoursNumbers) {
+TEST(Import, NormalsBecomeUnitAndColorsNumbers) {
     const TempFolder folder;
     const std::string path = folder.write("a.dae", daeTriangle("0 0 2 1 0 0 0 0 0", "<color>nan 2 -1 1</color>"));
     const Scene scene = sceneOf(path);

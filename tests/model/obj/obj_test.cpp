@@ -143,7 +143,7 @@ TEST(Obj, TextureCoordinatesAreTurnedToRunDown) {
     for (const Vec4& t : gltf::readTangents(made.document, made.primitives[0])) EXPECT_EQ(t, (Vec4{1, 0, 0, 1}));
 }
 
-TEST(Obj, AMaterialThatStatesNoColourIsWhite) {
+TEST(Obj, AMaterialThatStatesNoColorIsWhite) {
     const TempFolder folder;
     folder.write("in/m.mtl", "newmtl a\nNs 10\nnewmtl b\nKd 0 0 0\n");
     const ObjModel made =

@@ -14,7 +14,7 @@ export interface UvRead {
   images: { name: string; image: CanvasImageSource & { width: number; height: number } }[];
 }
 
-const names: Record<string, string> = { normalMap: "normal map", map: "base colour", metalnessMap: "metal and roughness", roughnessMap: "metal and roughness", aoMap: "occlusion", emissiveMap: "emission" };
+const names: Record<string, string> = { normalMap: "normal map", map: "base color", metalnessMap: "metal and roughness", roughnessMap: "metal and roughness", aoMap: "occlusion", emissiveMap: "emission" };
 /** Returns the display name of a material property of three.js. */
 export const nameOfMap = (property: string): string => names[property] ?? property.replace(/Map$/, "");
 const kMostSets = 4;

@@ -112,7 +112,7 @@ vec3 lit(vec3 base, vec3 n) {
   return base * (sky + 0.95 * direct) + vec3(0.16 * gloss);
 }
 
-// Enough light to see the shape under flat colours.
+// Enough light to see the shape under flat colors.
 vec3 shaped(vec3 screenColor) {
   if (uIsMap) return screenColor;
   vec3 n = normalize(gl_FrontFacing ? vNormal : -vNormal);

@@ -49,7 +49,7 @@ export function remedyOptions({ code, commands }: Finding): Remedy | null {
   return remedy;
 }
 
-const curves: Record<string, MapReading["curve"]> = { srgb: "srgb", linearized: "linearised" };
+const curves: Record<string, MapReading["curve"]> = { srgb: "srgb", linearized: "linearized" };
 
 /**
  * Returns how to convert a lone normal map to glTF's encoding with green pointing up, from the commands of its

@@ -52,7 +52,7 @@ export class LookView {
     const turn = slider("Rotation", { min: -180, max: 180, step: 5, value: 0, unit: "°" }, (value) => this.#set({ turn: value }));
     const exposure = slider("Exposure", { min: -3, max: 3, step: 0.25, value: 0, unit: " stops" }, (value) => this.#set({ stops: value }));
     const shadows = checkbox("Shadows", false, (on) => viewport.setShadows(on));
-    const ground = choice("Ground", [["grey", "gray"], ["light", "light"], ["dark", "dark"]] as const, "grey", (value) => stage.setGround(value));
+    const ground = choice("Ground", [["gray", "gray"], ["light", "light"], ["dark", "dark"]] as const, "gray", (value) => stage.setGround(value));
     const length = el("input", { type: "range", min: "-10", max: "10", value: "0" });
     length.addEventListener("input", () => {
       this.#length = 2 ** (Number(length.value) / 4);

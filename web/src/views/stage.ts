@@ -52,7 +52,7 @@ export class Stage {
 
   /** `caption` is above the picture, `overLine` over it next to the split line, and `beside` to its right. */
   constructor(caption: HTMLElement, overLine: HTMLElement, beside: HTMLElement) {
-    const frame = this.#frame = el("div", { class: "frame", "data-ground": "grey" }, this.canvas, this.#line, this.#leftLabel, this.#rightLabel, this.#legend.element, this.#light, overLine, this.#remark);
+    const frame = this.#frame = el("div", { class: "frame", "data-ground": "gray" }, this.canvas, this.#line, this.#leftLabel, this.#rightLabel, this.#legend.element, this.#light, overLine, this.#remark);
     this.#looks = choice("Look", lookNames, "lit", (look) => this.setLook(look));
     this.#looks.element.append(this.#beside.element);
     this.element = el("section", { class: "stage", "aria-label": "Picture" }, caption, this.#looks.element, el("div", { class: "views" }, el("div", { class: "picture" }, frame, this.#split), beside));
@@ -92,7 +92,7 @@ export class Stage {
     return this.#legend.swatches;
   }
 
-  setGround(ground: "grey" | "light" | "dark"): void {
+  setGround(ground: "gray" | "light" | "dark"): void {
     this.#frame.dataset.ground = ground;
   }
 

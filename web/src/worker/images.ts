@@ -27,7 +27,7 @@ export async function decodeImage(file: Uint8Array, type: ImageType): Promise<Pi
   const png = type === "image/png" ? pixelsOfPng(file) : null;
   if (png) return png;
   const pixels = await decodeByCanvas(file, type);
-  if (!isOpaque(pixels.rgba)) throw new Error("it is transparent, of which a browser gives no exact colours");
+  if (!isOpaque(pixels.rgba)) throw new Error("it is transparent, of which a browser gives no exact colors");
   return pixels;
 }
 

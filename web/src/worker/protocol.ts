@@ -89,7 +89,7 @@ export interface TexturePixels {
 /** Encoding of a normal map, with the names of `tspace convert-map`. */
 export interface MapReading {
   channels?: string;
-  curve?: "srgb" | "linearised";
+  curve?: "srgb" | "linearized";
   flipRed?: boolean;
   flipGreen?: boolean;
 }

@@ -22,7 +22,7 @@ struct Extent {
         least = std::min(least, value);
         most = std::max(most, value);
     }
-    [[nodiscard]] double centre() const { return 0.5 * (least + most); }
+    [[nodiscard]] double center() const { return 0.5 * (least + most); }
     [[nodiscard]] double half() const { return 0.5 * (most - least); }
 };
 
@@ -37,8 +37,8 @@ Camera Camera::around(const VisitPoints& points, const ViewAngles& angles, doubl
     camera.right_ = {yaw.cosine, 0, -yaw.sine};
     camera.back_ = {yaw.sine * pitch.cosine, pitch.sine, yaw.cosine * pitch.cosine};
     camera.up_ = cross(camera.back_, camera.right_);
-    camera.centre_x_ = 0.5 * width;
-    camera.centre_y_ = 0.5 * height;
+    camera.center_x_ = 0.5 * width;
+    camera.center_y_ = 0.5 * height;
     camera.is_perspective_ = field_of_view_deg > 0;
 
     Extent x, y, z;
@@ -49,25 +49,25 @@ Camera Camera::around(const VisitPoints& points, const ViewAngles& angles, doubl
         z.add(dot(p, camera.back_));
     });
     if (!(x.least <= x.most)) x = y = z = {-1, 1};
-    const DVec3 centre = x.centre() * camera.right_ + y.centre() * camera.up_ + z.centre() * camera.back_;
-    const double half_width = kFilled * camera.centre_x_, half_height = kFilled * camera.centre_y_;
+    const DVec3 center = x.center() * camera.right_ + y.center() * camera.up_ + z.center() * camera.back_;
+    const double half_width = kFilled * camera.center_x_, half_height = kFilled * camera.center_y_;
     if (!camera.is_perspective_) {
         const double samples = std::max(x.half() / half_width, y.half() / half_height);
         camera.scale_ = samples > 0 ? 1 / samples : 1;
-        camera.eye_ = centre;
+        camera.eye_ = center;
         return camera;
     }
     const SineCosine half_angle = sineCosine(field_of_view_deg * (0.5 * kPi / 180));
-    camera.scale_ = std::min(camera.centre_x_, camera.centre_y_) * half_angle.cosine / half_angle.sine;
+    camera.scale_ = std::min(camera.center_x_, camera.center_y_) * half_angle.cosine / half_angle.sine;
     double distance = 0;
     points([&](const DVec3& p) {
         if (!isFinitePoint(p)) return;
-        const double from_x = std::fabs(dot(p, camera.right_) - x.centre()) / half_width,
-                     from_y = std::fabs(dot(p, camera.up_) - y.centre()) / half_height;
-        distance = std::max(distance, dot(p, camera.back_) - z.centre() + camera.scale_ * std::max(from_x, from_y));
+        const double from_x = std::fabs(dot(p, camera.right_) - x.center()) / half_width,
+                     from_y = std::fabs(dot(p, camera.up_) - y.center()) / half_height;
+        distance = std::max(distance, dot(p, camera.back_) - z.center() + camera.scale_ * std::max(from_x, from_y));
     });
     if (!(distance > 0)) distance = 1;
-    camera.eye_ = centre + distance * camera.back_;
+    camera.eye_ = center + distance * camera.back_;
     camera.least_w_ = std::max(0.5 * (distance - z.half()), 1e-6 * distance);
     return camera;
 }

@@ -41,8 +41,8 @@ class Camera {
     [[nodiscard]] SeenPoint see(const DVec3& point) const {
         const DVec3 from = point - eye_;
         const double x = scale_ * dot(from, right_), y = -scale_ * dot(from, up_), depth = -dot(from, back_);
-        if (!is_perspective_) return {centre_x_ + x, centre_y_ + y, 1, -depth};
-        return {centre_x_ * depth + x, centre_y_ * depth + y, depth, 1};
+        if (!is_perspective_) return {center_x_ + x, center_y_ + y, 1, -depth};
+        return {center_x_ * depth + x, center_y_ * depth + y, depth, 1};
     }
     /// Minimum w of visible points; points with a smaller w are too near.
     [[nodiscard]] double leastW() const { return least_w_; }
@@ -54,7 +54,7 @@ class Camera {
 
   private:
     DVec3 right_{1, 0, 0}, up_{0, 1, 0}, back_{0, 0, 1}, eye_{};
-    double centre_x_ = 0, centre_y_ = 0;
+    double center_x_ = 0, center_y_ = 0;
     double scale_ = 1;  ///< samples per unit; for a perspective camera, at distance 1
     double least_w_ = 0;
     bool is_perspective_ = true;

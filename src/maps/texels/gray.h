@@ -39,18 +39,18 @@ std::array<double, 3> channelCorrelations(std::size_t count, const TexelAt& texe
 /// channels. This rejects normal maps with one constant channel, whose other two channels are not correlated.
 /// `texelAt(i)`: values from 0 to 255.
 template <class TexelAt>
-bool isGrey(std::size_t count, const TexelAt& texelAt) {
+bool isGray(std::size_t count, const TexelAt& texelAt) {
     constexpr double kApart = 4.5, kTintApart = 6.5, kMostTint = 0.1, kMost = 0.98, kLeastCorrelation = 0.95;
-    std::size_t grey = 0, tinted = 0;
+    std::size_t gray = 0, tinted = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const std::array<double, 3> texel = texelAt(i);
         const double most = std::max({texel[0], texel[1], texel[2]});
         const double apart = most - std::min({texel[0], texel[1], texel[2]});
-        grey += apart <= kApart;
+        gray += apart <= kApart;
         tinted += apart <= kTintApart + kMostTint * most;
     }
     const double enough = kMost * static_cast<double>(count);
-    if (static_cast<double>(grey) > enough) return true;
+    if (static_cast<double>(gray) > enough) return true;
     if (!(static_cast<double>(tinted) > enough)) return false;
     const std::array<double, 3> correlations = channelCorrelations(count, texelAt);
     return *std::min_element(correlations.begin(), correlations.end()) >= kLeastCorrelation;
