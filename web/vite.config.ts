@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The page becomes one file: scripts, styles, the worker, WebAssembly and samples are all in index.html.
+// Builds the page as a single file: index.html contains scripts, styles, the worker, WebAssembly and samples.
 import { createHash } from "node:crypto";
 import { readFileSync } from "node:fs";
 import { resolve } from "node:path";
 import { gzipSync } from "node:zlib";
 import { defineConfig, type Plugin } from "vite";
 
-/** What the page may do: run its own scripts and worker, and read what it holds itself. The first script, where there is one, says which server it may ask. */
+/** Content security policy: the page may run its own scripts and worker, and read embedded data. The first script, if present, adds the server that the page may access. */
 function policy(scripts: string[]): string {
   const hashes = scripts.map((script) => `'sha256-${createHash("sha256").update(script).digest("base64")}'`);
   return [
@@ -21,7 +21,7 @@ function policy(scripts: string[]): string {
   ].join("; ");
 }
 
-/** WebAssembly as gzip makes it, which src/worker/load_packed.ts reads: as text it then takes half the place, and less of a gzipped page too. */
+/** Embeds WebAssembly compressed with gzip (see src/worker/load_packed.ts), which halves its size as text, and also reduces the size of a gzipped page. */
 function packedWasm(): Plugin {
   const packed = (path: string) => JSON.stringify(`data:application/gzip;base64,${gzipSync(readFileSync(path), { level: 9 }).toString("base64")}`);
   return {
@@ -31,10 +31,10 @@ function packedWasm(): Plugin {
   };
 }
 
-/** The package's modules that lie in JavaScript, packed in the same way. */
+/** Modules that the package embeds in JavaScript are compressed in the same way. */
 const insideOf = (name: string) => resolve(import.meta.dirname, `node_modules/tspace/src/${name}-inside.js`);
 
-/** Draco's module asks node for these where it runs there. */
+/** Node modules that Draco's module imports only if it runs in node. */
 const nodeModules: Plugin = {
   name: "node-modules",
   enforce: "pre",
@@ -42,7 +42,7 @@ const nodeModules: Plugin = {
   load: (id) => (id === "\0nothing" ? "export {}" : null),
 };
 
-/** Puts the script and the style sheet into the HTML, and a policy that allows this very script. */
+/** Embeds the script and the style sheet in the HTML, with a policy that allows only this script. */
 function oneFile(): Plugin {
   return {
     name: "one-file",
@@ -53,10 +53,10 @@ function oneFile(): Plugin {
       const script = files.find((file) => file.type === "chunk");
       const style = files.find((file) => file.fileName.endsWith(".css"));
       if (page?.type !== "asset" || script?.type !== "chunk") throw new Error("no page, or no script");
-      // "</script" inside of a string would end the script.
+      // "</script" inside a string would end the script element.
       const code = script.code.replaceAll("</script", "<\\/script");
       const css = style?.type === "asset" ? String(style.source) : "";
-      // In the page, not in the lesson: narrows the policy to no server, or to the one that its address names.
+      // For the page, not the lesson: restricts the policy to no server, or to the one in the page's address.
       const guard = String(page.source).includes("<!-- guard -->") ? readFileSync(resolve(import.meta.dirname, "src/guard.js"), "utf8") : null;
       const head = `<meta http-equiv="Content-Security-Policy" content="${policy(guard ? [guard, code] : [code])}" />${guard ? `\n    <script>${guard}</script>` : ""}\n    <style>${css}</style>`;
       const html = String(page.source)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Figure 4: what becomes of T between the corners of a triangle, and of the light there.
+// Figure 4: interpolation of T across a triangle, and its effect on the lighting.
 
 import { Figure, Numbers, type Plane } from "./figure";
 import { grayOf, picture, texelAt } from "./plate";
@@ -14,7 +14,7 @@ const kNormal: Vec3 = [0, 0, 1];
 
 type Weights = readonly [number, number, number];
 
-/** How much each corner counts at a point: shares of areas. */
+/** Returns the barycentric weights of a point. */
 function weightsAt([x, y]: Vec2): Weights {
   const [[ax, ay], [bx, by], [cx, cy]] = kCorners;
   const whole = (bx - ax) * (cy - ay) - (cx - ax) * (by - ay);
@@ -25,12 +25,12 @@ function weightsAt([x, y]: Vec2): Weights {
 export function showAcross(host: HTMLElement, rows: HTMLElement, perPixel: HTMLInputElement) {
   const figure = new Figure(host, 600, 305, "A triangle with a tangent at each corner, and the same triangle lit");
   const numbers = new Numbers(rows);
-  const directions = [0, 1.35, -0.6];  // of T at the corners, in radians
+  const directions = [0, 1.35, -0.6];  // angles of T at the corners, in radians
   let place: Vec2 = [0.56, 0.4];
 
   const cornerTangent = (i: number): Vec3 => [Math.cos(directions[i]!), Math.sin(directions[i]!), 0];
   const tangentAt = (w: Weights): Vec3 => add(add(scale(w[0], cornerTangent(0)), scale(w[1], cornerTangent(1))), scale(w[2], cornerTangent(2)));
-  /** The texel of a plate that lies four times on the triangle, along T, B = cross(N, T) and N. */
+  /** Returns the shading normal, where the plate texture repeats four times across the triangle and B = cross(N, T). */
   const shade = (n: Vec3, tangent: Vec3): Vec3 => unit(add(add(scale(n[0], tangent), scale(n[1], [-tangent[1], tangent[0], 0])), scale(n[2], kNormal)));
   const texel = ([x, y]: Vec2): Vec3 => texelAt(2 * x + 0.1, 2 * y + 0.1);
   const used = (tangent: Vec3): Vec3 => (perPixel.checked ? unit(tangent) : tangent);
@@ -43,7 +43,7 @@ export function showAcross(host: HTMLElement, rows: HTMLElement, perPixel: HTMLI
     }) });
     figure.polygon(kArrows, kCorners, "face front");
     figure.polygon(kLit, kCorners, "face outline");
-    figure.word(kArrows, [0.5, -0.11], "T, drawn as long as it is");
+    figure.word(kArrows, [0.5, -0.11], "T, drawn with its length");
     figure.word(kLit, [0.5, -0.11], "lit with it");
     for (let i = 1; i < 8; ++i) {
       for (let j = 1; i + j < 8; ++j) {
@@ -56,15 +56,15 @@ export function showAcross(host: HTMLElement, rows: HTMLElement, perPixel: HTMLI
     const w = weightsAt(place), interpolated = tangentAt(w), t = used(interpolated);
     figure.arrow(kArrows, place, [kArrow * t[0], kArrow * t[1]], "tangent", "T");
     figure.arrow(kArrows, place, [-kArrow * t[1], kArrow * t[0]], "bitangent", "B");
-    numbers.set("shares of the corners", tuple(w));
-    numbers.set("T there", `\u03a3 share \u00b7 T of the corner = ${tuple(interpolated.slice(0, 2))}, of length ${text(length(interpolated))}`);
+    numbers.set("weights of the corners", tuple(w));
+    numbers.set("interpolated T", `\u03a3 weight \u00b7 T of the corner = ${tuple(interpolated.slice(0, 2))}, of length ${text(length(interpolated))}`);
     const n = texel(place), one = shade(n, interpolated), other = shade(n, unit(interpolated));
     numbers.set("texel", tuple(n));
     numbers.set("shaded normal", `${tuple(shade(n, t))}; normalized at each pixel or not: ${text(angle(one, other), 1)} degrees between the two`);
-    numbers.set("which means", length(interpolated) > 0.95 ? "corners agree here: it makes (nearly) no difference"
-      : "where corners disagree T is shorter, and the relief flatter. MikkTSpace leaves it so, three.js and Khronos' viewer normalize, and glTF does not specify. A map baked for the one shows faint edges in the other");
+    numbers.set("meaning", length(interpolated) > 0.95 ? "the corners agree here, so the difference is negligible"
+      : "if corners differ, T is shorter and the relief flatter. MikkTSpace uses T unchanged, three.js and Khronos' viewer normalize it, and glTF does not specify. A map that was baked for one of them shows faint edges in the other");
   });
-  figure.handle(kArrows, "the point that is shaded", () => place, (to) => {
+  figure.handle(kArrows, "shaded point", () => place, (to) => {
     const w = weightsAt(to), least = 0.02;
     if (Math.min(...w) > least) place = to;
   }, [[0, 1], [0, 1]]);

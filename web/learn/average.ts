@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Figure 3: the mean at a vertex, and Gram-Schmidt.
+// Figure 3: averaging at a vertex, and Gram-Schmidt orthogonalization.
 
 import { generateTangents } from "tspace";
 import { Figure, Numbers, type Plane } from "./figure";
@@ -9,14 +9,14 @@ const kTop: Plane = { origin: [150, 145], unit: 120 };
 const kSide: Plane = { origin: [450, 190], unit: 110 };
 const kRing = 5;
 
-/** How far the surface falls beside the vertex. */
+/** Height of the surface near the vertex. */
 const height = ([x, y]: Vec2): number => -0.35 * (x * x + y * y);
 
 export function showAverage(host: HTMLElement, rows: HTMLElement) {
   const figure = new Figure(host, 600, 290, "Five triangles around a vertex, from above and from the side");
   const numbers = new Numbers(rows);
   const ring: Vec2[] = Array.from({ length: kRing }, (_, i) => [0.9 * Math.cos(0.3 + (i * 2 * Math.PI) / kRing), 0.9 * Math.sin(0.3 + (i * 2 * Math.PI) / kRing)]);
-  // The texture is sheared a little differently on each triangle, so that they disagree.
+  // The texture is sheared slightly differently on each triangle, so that their tangents differ.
   const uvs: Vec2[] = [[0, 0], ...ring.map(([x, y], i): Vec2 => [x + 0.3 * Math.sin(2.1 * i), y + 0.3 * Math.cos(2.7 * i)])];
   let lean: Vec2 = [0.3, 0.95];  // end of N in the side view
 
@@ -62,7 +62,7 @@ export function showAverage(host: HTMLElement, rows: HTMLElement) {
     const expected = unit(flat);
     numbers.set("sum", `\u03a3 dP/du = ${tuple(sum)}, and t is its mean`);
     numbers.set("Gram-Schmidt", `T = t \u2212 N (N\u00b7t) = ${tuple(mean)} \u2212 ${text(dot(mean, normal))} \u00b7 ${tuple(normal)} = ${tuple(flat)}`);
-    numbers.set("made unit", tuple(expected, 3));
+    numbers.set("normalized", tuple(expected, 3));
     numbers.set("the library", `lengyel: T = ${tuple(result, 3)}, ${text(length(flat) > 1e-6 ? angle(result, expected) : 0, 4)} degrees from the formula`);
     numbers.set("right angle", `N\u00b7T = ${text(dot(normal, result), 3)}; before, N\u00b7t / |t| = ${text(dot(normal, mean) / (length(mean) || 1), 3)}`);
   });

@@ -11,11 +11,11 @@ export function element<Name extends keyof SVGElementTagNameMap>(name: Name, att
   return made;
 }
 
-/** A part of the drawing with coordinates of its own: x to the right, y up. */
+/** A part of the drawing with separate coordinates: x to the right, y up. */
 export interface Plane {
-  /** Where (0, 0) is, in the drawing. */
+  /** Position of (0, 0) in the drawing. */
   origin: Vec2;
-  /** Pixels of a unit. */
+  /** Number of pixels per unit. */
   unit: number;
 }
 
@@ -34,7 +34,7 @@ export class Figure {
     host.append(this.svg);
   }
 
-  /** `draw` is called now, and whenever something has moved. */
+  /** Calls `draw` now, and after each move of a handle. */
   show(draw: () => void) {
     this.draw = draw;
     this.redraw();
@@ -46,7 +46,7 @@ export class Figure {
     for (const move of this.movers) move();
   }
 
-  /** Coordinates of a plane in those of the drawing. */
+  /** Converts coordinates of a plane to those of the drawing. */
   static at(plane: Plane, [x, y]: Vec2): Vec2 {
     return [plane.origin[0] + plane.unit * x, plane.origin[1] - plane.unit * y];
   }
@@ -67,7 +67,7 @@ export class Figure {
     return this.add("line", { class: name, x1: a[0], y1: a[1], x2: b[0], y2: b[1] });
   }
 
-  /** With a head of its own, so that it prints; nothing where it has no length. */
+  /** Draws an arrow with its head as a path, so that it prints; nothing if its length is zero. */
   arrow(plane: Plane, from: Vec2, step: Vec2, name: string, word = "") {
     const a = Figure.at(plane, from), b = Figure.at(plane, [from[0] + step[0], from[1] + step[1]]);
     const size = Math.hypot(b[0] - a[0], b[1] - a[1]);
@@ -84,7 +84,7 @@ export class Figure {
     return this.add("text", { class: `word ${name}`, x, y, "text-anchor": "middle" }, words);
   }
 
-  /** A point that can be moved. `get` and `set` speak the coordinates of the plane; `set` sees what lies in the bounds. */
+  /** Adds a movable point. `get` and `set` use the coordinates of the plane; `set` receives positions inside the bounds only. */
   handle(plane: Plane, label: string, get: () => Vec2, set: (to: Vec2) => void, bounds: readonly [Vec2, Vec2], name = "") {
     const knob = element("circle", { class: `handle ${name}`, r: 9, tabindex: 0, role: "slider", "aria-label": label });
     const moveTo = (x: number, y: number) => {
@@ -123,7 +123,7 @@ export class Figure {
   }
 }
 
-/** A line of numbers below a figure: words that stay, and those that change. */
+/** A line of numbers below a figure, with fixed and variable text. */
 export class Numbers {
   private readonly rows = new Map<string, HTMLElement>();
 
@@ -144,7 +144,7 @@ export class Numbers {
   }
 }
 
-/** A matrix of numbers in brackets: fields that can be edited where `set` is given, else text. */
+/** A matrix in brackets: editable fields if `set` is given, otherwise text. */
 export class Matrix {
   readonly element = document.createElement("span");
   private readonly cells: HTMLElement[][];
@@ -168,7 +168,7 @@ export class Matrix {
     return field;
   }
 
-  /** A field that is being edited keeps what was typed. */
+  /** A field that is being edited keeps the typed text. */
   show(values: readonly (readonly number[])[], say: (value: number) => string) {
     this.cells.forEach((row, i) => row.forEach((cell, k) => {
       const value = values[i]![k]!;

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The picture at the head: a ring in space, left of a line lit by its normals alone, right of it by a normal map that T, B and N
-// carry; and these three at the point under the pointer.
+// The picture at the top: a ring in 3D, lit by its normals left of a line, and by a normal map in the frame T, B, N right of
+// it. The frame is drawn at the pointer.
 
 import { grayOf, texelAt } from "./plate";
 import { add, dot, scale, text, unit, type Vec2, type Vec3 } from "./vector";
 
-const kWidth = 640, kHeight = 340, kScale = 150;  // pixels, and pixels of a unit
+const kWidth = 640, kHeight = 340, kScale = 150;  // picture size in pixels, and pixels per unit
 const kMajor = 1, kMinor = 0.44;
-/** How often the map lies along the ring and around it, so that its plates are square. */
+/** Repetitions of the map along and around the ring, such that its plates are square. */
 const kAlong = 10, kAround = 3;
 const kLight = unit([-0.5, 0.65, 0.6]);
 const kStart = { yaw: -0.35, pitch: 0.62 };
 
-/** What a ray meets: where the surface is, its frame and its UV, all in the ring's own space. */
+/** Hit of a ray: position, frame and UV of the surface, in the ring's object space. */
 interface Hit {
   normal: Vec3;
   tangent: Vec3;
@@ -22,7 +22,7 @@ interface Hit {
 
 const distance = (p: Vec3): number => Math.hypot(Math.hypot(p[0], p[2]) - kMajor, p[1]) - kMinor;
 
-/** Along a ray; what it misses by, where it meets nothing. */
+/** Intersects a ray with the ring; returns its smallest distance from the surface if there is no hit. */
 function march(from: Vec3, along: Vec3): Hit | number {
   let nearest = Infinity, p = from;
   for (let i = 0, gone = 0; i < 60 && gone < 6; ++i) {
@@ -48,7 +48,7 @@ export function showHero(canvas: HTMLCanvasElement, line: HTMLInputElement, said
   const pixels = canvas.getContext("2d");
   let { yaw, pitch } = kStart, probe: Vec2 = [0.42, -0.62], isAsked = false;
 
-  /** From what the eye sees to the ring's own space, and back. */
+  /** Rotations from camera space to the ring's object space, and back. */
   const turns = () => {
     const [cy, sy, cp, sp] = [Math.cos(yaw), Math.sin(yaw), Math.cos(pitch), Math.sin(pitch)];
     const right: Vec3 = [cy, 0, -sy], up: Vec3 = [-sy * sp, cp, -cy * sp], back: Vec3 = [sy * cp, sp, cy * cp];
@@ -97,7 +97,7 @@ export function showHero(canvas: HTMLCanvasElement, line: HTMLInputElement, said
       arrow(from, [from[0] + 62 * s[0], from[1] - 62 * s[1]], name, style.getPropertyValue(color));
     }
     const n = texelAt(...hit.uv);
-    said.textContent = `Under the pointer: texel (${n.map((c) => text(c)).join(", ")}), so the shaded normal is ${text(n[0])} T + ${text(n[1])} B + ${text(n[2])} N.`;
+    said.textContent = `At the pointer: texel (${n.map((c) => text(c)).join(", ")}), so the shaded normal is ${text(n[0])} T + ${text(n[1])} B + ${text(n[2])} N.`;
   };
 
   const arrow = (from: Vec2, to: Vec2, name: string, color: string) => {
@@ -129,7 +129,7 @@ export function showHero(canvas: HTMLCanvasElement, line: HTMLInputElement, said
 
   const ask = () => {
     canvas.setAttribute("aria-valuenow", String(Math.round((yaw * 180) / Math.PI)));
-    canvas.setAttribute("aria-valuetext", `turned by ${Math.round((yaw * 180) / Math.PI)} degrees, tilted by ${Math.round((pitch * 180) / Math.PI)}`);
+    canvas.setAttribute("aria-valuetext", `rotated by ${Math.round((yaw * 180) / Math.PI)} degrees, tilted by ${Math.round((pitch * 180) / Math.PI)}`);
     if (!isAsked) requestAnimationFrame(draw);
     isAsked = true;
   };

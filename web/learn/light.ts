@@ -10,7 +10,7 @@ const kFrame: Plane = { origin: [300, 125], unit: 80 };
 const kTexel: Plane = { origin: [500, 125], unit: 80 };
 const kCanvas = 120;
 
-/** A direction from its place on a disc: the hemisphere above it. */
+/** Returns the direction in the hemisphere above a point of the unit disc. */
 const onHemisphere = ([x, y]: Vec2): Vec3 => {
   const most = 0.98, size = Math.hypot(x, y), k = size > most ? most / size : 1;
   return [k * x, k * y, Math.sqrt(1 - k * k * size * size)];
@@ -22,7 +22,7 @@ function inverse([a, b, c]: readonly [Vec3, Vec3, Vec3], v: Vec3): Vec3 | null {
   return Math.abs(determinant) < 1e-6 ? null : scale(1 / determinant, [dot(v, cross(b, c)), dot(v, cross(c, a)), dot(v, cross(a, b))]);
 }
 
-/** The normal map of a round bump, as a function of the place on it, -1 to 1. */
+/** Normal map of a round bump, as a function of coordinates from -1 to 1. */
 function bump(x: number, y: number): Vec3 {
   const r = Math.hypot(x, y);
   return r < 0.75 ? unit([0.95 * x, 0.95 * y, Math.sqrt(Math.max(0.05, 0.75 - r * r))]) : [0, 0, 1];
@@ -32,7 +32,7 @@ export function showLight(host: HTMLElement, rows: HTMLElement, canvas: HTMLCanv
   const figure = new Figure(host, 600, 260, "The light, a frame, and a texel");
   const numbers = new Numbers(rows);
   let light: Vec2 = [-0.45, 0.6], turn: Vec2 = [0.8, 0.4], texel: Vec2 = [0.3, 0.35];
-  let edited: [Vec3, Vec3, Vec3] | undefined;  // T, B and N, where they were typed
+  let edited: [Vec3, Vec3, Vec3] | undefined;  // T, B and N, if they were typed in
   const frame = new Matrix(3, 3, "T, B and N in columns", (row, column, value) => {
     const columns = (edited ?? shown).map((v): [number, number, number] => [...v]);
     columns[column]![row] = value;
@@ -45,7 +45,7 @@ export function showLight(host: HTMLElement, rows: HTMLElement, canvas: HTMLCanv
   canvas.width = canvas.height = kCanvas;
   const pixels = canvas.getContext("2d");
 
-  /** The bump on a surface with this frame: each pixel is the dot product of its texel and the light in tangent space. */
+  /** Renders the bump on a surface with this frame: each pixel is the dot product of its texel and the light in tangent space. */
   const shade = (inTangentSpace: Vec3, tangent: Vec3, bitangent: Vec3) => {
     if (!pixels) return;
     const image = pixels.createImageData(kCanvas, kCanvas);
@@ -59,7 +59,7 @@ export function showLight(host: HTMLElement, rows: HTMLElement, canvas: HTMLCanv
   };
 
   figure.show(() => {
-    // A square whose texture is turned: u runs along the handle.
+    // A square with a rotated texture: u increases along the handle.
     const angle = Math.atan2(turn[1], turn[0]), c = Math.cos(angle), s = Math.sin(angle);
     const corners: Vec2[] = [[-1, -1], [1, -1], [1, 1], [-1, 1]];
     const made = generateTangents(
@@ -74,7 +74,7 @@ export function showLight(host: HTMLElement, rows: HTMLElement, canvas: HTMLCanv
     const inSpace = add(add(scale(n[0], tangent), scale(n[1], bitangent)), scale(n[2], normal));
     const color = n.map((v) => Math.round(255 * (0.5 * v + 0.5)));
 
-    for (const [plane, words] of [[kLight, "light"], [kFrame, "turn the texture"], [kTexel, "texel"]] as const) {
+    for (const [plane, words] of [[kLight, "light"], [kFrame, "rotate the texture"], [kTexel, "texel"]] as const) {
       const [cx, cy] = Figure.at(plane, [0, 0]);
       const disc = figure.add("circle", { class: "face", cx, cy, r: plane.unit });
       if (plane === kTexel) disc.setAttribute("style", `fill: rgb(${color.join(",")})`);
@@ -83,7 +83,7 @@ export function showLight(host: HTMLElement, rows: HTMLElement, canvas: HTMLCanv
     figure.arrow(kLight, [0, 0], [l[0], l[1]], "light");
     figure.word(kLight, [0.45 * l[0] + 0.2 * l[1], 0.45 * l[1] - 0.2 * l[0] - 0.05], "L", "light");
     figure.arrow(kFrame, [0, 0], [0.8 * tangent[0], 0.8 * tangent[1]], "tangent");
-    // Beside the arrow, since the handle is at its end.
+    // The label is beside the arrow, because the handle is at its end.
     figure.word(kFrame, [0.45 * tangent[0] + 0.17 * tangent[1], 0.45 * tangent[1] - 0.17 * tangent[0] - 0.05], "T", "tangent");
     figure.arrow(kFrame, [0, 0], [0.8 * bitangent[0], 0.8 * bitangent[1]], "bitangent", "B");
     figure.arrow(kFrame, [0, 0], [0.8 * inSpace[0], 0.8 * inSpace[1]], "normal", "n");
@@ -97,16 +97,16 @@ export function showLight(host: HTMLElement, rows: HTMLElement, canvas: HTMLCanv
     numbers.set("light in tangent space", `l = (T\u00b7L, B\u00b7L, N\u00b7L) = ${tuple(inTangentSpace)}`);
     numbers.set("texel", `rgb(${color.join(", ")}) = (n + 1) / 2, n = ${tuple(n)}`);
     numbers.set("brightness", `max(0, n\u00b7l) = ${text(Math.max(0, one), 3)}`);
-    numbers.set("the other way round", `M n = x T + y B + z N = ${tuple(inSpace)}, and its dot product with L is ${text(Math.max(0, other), 3)} as well`);
+    numbers.set("in object space", `M n = x T + y B + z N = ${tuple(inSpace)}, and its dot product with L is ${text(Math.max(0, other), 3)} as well`);
     const fromSpace = inverse(shown, l);
     const isRight = [length(tangent), length(bitangent), length(normal)].every((size) => Math.abs(size - 1) < 0.02)
       && [dot(tangent, bitangent), dot(bitangent, normal), dot(normal, tangent)].every((cosine) => Math.abs(cosine) < 0.02);
-    numbers.set("the matrix", isRight ? "its columns are unit and at right angles, so its transpose is its inverse, and M n is unit"
-      : `its columns are no longer unit and at right angles. Both ways still agree, but M\u1d40L is not the light in tangent space: ${fromSpace ? `M\u207b\u00b9L = ${tuple(fromSpace)} is` : "M has no inverse"}. M n has length ${text(length(inSpace))}, and a shader that normalizes it shades ${text(Math.max(0, dot(l, unit(inSpace))), 3)}, not ${text(Math.max(0, one), 3)}`);
+    numbers.set("the matrix", isRight ? "its columns are orthonormal, so its transpose is its inverse, and M n is a unit vector"
+      : `its columns are no longer orthonormal. Both results are still equal, but M\u1d40L is not the light in tangent space: ${fromSpace ? `M\u207b\u00b9L = ${tuple(fromSpace)} is` : "M has no inverse"}. M n has length ${text(length(inSpace))}, and a shader that normalizes it computes the brightness ${text(Math.max(0, dot(l, unit(inSpace))), 3)}, not ${text(Math.max(0, one), 3)}`);
   });
   const disc: [Vec2, Vec2] = [[-1, 1], [-1, 1]];
   figure.handle(kLight, "the light", () => onHemisphere(light).slice(0, 2) as unknown as Vec2, (to) => (light = to), disc, "light");
-  figure.handle(kFrame, "how the texture is turned", () => {
+  figure.handle(kFrame, "rotation of the texture", () => {
     const size = Math.hypot(...turn) || 1;
     return [turn[0] / size, turn[1] / size];
   }, (to) => {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The lesson: nine figures and a picture, made when the library is there.
+// The lesson: nine figures and a picture, created when the library is loaded.
 
 import { ready } from "tspace";
 import { showAcross } from "./across";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Figure 8: where methods differ, against the true surface.
+// Figure 8: tangents of several methods, compared with the true surface.
 
 import { generateTangents, type TangentOptions } from "tspace";
 import { Figure, type Plane } from "./figure";
@@ -7,16 +7,16 @@ import { bevel, mirrored, sheet, type Surface } from "./surfaces";
 import { add, angle, scale, sub, text, unit, type Vec2, type Vec3 } from "./vector";
 
 const kMethods = ["lengyel", "angle", "mikktspace", "best"] as const satisfies readonly TangentOptions["method"][];
-/** The middle of the surface of each method, what it may fill, and where the name of the method stands above its arrows. */
+/** Center and maximum size of each method's surface, and position of the method's name above its arrows. */
 const kPanels = { lengyel: [122, 106], angle: [368, 106], mikktspace: [122, 286], best: [368, 286] } as const satisfies Record<string, Vec2>;
 const kPanel: Vec2 = [228, 112], kName = 88;
 const kPad: Plane = { origin: [547, 186], unit: 42 };
-/** Length of an arrow, and the least distance between two vertices that have one, so that no two arrows meet. */
+/** Length of an arrow, and minimum distance of two vertices with arrows, so that arrows do not overlap. */
 const kArrow = 24, kApart = 27;
 const kSurfaces = { sheet, bevel, mirrored };
 export type SurfaceName = keyof typeof kSurfaces;
 
-/** From the side and above, without perspective. */
+/** Oblique view from above, without perspective. */
 const project = ([x, y, z]: Vec3): Vec2 => [0.86 * x - 0.5 * y, 0.28 * x + 0.42 * y + 0.8 * z];
 
 const flatten = (values: readonly (readonly number[])[]) => new Float32Array(values.flat());
@@ -46,7 +46,7 @@ export function showMethods(host: HTMLElement, table: HTMLTableSectionElement, c
     const surface = kSurfaces[name()](at[name()]), points = surface.positions.map(project);
     const low = [0, 1].map((k) => Math.min(...points.map((p) => p[k]!))), high = [0, 1].map((k) => Math.max(...points.map((p) => p[k]!)));
     const unitLength = Math.min(...[0, 1].map((k) => kPanel[k]! / (high[k]! - low[k]!)));
-    // One arrow a vertex and side of the surface; vertices near one that has arrows already have none.
+    // One arrow per vertex and side of the surface; vertices close to a vertex with arrows get none.
     const drawn = new Map<string, number>();
     for (const corner of surface.watched) {
       const vertex = surface.indices[corner]!, key = vertex + (surface.truth[corner]![0] > 0 ? "+" : "-");
@@ -61,7 +61,7 @@ export function showMethods(host: HTMLElement, table: HTMLTableSectionElement, c
       const made = tangentsOf(surface, method);
       for (const corner of drawn.values()) {
         const truth = surface.truth[corner]!, from = points[surface.indices[corner]!]!;
-        // All true tangents are drawn alike, however the view shortens them.
+        // All true tangents are drawn with the same length, although the view shortens them.
         const size = kArrow / unitLength / Math.max(0.3, Math.hypot(...project(truth)));
         for (const [v, kind] of [[truth, "truth"], [unit(add(truth, scale(surface.enlarged, sub(made[corner]!, truth)))), `method ${method}`]] as const) {
           const [stepX, stepY] = project(v);

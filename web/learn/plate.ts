@@ -5,7 +5,7 @@ import { unit, type Vec3 } from "./vector";
 
 const kSize = 256;
 
-/** How high the painted surface is: a plate with a rim, four bolts and a groove. */
+/** Returns the height of the surface: a plate with a rim, four bolts and a groove. */
 function height(u: number, v: number): number {
   const rise = (x: number, width: number) => Math.min(1, Math.max(0, x / width + 0.5));
   const plate = rise(Math.min(u - 0.1, 0.9 - u, v - 0.1, 0.9 - v), 0.04);
@@ -16,7 +16,7 @@ function height(u: number, v: number): number {
   return at - 0.05 * Math.max(0, 1 - Math.abs(Math.hypot(u - 0.5, v - 0.5) - 0.2) / 0.035);
 }
 
-/** The normal of that height, along u, v and out of the surface. */
+/** Returns the normal of this height field; its components are along u, v and the surface normal. */
 function normalAt(u: number, v: number): Vec3 {
   const step = 0.004, slope = (a: number, b: number) => (a - b) / (2 * step);
   return unit([-slope(height(u + step, v), height(u - step, v)), -slope(height(u, v + step), height(u, v - step)), 1]);
@@ -24,7 +24,7 @@ function normalAt(u: number, v: number): Vec3 {
 
 let texels: Vec3[] | undefined;
 
-/** The texel there; the map repeats. */
+/** Returns the texel at a UV; the map repeats. */
 export function texelAt(u: number, v: number): Vec3 {
   texels ??= Array.from({ length: kSize * kSize }, (_, i) => normalAt(((i % kSize) + 0.5) / kSize, (Math.floor(i / kSize) + 0.5) / kSize));
   const column = Math.floor((u - Math.floor(u)) * kSize), row = Math.floor((v - Math.floor(v)) * kSize);
@@ -33,10 +33,10 @@ export function texelAt(u: number, v: number): Vec3 {
 
 export const colorOf = (n: Vec3): number[] => n.map((x) => Math.round(255 * (0.5 * x + 0.5)));
 
-/** The gray of a lit surface: a little light from everywhere, and the lamp's by Lambert's law. */
+/** Returns the gray level of a lit surface: ambient light, and Lambert's law for the lamp. */
 export const grayOf = (cosine: number): number => Math.round(255 * Math.sqrt(0.03 + 0.92 * Math.max(0, cosine)));
 
-/** Pixels as the address of an image; `at` gets where they are, from 0 to 1, y up. Nothing (null) is left clear. */
+/** Returns a picture as a data URL. `at` receives positions from 0 to 1, y up, and returns a color, or null for a transparent pixel. */
 export function picture(width: number, height: number, at: (x: number, y: number) => readonly number[] | null): string {
   const canvas = document.createElement("canvas");
   canvas.width = width;

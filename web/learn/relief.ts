@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Figure 1: a normal map, and what becomes of its light when T does not follow u, or green points down.
+// Figure 1: a normal map, and its lighting if T does not follow u or green points down.
 
 import { Figure, Numbers, type Plane } from "./figure";
 import { colorOf, grayOf, picture, texelAt } from "./plate";
@@ -44,15 +44,15 @@ export function showRelief(host: HTMLElement, rows: HTMLElement, green: HTMLInpu
     numbers.set("in space", `x T + y B + z N = ${tuple(turned(n))}`);
     numbers.set("brightness", `its dot product with the light ${tuple(l)} is ${text(Math.max(0, dot(turned(n), l)), 2)}`);
     const degrees = Math.round((a * 180) / Math.PI);
-    numbers.set("what one sees", green.checked && Math.abs(degrees) < 10 ? "up and down are exchanged: bolts are lit from below, as holes would be"
-      : Math.abs(degrees) < 10 ? "bolts stand out and the groove lies deep: T points where u grows"
-      : Math.abs(degrees) > 135 && !green.checked ? "all is turned round: bolts are holes"
-      : `light seems to come from ${Math.abs(degrees)} degrees beside where it is`);
+    numbers.set("effect", green.checked && Math.abs(degrees) < 10 ? "bolts are lit from below and look like holes"
+      : Math.abs(degrees) < 10 ? "bolts stand out and the groove is deep: T points along increasing u"
+      : Math.abs(degrees) > 135 && !green.checked ? "everything is reversed: bolts look like holes"
+      : `the light seems to come from a direction that is ${Math.abs(degrees)} degrees off`);
   });
   const disc: [Vec2, Vec2] = [[-1, 1], [-1, 1]];
-  figure.handle(kMap, "the texel that is read", () => place, (to) => (place = to), [[0.02, 0.98], [0.02, 0.98]]);
-  figure.handle(kLight, "where the light of the map is", () => light, (to) => (light = Math.hypot(...to) > 0.95 ? [to[0] / Math.hypot(...to) * 0.95, to[1] / Math.hypot(...to) * 0.95] : to), disc, "light");
-  figure.handle(kFrame, "where T points", () => {
+  figure.handle(kMap, "sampled texel", () => place, (to) => (place = to), [[0.02, 0.98], [0.02, 0.98]]);
+  figure.handle(kLight, "light direction", () => light, (to) => (light = Math.hypot(...to) > 0.95 ? [to[0] / Math.hypot(...to) * 0.95, to[1] / Math.hypot(...to) * 0.95] : to), disc, "light");
+  figure.handle(kFrame, "direction of T", () => {
     const size = Math.hypot(...turn) || 1;
     return [turn[0] / size, turn[1] / size];
   }, (to) => (turn = Math.hypot(...to) > 0.05 ? to : turn), disc, "tangent");

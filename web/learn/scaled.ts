@@ -29,19 +29,19 @@ export function showScale(host: HTMLElement, rows: HTMLElement) {
     arrow(kModel, n, t, "tangent", "T");
     arrow(kModel, n, n, "normal", "N");
     arrow(kScaled, place, moved, "tangent", "T");
-    // Where both normals nearly agree, one arrow and one letter are enough.
+    // If both normals are nearly equal, only one arrow and one letter are drawn.
     if (angle(wrong, right) > 12) arrow(kScaled, place, wrong, "part", "M N");
     arrow(kScaled, place, right, "normal", "N");
 
     const steeper = length(moved) / length(right);
-    numbers.set("the matrix", `M = diag(${text(sx)}, ${text(sy)}), the third axis stays; determinant ${text(sx * sy)}`);
+    numbers.set("the matrix", `M = diag(${text(sx)}, ${text(sy)}), the third axis is unchanged; determinant ${text(sx * sy)}`);
     numbers.set("T", `M T = ${tuple(moved.slice(0, 2))}, of length ${text(length(moved))}`);
     numbers.set("N by M", `${tuple(wrong.slice(0, 2))}, at ${text(angle(wrong, moved), 1)} degrees to the surface`);
     numbers.set("N by the inverse transpose", `${tuple(right.slice(0, 2))}, of length ${text(length(right))}, at ${text(angle(right, moved), 1)} degrees to the surface`);
     numbers.set("without normalizing", `|M T| / |M\u207b\u1d40N| = ${text(steeper)}: relief along T is drawn ${text(steeper)} times as steep`);
-    numbers.set("which means", sx * sy < 0 ? "the node mirrors: cross(N, T) points the other way, so B = \u2212sign \u00b7 cross(N, T)" : "the node does not mirror: B = sign \u00b7 cross(N, T)");
+    numbers.set("meaning", sx * sy < 0 ? "the node mirrors: cross(N, T) is reversed, so B = \u2212sign \u00b7 cross(N, T)" : "the node does not mirror: B = sign \u00b7 cross(N, T)");
   });
-  figure.handle(kScaled, "how the node scales", () => [factors[0], -factors[1]], ([x, y]) => {
+  figure.handle(kScaled, "scale of the node", () => [factors[0], -factors[1]], ([x, y]) => {
     const least = 0.3;
     factors = [Math.abs(x) < least ? (x < factors[0] && factors[0] > 0 ? -least : least) : x, Math.max(least, -y)];
   }, [[-1.8, 1.8], [-1.5, -0.3]]);

@@ -12,13 +12,13 @@ const kLight = unit([-0.5, 0.6, 0.6]);
 const kHeight = 150;
 
 export function showSeam(host: HTMLElement, rows: HTMLElement, shared: HTMLInputElement) {
-  const figure = new Figure(host, 600, 275, "Two squares that share an edge, and how the texture of the right one is turned");
+  const figure = new Figure(host, 600, 275, "Two squares that share an edge, and the rotation of the texture on the right one");
   const numbers = new Numbers(rows);
   let turn: Vec2 = [0.2, 1];  // direction of u on the right square
 
   figure.show(() => {
     const a = Math.atan2(turn[1], turn[0]), c = Math.cos(a), s = Math.sin(a);
-    // On the right square the texture is turned about its middle: (x, y) there is at this (u, v).
+    // Returns the UV of (x, y) on the right square, where the texture is rotated about its center.
     const turned = ([x, y]: Vec2): Vec2 => [c * (x - 1.5) + s * (y - 0.5) + 0.5, c * (y - 0.5) - s * (x - 1.5) + 0.5];
     const corners: Vec2[] = [[0, 0], [1, 0], [1, 1], [0, 1], [1, 0], [2, 0], [2, 1], [1, 1]];
     const uvs = corners.map((corner, i) => (i < 4 ? corner : turned(corner)));
@@ -52,13 +52,13 @@ export function showSeam(host: HTMLElement, rows: HTMLElement, shared: HTMLInput
 
     const degrees = angle(left, right);
     numbers.set("T at the seam", `left ${tuple(left.slice(0, 2))}, right ${tuple(right.slice(0, 2))}: ${text(degrees, 0)} degrees apart`);
-    numbers.set("vertices", shared.checked ? "6: the two of the seam are shared, and have one T each" : "8: the two of the seam are there twice, each time with its own UV and its own T");
-    numbers.set("T that is stored", shared.checked ? (one[0] === 0 && one[1] === 0 ? "none: the two cancel each other" : `the mean ${tuple(one.slice(0, 2))}, ${text(degrees / 2, 0)} degrees from both`) : "that of each side");
-    numbers.set("which means", degrees < 1 ? "the texture runs on over the edge: nothing has to be split"
-      : shared.checked ? "light is wrong beside the seam, most of all at it, and right far from it: the band that one sees on models whose exporter averaged"
-      : "a vertex is position, normal, UV and tangent: where one of them jumps there are two. So models have more vertices than points");
+    numbers.set("vertices", shared.checked ? "6: the two seam vertices are shared, with one T each" : "8: the two seam vertices exist twice, with separate UVs and tangents");
+    numbers.set("stored T", shared.checked ? (one[0] === 0 && one[1] === 0 ? "none: the two cancel" : `the mean ${tuple(one.slice(0, 2))}, ${text(degrees / 2, 0)} degrees from both`) : "that of each side");
+    numbers.set("meaning", degrees < 1 ? "the texture is continuous across the edge: no split is needed"
+      : shared.checked ? "the lighting is wrong beside the seam, most at the seam itself, and correct far from it: the visible band on models whose exporter averaged tangents"
+      : "a vertex consists of position, normal, UV and tangent: where one of them is discontinuous, two vertices are needed. So models have more vertices than points");
   });
-  figure.handle(kUv, "where u runs on the right square", () => {
+  figure.handle(kUv, "direction of u on the right square", () => {
     const size = Math.hypot(...turn) || 1;
     return [turn[0] / size, turn[1] / size];
   }, (to) => (turn = Math.hypot(...to) > 0.05 ? to : turn), [[-1, 1], [-1, 1]], "tangent");

@@ -9,18 +9,18 @@ export interface Surface {
   normals: Vec3[];
   uvs: Vec2[];
   indices: number[];
-  /** dP/du of the surface, unit and across the normal, per corner. */
+  /** Unit tangent along dP/du, perpendicular to the normal, per corner. */
   truth: Vec3[];
-  /** Corners that are compared. */
+  /** Corners to compare. */
   watched: number[];
   words: string;
-  /** How many times as large as they are errors are drawn. */
+  /** Factor by which errors are enlarged in the drawing. */
   enlarged: number;
 }
 
 const kSize = 6;
 
-/** Two triangles for each cell of a grid of columns times rows. */
+/** Returns two triangles per cell of a grid of columns times rows. */
 function gridIndices(columns: number, rows: number): number[] {
   const indices: number[] = [];
   for (let y = 0; y < rows; ++y) {
@@ -63,12 +63,12 @@ export function sheet([mx, my]: Vec2): Surface {
   return made;
 }
 
-/** An edge of a box, bevelled by one strip. Normals are those of the large faces, as game models have them. */
+/** A box edge with a bevel of one strip. Normals are those of the large faces, as is common in game models. */
 export function bevel([lean, width]: Vec2): Surface {
-  const made: Surface = { positions: [], normals: [], uvs: [], indices: [], truth: [], watched: [], words: "a bevelled edge, a turned texture", enlarged: 3 };
+  const made: Surface = { positions: [], normals: [], uvs: [], indices: [], truth: [], watched: [], words: "a beveled edge with a rotated texture", enlarged: 3 };
   const w = 0.08 + 0.3 * Math.abs(width), turn = lean * 1.2;
   const c = Math.cos(turn), s = Math.sin(turn), strip = w * Math.SQRT2;
-  // Profile: the top, the strip, the side; `along` is the way over the surface, which the texture follows.
+  // Profile: top, strip, side. `along` is the arc length, which the texture follows.
   const profile = [
     { at: [-1, 0.5], normal: [0, 0, 1], forward: [1, 0, 0], along: -1 }, { at: [0, 0.5], normal: [0, 0, 1], forward: [1, 0, 0], along: 0 },
     { at: [w, 0.5 - w], normal: [1, 0, 0], forward: [0, 0, -1], along: strip }, { at: [w, -0.7], normal: [1, 0, 0], forward: [0, 0, -1], along: strip + 1.2 - w },
@@ -81,7 +81,7 @@ export function bevel([lean, width]: Vec2): Surface {
       made.positions.push([at[0], y, at[1]]);
       made.normals.push([...normal]);
       made.uvs.push([c * along + s * y, c * y - s * along]);
-      // u grows with c times the way over the surface and s times y.
+      // u = c * arc length + s * y.
       truth.push(unit([c * forward[0], s, c * forward[2]]));
     }
   }

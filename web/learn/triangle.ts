@@ -20,7 +20,7 @@ export function showTriangle(host: HTMLElement, rows: HTMLElement, system: HTMLE
     uvs: uvs as unknown as Triangle["uvs"],
   });
 
-  /** Moves the corner that an edge ends at; what would lie outside of the drawing ends at its border. */
+  /** Moves the corner at the end of an edge; positions are limited to the drawing. */
   const edit = (corners: Vec2[]) => (row: number, column: number, value: number) => {
     const to = [...corners[1 + row]!] as [number, number];
     to[column] = Math.min(1, Math.max(0, corners[0]![column]! + value));
@@ -30,7 +30,7 @@ export function showTriangle(host: HTMLElement, rows: HTMLElement, system: HTMLE
   const inTexture = new Matrix(2, 2, "edges in the texture", edit(uvs)), slopes = new Matrix(2, 2, "T and B"), inSpace = new Matrix(2, 2, "edges in space", edit(points));
   system.append(inTexture.element, slopes.element, " = ", inSpace.element);
 
-  /** Lines of the texture on the triangle: what the map does to squares. */
+  /** Grid lines of the texture on the triangle. */
   const drawGrid = (tangent: Vec3, bitangent: Vec3) => {
     const clip = figure.add("clipPath", { id: "inside" });
     clip.append(figure.polygon(kSpace, points, ""));
@@ -53,7 +53,7 @@ export function showTriangle(host: HTMLElement, rows: HTMLElement, system: HTMLE
     figure.polygon(kSpace, points, `face ${side}`);
     drawGrid(d.tangent, d.bitangent);
     figure.word(kUv, [0.5, -0.1], "texture, v up");
-    figure.word(kSpace, [0.5, -0.1], "space: N points at you");
+    figure.word(kSpace, [0.5, -0.1], "object space: N points toward you");
     uvs.forEach((uv, i) => figure.word(kUv, [uv[0], uv[1] + 0.1], names[i]!));
     points.forEach((point, i) => figure.word(kSpace, [point[0], point[1] + 0.1], names[i]!));
 
@@ -74,12 +74,12 @@ export function showTriangle(host: HTMLElement, rows: HTMLElement, system: HTMLE
     slopes.show([d.tangent, d.bitangent], (value) => (isFlat ? "?" : text(value)));
     numbers.set("edges in the texture", `(s\u2081, t\u2081) = ${tuple([d.s1, d.t1])}   (s\u2082, t\u2082) = ${tuple([d.s2, d.t2])}`);
     numbers.set("determinant", `d = s\u2081 t\u2082 \u2212 s\u2082 t\u2081 = ${text(d.determinant, 3)}`);
-    numbers.set("dP/du", `(t\u2082 E\u2081 \u2212 t\u2081 E\u2082) / d = ${isFlat ? "nothing to divide by" : tuple(d.tangent.slice(0, 2))}`);
-    numbers.set("dP/dv", `(s\u2081 E\u2082 \u2212 s\u2082 E\u2081) / d = ${isFlat ? "nothing to divide by" : tuple(d.bitangent.slice(0, 2))}`);
+    numbers.set("dP/du", `(t\u2082 E\u2081 \u2212 t\u2081 E\u2082) / d = ${isFlat ? "undefined (division by 0)" : tuple(d.tangent.slice(0, 2))}`);
+    numbers.set("dP/dv", `(s\u2081 E\u2082 \u2212 s\u2082 E\u2081) / d = ${isFlat ? "undefined (division by 0)" : tuple(d.bitangent.slice(0, 2))}`);
     numbers.set("the library", `T = ${tuple([x, y, made[2]!])}   sign = ${sign > 0 ? "+1" : "\u22121"}`);
-    numbers.set("which means", Math.abs(d.determinant) < 1e-3
-      ? "the triangle has (nearly) no area in the texture: u and v do not tell its directions apart, and there is no dP/du"
-      : d.determinant < 0 ? "the texture lies mirrored on the triangle: B = \u2212cross(N, T)" : "the texture lies on it as it is: B = cross(N, T)");
+    numbers.set("meaning", Math.abs(d.determinant) < 1e-3
+      ? "the triangle has (nearly) no UV area: u and v do not define two directions on it, so dP/du does not exist"
+      : d.determinant < 0 ? "the texture is mirrored on the triangle: B = \u2212cross(N, T)" : "the texture is not mirrored: B = cross(N, T)");
   });
   const bounds: [Vec2, Vec2] = [[0, 1], [0, 1]];
   uvs.forEach((_, i) => figure.handle(kUv, `UV of corner ${i}`, () => uvs[i]!, (to) => (uvs[i] = to), bounds));

@@ -12,13 +12,13 @@ export const cross = (a: Vec3, b: Vec3): Vec3 => [a[1] * b[2] - a[2] * b[1], a[2
 export const length = (a: Vec3): number => Math.sqrt(dot(a, a));
 export const unit = (a: Vec3): Vec3 => (length(a) > 0 ? scale(1 / length(a), a) : a);
 
-/** In degrees; exact for small angles too. */
+/** Returns the angle in degrees, accurate for small angles too. */
 export const angle = (a: Vec3, b: Vec3): number => (Math.atan2(length(cross(a, b)), dot(a, b)) * 180) / Math.PI;
 
-/** `v` without its part along the unit vector `n`. */
+/** Returns `v` minus its component along the unit vector `n`. */
 export const across = (v: Vec3, n: Vec3): Vec3 => sub(v, scale(dot(v, n), n));
 
-/** The three corners of a triangle: where they are, and where in the texture. */
+/** The three corners of a triangle: positions and UVs. */
 export interface Triangle {
   positions: readonly [Vec3, Vec3, Vec3];
   uvs: readonly [Vec2, Vec2, Vec2];
@@ -37,7 +37,7 @@ export function derivatives({ positions: [p0, p1, p2], uvs: [a, b, c] }: Triangl
   };
 }
 
-/** A number with two digits behind the point, as wide with a minus as without. */
+/** Formats a number with two decimal places; the width does not depend on the sign. */
 export const text = (value: number, digits = 2): string => {
   const rounded = Object.is(Math.round(value * 10 ** digits), -0) || Math.abs(value) < 0.5 * 10 ** -digits ? 0 : value;
   return rounded.toFixed(digits).replace("-", "\u2212");

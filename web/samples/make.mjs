@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// node make.mjs CRATE.glb FOLDER: the samples of the page, from the crate of examples/ and from nothing.
-// CRATE.glb is what tspace_demo_model writes, with small textures and without tangents.
+// node make.mjs CRATE.glb FOLDER: writes the samples of the page. CRATE.glb is the output of tspace_demo_model, with small
+// textures and without tangents; other models are generated.
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { makeIndexedFrames, ready } from "tspace";
@@ -10,7 +10,7 @@ import { png } from "./png.mjs";
 const [, , cratePath, folder] = process.argv;
 const kRingSize = 256;
 
-/** JSON and binary chunk of a GLB that we wrote ourselves. */
+/** Returns the JSON and the binary chunk of a GLB that this script's programs wrote. */
 function readGlb(bytes) {
   const length = bytes.readUInt32LE(12);
   return { json: JSON.parse(bytes.toString("utf8", 20, 20 + length)), binary: bytes.subarray(28 + length) };
@@ -54,7 +54,7 @@ function makeCrate(source) {
   return builder.finish({ scene, scenes, nodes, materials, textures, samplers, images, meshes: [{ name: "crate", primitives: [{ attributes: made, indices: index, material: 0 }] }] }, "tspace samples");
 }
 
-/** Bricks with rounded edges and a stud in each: heights of a place of the texture, 0 to 1 both ways, tiling. */
+/** Returns the height of tiling bricks with rounded edges and a stud each, at UVs from 0 to 1. */
 function brickHeight(u, v) {
   const rows = 4, columns = 4, row = Math.floor(v * rows);
   const x = (u * columns + 0.5 * (row % 2)) % 1, y = (v * rows) % 1;
@@ -64,7 +64,7 @@ function brickHeight(u, v) {
   return 0.02 * brick + 0.012 * Math.sqrt(stud);
 }
 
-/** The normal map of the bricks as DirectX has it: green is larger where the surface falls towards the bottom row. */
+/** Normal map of the bricks in the DirectX convention (green points down). */
 function ringNormal(x, y) {
   const e = 1 / kRingSize, u = (x + 0.5) * e, v = (y + 0.5) * e;
   const slopeU = (brickHeight((u + e) % 1, v) - brickHeight((u - e + 1) % 1, v)) / (2 * e);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes the pictures of the samples with a built page and Chromium, as the file is on the left and right on the right. From the folder
+// Renders the pictures of the samples with a built page and Chromium: the file's tangents on the left, correct tangents on the right. From the folder
 // build/web/project: TSPACE_PAGE=../view.html node samples/pictures.mjs FOLDER
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Images out of nothing.
+// Generates PNG images.
 import { encode } from "fast-png";
 
-/** A square PNG, 8 bits, RGB: texel(x, y) gives three numbers. */
+/** Returns a square PNG with 8-bit RGB; texel(x, y) returns three numbers. */
 export function png(size, texel) {
   const data = new Uint8Array(3 * size * size);
   for (let y = 0; y < size; ++y) {

@@ -47,7 +47,7 @@ export interface Reports {
 
 const sentenceOf = (error: unknown): string => (error instanceof Error ? error.message : String(error));
 /** Returns a sentence about referenced files that are missing. */
-const lacking = (missing: string[]): string => `It names files that are not here: ${missing.slice(0, 8).join(", ")}${missing.length > 8 ? ` and ${missing.length - 8} more` : ""}. Drop them, too.`;
+const lacking = (missing: string[]): string => `The model references files that were not dropped: ${missing.slice(0, 8).join(", ")}${missing.length > 8 ? ` and ${missing.length - 8} more` : ""}. Drop them together with the model.`;
 
 /**
  * Returns whether an error is a fault of the page. Errors of the library, the loader, the page's own readers and the
@@ -57,12 +57,12 @@ const isPageFault = (error: unknown): boolean => !(error instanceof LoaderError 
 
 /** Returns why there is no picture. Only errors of the loader of three.js are attributed to the file. */
 function plainly(error: unknown): string {
-  if (isPageFault(error)) return `this page failed, which need not be the fault of the file (${String(error)}). The findings do not depend on the picture.`;
+  if (isPageFault(error)) return `this page failed with an internal error (${String(error)}), which does not mean that the file is damaged. The findings do not depend on the picture.`;
   const text = sentenceOf(error).replace(/^THREE\.\w+: /, "");
   if (/Unsupported asset|Legacy binary/.test(text)) return "its version of glTF is older than 2.0.";
   if (/^Failed to load buffer/.test(text)) return "a file with its geometry is missing.";
-  if (/Invalid typed array length|out of (the )?bounds|offset|RangeError|length of/i.test(text)) return "an array of the file ends before it should.";
-  if (/Cannot read propert|is not iterable|is undefined|is not a function/.test(text)) return "the file names something that is not in it.";
+  if (/Invalid typed array length|out of (the )?bounds|offset|RangeError|length of/i.test(text)) return "an array of the file is shorter than the file declares.";
+  if (/Cannot read propert|is not iterable|is undefined|is not a function/.test(text)) return "the file references an object that it does not contain.";
   return text;
 }
 /** Initial viewing direction for a lone normal map: almost perpendicular. */
@@ -191,7 +191,7 @@ export class App {
       opened(model, before);
       if (!read) await this.#inspect(model, isCurrent);
       if (!isCurrent()) return;
-      this.#remarks = isObj ? ["An OBJ is shown and judged as the GLB that it becomes."] : isMap ? ["The normal map is shown on a flat surface. Drag the light."] : [];
+      this.#remarks = isObj ? ["OBJ files are converted to GLB, which is what you see and what is checked."] : isMap ? ["The normal map is shown on a flat surface. Drag the light."] : [];
       if (missing.length > 0) this.#remarks.push(lacking(missing));
       await this.#draw(model, isCurrent, { read });
       if (!isCurrent()) return;
@@ -200,7 +200,7 @@ export class App {
     } catch (error) {
       if (!isCurrent()) return;
       if (error instanceof WorkError && error.code === "stopped") return this.#stopped();
-      const sentence = isPageFault(error) ? `This page failed, which need not be the fault of the file (${String(error)}).` : error instanceof DOMException ? `This file cannot be read: ${sentenceOf(error)}` : sentenceOf(error);
+      const sentence = isPageFault(error) ? `This page failed with an internal error (${String(error)}), which does not mean that the file is damaged.` : error instanceof DOMException ? `This file cannot be read: ${sentenceOf(error)}` : sentenceOf(error);
       this.fail(missing.length > 0 ? `${lacking(missing)} (${sentence})` : sentence);
     }
   }
@@ -221,7 +221,7 @@ export class App {
 
   #stopped(): void {
     this.views.progress.done("Stopped.");
-    if (!this.reports.check) this.views.findings.wait("Stopped before the findings were there.");
+    if (!this.reports.check) this.views.findings.wait("Stopped before the check was complete.");
     this.#state("stopped");
   }
 
@@ -265,14 +265,14 @@ export class App {
         if (triangleCount(part.arrays) === 0) continue;
         const corners = await this.work.run("corners", { part: i, arrays: copyOf(part.arrays) }).catch((error: WorkError) => {
           if (error.code === "stopped") throw error;
-          remarks.push(`A part is not drawn: ${error.message}.`);
+          remarks.push(`A part of the model cannot be drawn: ${error.message}.`);
           return null;
         });
         if (!isCurrent()) return;
         if (corners) scene.add(i, part, corners);
         progress.at("Drawing", 0.1 + (0.2 * (i + 1)) / parts.length);
       }
-      if (!stage.viewport.hasPicture) remarks.unshift("This browser has no WebGL, so there is no picture. Findings and fixes still work.");
+      if (!stage.viewport.hasPicture) remarks.unshift("This browser does not support WebGL, so there is no picture. Findings and fixes still work.");
       stage.viewport.show(scene);
       if (!isOther) {
         stage.viewport.setHome(model.loneMap && kMapDirection);
@@ -283,7 +283,7 @@ export class App {
       this.views.parts.reset(tree);
       this.views.motion.reset(motion);
       this.views.look.showLines();
-      if (scene.drawn.length === 0) remarks.push("There is nothing to draw in this file.");
+      if (scene.drawn.length === 0) remarks.push("This file contains nothing that can be drawn.");
       stage.say(remarks.join(" "));
       document.documentElement.dataset.picture = !stage.viewport.hasPicture ? "none" : scene.drawn.length > 0 ? "drawn" : "empty";
     } catch (error) {
@@ -304,7 +304,7 @@ export class App {
     this.views.checked(check);
     this.#turnGreen(check);
     if (!model.loneMap) {
-      progress.at("Comparing the tangents with those of known tools", 0.8);
+      progress.at("Comparing the tangents with those of known methods", 0.8);
       this.reports.identify = await this.work.run("report", { verb: "identify", model });
       if (!isCurrent()) return;
     }

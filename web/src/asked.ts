@@ -30,10 +30,10 @@ async function bytesAt(url: URL): Promise<Uint8Array<ArrayBuffer>> {
   try {
     answer = await fetch(url, { credentials: "omit", referrerPolicy: "no-referrer" });
   } catch {
-    throw new Refusal(`${url.host} did not give ${nameOf(url)}: it cannot be reached, sends to another server, or does not let other pages read its files (CORS). Download the file and drop it here.`);
+    throw new Refusal(`${nameOf(url)} could not be loaded from ${url.host}: the server is unreachable, redirects to another server, or does not allow other pages to read its files (CORS). Download the file and drop it here.`);
   }
-  if (!answer.ok) throw new Refusal(`${url.host} has no ${nameOf(url)}: it answered ${answer.status}.`);
-  if (Number(answer.headers.get("content-length") ?? 0) > kMostBytes) throw new Refusal(`${nameOf(url)} is too large for this page, which reads models of up to 1 GB.`);
+  if (!answer.ok) throw new Refusal(`${nameOf(url)} could not be loaded from ${url.host}: the server responded with status ${answer.status}.`);
+  if (Number(answer.headers.get("content-length") ?? 0) > kMostBytes) throw new Refusal(`${nameOf(url)} is too large for this page, which supports models of up to 1 GB.`);
   return new Uint8Array(await answer.arrayBuffer());
 }
 
@@ -56,9 +56,9 @@ export async function filesAt(url: URL): Promise<Named[]> {
 /** Returns a bar that names the server to be contacted, and waits for a click. */
 export function askFirst(url: URL, load: () => void): HTMLElement {
   const bar: HTMLElement = el("section", { class: "asked", "aria-label": "A model on a server" },
-    el("p", {}, "The address of this page names a model: ", el("strong", {}, nameOf(url)), " on ", el("strong", {}, url.host), `. Nothing has been asked for yet. Loading it tells ${url.host} your network address, as any download does; what the page finds stays here.`),
+    el("p", {}, "The address of this page contains a link to a model: ", el("strong", {}, nameOf(url)), " on ", el("strong", {}, url.host), `. Nothing has been downloaded yet. Like any download, loading it reveals your network address to ${url.host}. The results stay in this browser.`),
     el("div", { class: "row" },
       el("button", { type: "button", class: "main", onclick: () => (bar.remove(), load()) }, `Load it from ${url.host}`),
-      el("button", { type: "button", onclick: () => bar.remove() }, "Leave it")));
+      el("button", { type: "button", onclick: () => bar.remove() }, "Do not load it")));
   return bar;
 }

@@ -83,7 +83,7 @@ export async function droppedFiles(data: DataTransfer): Promise<Named[]> {
     if (!one) continue;
     if ("file" in one) found.push(one);
     else waiting.push(...(await contentsOf(one)));
-    if (found.length > kMostFiles) throw new Refusal(`These are more than ${kMostFiles} files. Drop the folder of one model.`);
+    if (found.length > kMostFiles) throw new Refusal(`More than ${kMostFiles} files were dropped. Drop the folder of a single model.`);
   }
   return found;
 }
@@ -103,9 +103,9 @@ async function unpacked({ path, file }: Named): Promise<Named[]> {
       },
     });
   } catch (error) {
-    throw new Refusal(`${path} is no zip file that can be read: ${(error as Error).message}.`);
+    throw new Refusal(`${path} is not a readable zip file: ${(error as Error).message}.`);
   }
-  if (files > kMostFiles || bytes > kMostBytes) throw new Refusal(`${path} holds more than ${kMostFiles} files, or more than 1 GB.`);
+  if (files > kMostFiles || bytes > kMostBytes) throw new Refusal(`${path} contains more than ${kMostFiles} files or more than 1 GB.`);
   const folder = path.replace(/\.zip$/i, "");
   return Object.entries(entries).map(([name, content]) => ({
     path: `${folder}/${name}`,
@@ -156,13 +156,13 @@ export function missingFiles({ name, bytes, others }: ModelFiles): string[] {
 
 /** Returns the chosen model, or the first one, with all files that it may reference. */
 export async function chooseModel(named: Named[], chosen?: string): Promise<ModelFiles> {
-  if (named.length > kMostFiles) throw new Refusal(`These are more than ${kMostFiles} files. Choose the folder of one model.`);
+  if (named.length > kMostFiles) throw new Refusal(`The folder contains more than ${kMostFiles} files. Choose the folder of a single model.`);
   const path = chosen ?? modelsIn(named)[0] ?? named.map(({ path }) => path).find(isMapName), models = named.filter((one) => one.path === path);
   if (models.length === 0) {
-    throw new Refusal(named.length === 1 ? `${named[0].path} is no file that this page reads: it reads models (.glb, .vrm, .gltf, .obj) and normal maps (PNG, JPEG, WebP, KTX2, DDS).` : "There is no .glb, .vrm, .gltf or .obj and no image among these files.");
+    throw new Refusal(named.length === 1 ? `${named[0].path} has a format that this page does not support. It supports models (.glb, .vrm, .gltf, .obj) and normal maps (PNG, JPEG, WebP, KTX2, DDS).` : "None of these files is a model (.glb, .vrm, .gltf, .obj) or an image.");
   }
   const total = named.reduce((sum, { file }) => sum + file.size, 0);
-  if (models[0].file.size > kMostBytes || total > 2 * kMostBytes) throw new Refusal(`${models[0].path} is too large for this page, which reads models of up to 1 GB. The tool has no such limit.`);
+  if (models[0].file.size > kMostBytes || total > 2 * kMostBytes) throw new Refusal(`${models[0].path} is too large for this page, which supports models of up to 1 GB. The command-line tool has no such limit.`);
   const folder = models[0].path.slice(0, models[0].path.lastIndexOf("/") + 1);
   const others = new Map<string, Uint8Array<ArrayBuffer>>();
   const read = async (file: Readable) => new Uint8Array(await file.arrayBuffer());

@@ -17,10 +17,10 @@ const sections: readonly (readonly [RegExp, string])[] = [
 /** Returns whether the lesson is next to the page. Pages created by the tool may be anywhere, without the lesson. */
 const isBeside = (): boolean => pageOrigin() === null;
 
-export const lessonLink = (): HTMLElement | false => isBeside() && el("a", { class: "lesson", href: "learn.html", title: "A lesson with figures to drag" }, "What is a tangent?");
+export const lessonLink = (): HTMLElement | false => isBeside() && el("a", { class: "lesson", href: "learn.html", title: "A lesson with interactive figures" }, "What is a tangent?");
 
 /** Returns a link to the figure that explains a kind of finding. */
 export function figureLink(code: string): HTMLElement | false {
   const section = sections.find(([pattern]) => pattern.test(code))?.[1];
-  return isBeside() && section !== undefined && el("a", { class: "lesson", href: `learn.html#${section}` }, "See it in the lesson");
+  return isBeside() && section !== undefined && el("a", { class: "lesson", href: `learn.html#${section}` }, "Open the lesson");
 }

@@ -59,11 +59,11 @@ const parts = new PartsView(stage.viewport, pageOrigin()), motion = new MotionVi
 const texel = new TexelView(stage.viewport, (spot) => uvMap.point(spot));
 const title = el("p", { class: "model-name" });
 const back = el("button", { type: "button", class: "back", hidden: true, title: "Key: Backspace", onclick: () => app.back() });
-const close = el("button", { type: "button", class: "close", hidden: true, "aria-label": "Close the model", title: "Close the model and return its memory", onclick: closeModel }, "×");
+const close = el("button", { type: "button", class: "close", hidden: true, "aria-label": "Close the model", title: "Close the model and free its memory", onclick: closeModel }, "×");
 const mend = new MendView(
   async (options): Promise<Mended> => {
     const { model } = app;
-    if (!model) throw new Error("There is no model.");
+    if (!model) throw new Error("No model is open.");
     const { name, report, bytes } = (await convertedMap(model)) ?? { name: mendedName(model.name), ...(await app.generate(model, options)) };
     const mended = { name, bytes, others: model.others };
     const checked = await app.checkMended(mended), download = model.loneMap && { bytes: imageOf(bytes), type: mapType(name) };
@@ -91,7 +91,7 @@ async function convertedMap(model: ModelFiles): Promise<{ name: string; report: 
 }
 
 const share = new ShareView({
-  report: (kind) => (app.fixed?.check ? reportAs(kind, app.fixed.model.name, { check: app.fixed.check }) : reportAs(kind, app.model?.name ?? "no model", app.reports)),
+  report: (kind) => (app.fixed?.check ? reportAs(kind, app.fixed.model.name, { check: app.fixed.check }) : reportAs(kind, app.model?.name ?? "no model is open", app.reports)),
   picture: async () => {
     const name = app.model?.name ?? "model", blob = await pictureFile(stage.viewport, name, stage.sides, stage.swatches);
     return blob && { blob, name: `${name.replace(/^.*\//, "").replace(/\.[^.]*$/, "")}-${stage.viewport.settings.look}.png` };
@@ -176,7 +176,7 @@ function closeModel(): void {
 
 let pile = new Pile();
 /** If several models were opened together: a choice of the model. */
-const others = el("select", { class: "models", "aria-label": "Models that came together", hidden: true });
+const others = el("select", { class: "models", "aria-label": "Models that were opened together", hidden: true });
 
 /** Opens dropped or chosen files; later files may belong to the current model. */
 function openFiles(dropped: Promise<Named[]> | Named[]): void {
@@ -223,7 +223,7 @@ const gallery = new GalleryView(openSample);
 
 const header = el("header", { class: "bar" },
   el("p", { class: "brand" }, "tspace ", el("span", {}, "view")),
-  el("h1", {}, "Drop a model: see where its bumps are lit inside out, and fix it. ", el("span", {}, asked ? `Nothing is uploaded; only ${asked.host} is asked.` : "Nothing is uploaded.")),
+  el("h1", {}, "Drop a model to see where its bumps look like dents, and fix it. ", el("span", {}, asked ? `Nothing is uploaded; the page only downloads from ${asked.host}.` : "Nothing is uploaded.")),
   el("div", { class: "open" }, picker("Open model…", { accept: ".glb,.vrm,.gltf,.obj,.zip,.bin,.mtl,image/*,.ktx2,.dds", "aria-label": "Open model" }), picker("Folder…", { webkitdirectory: true, "aria-label": "Open folder" }),
     picker("Compare with…", { accept: ".glb,.vrm,.gltf,.obj,.zip,.bin,.mtl,image/*,.ktx2,.dds", "aria-label": "Compare with another version" }, (files) => void compare(files))),
   others, title, close, back);
@@ -261,7 +261,7 @@ addEventListener("drop", (event) => {
 
 /** Shows below the page that a model is stored in the browser, with a button that deletes it. */
 function showKept(name: string | null): void {
-  replaceChildren(keptLine, name && el("span", { class: "quiet" }, `${name} is kept in this browser for the next visit.`), name && el("button", { type: "button", class: "small", onclick: () => void forgetModel().then(() => showKept(null)) }, "Forget it"));
+  replaceChildren(keptLine, name && el("span", { class: "quiet" }, `${name} is kept in this browser for the next visit.`), name && el("button", { type: "button", class: "small", onclick: () => void forgetModel().then(() => showKept(null)) }, "Remove it"));
 }
 
 if (own) void app.open(async () => own);

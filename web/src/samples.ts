@@ -117,13 +117,13 @@ const sample = (name: string, file: string, hint: string, picture: string, bytes
  * shown when the page opens.
  */
 export const samples: readonly Sample[] = [
-  sample("Half inside out", "crate-signs-lost.glb", "The exporter dropped the sign (w) of the tangents: the mirrored half of the crate is lit inside out", pictureSignsLost, signsLost),
-  sample("DirectX map", "ring-directx.glb", "A normal map made for DirectX, whose green points down, on a ring without tangents", pictureRing, () => decoded(ring)),
-  sample("All inside out", "crate-signs-inverted.glb", "Every sign is inverted: MikkTSpace was fed with v as glTF stores it", pictureInverted, signsInverted),
-  sample("Dark seams", "crate-seams-shared.glb", "Both sides of UV seams share one tangent: it was written through the index list from before the split", pictureSeams, sharedSeams),
+  sample("Dents on one half", "crate-signs-lost.glb", "The exporter dropped the sign (w) of the tangents, so bumps look like dents on the mirrored half of the crate", pictureSignsLost, signsLost),
+  sample("DirectX map", "ring-directx.glb", "A ring without tangents, with a normal map made for DirectX (green points down)", pictureRing, () => decoded(ring)),
+  sample("Dents everywhere", "crate-signs-inverted.glb", "Every sign is inverted, because MikkTSpace was given v as glTF stores it", pictureInverted, signsInverted),
+  sample("Dark seams", "crate-seams-shared.glb", "Both sides of UV seams share one tangent, because vertices were not split at the seams", pictureSeams, sharedSeams),
   sample("Flat bumps", "crate-along-normals.glb", "The tangents are copies of the normals, so there is no bitangent", pictureAlong, alongNormals),
-  sample("Wrong UV set", "crate-wrong-set.glb", "The tangents follow a second UV set, such as that of a light map, and not that of the normal map", pictureSet, wrongSet),
-  sample("Turned light", "crate-wrong-axes.glb", "The model was converted from Z up to Y up, and its tangents were not", pictureAxes, wrongAxes),
-  sample("AI mesh", "bear-by-ai.glb", "A mesh as generators leave it: rough at random, with patches of triangles that face inward", pictureBear, bear),
-  sample("Nothing wrong", "crate.glb", "The crate as it should be", pictureCrate, () => decoded(crate)),
+  sample("Wrong UV set", "crate-wrong-set.glb", "The tangents follow the second UV set (for light maps) instead of that of the normal map", pictureSet, wrongSet),
+  sample("Rotated light", "crate-wrong-axes.glb", "The model was converted from z up to y up, but its tangents were not", pictureAxes, wrongAxes),
+  sample("AI mesh", "bear-by-ai.glb", "A generated mesh: noisy positions, and patches of triangles that face inward", pictureBear, bear),
+  sample("No errors", "crate.glb", "The crate with correct tangents", pictureCrate, () => decoded(crate)),
 ];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A model that the address names by ?model=: asked for after a click, of that server alone.
+// Models named in the address (?model=) are requested only after a click, and only from their server.
 import assert from "node:assert/strict";
 import { createServer } from "node:http";
 import { readFileSync } from "node:fs";
@@ -9,7 +9,7 @@ import { pathToFileURL } from "node:url";
 import { missing, noShared, page, settled, shared, shoot, withPage } from "./support.mjs";
 
 const servers = [];
-/** A server of this machine, with what it was asked. */
+/** Starts a local server that records its requests. */
 async function serve(answer) {
   const asked = [], server = createServer((request, response) => {
     asked.push(request.url);
@@ -33,7 +33,7 @@ before(async () => {
       try {
         return [200, readFileSync(join(shared, "models/khronos/Suzanne", url.slice("/suzanne/".length)))];
       } catch {
-        // not there
+        // missing
       }
     }
     return [404, "no"];
@@ -52,8 +52,8 @@ test("a model that the address names is asked for after a click, and shown as th
   await withPage(async (tab, requests) => {
     assert.equal(requests.length, 1, "nothing was asked for");
     assert.deepEqual(models.asked, []);
-    assert.match(await tab.locator(".asked").textContent(), new RegExp(`crate\\.glb on ${models.host}.*Nothing has been asked for yet`));
-    assert.match(await tab.locator("h1").textContent(), new RegExp(`Nothing is uploaded; only ${models.host} is asked`));
+    assert.match(await tab.locator(".asked").textContent(), new RegExp(`crate\\.glb on ${models.host}.*Nothing has been downloaded yet`));
+    assert.match(await tab.locator("h1").textContent(), new RegExp(`Nothing is uploaded; the page only downloads from ${models.host}`));
     await shoot(tab, "asked");
     assert.equal(await load(tab), "ready");
     assert.deepEqual(models.asked, ["/crate.glb"]);
@@ -80,7 +80,7 @@ test("no other server can be asked, and without ?model= none at all", { skip: mi
 });
 
 test("what a server does not give is said", { skip: missing }, async () => {
-  for (const [name, sentence] of [["none.glb", /has no none\.glb: it answered 404/], ["closed.glb", /does not let other pages read its files/], ["away.glb", /sends to another server/]]) {
+  for (const [name, sentence] of [["none.glb", /none\.glb could not be loaded from .*status 404/], ["closed.glb", /does not allow other pages to read its files/], ["away.glb", /redirects to another server/]]) {
     await withPage(async (tab) => {
       assert.equal(await load(tab), "failed");
       assert.match(await tab.locator(".failure").textContent(), sentence);

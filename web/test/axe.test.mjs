@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Page and lesson as people use them who cannot see, or cannot use a mouse: axe-core finds nothing, whatever is open.
+// Accessibility of page and lesson: axe-core reports no violation in any state.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -17,7 +17,7 @@ const axe = (() => {
 })();
 const skip = missing || (!axe && "axe-core is not installed");
 
-/** What axe-core objects to: the rule, and where. Its script is given to the tab past the page's policy, which would refuse it. */
+/** Returns the violations that axe-core reports: rule and element. Its script bypasses the page's content security policy, which would reject it. */
 async function objections(tab) {
   if (!(await tab.evaluate(() => "axe" in window))) await tab.evaluate(axe);
   const { violations } = await tab.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));

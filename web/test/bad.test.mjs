@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Broken and hostile files: a verdict or a sentence each, never a hang, an exception or a blank page.
+// Corrupt and hostile files produce findings or an error message, and never a hang, an exception or a blank page.
 import assert from "node:assert/strict";
 import { join, relative } from "node:path";
 import { test } from "node:test";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Page and lesson in Firefox, which playwright-core does not drive as Debian has it: puppeteer-core does, by WebDriver BiDi. WebGL
-// needs a display there, which Xvfb gives.
+// Page and lesson in Debian's Firefox, controlled by puppeteer-core with WebDriver BiDi, because playwright-core does not
+// support it. WebGL needs a display, which Xvfb provides.
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -43,7 +43,7 @@ after(async () => {
   if (home) rmSync(home, { recursive: true, force: true });
 });
 
-/** Any error, and any request but that of the page itself and of data in it, fails the test. */
+/** Any error, and any request except for the page itself and its embedded data, fails the test. */
 async function withTab(url, viewport, run) {
   const tab = await browser.newPage(), faults = [];
   tab.setDefaultTimeout(kPatience);
@@ -62,7 +62,7 @@ async function withTab(url, viewport, run) {
 const text = (tab, selector) => tab.$eval(selector, (element) => element.textContent);
 
 async function shoot(tab, name) {
-  // A change is drawn before the second frame after it.
+  // Waits for two frames, after which a change has been drawn.
   await tab.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 200)))));
   const png = await tab.screenshot();
   if (screenshots) mkdirSync(screenshots, { recursive: true }), writeFileSync(join(screenshots, `firefox-${name}.png`), png);

@@ -18,9 +18,9 @@ test("the first view says what is wrong, stands on it, and one click fixes it ev
   await withPage(async (tab) => {
     assert.match(await tab.locator("h1").textContent(), /^Drop a model: see where its bumps are lit inside out, and fix it\. Nothing is uploaded\.$/);
     assert.match(await seen(tab), /^Bumps look like dents on a part of the model/);
-    assert.match(await tab.locator(".fix button").textContent(), /^Fix it.*correct the wrong tangents.*Your file stays as it is until you download the result/);
+    assert.match(await tab.locator(".fix button").textContent(), /^Fix it.*recompute the wrong tangents.*Your file is not changed/);
     assert.deepEqual(await badges(tab), ["1 error", "0 warnings", "0 notes"]);
-    // The line halves what is wrong: about half of the pixels that differ from the correct frames' picture lie left of it.
+    // The split line halves the visible fault: about half of the pixels that differ from the correct picture are left of it.
     const at = await split(tab), before = await pixelsOf(tab);
     await tab.locator(".split").fill("0");
     const right = await pixelsOf(tab);
@@ -28,7 +28,7 @@ test("the first view says what is wrong, stands on it, and one click fixes it ev
     const left = await pixelsOf(tab);
     const near = shareOf(before, (i) => farApart(before.data, i, right.data, i) > 16), all = shareOf(left, (i) => farApart(left.data, i, right.data, i) > 16);
     assert.ok(at >= 0.4 && at <= 0.6 && near > 0.01 && near > 0.4 * all && near < 0.6 * all, `${at}: left of the line ${near} of the picture is wrong, in all ${all}`);
-    // The entry says the effect once.
+    // The finding states its effect only once.
     assert.equal((await tab.locator(".finding").textContent()).match(/dents/g).length, 1);
     for (const panel of [".inspector", ".findings"]) assert.ok(await tab.locator(panel).evaluate((one) => one.scrollWidth <= one.clientWidth), `${panel} overflows`);
     await tab.locator(".split").fill(String(Math.round(1000 * at)));
@@ -37,12 +37,12 @@ test("the first view says what is wrong, stands on it, and one click fixes it ev
     await fix(tab);
     assert.match(await seen(tab), /^Fixed: 1 error → 0 errors\./);
     assert.deepEqual(await badges(tab), ["0 errors", "0 warnings", "0 notes"], "the list is about the fixed file");
-    assert.match(await tab.locator(".findings .list").textContent(), /findings of the fixed file.*Nothing is wrong/);
+    assert.match(await tab.locator(".findings .list").textContent(), /findings of the fixed file.*No errors were found/);
     assert.equal(await tab.locator(".result .counts").textContent(), "1 error → 0 errors");
     assert.equal(await tab.evaluate(() => window.tspaceView.views.stage.viewport.settings.look), "lit");
     assert.equal(await tab.locator(".fix a.large").getAttribute("download"), "crate-signs-lost-fixed.glb");
     await openSample(tab, "crate.glb");
-    assert.match(await seen(tab), /^Nothing is wrong here/);
+    assert.match(await seen(tab), /^No errors were found/);
     assert.equal(await tab.locator(".fix").isVisible(), false);
   });
 });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The gallery of real faults: each is found by its name, one click mends it, and both sides of the line show before and after.
+// The gallery of real faults: check detects each one, one click fixes it, and the two sides of the line show before and after.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -28,7 +28,7 @@ test("each fault of the gallery is found by its name, and mended by what is swit
       assert.equal(await openSample(tab, label), "ready");
       assert.ok((await codes(tab)).includes(code), `${label}: ${await codes(tab)}`);
       await mended(tab);
-      const asksForMore = tab.locator(".result p", { hasText: "recompute all to fix the rest" });
+      const asksForMore = tab.locator(".result p", { hasText: "Recompute all tangents to fix these too" });
       assert.equal(await asksForMore.count(), label === "crate-wrong-axes.glb" ? 1 : 0, `${label}: a repair keeps tangents that are a little off`);
       if (label === "crate-wrong-axes.glb") {
         await choose(tab, "recompute all", ".mend");
@@ -61,7 +61,7 @@ test("a mesh by AI is mended to the tool's bytes, and right of the line stands i
       execFileSync(tool, [...words, "--quiet"], { cwd: folder });
       assert.ok(bytes.equals(readFileSync(join(folder, "bear-by-ai-fixed.glb"))));
       await tab.waitForFunction(() => document.querySelector(".side.right").textContent === "fixed");
-      // Without the outline of the finding, and from where a model is seen at first.
+      // Hides the outline of the finding, and restores the initial camera.
       await tab.evaluate(() => window.tspaceView.views.place.clear());
       await tab.locator(".frame canvas").press("0");
       const before = await side(tab, "1000"), after = await side(tab, "0");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A GLB that tests change: accessors as floats, and new ones behind the old.
+// A GLB that tests modify: accessors are read as floats, and new ones are appended.
 
 const kWidths = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4 };
 const kReaders = {
@@ -9,7 +9,7 @@ const kReaders = {
 };
 const padded = (bytes, fill) => Buffer.concat([bytes, Buffer.alloc((4 - (bytes.length % 4)) % 4, fill)]);
 
-/** `size`: of all pieces of the buffer. */
+/** `size`: total size of the buffer's pieces. */
 function glbOf(json, pieces, size) {
   const text = padded(Buffer.from(JSON.stringify(json)), 0x20), head = Buffer.alloc(20), binaryHead = Buffer.alloc(8);
   [0x46546c67, 2, 28 + text.length + size, text.length, 0x4e4f534a].forEach((word, i) => head.writeUInt32LE(word, 4 * i));
@@ -38,7 +38,7 @@ export class Glb {
     return this.bytesOfView(this.json.images[index].bufferView);
   }
 
-  /** All numbers of an accessor; those that stand for 0 to 1 or -1 to 1 are that. */
+  /** Returns all values of an accessor; normalized integers are converted to 0 to 1 or -1 to 1. */
   numbers(index) {
     const { bufferView, byteOffset = 0, componentType, count, type, normalized } = this.json.accessors[index];
     const width = kWidths[type], [size, read, most] = kReaders[componentType];
@@ -66,7 +66,7 @@ export class Glb {
     return this.json.accessors.push({ bufferView: this.addView(bytes), componentType: 5125, count: numbers.length, type: "SCALAR" }) - 1;
   }
 
-  /** Primitives of triangles that have these attributes. */
+  /** Returns the triangle primitives that have these attributes. */
   primitives(...attributes) {
     return this.json.meshes.flatMap((mesh) => mesh.primitives).filter((one) => (one.mode ?? 4) === 4 && attributes.every((name) => name in one.attributes));
   }
@@ -81,14 +81,14 @@ export class Glb {
     return glbOf(this.json, this.#pieces, this.#size);
   }
 
-  /** All that is in its buffer. */
+  /** Returns the contents of the buffer. */
   binary() {
     if (this.#pieces.length > 1) this.#pieces = [Buffer.concat(this.#pieces)];
     return this.#pieces[0];
   }
 }
 
-/** A wavy square of about that many vertices, 96 bytes each with its triangles, and 16 for each of `more` attributes that nobody reads. */
+/** Returns a wavy square with about `vertices` vertices of 96 bytes each (including triangles), plus 16 bytes for each of `more` unused attributes. */
 export function gridGlb(vertices, more = 0) {
   const side = Math.ceil(Math.sqrt(vertices)), count = side * side, cells = side - 1;
   const widths = { POSITION: 3, NORMAL: 3, TANGENT: 4, TEXCOORD_0: 2, TEXCOORD_1: 2, COLOR_0: 4, ...Object.fromEntries(Array.from({ length: more }, (_, i) => [`_DATA_${i}`, 4])) }, arrays = Object.fromEntries(Object.entries(widths).map(([name, width]) => [name, new Float32Array(width * count)]));

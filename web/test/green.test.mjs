@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Normal maps whose green points down: found, shown, and turned as the tool turns them.
+// Normal maps whose green points down are detected, displayed, and inverted as by the tool.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -19,7 +19,7 @@ async function ring(tab) {
 
 async function turned(tab) {
   await tab.locator(".mend > summary").click();
-  await tab.getByLabel("Flip green of maps").check();
+  await tab.getByLabel("Invert green in maps").check();
   return mended(tab);
 }
 
@@ -30,14 +30,14 @@ test("green that points down is found, shown and mended", { skip: missing }, asy
     await tab.locator(".finding[data-code=greenFlipped]").click();
     assert.match(await tab.locator(".details:visible").textContent(), /--flip-green/);
     const before = await tab.locator(".frame canvas").screenshot();
-    await choose(tab, "green flipped", ".look");
+    await choose(tab, "green inverted", ".look");
     await drawn(tab);
     assert.ok(!before.equals(await tab.locator(".frame canvas").screenshot()), "the picture has other light");
     await shoot(tab, "green-turned");
     await choose(tab, "on", ".look");
     await turned(tab);
     assert.match(await tab.locator(".command").textContent(), / --repair --flip-green$/);
-    assert.match(await tab.locator(".changes.maps").textContent(), /bricks-directxgreen flipped/);
+    assert.match(await tab.locator(".changes.maps").textContent(), /bricks-directxgreen inverted/);
     await shoot(tab, "green-mended");
     await tab.getByRole("button", { name: "Open the fixed file" }).click();
     await settled(tab);
@@ -45,7 +45,7 @@ test("green that points down is found, shown and mended", { skip: missing }, asy
   });
 });
 
-/** The ring's map as other files hold it, of 8 and 16 bits, with heights in alpha, and as JPEG and WebP. */
+/** The ring's map in other formats: 8 and 16 bits, with heights in alpha, JPEG and WebP. */
 const kinds = {
   "8 bits": ({ image }) => encode(image),
   "8 bits and alpha": ({ image }) => encode({ ...image, channels: 4, data: withAlpha(image, Uint8Array, (i) => i % 256) }),
@@ -54,7 +54,7 @@ const kinds = {
   "JPEG": ({ image, tab }) => byCanvas(tab, image, "image/jpeg", 0.9),
   "WebP": ({ image, tab }) => byCanvas(tab, image, "image/webp", 1),
 };
-/** How far pixels may be from the tool's on average, of 255. */
+/** Maximum mean difference from the tool's pixels, of 255. */
 const kMostDifference = { "JPEG": 1.5, "WebP": 0 };
 
 const withAlpha = ({ width, height, data }, Type, alpha, scale = 1) => Type.from({ length: 4 * width * height }, (_, i) => (i % 4 === 3 ? alpha(i >> 2) : scale * data[3 * (i >> 2) + (i % 4)]));
@@ -73,7 +73,7 @@ const decodedByTab = (tab, file) => tab.evaluate(async (bytes) => {
   return [...context.getImageData(0, 0, bitmap.width, bitmap.height).data];
 }, [...file]);
 
-/** What of a GLB does not hang on how long its image is. */
+/** Returns the parts of a GLB that do not depend on the size of its image. */
 function withoutImage(glb) {
   const { json } = glb, own = json.images[0].bufferView;
   const views = json.bufferViews.map((_, i) => (i === own ? null : glb.bytesOfView(i).toString("base64")));

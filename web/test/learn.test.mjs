@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The lesson, in headless Chromium: what its figures say is so, also after something was dragged.
+// The lesson in headless Chromium: the numbers of its figures are correct, also after dragging.
 import assert from "node:assert/strict";
 import { existsSync, mkdirSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -35,7 +35,7 @@ async function open(options = {}) {
   return tab;
 }
 
-/** What stands behind the name in a figure's numbers. */
+/** Returns the number after a name in a figure's text. */
 const number = (tab, figure, name) =>
   tab.$$eval(`#${figure} .numbers div`, (rows, wanted) => rows.find((row) => row.querySelector("dt").textContent === wanted)?.querySelector("dd").textContent, name);
 const press = async (tab, label, key, times) => {
@@ -49,22 +49,22 @@ it("decodes texels, and tells what a wrong T and a green that points down do", {
   const tab = await open();
   const lit = () => tab.$eval("#relief image:nth-of-type(2)", (image) => image.getAttribute("href"));
   const before = await lit();
-  assert.match(await number(tab, "relief", "what one sees"), /stand out/);
+  assert.match(await number(tab, "relief", "effect"), /stand out/);
   const [, r, g, b, x, y, z] = (await number(tab, "relief", "a texel")).replaceAll("\u2212", "-").match(/rgb\((\d+), (\d+), (\d+)\).* = \((-?[\d.]+), (-?[\d.]+), (-?[\d.]+)\)/).map(Number);
   [[r, x], [g, y], [b, z]].forEach(([c, v]) => assert.ok(Math.abs((2 * c) / 255 - 1 - v) < 0.01));
   await tab.check("#down");
-  assert.match(await number(tab, "relief", "what one sees"), /from below/);
+  assert.match(await number(tab, "relief", "effect"), /from below/);
   assert.notEqual(await lit(), before);
   await tab.uncheck("#down");
   assert.equal(await lit(), before);
-  await press(tab, "where T points", "Shift+ArrowUp", 12);
-  await press(tab, "where T points", "Shift+ArrowLeft", 12);
-  assert.match(await number(tab, "relief", "what one sees"), /degrees beside/);
+  await press(tab, "direction of T", "Shift+ArrowUp", 12);
+  await press(tab, "direction of T", "Shift+ArrowLeft", 12);
+  assert.match(await number(tab, "relief", "effect"), /degrees off/);
   assert.notEqual(await lit(), before);
   assert.deepEqual(tab.faults, []);
 });
 
-/** How much brighter the upper half of a bolt is than its lower half, in the lit picture of the first figure. */
+/** Returns the brightness difference between the upper and the lower half of a bolt in the first figure. */
 const boltFromAbove = (tab) => tab.$eval("#relief image:nth-of-type(2)", async (image) => {
   const bitmap = await createImageBitmap(await (await fetch(image.getAttribute("href"))).blob());
   const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d");
@@ -79,9 +79,9 @@ it("lights bolts as what it says of them: from above, and from below where they 
   await tab.check("#down");
   assert.ok((await boltFromAbove(tab)) < -40, "lit from below");
   await tab.uncheck("#down");
-  await press(tab, "where T points", "Shift+ArrowUp", 4);
-  await press(tab, "where T points", "Shift+ArrowLeft", 30);
-  assert.match(await number(tab, "relief", "what one sees"), /bolts are holes/);
+  await press(tab, "direction of T", "Shift+ArrowUp", 4);
+  await press(tab, "direction of T", "Shift+ArrowLeft", 30);
+  assert.match(await number(tab, "relief", "effect"), /bolts look like holes/);
   assert.ok((await boltFromAbove(tab)) < -40, "and turned round they are holes");
 });
 
@@ -97,7 +97,7 @@ it("turns the sign when a triangle's UVs turn over", { skip }, async () => {
   await press(tab, "UV of corner 2", "Shift+ArrowDown", 9);
   assert.match(await number(tab, "triangle", "determinant"), /= \u2212/);
   assert.match(await number(tab, "triangle", "the library"), /sign = \u22121/);
-  assert.match(await number(tab, "triangle", "which means"), /mirrored/);
+  assert.match(await number(tab, "triangle", "meaning"), /mirrored/);
   assert.deepEqual(tab.faults, []);
 });
 
@@ -125,12 +125,12 @@ it("shades the same in tangent space and in space, however the texture is turned
   const tab = await open();
   const pixels = () => tab.$eval("#light canvas", (canvas) => [...canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data]);
   const before = await pixels();
-  await press(tab, "how the texture is turned", "Shift+ArrowUp", 7);
+  await press(tab, "rotation of the texture", "Shift+ArrowUp", 7);
   const after = await pixels();
   assert.ok(before.every((value, i) => Math.abs(value - after[i]) <= 2));
   assert.ok(new Set(before).size > 50, "there is a bump");
   const one = (await number(tab, "light", "brightness")).match(/[\d.]+$/)[0];
-  assert.match(await number(tab, "light", "the other way round"), new RegExp(`is ${one.replace(".", "\\.")} as well`));
+  assert.match(await number(tab, "light", "in object space"), new RegExp(`is ${one.replace(".", "\\.")} as well`));
   await press(tab, "the light", "Shift+ArrowRight", 5);
   assert.ok((await pixels()).some((value, i) => Math.abs(value - after[i]) > 20), "the light is seen");
 });
@@ -151,7 +151,7 @@ it("measures methods against the true surface", { skip }, async () => {
 it("shows a ring that turns, with relief on one side of the line only", { skip }, async () => {
   const tab = await open();
   const pixels = () => tab.$eval("#hero canvas", (canvas) => [...canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data].filter((_, i) => i % 4 === 0));
-  /** How rough neighbors are on the ring, left and right of the middle, away from line and arrows. */
+  /** Returns the mean difference of neighboring pixels on the ring, left and right of the center, away from line and arrows. */
   const roughness = (red) => [[120, 300], [340, 520]].map(([from, to]) => {
     let sum = 0, count = 0;
     for (let y = 40; y < 160; ++y) for (let x = from; x < to; ++x) if (red[y * 640 + x] > 0 && red[y * 640 + x + 1] > 0) [sum, count] = [sum + Math.abs(red[y * 640 + x] - red[y * 640 + x + 1]), count + 1];
@@ -159,7 +159,7 @@ it("shows a ring that turns, with relief on one side of the line only", { skip }
   });
   const before = await pixels(), [left, right] = roughness(before);
   assert.ok(right > 2 * left, `${left} ${right}`);
-  await press(tab, "turn the ring", "ArrowRight", 3);
+  await press(tab, "rotate the ring", "ArrowRight", 3);
   await tab.waitForTimeout(300);
   const turned = await pixels();
   assert.ok(turned.filter((value, i) => Math.abs(value - before[i]) > 20).length > 5000);
@@ -174,39 +174,39 @@ it("takes typed edges and frames, and says what follows", { skip }, async () => 
   const tab = await open();
   await tab.fill('[aria-label="edges in the texture: row 1, column 1"]', "-0.1");
   assert.match(await number(tab, "triangle", "determinant"), /= \u2212/);
-  assert.match(await number(tab, "triangle", "which means"), /mirrored/);
+  assert.match(await number(tab, "triangle", "meaning"), /mirrored/);
   // Expected T and B: computed from the edges by the matrix.
   const cells = await tab.$$eval("#triangle .system .matrix", (all) => all.map((one) => [...one.children].map((cell) => Number((cell.value ?? cell.textContent).replace("\u2212", "-")))));
   const [[s1, t1, s2, t2], [tx, ty, bx, by], [x1, y1, x2, y2]] = cells;
   [[s1 * tx + t1 * bx, x1], [s1 * ty + t1 * by, y1], [s2 * tx + t2 * bx, x2], [s2 * ty + t2 * by, y2]].forEach(([made, edge]) => assert.ok(Math.abs(made - edge) < 0.05, cells.join(" | ")));
   assert.match(await number(tab, "light", "the matrix"), /transpose is its inverse/);
   await tab.fill('[aria-label="T, B and N in columns: row 1, column 1"]', "0.3");
-  assert.match(await number(tab, "light", "the matrix"), /no longer unit/);
-  // n.(M^T L) = (M n).L for this matrix as well; only the inverse is another one.
+  assert.match(await number(tab, "light", "the matrix"), /no longer orthonormal/);
+  // n.(M^T L) = (M n).L holds for this matrix too, but its inverse is not its transpose.
   const bright = (await number(tab, "light", "brightness")).match(/[\d.]+$/)[0], values = (text) => text.replaceAll("\u2212", "-").match(/-?\d+\.\d+/g).map(Number);
-  assert.ok((await number(tab, "light", "the other way round")).endsWith(`is ${bright} as well`));
+  assert.ok((await number(tab, "light", "in object space")).endsWith(`is ${bright} as well`));
   const matrix = await tab.$$eval("#light .system input", (fields) => fields.map((field) => field.valueAsNumber)), given = await tab.$eval('[aria-label="the light"]', (knob) => knob.getAttribute("aria-valuetext").split(", ").map(Number));
   const [lx, ly, lz] = values((await number(tab, "light", "the matrix")).match(/M\u207b\u00b9L = \(([^)]*)\)/)[1]);
   given.forEach((wanted, row) => assert.ok(Math.abs(matrix[3 * row] * lx + matrix[3 * row + 1] * ly + matrix[3 * row + 2] * lz - wanted) < 0.03, "M takes it back to L"));
-  await press(tab, "how the texture is turned", "ArrowUp", 1);
+  await press(tab, "rotation of the texture", "ArrowUp", 1);
   assert.match(await number(tab, "light", "the matrix"), /transpose is its inverse/);
   assert.deepEqual(tab.faults, []);
 });
 
 it("mixes tangents between corners, shorter where they disagree", { skip }, async () => {
   const tab = await open();
-  const at = async () => Number((await number(tab, "across", "T there")).match(/length ([\d.]+)/)[1]);
+  const at = async () => Number((await number(tab, "across", "interpolated T")).match(/length ([\d.]+)/)[1]);
   const between = async () => Number((await number(tab, "across", "shaded normal")).match(/([\d.]+) degrees/)[1]);
   assert.ok((await at()) < 0.9 && (await between()) > 2);
   const lit = () => tab.$eval("#across image", (image) => image.getAttribute("href"));
   const before = await lit();
   await tab.check("#unit");
   assert.notEqual(await lit(), before);
-  // All three along x.
+  // Moves all three vectors along x.
   await press(tab, "T at corner 1", "Shift+ArrowRight", 12);
   await press(tab, "T at corner 2", "Shift+ArrowUp", 1);
   assert.ok((await at()) > 0.95, String(await at()));
-  assert.match(await number(tab, "across", "which means"), /agree/);
+  assert.match(await number(tab, "across", "meaning"), /agree/);
 });
 
 it("scales T by the matrix and N by its inverse transpose, and says how much relief changes where lengths stay", { skip }, async () => {
@@ -215,21 +215,21 @@ it("scales T by the matrix and N by its inverse transpose, and says how much rel
   assert.ok(Math.abs((await values("N by M"))[2] - 90) > 30, "N by the matrix leans");
   assert.equal((await values("N by the inverse transpose"))[3], 90);
   // From (1.6, 0.6) to (1.6, 1.5), and then to (1.5, 1.5).
-  await press(tab, "how the node scales", "Shift+ArrowDown", 12);
-  await press(tab, "how the node scales", "Shift+ArrowLeft", 1);
+  await press(tab, "scale of the node", "Shift+ArrowDown", 12);
+  await press(tab, "scale of the node", "Shift+ArrowLeft", 1);
   assert.deepEqual((await values("the matrix")).slice(0, 2), [1.5, 1.5]);
   assert.equal((await values("N by M"))[2], 90, "a uniform scale keeps right angles");
   assert.equal((await values("without normalizing"))[0], 2.25, "the scale squared");
-  assert.match(await number(tab, "scaled", "which means"), /does not mirror/);
-  await press(tab, "how the node scales", "Shift+ArrowLeft", 14);
-  assert.match(await number(tab, "scaled", "which means"), /node mirrors/);
+  assert.match(await number(tab, "scaled", "meaning"), /does not mirror/);
+  await press(tab, "scale of the node", "Shift+ArrowLeft", 14);
+  assert.match(await number(tab, "scaled", "meaning"), /node mirrors/);
   assert.equal((await values("N by the inverse transpose"))[3], 90);
   assert.deepEqual(tab.faults, []);
 });
 
 it("says that glTF does not specify whether interpolated frames are normalized", { skip }, async () => {
   const tab = await open();
-  assert.match(await number(tab, "across", "which means"), /glTF does not specify/);
+  assert.match(await number(tab, "across", "meaning"), /glTF does not specify/);
   assert.match(await tab.textContent("#across"), /glTF does not\s+specify which/);
 });
 
@@ -260,12 +260,12 @@ it("splits vertices at a seam, and shows what sharing them does", { skip }, asyn
   const right = await lit();
   await tab.check("#shared");
   assert.match(await number(tab, "seam", "vertices"), /^6/);
-  assert.match(await number(tab, "seam", "which means"), /wrong beside the seam/);
+  assert.match(await number(tab, "seam", "meaning"), /wrong beside the seam/);
   assert.notEqual(await lit(), right);
-  await press(tab, "where u runs on the right square", "Shift+ArrowRight", 20);
-  await press(tab, "where u runs on the right square", "Shift+ArrowDown", 20);
-  await press(tab, "where u runs on the right square", "Shift+ArrowLeft", 40);
-  await press(tab, "where u runs on the right square", "Shift+ArrowUp", 10);
+  await press(tab, "direction of u on the right square", "Shift+ArrowRight", 20);
+  await press(tab, "direction of u on the right square", "Shift+ArrowDown", 20);
+  await press(tab, "direction of u on the right square", "Shift+ArrowLeft", 40);
+  await press(tab, "direction of u on the right square", "Shift+ArrowUp", 10);
   const degrees = Number((await number(tab, "seam", "T at the seam")).match(/(\d+) degrees/)[1]);
   assert.ok(degrees > 90, String(degrees));
 });
@@ -276,7 +276,7 @@ for (const width of [390, 1280])
     const covered = await tab.$$eval("svg text", (words) => words.flatMap((word) => {
       const own = word.getBoundingClientRect();
       const knobs = [...word.ownerSVGElement.querySelectorAll(".handle")].map((knob) => knob.getBoundingClientRect());
-      // The middle of a letter is what one reads; its box has room around it.
+      // Uses the centers of letters, because their boxes include empty space.
       const [x, y, half] = [(own.left + own.right) / 2, (own.top + own.bottom) / 2, own.width / 2];
       return knobs.some((knob) => Math.abs((knob.left + knob.right) / 2 - x) < knob.width / 2 + half - 3 && Math.abs((knob.top + knob.bottom) / 2 - y) < knob.height / 2 + 0.25 * own.height) ? [`${word.closest("section").id}: ${word.textContent}`] : [];
     }));

@@ -41,7 +41,7 @@ test("a PNG for DirectX is named, shown on a surface that can be lit, and flippe
     assert.equal(await tab.evaluate(() => document.title), "bricks.png – tspace view");
     assert.match(await looked(tab), /^256 x 256 texels: a normal map in tangent space.*Green points down, as in DirectX \(\d+ % sure/);
     assert.match(await tab.locator(".seen").textContent(), /^Bumps look like dents/);
-    assert.match(await tab.locator(".fix button").textContent(), /flip green in 1 normal map/);
+    assert.match(await tab.locator(".fix button").textContent(), /invert green in 1 normal map/);
     const before = await pixelsOf(tab);
     await tab.evaluate(() => window.tspaceView.views.stage.viewport.setLight(0.7, -0.5));
     const other = await pixelsOf(tab);
@@ -75,7 +75,7 @@ test("DDS and KTX2 are judged by their texels", { skip: noTool }, async () => {
   }));
 });
 
-/** Presses a conversion and gives the file. */
+/** Clicks a conversion, and returns the downloaded file. */
 async function converted(tab, name, folder) {
   const [download] = await Promise.all([tab.waitForEvent("download"), tab.locator(".convert button", { hasText: name }).click()]);
   const path = join(folder, download.suggestedFilename());
@@ -99,7 +99,7 @@ test("each conversion of a lone map is one click, and has the numbers of the too
     assert.equal(judged(glTF).green, "up");
     assert.deepEqual(pixels(await converted(tab, "PNG, green down", folder)), pixels(path), "the map is a map for DirectX already");
     for (const [name, file, args] of [
-      ["KTX2, two channels", "bricks-gltf.ktx2", []], ["KTX2 for phones", "bricks-gltf-eac.ktx2", ["--format", "eac-rg11"]], ["DDS, green up", "bricks-gltf.dds", []],
+      ["KTX2, two channels", "bricks-gltf.ktx2", []], ["KTX2 for mobile", "bricks-gltf-eac.ktx2", ["--format", "eac-rg11"]], ["DDS, green up", "bricks-gltf.dds", []],
     ]) {
       const made = await converted(tab, name, folder), byTool = join(folder, `tool${file.slice(file.lastIndexOf("."))}`);
       assert.equal(made, join(folder, file));
@@ -108,7 +108,7 @@ test("each conversion of a lone map is one click, and has the numbers of the too
       assert.deepEqual([judged(made).green, judged(made).content], ["up", "twoChannels"]);
     }
     assert.equal(judged(await converted(tab, "DDS, green down", folder)).green, "down");
-    // And back: two channels of a texture become the three of a PNG.
+    // The reverse conversion: a two-channel texture becomes a PNG with three channels.
     for (const file of ["bricks-gltf.ktx2", "bricks-directx.dds"]) {
       assert.equal(await openMap(tab, join(folder, file)), "ready");
       const back = await converted(tab, "PNG, green up", folder), args = file.includes("directx") ? ["--flip-green"] : [];
@@ -126,8 +126,8 @@ test("a PNG with x and y alone gets its z by one click", { skip: noTool }, async
     const { width, height, channels, depth, data } = decode(readFileSync(path));
     writeFileSync(two, encode({ width, height, channels, depth, data: data.map((c, i) => (i % channels === 2 ? 0 : c)) }));
     await openMap(tab, two);
-    assert.match(await looked(tab), /a normal map with x and y alone/);
-    assert.match(await tab.locator(".fix button").textContent(), /put x, y and z into red, green and blue, flip green/);
+    assert.match(await looked(tab), /a normal map that stores only x and y/);
+    assert.match(await tab.locator(".fix button").textContent(), /store x, y and z in red, green and blue, invert green/);
     assert.match(await tab.locator(".mend .command").textContent(), /^tspace convert-map two.png -o two-fixed.png --channels rg --flip-green$/);
     await tab.locator(".fix button.large").click();
     await tab.waitForSelector(".fix a.large");

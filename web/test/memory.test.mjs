@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Memory that comes back when a model is closed, and models of 100 MB, with progress, and with an end to it.
+// Closing a model frees its memory; models of 100 MB load with progress, and loading them can be stopped.
 import assert from "node:assert/strict";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -10,7 +10,7 @@ import { drawn, missing, openBytes, settled, withPage } from "./support.mjs";
 
 const kCycles = 10;
 
-/** Megabytes that the page holds after a collection, and what the graphics card keeps for it. */
+/** Returns the megabytes that the page uses after garbage collection, and its number of GPU resources. */
 async function held(tab, session) {
   await drawn(tab);
   for (let i = 0; i < 3; ++i) await session.send("HeapProfiler.collectGarbage");
@@ -34,7 +34,7 @@ test("ten models are opened and closed, and what they held comes back", { skip: 
     const [first, last] = [after[1], after.at(-1)];
     assert.ok(last.megabytes < first.megabytes + 2, `${first.megabytes} MB after two, ${last.megabytes} MB after ten`);
     assert.deepEqual([last.geometries, last.textures, last.workers], [first.geometries, first.textures, 0], "the worker, and its memory, are gone");
-    // The page works on.
+    // The page still works.
     await openBytes(tab, "again.glb", gridGlb(500));
     assert.equal(await tab.locator(".model-name").textContent(), "again.glb");
   });

@@ -14,7 +14,7 @@ test("repairing the broken crate leaves no finding, and shows what changed", { s
     await tab.locator(".mend summary").click();
     await mended(tab);
     assert.match(await tab.locator(".changes").textContent(), /vertices corrected/);
-    // The slider now shows what the download holds.
+    // The picture now shows the downloaded file.
     await tab.locator(".figures", { hasText: "the fixed file" }).waitFor();
     assert.equal(await tab.locator(".side.right").textContent(), "fixed");
     assert.match(await tab.locator(".figures").textContent(), /Compared with the fixed file, 1,728 of 5,184 corners have the wrong sign; directions differ by 0\.00° on average/);
@@ -22,7 +22,7 @@ test("repairing the broken crate leaves no finding, and shows what changed", { s
     await shoot(tab, "mended");
     await tab.getByRole("button", { name: "Open the fixed file" }).click();
     assert.equal(await settled(tab), "ready");
-    assert.match(await tab.locator(".findings .fine").textContent(), /Nothing is wrong/);
+    assert.match(await tab.locator(".findings .fine").textContent(), /No errors were found/);
     assert.equal(await tab.locator(".model-name").textContent(), "crate-signs-lost-fixed.glb");
   });
 });
@@ -37,7 +37,7 @@ test("right of the slider are the very tangents of the download, whatever made t
       const wanted = [...glb.indices(primitive)].flatMap((vertex) => [...tangents.subarray(4 * vertex, 4 * vertex + 4)]);
       await tab.waitForFunction((first) => window.tspaceView.views.stage.viewport.scene.drawn[0].frames?.tangents.every((x, i) => x === first[i]), wanted);
     }
-    // A method is there again when it is asked for, and the mended file after that.
+    // Selecting a method shows its frames again, and selecting the fixed file shows that file.
     await tab.locator(".look select").first().selectOption("lengyel");
     await tab.locator(".figures", { hasText: "lengyel" }).waitFor();
     await tab.locator(".look select").first().selectOption("mended");
@@ -62,7 +62,7 @@ test("downloads are byte for byte the files that the tool writes with the comman
         writeFileSync(join(folder, model), Uint8Array.from(await tab.evaluate(() => [...window.tspaceView.model.bytes])));
         for (const act of name === "ring-directx.glb" ? cases.slice(0, 1) : cases) {
           await act();
-          if (name === "ring-directx.glb") await tab.getByLabel("Flip green of maps").uncheck(); // the page packs a PNG in other bytes
+          if (name === "ring-directx.glb") await tab.getByLabel("Invert green in maps").uncheck(); // the page compresses PNGs differently
           const bytes = await mended(tab);
           const [program, ...words] = (await tab.locator(".command").textContent()).split(" ");
           assert.equal(program, "tspace");
@@ -76,7 +76,7 @@ test("downloads are byte for byte the files that the tool writes with the comman
   }
 });
 
-/** Of two GLBs: whether they differ in bytes of normals and tangents alone, and in those of normals by one step at most. */
+/** Returns whether two GLBs differ only in normals and tangents, and in normals by at most one quantization step. */
 function areEqualButForRoundedNormals(a, b) {
   assert.deepEqual(a.json, b.json);
   const accessors = (...names) => new Set(a.primitives().flatMap(({ attributes }) => names.map((name) => attributes[name])).filter((index) => index !== undefined));
@@ -94,7 +94,7 @@ test("compressed models are mended to the bytes that the tool unpacks them to", 
     await withPage(async (tab) => {
       await tab.locator(".mend summary").click();
       const exact = ["features/BoxMeshopt.glb", "features/BoxDraco/BoxDraco.gltf", "derived/Suzanne_draco.glb"];
-      // Their normals are rounded by a filter of meshopt, whose versions differ in the last bit.
+      // Their normals use a filter of meshopt whose versions differ in the last bit.
       const filtered = ["features/pirate_meshopt.glb", "derived/BoomBoxWithAxes_meshopt.glb"];
       for (const name of [...exact, ...filtered]) {
         const path = join(shared, "models", name);
@@ -129,7 +129,7 @@ test("a .gltf that came in a folder goes out as a folder: only what changed has 
     assert.deepEqual(after.images.map(({ uri }) => uri), before.images.map(({ uri }) => uri));
     const changed = Object.keys(others).filter((name) => !readFileSync(others[name]).equals(zip[name]));
     assert.deepEqual(changed, ["sofa_03.bin"]);
-    // The same numbers as in the GLB.
+    // The values equal those in the GLB.
     const numbers = ({ json, binary }, index) => {
       const { bufferView, byteOffset = 0, count, type } = json.accessors[index], view = json.bufferViews[bufferView], start = (view.byteOffset ?? 0) + byteOffset, width = { VEC2: 8, VEC3: 12, VEC4: 16 }[type];
       const stride = view.byteStride ?? width;
@@ -143,7 +143,7 @@ test("a .gltf that came in a folder goes out as a folder: only what changed has 
         }
       }
     }
-    // And the folder opens again, with nothing to find in it that was mended.
+    // The folder can be opened again, and has no finding that was fixed.
     const folder = mkdtempSync(join(tmpdir(), "tspace-folder-"));
     try {
       writeFileSync(join(folder, "again.zip"), zipSync(Object.fromEntries(Object.entries(zip).map(([name, bytes]) => [`deep/${name}`, new Uint8Array(bytes)]))));

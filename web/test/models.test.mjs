@@ -65,7 +65,7 @@ test("with 500k triangles the page answers while it works, and can be stopped", 
   await withPage(async (tab) => {
     const opened = openFile(tab, path, { timeout: 3 * kPatience });
     await tab.waitForSelector("html[data-picture=drawn]", { state: "attached" });
-    // A picture is there and work goes on: a click is answered.
+    // The picture is shown and the page responds to a click.
     await tab.locator(".look select").first().selectOption("flat");
     await shoot(tab, "model-500k");
     if (await tab.locator(".stop").isVisible()) await tab.locator(".stop").click();

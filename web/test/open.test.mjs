@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The ways a model comes in: dropped files and folders, as the browser gives them, and chosen ones. Also fingers.
+// Opening models: dropped files and folders, and the file picker. Also touch gestures.
 import assert from "node:assert/strict";
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -11,7 +11,7 @@ import { drawn, missing, openBytes, openSample, settled, shoot, withPage } from 
 let folder;
 const at = (...names) => join(folder, ...names);
 
-/** The crate of the page as a .glb, and as a .gltf with its files in a folder; an OBJ with its material. */
+/** Writes the page's crate as a .glb and as a .gltf with files in a folder, and an OBJ with a material. */
 before(async () => {
   if (missing) return;
   folder = mkdtempSync(join(tmpdir(), "tspace-open-"));
@@ -32,7 +32,7 @@ before(async () => {
 });
 after(() => folder && rmSync(folder, { recursive: true, force: true }));
 
-/** Lets go of files over the page, as a person does: the browser itself makes the drop. */
+/** Drops files on the page with a real drop event of the browser. */
 async function drop(tab, ...files) {
   const session = await tab.context().newCDPSession(tab);
   const data = { items: [], files, dragOperationsMask: 1 };
@@ -119,7 +119,7 @@ test("files and folders can be chosen, too", { skip: missing }, async () => {
   });
 });
 
-/** Where the eye is, as direction and distance from what it looks at. */
+/** Returns the camera's direction and distance from its target. */
 const eye = (tab) => tab.evaluate(() => {
   const { camera, target } = window.tspaceView.views.stage.viewport;
   const way = camera.position.clone().sub(target), distance = way.length();
@@ -132,7 +132,7 @@ test("one finger turns the model, and two come nearer", { skip: missing }, async
     const session = await tab.context().newCDPSession(tab);
     const box = await tab.locator(".frame canvas").boundingBox();
     const place = (x, y, id) => ({ x: box.x + box.width * x, y: box.y + box.height * y, id });
-    /** Fingers that go from some places to others, as shares of the picture. */
+    /** Moves fingers between positions, given as fractions of the picture. */
     const drag = async (from, to) => {
       const between = (t) => from.map(([x, y], id) => place(x + t * (to[id][0] - x), y + t * (to[id][1] - y), id));
       await session.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: between(0) });
@@ -145,14 +145,14 @@ test("one finger turns the model, and two come nearer", { skip: missing }, async
     const turned = await eye(tab);
     assert.ok(degrees(start.direction, turned.direction) > 10, "turned");
     assert.ok(Math.abs(turned.distance / start.distance - 1) < 0.01, "and came no nearer");
-    // Both fingers start beside the split line, which a finger on it drags.
+    // Both fingers start next to the split line, because a finger on the line would drag it.
     await drag([[0.3, 0.3], [0.4, 0.3]], [[0.1, 0.3], [0.6, 0.3]]);
     const near = await eye(tab);
     assert.ok(near.distance < 0.8 * turned.distance, `${near.distance} of ${turned.distance}`);
     await drag([[0.1, 0.3], [0.8, 0.3]], [[0.45, 0.3], [0.55, 0.3]]);
     assert.ok((await eye(tab)).distance > 1.2 * near.distance, "and away again");
     assert.equal(await tab.evaluate(() => scrollY), 0, "the page does not scroll under the fingers");
-    await tab.waitForSelector(".texel dl", { state: "attached" }); // what a finger touches is read
+    await tab.waitForSelector(".texel dl", { state: "attached" }); // the texel at the touched point is shown
   }, { width: 390, height: 844, hasTouch: true });
 });
 

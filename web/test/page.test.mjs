@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page itself: samples and their findings, each look, keyboard, light, contrast, widths.
+// The page: samples and their findings, each look, keyboard, light, contrast, widths.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { loadavg } from "node:os";
@@ -16,7 +16,7 @@ test("the page is one file of at most 1.2 MB gzipped", () => {
 
 test("the broken crate is shown at once: wrong signs are found, and its triangles are outlined", { skip: missing }, async (t) => {
   await withPage(async (tab) => {
-    // On a busy machine a frame may come after the findings.
+    // On a busy machine, a frame may be drawn after the findings.
     const ms = await tab.waitForFunction(() => performance.getEntriesByName("first picture")[0]?.startTime).then((mark) => mark.jsonValue());
     t.diagnostic(`first picture ${Math.round(ms)} ms after the page was asked for; load of the machine ${loadavg()[0].toFixed(1)}`);
     assert.equal(await tab.evaluate(() => document.documentElement.dataset.picture), "drawn");
@@ -32,7 +32,7 @@ test("the broken crate is shown at once: wrong signs are found, and its triangle
     assert.equal(await tab.locator(".details a.lesson").getAttribute("href"), "learn.html#mirror");
     const outlined = await shares(tab, { outline: [255, 45, 111] });
     assert.ok(outlined.outline > 0.0001, JSON.stringify(outlined));
-    // The mirrored parts lie around a face that is right: the picture flies to where they are seen, and the line halves them.
+    // The mirrored parts surround a correct face: the camera moves to a view of them, and the split line halves them.
     const line = await tab.evaluate(() => window.tspaceView.views.stage.viewport.settings.split);
     const left = await shares(tab, { blue, red }, { left: 0, top: 0.1, right: line - 0.01, bottom: 0.85 });
     assert.ok(left.red > 0.03, `what is wrong is in the picture: ${JSON.stringify(left)}`);
@@ -81,7 +81,7 @@ test("the sound crate has no findings, and the ring has no tangents", { skip: mi
   await withPage(async (tab) => {
     await openSample(tab, "crate.glb");
     assert.deepEqual(await codes(tab), []);
-    assert.match(await tab.locator(".findings .fine").textContent(), /Nothing is wrong/);
+    assert.match(await tab.locator(".findings .fine").textContent(), /No errors were found/);
     await shoot(tab, "crate");
     await openSample(tab, "ring-directx.glb");
     const found = await codes(tab);
@@ -129,7 +129,7 @@ test("everything works by keyboard, and the light follows mouse and keys", { ski
     await tab.mouse.move(box.x + box.width * 0.2, box.y + box.height / 2);
     await tab.mouse.up({ button: "right" });
     assert.match(await tab.locator(".light").getAttribute("aria-valuetext"), /^-/);
-    // Each control can be reached by Tab, and what has the focus is outlined.
+    // Each control can be reached by Tab, and the focused one is outlined.
     const reached = new Set();
     await tab.evaluate(() => document.activeElement.blur());
     for (let i = 0; i < 60; ++i) {
@@ -139,12 +139,12 @@ test("everything works by keyboard, and the light follows mouse and keys", { ski
         return element.getAttribute("aria-label") ?? element.closest("fieldset")?.querySelector("legend")?.textContent ?? element.textContent.slice(0, 20);
       }));
     }
-    for (const name of ["Open model…", "Half inside out", "Look", "Light", "Normal map", "Lines of"]) assert.ok([...reached].some((text) => text.startsWith(name)), `${name} among ${[...reached].join(" | ")}`);
+    for (const name of ["Open model…", "Dents on one half", "Look", "Light", "Normal map", "Show T, B, N of"]) assert.ok([...reached].some((text) => text.startsWith(name)), `${name} among ${[...reached].join(" | ")}`);
     assert.ok([...reached].some((text) => text.startsWith("Bumps look like")), "findings");
   });
 });
 
-/** The least contrast of text against what lies behind it, by the formula of WCAG 2. */
+/** Returns the minimum contrast of text and background, by the formula of WCAG 2. */
 const leastContrast = (tab) => tab.evaluate(() => {
   const numbers = (color) => color.match(/[\d.]+/g).map(Number);
   const luminance = ([r, g, b]) => [r, g, b].map((c) => c / 255).map((c) => (c <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)).reduce((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
@@ -166,11 +166,11 @@ const leastContrast = (tab) => tab.evaluate(() => {
   return least;
 });
 
-/** Texts that end beyond the window, or beyond what cuts them off. */
+/** Returns texts that extend beyond the window, or beyond an element that clips them. */
 const cutOff = (tab) => tab.evaluate(() => [...document.querySelectorAll("body *")].filter((element) => {
   const own = [...element.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim() !== "");
   if (!own || !element.checkVisibility() || getComputedStyle(element).clipPath !== "none") return false;
-  // Rows that scroll sideways.
+  // Rows that scroll horizontally.
   if (element.closest(".samples, .stage > .choice")) return false;
   const { left, right } = element.getBoundingClientRect();
   return left < 0 || right > innerWidth + 0.5 || element.scrollWidth > element.clientWidth + 1 && getComputedStyle(element).display !== "inline";

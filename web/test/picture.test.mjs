@@ -25,7 +25,7 @@ test("the line between both sides is dragged, and a held key shows the right sid
   });
 });
 
-/** Presses, moves and lets go, by the mouse or by a finger. */
+/** Drags with the mouse or with a finger. */
 async function drag(tab, isTouch, from, to) {
   if (!isTouch) {
     await tab.mouse.move(from.x, from.y);
@@ -49,9 +49,9 @@ for (const [width, height] of [[390, 844], [820, 1180]]) {
       const eye = () => tab.evaluate(() => window.tspaceView.views.stage.viewport.camera.position.toArray());
       const near = (a, b, part) => Math.hypot(...a.map((x, k) => x - b[k])) < part * Math.hypot(...b);
       const start = await eye();
-      let share = (await settings(tab)).split; // the line stands on the fault at first
+      let share = (await settings(tab)).split; // initially, the split line is at the fault
       for (const isTouch of [false, true]) {
-        // A finger hits beside the handle, and it is the line that moves, not the model.
+        // A touch next to the handle still moves the line, not the model.
         for (const next of [0.7, 0.35]) {
           const off = isTouch ? 14 / box.width : 0;
           await drag(tab, isTouch, at(share + off, isTouch ? 0.62 : 0.4), at(next, 0.6));
@@ -60,7 +60,7 @@ for (const [width, height] of [[390, 844], [820, 1180]]) {
           assert.ok(near(await eye(), start, 1e-6), "the model stays");
           const line = await tab.locator(".split-line").boundingBox();
           assert.ok(Math.abs(line.x + line.width / 2 - at(share, 0).x) < 1, "the line is drawn where the colors change");
-          // Left of it the crate's lost signs, striped red; right of it none.
+          // Left of the line, the crate's wrong signs are striped red; right of it there are none.
           const left = await shares(tab, { red }, { left: 0, top: 0.1, right: share - 0.01, bottom: 0.85 }), right = await shares(tab, { red }, { left: share + 0.01, top: 0.1, right: 1, bottom: 0.85 });
           assert.ok(left.red > 0.005 && right.red < 0.001, `${left.red} left of ${share}, ${right.red} right of it`);
         }
@@ -92,12 +92,12 @@ test("difference of lighting is nothing where frames are the same, and a half tu
   });
 });
 
-/** The box around all pixels that are not ground, as shares of the picture. */
+/** Returns the bounding box of all pixels that are not background, as fractions of the picture. */
 const filled = async (tab) => {
   const { width, height, channels, data } = await pixelsOf(tab), ground = channels * (4 * width + 4);
   let left = width, right = 0, top = height, bottom = 0;
   for (let y = 3; y < height - 3; ++y) {
-    for (let x = 3; x < width - 3; ++x) { // pixels at the rim may be mixed with what lies beside the picture
+    for (let x = 3; x < width - 3; ++x) { // pixels at the border may be blended with the page around the picture
       if (farApart(data, channels * (y * width + x), data, ground) < 12) continue;
       left = Math.min(left, x), right = Math.max(right, x), top = Math.min(top, y), bottom = Math.max(bottom, y);
     }
@@ -137,7 +137,7 @@ for (const [width, height] of [[390, 844], [820, 1180], [1280, 800]]) {
           return found;
         }, places);
         const right = hits.filter(([hit, wanted]) => hit === wanted).length;
-        // Those on the far side are hidden by others.
+        // Triangles on the far side are hidden.
         assert.ok(right > 0.25 * hits.length, `${name}: ${right} of ${hits.length}`);
       }
     }, { width, height });
@@ -161,7 +161,7 @@ test("surfaces look as their materials say: colors of vertices, what mirrors, wh
       });
       return { posed: extent(p, Array.from({ length: p.length / 3 }, (_, i) => i)), rest: extent(rest.positions, [...rest.indices]) };
     });
-    // He stands upright (y), where the file's positions lie along z.
+    // The figure is upright (y), although the file's positions extend along z.
     assert.ok(sizes.posed[1] > 1.4 && sizes.posed[2] < 1.3 && sizes.rest[2] > 1.4, JSON.stringify(sizes));
     await shoot(tab, "surface-skin");
     await open("ClearCoatTest.glb");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The picture against three.js alone: the same model, environment, light and pose; and how much of a picture a fault changes.
+// Compares the picture with plain three.js: the same model, environment, light and pose; and measures how many pixels a fault changes.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -9,7 +9,7 @@ import { Glb } from "./glb.mjs";
 import { difference, drawn, isLong, named, noShared, openBytes, openFile, overGray, ownPicture, shared, withPage } from "./support.mjs";
 
 const plain = process.env.TSPACE_PLAIN;
-// Those with KTX2 textures have the same pictures as PNG: three.js alone reads no KTX2.
+// Models with KTX2 textures use PNGs with the same content here, because plain three.js does not read KTX2.
 const models = [
   "khronos/NormalTangentTest.glb", "khronos/BoomBoxWithAxes.glb", "khronos/Suzanne/Suzanne.gltf", "khronos/Fox.glb", "khronos/CesiumMan.glb", "khronos/ClearCoatTest.glb",
   "khronos/Lantern.glb", "khronos/SciFiHelmet.glb", "khronos/SheenCloth.glb", "khronos/SimpleInstancing.glb", "khronos/BoxVertexColors.glb", "khronos/TwoSidedPlane.glb",
@@ -45,7 +45,7 @@ test("models look as three.js alone shows them: 6 of 255 apart in the mean of th
 
 test("on a cat with inverted signs a quarter of the pixels differ between the file and what is right", { skip: noShared }, async (t) => {
   await withPage(async (tab) => {
-    // Its normal map is for DirectX, and its signs are inverted, which cancels out; turned, they are wrong together with the map.
+    // Its normal map is for DirectX and its signs are inverted, which cancels out; with corrected signs, the map is wrong.
     const glb = new Glb(readFileSync(join(shared, "models/assets/Cat.glb"))), seen = new Set();
     for (const { attributes } of glb.primitives("TANGENT")) {
       if (seen.has(attributes.TANGENT)) continue;

@@ -8,7 +8,7 @@ import { test } from "node:test";
 import { checkFile, codes, codesOf, damages, models, writeModel } from "./recall/corpus.mjs";
 import { isLong, noTool, shared, tool, withPage } from "./support.mjs";
 
-/** The report of the page's worker, without the picture. */
+/** Returns the report of the page's worker, without drawing. */
 const checkInPage = (tab, path) => tab.evaluate(async ([name, text]) => {
   const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
   return window.tspaceView.work.run("report", { verb: "check", model: { name, bytes, others: new Map() } });
@@ -16,7 +16,7 @@ const checkInPage = (tab, path) => tab.evaluate(async ([name, text]) => {
 
 const codesAndPlaces = ({ findings }) => findings.map(({ code, severity, place }) => `${severity} ${code} ${place}`).join(", ");
 
-/** What one of them finds of the damage to all models, and what on the sound ones. */
+/** Counts the damage that one program finds in all models, and its findings in undamaged ones. */
 class Tally {
   counts = Object.fromEntries(Object.keys(damages).map((damage) => [damage, { made: 0, found: 0, named: 0, missed: [] }]));
   alarms = [];

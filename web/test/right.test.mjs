@@ -22,13 +22,13 @@ async function picture(tab, split) {
 test("where green points down, the right side is what the file with turned green looks like", { skip: missing }, async () => {
   await withPage(async (tab) => {
     await openSample(tab, "ring-directx.glb");
-    assert.equal(await rightLabel(tab), "correct frames (mikktspace), green flipped");
+    assert.equal(await rightLabel(tab), "correct frames (mikktspace), green inverted");
     const left = await picture(tab, "1000"), right = await picture(tab, "0");
     assert.ok(differing(left, right) > 0.02, "as the file is, bumps are dents");
     await tab.locator(".split").fill("500");
     await shoot(tab, "ring-green-turned");
     await tab.locator(".mend > summary").click();
-    assert.equal(await tab.getByLabel("Flip green of maps").isChecked(), true, "what the finding asks for is switched on");
+    assert.equal(await tab.getByLabel("Invert green in maps").isChecked(), true, "what the finding asks for is switched on");
     assert.match(await tab.locator(".reasons").textContent(), /Green points down in 1 normal map/);
     await mended(tab);
     await tab.waitForFunction(() => window.tspaceView.views.stage.viewport.scene.drawn.every(({ rightMap, part }) => rightMap !== part.normalMap));
@@ -61,11 +61,11 @@ test("a mend that changes nothing says so and offers nothing to take", { skip: m
     await openSample(tab, "crate.glb");
     await tab.locator(".mend > summary").click();
     await mended(tab);
-    assert.match(await tab.locator(".result").textContent(), /Nothing had to change/);
+    assert.match(await tab.locator(".result").textContent(), /No changes were needed/);
     assert.equal(await tab.locator(".result a").getAttribute("class"), "button plain-link");
     await choose(tab, "recompute all", ".mend");
     await tab.locator(".mend select").selectOption("best");
-    await tab.getByLabel("Flip green of maps").check();
+    await tab.getByLabel("Invert green in maps").check();
     await openSample(tab, "crate-signs-lost.glb");
     assert.match(await tab.locator(".command").textContent(), / --repair$/, "no choice is taken over to the next model");
   });
@@ -81,7 +81,7 @@ test("inverted signs and green that cancel out are mended both or not at all", {
     assert.match(await tab.locator(".result .counts").textContent(), /^3 errors, .* → 0 errors, /);
     await choose(tab, "recompute all", ".mend");
     assert.match(await tab.locator(".command").textContent(), / --overwrite --flip-green$/);
-    assert.match(await tab.locator(".reasons").textContent(), /that is switched on/);
+    assert.match(await tab.locator(".reasons").textContent(), /was selected for you/);
     await choose(tab, "inverted", ".mend");
     assert.match(await tab.locator(".command").textContent(), / --overwrite --convention opengl$/);
     await tab.locator(".look select").first().selectOption("mikktspace");
@@ -132,7 +132,7 @@ test("a finding's own button sets Mend to what its remedy does", { skip: missing
 test("without WebGL there are findings and mends, and a sentence where the picture was", { skip: missing }, async () => {
   await withPage(async (tab) => {
     assert.equal(await tab.evaluate(() => document.documentElement.dataset.picture), "none");
-    assert.match(await tab.locator(".remark").textContent(), /no WebGL, so there is no picture/);
+    assert.match(await tab.locator(".remark").textContent(), /does not support WebGL, so there is no picture/);
     assert.equal(await tab.locator(".finding").getAttribute("data-code"), "signsWrong");
     assert.match(await tab.locator(".figures").textContent(), /1,728 of 5,184 corners have the wrong sign/);
     await shoot(tab, "no-webgl");
@@ -140,7 +140,7 @@ test("without WebGL there are findings and mends, and a sentence where the pictu
     await mended(tab);
     assert.equal(await tab.locator(".result .counts").textContent(), "1 error → 0 errors");
     await tab.locator(".uv > summary").click();
-    await tab.locator(".uv", { hasText: "drawn by WebGL, which this browser has not" }).waitFor();
+    await tab.locator(".uv", { hasText: "needs WebGL, which this browser does not support" }).waitFor();
     await openSample(tab, "ring-directx.glb");
     assert.ok((await tab.locator(".finding").count()) > 0);
   }, { hasWebGl: false, allowMessages: true });
@@ -167,7 +167,7 @@ test("an image that cannot be drawn takes itself away, and not the model", { ski
         writeFileSync(path, glb.finish());
         assert.equal(await openFile(tab, path), "ready", kind);
         assert.equal(await tab.evaluate(() => document.documentElement.dataset.picture), "drawn", kind);
-        assert.match(await tab.locator(".remark").textContent(), kind.includes("KTX2") ? /1 image cannot be drawn here \(the image is neither KTX2 nor DDS\)/ : /1 image cannot be drawn here,/, kind);
+        assert.match(await tab.locator(".remark").textContent(), kind.includes("KTX2") ? /1 image cannot be displayed \(the image is neither KTX2 nor DDS\)/ : /1 image cannot be displayed,/, kind);
         assert.ok((await tab.locator(".finding").count()) > 0, kind);
       }
       await shoot(tab, "image-left-out");

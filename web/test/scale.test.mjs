@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scales of nodes change where vertices are, and never how much relief a normal map has: both sides, every look, and beside three.js.
+// Node scales move vertices but do not change the strength of a normal map: both sides, every look, and compared with three.js.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -12,7 +12,7 @@ const plain = process.env.TSPACE_PLAIN, noPlain = missing || (!plain && "the pag
 const small = { width: 900, height: 700 };
 const looks = ["lit", "clay", "difference", "normals", "signs", "mirrored", "error", "islands"];
 
-/** Both sides of every look, each over all of the picture. */
+/** Both sides of every look, each filling the picture. */
 async function pictures(tab, bytes, wanted = looks) {
   await openBytes(tab, "crate.glb", bytes);
   // Other content of the page must not change the size of the picture.
@@ -44,7 +44,7 @@ function scaled(bytes, scale, hasTangents = true) {
   return glb.finish();
 }
 
-/** The same surface without a scale: vertices where the node would put them, N by the inverse transpose and T by the matrix. */
+/** The same surface without a node scale: transformed vertices, N by the inverse transpose and T by the matrix. */
 function applied(bytes, scale) {
   const glb = new Glb(bytes), isMirror = scale[0] * scale[1] * scale[2] < 0;
   for (const primitive of glb.primitives("POSITION", "NORMAL", "TANGENT")) {
@@ -107,13 +107,13 @@ test("an uneven or mirroring scale of the node is lit as the same scale in the v
         const { mean } = difference(picture, vertices);
         assert.ok(mean < 0.1, `${scale}, ${side}: ${mean} of 255 beside three.js`);
       }
-      // three.js turns B over where a node mirrors a file with tangents, against its own picture of the same surface.
+      // three.js inverts B if a node mirrors a file with tangents, in contrast to its own picture of the same surface.
       t.diagnostic(`three.js itself, ${scale} in the node and in the vertices: ${difference(node, vertices).mean.toFixed(2)} of 255 apart`);
     }
   }, { ...small, url: pathToFileURL(plain).href, allowMessages: true });
 });
 
-/** The crate on one bone with this scale. Its triangles are wound for what the bone makes of them. */
+/** Returns the crate on one bone with this scale. Its triangles are wound for the transformed shape. */
 function boned(bytes, scale) {
   const glb = new Glb(bytes), isMirror = scale[0] * scale[1] * scale[2] < 0;
   for (const primitive of glb.primitives("POSITION", "NORMAL", "TANGENT")) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page in headless Chromium, opened from disk, and what tests ask of it.
+// Test support: the page in headless Chromium, opened from disk.
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join, relative } from "node:path";
@@ -16,9 +16,9 @@ export const missing = (!chromium && "no Chromium here: scripts/web --all") || (
 export const noShared = missing || (!(shared && existsSync(shared)) && "no shared models here");
 export const noTool = noShared || (!tool && "the tool is not built");
 
-/** Everything, not only a share of it. */
+/** Run all cases instead of a sample. */
 export const isLong = process.env.TSPACE_LONG === "1";
-/** Milliseconds after which something hangs: a busy machine must not fail a test. */
+/** Timeout in milliseconds, long enough for a busy machine. */
 export const kPatience = 120_000;
 
 /** Runs `test(tab)` with the page open. Any request, error or message of the console fails it. */
@@ -49,13 +49,13 @@ export async function withPage(test, { width = 1280, height = 800, scheme = "lig
   }
 }
 
-/** Waits until the model is judged, or has failed, or was stopped; gives the state. */
+/** Waits until the check of the model is complete, failed or stopped; returns the state. */
 export async function settled(tab, timeout = kPatience) {
   await tab.waitForSelector("html:is([data-state=ready], [data-state=failed], [data-state=stopped])", { state: "attached", timeout });
   return tab.evaluate(() => document.documentElement.dataset.state);
 }
 
-/** Opens a file, with those beside it that it may name, as if it had been dropped. */
+/** Opens a file, with the files that it may reference, as if they had been dropped. */
 export async function openFile(tab, path, { name = path.split("/").pop(), others = {}, timeout } = {}) {
   const files = Object.fromEntries(Object.entries(others).map(([key, file]) => [key, readFileSync(file).toString("base64")]));
   await tab.evaluate(([name, model, files]) => {
@@ -66,19 +66,19 @@ export async function openFile(tab, path, { name = path.split("/").pop(), others
   return settled(tab, timeout);
 }
 
-/** Opens a sample by the name of its file, as by a press on its picture; gives the state. */
+/** Opens a sample by its file name, as if its picture had been clicked; returns the state. */
 export async function openSample(tab, file) {
   await tab.locator(`.sample[data-file="${file}"]`).click();
   return settled(tab);
 }
 
-/** Opens a model that a test has made. */
+/** Opens a model that a test has generated. */
 export async function openBytes(tab, name, bytes) {
   await tab.evaluate(([name, text]) => void window.tspaceView.open(async () => ({ name, bytes: Uint8Array.from(atob(text), (c) => c.charCodeAt(0)), others: new Map() })), [name, bytes.toString("base64")]);
   if ((await settled(tab)) !== "ready") throw new Error(`${name} is not shown`);
 }
 
-/** Files that a .gltf names, by their paths as it writes them, decoded. */
+/** Returns the files that a .gltf references, by their decoded paths. */
 export function named(path) {
   if (!path.endsWith(".gltf")) return {};
   const found = {};
@@ -90,7 +90,7 @@ export function named(path) {
       if (!relative(dirname(path), file).startsWith("..") && existsSync(file) && statSync(file).isFile()) found[decodeURIComponent(uri)] = file;
     }
   } catch {
-    // Broken files may have any names.
+    // Corrupt files may contain any names.
   }
   return found;
 }
@@ -99,7 +99,7 @@ export function filesBelow(folder, pattern) {
   return readdirSync(folder, { recursive: true }).filter((name) => pattern.test(name)).map((name) => join(folder, name)).sort();
 }
 
-/** Waits until what was changed is drawn. */
+/** Waits until the change has been drawn. */
 export const drawn = (tab) => tab.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done)))));
 
 export async function shoot(tab, name, options = {}) {
@@ -108,10 +108,10 @@ export async function shoot(tab, name, options = {}) {
   return tab.screenshot({ path: join(screenshots, `${name}.png`), ...options });
 }
 
-/** Chooses a look, a method's frame or anything else that is a radio button. */
+/** Selects a radio button, such as a look or a method. */
 export const choose = (tab, label, scope = "body") => tab.locator(`${scope} label`, { hasText: new RegExp(`^${label}$`) }).locator("input").check({ force: true });
 
-/** Mends the model as the page is set to, and downloads it. */
+/** Fixes the model with the selected options, and downloads it. */
 export async function mended(tab) {
   await tab.locator(".mend .main").click();
   await tab.waitForSelector(".result a:not(.folder)");
@@ -119,23 +119,23 @@ export async function mended(tab) {
   return readFileSync(await download.path());
 }
 
-/** The picture as pixels, without what lies over it. */
+/** Returns the pixels of the picture, without overlays. */
 export async function pixelsOf(tab) {
   await drawn(tab);
   return decode(await tab.locator(".frame").screenshot({ style: ".frame > :not(canvas) { visibility: hidden; }" }));
 }
 
-/** The share of an image's pixels of which something holds: `holds(at)` gets where red of the pixel is in its data. */
+/** Returns the share of an image's pixels for which `holds(at)` is true; `at` is the index of the pixel's red value. */
 export function shareOf({ width, height, channels }, holds) {
   let count = 0;
   for (let i = 0; i < width * height; ++i) count += holds(channels * i);
   return count / (width * height);
 }
 
-/** The largest difference of red, green and blue between two places. */
+/** Returns the largest difference of red, green and blue between two pixels. */
 export const farApart = (a, at, b, other) => Math.max(...[0, 1, 2].map((k) => Math.abs(a[at + k] - b[other + k])));
 
-/** Shares of the picture's pixels that are nearest to each of the named colors; what is far from all counts as "other". */
+/** Returns the shares of pixels that are nearest to each named color; pixels far from all of them count as "other". */
 export async function shares(tab, colors, area = { left: 0, top: 0, right: 1, bottom: 1 }) {
   await drawn(tab);
   const png = (await tab.locator(".frame canvas").screenshot({ style: ".frame > :not(canvas) { visibility: hidden; }" })).toString("base64");
@@ -163,7 +163,7 @@ export async function shares(tab, colors, area = { left: 0, top: 0, right: 1, bo
   }, [png, colors, area]);
 }
 
-/** The picture of the page as PNG, all of it as the file is (or the other side: 0), and where its eye and its lamp are. */
+/** Returns the picture of the page as PNG, completely with the file's frames (or the other side: 0), and the positions of camera and lamp. */
 export const ownPicture = (tab, split = 1) => tab.evaluate(async (split) => {
   const { stage } = window.tspaceView.views, { viewport } = stage, { camera, target } = viewport;
   stage.setSplit(split);
@@ -178,7 +178,7 @@ export const ownPicture = (tab, split = 1) => tab.evaluate(async (split) => {
   return { text, view: { width, height, position: camera.position.toArray(), target: target.toArray(), up: camera.up.toArray(), fov: camera.fov, near: camera.near, far: camera.far, light: light.toArray() } };
 }, split);
 
-/** Pixels over a gray ground. */
+/** Returns pixels blended with a gray background. */
 export function overGray(text) {
   const { width, height, channels, data } = decode(Buffer.from(text, "base64")), rgb = new Float64Array(3 * width * height), covered = new Uint8Array(width * height);
   for (let i = 0; i < covered.length; ++i) {
@@ -189,7 +189,7 @@ export function overGray(text) {
   return { rgb, covered };
 }
 
-/** The mean over the pixels where one of both has something. */
+/** Returns the mean difference over the pixels that are not background in at least one picture. */
 export function difference(one, other) {
   let sum = 0, count = 0;
   for (let i = 0; i < one.covered.length; ++i) {

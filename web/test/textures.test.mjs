@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// KTX2 and DDS in the picture: the pixels that the tool reads of them, and a sentence where there are none.
+// KTX2 and DDS in the picture: the same pixels as in the tool, and a message for unsupported formats.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
@@ -16,7 +16,7 @@ before(() => (folder = mkdtempSync(join(tmpdir(), "tspace-textures-"))));
 after(() => rmSync(folder, { recursive: true, force: true }));
 const run = (...args) => execFileSync(tool, args, { stdio: ["ignore", "pipe", "pipe"] });
 
-/** A KTX2 of one block of ASTC, which the page's decoders leave out. */
+/** A KTX2 with one block of ASTC, which the page's decoders do not support. */
 function astc() {
   const file = ktx2(4, 4, Buffer.alloc(16), 0);
   file.writeUInt32LE(157, 12);
@@ -24,14 +24,14 @@ function astc() {
   return file;
 }
 
-/** What the page's decoders make of a file. */
+/** Returns the pixels that the page's decoders read from a file. */
 const decoded = (tab, path) => tab.evaluate(async (text) => {
   const file = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
   const { width, height, rgba } = await window.tspaceView.work.run("texture", { file });
   return { width, height, rgba: Array.from(rgba) };
 }, readFileSync(path).toString("base64"));
 
-/** What the tool makes of it: the picture that flip-green writes, with green turned back. */
+/** Returns the tool's pixels: the output of flip-green, with green inverted back. */
 function byTool(path) {
   const out = join(folder, "flipped.png");
   run("flip-green", path, "-o", out);
@@ -44,7 +44,7 @@ function byTool(path) {
   return { width, height, rgba };
 }
 
-/** A KTX2 of RGBA with 8 bits, as it is (0) or packed by zlib (3). */
+/** Returns a KTX2 with 8-bit RGBA, uncompressed (0) or zlib-compressed (3). */
 function ktx2(width, height, rgba, packing) {
   const descriptor = Buffer.alloc(4 + 24 + 4 * 16), level = packing === 3 ? deflateSync(rgba) : rgba;
   descriptor.writeUInt32LE(descriptor.length, 0);
@@ -87,7 +87,7 @@ test("the page reads the pixels of KTX2 and DDS that the tool reads", { skip: no
       // The tool reconstructs z of two-channel files; in a glTF, blue is read from the file, where it is absent.
       const hasBlue = !file.includes("map.");
       const most = own.rgba.reduce((most, value, i) => (i % 4 === 2 && !hasBlue ? most : Math.max(most, Math.abs(value - theirs.rgba[i]))), 0);
-      // Where the tool writes 16 bits, those are rounded here.
+      // The tool may write 16 bits, which are rounded to 8 here.
       assert.ok(most <= 0.51, `${file}: ${most}`);
     }
     assert.deepEqual((await decoded(tab, join(folder, "plain-3.ktx2"))).rgba, [...rgba]);
@@ -106,7 +106,7 @@ test("a model with KTX2 is drawn with its images, and no sentence says that they
 });
 
 test("a KTX2 is drawn, and the image beside it only where the KTX2 is broken", { skip: noShared }, async () => {
-  // The bottle is yellow, and the image beside the KTX2 one blue texel.
+  // The bottle is yellow, and the alternative to the KTX2 is a single blue texel.
   const bottle = join(shared, "models/assets/ycb_mustard_bottle.glb"), broken = readFileSync(bottle);
   broken.writeUInt32LE(0x7fffffff, broken.indexOf("KTX 20") - 1 + 12);
   writeFileSync(join(folder, "broken.glb"), broken);
@@ -137,6 +137,6 @@ test("broken textures of hostile files end with a sentence", { skip: noTool }, a
       assert.match(await failed(broken), /./);
     }
     for (const sentence of said) assert.match(sentence, /^it is /);
-    assert.equal(await failed(astc()), "it is a KTX2 of ASTC, which the page cannot show: export it as PNG, JPEG or WebP, or as KTX2 of UASTC or ETC1S");
+    assert.equal(await failed(astc()), "it is a KTX2 with ASTC data, which this page cannot show; export it as PNG, JPEG or WebP, or as KTX2 with UASTC or ETC1S");
   }, { allowMessages: true });
 });

@@ -14,7 +14,7 @@ async function openMap(tab, isLarge) {
   if (isLarge) await tab.getByRole("button", { name: "Show large" }).click();
   await drawn(tab);
 }
-/** Where a UV is on the screen, by what the map itself says of its window. */
+/** Returns the screen position of a UV, computed from the window that the map reports. */
 const windowOf = (tab) => tab.evaluate(() => {
   const { left, top, width, height } = document.querySelector(".map canvas").getBoundingClientRect();
   return { left, top, width, height, area: window.tspaceView.views.uvMap.area };
@@ -23,7 +23,7 @@ async function placeOf(tab, [u, v]) {
   const { left, top, width, height, area: [su, sv, ou, ov] } = await windowOf(tab);
   return { x: left + (u * su + ou) * width, y: top + (v * sv + ov) * height };
 }
-/** UVs of the middle of a triangle of the first part. */
+/** Returns the UVs of the center of a triangle of the first part. */
 const middleOf = (tab, triangle) => tab.evaluate((t) => {
   const { uvs } = window.tspaceView.views.stage.viewport.scene.drawn[0].corners;
   return [0, 1].map((k) => (uvs[6 * t + k] + uvs[6 * t + 2 + k] + uvs[6 * t + 4 + k]) / 3);
@@ -63,7 +63,7 @@ for (const [width, height, scheme] of [[1280, 800, "light"], [390, 844, "light"]
 test("the map is zoomed about the pointer, moved, and shown whole again, by mouse and by keys", { skip: missing }, async () => {
   await withPage(async (tab) => {
     await openMap(tab, true);
-    // Whole pixels, as a mouse has them.
+    // Whole pixels, like mouse positions.
     const start = (await windowOf(tab)).area, box = await windowOf(tab), place = { x: Math.round(box.left + 0.4 * box.width), y: Math.round(box.top + 0.3 * box.height) };
     const uv = [((place.x - box.left) / box.width - start[2]) / start[0], ((place.y - box.top) / box.height - start[3]) / start[1]];
     await tab.mouse.move(place.x, place.y);
@@ -89,7 +89,7 @@ test("the map is zoomed about the pointer, moved, and shown whole again, by mous
     await tab.keyboard.press("0");
     await drawn(tab);
     assert.ok(close((await windowOf(tab)).area, start));
-    await tab.getByRole("button", { name: "Back to the side" }).click();
+    await tab.getByRole("button", { name: "Back to the side panel" }).click();
     assert.equal(await tab.locator(".large-map").isVisible(), false);
     assert.equal(await tab.locator(".uv .map").isVisible(), true);
   });
@@ -99,7 +99,7 @@ test("triangles that share a place are all found, and each further click shows t
   await withPage(async (tab) => {
     await openFile(tab, join(shared, "models/khronos/BoomBoxWithAxes.glb"));
     await openMap(tab, true);
-    // A place that several triangles of the shown part have: of mirrored halves.
+    // A UV that several triangles of the shown part cover, on mirrored halves.
     const overlap = await tab.evaluate(() => {
       const { uvs } = window.tspaceView.views.stage.viewport.scene.drawn[0].corners;
       const inside = (i, u, v) => {
@@ -143,14 +143,14 @@ test("each UV set of a file can be chosen, with what reads it and its own island
     const sets = tab.locator(".large-map").getByLabel("UV set");
     const labels = await sets.locator("option").allTextContents();
     assert.equal(labels.length, 2);
-    assert.match(labels.join("; "), /TEXCOORD_0, as read by .*TEXCOORD_1, as read by/);
+    assert.match(labels.join("; "), /TEXCOORD_0, used by .*TEXCOORD_1, used by/);
     const pixels = () => tab.locator(".map canvas").first().screenshot();
     const first = await pixels();
     await sets.selectOption("1");
     await drawn(tab);
     await tab.waitForFunction(() => /island/.test(document.querySelector(".large-map [role=status]").textContent));
     assert.ok(!first.equals(await pixels()));
-    assert.match(await tab.locator(".large-map").getByLabel("Image behind").textContent(), /none/);
+    assert.match(await tab.locator(".large-map").getByLabel("Background image").textContent(), /none/);
     await shoot(tab, "uv-second-set");
   }, { allowMessages: true });
 });

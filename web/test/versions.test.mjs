@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two versions of a model at both sides of the line, and what is shared: one page, a link, and what the browser keeps.
+// Comparing two versions of a model; also the exported page, links, and files stored in the browser.
 import assert from "node:assert/strict";
 import { createServer } from "node:http";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -28,18 +28,18 @@ test("two versions stand left and right of the line, with the degrees between th
     await tab.locator(".open .picker input").last().setInputFiles(path);
     await tab.locator(".figures", { hasText: "the other file" }).waitFor();
     await tab.locator(".seen", { hasText: "Two versions" }).waitFor();
-    assert.match(await tab.locator(".seen").textContent(), /left crate-signs-lost\.glb \(1 error\), right right\.glb \(nothing wrong\)/);
+    assert.match(await tab.locator(".seen").textContent(), /left crate-signs-lost\.glb \(1 error\), right right\.glb \(no findings\)/);
     assert.deepEqual(await tab.locator(".side").allTextContents(), ["crate-signs-lost.glb", "right.glb"]);
     assert.match(await tab.locator(".figures").textContent(), /1,728 of 5,184 corners have a different sign/);
     await choose(tab, "Difference");
     await drawn(tab);
     await shoot(tab, "two-versions");
     await openSample(tab, "crate.glb");
-    assert.equal(await tab.locator(".side.left").textContent(), "as the file is");
+    assert.equal(await tab.locator(".side.left").textContent(), "as in the file");
   }));
 });
 
-/** Both halves of the picture, without what lies over it. */
+/** Returns both halves of the picture, without overlays. */
 async function halves(tab) {
   const { width, height, channels, data } = await pixelsOf(tab), half = Math.floor(width / 2), take = (from) => {
     const out = { width: half, height, channels, data: new Uint8Array(channels * half * height) };
@@ -62,7 +62,7 @@ test("side by side both files have a picture of their own, seen by one camera, a
       await tab.locator(".figures", { hasText: "the other file" }).waitFor();
       await beside.locator("input").check();
     };
-    // A file beside itself: what both pictures show is the same, however the camera is moved.
+    // A file compared with itself: both pictures are equal for any camera.
     await compare();
     const [first, second] = await halves(tab);
     assert.ok(shareOf(first, (i) => farApart(first.data, i, first.data, 0) > 20) > 0.1, "the model is there");
@@ -73,7 +73,7 @@ test("side by side both files have a picture of their own, seen by one camera, a
     const [turned, other] = await halves(tab);
     assert.ok(apart(first, turned) > 0.05, "the camera was moved");
     assert.ok(apart(turned, other) < 0.01, `${apart(turned, other)}`);
-    // Two versions: as each file is, and the degrees between them in both pictures.
+    // Two versions: each file's own frames, and the angle between them in both pictures.
     await openSample(tab, "crate-signs-lost.glb");
     assert.deepEqual(await tab.evaluate(() => window.tspaceView.views.stage.viewport.settings.isBeside), false);
     await compare();
@@ -132,7 +132,7 @@ test("a model of one's own is there again after a reload, until it is forgotten"
       await tab.reload();
       await settled(tab);
       assert.equal(await name(), "my.glb");
-      await tab.getByRole("button", { name: "Forget it" }).click();
+      await tab.getByRole("button", { name: "Remove it" }).click();
       await tab.waitForFunction(() => document.querySelector(".kept").textContent === "");
       await tab.reload();
       await settled(tab);

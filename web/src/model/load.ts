@@ -154,7 +154,7 @@ async function sceneOf(gltf: GLTF, remarks: string[]): Promise<Object3D[]> {
   for (const root of roots) root.traverse((object) => (hasMesh ||= object instanceof Mesh));
   if (hasMesh) return roots;
   const meshes = (await gltf.parser.getDependencies("mesh")) as (Group | Mesh)[];
-  if (meshes.length > 0) remarks.push("No node of the scene draws these meshes; they are shown where they lie.");
+  if (meshes.length > 0) remarks.push("No node of the scene draws these meshes, so they are shown without a node transform.");
   return meshes;
 }
 
@@ -193,7 +193,7 @@ export async function loadModel(model: ModelFiles, work: Work, variant = -1): Pr
       });
     }
     moveToOrigin(parts.values());
-    if (left > 0) remarks.push(`${left} of its parts are not drawn: the picture ends at ${kMostCorners / 3 / 1e6} million triangles.`);
+    if (left > 0) remarks.push(`${left} parts of the model are not drawn, because the picture is limited to ${kMostCorners / 3 / 1e6} million triangles.`);
     remarks.push(...(await missingImages(gltf, why)));
     const isMoving = gltf.animations.length > 0 || gltf.cameras.length > 0 || objects.some(([, { morphTargetInfluences }]) => morphTargetInfluences);
     const motion = isMoving && roots.length > 0 ? new Motion(roots, gltf.animations, gltf.cameras, objects) : null;

@@ -106,7 +106,7 @@ function nearOrigin(source: string): { text: string; offset: number[] } {
 }
 
 export function glbOfObj(model: ModelFiles): ModelFiles {
-  if (model.bytes.length > kMostBytes) throw new Refusal(`${model.name} is too large for this page, which reads OBJ files of up to 200 MB.`);
+  if (model.bytes.length > kMostBytes) throw new Refusal(`${model.name} is too large for this page, which supports OBJ files of up to 200 MB.`);
   const near = nearOrigin(text(model.bytes));
   const root = new OBJLoader().parse(near.text);
   const writer = new ObjWriter(model, readMaterials(model));

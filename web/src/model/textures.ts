@@ -97,5 +97,5 @@ export async function missingImages(gltf: GLTF, why: ReadonlyMap<number, string>
   }
   if (lost.size === 0) return [];
   const reasons = new Set([...lost].map((image) => why.get(image)).filter((reason) => reason !== undefined));
-  return [`${plural(lost.size, "image")} cannot be drawn here${reasons.size > 0 ? ` (${[...reasons].join("; ")})` : ""}, and the model is shown without ${lost.size === 1 ? "it" : "them"}.`];
+  return [`${plural(lost.size, "image")} cannot be displayed${reasons.size > 0 ? ` (${[...reasons].join("; ")})` : ""}, and the model is shown without ${lost.size === 1 ? "it" : "them"}.`];
 }

@@ -8,13 +8,13 @@ export interface UvRead {
   label: string;
   /** Two numbers per vertex. */
   uvs: Float32Array<ArrayBuffer>;
-  /** These UVs are in `arrays.uvs`, which tangents follow. */
+  /** True if these UVs are those of `arrays.uvs`, which tangents follow. */
   isLeading: boolean;
   /** Images that use these UVs, the normal map first. */
   images: { name: string; image: CanvasImageSource & { width: number; height: number } }[];
 }
 
-const names: Record<string, string> = { normalMap: "normal map", map: "base color", metalnessMap: "metal and roughness", roughnessMap: "metal and roughness", aoMap: "occlusion", emissiveMap: "emission" };
+const names: Record<string, string> = { normalMap: "normal map", map: "base color", metalnessMap: "metallic and roughness", roughnessMap: "metallic and roughness", aoMap: "occlusion", emissiveMap: "emission" };
 /** Returns the display name of a material property of three.js. */
 export const nameOfMap = (property: string): string => names[property] ?? property.replace(/Map$/, "");
 const kMostSets = 4;
@@ -61,7 +61,7 @@ export function uvReadsOf(part: Part): UvRead[] {
     const attribute = part.attributes[uvName(channel)];
     if (!attribute) continue;
     const isLeading = part.arrays.uvs !== null && keyOf(channel, matrix) === leadingKey;
-    const readBy = names.length > 0 ? `, as read by ${names.slice(0, 3).join(", ")}${names.length > 3 ? " and others" : ""}` : ", read by no texture";
+    const readBy = names.length > 0 ? `, used by ${names.slice(0, 3).join(", ")}${names.length > 3 ? " and others" : ""}` : ", used by no texture";
     found.push({ label: `TEXCOORD_${channel}${matrix ? " transformed" : ""}${readBy}`, uvs: isLeading ? part.arrays.uvs! : uvsThrough(attribute, matrix), isLeading, images });
   }
   return found;

@@ -52,7 +52,7 @@ if (uMap != 0) {
 #endif`;
 
 function replaced(text: string, part: string, by: string): string {
-  if (!text.includes(part)) throw new Error(`three.js has no ${part} any more`);
+  if (!text.includes(part)) throw new Error(`this version of three.js does not have the shader part ${part}`);
   return text.replace(part, by);
 }
 

@@ -89,28 +89,28 @@ export function adviceFor(report: CheckReport | null, tangents: Tangents, isTurn
   const isOverwritten = tangents === "overwrite" && !isTurned;
   if (cancels(report)) {
     reasons.push(isOverwritten
-      ? "Inverted signs and a green that points down cancel out in this file. Recomputed tangents have correct signs, so green has to be flipped with them: that is switched on."
-      : "Inverted signs and a green that points down cancel out, so this file renders correctly. The fix keeps both.");
+      ? "Inverted signs and a green channel that points down cancel out in this file. Recomputed tangents have correct signs, so green must be inverted too. This option was selected for you."
+      : "Inverted signs and a green channel that points down cancel out, so this file renders correctly. The fix keeps both.");
   }
   if (isTurned && tangents === "overwrite") {
-    if (down.length > 0) reasons.push("Inverted signs require a green that points down: the fix keeps it.");
+    if (down.length > 0) reasons.push("The tangent signs are inverted, so green must point down: the fix keeps the green channel.");
   } else if (down.some(({ severity }) => severity !== "note") || (isOverwritten && down.length > 0)) {
     extras.flipGreen = true;
-    if (!cancels(report)) reasons.push(`Green points down in ${plural(down.length, "normal map")}: flipping it is switched on.`);
+    if (!cancels(report)) reasons.push(`Green points down in ${plural(down.length, "normal map")}. The option that inverts it was selected for you.`);
   }
   const options = serious.map(remedyOptions);
   if (options.some((one) => one?.mendMaps)) {
     extras.mendMaps = true;
-    reasons.push("A normal map is not encoded as glTF requires: converting it is switched on.");
+    reasons.push("A normal map is not encoded as glTF requires. The option that converts it was selected for you.");
   }
   if (options.some((one) => one?.mendWinding)) {
     extras.mendWinding = true;
-    reasons.push("The winding of some triangles is opposite to that of their neighbors: flipping them is switched on.");
+    reasons.push("The winding of some triangles is opposite to that of their neighbors. The option that flips them was selected for you.");
   }
   const morph = options.map((one) => one?.morphNormals).filter(Boolean);
   if (morph.length > 0) {
     extras.morphNormals = morph.includes("all") ? "all" : "missing";
-    reasons.push("The normals of morph targets do not follow the morphed surface: computing them is switched on.");
+    reasons.push("The normals of morph targets do not follow the morphed surface. The option that computes them was selected for you.");
   }
   return { extras, reasons };
 }
@@ -144,8 +144,8 @@ export function planFor(report: CheckReport): Plan | null {
   const isMissing = serious.some(({ code }) => code === "tangentsMissing" || code === "tangentsIgnored");
   const isWrong = serious.some((finding, i) => remedies[i]?.tangents === "repair" && finding.commands.some(({ verb, options }) => verb === "generate" && options.length > 0));
   const steps = [
-    tangents === "overwrite" ? "recompute all tangents" : isWrong ? "correct the wrong tangents" : isMissing || wants("repair", false) ? "add the missing tangents" : "",
-    extras.flipGreen ? `flip green in ${plural(report.findings.filter(({ code }) => code === "greenFlipped").length, "normal map")}` : "",
+    tangents === "overwrite" ? "recompute all tangents" : isWrong ? "recompute the wrong tangents" : isMissing || wants("repair", false) ? "add the missing tangents" : "",
+    extras.flipGreen ? `invert green in ${plural(report.findings.filter(({ code }) => code === "greenFlipped").length, "normal map")}` : "",
     extras.mendWinding ? "flip triangles that face inward" : "",
     extras.morphNormals ? "compute normals of morph targets" : "",
   ].filter(Boolean);
@@ -157,20 +157,20 @@ function planForMap(report: CheckReport): Plan | null {
   const serious = report.findings.filter(({ severity }) => severity !== "note"), found = mapReading(report);
   if (serious.length === 0 || !found?.isSure) return null;
   const { channels, curve, flipGreen } = found.reading, isDone = ({ code }: Finding) => code === "greenFlipped" || channels !== undefined || curve !== undefined;
-  const steps = [channels || curve ? "put x, y and z into red, green and blue" : "", flipGreen ? "flip green in 1 normal map" : ""].filter(Boolean);
+  const steps = [channels || curve ? "store x, y and z in red, green and blue" : "", flipGreen ? "invert green in 1 normal map" : ""].filter(Boolean);
   return steps.length === 0 ? null : { tangents: "repair", steps, left: new Set(serious.filter((one) => !isDone(one)).map(({ code }) => code)).size };
 }
 
 const kinds = ["error", "warning", "note"] as const;
 
-/** Formats counts such as `4 errors, 1 warning`, for the severities in `shown`; "nothing wrong" if all are zero. */
+/** Formats counts such as `4 errors, 1 warning`, for the severities in `shown`; "no findings" if all are zero. */
 export const countsText = (counts: CheckReport["counts"], shown: readonly (keyof CheckReport["counts"])[] = kinds.filter((kind) => counts[kind] > 0)): string =>
-  shown.map((kind) => plural(counts[kind], kind)).join(", ") || "nothing wrong";
+  shown.map((kind) => plural(counts[kind], kind)).join(", ") || "no findings";
 
 /** Formats `4 errors, 1 warning → 0 errors, 0 warnings`: every severity that occurs before or after. */
 export function changeOfCounts(before: CheckReport["counts"], after: CheckReport["counts"]): string {
   const shown = kinds.filter((kind) => before[kind] + after[kind] > 0);
-  return shown.length === 0 ? "No findings before or after." : `${countsText(before, shown)} → ${countsText(after, shown)}`;
+  return shown.length === 0 ? "No findings before or after the fix." : `${countsText(before, shown)} → ${countsText(after, shown)}`;
 }
 export const isWorse = (before: CheckReport["counts"], after: CheckReport["counts"]): boolean => {
   const kind = kinds.find((one) => before[one] !== after[one]);

@@ -18,7 +18,7 @@ const targets: readonly Target[] = [
   { name: "PNG, green up", detail: "glTF, OpenGL, Blender, Unity", suffix: "gltf", green: "up", to: "png" },
   { name: "PNG, green down", detail: "DirectX, Unreal", suffix: "directx", green: "down", to: "png" },
   { name: "KTX2, two channels", detail: "BC5 for desktop, green up", suffix: "gltf", green: "up", to: "bc5.ktx2" },
-  { name: "KTX2 for phones", detail: "EAC, two channels, green up", suffix: "gltf-eac", green: "up", to: "eac-rg11.ktx2" },
+  { name: "KTX2 for mobile", detail: "EAC, two channels, green up", suffix: "gltf-eac", green: "up", to: "eac-rg11.ktx2" },
   { name: "DDS, green up", detail: "BC5, two channels", suffix: "gltf", green: "up", to: "bc5.dds" },
   { name: "DDS, green down", detail: "BC5, two channels, DirectX", suffix: "directx", green: "down", to: "bc5.dds" },
 ];
@@ -44,9 +44,9 @@ export class ConvertView {
     replaceChildren(this.#said);
     if (!model || !check) return;
     const found = mapReading(check), isKnown = check.image?.green === "up" || check.image?.green === "down";
-    if (!found) return replaceChildren(this.#rows, el("p", { class: "quiet" }, "This image is not a normal map in tangent space, or its encoding needs a mesh. The tool converts it: see the finding."));
+    if (!found) return replaceChildren(this.#rows, el("p", { class: "quiet" }, "This image is not a normal map in tangent space, or converting it needs a mesh. The finding names the command that converts it."));
     const buttons = targets.map((target) => el("button", { type: "button", class: "target", onclick: () => void this.#make(model, found.reading, target) }, el("strong", {}, target.name), el("span", {}, target.detail)));
-    replaceChildren(this.#rows, !found.isSure && el("p", { class: "quiet" }, "The relief allows two readings: the finding names both, and these files follow the first."), !isKnown && el("p", { class: "quiet" }, "The relief does not show which way green points: the map is read as green up."), el("div", { class: "targets" }, ...buttons), this.#said);
+    replaceChildren(this.#rows, !found.isSure && el("p", { class: "quiet" }, "The relief fits two interpretations of the map. The finding names both; these files use the first one."), !isKnown && el("p", { class: "quiet" }, "The relief does not show in which direction green points, so the map is read with green up."), el("div", { class: "targets" }, ...buttons), this.#said);
   }
 
   #forget(): void {

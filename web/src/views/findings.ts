@@ -8,7 +8,7 @@ import { sureText } from "./fix.js";
 import type { CheckReport, Finding, Severity } from "tspace/gltf";
 
 const severities = ["error", "warning", "note"] as const;
-const titles: Record<Severity, string> = { error: "Errors: they render wrong", warning: "Warnings: they may render wrong", note: "Notes" };
+const titles: Record<Severity, string> = { error: "Errors: wrong shading", warning: "Warnings: possibly wrong shading", note: "Notes" };
 /** From this number of kinds or locations on, there is a filter field. */
 const kFilterFrom = 6;
 
@@ -46,7 +46,7 @@ export class FindingsView {
 
   constructor(private choices: Choices) {
     this.#filter.addEventListener("input", () => this.#applyFilter());
-    this.element.append(el("h2", {}, "What is wrong"), this.#list, el("h2", {}, "What made the tangents"), this.#verdict);
+    this.element.append(el("h2", {}, "What is wrong"), this.#list, el("h2", {}, "Which method made the tangents"), this.#verdict);
     this.wait("Open a model to see its findings.");
   }
 
@@ -90,7 +90,7 @@ export class FindingsView {
     const looked = file.image ? mapText(file.image) : `Examined: ${plural(file.primitives, "primitive")}, ${count(file.primitivesWithTangents)} with tangents; ${file.normalMaps === 0 ? "no normal map." : `${plural(file.normalMaps, "normal map")}; the relief of ${count(file.normalMapsWithGreen)} shows which way green points.`}`;
     this.#filter.value = "";
     replaceChildren(this.#list, summary, isFixed && el("p", { class: "fine after" }, "These are the findings of the fixed file."), file.findings.length >= kFilterFrom && this.#filter);
-    if (groups.length === 0) this.#list.append(el("p", { class: "fine" }, "Nothing is wrong."));
+    if (groups.length === 0) this.#list.append(el("p", { class: "fine" }, "No errors were found."));
     this.#groups = [];
     for (const severity of severities) {
       const own = groups.filter((group) => group.severity === severity);
@@ -119,7 +119,7 @@ export class FindingsView {
     const isOne = findings.length === 1, sure = findings.map(sureText).find((text) => text !== "") ?? "";
     const details = el("div", { class: "details", hidden: true },
       el("p", { class: "mend" }, el("strong", {}, "Fix: "), first.remedy),
-      sure !== "" && el("p", {}, el("strong", {}, `${sure}: `), "the finding rests on statistics of the texture or mesh."),
+      sure !== "" && el("p", {}, el("strong", {}, `${sure}: `), "the finding is a statistical estimate from the texture or mesh."),
       remedyOptions(first) && el("button", { class: "plain mend-this", type: "button", onclick: () => this.choices.mend(first) }, "Add this to the fix"),
       figureLink(code),
       isOne ? firstVertices(first) : this.#steps(findings));
@@ -147,7 +147,7 @@ export class FindingsView {
   /** Returns buttons that step through the locations. */
   #steps(findings: Finding[]): HTMLElement {
     let at = -1;
-    const text = el("p", { class: "quiet step", "aria-live": "polite" }, `${plural(findings.length, "place")}: all of them are shown.`);
+    const text = el("p", { class: "quiet step", "aria-live": "polite" }, `${plural(findings.length, "place")}, all of them shown`);
     const go = (step: number) => {
       at = (at + step + (at < 0 && step < 0 ? 1 : 0) + findings.length) % findings.length;
       const finding = findings[at];
@@ -160,15 +160,15 @@ export class FindingsView {
 }
 
 const contents: Record<string, string> = {
-  normals: "a normal map in tangent space, as glTF reads it", twoChannels: "a normal map with x and y alone", unsignedZ: "a normal map whose blue is z itself", xInAlpha: "a normal map with x in alpha",
-  exchanged: "a normal map with exchanged channels", encoded: "a normal map stored by the sRGB curve", hemiOctahedral: "a normal map in hemi-octahedral encoding", objectSpace: "a normal map in object space",
-  height: "a height map", picture: "a picture, and no normal map", constant: "one color",
+  normals: "a normal map in tangent space, as glTF requires", twoChannels: "a normal map that stores only x and y", unsignedZ: "a normal map that stores z unsigned in blue", xInAlpha: "a normal map that stores x in alpha (DXT5nm)",
+  exchanged: "a normal map with exchanged channels", encoded: "a normal map that was stored as a color image (sRGB)", hemiOctahedral: "a normal map in hemi-octahedral encoding", objectSpace: "a normal map in object space",
+  height: "a height map", picture: "a color image, not a normal map", constant: "one color",
 };
 const greens: Record<string, string> = { up: "Green points up, as in glTF and OpenGL", down: "Green points down, as in DirectX", mixed: "Green points up in one part and down in another" };
 
 /** Describes a lone normal map. */
 function mapText({ width, height, content, green, greenConfidence }: NonNullable<CheckReport["image"]>): string {
-  const direction = greens[green] ? `${greens[green]} (${Math.round(100 * greenConfidence)} % sure, if red points right)` : "The relief does not show which way green points";
+  const direction = greens[green] ? `${greens[green]} (${Math.round(100 * greenConfidence)} % confidence, if red points right)` : "The relief does not show in which direction green points";
   return `${width} x ${height} texels: ${contents[content] ?? content}.${content === "picture" || content === "height" || content === "constant" ? "" : ` ${direction}.`}`;
 }
 

@@ -4,8 +4,8 @@ import { el, plural, replaceChildren } from "../dom.js";
 import { changeOfCounts, countsText, worstOf, type Plan } from "./advice.js";
 import type { CheckReport, Finding } from "tspace/gltf";
 
-/** Formats `87 % sure`; empty if a finding is certain. */
-export const sureText = ({ confidence }: Finding): string => (confidence < 1 ? `${Math.round(100 * confidence)} % sure` : "");
+/** Formats `87 % confidence`; empty if a finding is certain. */
+export const sureText = ({ confidence }: Finding): string => (confidence < 1 ? `${Math.round(100 * confidence)} % confidence` : "");
 
 export class FixView {
   /** The visible effect, above the picture. */
@@ -30,12 +30,12 @@ export class FixView {
     this.caption.dataset.severity = worst?.severity ?? "fine";
     const kinds = new Set(report.findings.filter(({ severity }) => severity !== "note").map(({ code }) => code)).size;
     const others = kinds > 1 ? ` And ${plural(kinds - 1, "other fault")}.` : "";
-    replaceChildren(this.caption, worst && el("strong", {}, worst.effect), worst ? `${others} ${sureText(worst)}` : `Nothing is wrong here${report.counts.note > 0 ? `; ${plural(report.counts.note, "note")}` : ""}.`);
+    replaceChildren(this.caption, worst && el("strong", {}, worst.effect), worst ? `${others} ${sureText(worst)}` : `No errors were found${report.counts.note > 0 ? `; ${plural(report.counts.note, "note")}` : ""}.`);
     this.element.hidden = plan === null;
     if (!plan) return;
-    const left = plan.left > 0 ? ` ${plural(plan.left, "fault")} must be fixed where the model was made.` : "";
+    const left = plan.left > 0 ? ` ${plural(plan.left, "fault")} must be fixed in the program that made the model.` : "";
     this.#button.disabled = false;
-    replaceChildren(this.#button, el("strong", {}, "Fix it"), el("span", {}, `${plan.steps.join(", ")}${left === "" ? "" : "."}${left}`), el("span", {}, "Your file stays as it is until you download the result."));
+    replaceChildren(this.#button, el("strong", {}, "Fix it"), el("span", {}, `${plan.steps.join(", ")}${left === "" ? "" : "."}${left}`), el("span", {}, "Your file is not changed; you download the result as a new file."));
     replaceChildren(this.element, this.#button);
   }
 
@@ -54,7 +54,7 @@ export class FixView {
   compare(names: [string, string], counts: [CheckReport["counts"], CheckReport["counts"]]): void {
     this.element.hidden = true;
     delete this.caption.dataset.severity;
-    replaceChildren(this.caption, el("strong", {}, "Two versions: "), `left ${names[0]} (${countsText(counts[0])}), right ${names[1]} (${countsText(counts[1])}). Difference and Error show degrees between them.`);
+    replaceChildren(this.caption, el("strong", {}, "Two versions: "), `left ${names[0]} (${countsText(counts[0])}), right ${names[1]} (${countsText(counts[1])}). Difference and Error show the angles between them.`);
   }
 
   /** Reports a fixed file, which is now right of the split line. `rest`: a plan for the remaining findings. */

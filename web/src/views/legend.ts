@@ -24,16 +24,16 @@ export class Legend {
   show(look: Look, method: string): void {
     const sentences: Record<Look, () => (Node | string)[]> = {
       lit: () => [],
-      difference: () => [scale(`Degrees between what the file and ${method} shade`)],
-      normals: () => ["Directions that light falls on, x y z as red, green, blue."],
+      difference: () => [scale(`Angle between the shaded normals of the file and of ${method}, in degrees`)],
+      normals: () => ["Shaded normals; x, y and z are shown as red, green and blue."],
       signs: () => [swatch(signPlus, "w = +1"), swatch(signMinus, "w = −1"), swatch(wrong, `not the sign of ${method}`, true), swatch(noData, "no tangents")],
-      mirrored: () => [swatch(signPlus, "texture as painted"), swatch(signMinus, "texture mirrored"), swatch(noData, "no UV area")],
+      mirrored: () => [swatch(signPlus, "texture not mirrored"), swatch(signMinus, "texture mirrored"), swatch(noData, "no UV area")],
       error: () => [
-        scale(`Degrees from the tangent of ${method}`),
+        scale(`Angle from the tangent of ${method}, in degrees`),
         swatch(wrong, "sign differs", true),
         swatch(noData, "nothing to compare"),
       ],
-      islands: () => ["A color for each island of the UV map; striped ones are mirrored."],
+      islands: () => ["Each UV island has its own color; striped islands are mirrored."],
     };
     replaceChildren(this.element, ...sentences[look]());
     this.element.hidden = look === "lit";

@@ -28,7 +28,7 @@ export class LookView {
     const names = [...methods, "mended", "other"] as const;
     const frames = select("Correct frames by", names.map((name) => [name, nameOf(name)] as const), this.right, (right) => this.#choose(right));
     this.#choice = frames.input;
-    const map = choice("Normal map", [["1", "on"], ["0", "off"], ["2", "green flipped"]] as const, "1", (value) => {
+    const map = choice("Normal map", [["1", "on"], ["0", "off"], ["2", "green inverted"]] as const, "1", (value) => {
       viewport.settings.map = Number(value) as 0 | 1 | 2;
       viewport.ask();
     });
@@ -43,7 +43,7 @@ export class LookView {
       box.element.classList.add(`axis-${axis}`);
       return box.element;
     });
-    const whose = choice("Lines of", [["file", "the file"], ["right", "correct frames"]] as const, "file", (value) => {
+    const whose = choice("Show T, B, N of", [["file", "the file"], ["right", "correct frames"]] as const, "file", (value) => {
       this.#isRight = value === "right";
       this.showLines();
     });
@@ -75,7 +75,7 @@ export class LookView {
   /** Offers a choice of the file's variants, if any. `chosen`: index of the current variant, or -1. */
   offerVariants(names: string[], chosen = -1): void {
     this.#variants.hidden = names.length === 0;
-    const variants = names.length > 0 && select("Variant", [["-1", "none: as the file stands"], ...names.map((name, i) => [String(i), name] as const)], String(chosen), (value) => this.vary(Number(value))).element;
+    const variants = names.length > 0 && select("Variant", [["-1", "none (bind pose)"], ...names.map((name, i) => [String(i), name] as const)], String(chosen), (value) => this.vary(Number(value))).element;
     replaceChildren(this.#variants, variants);
   }
 
@@ -119,7 +119,7 @@ export class LookView {
       signs += frames.wrongSigns;
     }
     const directions = `${(sum / compared).toFixed(2)}° on average, ${most.toFixed(1)}° at most`, name = nameOf(this.right);
-    replaceChildren(this.#figures, compared === 0 ? "There are no tangents in the file to compare."
+    replaceChildren(this.#figures, compared === 0 ? "The file has no tangents to compare."
       : signs > 0 ? `Compared with ${name}, ${count(signs)} of ${count(compared)} corners have ${this.right === "other" ? "a different sign" : "the wrong sign"}; directions differ by ${directions}.`
       : `Tangents of the file differ from ${name} by ${directions}; all signs agree.`);
   }

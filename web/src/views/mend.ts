@@ -29,7 +29,7 @@ const kMostRows = 200;
 const actions: Record<string, string> = {
   generated: "added",
   replaced: "recomputed",
-  unchanged: "recomputed, same bits",
+  unchanged: "recomputed, unchanged",
   kept: "kept",
   notNeeded: "not needed",
   notTriangles: "no triangles",
@@ -38,12 +38,12 @@ const actions: Record<string, string> = {
 };
 /** Switches in the order of the panel. All except the first are shown only if a finding requires them. */
 const switches: readonly (readonly [keyof Extras, string])[] = [
-  ["flipGreen", "Flip green of maps where it points down"],
+  ["flipGreen", "Invert green in maps where it points down"],
   ["mendMaps", "Convert maps that are not encoded as glTF requires"],
   ["morphNormals", "Compute normals of morph targets"],
   ["overwriteNormals", "Recompute all normals"],
   ["mendWinding", "Flip triangles wound against their neighbors"],
-  ["denoise", "Recompute all normals without the noise of positions"],
+  ["denoise", "Recompute all normals without the noise of the positions"],
   ["strip", "Remove tangents that no material needs"],
 ];
 
@@ -61,7 +61,7 @@ export class MendView {
   #model: ModelFiles | null = null;
   #checked: CheckReport | null = null;
   #reasons = el("div", { class: "reasons" });
-  #unpacks = el("p", { class: "quiet" }, "The fixed file is not compressed: this page has no encoders. The command line tool has.");
+  #unpacks = el("p", { class: "quiet" }, "The fixed file is not compressed, because this page has no encoders. The command-line tool can compress it.");
   #command = el("code", { class: "command" });
   #button = el("button", { type: "button", class: "main" }, "Fix with these options");
   #result = el("div", { class: "result", "aria-live": "polite" });
@@ -248,7 +248,7 @@ export class MendView {
     replaceChildren(this.#result,
       el("p", { class: sentence.isGood ? "fine" : "quiet" }, sentence.what),
       sentence.findings && el("p", { class: sentence.isWorse ? "failure" : "counts", role: sentence.isWorse ? "alert" : undefined }, sentence.findings),
-      asksForAnew(mended.checked) && this.#tangents !== "overwrite" && el("p", { class: "quiet" }, "A repair keeps tangents that are only a little off: recompute all to fix the rest."),
+      asksForAnew(mended.checked) && this.#tangents !== "overwrite" && el("p", { class: "quiet" }, "The fix keeps tangents that deviate only slightly. Recompute all tangents to fix these too."),
       changeTable(file.primitives),
       file.normalMaps.length > 0 ? mapTable(file.normalMaps) : null,
       ...file.warnings.map((warning) => el("p", { class: "quiet" }, warning)),
@@ -268,15 +268,15 @@ function verdictOf(mended: Mended, before: CheckReport | null): { what: string; 
   const file = mended.report as GenerateReport, after = mended.checked;
   const findings = before && after ? changeOfCounts(before.counts, after.counts) : null;
   const worse = before !== null && after !== null && isWorse(before.counts, after.counts);
-  if (!file.changed) return { what: "Nothing had to change: the file is the same, byte for byte.", findings, isGood: false, isWorse: false };
-  const sizes = `${count(file.inputBytes)} bytes in, ${count(file.outputBytes)} out.`;
+  if (!file.changed) return { what: "No changes were needed: the output is byte-identical to the input.", findings, isGood: false, isWorse: false };
+  const sizes = `${count(file.inputBytes)} bytes before, ${count(file.outputBytes)} after.`;
   const others = [
     file.normalMaps.some(({ flipped, mended: isMended }) => flipped || isMended) && "normal maps",
     file.primitives.some(({ normalsGenerated, morphNormals }) => normalsGenerated || morphNormals > 0) && "normals",
     file.primitives.some(({ windingMended }) => windingMended > 0) && "triangles",
   ].filter(Boolean);
   if (file.primitives.some(changesTangents)) return { what: `Done: ${sizes}`, findings, isGood: !worse, isWorse: worse };
-  return { what: `No tangent has changed${others.length > 0 ? `; ${others.join(" and ")} have` : ""}: ${sizes}`, findings, isGood: others.length > 0 && !worse, isWorse: worse };
+  return { what: `No tangents changed${others.length > 0 ? `; ${others.join(" and ")} have` : ""}: ${sizes}`, findings, isGood: others.length > 0 && !worse, isWorse: worse };
 }
 
 /** Returns words of a command line that are not broken at hyphens. */
@@ -305,4 +305,4 @@ const changeTable = (primitives: GeneratedPrimitive[]): HTMLElement =>
   }));
 
 const mapTable = (maps: JudgedMap[]): HTMLElement =>
-  table(["Normal map", "What was done"], maps.map(({ image, name, flipped, mended, reason }) => ({ cells: [`${image} ${name}`, flipped ? "green flipped" : mended ? `converted: ${reason}` : `kept: ${reason}`] })), "maps");
+  table(["Normal map", "What was done"], maps.map(({ image, name, flipped, mended, reason }) => ({ cells: [`${image} ${name}`, flipped ? "green inverted" : mended ? `converted: ${reason}` : `kept: ${reason}`] })), "maps");

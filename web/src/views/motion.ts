@@ -37,12 +37,12 @@ export class MotionView {
     const cameras = motion.cameras.map(({ name }, i) => [String(i), name || `camera ${i}`] as const);
     const moving = el("div", { class: "row", hidden: true }, this.#play, this.#time);
     replaceChildren(this.#rows,
-      clips.length > 0 && select("Animation", [["", "none: as the file stands"], ...clips] as const, "", (value) => {
+      clips.length > 0 && select("Animation", [["", "none (bind pose)"], ...clips] as const, "", (value) => {
         moving.hidden = value === "";
         this.#choose(value === "" ? null : Number(value));
       }).element,
       moving,
-      cameras.length > 0 && select("Look from", [["", "…"], ...cameras] as const, "", (value) => {
+      cameras.length > 0 && select("Camera", [["", "…"], ...cameras] as const, "", (value) => {
         if (value !== "") this.viewport.lookFrom(Motion.viewOf(motion.cameras[Number(value)], this.viewport.scene.sphere().radius));
       }).element,
       ...sliders.map(({ name, get, set }) => {

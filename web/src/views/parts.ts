@@ -19,7 +19,7 @@ interface ShownImage {
 }
 
 export class PartsView {
-  readonly element = el("details", { class: "panel parts" }, el("summary", {}, "What is in it"));
+  readonly element = el("details", { class: "panel parts" }, el("summary", {}, "Contents"));
   #numbers = el("dl", {});
   #list = el("div", { class: "part-list" });
   #images = el("div", { class: "rows" });

@@ -27,9 +27,9 @@ export function reportAs(kind: Kind, name: string, { inspect, check, identify }:
       if (!isMarkdown) lines.push(`         ${effect} ${message}`);
       lines.push(isMarkdown ? `  - fix: ${remedy}` : `         fix: ${remedy}`);
     }
-    if (report.findings.length === 0) lines.push("Nothing is wrong.");
+    if (report.findings.length === 0) lines.push("No errors were found.");
   }
-  if (verdict) lines.push("", `What made the tangents: ${verdict}`);
+  if (verdict) lines.push("", `Method that made the tangents: ${verdict}`);
   return `${lines.join("\n")}\n`;
 }
 
@@ -84,10 +84,10 @@ export class ShareView {
     const button = (text: string, act: () => Promise<void>) => el("button", { type: "button", onclick: () => void act() }, text);
     this.element.append(el("div", { class: "rows" }, kind.element, el("div", { class: "row" },
       button("Copy the report", () => this.#copy(this.give.report(this.#kind))),
-      button("Save the picture", () => this.#save(this.give.picture(), "There is no picture.")),
-      button("Save one HTML page", () => this.#save(this.give.page(), "There is no model.")),
+      button("Save the picture", () => this.#save(this.give.picture(), "No picture is shown.")),
+      button("Save one HTML page", () => this.#save(this.give.page(), "No model is open.")),
       button("Copy the link", () => this.#copy(this.give.link()))),
-      el("p", { class: "quiet" }, "The HTML page contains the model, its findings and this viewer, and works offline. The link says what is seen; of models it names samples alone."), this.#said));
+      el("p", { class: "quiet" }, "The HTML page contains the model, its findings and this viewer, and works offline. The link restores this view; it contains a model only if that is one of the examples."), this.#said));
   }
 
   async #copy(text: string): Promise<void> {
@@ -95,7 +95,7 @@ export class ShareView {
       await navigator.clipboard.writeText(text);
       this.#said.textContent = "Copied.";
     } catch {
-      this.#said.textContent = "The browser does not let the page copy.";
+      this.#said.textContent = "The browser does not allow this page to copy to the clipboard.";
     }
   }
 

@@ -23,7 +23,7 @@ const kFixLeftFrom = 0.45;
 
 /** How many of the normal maps right of the split line have inverted green. */
 export type TurnedGreen = "none" | "some" | "all";
-const greenText: Record<TurnedGreen, string> = { none: "", some: ", green flipped where it points down", all: ", green flipped" };
+const greenText: Record<TurnedGreen, string> = { none: "", some: ", green inverted where it points down", all: ", green inverted" };
 
 export class Stage {
   readonly element: HTMLElement;
@@ -31,12 +31,12 @@ export class Stage {
   readonly canvas = el("canvas", {
     tabindex: "0",
     role: "img",
-    "aria-label": "The model. Arrow keys turn it, with Shift they move it, plus and minus come nearer or go away, 0 shows all of it.",
+    "aria-label": "The model. Arrow keys rotate it, Shift and arrow keys move it, plus and minus zoom, 0 shows all of it.",
   });
   #legend = new Legend();
-  #split = el("input", { type: "range", min: "0", max: "1000", value: "500", class: "split", "aria-label": "Frames of the file on the left, correct frames on the right" });
+  #split = el("input", { type: "range", min: "0", max: "1000", value: "500", class: "split", "aria-label": "Position of the split line: the file's frames are left of it, correct frames right of it" });
   #line = el("div", { class: "split-line", "aria-hidden": "true" });
-  #leftLabel = el("span", { class: "side left" }, "as the file is");
+  #leftLabel = el("span", { class: "side left" }, "as in the file");
   #rightLabel = el("span", { class: "side right" }, "correct frames");
   #light = el("div", { class: "light", tabindex: "0", role: "slider", "aria-label": "Light", "aria-valuemin": "-1", "aria-valuemax": "1" }, el("i"));
   #remark = el("p", { class: "remark", role: "status", hidden: true });
@@ -85,7 +85,7 @@ export class Stage {
   /** Describes the left and right sides. */
   get sides(): string {
     const { look } = this.viewport.settings, right = this.#rightLabel.textContent ?? "";
-    return hasSplit(look) || this.viewport.settings.isBeside ? `left ${this.#leftLabel.textContent}, right ${right}` : `${lookNames.find(([name]) => name === look)?.[1]}, the file against ${right}`;
+    return hasSplit(look) || this.viewport.settings.isBeside ? `left ${this.#leftLabel.textContent}, right ${right}` : `${lookNames.find(([name]) => name === look)?.[1]}, the file compared with ${right}`;
   }
 
   get swatches(): { color: string; text: string }[] {
@@ -109,7 +109,7 @@ export class Stage {
 
   /** Sets the left and right labels when two files are compared; null: default labels. */
   nameFiles(names: readonly [string, string] | null): void {
-    this.#leftLabel.textContent = names?.[0] ?? "as the file is";
+    this.#leftLabel.textContent = names?.[0] ?? "as in the file";
     this.#otherName = names?.[1] ?? "";
     this.#beside.element.hidden = names === null;
     if (!names) this.setBeside(false);

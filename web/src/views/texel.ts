@@ -45,7 +45,7 @@ class TexelReader {
 const text = (v: Vector3): string => [v.x, v.y, v.z].map((x) => (Math.abs(x) < 0.0005 ? "0.000" : x.toFixed(3)).replace("-", "−")).join("  ");
 
 export class TexelView {
-  readonly element = el("details", { class: "panel texel", open: innerWidth >= 900 }, el("summary", {}, "Under the pointer"));
+  readonly element = el("details", { class: "panel texel", open: innerWidth >= 900 }, el("summary", {}, "At the pointer"));
   #body = el("div", { class: "rows" });
   #reader = new TexelReader();
   #isBusy = false;
@@ -60,7 +60,7 @@ export class TexelView {
   }
 
   reset(): void {
-    this.#say("Point at the model to read the texel and the frame there.");
+    this.#say("Point at the model to see the texel and the tangent frame at that position.");
   }
 
   #say(sentence: string): void {
@@ -125,7 +125,7 @@ export class TexelView {
     rows.push(["Triangle", `${triangle} (vertices ${vertices.join(", ")})`]);
     if (uv) rows.push(["UV", uv.map((x) => x.toFixed(4)).join("  ")]);
     if (texel) rows.push(["Texel", `${texel.column}, ${texel.row}: ${texel.rgb.join(" ")}`], ["Its normal", text(decoded)]);
-    if (drawn.turnsGreen) rows.push(["Green turned", text(rightNormal)]);
+    if (drawn.turnsGreen) rows.push(["Green inverted", text(rightNormal)]);
     rows.push(["N", text(n.clone().normalize())]);
     const results: Vector3[] = [];
     for (const [whose, tangents, lit] of [["file", corners.tangents, decoded], ["right", frames?.tangents ?? null, rightNormal]] as const) {
@@ -142,7 +142,7 @@ export class TexelView {
     for (const [name, value] of rows) list.append(el("dt", {}, name), el("dd", {}, value));
     if (results.length === 2) {
       const degrees = (Math.acos(Math.min(1, Math.max(-1, results[0].dot(results[1])))) * 180) / Math.PI;
-      list.append(el("dt", {}, "Angle"), el("dd", { class: degrees > 5 ? "bad" : "good" }, Number.isFinite(degrees) ? `${degrees.toFixed(2)}° between what both light` : "not a number"));
+      list.append(el("dt", {}, "Angle"), el("dd", { class: degrees > 5 ? "bad" : "good" }, Number.isFinite(degrees) ? `${degrees.toFixed(2)}° between the two shaded normals` : "not a number"));
     }
     replaceChildren(this.#body, list);
   }

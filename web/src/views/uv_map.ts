@@ -75,8 +75,8 @@ export class UvMapView {
   setLarge(isLarge: boolean): void {
     this.large.hidden = !isLarge;
     this.large.parentElement?.classList.toggle("with-map", isLarge);
-    this.#enlarge.textContent = isLarge ? "Back to the side" : "Show large";
-    replaceChildren(this.element, this.element.firstElementChild!, isLarge ? el("p", { class: "quiet" }, "It is shown beside the model.") : this.#rows);
+    this.#enlarge.textContent = isLarge ? "Back to the side panel" : "Show large";
+    replaceChildren(this.element, this.element.firstElementChild!, isLarge ? el("p", { class: "quiet" }, "The UV map is shown next to the model.") : this.#rows);
     if (isLarge) this.large.append(this.#rows);
     this.#enlarge.focus();
     this.#map.fit();
@@ -118,7 +118,7 @@ export class UvMapView {
     const drawn = this.#drawn, read = this.#reads[index];
     this.#image = 0;
     const sets = this.#reads.length > 1 ? select("UV set", this.#reads.map(({ label }, i) => [String(i), label] as const), String(index), (value) => void this.#chooseSet(Number(value))) : null;
-    const images = read && read.images.length > 0 ? select("Image behind", [...read.images.map(({ name }, i) => [String(i), name] as const), ["-1", "none"] as const], "0", (value) => {
+    const images = read && read.images.length > 0 ? select("Background image", [...read.images.map(({ name }, i) => [String(i), name] as const), ["-1", "none"] as const], "0", (value) => {
       this.#image = Number(value);
       void this.draw();
     }) : null;
@@ -216,7 +216,7 @@ export class UvMapView {
     if (!drawn || !corners) return say(drawn ? "This part has no UVs." : "No part is shown.");
     const pixels = await this.viewport.drawMap(this.#index(), corners, this.#look, this.#isWire, { width, height }, area);
     if (turn !== this.#turn) return;
-    if (!pixels) return say("The UV map is drawn by WebGL, which this browser has not.");
+    if (!pixels) return say("The UV map needs WebGL, which this browser does not support.");
     context.clearRect(0, 0, width, height);
     const image = this.#reads[this.#read]?.images[this.#image]?.image;
     const isBehind = image !== undefined && this.#drawImage(context, image, area);

@@ -60,7 +60,7 @@ export class Work {
       if ("code" in data) waiting?.failed(new WorkError(data.code, data.message));
       else waiting?.done(data.answer);
     };
-    worker.onerror = (event) => this.stop("internal", `The worker ended: ${event.message || "out of memory, perhaps"}`);
+    worker.onerror = (event) => this.stop("internal", `The worker stopped: ${event.message || "probably out of memory"}`);
     return worker;
   }
 }

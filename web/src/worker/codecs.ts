@@ -53,7 +53,7 @@ export async function decodeDraco({ data, attributes }: DracoAsk): Promise<Draco
   const own = <T extends object>(object: T): T => (made.push(object), object);
   const read = <T>(Type: { new (buffer: ArrayBuffer, at: number, count: number): T; BYTES_PER_ELEMENT: number }, count: number, write: (bytes: number, place: number) => void): T => {
     const bytes = count * Type.BYTES_PER_ELEMENT, place = module._malloc(bytes);
-    if (place === 0) throw new Error("there is no memory left for its Draco data");
+    if (place === 0) throw new Error("there is not enough memory for the Draco data");
     write(bytes, place);
     const values = new Type(module.HEAPF32.buffer.slice(place, place + bytes), 0, count);
     module._free(place);
@@ -62,11 +62,11 @@ export async function decodeDraco({ data, attributes }: DracoAsk): Promise<Draco
   try {
     const buffer = own(new module.DecoderBuffer()), decoder = own(new module.Decoder()), mesh = own(new module.Mesh());
     buffer.Init(new Int8Array(data), data.byteLength);
-    if (!own(decoder.DecodeBufferToMesh(buffer, mesh)).ok()) throw new Error("its Draco data are broken");
+    if (!own(decoder.DecodeBufferToMesh(buffer, mesh)).ok()) throw new Error("the Draco data is damaged");
     const indices = read(Uint32Array, 3 * mesh.num_faces(), (bytes, place) => decoder.GetTrianglesUInt32Array(mesh, bytes, place));
     const decoded = attributes.map(({ name, id, type }) => {
       const attribute = decoder.GetAttributeByUniqueId(mesh, id), [Type, kind] = kTypes[type as keyof typeof kTypes];
-      if (attribute.ptr === 0) throw new Error(`its Draco data have no attribute ${id}`);
+      if (attribute.ptr === 0) throw new Error(`the Draco data has no attribute ${id}`);
       const size = attribute.num_components();
       return { name, size, values: read<Float32Array>(Type as never, mesh.num_points() * size, (bytes, place) => decoder.GetAttributeDataArrayForAllPoints(mesh, attribute, module[kind], bytes, place)) };
     });

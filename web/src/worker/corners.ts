@@ -10,7 +10,7 @@ function cornerVertices({ positions, indices }: Arrays): Uint32Array<ArrayBuffer
   const vertices = positions.length / 3;
   const source = indices ?? Uint32Array.from({ length: vertices }, (_, i) => i);
   const corners = source.slice(0, source.length - (source.length % 3));
-  for (const vertex of corners) if (vertex >= vertices) throw new Error(`an index is ${vertex}, and there are ${vertices} vertices`);
+  for (const vertex of corners) if (vertex >= vertices) throw new Error(`an index is ${vertex}, but there are only ${vertices} vertices`);
   return corners;
 }
 

@@ -27,7 +27,7 @@ export async function decodeImage(file: Uint8Array, type: ImageType): Promise<Pi
   const png = type === "image/png" ? pixelsOfPng(file) : null;
   if (png) return png;
   const pixels = await decodeByCanvas(file, type);
-  if (!isOpaque(pixels.rgba)) throw new Error("it is transparent, of which a browser gives no exact colors");
+  if (!isOpaque(pixels.rgba)) throw new Error("the image is transparent, and browsers do not return the exact colors of transparent images");
   return pixels;
 }
 
@@ -44,13 +44,13 @@ async function fileByCanvas({ width, height, channels, data }: PixelsToEncode, t
   // The best quality: lower ones average colors, and therefore directions, over neighboring pixels. WebP is then
   // lossless.
   const blob = await canvas.convertToBlob({ type, quality: 1 });
-  if (blob.type !== type) throw new Error(`This browser writes no ${type.slice(6)}: tspace generate --flip-green does.`);
+  if (blob.type !== type) throw new Error(`This browser cannot write ${type.slice(6)}. Use tspace generate --flip-green instead.`);
   return new Uint8Array(await blob.arrayBuffer());
 }
 
 class NotYet extends Error {
   constructor(readonly pixels: PixelsToEncode, readonly type: ImageType) {
-    super("an image is being written");
+    super("an image is already being written");
   }
 }
 

@@ -20,7 +20,7 @@ const isZstd = (file: Uint8Array): boolean => file.length > 48 && file[0] === 0x
 
 /** Explains formats that the page cannot read but the tool can, and what to do. */
 const inWords = (why: string): string =>
-  why.includes("ASTC") ? "it is a KTX2 of ASTC, which the page cannot show: export it as PNG, JPEG or WebP, or as KTX2 of UASTC or ETC1S" : why;
+  why.includes("ASTC") ? "it is a KTX2 with ASTC data, which this page cannot show; export it as PNG, JPEG or WebP, or as KTX2 with UASTC or ETC1S" : why;
 
 async function unpackersFor(file: Uint8Array) {
   const decoder = isZstd(file) ? await (zstd ??= zstdDecoder()) : null;

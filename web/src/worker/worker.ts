@@ -13,7 +13,7 @@ let turn = Promise.resolve();
 
 function known(part: number): Arrays {
   const arrays = parts.get(part);
-  if (!arrays) throw Object.assign(new Error("the part is not known any more"), { code: "unknownPart" });
+  if (!arrays) throw Object.assign(new Error("the part no longer exists"), { code: "unknownPart" });
   return arrays;
 }
 
@@ -62,7 +62,7 @@ async function answerTo(question: Question): Promise<{ answer: unknown; transfer
     case "forget":
       parts.clear();
       forgetCodecs();
-      // Memory of WebAssembly grows and never shrinks, so the instances go with the model.
+      // WebAssembly memory never shrinks, so the instances are discarded with the model.
       releaseCore();
       releaseFiles();
       return { answer: null };

@@ -9,7 +9,7 @@ const renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
 renderer.setClearColor(0, 0);
 renderer.toneMapping = NeutralToneMapping;
 
-/** A picture as PNG. `files`: by their paths, as base64; `view`: of the page. */
+/** Returns a picture as PNG. `files`: path to base64 content; `view`: the camera of the page. */
 window.renderPlain = async (name, files, { width, height, position, target, up, fov, near, far, light }) => {
   const urls = new Map(Object.entries(files).map(([path, text]) => [path, URL.createObjectURL(new Blob([decode(text)]))]));
   const manager = new LoadingManager();
@@ -22,7 +22,7 @@ window.renderPlain = async (name, files, { width, height, position, target, up, 
   camera.lookAt(...target);
   lamp.position.fromArray(light);
   scene.add(gltf.scene, lamp);
-  // The lamps of a file are not in the page's picture.
+  // The page does not use the lights of a file.
   const lights = [];
   gltf.scene.traverse((object) => object.isLight && lights.push(object));
   for (const one of lights) one.removeFromParent();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Twenty sound models and four kinds of damage in each of them, as files.
+// Writes twenty correct models, each with four kinds of damage, as files.
 import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -14,7 +14,7 @@ export const models = [
   "assets/hp-mixed-reality-left.glb", "assets/MaterialsVariantsShoe_draco.glb", "assets/ChessBoard_draco.glb",
 ];
 
-/** Codes that name each damage, and those that are as true of it. */
+/** Finding codes that identify each damage, including equivalent ones. */
 export const damages = {
   signs: { named: ["signsInverted"], found: ["signsWrong"] },
   seams: { named: ["uvSeamAveraged", "mirroredSeamAveraged"], found: ["directionsWrong", "signsMixed", "signsWrong"] },
@@ -23,12 +23,13 @@ export const damages = {
 };
 export const codes = Object.values(damages).flatMap(({ named, found }) => [...named, ...found]);
 
-/** Seams that hardly any triangle has, or that hardly turn a tangent, are none. */
+/** Seams of very few triangles, or with very small rotations of tangents, are not counted. */
 const kLeastTouched = 0.01;
 
 /**
- * Writes NAME-sound.glb and NAME-DAMAGE.glb of a model into a folder. Sound is what the file ships, where check has nothing
- * against it, else what mikktspace gives. Returns the damages: models without UV seams have none that could be averaged.
+ * Writes NAME-sound.glb and NAME-DAMAGE.glb of a model into a folder. NAME-sound.glb contains the file's tangents if check
+ * has no finding, otherwise those of mikktspace. Returns the kinds of damage; models without UV seams have no averaged
+ * seams.
  */
 export function writeModel(tool, path, folder, name) {
   const file = (kind) => join(folder, `${name}-${kind}.glb`);
@@ -60,7 +61,7 @@ export function checkFile(tool, path, options = []) {
   try {
     text = execFileSync(tool, ["check", "--json", ...options, path], { encoding: "utf8", maxBuffer: 1 << 28, stdio: ["ignore", "pipe", "ignore"] });
   } catch (error) {
-    text = error.stdout; // there are findings
+    text = error.stdout; // exit code 1: there are findings
   }
   return JSON.parse(text).files[0];
 }

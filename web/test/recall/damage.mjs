@@ -4,25 +4,25 @@ import { png } from "../../samples/png.mjs";
 
 const kMapSize = 256;
 
-/** Heights that tile: hills and dents of several sizes, none of them a pattern of green alone. */
+/** Returns tiling heights: hills and dents of several sizes, with slopes in all directions. */
 function height(u, v) {
   const wave = (x, y, phase) => Math.sin(2 * Math.PI * (x * u + y * v) + phase);
   return 0.02 * (wave(3, 1, 0) + wave(-2, 3, 1) + 0.6 * wave(5, -4, 2) + 0.5 * wave(4, 7, 3) + 0.4 * wave(-9, 6, 4) + 0.3 * wave(11, 8, 5));
 }
 
-/** A normal map of these heights, green up. */
+/** Returns a normal map of these heights, with green up. */
 function bumps() {
   const e = 1 / kMapSize;
   return png(kMapSize, (x, y) => {
     const u = (x + 0.5) * e, v = (y + 0.5) * e;
     const slope = (du, dv) => (height(u + du, v + dv) - height(u - du, v - dv)) / (2 * e);
-    // v runs down, green points up.
+    // v points down, green points up.
     const n = [-slope(e, 0), slope(0, e), 1], length = Math.hypot(...n);
     return n.map((k) => Math.round((k / length) * 127.5 + 127.5));
   });
 }
 
-/** Bytes of an image in which there is nothing to see: a place holder of some texels. */
+/** Maximum size in bytes of a placeholder image of a few texels. */
 const kLeastImage = 1000;
 
 /** Gives every triangle with UVs a material with a normal map: its own, or bumps. */
@@ -44,7 +44,7 @@ export function giveNormalMaps(glb) {
 
 const kinds = (glb) => new Set(glb.primitives("TANGENT").map((one) => one.attributes.TANGENT));
 
-/** Changes each array of tangents once: four numbers a vertex. */
+/** Modifies each array of tangents once: four numbers per vertex. */
 function changeTangents(glb, change) {
   const changed = new Map([...kinds(glb)].map((accessor) => {
     const tangents = glb.numbers(accessor);
@@ -54,7 +54,7 @@ function changeTangents(glb, change) {
   for (const { attributes } of glb.primitives("TANGENT")) attributes.TANGENT = changed.get(attributes.TANGENT);
 }
 
-/** Every sign is the opposite, as where v was not turned for MikkTSpace. */
+/** Inverts every sign, as if v had not been flipped for MikkTSpace. */
 export function invertSigns(glb) {
   changeTangents(glb, (tangents) => {
     for (let i = 3; i < tangents.length; i += 4) tangents[i] = -tangents[i];
@@ -64,7 +64,7 @@ export function invertSigns(glb) {
 
 const cornersOf = (numbers, size, vertex) => numbers.subarray(size * vertex, size * vertex + size);
 
-/** The vertices of a primitive that have these attributes in common. */
+/** Returns groups of a primitive's vertices that are equal in these attributes. */
 function equalVertices(arrays, count) {
   const found = new Map();
   for (let vertex = 0; vertex < count; ++vertex) {
@@ -78,8 +78,8 @@ function equalVertices(arrays, count) {
 const degrees = (a, b) => (Math.acos(Math.min(1, Math.max(-1, a[0] * b[0] + a[1] * b[1] + a[2] * b[2]))) * 180) / Math.PI;
 
 /**
- * One tangent for all that lies at one place: a mean over the UV seam, and where the UVs are equal too (a mirror line) one
- * vertex. The share of triangles that this touches by more than 30 degrees is returned.
+ * Assigns one tangent to all vertices at a position: the mean over a UV seam, or a single vertex if the UVs are equal too (a
+ * mirror line). Returns the share of triangles whose tangents change by more than 30 degrees.
  */
 export function averageSeams(glb) {
   let touched = 0, triangles = 0;
@@ -111,7 +111,7 @@ export function averageSeams(glb) {
   return touched / Math.max(1, triangles);
 }
 
-/** Another UV set, as for a light map: a box around the model. Normal maps are read with it, until `readFirstSet`. */
+/** Adds a second UV set, like a light map: a box projection. Normal maps use it until `readFirstSet` is called. */
 export function addSecondSet(glb) {
   const own = glb.primitives("POSITION", "NORMAL", "TEXCOORD_0");
   const sets = ({ attributes }) => Object.keys(attributes).filter((name) => name.startsWith("TEXCOORD_")).length;
