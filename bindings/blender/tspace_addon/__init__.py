@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """tspace in Blender: checks meshes and their normal maps, compares tangents, bakes, converts and flips maps.
 
-It runs the program tspace, which lies in the folder bin beside this file, or is found by the preferences or in PATH."""
+It runs the program tspace from the folder bin next to this file, from the path in the preferences, or from PATH."""
 
 bl_info = {
     "name": "tspace",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Blender's meshes and images as arrays, as GLB files and as PNG files."""
+"""Conversion of Blender's meshes and images to arrays, GLB files and PNG files."""
 
 import base64
 import json
@@ -15,14 +15,14 @@ _FLOATS, _INDICES = 5126, 5125
 
 
 def gathered(items, name, components, kind=numpy.float32):
-    """A property of all items of a Blender collection, as an array."""
+    """Returns a property of all items of a Blender collection as an array."""
     values = numpy.empty(len(items) * components, kind)
     items.foreach_get(name, values)
     return values.reshape(-1, components) if components > 1 else values
 
 
 class Arrays:
-    """A mesh per loop: a vertex of the GLB is a loop, so numbers in reports lead back to faces."""
+    """A mesh with one vertex per loop, so that vertex numbers in reports identify faces."""
 
     def __init__(self, mesh, with_tangents):
         if not mesh.uv_layers.active:
@@ -64,7 +64,7 @@ class Arrays:
 
 
 def normal_image(material):
-    """The image behind a Normal Map node of a material, or None."""
+    """Returns the image that is connected to a Normal Map node of a material, or None."""
     if material is None or not material.use_nodes:
         return None
     for node in material.node_tree.nodes:
@@ -76,7 +76,7 @@ def normal_image(material):
 
 
 def write_glb(path, name, arrays, materials, image_uris):
-    """A GLB with a primitive for each material. image_uris: the file of each material's normal map, or None."""
+    """Returns a GLB with one primitive per material. image_uris: path of each material's normal map, or None."""
     views, accessors, data = [], [], bytearray()
 
     def accessor(array, kind, component):
@@ -129,7 +129,7 @@ def write_glb(path, name, arrays, materials, image_uris):
 
 
 def _png(width, height, bits, rows):
-    """A PNG of three channels; rows begin with their filter, 0."""
+    """Returns a PNG with three channels. Each row of `rows` begins with its filter type, 0."""
 
     def chunk(kind, content):
         checked = kind + content
@@ -139,12 +139,12 @@ def _png(width, height, bits, rows):
     return b"\x89PNG\r\n\x1a\n" + head + chunk(b"IDAT", zlib.compress(rows, 6)) + chunk(b"IEND", b"")
 
 
-# One texel that points straight up: without a normal map tangents are checked all the same.
+# A flat normal map of one texel. Tangents are then also checked for materials without a normal map.
 _FLAT = "data:image/png;base64," + base64.b64encode(_png(1, 1, 8, bytes([0, 128, 128, 255]))).decode()
 
 
 def write_png(path, image):
-    """The image's numbers, of 16 bits, as they are stored: nothing is done about color spaces."""
+    """Writes the stored values of an image as a 16-bit PNG, without color space conversion."""
     width, height = image.size
     if not width or not height:
         raise Failed(f'"{image.name}" has no pixels')
@@ -161,7 +161,7 @@ def write_png(path, image):
 
 
 def load_map(path, name):
-    """A PNG as an image datablock of this name, packed, and read as numbers."""
+    """Loads a PNG as a packed image datablock with this name and the color space Non-Color."""
     loaded = bpy.data.images.load(path, check_existing=False)
     loaded.colorspace_settings.name = "Non-Color"
     loaded.pack()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the buttons do. Each can be undone, and says in the status bar what was found, or why it cannot."""
+"""Operators of the buttons. Each supports undo, and reports its result or its error in the status bar."""
 
 import os
 import tempfile
@@ -17,7 +17,7 @@ _LEVELS = {"error": {"WARNING"}, "warning": {"WARNING"}, "note": {"INFO"}}
 
 
 def chosen_meshes(context):
-    """Mesh objects that are selected, the active one first."""
+    """Returns the selected mesh objects, the active object first."""
     things = [thing for thing in context.selected_objects if thing.type == "MESH"]
     active = context.active_object
     if active in things:
@@ -31,7 +31,7 @@ def chosen_meshes(context):
 
 
 def paint(mesh, values):
-    """Numbers per loop, 0 white to 1 red, as a color attribute that the viewport shows (Solid, Attribute)."""
+    """Stores a value per loop as a color attribute, from 0 (white) to 1 (red), and shows it in the viewport (Solid, Attribute)."""
     if COLORS in mesh.color_attributes:
         mesh.color_attributes.remove(mesh.color_attributes[COLORS])
     attribute = mesh.color_attributes.new(name=COLORS, type="FLOAT_COLOR", domain="CORNER")
@@ -55,13 +55,13 @@ def select_faces(mesh, faces):
 
 
 class Tspace(bpy.types.Operator):
-    """What all of them have."""
+    """Base class of the operators."""
 
     bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context):
         was_editing = context.mode == "EDIT_MESH"
-        if was_editing:  # the mesh has what is edited only outside of that mode
+        if was_editing:  # edits are stored in the mesh only when Edit Mode ends
             bpy.ops.object.mode_set(mode="OBJECT")
         try:
             with tempfile.TemporaryDirectory() as folder:
@@ -94,7 +94,7 @@ class TSPACE_OT_check(Tspace):
             for finding in findings:
                 count += 1
                 worst = min(worst, finding["severity"], key=("error", "warning", "note").index)
-                lines += [f"{thing.name}: {finding['severity']}: {finding['code']}", f"  {finding['message']}", f"  mend: {finding['remedy']}", ""]
+                lines += [f"{thing.name}: {finding['severity']}: {finding['code']}", f"  {finding['message']}", f"  fix: {finding['remedy']}", ""]
         text = bpy.data.texts.get(TEXT) or bpy.data.texts.new(TEXT)
         text.clear()
         text.write("\n".join(lines) or "Nothing was found.\n")
@@ -238,7 +238,7 @@ class TSPACE_OT_bake(Tspace):
 
 
 def joined(parts):
-    """Meshes as one."""
+    """Joins several meshes into the first one."""
     first = parts[0]
     starts = numpy.cumsum([0] + [len(part.positions) for part in parts[:-1]])
     first.triangles = numpy.concatenate([part.triangles + start for part, start in zip(parts, starts)])

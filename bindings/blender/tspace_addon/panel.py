@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The panel in the sidebar, and the preferences."""
+"""The panel in the sidebar and the preferences of the add-on."""
 
 import textwrap
 
@@ -44,7 +44,7 @@ class TSPACE_PT_panel(bpy.types.Panel):
         box = layout.box()
         box.label(text={0: "Nothing was found", 1: "1 finding"}.get(len(found), f"{len(found)} findings"), icon="INFO")
         for sentence, mend in list(zip(found, thing["tspace_mends"]))[:5]:
-            for line in textwrap.wrap(sentence, 40) + textwrap.wrap(f"mend: {mend}", 40):
+            for line in textwrap.wrap(sentence, 40) + textwrap.wrap(f"fix: {mend}", 40):
                 box.label(text=line)
         if len(found):
             box.label(text=f'all: text "{TEXT}"')

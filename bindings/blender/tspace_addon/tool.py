@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The program tspace: where it is, and its reports."""
+"""Finds and runs the program tspace, and reads its reports."""
 
 import json
 import os
@@ -11,11 +11,11 @@ import bpy
 
 
 class Failed(Exception):
-    """A sentence for the status bar."""
+    """Error with a message for the status bar."""
 
 
 def path():
-    """The program of the preferences, the one in this add-on, or the one in PATH."""
+    """Returns the path of the program: that of the preferences, else the one in this add-on, else the one in PATH."""
     entry = bpy.context.preferences.addons.get(__package__)
     chosen = bpy.path.abspath(entry.preferences.program) if entry and entry.preferences else ""
     name = "tspace.exe" if sys.platform == "win32" else "tspace"
@@ -33,7 +33,7 @@ def path():
 
 
 def report(command, *arguments):
-    """The JSON of a command. Findings (exit code 1) are no failure."""
+    """Returns the JSON report of a command. Exit code 1 (findings) is not an error."""
     program = [path(), command, "--json", *map(str, arguments)]
     done = subprocess.run(program, capture_output=True, text=True, encoding="utf-8", check=False)
     try:

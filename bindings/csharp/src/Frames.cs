@@ -195,7 +195,8 @@ namespace Tspace
         internal static int Whole(ReadOnlySpan<float> floats, int components)
         {
             if (floats.Length % components == 0) return floats.Length / components;
-            throw new TspaceException(floats.Length + " floats are no whole entries of " + components, ErrorCode.CountMismatch);
+            throw new TspaceException(floats.Length + " floats cannot be divided into elements of " + components + " floats",
+                                      ErrorCode.CountMismatch);
         }
     }
 

@@ -42,15 +42,15 @@ namespace Tspace
             {
                 if (Floats.Length % components != 0)
                 {
-                    throw new TspaceException(Floats.Length + " floats are no whole points of " + components,
+                    throw new TspaceException(Floats.Length + " floats cannot be divided into elements of " + components + " floats",
                                               ErrorCode.CountMismatch);
                 }
                 return Floats.Length / components;
             }
             if (StrideFloats < components)
             {
-                throw new TspaceException("a stride of " + StrideFloats + " floats is less than the " + components +
-                                          " of a point", ErrorCode.StrideTooSmall);
+                throw new TspaceException("the stride of " + StrideFloats + " floats is less than the " + components +
+                                          " floats of an element", ErrorCode.StrideTooSmall);
             }
             return Floats.Length < components ? 0 : (Floats.Length - components) / StrideFloats + 1;
         }

@@ -14,7 +14,7 @@ export const onlyInside = "TSPACE_ONLY_INSIDE";
  * links with a missing target, and for `..`: after a link the system resolves it relative to the link's target.
  */
 export function realPlace(path) {
-  if (path.split(/[\\/]/).includes("..") || path.includes("\0")) throw new Error("a path with ..");
+  if (path.split(/[\\/]/).includes("..") || path.includes("\0")) throw new Error("a path with '..'");
   const missing = [];
   for (let place = resolve(path); ; place = dirname(place)) {
     try {
@@ -22,7 +22,7 @@ export function realPlace(path) {
     } catch (error) {
       if (error.code !== "ENOENT" || place === parse(place).root) throw error;
     }
-    if (lstatSync(place, { throwIfNoEntry: false })) throw new Error("a dangling link");
+    if (lstatSync(place, { throwIfNoEntry: false })) throw new Error("a dangling symbolic link");
     missing.unshift(basename(place));
   }
 }

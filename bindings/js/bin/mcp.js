@@ -67,7 +67,7 @@ const tools = {
       method: { type: "string", enum: methodNames, description: "Tangent method. Default: mikktspace." },
       overwrite: flag("Recompute existing tangents"),
       all: flag("Also process primitives whose material needs no tangents"),
-      repair: flag("Mend what check finds"),
+      repair: flag("Repair the tangents that check reports"),
       replace,
     },
     required: ["file", "output"],
@@ -103,15 +103,15 @@ export function placesIn(root) {
     try {
       place = realPlace(resolve(root, path));
     } catch {
-      throw new Refusal(`${path}: cannot be followed`);
+      throw new Refusal(`${path}: cannot be resolved`);
     }
-    if (!isIn(root, place)) throw new Refusal(`${path}: is outside the folder that this server may use`);
+    if (!isIn(root, place)) throw new Refusal(`${path} is outside the folder that this server may use`);
     return place;
   };
   return {
     input(path) {
       const place = real(path);
-      if (!existsSync(place)) throw new Refusal(`${path}: is not there`);
+      if (!existsSync(place)) throw new Refusal(`${path} does not exist`);
       return place;
     },
     output(path, ending, mayReplace) {
@@ -120,7 +120,7 @@ export function placesIn(root) {
       // A map of several materials is written to several files with a common prefix.
       const begin = basename(place).slice(0, -ending.length);
       const taken = existsSync(dirname(place)) && readdirSync(dirname(place)).find((name) => name === basename(place) || (ending === ".png" && name.startsWith(begin) && name.toLowerCase().endsWith(ending)));
-      if (taken && !mayReplace) throw new Refusal(`${join(dirname(path), taken)}: exists already; use replace: true to overwrite it`);
+      if (taken && !mayReplace) throw new Refusal(`${join(dirname(path), taken)} already exists; use replace: true to overwrite it`);
       return place;
     },
   };
@@ -224,7 +224,7 @@ function readWords(words) {
     if (!statSync(root).isDirectory()) throw new Error();
     return { root, native, fail };
   } catch {
-    return fail(`${words[0]}: is no folder`, 4);
+    return fail(`${words[0]} is not a folder`, 4);
   }
 }
 

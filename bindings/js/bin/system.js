@@ -369,7 +369,7 @@ export function systemOf({ memory, exports, program }) {
     emscripten_num_logical_cores: () => os.availableParallelism?.() ?? os.cpus().length,
     emscripten_check_blocking_allowed: () => {},
     emscripten_unwind_to_js_event_loop: () => {
-      throw new Error("a thread ended itself");
+      throw new Error("a thread exited unexpectedly");
     },
     processNumber: () => process.pid,
     userNumber: () => process.geteuid?.() ?? 0,
@@ -384,7 +384,7 @@ export function systemOf({ memory, exports, program }) {
       }
     },
     abort: () => {
-      throw new Error("the program gave up");
+      throw new Error("the program called abort()");
     },
   };
 

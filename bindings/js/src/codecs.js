@@ -29,7 +29,7 @@ function functionOf(option, value) {
 
 /** Checks the codec options. */
 export const codecsOf = ({ meshopt, draco, decodeImage, encodeImage }) => ({
-  ...pairOf("meshopt", meshopt, { decoder: "decodeGltfBuffer", encoder: "encodeGltfBuffer" }, "that of npm's meshoptimizer"),
+  ...pairOf("meshopt", meshopt, { decoder: "decodeGltfBuffer", encoder: "encodeGltfBuffer" }, "MeshoptDecoder or MeshoptEncoder of the npm package meshoptimizer"),
   ...pairOf("draco", draco, { decoder: "Decoder", encoder: "ExpertEncoder" }, "a module of the npm package draco3d, created by createDecoderModule() or createEncoderModule()"),
   ...functionOf("decodeImage", decodeImage),
   ...functionOf("encodeImage", encodeImage),
@@ -39,15 +39,15 @@ export const codecsOf = ({ meshopt, draco, decodeImage, encodeImage }) => ({
 function faultOfPixels(image, width, height, sampleBytes) {
   if (typeof image?.then === "function")
     fail("wrongType", "decodeImage returned a Promise; use decodeImages(model, decode, options) to decode the images before the call");
-  if (isMissing(image)) return "decodeImage returned nothing for it";
-  const pixels = object(image, "what decodeImage gives").rgba;
+  if (isMissing(image)) return "decodeImage returned no pixels for the image";
+  const pixels = object(image, "the result of decodeImage").rgba;
   if (![Uint8Array, Uint8ClampedArray, Uint16Array].some((Type) => pixels instanceof Type))
     fail("wrongType", "decodeImage must return an object whose rgba is a Uint8Array, a Uint8ClampedArray or a Uint16Array");
   if (image.width !== width || image.height !== height)
     return `decodeImage returned ${image.width} x ${image.height} pixels instead of ${width} x ${height}`;
   if (pixels.length !== 4 * width * height)
     fail("countMismatch", `decodeImage returned ${pixels.length} numbers for ${width} x ${height} pixels, but needs 4 per pixel`);
-  if (sampleBytes === 2 && !(pixels instanceof Uint16Array)) return "it has 16 bits per channel, but decodeImage returned 8";
+  if (sampleBytes === 2 && !(pixels instanceof Uint16Array)) return "the image has 16 bits per channel, but decodeImage returned 8";
   return undefined;
 }
 
@@ -168,7 +168,7 @@ export class Codecs {
     const data = this.#view(Type, pixels, count).slice();
     const image = { width, height, channels, bits: 8 * sampleBytes, data, quality };
     const file = this.given.encodeImage(image, mimeType);
-    if (!(file instanceof Uint8Array)) failType(file, "what encodeImage gives", "a Uint8Array");
+    if (!(file instanceof Uint8Array)) failType(file, "the result of encodeImage", "a Uint8Array");
     return this.#give(file, size);
   }
 }

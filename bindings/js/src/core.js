@@ -33,7 +33,7 @@ export function generateTangentsOfMeshes(jobs) {
 
 export function triangulate(mesh) {
   const { positions, uvs, indices, faceSizes, uvIndices } = givenMesh(mesh);
-  if (uvIndices) fail("invalidOption", "triangulate takes no uvIndices");
+  if (uvIndices) fail("invalidOption", "triangulate does not support uvIndices");
   const checked = meshOf({ positions, uvs, indices, faceSizes });
   return wasm.run((call) => {
     setMesh(call, checked);

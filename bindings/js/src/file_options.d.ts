@@ -23,8 +23,7 @@ export interface GenerateFileOptions {
   /** Recompute existing tangents. */
   overwrite?: boolean;
   /**
-   * Add missing tangents, keep good ones, and recompute wrong ones: not finite, not of unit length, not orthogonal to
-   * the normal, with a wrong sign, or not aligned with the UVs.
+   * Add missing tangents, keep correct ones, and repair wrong ones, which are not finite, not of unit length, not orthogonal to the normal, have a wrong sign, or do not follow the UVs.
    */
   repair?: boolean;
   /** Remove tangents that no material needs, including their buffer data. */
@@ -97,7 +96,7 @@ export interface GenerateFileOptions {
   packDrop?: "tangents" | "all";
   /**
    * Invert the green channel of normal maps in which check detects that green points down throughout (as in DirectX).
-   * Images beside a .gltf are not changed; the output gets new files.
+   * Image files of a .gltf are not changed; the output gets new files.
    */
   flipGreen?: boolean;
   /** Invert the green channel of every normal map, whatever its direction. */

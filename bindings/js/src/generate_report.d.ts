@@ -167,7 +167,7 @@ export interface GeneratedPrimitive {
   normalsReplaced: boolean;
   /** Positions whose normals were also computed from triangles of other primitives. */
   normalsJoined: number;
-  /** Corners whose new normal points behind their own triangle. */
+  /** Corners whose new normal points to the back of their triangle. */
   normalsBehind: number;
   /** Triangles whose winding is opposite to most of the connected triangles. Counted if normals were computed, or if vertices
    * were split for at least one triangle in twenty; else 0, like "twoSidedTriangles". */
@@ -291,7 +291,7 @@ export interface MendCauses {
   placeholder: number;
   /** Sign not +1 or -1. */
   badSign: number;
-  /** Corners of one face disagreed about the sign. */
+  /** Corners of one face have different signs. */
   mixedSign: number;
   /** Valid, but changed by "--orthogonalize". */
   orthogonalized: number;

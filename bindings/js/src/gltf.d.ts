@@ -129,7 +129,7 @@ export type Severity = "error" | "warning" | "note";
  */
 export function generate(model: Bytes, options?: GenerateOptions): { bytes: NewUint8Array; report: GenerateReport };
 
-/** Finds faults in the frames of a model: inverted signs, averaged seams, a wrong UV set, and more. */
+/** Finds errors in the frames of a model: inverted signs, averaged seams, a wrong UV set, and more. */
 export function check(model: Bytes, options?: CheckOptions): CheckReport;
 
 /**
@@ -144,7 +144,7 @@ export function inspect(model: Bytes, options?: ModelOptions): InspectReport;
 /** Identifies the method and convention that computed the tangents of a model. */
 export function identify(model: Bytes, options?: IdentifyOptions): IdentifyReport;
 
-/** Compares the frames of two models that show the same surface. `resources` applies to both. */
+/** Compares the tangent frames of two models of the same surface. `resources` applies to both. */
 export function diff(a: Bytes, b: Bytes, options?: DiffOptions): DiffReport;
 
 /**

@@ -54,7 +54,7 @@ export interface NormalOptions {
    * derived from the spacing of floats.
    */
   weldDistance?: number | "auto";
-  /** Its handedness and winding define the outside. Default: right-handed, counter-clockwise from outside. */
+  /** Convention whose handedness and winding define the outside. Default: right-handed, counter-clockwise from outside. */
   convention?: ConventionName | Convention;
   /** Number of refinement steps of `best` after its fit. Default: 2. */
   refine?: 0 | 1 | 2;
@@ -175,7 +175,7 @@ export interface PlanBuffers {
   readonly triangles: NewUint32Array;
   readonly resultCount: number;
   readonly triangleCount: number;
-  /** Whether the shader computes normals from positions. */
+  /** True if the shader computes normals from positions. */
   readonly makesNormals: boolean;
 }
 

@@ -29,7 +29,7 @@ export interface WindingOptions {
    */
   weldDistance?: number | "auto";
   /**
-   * Its handedness and winding define the correct order of corners. Default: right-handed, counter-clockwise from
+   * Convention whose handedness and winding define the correct order of corners. Default: right-handed, counter-clockwise from
    * outside.
    */
   convention?: ConventionName | Convention;

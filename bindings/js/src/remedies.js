@@ -9,7 +9,7 @@ export function remedyText({ remedy, commands }) {
   let text = "", rest = remedy;
   for (const { verb, line, options } of commands) {
     const at = rest.indexOf(line);
-    // Of the commands in remedies, only generate is available as a function.
+    // Among the commands in remedies, only generate is available as a function.
     text += rest.slice(0, at) + (verb !== "generate" ? line : options.length === 0 ? "generate(model)" : `generate(model, ${optionsText(options)})`);
     rest = rest.slice(at + line.length);
   }

@@ -19,7 +19,7 @@ const wasm = new Wasm({
     } catch {
       return 0; // the codec throws for corrupt data
     }
-    if (!(unpacked instanceof Uint8Array)) failType(unpacked, `what ${name} gives`, "a Uint8Array");
+    if (!(unpacked instanceof Uint8Array)) failType(unpacked, `the result of ${name}`, "a Uint8Array");
     if (unpacked.length !== wanted) return 0;
     new Uint8Array(wasm.exports.memory.buffer, to >>> 0, wanted).set(unpacked);
     return 1;
@@ -129,7 +129,7 @@ function imageOf(image, what, decodeImage) {
     if (isMissing(decodeImage)) fail("unsupportedFile", `${what} is neither KTX2 nor DDS; use the option decodeImage to read it`);
     pixels = decodeImage(data, mimeTypeOf(data));
     if (typeof pixels?.then === "function") fail("wrongType", "decodeImage returned a Promise; decode the image before the call, and return its pixels");
-    if (isMissing(pixels)) fail("unsupportedFile", `${what} has a format for which decodeImage returned nothing`);
+    if (isMissing(pixels)) fail("unsupportedFile", `decodeImage returned no pixels for ${what}`);
   }
   const { width, height, rgba } = object(pixels, what);
   const place = [[Uint8Array, 8], [Uint8ClampedArray, 8], [Uint16Array, 16], [Float32Array, 32]].find(([Type]) => rgba?.[Symbol.toStringTag] === Type.name);

@@ -123,19 +123,19 @@ export class TspaceError extends Error {
   readonly element?: number;
 }
 
-/** Settles when the module is loaded; every call needs that. */
+/** Resolves when the module is loaded, which every call requires. */
 export const ready: Promise<void>;
 
-/** Gives the module's memory back, and ends all plans. The next call starts with little memory. */
+/** Frees the module's memory and invalidates all plans. The next call starts with little memory. */
 export function release(): void;
 
 /**
- * Mends tangents: those that are not finite, zero, not unit, parallel to N, placeholders, or whose sign is not +-1 or differs
- * inside a face. Sound ones keep every bit. Needs positions and normals.
+ * Repairs tangents that are not finite, zero, not unit, parallel to N, placeholders, or whose sign is not +-1 or differs
+ * inside a face. Valid tangents keep every bit. Needs positions and normals.
  * @param tangents four numbers per corner
- * @returns a copy, mended
+ * @returns a repaired copy
  */
 export function sanitizeTangents(mesh: Mesh, tangents: Float32Array, options?: SanitizeOptions): NewFloat32Array;
 
-/** Splits vertices whose corners disagree in any of the attributes. */
+/** Splits vertices whose corners differ in any attribute. */
 export function splitVertices(vertices: { indices?: Indices | null; vertexCount: number }, attributes: CornerAttribute[]): Split;

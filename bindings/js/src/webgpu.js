@@ -31,9 +31,9 @@ function pipelineOf(device) {
 function wordsOf(plan, options) {
   const written = plan?.[Symbol.for("tspace.planBuffers")]?.(options) ?? plan;
   const words = written?.words ?? written;
-  if (words?.[Symbol.toStringTag] !== "Uint32Array") failType(plan, "plan", "a Plan, or what planBuffers gave");
-  if (words[0] !== 1 || words.length < 12) fail("invalidOption", "plan: its words are not those of version 1, which this shader reads");
-  if (written === plan && options !== undefined) fail("invalidOption", "options are those of planBuffers, which has written this plan");
+  if (words?.[Symbol.toStringTag] !== "Uint32Array") failType(plan, "plan", "a Plan, or the result of planBuffers");
+  if (words[0] !== 1 || words.length < 12) fail("invalidOption", "plan.words does not have version 1, the only version that this shader reads");
+  if (written === plan && options !== undefined) fail("invalidOption", "options cannot be combined with the result of planBuffers; pass them to planBuffers instead");
   return words;
 }
 
@@ -53,11 +53,11 @@ function arrayOf(given, name, formats, elements) {
   const { number: code, bytes, unit } = formats[format];
   const offset = count(array.offset ?? 0, `${name}.offset`), stride = count(array.stride ?? bytes, `${name}.stride`);
   if (offset % unit !== 0 || stride % unit !== 0) fail("misaligned", `${name}: offset and stride must be multiples of ${unit} bytes`);
-  if (stride < bytes) fail("strideTooSmall", `${name}.stride is ${stride} bytes; elements of ${format} take ${bytes}`);
+  if (stride < bytes) fail("strideTooSmall", `${name}.stride is ${stride} bytes, but elements of ${format} have ${bytes} bytes`);
   const { buffer } = array;
-  if ((buffer?.usage & STORAGE) === 0) fail("invalidOption", `${name}: its buffer needs GPUBufferUsage.STORAGE`);
+  if ((buffer?.usage & STORAGE) === 0) fail("invalidOption", `the buffer of ${name} must have GPUBufferUsage.STORAGE`);
   const end = elements === 0 ? offset : offset + stride * (elements - 1) + bytes;
-  if (!(end <= buffer.size)) fail("countMismatch", `${name}: its buffer has ${buffer.size} bytes, ${end} are needed for ${elements} elements`);
+  if (!(end <= buffer.size)) fail("countMismatch", `the buffer of ${name} has ${buffer.size} bytes, but ${elements} elements need ${end}`);
   const begin = offset - (offset % RANGE_ALIGNMENT);
   const size = Math.max(4, Math.min(buffer.size - begin, Math.ceil((end - begin) / 4) * 4));
   return { code, stride, offset: offset - begin, range: { buffer, offset: begin, size }, scale: array.scale };
@@ -70,7 +70,7 @@ function deformation(deform, vertexCount) {
   const { buffer, morph, skin } = object(deform, "deform", ["buffer", "morph", "skin"]);
   const place = (offset, name, bytes) => {
     if (count(offset, name) % 4 !== 0) fail("misaligned", `${name} must be a multiple of 4 bytes`);
-    if (offset + bytes > buffer.size) fail("countMismatch", `${name}: the buffer ends at ${buffer.size}, before ${offset + bytes}`);
+    if (offset + bytes > buffer.size) fail("countMismatch", `${name} needs ${offset + bytes} bytes of the buffer, which has only ${buffer.size}`);
     return offset / 4;
   };
   if (!isMissing(morph)) {
@@ -105,7 +105,7 @@ export class GpuFrames {
   static async create(device, plan, options) {
     if (typeof device?.createComputePipelineAsync !== "function") failType(device, "device", "a GPUDevice");
     const words = wordsOf(plan, options), most = device.limits.maxStorageBufferBindingSize;
-    if (words.byteLength > most) fail("tooLarge", `the plan takes ${words.byteLength} bytes, the device's maxStorageBufferBindingSize is ${most}`);
+    if (words.byteLength > most) fail("tooLarge", `the plan has ${words.byteLength} bytes, but the maxStorageBufferBindingSize of the device is ${most}`);
     return new GpuFrames(device, await pipelineOf(device), words);
   }
 
@@ -114,7 +114,7 @@ export class GpuFrames {
     this.#device = device;
     this.#pipeline = pipeline;
     this.#plan = this.#upload(words, "tspace plan");
-    this.#none = [0, 1].map(() => device.createBuffer({ label: "tspace nothing", size: 16, usage: STORAGE }));
+    this.#none = [0, 1].map(() => device.createBuffer({ label: "tspace placeholder", size: 16, usage: STORAGE }));
     this.vertexCount = vertexCountOf(words);
     this.resultCount = words[4];
     this.makesNormals = (words[2] & 1) !== 0;
@@ -144,7 +144,7 @@ export class GpuFrames {
     const { deform, ...given } = object(arrays, "arrays", ["positions", "normals", "tangents", "deform"]);
     const positions = arrayOf(given.positions, "positions", positionFormats, this.vertexCount);
     positions.scale?.forEach((factor) => number(factor, "positions.scale"));
-    if (isMissing(given.normals) && !this.makesNormals) fail("missingAttribute", "normals are missing: this plan makes none, so a pose brings its own");
+    if (isMissing(given.normals) && !this.makesNormals) fail("missingAttribute", "normals are missing: this plan does not compute them, so each pose must provide them");
     const normals = isMissing(given.normals) ? undefined : arrayOf(given.normals, "normals", normalFormats, this.normalCount);
     const tangents = arrayOf(given.tangents, "tangents", tangentFormats, this.resultCount);
     const settings = this.#settingsOf(positions, normals, tangents, deformation(deform, this.vertexCount));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Counterpart of worker.mjs in the main thread.
 
-/** What the worker makes of a message { mesh, options } or { call, model, options }. */
+/** Returns the worker's answer to a message { mesh, options } or { call, model, options }. */
 export function askWorker(worker, message, { signal, onProgress } = {}) {
   const flag = new Int32Array(new SharedArrayBuffer(4)); // in a browser: requires cross-origin isolated pages
   const stop = () => Atomics.store(flag, 0, 1);

@@ -13,7 +13,7 @@ const mesh = grid(3);
 const options = { convention: "gltf" };
 const good = generateTangents(mesh, options);
 
-/** body() throws a TspaceError of that code whose message has all the words; then a good call still works. */
+/** Checks that body() throws a TspaceError with this code and all words in its message, and that a valid call works afterwards. */
 function refuses(code, words, body, element) {
   assert.throws(body, (error) => {
     assert.ok(error instanceof TspaceError && error instanceof Error, String(error));

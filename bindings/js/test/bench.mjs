@@ -19,7 +19,7 @@ const unindexed = { positions: perCorner(positions, 3), normals: perCorner(norma
 const options = { convention: "gltf" };
 
 const rounds = Number(process.argv[2] ?? 41);
-/** The least times, all in turns: what else the machine does takes from every other round. */
+/** Returns the minimum times of alternating runs, so that other load affects all candidates alike. */
 function race(title, calls) {
   const times = calls.map(() => []);
   for (let round = 0; round < rounds + 5; ++round) {

@@ -11,14 +11,14 @@ const project = fileURLToPath(new URL("..", import.meta.url));
 const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
 const [vite, playwright, three] = await Promise.all(["vite", "playwright-core", "three"].map((name) => import(name).catch(() => null)));
 
-/** Why there is no page here, or false. */
+/** Reason why no page can be opened here, or false. */
 export const missing =
   (!chromium && "no Chromium here: scripts/js --all") ||
   (!(vite && playwright && three) && "Vite, playwright-core or three.js is not installed, or this node is too old for them");
 
 const types = { ".html": "text/html", ".js": "text/javascript", ".wasm": "application/wasm" };
 
-/** Runs the module `page` until it sets window.result, which is returned. `files`: bytes by their addresses; body(tab, result): then. */
+/** Runs the module `page` until it sets window.result, and returns it. `files`: address to content; body(tab, result): called afterwards. */
 export async function runPage({ page, html = '<!doctype html><meta charset="utf-8"><script type="module" src="./page.js"></script>', query = "", files = {}, body = () => {}, size = { width: 800, height: 600 } }) {
   const folder = mkdtempSync(join(tmpdir(), "tspace-webgpu-"));
   let server, browser;

@@ -15,7 +15,7 @@ const project = fileURLToPath(new URL("..", import.meta.url));
 const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
 const [vite, playwright, pngjs] = await Promise.all(["vite", "playwright-core", "pngjs"].map((name) => import(name).catch(() => null)));
 const golden = process.env.TSPACE_GOLDEN;
-/** A normal map as artists have them, with halved colors. */
+/** A typical normal map, with halved colors. */
 const photo = join(shared ?? "", "models/assets/sofa_03/textures/sofa_03_nor_gl_1k.jpg");
 const missing =
   (!chromium && "no Chromium here: scripts/js --all") ||
@@ -76,7 +76,7 @@ const images = [noted({}), noted({ decodeImage: await files.decodeImages(mapped,
 window.result = { pictures, images, compared, wrong, code, refused, glb: made.bytes.length, found: files.check(made.bytes).findings.length };
 `;
 
-/** How far the browser's pixels are from those that the tool reads, which it writes as a PNG with green inverted. */
+/** Returns the largest difference between the browser's pixels and those of the tool, which writes them as a PNG with inverted green. */
 function stepsFromTool({ name, width, height, file, rgba }, folder) {
   const [from, to] = [`picture.${name.split(" ")[0]}`, "picture.png"].map((each) => join(folder, each));
   writeFileSync(from, Buffer.from(file, "base64"));

@@ -26,7 +26,7 @@ Promise.all([ready, small.ready, files.ready, packReady]).then(() => {
 });
 `;
 
-/** body(folder) with the program in the project, and an empty folder to which the bundle goes. */
+/** Calls body(folder) with the program in the project and an empty folder for the bundle. */
 async function withProgram(entry, body) {
   const folder = mkdtempSync(join(tmpdir(), "tspace-js-"));
   const path = join(project, `server-${entry.replace(/\W/g, "-")}.mjs`);
@@ -38,7 +38,7 @@ async function withProgram(entry, body) {
     rmSync(folder, { recursive: true });
   }
 }
-/** What the only file of a bundle prints, alone in a folder. */
+/** Returns the output of a bundle's only file, run alone in a folder. */
 function printed(bundle) {
   const folder = mkdtempSync(join(tmpdir(), "tspace-js-"));
   try {

@@ -23,7 +23,7 @@ const program = (entry) => `import { makeIndexedFrames, ready } from ${JSON.stri
 ready.then(() => console.log("tangents", ${frames}.tangents.join(" ")));
 `;
 
-/** body(folder) in a folder of its own from which the packages are found. */
+/** Calls body(folder) with a separate folder in which the packages can be resolved. */
 async function inProject(body) {
   const folder = mkdtempSync(join(installed, "try-"));
   try {
@@ -32,7 +32,7 @@ async function inProject(body) {
     rmSync(folder, { recursive: true });
   }
 }
-/** What the only file of a bundle prints, alone in a folder. */
+/** Returns the output of a bundle's only file, run alone in a folder. */
 function printed(bundle, command = process.execPath) {
   const folder = mkdtempSync(join(tmpdir(), "tspace-bundle-"));
   try {
@@ -78,7 +78,7 @@ describe("Bun", { skip: absent(bunPackage) }, () => {
   }));
 });
 
-/** A number that no server listens to at the moment. */
+/** Returns a port on which no server listens at the moment. */
 const freePort = () => new Promise((resolve) => {
   const server = createServer().listen(0, "127.0.0.1", () => {
     const { port } = server.address();

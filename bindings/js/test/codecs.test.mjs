@@ -25,7 +25,7 @@ const encodePng = ({ width, height, channels, bits, data }) => {
 };
 
 const jsonOf = (glb) => JSON.parse(Buffer.from(glb.buffer, glb.byteOffset + 20, new DataView(glb.buffer, glb.byteOffset).getUint32(12, true)).toString());
-/** body() throws a TspaceError of that code, with all the words. */
+/** Checks that body() throws a TspaceError with this code and all words in its message. */
 const refuses = (code, words, body) =>
   assert.throws(body, (error) => {
     assert.ok(error instanceof TspaceError, String(error.stack));
@@ -120,10 +120,10 @@ describe("compressed models", { skip: skip || missing }, () => {
   });
 });
 
-/** A model whose normal map is this PNG. */
+/** Returns a model with this PNG as its normal map. */
 const withMap = (png) => gridModel({ image: `data:image/png;base64,${Buffer.from(png).toString("base64")}` }).model;
 
-/** Domes in a grid, as a normal map whose green points up or down. */
+/** Returns a normal map of domes in a grid, with green up or down. */
 function domes({ size = 128, bits = 8, channels = 3, isDown = false } = {}) {
   const top = 2 ** bits - 1;
   const data = new (bits === 16 ? Uint16Array : Uint8Array)(channels * size * size);

@@ -15,10 +15,10 @@ await ready;
 const { model } = gridModel();
 const good = generate(model);
 
-/** The JSON in a .glb. */
+/** Returns the JSON of a .glb. */
 const jsonOf = (glb) => JSON.parse(Buffer.from(glb.buffer, glb.byteOffset + 20, new DataView(glb.buffer, glb.byteOffset).getUint32(12, true)).toString());
 
-/** body() throws a TspaceError of that code, with one line that has all the words; then the module works as before. */
+/** Checks that body() throws a TspaceError with this code and a message of one line with all words, and that the module works afterwards. */
 function refuses(code, words, body) {
   assert.throws(body, (error) => {
     assert.ok(error instanceof TspaceError, String(error.stack));

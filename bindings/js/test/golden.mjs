@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Golden meshes of the MikkTSpace reference (their layout is described next to the files), for node and browsers.
 
-/** A mesh and the tangents that it must get; null for what is not a complete file. */
+/** Returns a mesh and its expected tangents; null for an incomplete file. */
 export function readGolden(buffer) {
   const words = new Uint32Array(buffer), numbers = new Float32Array(buffer);
   const [magic, faces, corners] = words;
@@ -17,12 +17,12 @@ export function readGolden(buffer) {
     wanted.set(numbers.subarray(result, result + 3), 4 * c);
     wanted[4 * c + 3] = numbers[result + 9];
   }
-  // docs/concepts/methods/mikktspace.md says why.
+  // docs/concepts/methods/mikktspace.md describes the exceptions.
   const isPromised = [positions, normals, uvs].every((array) => array.every((x) => Math.abs(x) < 1.6e38));
   return { mesh: { positions, normals, uvs, faceSizes }, threshold: numbers[3], wanted, isPromised };
 }
 
-/** How many numbers differ in their bits; any NaN equals any NaN. */
+/** Returns how many numbers differ in their bits; all NaNs are considered equal. */
 export function differences(a, b) {
   if (a.length !== b.length) return Math.max(a.length, b.length);
   const x = new Uint32Array(a.buffer, a.byteOffset, a.length), y = new Uint32Array(b.buffer, b.byteOffset, b.length);

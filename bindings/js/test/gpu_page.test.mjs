@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The example page examples/gpu_page in Chromium: a screenshot has lit models and a heat map that is cold where surfaces are fine.
+// The example examples/gpu_page in Chromium: a screenshot shows lit models, and a heat map with small errors on finely tessellated surfaces.
 import assert from "node:assert/strict";
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -10,7 +10,7 @@ const folder = process.env.TSPACE_EXAMPLES && join(process.env.TSPACE_EXAMPLES, 
 const pngjs = await import("pngjs").catch(() => null);
 
 const background = [0x23, 0x26, 0x2d];
-/** Of the pixels of a canvas that are not background: their share, their mean color, and how much neighbors differ. */
+/** Returns statistics of the pixels that are not background: their share, mean color, and mean difference of neighbors. */
 function statisticsOf({ data, width }, { x, y, width: wide, height: high }) {
   const sum = [0, 0, 0];
   let covered = 0, steps = 0;

@@ -14,7 +14,7 @@ const program = fileURLToPath(new URL("../node_modules/tspace/bin/tspace.js", im
 const [sdk, transports] = await Promise.all(["index.js", "stdio.js"].map((part) => import(`@modelcontextprotocol/sdk/client/${part}`).catch(() => null)));
 const missing = (!existsSync(join(program, "../tspace.wasm")) && "the package has no program") || (!(sdk && transports) && "@modelcontextprotocol/sdk is not installed");
 
-/** A folder with models, and one beside it with what nobody may see. */
+/** A folder with models, next to a folder that must not be readable. */
 const home = realpathSync(mkdtempSync(join(tmpdir(), "tspace-mcp-test-")));
 const [root, outside] = ["models", "outside"].map((name) => join(home, name));
 after(() => rmSync(home, { recursive: true, force: true }));
@@ -112,12 +112,12 @@ describe("tspace mcp", { skip: missing }, () => {
 
   it("reads nothing outside of its folder", async () => {
     for (const file of ["../outside/grid.gltf", "deep/../../outside/grid.gltf", join(outside, "grid.gltf"), "way/grid.gltf", "link.gltf", "/etc/passwd", `${root}x/grid.gltf`, ".."])
-      await refused("inspect", { file }, /outside the folder|cannot be followed/);
-    await refused("inspect", { file: "nothing.gltf" }, /is not there/);
+      await refused("inspect", { file }, /outside the folder|cannot be resolved/);
+    await refused("inspect", { file: "nothing.gltf" }, /does not exist/);
     // .. is resolved before links are followed
-    await refused("inspect", { file: "way/../outside/grid.gltf" }, /is not there/);
-    await refused("inspect", { file: "nowhere.glb" }, /cannot be followed|outside/);
-    await refused("inspect", { file: "grid.gltf\0.png" }, /cannot be followed/);
+    await refused("inspect", { file: "way/../outside/grid.gltf" }, /does not exist/);
+    await refused("inspect", { file: "nowhere.glb" }, /cannot be resolved|outside/);
+    await refused("inspect", { file: "grid.gltf\0.png" }, /cannot be resolved/);
     await refused("inspect", { file: "linked/grid.gltf" }, /leads outside the folder of the model/); // the buffer is a link
     await refused("inspect", { file: "named.gltf" }, /outside|\.\./);
     // links in a folder of models
@@ -128,7 +128,7 @@ describe("tspace mcp", { skip: missing }, () => {
 
   it("writes nothing outside of its folder", async () => {
     for (const output of ["../new.glb", join(outside, "new.glb"), "way/new.glb", "nowhere.glb", "deep/../../new.glb", "way/../../new.glb"])
-      await refused("generate", { file: "grid.gltf", output, all: true, replace: true }, /outside the folder|cannot be followed/);
+      await refused("generate", { file: "grid.gltf", output, all: true, replace: true }, /outside the folder|cannot be resolved/);
     await refused("generate", { file: "grid.gltf", output: "grid.gltf", replace: true }, /must end in \.glb/);
     assert.deepEqual(readdirSync(outside).sort(), ["cut.mtl", "grid.bin", "grid.gltf"]);
     assert.ok(!existsSync(join(home, "new.glb")));
@@ -141,7 +141,7 @@ describe("tspace mcp", { skip: missing }, () => {
     await refused("inspect", { file: "grid.gltf", allowExternal: true }, /allowExternal is unknown/);
     await refused("inspect", { file: "grid.gltf", constructor: "a" }, /constructor is unknown/);
     await refused("generate", { file: "grid.gltf", output: "a.glb", method: "finest" }, /method must be one of mikktspace/);
-    await refused("inspect", { file: "--version" }, /is not there/);
+    await refused("inspect", { file: "--version" }, /does not exist/);
     await refused("paint", {}, /paint is unknown/);
     await refused("bake", { low: "grid.gltf", high: "grid.gltf", output: "a.png" }, /--tool PROGRAM/);
     writeFileSync(join(root, "broken.gltf"), "{");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-/** A piece of a torus with a UV seam, n * n * 2 triangles. */
+/** A part of a torus with a UV seam, with n * n * 2 triangles. */
 export function grid(n, turn = 6) {
   const positions = [], normals = [], uvs = [], indices = [];
   for (let j = 0; j <= n; ++j) {
@@ -19,7 +19,7 @@ export function grid(n, turn = 6) {
   };
 }
 
-/** Numbers from 0 to below `most`, the same in each run (Marsaglia's xorshift). */
+/** Returns random integers from 0 to `most` - 1, the same in each run (Marsaglia's xorshift). */
 function numbersFrom(seed) {
   let state = seed;
   return (most) => {
@@ -37,7 +37,7 @@ function soup(triangles, points, random) {
   return ["position", "normal", "uv"].map((name) => Float32Array.from(corners.flatMap((corner) => corner[name])));
 }
 
-/** A wavy sheet in random order, every seventh triangle turned over in its UVs; some have no area. */
+/** A wavy sheet with triangles in random order; every seventh one is mirrored in UV space, and some have no area. */
 function shuffledSheet(n, random) {
   const { positions, normals, uvs, indices } = grid(n);
   const order = Array.from({ length: indices.length / 3 }, (_, t) => t);

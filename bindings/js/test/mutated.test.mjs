@@ -13,7 +13,7 @@ import { besideOf, filesIn, hasModels, ofTool, plain, shared, skip } from "./too
 await ready;
 
 let state = Number(process.env.TSPACE_SEED ?? 1);
-/** A whole number below `limit`, by xorshift32. */
+/** Returns a random integer below `limit` (xorshift32). */
 function below(limit) {
   state ^= state << 13;
   state ^= state >>> 17;
@@ -22,7 +22,7 @@ function below(limit) {
 }
 
 const telling = [0, 1, 2, 0x7f, 0x80, 0xff, ..."09-\"[{,\n.e"].map((one) => (typeof one === "string" ? one.charCodeAt(0) : one));
-/** The bytes with one or two changes. */
+/** Returns the bytes with one or two changes. */
 function changed(bytes) {
   let result = Uint8Array.from(bytes);
   for (let n = 1 + below(2); n > 0 && result.length > 0; --n) {
@@ -37,11 +37,11 @@ function changed(bytes) {
   return result;
 }
 
-/** A small file that needs neither another one nor a codec. */
+/** Returns whether a file is small and needs no other file and no codec. */
 const isAlone = (name) =>
   statSync(name).size < 12e3 && !/"uri" *: *"(?!data:)[^"]*\.bin"|meshopt|draco/.test(readFileSync(name, "latin1"));
 
-/** What both say of a file: the report, or the code of the error. */
+/** Returns the result for a file: the report, or the error code. */
 const ofFile = (file) => (file.ok ? plain(file) : { ok: false, code: file.error.code });
 function ofPackage(call, path) {
   try {

@@ -13,7 +13,7 @@ import { npmCodecs, ofTool, plain, tool } from "./tool.mjs";
 await ready;
 const codecs = await npmCodecs();
 
-/** A model with all that glTF counts and numbers. */
+/** A model with all kinds of counts and indices of glTF. */
 function fullModel() {
   const json = JSON.parse(gridModel().model.toString());
   const [primitive] = json.meshes[0].primitives;
@@ -33,14 +33,14 @@ function fullModel() {
   return json;
 }
 
-/** Places of the whole numbers in it, as [parent, key] and a name; not those that are values, as the corners of a box. */
+/** Returns the locations of its integers, as [parent, key] and a name, except for integers that are coordinates. */
 function numbersIn(value, path = "") {
   return Object.entries(value).flatMap(([key, member]) => {
     if (typeof member === "number") return [`${path}/${key}`];
     return typeof member === "object" && key !== "min" && key !== "max" && key !== "variants" ? numbersIn(member, `${path}/${key}`) : [];
   });
 }
-/** The model's text with another number there. */
+/** Returns the model's text with a different number at this location. */
 function withNumber(path, spell) {
   const json = fullModel();
   const keys = path.slice(1).split("/"), last = keys.pop();
@@ -57,7 +57,7 @@ const ways = {
   "2^63 more": (number) => String(number + 2n ** 63n),
 };
 
-/** The report, or the code of the error; never another exception. */
+/** Returns the report or the error code; other exceptions are rethrown. */
 function verdict(call) {
   try {
     return call();

@@ -48,7 +48,7 @@ describe("the archive", { skip: !archive && "run scripts/js" }, () => {
     });
   });
 
-  /** Bytes of an entry as a browser fetches it: its module and all that it imports, each compressed. */
+  /** Returns the compressed size of an entry: its module and all modules that it imports. */
   function sizeOf(entry) {
     const seen = new Set(), queue = [entry];
     for (let file; (file = queue.pop()); ) {

@@ -24,7 +24,7 @@ describe("planBuffers", () => {
     for (const [given, pattern] of [
       [{ indices: new Uint32Array(3) }, /indices must have one entry per corner/], [{ sourceCorners: Uint32Array.of(NO_CORNER - 1) }, /source corner/],
       [{ mesh, normals: { weighting: "best" } }, /best/], [{ mesh, normals: { weight: "area" } }, /known names are/], [{ corners: 1 }, /known names are/],
-      [{ mesh: { positions: mesh.positions.subarray(3) } }, /plan was made for|multiple/],
+      [{ mesh: { positions: mesh.positions.subarray(3) } }, /plan was created for|multiple/],
     ]) assert.throws(() => planBuffers(plan, given), pattern);
     assert.throws(() => planBuffers({}), /plan must be a Plan/);
     assert.throws(() => planBuffers(new Plan(mesh, { convention: "gltf", method: "best" })), /best/);

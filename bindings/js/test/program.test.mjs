@@ -32,12 +32,12 @@ const run = (command, words, options) => spawnSync(command, words, { maxBuffer: 
 const ofProgram = (words, options) => run(process.execPath, [program, ...words], options);
 const ofNative = (words, options) => run(native, words, options);
 
-/** Without times, which differ. */
+/** Removes run times, which differ. */
 const plain = (text) => text.toString().replace(/"seconds": ?[\d.e-]+/g, '"seconds":0').replace(/^( +time +).*$/gm, "$1").replace(/, [\d.]+ s$/gm, "");
-/** Files below a folder by their names. */
+/** Returns the files below a folder by name. */
 const contentOf = (folder) => Object.fromEntries(filesIn(folder, /./).map((file) => [relative(folder, file), readFileSync(file)]));
 
-/** Both run in folders of their own; what they print and write is the same. Returns the program's run. */
+/** Runs both programs in separate folders, and compares their output and files. Returns the run of the package's program. */
 function compare(words, { prepare = () => {}, input } = {}) {
   const [mine, other] = [ofProgram, ofNative].map((its) => {
     const cwd = newFolder();

@@ -12,7 +12,7 @@ const skip = !existsSync(fileURLToPath(file)) && "the package has no program";
 const { systemPath, toolPath, toolWord } = skip ? {} : await import(file);
 
 describe("paths of Windows", { skip }, () => {
-  /** A path of the command line in a current folder, as the system gets it after the tool has made it absolute. */
+  /** Returns the system path for a command-line path in a current folder, after the tool has made it absolute. */
   const absolute = (folder, word) => systemPath(posix.normalize(posix.join(toolPath(folder), toolWord(word))));
 
   it("keep a drive letter, with either separator", () => {

@@ -13,15 +13,15 @@ await ready;
 const codecs = await npmCodecs();
 
 // Intended differences:
-/** The tool has tspace-import read other formats, and the package refuses them. */
+/** The tool reads other formats with tspace-import; the package rejects them. */
 const isOther = /\.(off|ply|dae)$/;
-/** Models that are compressed, or have a part that is: npm's encoders are of other versions than the tool's, so the bytes of
- * outputs differ; and where npm's codecs are not installed, nothing of them is compared. */
+/** Compressed models: npm's encoders have other versions than the tool's, so output bytes differ. Without npm's codecs,
+ * these models are not compared. */
 const isCompressed = /draco|meshopt|DenseSphere/i;
-/** Only bytes go out of the package, while the tool copies files beside a model and names them as they then lie. */
+/** The package returns bytes, while the tool also copies the files of a model and adapts their URIs. */
 const leavesFilesBeside = ({ warnings }) => warnings?.some((warning) => warning.endsWith("that the model references was not copied to the output"));
 
-/** The tool looks for a file, and the package asks for it. */
+/** The tool searches for a file, while the package requests it from the caller. */
 const isLeftOut = (warning) => warning.startsWith("a texture was ignored");
 function withoutPlaces(report) {
   const shorten = (text) => text.replace(/ \(at [^()]*\)$/, "");
@@ -32,9 +32,9 @@ function withoutPlaces(report) {
 
 const isCompared = (name) => statSync(name).size < 300e3 && !isOther.test(name) && (codecs || !isCompressed.test(name));
 
-/** The tool's report, or the code of its error. */
+/** Returns the tool's report or error code. */
 const ofFile = (file) => (file.ok ? plain(file) : { ok: false, code: file.error.code });
-/** The same of the package, whose remarks and warnings about images end with their place. */
+/** Returns the package's report or error code, without the locations at the end of notes and warnings about images. */
 function ofPackage(call, name) {
   try {
     return withoutPlaces(plain(call(readFileSync(name), { name, resources: besideOf(name), ...codecs })));
@@ -49,7 +49,7 @@ describe("beside the tool", { skip }, () => {
     const path = shared && join(shared, folder);
     const missing = !(path && existsSync(path)) && `no ../shared/${folder} here`;
 
-    /** Calls compare(name, the tool's entry) for what is compared. */
+    /** Calls compare(name, the tool's entry) for each compared file. */
     function compareAll(verb, options, compare) {
       const files = ofTool(verb, path, ...options).files.filter(({ input }) => isCompared(input));
       for (const file of files) compare(file.input, file);

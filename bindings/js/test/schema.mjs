@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reports against docs/schema.
+// Validates reports against docs/schema.
 import assert from "node:assert/strict";
 import { existsSync, readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
@@ -17,12 +17,12 @@ function expectValid(value, schema) {
   assert.ok(isValid(value), JSON.stringify(isValid.errors, null, 1));
 }
 
-/** The document is what its schema says. Without TSPACE_SCHEMA nothing is looked at. */
+/** Validates a document against its schema. Does nothing without TSPACE_SCHEMA. */
 export function expectDocument(document) {
   if (hasSchemas) expectValid(document, `${document.schema.replace("/", ".")}.json`);
 }
 
-/** What `verb` of tspace/gltf gave is what the schema says of the entry of a file. That of diff is the document. */
+/** Validates the result of the function `verb` of tspace/gltf against the schema of a file's entry; that of diff is a whole document. */
 export function expectReport(verb, report) {
   if (verb === "diff") return expectDocument(report);
   const { exitCode, ...entry } = report;

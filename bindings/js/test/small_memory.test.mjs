@@ -10,7 +10,7 @@ import { gridModel } from "./models.mjs";
 
 const kMemorySection = 5;
 
-/** A number of WebAssembly's binary format (LEB128) at a place, and the place behind it. */
+/** Reads a LEB128 integer at an offset; returns it and the offset after it. */
 function numberAt(bytes, at) {
   let value = 0;
   for (let shift = 0; ; shift += 7) {
@@ -22,13 +22,13 @@ function numberAt(bytes, at) {
 
 const spelled = (value) => (value < 128 ? [value] : [(value & 127) | 128, ...spelled(value >>> 7)]);
 
-/** The module with a memory that can grow by so many pages. */
+/** Returns the module with a memory that can grow by this number of pages. */
 function withMaximum(source, pages) {
   const bytes = new Uint8Array(source.buffer ?? source, source.byteOffset ?? 0, source.byteLength);
   for (let at = 8; at < bytes.length; ) {
     const [size, body] = numberAt(bytes, at + 1);
     if (bytes[at] === kMemorySection) {
-      const [initial] = numberAt(bytes, body + 2); // behind the number of memories and the flags of the first
+      const [initial] = numberAt(bytes, body + 2); // skips the number of memories and the flags of the first one
       const memory = [1, 1, ...spelled(initial), ...spelled(initial + pages)];
       return Uint8Array.from([...bytes.subarray(0, at), kMemorySection, ...spelled(memory.length), ...memory, ...bytes.subarray(body + size)]);
     }
@@ -64,7 +64,7 @@ const entries = {
   "tspace/gltf": { calls: modelCalls, large: () => model(60), small: () => model(2) },
 };
 
-/** What each call of an entry gives with a memory that can grow by so many pages: for a large input, and for a small one afterwards. */
+/** Returns the result of each call of an entry with a memory that can grow by this number of pages: for a large input, and then for a small one. */
 async function outcomes({ entry, pages }) {
   const compile = WebAssembly.compile;
   WebAssembly.compile = (bytes) => compile(withMaximum(bytes, pages));

@@ -22,7 +22,7 @@ after(() => rmSync(folder, { recursive: true, force: true }));
 const at = (name) => join(folder, name);
 const run = (...args) => execFileSync(tool, args, { stdio: ["ignore", "pipe", "pipe"] });
 
-/** Gentle waves with a step; `most`: 255 or 65535. */
+/** Returns a map of gentle waves with a step; `most`: 255 or 65535. */
 function waves(width, height, most = 255) {
   const Type = most === 255 ? Uint8Array : Uint16Array;
   const rgba = new Type(4 * width * height);
@@ -42,7 +42,7 @@ function writePng(name, { width, height, rgba }) {
   writeFileSync(at(name), pngjs.PNG.sync.write(image, { colorType: 2, inputColorType: 6, inputHasAlpha: true, bitDepth: is16 ? 16 : 8 }));
 }
 
-/** What the tool makes of a texture: the PNG that flip-green writes, with green turned back. */
+/** Returns the tool's pixels of a texture: the PNG that flip-green writes, with green inverted back. */
 function byTool(path) {
   const out = at("flipped.png");
   run("flip-green", path, "-o", out);
@@ -52,7 +52,7 @@ function byTool(path) {
   return { width, height, most, rgba: Array.from(data, (c, i) => (i % 4 === 1 ? most - c : c)) };
 }
 
-/** A DDS with a DX10 head, and levels one after the other. */
+/** Returns a DDS with a DX10 header and consecutive levels. */
 function dds(format, width, height, data, levels = 1) {
   const head = Buffer.alloc(148);
   head.write("DDS ");
@@ -62,7 +62,7 @@ function dds(format, width, height, data, levels = 1) {
   [format, 3, 0, 1].forEach((word, i) => head.writeUInt32LE(word, 128 + 4 * i));
   return Buffer.concat([head, data]);
 }
-/** The KTX2 packed by zlib, level by level. */
+/** Returns the KTX2 with each level zlib-compressed. */
 function packedByZlib(file) {
   const out = [Buffer.from(file)];
   out[0].writeUInt32LE(3, 44);
@@ -77,7 +77,7 @@ function packedByZlib(file) {
   }
   return Buffer.concat(out);
 }
-/** Bytes without a pattern, the same each time. */
+/** Returns reproducible random bytes. */
 const noise = (count, seed = 1) => Buffer.from(Uint8Array.from({ length: count }, () => (seed = (Math.imul(seed, 1664525) + 1013904223) >>> 0) >>> 24));
 
 const refuses = (code, words, body) =>
@@ -122,7 +122,7 @@ describe("compressMap", () => {
   it("takes files: textures, and others by decodeImage; and floats", () => {
     const image = waves(32, 32), fine = waves(32, 32, 65535);
     const { bytes } = compressMap(image, { format: "rg8", noLevels: true });
-    assert.equal(compressMap(bytes).report.warnings.length, 1); // states what was read, and how
+    assert.equal(compressMap(bytes).report.warnings.length, 1); // reports how channels were read
     const png = Uint8Array.from([0x89, 0x50, 0x4e, 0x47]);
     const types = [];
     assert.deepEqual(compressMap(png, { decodeImage: (file, type) => (types.push(type), image) }).bytes, compressMap(image).bytes);
@@ -226,7 +226,7 @@ describe("readTexture", () => {
         }
         end += 2 * read.width * read.height;
       }
-      refuses("invalidFile", /it has no level 5; its last level is 4/, () => readTexture(bytes, { level: 5 }));
+      refuses("invalidFile", /the texture has no mip level 5; its last mip level is 4/, () => readTexture(bytes, { level: 5 }));
     }
     const { bytes } = compressMap(waves(16, 16, 65535));
     const [coarse, fine, exact] = ["uint8", "uint16", "float"].map((numbers) => readTexture(bytes, { numbers }));
@@ -252,7 +252,7 @@ describe("readTexture", () => {
     assert.deepEqual(readTexture(byZlib, { unzlib: (data) => inflateSync(data) }), wanted);
     for (const level of [1, 4]) assert.deepEqual(readTexture(byZlib, { level, unzlib: inflateSync }), readTexture(plain, { level }));
     for (const wrong of [() => new Uint8Array(5), () => assert.fail("broken")]) refuses("invalidFile", /the KTX2 is damaged/, () => readTexture(byZlib, { unzlib: wrong }));
-    refuses("wrongType", /what unzlib gives must be a Uint8Array/, () => readTexture(byZlib, { unzlib: () => "text" }));
+    refuses("wrongType", /the result of unzlib must be a Uint8Array/, () => readTexture(byZlib, { unzlib: () => "text" }));
     writePng("n.png", image);
     run("compress-map", at("n.png"), "-o", at("z.ktx2"), "--zstd", "5", "-q");
     const decoder = new zstddec.ZSTDDecoder();

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { it } from "node:test";
 import { missing, runPage } from "./browser.mjs";
 
-/** A square before the camera, whose texture is mirrored where `mirrored`: its color is (tangent.x, bitangent.y, sign). */
+/** Returns the color (tangent.x, bitangent.y, sign) of a square in front of the camera; its texture is mirrored if `mirrored`. */
 const page = `
 import * as THREE from "three/webgpu";
 import { bitangentWorld, tangentGeometry, tangentWorld, vec3, vec4 } from "three/tsl";
@@ -26,7 +26,7 @@ async function color(renderer, mirrored) {
   renderer.render(scene, camera);
   return [...(await renderer.readRenderTargetPixelsAsync(target, 1, 1, 1, 1))].slice(0, 3);
 }
-/** What a lit material makes of a texel that leans along u, on a wall lit from the right, and from the left. */
+/** Returns the brightness of a wall with a normal map tilted along u, lit from the right and from the left. */
 async function lit(renderer, mirrored) {
   const geometry = new THREE.PlaneGeometry(2, 2);
   if (mirrored) for (let i = 0; i < 4; ++i) geometry.attributes.uv.setX(i, 1 - geometry.attributes.uv.getX(i));
@@ -56,7 +56,7 @@ try {
     const renderer = new THREE.WebGPURenderer({ forceWebGL });
     await renderer.init();
     const name = renderer.backend.isWebGPUBackend ? "webgpu" : "webgl";
-    if (result[name]) continue; // no WebGPU here: the renderer took WebGL
+    if (result[name]) continue; // no WebGPU here: the renderer fell back to WebGL
     result[name] = {};
     for (const mirrored of [false, true]) result[name][mirrored] = { color: await color(renderer, mirrored), lit: await lit(renderer, mirrored) };
   }

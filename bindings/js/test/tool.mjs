@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Models of ../shared, and the tool's reports about them.
+// Models of ../shared, and the tool's reports on them.
 import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync, readdirSync, statSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -8,19 +8,19 @@ import { expectDocument } from "./schema.mjs";
 export const shared = process.env.TSPACE_SHARED;
 export const tool = process.env.TSPACE_TOOL;
 export const hasModels = Boolean(shared) && existsSync(join(shared, "models"));
-/** For tests that compare with the tool. */
+/** Reason to skip tests that compare with the tool, or false. */
 export const skip = (!hasModels && "no ../shared here") || (!tool && "no tool here: build the preset release");
 
 export function filesIn(folder, wanted) {
   return readdirSync(folder, { withFileTypes: true }).flatMap((entry) =>
     entry.isDirectory() ? filesIn(join(folder, entry.name), wanted) : wanted.test(entry.name) ? [join(folder, entry.name)] : []).sort();
 }
-/** The files in a model's folder. */
+/** Returns the files in a model's folder. */
 export const besideOf = (path) => (name) => {
   const file = join(dirname(path), name);
   return existsSync(file) && statSync(file).isFile() ? readFileSync(file) : undefined;
 };
-/** The options meshopt and draco, of npm's packages; null where these are not installed. */
+/** The options meshopt and draco with the npm packages; null if these are not installed. */
 export async function npmCodecs() {
   const [meshoptimizer, draco3d] = await Promise.all(["meshoptimizer", "draco3d"].map((name) => import(name).catch(() => null)));
   if (!meshoptimizer || !draco3d) return null;
@@ -32,7 +32,7 @@ export async function npmCodecs() {
     draco: { decoder: await draco.createDecoderModule({}), encoder: await draco.createEncoderModule({}) },
   };
 }
-/** What the tool prints as JSON, whatever its exit code. */
+/** Returns the JSON that the tool prints, for any exit code. */
 export function ofTool(...args) {
   let text;
   try {
@@ -44,7 +44,7 @@ export function ofTool(...args) {
   expectDocument(document);
   return document;
 }
-/** Without times, and what only files have: paths. */
+/** Removes run times, and paths, which models in memory do not have. */
 export function plain(report) {
   const { seconds, output, outputFiles, inputFiles, exitCode, input, ...rest } = report;
   return rest;

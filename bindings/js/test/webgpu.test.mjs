@@ -16,7 +16,7 @@ const core = await import("@gltf-transform/core").catch(() => null);
 /** Models with a skin, with morph targets, and without. */
 const models = ["khronos/BoomBoxWithAxes.glb", "khronos/Lantern.glb", "khronos/MorphStressTest.glb", "khronos/CesiumMan.glb"];
 
-/** Their primitives as one run of bytes, and what lies where. */
+/** Returns their primitives as one array of bytes, with an index of offsets. */
 async function meshesOf() {
   const list = [], parts = [];
   let bytes = 0;
@@ -58,7 +58,7 @@ describe("GpuFrames in Chromium", { skip: missing || (!hasModels && "no ../share
     for (const { name, method, isSkinned, wrongSigns, tangents, normals } of outcomes)
       for (const { most, worst } of [tangents, normals])
         assert.ok(wrongSigns === 0 && most < (isSkinned ? 0.002 : 0.0005) && worst < (isSkinned ? 0.1 : 0.01), `${name} ${method}: ${most}, ${worst} degrees, ${wrongSigns} signs`);
-    // Where two codes are equally near, rounding decides: then both are within the bounds of the format, 0.15 and 0.165 degrees.
+    // If two codes are equally near, rounding decides; both are then within the bounds of the format, 0.15 and 0.165 degrees.
     for (const { name, packed } of outcomes)
       assert.ok(packed.wrongSigns === 0 && packed.normals.most < 0.001 && packed.normals.worst < 0.3 && packed.tangents.worst < 0.33, `${name}: ${JSON.stringify(packed)}`);
     assert.ok(spoiled.tangents.most > 1, "a wrong shader is noticed");
@@ -66,7 +66,7 @@ describe("GpuFrames in Chromium", { skip: missing || (!hasModels && "no ../share
 });
 
 describe("GpuFrames without a GPU", () => {
-  /** What is called of a device; buffers are objects of a size. */
+  /** Returns a mock device that records calls; buffers are objects with a size. */
   function deviceOf(calls) {
     const pass = { setPipeline() {}, setBindGroup: (_, group) => calls.push(group), dispatchWorkgroups: (...groups) => calls.push(groups), end: () => calls.push("end") };
     return {
@@ -111,9 +111,9 @@ describe("GpuFrames without a GPU", () => {
       [{ tangent: buffer(864) }, /known names are/], [{ deform: { buffer: buffer(16), morph: { count: 2, weights: 0, deltas: 8 } } }, /ends at 16/],
       [{ deform: { buffer: buffer(16), skin: { joints: 2, weights: 0, matrices: 8 } } }, /multiple of 4/],
     ]) assert.throws(() => frames.encode(device.createCommandEncoder(), { ...good, ...changed }), pattern);
-    await assert.rejects(GpuFrames.create(device, {}), /a Plan, or what planBuffers gave/);
+    await assert.rejects(GpuFrames.create(device, {}), /a Plan, or the result of planBuffers/);
     await assert.rejects(GpuFrames.create({}, plan), /GPUDevice/);
     await assert.rejects(GpuFrames.create(device, new Uint32Array(20)), /version 1/);
-    await assert.rejects(GpuFrames.create({ ...device, limits: { maxStorageBufferBindingSize: 100 } }, plan), /maxStorageBufferBindingSize is 100/);
+    await assert.rejects(GpuFrames.create({ ...device, limits: { maxStorageBufferBindingSize: 100 } }, plan), /maxStorageBufferBindingSize of the device is 100/);
   });
 });

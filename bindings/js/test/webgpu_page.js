@@ -11,7 +11,7 @@ const gather = (array, size, sources) => {
   return made;
 };
 
-/** The positions of a pose, computed as the shader does: morphed by `weights`, then skinned by `matrices`. */
+/** Computes the positions of a pose like the shader: morphed by `weights`, then skinned by `matrices`. */
 function posed({ positions, targets, joints, jointWeights }, weights, matrices) {
   const moved = positions.slice();
   weights.forEach((weight, t) => moved.forEach((x, i) => (moved[i] = x + round(weight * targets[t][i]))));
@@ -30,7 +30,7 @@ function posed({ positions, targets, joints, jointWeights }, weights, matrices) 
   return moved;
 }
 
-/** A turn about y that grows with x. */
+/** Rotates about y by an angle that increases with x. */
 function bent(positions) {
   const made = positions.slice();
   const xs = positions.filter((_, i) => i % 3 === 0), low = Math.min(...xs.slice(0, 60000)), size = Math.max(...xs.slice(0, 60000)) - low;
@@ -41,7 +41,7 @@ function bent(positions) {
   return made;
 }
 
-/** Rotations about the z axis by small angles, one for each joint: three rows of four numbers. */
+/** Returns rotations about the z axis by small angles, one per joint: three rows of four numbers. */
 const matricesOf = (count) =>
   Float32Array.from({ length: count }, (_, joint) => joint).reduce((made, joint) => {
     const angle = 0.15 * Math.sin(3 * joint), [c, s] = [Math.cos(angle), Math.sin(angle)];
@@ -49,7 +49,7 @@ const matricesOf = (count) =>
     return made;
   }, new Float32Array(12 * count));
 
-/** The mesh with a vertex for each result, and its plan. */
+/** Returns the mesh with one vertex per result, and its plan. */
 function prepared(mesh, method) {
   const { positions, uvs, indices } = mesh;
   const made = makeIndexedFrames({ positions, uvs, indices }, { convention: "gltf", method });
@@ -63,7 +63,7 @@ function prepared(mesh, method) {
   return { vertices, plain, plan, buffers: planBuffers(plan, { sourceCorners: made.sourceCorners, mesh: plain }), sourceCorners: made.sourceCorners };
 }
 
-/** Normals and tangents of each result by the module. */
+/** Computes normals and tangents of each result with the module. */
 function expected({ plain, plan, sourceCorners }, positions) {
   const corners = generateNormals({ positions, indices: plain.indices });
   const normals = plain.normals.slice();
@@ -90,7 +90,7 @@ async function readBack(device, buffer) {
   return bytes;
 }
 
-/** What deforms a mesh, as one buffer and the places in it. */
+/** Returns the morph targets and skin of a mesh as one buffer, with offsets. */
 function deformOf(device, { targets, joints, jointWeights }, weights, matrices) {
   if (weights.length === 0 && !matrices) return undefined;
   const parts = [Float32Array.from(weights), ...targets.slice(0, weights.length)];
@@ -111,7 +111,7 @@ const degrees = (a, b, at, to) => {
   return (Math.atan2(cross, x * u + y * v + z * w) * 180) / Math.PI;
 };
 
-/** Differences in degrees: that which 99 % do not exceed, and the largest. */
+/** Returns the 99th percentile and the maximum of the differences, in degrees. */
 function compare(wanted, found) {
   const outcome = { results: wanted.normals.length / 3, wrongSigns: 0 };
   for (const [name, size] of [["tangents", 4], ["normals", 3]]) {
@@ -152,7 +152,7 @@ async function comparePose(device, mesh, method) {
   return outcome;
 }
 
-/** Meshes of the test, as one buffer of arrays and a list that says what they are. */
+/** Loads the meshes of the test: one buffer of arrays, and a list that describes them. */
 async function loadMeshes() {
   const list = await (await fetch("/meshes.json")).json(), bytes = await (await fetch("/meshes.bin")).arrayBuffer();
   const types = { Float32Array, Uint32Array };

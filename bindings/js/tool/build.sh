@@ -10,11 +10,11 @@ out=$(readlink -f "$1")
 launch=()
 command -v ccache >/dev/null && launch=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 
-# Source packages and, of each, a package that is made of it.
+# Source packages, each with a binary package that is built from it.
 packages=(draco:libdraco-dev meshoptimizer:libmeshoptimizer-dev libspng:libspng-dev libjpeg-turbo:libturbojpeg0-dev
           libwebp:libwebp-dev libzstd:libzstd-dev zlib:zlib1g-dev)
 
-# fetch_sources FOLDER PACKAGE[=VERSION]...: by apt, with lists of its own, so that the system's stay as they are.
+# fetch_sources FOLDER PACKAGE[=VERSION]...: with apt and separate package lists, so that the system's lists are not changed.
 fetch_sources() {
     local folder=$1 codename
     shift
@@ -69,7 +69,7 @@ wasm-opt -O2 --enable-threads --enable-simd --enable-bulk-memory --enable-sign-e
     --enable-nontrapping-float-to-int --enable-exception-handling "$out/build/bin/tspace.wasm" -o "$out/bin/tspace.wasm"
 rm -rf "$out/share"
 cp -r "$out/build/tools/tspace/made/share" "$out/share" # completions
-# Whoever passes programs on passes these texts on.
+# These texts must be distributed with the programs.
 {
     echo "tspace.wasm has parts of these libraries in it; tspace's own license is beside package.json."
     for library in "$out"/prefix/licenses/*; do

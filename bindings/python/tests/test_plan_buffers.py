@@ -32,7 +32,7 @@ class PlanBuffers(unittest.TestCase):
             (TypeError, "known options are", dict(mesh=mesh, normals=dict(weight="area"))),
             (TypeError, "known options are", dict(mesh=dict(position=shape.positions))),
             (TypeError, "must be a dict", dict(mesh=shape.positions)),
-            (tspace.InputError, "plan was made for", dict(mesh=dict(positions=shape.positions[:3]))),
+            (tspace.InputError, "plan was created for", dict(mesh=dict(positions=shape.positions[:3]))),
         ):
             with self.assertRaisesRegex(kind, words):
                 tspace.plan_buffers(plan, **arguments)

@@ -98,7 +98,7 @@ pub fn split<'a>(
     let indices = indices.into().raw();
     let corner_count = attributes.first().map_or(indices.count, Attribute::corner_count);
     if let Some(other) = attributes.iter().find(|attribute| attribute.corner_count() != corner_count) {
-        let message = format!("attributes have {} and {} corners", corner_count, other.corner_count());
+        let message = format!("the attributes have different numbers of corners: {} and {}", corner_count, other.corner_count());
         return Err(mismatch(message));
     }
     let raw: Vec<_> = attributes.iter().map(Attribute::raw).collect();
@@ -208,7 +208,7 @@ pub struct IndexedFrames {
 pub fn make_indexed_frames(mesh: &Mesh<'_>, options: &IndexedFramesOptions<'_>) -> Result<IndexedFrames, Error> {
     let corner_count = mesh.corner_count();
     if let Some(wrong) = options.keep_apart.iter().find(|attribute| attribute.corner_count() != corner_count) {
-        let message = format!("keep_apart has {} entries, corners are {corner_count}", wrong.corner_count());
+        let message = format!("keep_apart has {} entries, but the number of corners is {corner_count}", wrong.corner_count());
         return Err(mismatch(message));
     }
     let (tangents, normals) = (options.tangents.raw(), options.normals.raw());

@@ -29,12 +29,12 @@ impl<'a, const N: usize> Points<'a, N> {
     /// Errors: `StrideTooSmall` if `stride` is less than `N`, `CountMismatch` if `first` is beyond the end.
     pub fn interleaved(floats: &'a [f32], first: usize, stride: usize) -> Result<Self, Error> {
         if stride < N {
-            let message = format!("stride is {stride} floats, less than the {N} of a point");
+            let message = format!("the stride is {stride} floats, but each element has {N}");
             return Err(Error { code: ErrorCode::StrideTooSmall, element: None, message });
         }
         let rest = match floats.get(first..) {
             Some(rest) => rest,
-            None => return Err(mismatch(format!("first is {first}, but there are {} floats", floats.len()))),
+            None => return Err(mismatch(format!("first is {first}, but the slice has only {} floats", floats.len()))),
         };
         let count = if rest.len() < N { 0 } else { (rest.len() - N) / stride + 1 };
         Ok(Points { data: rest.as_ptr(), count, stride_bytes: stride * size_of::<f32>(), borrowed: PhantomData })

@@ -43,7 +43,7 @@ pub type Frames = (Vec<[f32; 3]>, Vec<[f32; 4]>);
 /// Unpacks frames. Every sequence of bytes is valid.
 pub fn unpack_frames(bytes: &[u8], format: FrameFormat) -> Result<Frames, Error> {
     if bytes.len() % format.bytes() != 0 {
-        let message = format!("{} bytes are no whole frames of {}", bytes.len(), format.bytes());
+        let message = format!("the number of bytes, {}, is not a multiple of the {} bytes of a frame", bytes.len(), format.bytes());
         return Err(mismatch(message));
     }
     let count = bytes.len() / format.bytes();

@@ -216,7 +216,7 @@ impl Plan {
         out: &mut [[f32; 4]],
     ) -> Result<TangentReport, Error> {
         if out.len() != self.output_count {
-            return Err(mismatch(format!("out has {} entries, the plan {}", out.len(), self.output_count)));
+            return Err(mismatch(format!("out has {} entries, but the plan has {} results", out.len(), self.output_count)));
         }
         let out = tangents_only(out);
         let pose = sys::Pose {

@@ -558,7 +558,7 @@ class MapAngles(Report):
     hidden: int
     #: Samples whose ray passed a back face of the high poly before the baked front face, or hit only back faces.
     backs: int
-    #: Samples that hit a front face whose normal points inwards.
+    #: Samples that hit a front face whose normal points inward.
     inward: int
     #: Mean angle between the shaded normal and the high poly, over all samples.
     mean_deg: float

@@ -235,7 +235,7 @@ def check(
     find_file: Optional[FindFile] = None,
     **options: Any,
 ) -> CheckReport:
-    """Finds faults in the frames of a model: inverted signs, averaged seams, a wrong UV set, and more.
+    """Finds errors in the frames of a model: inverted signs, averaged seams, a wrong UV set, and more.
 
     model:     a path, or bytes of a GLB, glTF or OBJ
     name, find_file: for bytes, see `generate_bytes`
@@ -289,7 +289,7 @@ def diff(
     find_file: Optional[FindFile] = None,
     **options: Any,
 ) -> DiffReport:
-    """Compares the frames of two models that show the same surface.
+    """Compares the tangent frames of two models of the same surface.
 
     a, b:      two paths, or bytes of two models (GLB or glTF)
     find_file: for bytes, see `generate_bytes`
@@ -325,7 +325,7 @@ def convert_map_file(input: PathLike, output: PathLike, **options: Any) -> Conve
     input:   path of the map: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA
     output:  path of the converted map, .png or .exr
     options: options of `tspace convert-map` (docs/guides/convert-map.md), with underscores:
-             mesh="chair.glb", to_mesh="mended.glb", from_="object", to_convention="directx"
+             mesh="chair.glb", to_mesh="fixed.glb", from_="object", to_convention="directx"
     """
     call = _Call()
     paths = call.path("input", input), call.path("output", output)

@@ -174,7 +174,7 @@ class GeneratedPrimitive(Report):
     normals_replaced: bool
     #: Positions whose normals were also computed from triangles of other primitives.
     normals_joined: int
-    #: Corners whose new normal points behind their own triangle.
+    #: Corners whose new normal points to the back of their triangle.
     normals_behind: int
     #: Triangles whose winding is opposite to most of the connected triangles. Counted if normals were computed, or if
     #: vertices were split for at least one triangle in twenty; else 0, like "twoSidedTriangles".
@@ -298,7 +298,7 @@ class MendCauses(Report):
     placeholder: int
     #: Sign not +1 or -1.
     bad_sign: int
-    #: Corners of one face disagreed about the sign.
+    #: Corners of one face have different signs.
     mixed_sign: int
     #: Valid, but changed by "--orthogonalize".
     orthogonalized: int

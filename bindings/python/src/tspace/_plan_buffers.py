@@ -33,7 +33,7 @@ class PlanBuffers:
     def __init__(self, words: numpy.ndarray):
         """Wraps words returned by `plan_buffers`, for example after they were stored in a file."""
         if not isinstance(words, numpy.ndarray) or words.dtype != UINT32 or words.ndim != 1 or len(words) < 12:
-            raise TypeError("words must be an array of uint32 that plan_buffers made")
+            raise TypeError("words must be an array of uint32 that plan_buffers returned")
         results, entries, triangles, width = (int(words[i]) for i in (4, 5, 6, 7))
         first_result, first_entry, first_triangle = (int(words[i]) for i in (8, 9, 10))
         self.words = words
@@ -43,7 +43,7 @@ class PlanBuffers:
 
     @property
     def makes_normals(self) -> bool:
-        """Whether the shader computes normals from positions."""
+        """True if the shader computes normals from positions."""
         return bool(self.words[2] & 1)
 
     def __repr__(self) -> str:
