@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Time against the plain loop, both in one process and in turns.
+// Time relative to the plain loop; both alternate in one process.
 #include <algorithm>
 #include <thread>
 

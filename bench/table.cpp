@@ -111,12 +111,12 @@ Yardsticks measureYardsticks(Lab& lab) {
 int printTable(Lab& lab, const TableOptions& options) {
     const std::regex pattern(options.pattern, std::regex::icase);
     std::vector<Section> sections;
-    sections.push_back({"Time against the plain loop", speedRows()});
+    sections.push_back({"Time relative to the plain loop", speedRows()});
     sections.push_back({"Real models, and sizes where a cliff may be", manyMeshRows()});
     sections.push_back({"Files", fileRows()});
     sections.push_back({"Packed frames: time of one", packRows()});
-    sections.push_back({"Memory beside inputs and outputs", memoryRows()});
-    sections.push_back({"Worst cases: time per triangle, 200k against 20k triangles", worstCaseRows()});
+    sections.push_back({"Memory in addition to inputs and outputs", memoryRows()});
+    sections.push_back({"Worst cases: time per triangle, 200k relative to 20k triangles", worstCaseRows()});
 
     const bool print = options.json != "-";
     const Yardsticks yard = measureYardsticks(lab);

@@ -135,7 +135,7 @@ static VkShaderModule loadShader(const char* path) {
     return module;
 }
 
-/* What stays from frame to frame. */
+/* Objects that are reused in every frame. */
 static VkDescriptorSetLayout set_layout;
 static VkPipelineLayout layout;
 static VkPipeline pipeline;
@@ -205,7 +205,7 @@ static void dispatch(uint32_t results) {
     vkCmdBindPipeline(buffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
     vkCmdBindDescriptorSets(buffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, NULL);
     vkCmdDispatch(buffer, (results + THREADS - 1) / THREADS, 1, 1); /* at most 65535 in x: more groups go to y */
-    /* What reads the results next: here the host; a renderer names VERTEX_INPUT and VERTEX_ATTRIBUTE_READ. */
+    /* The next reader of the results: here the host; a renderer uses VERTEX_INPUT and VERTEX_ATTRIBUTE_READ. */
     const VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
                                      .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT,
                                      .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
@@ -243,7 +243,7 @@ static double angleBetween(const float* a, const float* b) {
     return atan2(sqrt(x * x + y * y + z * z), cosine) * 57.29577951308232;
 }
 
-/* How far normals and tangents of vertices are from those that the library computes for the corners of a pose. */
+/* Returns the largest angle between the GPU's frames and those that the library computes for the pose. */
 static double largestDifference(const tspace_TangentPlan* plan, const tspace_Mesh* mesh, const float* normals,
                                 const float* tangents) {
     static float expected_normals[3 * CORNERS], vertex_normals[3 * VERTICES], expected[4 * CORNERS];

@@ -239,7 +239,7 @@ vec3 tspace_applyThree(vec3 texel, vec3 normal, vec3 tangent, vec3 bitangent, fl
     return normalize(texel.x * t + texel.y * b + texel.z * n) * face;
 }
 
-// Unreal: MikkTSpace per pixel, maps with two channels. Unreal's bitangents point along V, downwards, like green in its
+// Unreal: MikkTSpace per pixel, maps with two channels. Unreal's bitangents point along V, downward, like green in its
 // maps.
 // Cost: 46 operations, 2 roots.
 vec3 tspace_applyUnreal(vec2 rg, vec3 normal, vec4 tangent) {
@@ -268,7 +268,7 @@ vec3 tspace_applyGodot(vec2 rg, vec3 normal, vec3 tangent, vec3 bitangent, float
 // transformed by m itself. N is transformed by the cofactor matrix: cof(m) cross(a, b) = cross(m a, m b), and
 // dot(cof(m) N, m T) = det(m) dot(N, T) = 0, so N and T remain perpendicular under any scale or shear, which m alone
 // would not ensure; unlike the inverse transpose it needs no division and is valid for flat m. If m mirrors (det < 0),
-// cof(m) N points inwards: N is flipped outwards again, and the sign with it, so that the bitangent remains m B. If m
+// cof(m) N points inward: N is flipped outward again, and the sign with it, so that the bitangent remains m B. If m
 // is flat, rounding decides the sign of det, so tiny volumes count as zero. A renderer that flips normals of back faces
 // and cannot reverse the winding of such triangles (skins) needs N and the sign both negated: the bitangent is the
 // same.

@@ -22,17 +22,17 @@ const uint tspace_position_format = 0u;  // 0: three floats; 1: three snorm16, t
 const uint tspace_position_offset = 1u;
 const uint tspace_position_stride = 2u;
 const uint tspace_position_scale = 3u;  // three floats
-const uint tspace_normal_format = 6u;   // 0: none is written; 1: three floats. Those of a pose are floats
+const uint tspace_normal_format = 6u;   // 0: no normals are written; 1: three floats. Input normals are always floats
 const uint tspace_normal_offset = 7u;
 const uint tspace_normal_stride = 8u;
 const uint tspace_tangent_format = 9u;  // 0: T and sign as four floats; 2: oct32; 3: snorm8 pair
 const uint tspace_tangent_offset = 10u;
 const uint tspace_tangent_stride = 11u;
-const uint tspace_morph_count = 12u;    // targets, of three floats per vertex one after the other; 0: none
+const uint tspace_morph_count = 12u;  // number of morph targets, consecutive arrays of three floats per vertex; 0: none
 const uint tspace_morph_weights = 13u;  // word offset of the weights in tspace_deform
 const uint tspace_morph_deltas = 14u;   // word offset of the deltas in tspace_deform
 const uint tspace_vertex_count = 15u;   // number of vertices of the morph targets
-const uint tspace_skin = 16u;           // 1: skinned, by four joints per vertex
+const uint tspace_skin = 16u;           // 1: skinned with four joints per vertex
 const uint tspace_skin_joints = 17u;    // word offset of the joints in tspace_deform: 4 words per vertex
 const uint tspace_skin_weights = 18u;   // word offset of the joint weights: 4 floats per vertex
 const uint tspace_skin_matrices = 19u;  // word offset of the matrices: 3 rows of 4 floats per joint
@@ -60,7 +60,7 @@ vec3 tspace_normalized(vec3 v) {
     }
     return (1.0 / sqrt(dot(v, v))) * v;
 }
-// The unit vector of v without its part along n, which is used as it is.
+// Returns v without its component along n (not normalized first), as a unit vector.
 vec3 tspace_flatten(vec3 n, vec3 v) { return tspace_normalized(v - dot(n, v) * n); }
 
 float tspace_arcCosine(float cosine) {
@@ -86,7 +86,7 @@ float tspace_arcCosine(float cosine) {
     return 2.0 * arc;
 }
 
-// The angle in [0, pi] whose cosine and sine are as x to y; y is not negative.
+// Returns the angle in [0, pi] of the direction (x, y), where y is not negative.
 float tspace_angle(float x, float y) {
     float size = abs(x);
     float t = min(size, y) / max(max(size, y), tspace_least_normal);
@@ -110,7 +110,7 @@ float tspace_angle(float x, float y) {
     return angle;
 }
 
-// ---- what a pose holds
+// ---- inputs of a pose
 
 float tspace_shortAt(uint byte) {
     uint word = tspace_positions[byte >> 2u];
@@ -166,7 +166,7 @@ vec3 tspace_skinned(vec3 position, uint vertex_number) {
     return sum;
 }
 
-// The position of a vertex: stored, then morphed, then skinned.
+// Returns the position of a vertex: stored, then morphed, then skinned.
 vec3 tspace_positionOf(uint vertex_number) {
     vec3 position = tspace_storedPosition(vertex_number);
     if (tspace_setting(tspace_morph_count) != 0u) {
@@ -185,7 +185,7 @@ vec3 tspace_normalOf(uint vertex_number) {
     if ((tspace_plan[2] & 4u) == 0u) {
         return normal;
     }
-    // Only a length that rounding to 8 bits does not explain is changed.
+    // Changes only lengths that rounding to 8 bits does not explain.
     float square = dot(normal, normal);
     if (abs(square - 1.0) <= 0.0134 || !(square >= 1e-12) || !(square < tspace_greatest)) {
         return normal;
@@ -240,7 +240,7 @@ tspace_Corner tspace_cornerOf(uint entry) {
 
 float tspace_largest(vec3 v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
 
-// A power of two that brings the edges of a result near 1, so that products of them stay in range; 0 where it has none.
+// Returns a power of two that scales the edges of a result to about 1, so that products stay in range; 0 without edges.
 float tspace_scaleOf(uint begin, uint end) {
     float largest = 0.0;
     for (uint i = begin; i < end; ++i) {
@@ -262,7 +262,7 @@ float tspace_scaleOf(uint begin, uint end) {
 
 // ---- normals
 
-// The triangle's normal, twice as long as its area, from its two shortest edges: the least cancels there.
+// Returns the triangle's normal, with length twice the area, from its two shortest edges, where cancellation is smallest.
 vec3 tspace_faceNormal(vec3 e1, vec3 e2) {
     vec3 e3 = e2 - e1;
     float a = dot(e1, e1);
@@ -277,7 +277,7 @@ vec3 tspace_faceNormal(vec3 e1, vec3 e2) {
     return cross(e1, e2);
 }
 
-// The weight of a triangle's unit normal at a corner. `area`: of twice the triangle.
+// Returns the weight of a triangle's unit normal at a corner. `area`: twice the area of the triangle.
 float tspace_normalWeight(tspace_Corner corner, float scale, float area) {
     uint weighting = tspace_plan[3];
     float weight = 1.0;
@@ -295,7 +295,7 @@ float tspace_normalWeight(tspace_Corner corner, float scale, float area) {
     return weight;
 }
 
-// w: 1 where the mean vanishes, and results that share it have normals of their own.
+// Returns the normal of a result; w is 1 if the mean is zero, and the results that share it need separate normals.
 vec4 tspace_normalOfResult(uint begin, uint end, uint own, float scale) {
     float factor = 1.0;
     if ((tspace_plan[2] & 2u) != 0u) {
@@ -304,7 +304,7 @@ vec4 tspace_normalOfResult(uint begin, uint end, uint own, float scale) {
     vec3 sum = vec3(0.0, 0.0, 0.0);
     vec3 own_normal = vec3(0.0, 0.0, factor);
     float weights = 0.0;
-    // The last round is the corner's own triangle, which counts where the mean vanishes.
+    // The last iteration is the corner's own triangle, which is used if the mean is zero.
     for (uint i = begin; i <= end; ++i) {
         uint entry = own;
         if (i < end) {
@@ -335,7 +335,7 @@ vec4 tspace_normalOfResult(uint begin, uint end, uint own, float scale) {
     return vec4(own_normal.x, own_normal.y, own_normal.z, 1.0);
 }
 
-// The normal of the result that a corner belongs to.
+// Returns the normal of a corner's result.
 vec3 tspace_normalAt(uint entry, uint vertex_number) {
     uint result = vertex_number;
     if ((tspace_plan[2] & 8u) != 0u) {
@@ -409,7 +409,7 @@ tspace_Sums tspace_twoWeights(tspace_Corner corner, float scale) {
     return sums;
 }
 
-// The unit vector of v, or zero.
+// Returns v as a unit vector, or zero.
 vec3 tspace_direction(vec3 v) {
     float square = dot(v, v);
     if (square > 0.0 && square < tspace_greatest) {
@@ -438,7 +438,7 @@ vec3 tspace_mixed(vec3 normal, tspace_Sums sums) {
     return tspace_direction((1.0 - m) * accurate + m * robust);
 }
 
-// lengyel: sums of dP/du and dP/dv, then Gram-Schmidt. w: the sign, and 0 where there is no tangent.
+// lengyel: sums of dP/du and dP/dv, then Gram-Schmidt. w: the sign, or 0 if there is no tangent.
 vec4 tspace_fromDerivatives(vec3 n, tspace_Sums sums) {
     float largest = tspace_largest(sums.a);
     if (!(largest > 0.0) || !(largest < tspace_greatest)) {
@@ -459,7 +459,7 @@ vec4 tspace_fromDerivatives(vec3 n, tspace_Sums sums) {
     return vec4(t.x, t.y, t.z, sign);
 }
 
-// A part of a result is done: its sum becomes unit, or the default.
+// Finishes a part of a result: normalizes its sum, or uses the default.
 vec3 tspace_finish(vec3 normal, tspace_Sums sums, uint method, uint flags) {
     vec3 tangent = sums.a;
     if (method == 7u) {
@@ -544,11 +544,11 @@ vec4 tspace_tangentOfResult(uint begin, uint end, uint flags, uint own, vec3 mad
     return vec4(tangent.x, tangent.y, tangent.z, sign);
 }
 
-// ---- what is written
+// ---- output formats
 
 uint tspace_byte(float x) { return uint(int(floor(clamp(x, -1.0, 1.0) * 127.0 + 0.5))) & 255u; }
 
-// The normal at a point of the grid of oct32; w: the sign of z.
+// Returns the normal at a grid point of oct32; w: the sign of z.
 vec4 tspace_octNormal(float i, float j) {
     float a = abs(i - 511.0);
     float b = abs(j - 511.0);
@@ -572,7 +572,7 @@ vec4 tspace_octNormal(float i, float j) {
     return vec4(x, y, sign * n.z, sign);
 }
 
-// The two directions across a normal of the grid from which angles count.
+// Returns the two directions perpendicular to a grid normal that define the angle.
 vec3 tspace_octAcross(vec4 n) {
     float h = -1.0 / (n.w + n.z);
     return vec3(1.0 + n.w * n.x * n.x * h, n.w * n.x * n.y * h, -n.w * n.x);
@@ -582,7 +582,7 @@ vec3 tspace_octAlong(vec4 n) {
     return vec3(n.x * n.y * h, n.w + n.y * n.y * h, -n.y);
 }
 
-// The tangent at one of the 2048 angles around a normal of the grgl_GlobalInvocationID.
+// Returns the tangent at one of the 2048 angles around a grid normal.
 vec3 tspace_octTangent(vec4 n, uint k) {
     float x = float(k & 511u);
     float y = 512.0 - x;
@@ -647,7 +647,7 @@ uint tspace_octAngle(float c, float s) {
     return turns + uint(clamp(512.0 * x, 0.0, 512.0));
 }
 
-// A frame as oct32: the nearest normal of the grid, then the nearest angle around it. docs/concepts/pack.md has the format.
+// Encodes a frame as oct32: the nearest grid normal, then the nearest angle around it (docs/concepts/pack.md).
 uint tspace_encodeOct32(vec3 normal, vec4 tangent) {
     vec3 n = tspace_direction(normal);
     if (dot(n, n) == 0.0) {

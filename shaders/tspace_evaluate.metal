@@ -12,17 +12,18 @@ constant uint tspace_position_format = 0u;  // 0: three floats; 1: three snorm16
 constant uint tspace_position_offset = 1u;
 constant uint tspace_position_stride = 2u;
 constant uint tspace_position_scale = 3u;  // three floats
-constant uint tspace_normal_format = 6u;   // 0: none is written; 1: three floats. Those of a pose are floats
+constant uint tspace_normal_format = 6u;  // 0: no normals are written; 1: three floats. Input normals are always floats
 constant uint tspace_normal_offset = 7u;
 constant uint tspace_normal_stride = 8u;
 constant uint tspace_tangent_format = 9u;  // 0: T and sign as four floats; 2: oct32; 3: snorm8 pair
 constant uint tspace_tangent_offset = 10u;
 constant uint tspace_tangent_stride = 11u;
-constant uint tspace_morph_count = 12u;    // targets, of three floats per vertex one after the other; 0: none
+constant uint tspace_morph_count =
+    12u;  // number of morph targets, consecutive arrays of three floats per vertex; 0: none
 constant uint tspace_morph_weights = 13u;  // word offset of the weights in tspace_deform
 constant uint tspace_morph_deltas = 14u;   // word offset of the deltas in tspace_deform
 constant uint tspace_vertex_count = 15u;   // number of vertices of the morph targets
-constant uint tspace_skin = 16u;           // 1: skinned, by four joints per vertex
+constant uint tspace_skin = 16u;           // 1: skinned with four joints per vertex
 constant uint tspace_skin_joints = 17u;    // word offset of the joints in tspace_deform: 4 words per vertex
 constant uint tspace_skin_weights = 18u;   // word offset of the joint weights: 4 floats per vertex
 constant uint tspace_skin_matrices = 19u;  // word offset of the matrices: 3 rows of 4 floats per joint
@@ -64,7 +65,7 @@ struct tspace_Evaluator {
         }
         return (1.0f / metal::sqrt(metal::dot(v, v))) * v;
     }
-    // The unit vector of v without its part along n, which is used as it is.
+    // Returns v without its component along n (not normalized first), as a unit vector.
     float3 tspace_flatten(float3 n, float3 v) { return tspace_normalized(v - metal::dot(n, v) * n); }
 
     float tspace_arcCosine(float cosine) {
@@ -90,7 +91,7 @@ struct tspace_Evaluator {
         return 2.0f * arc;
     }
 
-    // The angle in [0, pi] whose cosine and sine are as x to y; y is not negative.
+    // Returns the angle in [0, pi] of the direction (x, y), where y is not negative.
     float tspace_angle(float x, float y) {
         float size = metal::abs(x);
         float t = metal::min(size, y) / metal::max(metal::max(size, y), tspace_least_normal);
@@ -114,7 +115,7 @@ struct tspace_Evaluator {
         return angle;
     }
 
-    // ---- what a pose holds
+    // ---- inputs of a pose
 
     float tspace_shortAt(uint byte) {
         uint word = tspace_positions[byte >> 2u];
@@ -171,7 +172,7 @@ struct tspace_Evaluator {
         return sum;
     }
 
-    // The position of a vertex: stored, then morphed, then skinned.
+    // Returns the position of a vertex: stored, then morphed, then skinned.
     float3 tspace_positionOf(uint vertex_number) {
         float3 position = tspace_storedPosition(vertex_number);
         if (tspace_setting(tspace_morph_count) != 0u) {
@@ -190,7 +191,7 @@ struct tspace_Evaluator {
         if ((tspace_plan[2] & 4u) == 0u) {
             return normal;
         }
-        // Only a length that rounding to 8 bits does not explain is changed.
+        // Changes only lengths that rounding to 8 bits does not explain.
         float square = metal::dot(normal, normal);
         if (metal::abs(square - 1.0f) <= 0.0134f || !(square >= 1e-12f) || !(square < tspace_greatest)) {
             return normal;
@@ -245,7 +246,7 @@ struct tspace_Evaluator {
 
     float tspace_largest(float3 v) { return metal::max(metal::abs(v.x), metal::max(metal::abs(v.y), metal::abs(v.z))); }
 
-    // A power of two that brings the edges of a result near 1, so that products of them stay in range; 0 where it has none.
+    // Returns a power of two that scales the edges of a result to about 1, so that products stay in range; 0 without edges.
     float tspace_scaleOf(uint begin, uint end) {
         float largest = 0.0f;
         for (uint i = begin; i < end; ++i) {
@@ -267,7 +268,7 @@ struct tspace_Evaluator {
 
     // ---- normals
 
-    // The triangle's normal, twice as long as its area, from its two shortest edges: the least cancels there.
+    // Returns the triangle's normal, with length twice the area, from its two shortest edges, where cancellation is smallest.
     float3 tspace_faceNormal(float3 e1, float3 e2) {
         float3 e3 = e2 - e1;
         float a = metal::dot(e1, e1);
@@ -282,7 +283,7 @@ struct tspace_Evaluator {
         return metal::cross(e1, e2);
     }
 
-    // The weight of a triangle's unit normal at a corner. `area`: of twice the triangle.
+    // Returns the weight of a triangle's unit normal at a corner. `area`: twice the area of the triangle.
     float tspace_normalWeight(tspace_Corner corner, float scale, float area) {
         uint weighting = tspace_plan[3];
         float weight = 1.0f;
@@ -300,7 +301,7 @@ struct tspace_Evaluator {
         return weight;
     }
 
-    // w: 1 where the mean vanishes, and results that share it have normals of their own.
+    // Returns the normal of a result; w is 1 if the mean is zero, and the results that share it need separate normals.
     float4 tspace_normalOfResult(uint begin, uint end, uint own, float scale) {
         float factor = 1.0f;
         if ((tspace_plan[2] & 2u) != 0u) {
@@ -309,7 +310,7 @@ struct tspace_Evaluator {
         float3 sum = float3(0.0f, 0.0f, 0.0f);
         float3 own_normal = float3(0.0f, 0.0f, factor);
         float weights = 0.0f;
-        // The last round is the corner's own triangle, which counts where the mean vanishes.
+        // The last iteration is the corner's own triangle, which is used if the mean is zero.
         for (uint i = begin; i <= end; ++i) {
             uint entry = own;
             if (i < end) {
@@ -340,7 +341,7 @@ struct tspace_Evaluator {
         return float4(own_normal.x, own_normal.y, own_normal.z, 1.0f);
     }
 
-    // The normal of the result that a corner belongs to.
+    // Returns the normal of a corner's result.
     float3 tspace_normalAt(uint entry, uint vertex_number) {
         uint result = vertex_number;
         if ((tspace_plan[2] & 8u) != 0u) {
@@ -414,7 +415,7 @@ struct tspace_Evaluator {
         return sums;
     }
 
-    // The unit vector of v, or zero.
+    // Returns v as a unit vector, or zero.
     float3 tspace_direction(float3 v) {
         float square = metal::dot(v, v);
         if (square > 0.0f && square < tspace_greatest) {
@@ -443,7 +444,7 @@ struct tspace_Evaluator {
         return tspace_direction((1.0f - m) * accurate + m * robust);
     }
 
-    // lengyel: sums of dP/du and dP/dv, then Gram-Schmidt. w: the sign, and 0 where there is no tangent.
+    // lengyel: sums of dP/du and dP/dv, then Gram-Schmidt. w: the sign, or 0 if there is no tangent.
     float4 tspace_fromDerivatives(float3 n, tspace_Sums sums) {
         float largest = tspace_largest(sums.a);
         if (!(largest > 0.0f) || !(largest < tspace_greatest)) {
@@ -464,7 +465,7 @@ struct tspace_Evaluator {
         return float4(t.x, t.y, t.z, sign);
     }
 
-    // A part of a result is done: its sum becomes unit, or the default.
+    // Finishes a part of a result: normalizes its sum, or uses the default.
     float3 tspace_finish(float3 normal, tspace_Sums sums, uint method, uint flags) {
         float3 tangent = sums.a;
         if (method == 7u) {
@@ -549,11 +550,11 @@ struct tspace_Evaluator {
         return float4(tangent.x, tangent.y, tangent.z, sign);
     }
 
-    // ---- what is written
+    // ---- output formats
 
     uint tspace_byte(float x) { return uint(int(metal::floor(metal::clamp(x, -1.0f, 1.0f) * 127.0f + 0.5f))) & 255u; }
 
-    // The normal at a point of the grid of oct32; w: the sign of z.
+    // Returns the normal at a grid point of oct32; w: the sign of z.
     float4 tspace_octNormal(float i, float j) {
         float a = metal::abs(i - 511.0f);
         float b = metal::abs(j - 511.0f);
@@ -577,7 +578,7 @@ struct tspace_Evaluator {
         return float4(x, y, sign * n.z, sign);
     }
 
-    // The two directions across a normal of the grid from which angles count.
+    // Returns the two directions perpendicular to a grid normal that define the angle.
     float3 tspace_octAcross(float4 n) {
         float h = -1.0f / (n.w + n.z);
         return float3(1.0f + n.w * n.x * n.x * h, n.w * n.x * n.y * h, -n.w * n.x);
@@ -587,7 +588,7 @@ struct tspace_Evaluator {
         return float3(n.x * n.y * h, n.w + n.y * n.y * h, -n.y);
     }
 
-    // The tangent at one of the 2048 angles around a normal of the grid.
+    // Returns the tangent at one of the 2048 angles around a grid normal.
     float3 tspace_octTangent(float4 n, uint k) {
         float x = float(k & 511u);
         float y = 512.0f - x;
@@ -652,7 +653,7 @@ struct tspace_Evaluator {
         return turns + uint(metal::clamp(512.0f * x, 0.0f, 512.0f));
     }
 
-    // A frame as oct32: the nearest normal of the grid, then the nearest angle around it. docs/concepts/pack.md has the format.
+    // Encodes a frame as oct32: the nearest grid normal, then the nearest angle around it (docs/concepts/pack.md).
     uint tspace_encodeOct32(float3 normal, float4 tangent) {
         float3 n = tspace_direction(normal);
         if (metal::dot(n, n) == 0.0f) {

@@ -21,17 +21,17 @@ const tspace_position_format: u32 = 0u;  // 0: three floats; 1: three snorm16, t
 const tspace_position_offset: u32 = 1u;
 const tspace_position_stride: u32 = 2u;
 const tspace_position_scale: u32 = 3u;  // three floats
-const tspace_normal_format: u32 = 6u;   // 0: none is written; 1: three floats. Those of a pose are floats
+const tspace_normal_format: u32 = 6u;   // 0: no normals are written; 1: three floats. Input normals are always floats
 const tspace_normal_offset: u32 = 7u;
 const tspace_normal_stride: u32 = 8u;
 const tspace_tangent_format: u32 = 9u;  // 0: T and sign as four floats; 2: oct32; 3: snorm8 pair
 const tspace_tangent_offset: u32 = 10u;
 const tspace_tangent_stride: u32 = 11u;
-const tspace_morph_count: u32 = 12u;      // targets, of three floats per vertex one after the other; 0: none
+const tspace_morph_count: u32 = 12u;      // number of morph targets, consecutive arrays of three floats per vertex; 0: none
 const tspace_morph_weights: u32 = 13u;    // word offset of the weights in tspace_deform
 const tspace_morph_deltas: u32 = 14u;     // word offset of the deltas in tspace_deform
 const tspace_vertex_count: u32 = 15u;     // number of vertices of the morph targets
-const tspace_skin: u32 = 16u;             // 1: skinned, by four joints per vertex
+const tspace_skin: u32 = 16u;             // 1: skinned with four joints per vertex
 const tspace_skin_joints: u32 = 17u;      // word offset of the joints in tspace_deform: 4 words per vertex
 const tspace_skin_weights: u32 = 18u;     // word offset of the joint weights: 4 floats per vertex
 const tspace_skin_matrices: u32 = 19u;    // word offset of the matrices: 3 rows of 4 floats per joint
@@ -59,7 +59,7 @@ fn tspace_normalized(v: vec3f) -> vec3f {
     }
     return (1.0 / sqrt(dot(v, v))) * v;
 }
-// The unit vector of v without its part along n, which is used as it is.
+// Returns v without its component along n (not normalized first), as a unit vector.
 fn tspace_flatten(n: vec3f, v: vec3f) -> vec3f { return tspace_normalized(v - dot(n, v) * n); }
 
 fn tspace_arcCosine(cosine: f32) -> f32 {
@@ -85,7 +85,7 @@ fn tspace_arcCosine(cosine: f32) -> f32 {
     return 2.0 * arc;
 }
 
-// The angle in [0, pi] whose cosine and sine are as x to y; y is not negative.
+// Returns the angle in [0, pi] of the direction (x, y), where y is not negative.
 fn tspace_angle(x: f32, y: f32) -> f32 {
     var size: f32 = abs(x);
     var t: f32 = min(size, y) / max(max(size, y), tspace_least_normal);
@@ -109,7 +109,7 @@ fn tspace_angle(x: f32, y: f32) -> f32 {
     return angle;
 }
 
-// ---- what a pose holds
+// ---- inputs of a pose
 
 fn tspace_shortAt(byte: u32) -> f32 {
     var word: u32 = tspace_positions[byte >> 2u];
@@ -164,7 +164,7 @@ fn tspace_skinned(position: vec3f, vertex_number: u32) -> vec3f {
     return sum;
 }
 
-// The position of a vertex: stored, then morphed, then skinned.
+// Returns the position of a vertex: stored, then morphed, then skinned.
 fn tspace_positionOf(vertex_number: u32) -> vec3f {
     var position: vec3f = tspace_storedPosition(vertex_number);
     if (tspace_setting(tspace_morph_count) != 0u) {
@@ -183,7 +183,7 @@ fn tspace_normalOf(vertex_number: u32) -> vec3f {
     if ((tspace_plan[2] & 4u) == 0u) {
         return normal;
     }
-    // Only a length that rounding to 8 bits does not explain is changed.
+    // Changes only lengths that rounding to 8 bits does not explain.
     var square: f32 = dot(normal, normal);
     if (abs(square - 1.0) <= 0.0134 || !(square >= 1e-12) || !(square < tspace_greatest)) {
         return normal;
@@ -238,7 +238,7 @@ fn tspace_cornerOf(entry: u32) -> tspace_Corner {
 
 fn tspace_largest(v: vec3f) -> f32 { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
 
-// A power of two that brings the edges of a result near 1, so that products of them stay in range; 0 where it has none.
+// Returns a power of two that scales the edges of a result to about 1, so that products stay in range; 0 without edges.
 fn tspace_scaleOf(begin: u32, end: u32) -> f32 {
     var largest: f32 = 0.0;
     for (var i: u32 = begin; i < end; i++) {
@@ -260,7 +260,7 @@ fn tspace_scaleOf(begin: u32, end: u32) -> f32 {
 
 // ---- normals
 
-// The triangle's normal, twice as long as its area, from its two shortest edges: the least cancels there.
+// Returns the triangle's normal, with length twice the area, from its two shortest edges, where cancellation is smallest.
 fn tspace_faceNormal(e1: vec3f, e2: vec3f) -> vec3f {
     var e3: vec3f = e2 - e1;
     var a: f32 = dot(e1, e1);
@@ -275,7 +275,7 @@ fn tspace_faceNormal(e1: vec3f, e2: vec3f) -> vec3f {
     return cross(e1, e2);
 }
 
-// The weight of a triangle's unit normal at a corner. `area`: of twice the triangle.
+// Returns the weight of a triangle's unit normal at a corner. `area`: twice the area of the triangle.
 fn tspace_normalWeight(corner: tspace_Corner, scale: f32, area: f32) -> f32 {
     var weighting: u32 = tspace_plan[3];
     var weight: f32 = 1.0;
@@ -293,7 +293,7 @@ fn tspace_normalWeight(corner: tspace_Corner, scale: f32, area: f32) -> f32 {
     return weight;
 }
 
-// w: 1 where the mean vanishes, and results that share it have normals of their own.
+// Returns the normal of a result; w is 1 if the mean is zero, and the results that share it need separate normals.
 fn tspace_normalOfResult(begin: u32, end: u32, own: u32, scale: f32) -> vec4f {
     var factor: f32 = 1.0;
     if ((tspace_plan[2] & 2u) != 0u) {
@@ -302,7 +302,7 @@ fn tspace_normalOfResult(begin: u32, end: u32, own: u32, scale: f32) -> vec4f {
     var sum: vec3f = vec3f(0.0, 0.0, 0.0);
     var own_normal: vec3f = vec3f(0.0, 0.0, factor);
     var weights: f32 = 0.0;
-    // The last round is the corner's own triangle, which counts where the mean vanishes.
+    // The last iteration is the corner's own triangle, which is used if the mean is zero.
     for (var i: u32 = begin; i <= end; i++) {
         var entry: u32 = own;
         if (i < end) {
@@ -333,7 +333,7 @@ fn tspace_normalOfResult(begin: u32, end: u32, own: u32, scale: f32) -> vec4f {
     return vec4f(own_normal.x, own_normal.y, own_normal.z, 1.0);
 }
 
-// The normal of the result that a corner belongs to.
+// Returns the normal of a corner's result.
 fn tspace_normalAt(entry: u32, vertex_number: u32) -> vec3f {
     var result: u32 = vertex_number;
     if ((tspace_plan[2] & 8u) != 0u) {
@@ -407,7 +407,7 @@ fn tspace_twoWeights(corner: tspace_Corner, scale: f32) -> tspace_Sums {
     return sums;
 }
 
-// The unit vector of v, or zero.
+// Returns v as a unit vector, or zero.
 fn tspace_direction(v: vec3f) -> vec3f {
     var square: f32 = dot(v, v);
     if (square > 0.0 && square < tspace_greatest) {
@@ -436,7 +436,7 @@ fn tspace_mixed(normal: vec3f, sums: tspace_Sums) -> vec3f {
     return tspace_direction((1.0 - m) * accurate + m * robust);
 }
 
-// lengyel: sums of dP/du and dP/dv, then Gram-Schmidt. w: the sign, and 0 where there is no tangent.
+// lengyel: sums of dP/du and dP/dv, then Gram-Schmidt. w: the sign, or 0 if there is no tangent.
 fn tspace_fromDerivatives(n: vec3f, sums: tspace_Sums) -> vec4f {
     var largest: f32 = tspace_largest(sums.a);
     if (!(largest > 0.0) || !(largest < tspace_greatest)) {
@@ -457,7 +457,7 @@ fn tspace_fromDerivatives(n: vec3f, sums: tspace_Sums) -> vec4f {
     return vec4f(t.x, t.y, t.z, sign);
 }
 
-// A part of a result is done: its sum becomes unit, or the default.
+// Finishes a part of a result: normalizes its sum, or uses the default.
 fn tspace_finish(normal: vec3f, sums: tspace_Sums, method: u32, flags: u32) -> vec3f {
     var tangent: vec3f = sums.a;
     if (method == 7u) {
@@ -540,11 +540,11 @@ fn tspace_tangentOfResult(begin: u32, end: u32, flags: u32, own: u32, made_norma
     return vec4f(tangent.x, tangent.y, tangent.z, sign);
 }
 
-// ---- what is written
+// ---- output formats
 
 fn tspace_byte(x: f32) -> u32 { return u32(i32(floor(clamp(x, -1.0, 1.0) * 127.0 + 0.5))) & 255u; }
 
-// The normal at a point of the grid of oct32; w: the sign of z.
+// Returns the normal at a grid point of oct32; w: the sign of z.
 fn tspace_octNormal(i: f32, j: f32) -> vec4f {
     var a: f32 = abs(i - 511.0);
     var b: f32 = abs(j - 511.0);
@@ -568,7 +568,7 @@ fn tspace_octNormal(i: f32, j: f32) -> vec4f {
     return vec4f(x, y, sign * n.z, sign);
 }
 
-// The two directions across a normal of the grid from which angles count.
+// Returns the two directions perpendicular to a grid normal that define the angle.
 fn tspace_octAcross(n: vec4f) -> vec3f {
     var h: f32 = -1.0 / (n.w + n.z);
     return vec3f(1.0 + n.w * n.x * n.x * h, n.w * n.x * n.y * h, -n.w * n.x);
@@ -578,7 +578,7 @@ fn tspace_octAlong(n: vec4f) -> vec3f {
     return vec3f(n.x * n.y * h, n.w + n.y * n.y * h, -n.y);
 }
 
-// The tangent at one of the 2048 angles around a normal of the grid.
+// Returns the tangent at one of the 2048 angles around a grid normal.
 fn tspace_octTangent(n: vec4f, k: u32) -> vec3f {
     var x: f32 = f32(k & 511u);
     var y: f32 = 512.0 - x;
@@ -643,7 +643,7 @@ fn tspace_octAngle(c: f32, s: f32) -> u32 {
     return turns + u32(clamp(512.0 * x, 0.0, 512.0));
 }
 
-// A frame as oct32: the nearest normal of the grid, then the nearest angle around it. docs/concepts/pack.md has the format.
+// Encodes a frame as oct32: the nearest grid normal, then the nearest angle around it (docs/concepts/pack.md).
 fn tspace_encodeOct32(normal: vec3f, tangent: vec4f) -> u32 {
     var n: vec3f = tspace_direction(normal);
     if (dot(n, n) == 0.0) {

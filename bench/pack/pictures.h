@@ -11,7 +11,7 @@ namespace tspace::bench {
 
 struct Picture {
     int width = 0, height = 0;
-    std::vector<std::uint8_t> gray;  ///< from the top row downwards
+    std::vector<std::uint8_t> gray;  ///< from the top row downward
 };
 
 /// Two rows, a sphere and a torus, each with a normal map and mirrored UVs on one half; from the left: shaded with

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A cloth and a morphing model whose normals and tangents are computed on the GPU in each frame, by tspace/webgpu and three.js'
-// WebGPURenderer, beside frames that a fragment shader derives from the derivatives of position and UV, and the angle between
-// the two normals as a heat map. Runs with Vite: `npm install three tspace vite && npx vite`.
+// WebGPURenderer, next to frames that a fragment shader computes from derivatives of position and UV; a heat map shows the
+// angle between the two normals. Runs with Vite: `npm install three tspace vite && npx vite`.
 import * as THREE from "three/webgpu";
 import {
   Fn, abs, acos, attribute, bitangentWorld, cameraPosition, clamp, cross, dFdx, dFdy, dot, float, mix, normalWorldGeometry, normalize, positionLocal,
@@ -90,7 +90,7 @@ const derivativeFrame = Fn(([n, bump]) => {
   const scale = float(1).div(dot(t, t).max(dot(s, s)).max(1e-20).sqrt());
   return normalize(t.mul(scale).mul(bump.x).add(s.mul(scale).mul(bump.y)).add(n.mul(bump.z)));
 });
-/** As MikkTSpace decodes: interpolated vectors, normalized at the end. */
+/** Decodes like MikkTSpace: interpolated vectors, normalized at the end. */
 const attributeFrame = Fn(([bump]) => {
   const n = normalWorldGeometry, facing = sign(dot(n, cameraPosition.sub(positionWorld)));
   return normalize(tangentWorld.mul(bump.x).add(bitangentWorld.mul(bump.y)).add(n.mul(bump.z))).mul(facing);

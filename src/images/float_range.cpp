@@ -38,7 +38,7 @@ class RangeEvidence {
         if (negative_ > 0 && stored >= kHalf && stored > moved)
             return "its floats are " + lengths() + " as stored, and some are below 0" + read;
         if (negative_ == 0 && stored >= kMost && moved <= kFew && (!has_z_ || pointsUp()))
-            return "its floats are " + lengths() + " as stored, and not after 2c - 1" + read;
+            return "its floats are " + lengths() + " as stored, but not if decoded as 2c - 1" + read;
         if (negative >= kSome && stored >= moved)
             return "floats of " + std::to_string(negative_) + " of " + std::to_string(count_) + " texels are below 0" +
                    read + ", but few are " + lengths() +

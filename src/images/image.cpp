@@ -123,7 +123,7 @@ Codec exrCodec() {
 #ifdef TSPACE_HAS_OPENEXR
     if (hasOpenExr()) return {kName, kMimeType, nullptr, claimOfExr, decodeRoundedExr};
     return {kName, kMimeType,
-            "the image is EXR, and the library OpenEXR (" TSPACE_OPENEXR_LIBRARY ") is not installed"};
+            "reading an EXR image needs the library OpenEXR (" TSPACE_OPENEXR_LIBRARY "), which is not installed"};
 #else
     return {kName, kMimeType, "the image is EXR, which this build of tspace does not support"};
 #endif
@@ -196,7 +196,7 @@ bool isTooLarge(ImageSize size, std::size_t byte_count, std::uint64_t most_pixel
     if (size.pixels() > most_pixels) {
         why = "the image has more pixels than tspace supports";
     } else if (size.pixels() > kAlwaysAllowed && size.pixels() / 64 > byte_count) {
-        why = "the image declares far more pixels than its data can hold";
+        why = "the header of the image declares far more pixels than its data can contain";
     } else {
         return false;
     }

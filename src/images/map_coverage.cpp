@@ -55,7 +55,7 @@ std::vector<float> takeCoverage(MapAlpha alpha, FloatImage& image, std::vector<s
     std::vector<float> coverage = std::exchange(image.alpha, {});
     if (coverage.empty()) {
         if (alpha == MapAlpha::coverage)
-            warnings.emplace_back("the image has no alpha channel, so all texels count as fully covered");
+            warnings.emplace_back("the image has no alpha channel, so all texels are treated as fully covered");
         return {};
     }
     image.alpha = std::move(coverage);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A C program that uses the file API: bytes in, bytes out, and reports. argv[1]: a .gltf file with files beside it. */
+/* A C program that uses the file API: bytes in, bytes out, and reports. argv[1]: a .gltf file that references other files. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 
 enum { MOST_FILES = 16 };
 
-/* Files beside the model, which stay in memory until the end. */
+/* Files in the folder of the model, which are kept in memory until the end. */
 typedef struct Folder {
     char path[1024];
     uint8_t* bytes[MOST_FILES];
@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
     tspace_destroyBytes(&report);
     CHECK(report.data == NULL && report.size == 0);
 
-    /* What was made has everything in it. */
+    /* The result contains all data. */
     TSPACE_INIT(made);
     made.data = output.data;
     made.size = output.size;

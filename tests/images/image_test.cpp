@@ -50,7 +50,8 @@ TEST(DecodeImage, RefusesWebpThatItCannotTrust) {
     ASSERT_NE(head, std::string::npos);
     for (std::size_t i = 9; i < 12; ++i) claims[head + i] = '\xff';
     claims[head + 12] = '\x0f';
-    EXPECT_EQ(whyNot(claims, std::uint64_t{1} << 40), "the image declares far more pixels than its data can hold");
+    EXPECT_EQ(whyNot(claims, std::uint64_t{1} << 40),
+              "the header of the image declares far more pixels than its data can contain");
     const std::string animated = std::string("RIFF\x20\0\0\0WEBPVP8X\x0a\0\0\0\x02\0\0\0\x0f\0\0\x0f\0\0", 30) +
                                  std::string("ANIM\x06\0\0\0\0\0\0\0\0\0", 14);
     EXPECT_EQ(whyNot(animated), "the WebP is animated, which is not supported");
@@ -81,7 +82,7 @@ TEST(DecodeImage, SaysWhyItDoesNotLook) {
     // A header with four components.
     EXPECT_EQ(whyNot(bytesOfHex("ffd8ffc0001408000800080401110002110003110004110"
                                 "0ffda000e0401000200030004000003f000000")),
-              "the JPEG is CMYK (for print), which is not supported");
+              "the JPEG is CMYK (for print), which is not supported; convert it to RGB");
 }
 
 TEST(DecodeImage, RefusesAFewBytesThatClaimManyPixels) {
@@ -93,7 +94,8 @@ TEST(DecodeImage, RefusesAFewBytesThatClaimManyPixels) {
     const std::size_t frame = jpeg.find("\xff\xc0");
     ASSERT_NE(frame, std::string::npos);
     jpeg[frame + 5] = jpeg[frame + 7] = 0x60;
-    EXPECT_EQ(whyNot(jpeg, std::uint64_t{1} << 40), "the image declares far more pixels than its data can hold");
+    EXPECT_EQ(whyNot(jpeg, std::uint64_t{1} << 40),
+              "the header of the image declares far more pixels than its data can contain");
 }
 
 /// A code table has at most 256 entries; its 16 counts can declare 4080.

@@ -345,7 +345,7 @@ TEST(Texture, RefusesAFewBytesThatClaimManyPixels) {
     parts.unpacked = {std::uint64_t{4} << 30};
     parts.scheme = 2;
     EXPECT_EQ(whyNot(ktx2File(parts), std::uint64_t{1} << 40),
-              "the image declares far more pixels than its data can hold");
+              "the header of the image declares far more pixels than its data can contain");
     EXPECT_EQ(whyNot(ddsFile(83, 1 << 20, 1 << 20, std::string(64, 'x')), std::uint64_t{1} << 60),
               "the DDS is damaged");
 }
@@ -373,7 +373,7 @@ TEST(Texture, ReadsTheLevelThatIsAskedFor) {
     }
     std::string why;
     EXPECT_FALSE(decodeFloatTexture(bytesOf(ktx2), 1 << 20, why, 3));
-    EXPECT_EQ(why, "it has no level 3; its last level is 2");
+    EXPECT_EQ(why, "the texture has no mip level 3; its last mip level is 2");
     EXPECT_FALSE(decodeFloatTexture(bytesOf(ktx2), 0, why, 2));
 }
 

@@ -78,7 +78,7 @@ Corners cornersOf(const Patch& patch) {
     return corners;
 }
 
-/// Returns texels that lean by up to 30 degrees, with slightly different lengths, as integers of `bits`.
+/// Returns texels tilted by up to 30 degrees, with slightly different lengths, as integers of `bits`.
 std::vector<Vec3> randomTexels(std::size_t count, unsigned bits, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> lean(-0.5, 0.5), size(0.85, 1.0);
@@ -322,7 +322,7 @@ TEST(ConvertMap, RoundsTogetherWhatComesFromObjectSpace) {
     EXPECT_LT(sum, 0.15 * plain_sum);
 }
 
-/// Returns texels of length 1 that lean by up to 20 degrees, with nearly equal neighbors.
+/// Returns texels of length 1 tilted by up to 20 degrees, with nearly equal neighbors.
 std::vector<Vec3> gentleTexels() {
     std::vector<Vec3> texels;
     for (std::uint32_t i = 0; i < kSize * kSize; ++i) {

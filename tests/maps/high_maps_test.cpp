@@ -125,8 +125,8 @@ TEST_F(HighMapBake, MapsThatDoNotFitTheMeshAreRefused) {
     EXPECT_EQ(bakeMap(low.low(), poly, options()).error().code, ErrorCode::countMismatch);
 }
 
-/// Two squares with one UV map; the second one is larger in space. The high poly leans in different directions over the
-/// two squares.
+/// Two squares with one UV map; the second one is larger in space. The high poly is tilted in different directions over
+/// the two squares.
 class SharedTexels : public HighMapBake {
   protected:
     SharedTexels() {

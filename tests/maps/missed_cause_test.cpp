@@ -102,7 +102,7 @@ TEST_F(MissedCause, FacesThatPointInwardsAreNamed) {
     HighMesh turned_over = high_;
     for (std::size_t i = 0; i < turned_over.corners.size(); i += 3)
         std::swap(turned_over.corners[i], turned_over.corners[i + 1]);
-    EXPECT_NE(causeOf(turned_over).find("faces point inwards"), std::string::npos) << causeOf(turned_over);
+    EXPECT_NE(causeOf(turned_over).find("faces point inward"), std::string::npos) << causeOf(turned_over);
 }
 
 TEST_F(MissedCause, AReachThatIsTooShortIsNamed) {

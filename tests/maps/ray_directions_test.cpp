@@ -101,7 +101,7 @@ class RayDirectionsTest : public testing::Test {
     static BakedMap baked(const HighMesh& high, const RayOptions& rays) {
         return baked(box().view(), high.view(), options(rays));
     }
-    /// Returns the number of texels inside charts that lean by 30 degrees.
+    /// Returns the number of texels inside charts that are tilted by 30 degrees.
     static int leaningTexels(const BakedMap& map) {
         int count = 0;
         for (std::size_t i = 0; i < map.texels.size(); ++i)
@@ -173,7 +173,7 @@ TEST_F(RayDirectionsTest, BeyondTheCageTheNearestFrontCounts) {
 }
 
 TEST_F(RayDirectionsTest, DetailOnFlatFacesDoesNotLean) {
-    // Far from the center averaged rays lean by 30 degrees: they hit only one side of the stud.
+    // Far from the center averaged rays are tilted by 30 degrees, so they hit only one side of the stud.
     const HighMesh high = roundedBox(true, 0.5F);
     const int automatic = leaningTexels(baked(high, {})),
               averaged = leaningTexels(baked(high, {.directions = RayDirections::averaged})),

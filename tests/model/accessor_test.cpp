@@ -222,7 +222,7 @@ TEST(Accessor, OfUnknownTypeIsAnErrorOnlyWhenItsElementsAreNeeded) {
                                                 {"values", {{"bufferView", 0}, {"byteOffset", 10000}}}};
     const Document document = parse(builder);
     const Accessor accessor = readAccessor(document, 0);
-    EXPECT_EQ(formatName(accessor), "float of an unknown type");
+    EXPECT_EQ(formatName(accessor), "float with an unknown accessor type");
     for (const Extent& extent : collectExtents(document)) {
         EXPECT_LE(extent.end, 160u);
     }

@@ -547,7 +547,7 @@ TEST(Winding, TurnedTrianglesAndNormalsBehindThemAreCounted) {
     const PrimitiveReport& report = made.report.primitives[0];
     EXPECT_EQ(report.turned_triangle_count, 19u);
     EXPECT_GT(report.normals_behind_count, 19u);
-    EXPECT_TRUE(says(made.report.warnings, "19 of 128 triangles are wound opposite to the neighbors"));
+    EXPECT_TRUE(says(made.report.warnings, "19 of 128 triangles are wound opposite to their neighbors"));
     EXPECT_TRUE(says(made.report.warnings, "behind"));
     GltfBuilder sound;
     addPart(sound, arch(8, 0.5f));

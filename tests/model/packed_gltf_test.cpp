@@ -192,7 +192,7 @@ TEST(PackedGltf, MayStandInPlaceOfWhatItWasPackedFrom) {
         EXPECT_EQ(readPackedWords(document, primitive, layout),
                   readPackedWords(full, readPrimitives(full).at(0), layout));
 
-        // Neither an equal run nor one without options replaces them by less accurate frames.
+        // Neither an equal run nor a run without options replaces them with less accurate frames.
         const Bytes bytes = readFile(output);
         for (const GenerateOptions& again : {options, GenerateOptions{}}) {
             const auto second = generateFile(output, output, again);
@@ -207,8 +207,8 @@ TEST(PackedGltf, MayStandInPlaceOfWhatItWasPackedFrom) {
         const auto other = generateFile(output, output, packing(FrameFormat::oct32));
         ASSERT_TRUE(other && other->primitives[0].notes.size() == 1);
         EXPECT_EQ(other->primitives[0].notes[0],
-                  "its frames were not packed: it only has other packed frames in _FRAME32 and not the data that they "
-                  "were packed from");
+                  "its frames were not packed: it has only other packed frames in _FRAME32, not the normals and "
+                  "tangents that they were packed from");
     }
 }
 
@@ -264,7 +264,7 @@ TEST(PackedGltf, FollowsTangentsThatAreReplacedOnlyWhenAskedFor) {
     const auto report = generateFile(packed, turned, options);
     ASSERT_TRUE(report && report->primitives[0].notes.size() == 1);
     EXPECT_EQ(report->primitives[0].notes[0],
-              "its packed frames in _FRAME32 are outdated (--pack frame32 renews them)");
+              "its packed frames in _FRAME32 are outdated (use --pack frame32 to replace them)");
     const auto words = [](const std::string& file) {
         const gltf::Document document = gltf::loadDocument(file, {});
         return readPackedWords(document, readPrimitives(document).at(0), gltf::packedLayout(FrameFormat::frame32));

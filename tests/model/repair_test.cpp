@@ -102,7 +102,7 @@ TEST(Repair, ReplacesWhatNoFileMayHaveEvenAtOneVertex) {
     };
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     model.expectRepaired("NaN", at_one({kNan, 0, 0, 1}));
-    model.expectRepaired("not unit", at_one({0, 0, 0, 1}));
+    model.expectRepaired("unit length", at_one({0, 0, 0, 1}));
     model.expectRepaired("neither +1 nor -1", at_one({1, 0, 0, 0}));
 }
 
@@ -319,7 +319,7 @@ TEST(Repair, MendsWhatNoMapCancelsBesideInvertedSignsThatStay) {
     for (const Vec4& t : readTangents(document, readPrimitives(document).at(0))) EXPECT_EQ(t, (Vec4{1, 0, 0, -1}));
 }
 
-/// Of two primitives over the same vertices, one has a map that cancels the error of the other.
+/// Two primitives share their vertices; one of them has a map that cancels the inverted signs.
 TEST(Repair, DecidesForEachPrimitiveOverSharedVertices) {
     MappedModel model(-1, pngFile(normalMapOf(256, bumps, true)));
     model.builder.json()["materials"].push_back(Json::parse(R"({"normalTexture":{"index":1}})"));
@@ -473,7 +473,7 @@ TEST(Repair, MendsValuesInTheFormatThatTheyHave) {
     GltfBuilder builder = gridModel(Grid(4, false));
     const std::size_t accessor = builder.addAccessor(numbers, 5122, "VEC4", count);
     builder.json()["accessors"][accessor]["normalized"] = true;
-    // Of two primitives that share the tangents, one has a material that does not need them.
+    // Two primitives share their tangents; one of them has a material that does not need tangents.
     firstPrimitive(builder)["material"] = 1;
     firstPrimitive(builder)["attributes"]["TANGENT"] = accessor;
     Json& primitives = builder.json()["meshes"][0]["primitives"];

@@ -139,7 +139,7 @@ TEST(TextureTransform, OfAnotherTextureIsNotedWhereOneTangentCannotServeBoth) {
                                        "clearcoatNormalTexture of material 0 is rotated or mirrored differently"});
     EXPECT_EQ(notes(R"({"index":0,"texCoord":1})"),
               std::vector<std::string>{"the tangents follow TEXCOORD_0 for normalTexture of material 0, but "
-                                       "clearcoatNormalTexture of material 0 is on TEXCOORD_1"});
+                                       "clearcoatNormalTexture of material 0 uses TEXCOORD_1"});
 }
 
 TEST(TextureTransform, ThatIsAnimatedIsNoted) {

@@ -228,7 +228,7 @@ void morphItem(RandomBits& random, Item& item) {
     item.expect(n, unitOf(t - dot(n, t) * n), f.sign);
 }
 
-/// A triangle of a plane that leans away from the viewer, with UVs by a linear map.
+/// A triangle of a plane tilted away from the viewer, with UVs by a linear map.
 void stepsItem(RandomBits& random, Item& item) {
     for (;;) {
         const DVec3 p_dx = vectorIn(random, 0.01), p_dy = vectorIn(random, 0.01);

@@ -41,7 +41,7 @@ NormalLevel reliefLevel(std::uint32_t width, std::uint32_t height, double steep 
     return level;
 }
 
-/// Returns facets of 16 texels that lean by up to 40 degrees, with edges of one texel.
+/// Returns facets of 16 texels tilted by up to 40 degrees, with edges of one texel.
 NormalLevel facetLevel(std::uint32_t size) {
     NormalLevel level{size, size, {}, {}};
     Noise noise(3);

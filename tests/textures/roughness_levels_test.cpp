@@ -8,7 +8,7 @@
 namespace tspace {
 namespace {
 
-/// Returns rows that lean left and right alternately, by `slope`.
+/// Returns rows tilted alternately left and right, by `slope`.
 NormalLevel corrugated(std::uint32_t width, std::uint32_t height, double slope) {
     NormalLevel level{width, height, {}, {}};
     for (std::uint32_t i = 0; i < width * height; ++i) {

@@ -369,7 +369,7 @@ TEST_F(BakeCommand, AMapIsBakedForTheUvsThatItsTransformGives) {
     ASSERT_EQ(model["images"].size(), 1U) << "the old map, which nothing else shows, is replaced";
     EXPECT_EQ(model["images"][0]["uri"], "n.png");
     const auto& reference = model["materials"][0]["normalTexture"];
-    EXPECT_FALSE(reference.contains("scale")) << "the scale of the map must be 1 for baking";
+    EXPECT_FALSE(reference.contains("scale")) << "the scale of the map must be 1 when a map is baked";
     EXPECT_EQ(reference["extensions"]["KHR_texture_transform"], transform);
 }
 

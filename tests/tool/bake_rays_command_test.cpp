@@ -131,7 +131,7 @@ TEST_F(BakeCommand, ABakeThatMostlyMissesIsAFindingWithItsCause) {
     folder.write("inside_out.obj", withLines(high, reversed));
     folder.write("lifted.obj", withLines(high, moved_by(0.3)));
     for (const auto& [arguments, name, says] :
-         {std::tuple("--high inside_out.obj", "inside_out.obj", "faces point inwards"),
+         {std::tuple("--high inside_out.obj", "inside_out.obj", "faces point inward"),
           {"--high lifted.obj --reach 0.1", "lifted.obj", "--reach"}}) {
         const ToolRun run =
             runTool(folder, std::string("bake low.obj -o n.png --size 32 --report r.json ") + arguments);
@@ -216,7 +216,7 @@ TEST_F(BakeCommand, WhatAShellHidesIsSaid) {
     EXPECT_EQ(fits["fits"], true) << fits["verdict"];
     EXPECT_EQ(fits["angles"], seen["files"][0]["error"]);
     EXPECT_EQ(other["fits"], false) << other["verdict"];
-    EXPECT_NE(other["verdict"].get<std::string>().find("baked with rays that bend at hard edges, nearest"),
+    EXPECT_NE(other["verdict"].get<std::string>().find("baked with rays that are averaged at hard edges, nearest"),
               std::string::npos)
         << other["verdict"];
     EXPECT_EQ(other["rays"][0]["rays"], "nearest");

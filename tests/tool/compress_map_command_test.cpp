@@ -368,7 +368,7 @@ TEST(CompressMapCommand, PacksLevelsOnceMore) {
     EXPECT_EQ(from_plain->texels, from_packed->texels);
 }
 
-/// Writes rows that lean up and down alternately, and a uniform roughness.
+/// Writes rows tilted alternately up and down, and a uniform roughness.
 void writeCorrugated(const TempFolder& folder, std::uint32_t size, std::uint32_t roughness_size) {
     FloatImage map{size, size, 16, {}, {}}, orm{roughness_size, roughness_size, 8, {}, {}};
     for (std::uint32_t i = 0; i < size * size; ++i)

@@ -184,7 +184,7 @@ TEST_F(Finish, ThePageShowsTheModelBeforeAndAfterAndLoadsNothing) {
     std::size_t pictures = 0;
     for (std::size_t at = page.find("<img"); at != std::string::npos; at = page.find("<img", at + 1)) ++pictures;
     EXPECT_EQ(pictures, 6U);
-    for (const char* when : {"as it was", "finished"}) {
+    for (const char* when : {"before", "finished"}) {
         for (const char* what : {", lit<", ", lit, from behind", ", the shaded normals"})
             EXPECT_NE(page.find(std::string(when) + what), std::string::npos) << when << what;
     }

@@ -98,7 +98,7 @@ std::string finish(const Given& given, BakeArguments& arguments) {
         return arguments.low.empty() || arguments.high.empty()
                    ? "LOW and --high HIGH are missing; give both, or --pairs TABLE"
                    : std::string();
-    if (!arguments.low.empty()) return "--pairs TABLE replaces LOW";
+    if (!arguments.low.empty()) return "LOW cannot be combined with --pairs TABLE, which names the low polys";
     if (isModelFile(arguments.options.out_mesh)) return "with --pairs, --out-mesh must name a folder";
     return kindOf(arguments.output) == PathKind::file ? "with --pairs, the output must be a folder" : "";
 }

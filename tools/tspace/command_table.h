@@ -45,7 +45,7 @@ struct Command {
 };
 
 /// Description in `tspace --help`.
-inline constexpr const char* kToolSummary = "exact tangent frames for the normal maps of 3D models";
+inline constexpr const char* kToolSummary = "computes and checks tangent frames for the normal maps of 3D models";
 
 /// Returns whether the page needed by tspace view is installed with the tool.
 bool hasViewPage();

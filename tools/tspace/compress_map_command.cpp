@@ -53,9 +53,9 @@ Command compressMapCommand() {
         .description =
             "Packs a normal map in tangent space as BC5 or EAC RG11, one byte per texel: x in red, y in green; the "
             "reader reconstructs z. The encoder minimizes the error of the filtered texture and uses all bits of the "
-            "image, so 16-bit input gives better blocks than 8-bit input. Mip levels are computed from mean "
-            "directions. The mip levels of an optional roughness texture get rougher by the spread of the normals. The "
-            "report states the error of the texture.",
+            "image, so 16-bit input results in a smaller error than 8-bit input. Mip levels are computed from mean "
+            "directions. If a roughness texture is given, its mip levels are made rougher according to the spread of "
+            "the normals. The report states the error of the texture.",
         .examples = {"tspace compress-map normal.png -o normal.ktx2", "tspace compress-map normal.exr -o normal.dds",
                      "tspace compress-map normal.png -o normal.ktx2 --roughness orm.png -o2 orm.ktx2"},
     };

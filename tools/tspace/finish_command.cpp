@@ -100,9 +100,10 @@ Command finishCommand() {
     };
     const char* group = kInputAndOutput;
     command.add(group, operand("IN", arguments.input, "A model of any format that generate reads."));
-    Option& output = command.add(group, text("-o, --output", "OUT", arguments.output,
-                                             "Output file: .glb or .vrm. Maps are written beside it (OUT_normal.png, "
-                                             "...); maps for which glTF has a texture slot are also embedded."));
+    Option& output =
+        command.add(group, text("-o, --output", "OUT", arguments.output,
+                                "Output file: .glb or .vrm. Maps are written to files next to it (OUT_normal.png "
+                                "etc.); maps for which glTF has a texture slot are also embedded."));
     output.is_file = output.is_required = true;
     command.add(finishOptions(arguments.options));
     command.add(kReporting, text("--report", "JSON", arguments.report, "Also write the report as JSON to this file."))

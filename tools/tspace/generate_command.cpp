@@ -239,8 +239,8 @@ Command generateCommand() {
         .summary = "add the tangents that normal maps need",
         .operands = "IN... {-o OUT | --in-place}",
         .description =
-            "Reads model files, adds missing tangents if a material needs them (a normal map, clearcoat normal map or "
-            "anisotropy), adds missing normals first, and writes glTF. Vertices are split where the tangents of their "
+            "Reads model files, adds missing normals, adds missing tangents if a material needs them (a normal map, "
+            "clearcoat normal map or anisotropy), and writes glTF. Vertices are split where the tangents of their "
             "corners differ, with all their attributes, skin weights and morph targets. Morph targets that move the "
             "surface get tangent deltas. Everything else in the file is preserved. If a run fails, an existing output "
             "file is not changed.",

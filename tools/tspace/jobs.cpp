@@ -160,7 +160,7 @@ Result<std::vector<Job>> jobWithNamedOutput(const JobRequest& request) {
     }
     if (extension.empty()) {
         job.output += extensionFor(request.container, job.input);
-        job.remark = "the output has no extension, so it was read as the file " + job.output +
+        job.remark = "the output has no extension, so it is written to the file " + job.output +
                      "; to write into a "
                      "folder, use " +
                      request.output + "/";

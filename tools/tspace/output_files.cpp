@@ -26,7 +26,7 @@ Result<Done> prepareOutputs(const std::vector<std::string>& outputs, const std::
     std::set<std::string> folders;
     for (const std::string& output : outputs) {
         if (!isFile(output)) continue;
-        const auto [other, is_new] = names.emplace(identityOf(output), "the output " + output + " as well");
+        const auto [other, is_new] = names.emplace(identityOf(output), "the same file as the output " + output);
         if (!is_new) return Error{ErrorCode::invalidOption, "the output " + output + " is " + other->second};
         folders.insert(folderOf(output).string());
     }

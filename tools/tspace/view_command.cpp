@@ -84,8 +84,8 @@ Command viewCommand() {
         .operands = "IN -o OUT.html",
         .description =
             "Writes one self-contained HTML file of the model. It opens from disk in any browser and needs no network. "
-            "It shows the findings of tspace check, lights the model with its own and with correct frames, and can "
-            "repair it. The page itself is built by scripts/web and installed with the tool.",
+            "It shows the findings of tspace check, shows the model lit with its own frames and with correct ones, and "
+            "can repair it. The page itself is built by scripts/web and installed with the tool.",
         .examples = {"tspace view helmet.glb -o helmet.html"},
     };
     const char* group = kInputAndOutput;

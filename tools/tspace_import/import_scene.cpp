@@ -333,9 +333,9 @@ std::string readNearOrigin(const Reading& reading, const aiScene& scene, Importe
     const double offset[3] = {moved->offset.x, moved->offset.y, moved->offset.z};
     std::copy_n(offset, 3, imported.offset);
     imported.warnings.push_back(
-        "the coordinates are so far from the origin that 32-bit floats would change the shape; (" +
+        "the coordinates are so far from the origin that 32-bit floats would change the shape; the offset (" +
         numberText(offset[0]) + ", " + numberText(offset[1]) + ", " + numberText(offset[2]) +
-        ") was subtracted from them first, and is the translation of their nodes in glTF (generate --keep-coordinates "
+        ") was subtracted from them first, and is the translation of the nodes in glTF (generate --keep-coordinates "
         "disables this)");
     return {};
 }
@@ -351,7 +351,7 @@ void mendCoarse(const Reading& reading, const aiScene& scene, const Mended& mend
             "exporting it, or export OBJ, PLY or STL, which are read in double precision";
     } else if (reading.rules.keep_coordinates) {
         imported.keeps_coordinates = true;
-        why = "; without --keep-coordinates an offset is subtracted if that helps";
+        why = "; omit --keep-coordinates to subtract an offset, if that helps";
     } else {
         try {
             why = readNearOrigin(reading, scene, imported);
@@ -378,7 +378,7 @@ Imported importScene(const std::string& path, const ImportRules& rules) {
         std::string why = importer.GetErrorString();
         std::replace(why.begin(), why.end(), '\n', ' ');
         return {.error = "the importer cannot read the file: " + (!not_read.empty() ? not_read[0]
-                                                                  : why.empty()     ? "no scene"
+                                                                  : why.empty()     ? "it contains no scene"
                                                                                     : why)};
     }
     bool has_faces = false;

@@ -42,18 +42,18 @@ std::vector<std::string> Mended::warnings() const {
     const auto add = [&list](std::size_t count, const char* text) {
         if (count != 0) list.push_back(text + (": " + std::to_string(count)));
     };
-    add(positions, "positions that are not finite and were moved to the origin");
-    add(uvs, "texture coordinates that are not finite and were set to 0");
-    add(normals, "normals that are zero or not finite and were replaced by face normals");
-    add(tangents, "tangents that are not finite and were set to 0");
-    add(transforms, "matrices of nodes or joints that are not finite and were ignored");
+    add(positions, "number of positions that are not finite and were moved to the origin");
+    add(uvs, "number of texture coordinates that are not finite and were set to 0");
+    add(normals, "number of normals that are zero or not finite and were replaced by face normals");
+    add(tangents, "number of tangents that are not finite and were set to 0");
+    add(transforms, "number of node or joint matrices that are not finite and were ignored");
     if (coarse_places != 0) {
         char meters[32];
         const auto end = std::to_chars(meters, meters + sizeof meters, worst_place, std::chars_format::general, 2);
         list.push_back(
-            "translations of nodes are so far from the origin that the 32-bit floats of the importer may move them by "
-            "up to " +
-            std::string(meters, end.ptr) + " m: " + std::to_string(coarse_places));
+            "some node translations are so far from the origin that rounding to 32-bit floats in the importer may move "
+            "them by up to " +
+            std::string(meters, end.ptr) + " m; number of these nodes: " + std::to_string(coarse_places));
     }
     return list;
 }

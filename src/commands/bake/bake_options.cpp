@@ -66,11 +66,11 @@ Option mapsOption(LayerOptions& layers) {
         }
         return {};
     };
-    Option maps = option(
-        "--maps", "LIST", take,
-        "Comma-separated list of maps to bake: normal, ao, bent, curvature, height, position, thickness, id, color, "
-        "orm (occlusion, roughness, metalness) and emission. The normal map is written to OUT, every other map beside "
-        "it: OUT_ao.png, ... color, orm and emission are transferred from the materials of the high poly.");
+    Option maps = option("--maps", "LIST", take,
+                         "Comma-separated list of maps to bake: normal, ao, bent, curvature, height, position, "
+                         "thickness, id, color, orm (occlusion, roughness, metalness) and emission. The normal map is "
+                         "written to OUT, and the other maps to files next to it: OUT_ao.png, OUT_height.png etc. The "
+                         "maps color, orm and emission are transferred from the materials of the high poly.");
     maps.choices.emplace_back("normal");
     for (std::uint32_t i = 0; i < kMapLayerCount; ++i) maps.choices.emplace_back(layerName(static_cast<MapLayer>(i)));
     maps.default_text = layers.layers.empty() ? "normal" : "all of them";
@@ -127,7 +127,7 @@ void addRayOptions(OptionList& list, double& reach, RayOptions& rays, std::strin
     const char* group = "Rays";
     add(list, group,
         choice("--rays", "WHICH", kTargets, rays.target,
-               "Ray hit to use on the high poly. outermost: the first front face from the cage inwards, which is the "
+               "Ray hit to use on the high poly. outermost: the first front face from the cage inward, which is the "
                "visible one; if there is none, the nearest one outside the cage. nearest: the front face nearest to "
                "the low poly on either side, for fingers and thin parts."));
     add(list, group,
@@ -141,7 +141,7 @@ void addRayOptions(OptionList& list, double& reach, RayOptions& rays, std::strin
             "Cage distance: how far from the low poly rays start, in model units. Default: the value of --reach."));
     add(list, group,
         lengthOption("--reach", reach,
-                     "Maximum search distance from the low poly, outwards and inwards, in model units. Default: 5% of "
+                     "Maximum search distance from the low poly, outward and inward, in model units. Default: 5% of "
                      "the diagonal of the larger bounding box, or 1.5 times the difference of the two boxes if that "
                      "is larger, up to 25% of the diagonal; the report states the value."));
     add(list, group,
@@ -156,7 +156,7 @@ void addRayOptions(OptionList& list, double& reach, RayOptions& rays, std::strin
     painted.excludes = {"--directions"};
     add(list, group, std::move(painted));
     Option own = fileOption("--cage", "MODEL", cage,
-                            "Cage mesh: the low poly with its vertices moved outwards, in the same vertex order. Rays "
+                            "Cage mesh: the low poly with its vertices moved outward, in the same vertex order. Rays "
                             "run from the cage through the low poly to the first front face.");
     own.excludes = {"--rays", "--directions", "--cage-offset", "--skew"};
     add(list, group, std::move(own));
@@ -183,8 +183,8 @@ void addBakedMapOptions(OptionList& list, BakeFileOptions& options) {
              "DXT5nm). The reported error then assumes a reader that reconstructs z."));
     add(list, group,
         choice("--fit", "HOW", kFits, map.fit,
-               "Computation of the texels. solve: all texels together, so that the filtered map is also right between "
-               "texels; texel: each texel separately, right at its center, which is faster."));
+               "Computation of the texels. solve: all texels together, so that the filtered map is also accurate "
+               "between texel centers; texel: each texel separately, accurate only at its center, which is faster."));
     addLengths(list, group, map.lengths);
     add(list, group,
         number("--padding", map.padding, kMostPadding,

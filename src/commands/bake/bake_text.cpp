@@ -66,7 +66,7 @@ void addFile(const BakedFile& file, Table& table) {
     if (map.missed_count > 0)
         table.addRow(
             {"warning", fmt::format("{} did not hit the high poly and {} filled from neighbors; use a larger --reach "
-                                    "to search farther, or --misses to write a picture of them",
+                                    "to search farther, or --misses to write a picture that shows these texels",
                                     counted(map.missed_count, "texel"), map.missed_count == 1 ? "is" : "are")});
     if (map.overlap_count > 0)
         table.addRow({map.conflict_count > 0 ? "warning" : "note",

@@ -39,7 +39,7 @@ const HighMapReading::Image& HighMapReading::imageOf(std::size_t number) {
     if (!is_new) return image;
     const auto warnSkipped = [&](const std::string& why) {
         made_.warnings.push_back("the high poly's normal map " + inQuotes(nameOf(number)) +
-                                 " is not baked through: " + why);
+                                 " was not included: " + why);
     };
     const std::vector<std::uint8_t>& bytes = scene_.images[number].bytes;
     if (bytes.empty()) {

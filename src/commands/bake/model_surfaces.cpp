@@ -49,7 +49,7 @@ std::size_t placedCorner(const Affine& place, std::size_t i) {
 
 namespace {
 
-/// The UVs that the map is read with: those of the normal map that is there, or of the first thing that needs tangents.
+/// Returns the UVs with which the map is read: those of the existing normal map, or of the first use that needs tangents.
 std::vector<Vec2> mapUvs(const ScenePrimitive& primitive) {
     const TangentUse* const use = mapUse(primitive);
     const std::size_t set = use == nullptr ? 0 : use->uv_set;
@@ -83,7 +83,7 @@ GenerateOptions allFrames(const BakeFileOptions& options, ExistingTangents exist
 /// A map needs frames on all triangles, also where an attribute cannot be read.
 GenerateStep withAttributesRepaired() { return {.repairs_attributes = true}; }
 
-/// The low poly as it is written with its maps later, for which the model stays. What is written is what is baked for.
+/// Reads the low poly and keeps the model, so that it can be written with its maps: the bake uses the frames that are written.
 DrawnScene readToWrite(const std::string& low, const BakeFileOptions& options, BakeModels& models) {
     gltf::GeneratedModel made = generateModel(low, allFrames(options, ExistingTangents::keep, Faces::triangles), true,
                                               withAttributesRepaired());
@@ -95,7 +95,7 @@ DrawnScene readToWrite(const std::string& low, const BakeFileOptions& options, B
     return models.low_model->drawnScene(false);
 }
 
-/// OBJ has no tangents, and reading it gives normals that it lacks.
+/// OBJ has no tangents, and the reader computes missing normals.
 DrawnScene readObjWithFrames(const std::string& low, const GenerateOptions& generate, bool& frames_made) {
     DrawnScene drawn = readDrawnScene(low, generate.file, false);
     frames_made = std::any_of(drawn.scene.primitives.begin(), drawn.scene.primitives.end(),
@@ -225,13 +225,13 @@ void checkCage(const Scene& low, const Scene& cage) {
     if (!fits) failFile(ErrorCode::countMismatch, "the cage must have the same triangles as the low poly");
 }
 
-/// Adds the flat triangles of a primitive, with one vertex per corner, because each triangle has a normal of its own.
+/// Adds the flat triangles of a primitive, with one vertex per corner, because each triangle has a separate normal.
 void addFlat(const ScenePrimitive& primitive, const Affine& place, OwnedMesh& mesh) {
     for (std::size_t i = 0; i < primitive.corners.size(); i += 3) {
         std::array<Vec3, 3> at{};
         for (std::size_t k = 0; k < 3; ++k)
             at[k] = toFloat(place.point(toDouble(primitive.positions[primitive.corners[placedCorner(place, i + k)]])));
-        // Without a direction the triangle's own is taken where a ray meets it.
+        // If it has no direction, the triangle's normal at the hit of a ray is used.
         const Vec3 normal = cross(at[1] - at[0], at[2] - at[0]);
         for (const Vec3& corner : at) {
             mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
@@ -261,7 +261,7 @@ std::vector<Vec3> smoothNormals(const ScenePrimitive& primitive, const BakeFileO
     return normals;
 }
 
-/// One vertex per corner where the primitive shows a map of its own, with the frames that the map is read with.
+/// Adds one vertex per corner if the primitive has a normal map, with the frames with which that map is read.
 void addMapped(const ScenePrimitive& primitive, const TangentUse& use, const Affine& place, std::uint32_t map,
                const BakeFileOptions& options, HighModel& model) {
     OwnedMesh corners;
@@ -292,12 +292,12 @@ std::vector<Vec3> denoisedNormals(const ScenePrimitive& primitive, const BakeFil
 }
 
 std::string denoisedText(double noise, bool has_maps) {
-    const std::string left = has_maps ? "; meshes with a normal map keep the normals for which it was made" : "";
+    const std::string left = has_maps ? "; meshes with a normal map keep the normals for which the map was made" : "";
     if (noise == 0)
         return "--denoise has no effect: no positions of the high poly are noisy" +
                std::string(has_maps ? " where it has no normal map" : "");
-    return "positions of the high poly are noisy, by " + shortNumber(noise) +
-           " of an edge length, so normals were computed without the noise (--denoise)" + left;
+    return "positions of the high poly are noisy (" + shortNumber(noise) +
+           " of an edge length), so normals were computed without the noise (--denoise)" + left;
 }
 
 HighModel highModel(const DrawnScene& drawn, const MeshMatch* match, const std::string& path,
@@ -320,7 +320,7 @@ HighModel highModel(const DrawnScene& drawn, const MeshMatch* match, const std::
         const TangentUse* const use = maps.find(primitive);
         std::vector<Vec3> denoised;
         if (options.denoise != 0 && use == nullptr) denoised = denoisedNormals(primitive, options, noise);
-        // Normals of STL give the orientation of triangles, not their shading.
+        // Normals of STL define the orientation of triangles, not their shading.
         if (use != nullptr) {
             addMapped(primitive, *use, place, maps.numberOf(primitive, *use, primitive.corners.size() / 3), options,
                       model);
@@ -348,7 +348,7 @@ HighModel highModel(const DrawnScene& drawn, const MeshMatch* match, const std::
     }
     if (options.denoise != 0) model.warnings.push_back(denoisedText(noise, !model.shown.maps.empty()));
     if (made > 0)
-        model.warnings.push_back(std::string("the high poly has no normals; its triangles were baked as ") +
+        model.warnings.push_back(std::string("the high poly has no normals, so its triangles were baked as ") +
                                  (is_flat ? "flat, as glTF specifies" : "smooth"));
     return model;
 }

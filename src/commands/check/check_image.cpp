@@ -86,9 +86,9 @@ std::optional<Finding> constantFinding(const std::string& name, const RgbImage& 
     const bool is_flat = is_vector && first[0] - 126 < 4 && first[1] - 126 < 4 && first[0] > 125 && first[1] > 125;
     Finding finding = noteOn(FindingCode::normalMapConstant, count, count,
                              "the map is a single color: all texels of " + name + " are " + texelText(first) +
-                                 (is_flat     ? ": the map is flat"
-                                  : is_vector ? ": one direction, which is not that of a flat map"
-                                              : ": it is not a normal map"));
+                                 (is_flat     ? ", so the map is flat"
+                                  : is_vector ? ", a single direction that is not that of a flat map"
+                                              : ", which is not a normal"));
     if (!is_flat) finding.severity = Severity::warning;
     return finding;
 }
@@ -111,7 +111,7 @@ std::optional<Finding> lengthFinding(const std::string& name, const RgbImage& im
     if (total == 0 || static_cast<double>(count) < kLeastShare * static_cast<double>(total)) return {};
     return noteOn(FindingCode::normalMapLengths, count, total,
                   "the relief may look too strong or too weak: vectors of " + name +
-                      " are not unit length: " + std::to_string(count) + " of " + std::to_string(total) +
+                      " do not have unit length: " + std::to_string(count) + " of " + std::to_string(total) +
                       " texels deviate by more than 0.1, and the mean length is " +
                       shortNumber(sum / static_cast<double>(total)));
 }

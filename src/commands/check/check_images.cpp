@@ -370,9 +370,9 @@ void describeStorage(const Scene& scene, const NormalMap& map, const std::string
         if (content == MapContent::normals)
             text += std::string(isEtc1s(facts) ? "; so" : "; judging by the lengths of its vectors,") +
                     " its texels are about " + shortNumber(std::max(0.1, std::round(10 * map.packing_deg) / 10)) +
-                    " degrees off (root mean square" +
-                    (isEtc1s(facts) ? "; on the maps that we measured, UASTC has at most a third of that error)"
-                                    : "; lossless 8 bits: 0.2)");
+                    " degrees off (root mean square error" +
+                    (isEtc1s(facts) ? "; in our measurements UASTC has at most a third of that error)"
+                                    : "; a lossless 8-bit image: 0.2)");
         add(FindingCode::normalMapLossy, Severity::note, std::move(text));
     }
     if (!facts) return;

@@ -99,7 +99,7 @@ class MorphValues {
         std::string message = "the offsets of morph target " + std::to_string(faulty.first) + " for the " + attribute +
                               " of " + countText(faulty.vertices, "vertices") + " " + what;
         if (more != 0)
-            message += "; the same fault occurs in " + std::to_string(more) + " more target" + (more == 1 ? "" : "s");
+            message += "; the same error occurs in " + std::to_string(more) + " more target" + (more == 1 ? "" : "s");
         facts_.add(code, Severity::error, faulty.vertices, "vertices", std::move(message));
         Finding& finding = facts_.findings.back();
         finding.place = facts_.primitive.place + "/targets/" + std::to_string(faulty.first);

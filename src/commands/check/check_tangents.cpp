@@ -384,9 +384,8 @@ Result<Done> checkTangents(PrimitiveFacts& facts) {
     }
     for (Finding& finding : tangentFindings(*health, facts.options)) {
         if (finding.code == FindingCode::directionsWrong && !axes.empty()) {
-            finding.message +=
-                "; as (" + axes +
-                ") of the stored vectors they fit, so the mesh was rotated to other axes without its tangents";
+            finding.message += "; they fit if the stored vectors are read as (" + axes +
+                               "), so the mesh was rotated to other axes without its tangents";
         }
         // Without a texture, the direction in which v increases is seldom visible.
         if (finding.code == FindingCode::signsMixed && facts.primitive.hasFreeTangents())

@@ -55,7 +55,7 @@ std::string packedText(std::span<const PackedFramesInfo> all, FrameFormat format
     }
     if (primitives == 0) return {};
     std::string text = fmt::format("  packed frames of {} in {}: ", counted(primitives, "primitive"), worst.attribute);
-    if (compared == 0) return text + "no NORMAL and TANGENT to compare with\n";
+    if (compared == 0) return text + "there are no NORMAL and TANGENT to compare with\n";
     const FrameErrorBound bound = frameErrorBound(format);
     text += fmt::format(
         "N within {:.2g} degrees, T within {:.2g} ({} and {} guaranteed), {}", worst.worst_normal_deg,

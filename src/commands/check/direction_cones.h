@@ -28,8 +28,8 @@ struct DirectionCone {
 DirectionCone coneAround(std::span<double> angles);
 
 /// Distance of a vertex that cannot be tested. Either no triangle around it has a direction, or its N or tangent is
-/// unusable. Or its tangent is far from the directions of triangles that all are, seen along N, so thin at the vertex
-/// that MikkTSpace gives them no weight.
+/// unusable. Or its tangent is far from the directions of all its triangles, but these are so thin at the vertex, seen
+/// along N, that MikkTSpace does not weight them.
 inline constexpr float kUnknownDirection = -1;
 
 /// Returns, per vertex, the angle in degrees between its tangent and the cone of the triangles that use it. If the

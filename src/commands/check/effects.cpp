@@ -22,7 +22,7 @@ const char* findingEffect(FindingCode code) {
         "Bumps look as if the file had no tangents.",
         "Pixels in the bumps are black or missing.",
         "Bumps are too strong or too weak along one direction.",
-        "Bumps are lit askew.",
+        "Bumps are lit slightly from the wrong direction.",
         "Bumps are too weak along one direction, or missing.",
         "Bumps flatten to a streak along the mirror line.",
         "Bumps look like dents along one direction, on the whole model.",

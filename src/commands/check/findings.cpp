@@ -174,7 +174,7 @@ void addValues(const FrameHealth& health, const CheckOptions& options, FindingLi
     list.addWhole(FindingCode::tangentsNotUnit, health.has_zero ? Severity::error : severity(health.far_from_unit),
                   health.not_unit,
                   "the relief looks too strong or too weak: the tangents of " + countText(health.not_unit, kVertices) +
-                      " are not unit length" + (health.has_zero ? ", some have length 0" : "") +
+                      " do not have unit length" + (health.has_zero ? ", some have length 0" : "") +
                       onSurface(health.not_unit));
     Tally leaning = health.not_orthogonal;
     if (health.parallel_apart) {
@@ -189,7 +189,8 @@ void addValues(const FrameHealth& health, const CheckOptions& options, FindingLi
     list.addWhole(
         FindingCode::tangentsNotOrthogonal, is_parallel ? Severity::error : Severity::warning, leaning,
         "the relief may look tilted: the tangents of " + countText(leaning, kVertices) +
-            " are not perpendicular to the normal, off by up to " + decimalText(leaning.worst_deg) + " degrees" +
+            " are not perpendicular to the normal; they deviate by up to " + decimalText(leaning.worst_deg) +
+            " degrees" +
             (is_parallel ? "; " + std::to_string(health.parallel.count) + " of them are parallel to it" : "") +
             onSurface(leaning));
     list.addWhole(FindingCode::signsNotOne, health.sign_vanishes ? Severity::error : Severity::warning,
@@ -224,16 +225,16 @@ void addDirections(const FrameHealth& health, const CheckOptions& options, Findi
     };
     list.add(FindingCode::uvSeamAveraged, severity(health.uv_seams), health.uv_seams, kVertices,
              "a seam is visible along a UV border: the tangents of " + countText(health.uv_seams, kVertices) +
-                 " are averaged over both sides and fit neither, off by up to " +
+                 " are averaged over both sides and fit neither; they deviate by up to " +
                  decimalText(health.uv_seams.worst_deg) + " degrees" + onSurface(health.uv_seams));
     list.add(FindingCode::directionsWrong, severity(health.directions_wrong), health.directions_wrong, kVertices,
              "the relief is lit from the wrong direction: the tangents of " +
-                 countText(health.directions_wrong, kVertices) + " do not point along increasing u, off by up to " +
+                 countText(health.directions_wrong, kVertices) +
+                 " do not point along increasing u; they deviate by up to " +
                  decimalText(health.directions_wrong.worst_deg) + " degrees" + onSurface(health.directions_wrong));
     list.add(FindingCode::splitFramesDiffer, Severity::warning, health.frames_differ, kVertices,
-             countText(health.frames_differ, kVertices) +
-                 " equal another vertex in position, normal and UV but have a different tangent, which is visible as "
-                 "an edge");
+             "an edge is visible on a smooth surface: " + countText(health.frames_differ, kVertices) +
+                 " equal another vertex in position, normal and UV, but have a different tangent");
 }
 
 }  // namespace

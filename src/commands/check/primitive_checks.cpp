@@ -81,7 +81,7 @@ void checkNormalValues(PrimitiveFacts& facts) {
                   not_unit, "vertices",
                   "the shading may be too dark, too bright or too steep: the normals of " +
                       countText(not_unit, "vertices") + " do not have unit length" + lengths +
-                      (zero_count != 0 ? ", " + std::to_string(zero_count) + " of them length 0" : ""));
+                      (zero_count != 0 ? "; " + std::to_string(zero_count) + " of them have length 0" : ""));
         if (zero_count != 0) {
             setRemedy(facts.findings.back(),
                       "Export the normals again, because those of length 0 cannot be normalized; then recompute the "

@@ -255,10 +255,11 @@ Option factorOption(double& factor) {
 }
 
 void addRoughness(OptionList& list, CompressMapFileOptions& options) {
-    Option texture = text("--roughness", "IMAGE", options.roughness,
-                          "A glTF texture of occlusion, roughness and metalness. Its mip levels get rougher by the "
-                          "spread of the normals within each texel, so that distant surfaces do not sparkle. Its width "
-                          "and height are those of the normal map, or larger or smaller by a power of two.");
+    Option texture =
+        text("--roughness", "IMAGE", options.roughness,
+             "A glTF texture of occlusion, roughness and metalness. Its mip levels are made rougher according to the "
+             "spread of the normals within each texel, so that distant surfaces do not sparkle. Its width and height "
+             "are those of the normal map, or larger or smaller by a power of two.");
     texture.is_file = true;
     texture.needs = "--roughness-output";
     add(list, "Roughness", texture);

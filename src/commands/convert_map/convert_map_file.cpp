@@ -134,7 +134,7 @@ void addMapWarnings(const ConvertMapFileOptions& options, ConvertMapFileReport& 
     if (texels.is_below_half_step) {
         warn("the mean change is " + angleText(texels.mean_change_deg) +
              " degrees, less than half a quantization step of " + std::to_string(report.bits) + " bits (" +
-             angleText(texels.half_step_deg) + " degrees): rounding cancels it" +
+             angleText(texels.half_step_deg) + " degrees), so rounding cancels it" +
              (report.bits == 8 ? "; use 16 bits to keep it" : ""));
     }
     if (texels.overlapping > 0) {
@@ -155,9 +155,9 @@ void addMapWarnings(const ConvertMapFileOptions& options, ConvertMapFileReport& 
         warn(std::to_string(texels.below_horizon) + " texels point below the surface, which two channels cannot store");
     }
     const bool has_mesh = report.from.triangle_count + report.to.triangle_count > 0;
-    if (has_mesh && texels.converted == 0) warn("no triangle of the mesh uses the map: nothing was converted");
+    if (has_mesh && texels.converted == 0) warn("the map was not converted, because no triangle of the mesh uses it");
     if (!options.to_mesh.empty() && texels.converted > 0 && texels.changed == 0) {
-        warn("both meshes have the same frames: no texel changed");
+        warn("no texel was changed, because both meshes have the same frames");
     }
 }
 
@@ -407,7 +407,7 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
         option(
             "--channels", "LETTERS",
             [&options](const std::string& value) { return takeChannels(value, options.layout); },
-            "Channels of IN that hold x, y and z: bgr if red and blue are exchanged. With two letters z is "
+            "Channels of IN that store x, y and z: bgr if red and blue are exchanged. With two letters z is "
             "reconstructed from x and y: rg for maps whose blue is unused, ag for DXT5nm. A capital letter inverts a "
             "channel. Default: rgb."));
     add(list, group,

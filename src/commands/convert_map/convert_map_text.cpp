@@ -10,7 +10,7 @@ namespace {
 
 std::string meshText(const std::string& file, const MapMeshReport& mesh) {
     return fmt::format("{}: {} triangles in {} primitives{}{}", printable(file), mesh.triangle_count,
-                       mesh.primitive_count, mesh.tangents_made ? ", tangents made" : "",
+                       mesh.primitive_count, mesh.tangents_made ? ", tangents computed" : "",
                        mesh.scale == 1 ? "" : fmt::format(", map scaled by {:.4g}", mesh.scale));
 }
 

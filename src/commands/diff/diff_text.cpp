@@ -30,7 +30,7 @@ std::string histogramText(const AngleStatistics& tangents) {
     for (std::size_t i = 0; i < kAngleBins.size(); ++i) {
         table.addRow({binText(i), std::to_string(tangents.histogram[i]), bar(tangents.histogram[i], most)});
     }
-    return "  T, degrees and corners\n" + table.text("    ");
+    return "  corners by the angle between their tangents, in degrees\n" + table.text("    ");
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ namespace tspace {
 namespace {
 
 /// Tools that create UVs, which tspace does not.
-constexpr const char* kUvMakers = "unwrapping tools can create them (Blender's Smart UV Project, xatlas, RizomUV)";
+constexpr const char* kUvMakers = "unwrapping tools can create UVs (Blender's Smart UV Project, xatlas, RizomUV)";
 
 /// Returns a name with the extension .glb, for bytes in GLB format.
 std::string glbName(const std::string& path) { return isGlbName(path) ? path : path + ".glb"; }
@@ -281,7 +281,7 @@ class Finishing {
     void checkLow() const {
         if (report_.low->without_uvs_count < report_.low->made.primitives.size()) return;
         throw FileError{{.code = ErrorCode::missingAttribute,
-                         .message = std::string("the low poly has no UVs, so no maps were baked: ") + kUvMakers,
+                         .message = std::string("the low poly has no UVs, so no maps were baked; ") + kUvMakers,
                          .element = static_cast<std::uint64_t>(BakeInput::low)}};
     }
 
@@ -289,12 +289,13 @@ class Finishing {
         if (model.left_winding_count != 0)
             report_.remarks.push_back(
                 report::counted(model.left_winding_count, "triangle") +
-                " would be flipped by --normals all: the existing normals fit the current winding");
+                (model.left_winding_count == 1 ? " was" : " were") +
+                " not flipped, because the existing normals fit the current winding; use --normals all to flip them");
         if (model.without_uvs_count == 0) return;
         const std::string which = model.without_uvs_count == 1
                                       ? "1 primitive has"
                                       : std::to_string(model.without_uvs_count) + " primitives have";
-        report_.remarks.push_back(which + " no UVs, so no tangents and no maps were created: " + kUvMakers);
+        report_.remarks.push_back(which + " no UVs, so no tangents and no maps were created; " + kUvMakers);
     }
 
     /// Adds a note on noise, because the warning of the bake would name an option of bake.
@@ -405,7 +406,7 @@ std::vector<std::string> doneTo(const FinishedModel& model) {
         most = std::max(most, angle);
     }
     std::vector<std::string> done;
-    if (turned != 0) done.push_back(std::to_string(turned) + " of " + counted(faces, "triangle") + " turned");
+    if (turned != 0) done.push_back(std::to_string(turned) + " of " + counted(faces, "triangle") + " flipped");
     if (totals.normals_generated != 0) {
         std::string text = "normals computed for " + std::to_string(totals.normals_generated) + " of " +
                            counted(totals.primitive_count, "primitive");
@@ -414,7 +415,7 @@ std::vector<std::string> doneTo(const FinishedModel& model) {
         if (hard_count != 0)
             text += ", with hard edges above " + shortNumber(least) +
                     (most > least ? " to " + shortNumber(most) : std::string()) + " degrees";
-        if (noise > 0) text += ", without the position noise, which is " + shortNumber(noise) + " of an edge length";
+        if (noise > 0) text += ", without the position noise (" + shortNumber(noise) + " of an edge length)";
         done.push_back(text);
     }
     if (totals.morph_normals_computed != 0)

@@ -84,8 +84,9 @@ OptionList finishOptions(FinishOptions& options) {
         if (option.name() == "--maps")
             option.help =
                 "Comma-separated list of maps to bake: normal, ao, bent, curvature, height, position, thickness, id, "
-                "color, orm (occlusion, roughness, metalness) and emission. Each is written beside OUT: "
-                "OUT_normal.png, OUT_ao.png, ... color, orm and emission are transferred from the materials of IN.";
+                "color, orm (occlusion, roughness, metalness) and emission. Each map is written to a file next to OUT: "
+                "OUT_normal.png, OUT_ao.png etc. The maps color, orm and emission are transferred from the materials "
+                "of IN.";
         if (option.name() == "--high-green") option.excludes = {"--ignore-high-maps"};
         list.push_back(std::move(option));
     }

@@ -70,7 +70,7 @@ std::string listHtml(const std::vector<std::string>& sentences) {
 
 std::string beforeHtml(const FinishedModel& model, const FileOptions& file) {
     return "<h2>" + htmlText(model.path) + "</h2>\n" + listHtml(report::doneTo(model)) +
-           viewsHtml(model.path, file, "as it was");
+           viewsHtml(model.path, file, "before");
 }
 
 std::string mapsHtml(const BakeFileReport& bake) {
@@ -107,8 +107,8 @@ std::string finishPage(const FinishReport& report, const std::string& output_pat
     html +=
         "<thead><tr><th>model</th><th class=\"n\">errors</th><th class=\"n\">warnings</th>"
         "<th class=\"n\">notes</th></tr></thead><tbody>\n";
-    html += countsRow(report.model.path + ", as it was", report.model.before);
-    if (report.low) html += countsRow(report.low->path + ", as it was", report.low->before);
+    html += countsRow(report.model.path + " (before)", report.model.before);
+    if (report.low) html += countsRow(report.low->path + " (before)", report.low->before);
     html += countsRow(output_path, report.check) + "</tbody></table></div>\n";
     html += listHtml(report.remarks);
     if (report.bake) html += listHtml(report.bake->findings) + listHtml(report.bake->warnings);

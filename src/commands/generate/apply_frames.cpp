@@ -170,8 +170,8 @@ bool anyHasTangents(const Primitive& primitive) {
 std::string morphNormalsNote(const PoolPlan& pool, const PoolElements& elements, const Primitive& primitive,
                              std::uint32_t count) {
     if (count == 0) return {};
-    std::string note = "what " + std::to_string(count) + (count == 1 ? " morph target got" : " morph targets got") +
-                       " computed normal deltas";
+    std::string note =
+        std::to_string(count) + (count == 1 ? " morph target got" : " morph targets got") + " computed normal deltas";
     const bool left = !elements.has_tangent_deltas || (pool.mendsTangents() && elements.differing_count != 0);
     if (left && anyHasTangents(primitive)) note += "; existing tangent deltas were kept and may not fit them";
     return note;
@@ -191,7 +191,7 @@ std::string keptNote(const PoolElements& elements, const Primitive& primitive) {
     if (!elements.has_tangent_deltas) {
         if (!lacksDeltas(primitive)) return {};
         return "; its morph targets lack tangent deltas, and none were added, because its tangents differ from the "
-               "computed ones (" +
+               "computed tangents (" +
                std::to_string(elements.differing_count) + " corners differ)";
     }
     if (!lacksDeltas(primitive)) return {};

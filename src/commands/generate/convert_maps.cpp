@@ -139,8 +139,9 @@ NewMap convertFor(const MapGroup& group, const FloatImage& image, const Generate
     if (!(error.mean_deg < error.mean_unconverted_deg)) {
         const char* why = texels.overlapping > 0 ? "several triangles that need different maps share its texels"
                                                  : "rounding would cancel the change";
-        report.reason = std::string(why) + ": " + degreesText(error.mean_deg) + " off if converted, " +
-                        degreesText(error.mean_unconverted_deg) + " unchanged";
+        report.reason = std::string(why) + ": the mean error would be " + degreesText(error.mean_deg) +
+                        " if the map were converted, and is " + degreesText(error.mean_unconverted_deg) +
+                        " if it is kept";
         return made;
     }
     const auto file = encodePng(converted, image.bits);

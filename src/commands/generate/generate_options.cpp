@@ -80,8 +80,8 @@ void addSelection(OptionList& list, GenerateOptions& options) {
         .excludes = {"--only-missing"};
     add(list, group,
         setting("--repair", options.selection.existing, ExistingTangents::repair,
-                "Add missing tangents, keep good ones, and recompute wrong ones: not finite, not of unit length, not "
-                "orthogonal to the normal, with a wrong sign, or not aligned with the UVs."))
+                "Add missing tangents, keep correct ones, and repair wrong ones, which are not finite, not of unit "
+                "length, not orthogonal to the normal, have a wrong sign, or do not follow the UVs."))
         .excludes = {"--only-missing", "--overwrite"};
     add(list, group,
         flag("--strip", options.selection.strip,
@@ -181,7 +181,7 @@ void addMapOptions(OptionList& list, GenerateOptions& options) {
     add(list, group,
         setting("--flip-green", options.maps.flip_green, FlipGreen::down,
                 "Invert the green channel of normal maps in which check detects that green points down throughout (as "
-                "in DirectX). Images beside a .gltf are not changed; the output gets new files."));
+                "in DirectX). Image files of a .gltf are not changed; the output gets new files."));
     add(list, group,
         setting("--flip-green-all", options.maps.flip_green, FlipGreen::all,
                 "Invert the green channel of every normal map, whatever its direction."))
@@ -195,8 +195,8 @@ void addMapOptions(OptionList& list, GenerateOptions& options) {
     add(list, group,
         flag("--convert-maps", options.maps.convert,
              "Rewrite normal maps for the computed tangents, so that the shading does not change. Maps and materials "
-             "shared by several primitives are copied if the primitives need different maps. Images beside a .gltf are "
-             "not changed; the output gets new files."))
+             "shared by several primitives are copied if the primitives need different maps. Image files of a .gltf "
+             "are not changed; the output gets new files."))
         .excludes = {"--flip-green", "--flip-green-all", "--fix-maps", "--repair"};
     add(list, group,
         setting("--no-images", options.maps.read, false,

@@ -121,9 +121,9 @@ std::string windingText(const std::vector<MendedWindingReport>& windings) {
         sum.small_count += mended.winding.small_count;
         sum.one_sided_count += mended.winding.one_sided_count;
     }
-    std::string text = fmt::format("{} of {} turned", sum.turned_count, counted(sum.face_count, "face"));
+    std::string text = fmt::format("{} of {} flipped", sum.turned_count, counted(sum.face_count, "face"));
     if (sum.turned_component_count != 0)
-        text += fmt::format(", {} as a whole", counted(sum.turned_component_count, "part"));
+        text += fmt::format(", including {} as a whole", counted(sum.turned_component_count, "part"));
     text += fmt::format("; edges in conflict: {} -> {}", sum.conflict_count_before, sum.conflict_count_after);
     if (sum.one_sided_count != 0) text += fmt::format("; {} not orientable", counted(sum.one_sided_count, "part"));
     if (sum.conflict_count_after != 0 && sum.small_count != 0)

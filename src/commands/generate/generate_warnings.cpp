@@ -31,23 +31,23 @@ void warnOfWinding(const GenerateOptions& options, GenerateReport& report) {
     }
     if (turned != 0) {
         std::string text = std::to_string(turned) + " of " + counted(triangles, "triangle") +
-                           (turned == 1 ? " is" : " are") + " wound opposite to the neighbors";
+                           (turned == 1 ? " is" : " are") + " wound opposite to their neighbors";
         if (vertices.after() > vertices.before())
-            text += ", and vertices were split between them (" + std::to_string(vertices.before()) + " -> " +
+            text += ", so vertices between them were split (" + std::to_string(vertices.before()) + " -> " +
                     std::to_string(vertices.after()) + ")";
-        if (!options.mend_winding) text += "; use --fix-winding to flip them";
+        if (!options.mend_winding) text += "; use --fix-winding to flip these triangles";
         report.warnings.push_back(text);
     }
     if (two_sided != 0) {
         const bool makes = std::any_of(report.primitives.begin(), report.primitives.end(),
                                        [](const PrimitiveReport& primitive) { return primitive.normals_generated; });
-        report.warnings.push_back(counted(two_sided, "triangle") + (two_sided == 1 ? " lies" : " lie") +
-                                  " on triangles with the opposite winding (two-sided sheets)" +
+        report.warnings.push_back(counted(two_sided, "triangle") + (two_sided == 1 ? " coincides" : " coincide") +
+                                  " with triangles of the opposite winding (two-sided sheets)" +
                                   (makes ? ", so smooth normals over both sides cancel out" : ""));
     }
     if (behind != 0) {
         report.warnings.push_back(counted(behind, "corner") + (behind == 1 ? " has" : " have") +
-                                  " a new normal that points behind its own triangle");
+                                  " a new normal that points to the back of its triangle");
     }
 }
 
@@ -76,8 +76,8 @@ void noteFoundValues(const NormalOptions& options, GenerateReport& report) {
             primitive.notes.push_back("edges sharper than " + shortNumber(normals.crease_angle_deg) +
                                       " degrees are hard (--crease auto)");
         if (normals.noise > 0)
-            primitive.notes.push_back("its positions are noisy, by " + shortNumber(normals.noise) +
-                                      " of an edge length, so normals were computed without the noise (--denoise)");
+            primitive.notes.push_back("its positions are noisy (" + shortNumber(normals.noise) +
+                                      " of an edge length), so normals were computed without the noise (--denoise)");
     }
 }
 
@@ -168,7 +168,7 @@ void warnOfFile(const GenerateOptions& options, const WorkedOn& worked_on, Gener
         warn({"--compress"},
              options.storage.compression == Compression::none
                  ? "no geometry is compressed"
-                 : "the geometry is already compressed in this way, or cannot be compressed",
+                 : "the geometry already has this compression, or cannot be compressed",
              report);
     if (options.file.keep_coordinates && !worked_on.far_coordinates)
         warn({"--keep-coordinates"}, "the coordinates need no offset", report);
@@ -189,14 +189,14 @@ void addWarnings(const GenerateOptions& options, const WorkedOn& worked_on, bool
              "the file has no normal map", report);
     if (options.maps.mend && report.normal_maps.empty()) warn({"--fix-maps"}, "the file has no normal map", report);
     if (!options.maps.read && options.selection.existing != ExistingTangents::repair)
-        warn({"--no-images"}, "only --repair reads the pixels of normal maps", report);
+        warn({"--no-images"}, "only --repair and options that change maps read the pixels of normal maps", report);
     const bool any_turned = any(report, [](const auto& primitive) { return primitive.winding_mended_count != 0; });
     if (options.mend_winding && !any_turned)
         warn({"--fix-winding"}, "no triangle with wrong winding was detected", report);
     const bool any_stripped =
         any(report, [](const auto& primitive) { return primitive.action == PrimitiveAction::removed; });
     if (options.selection.strip && !any_stripped)
-        warn({"--strip"}, "the file has no tangents, or materials need all of them", report);
+        warn({"--strip"}, "the file has no tangents, or its materials need all of them", report);
     if (options.maps.convert && report.converted_maps.empty())
         warn({"--convert-maps"}, "no primitive with a normal map got different tangents", report);
 }

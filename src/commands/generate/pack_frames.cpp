@@ -98,7 +98,8 @@ class PackedWriter {
     /// Returns why the primitive cannot be packed (half a sentence); empty: it can.
     [[nodiscard]] std::string whyNot(const Primitive& primitive, const PrimitiveReport& report) const {
         if (const std::string alone = packedAlone(document_, primitive); !alone.empty())
-            return "it only has other packed frames in " + alone + " and not the data that they were packed from";
+            return "it has only other packed frames in " + alone +
+                   ", not the normals and tangents that they were packed from";
         for (const auto& [name, type] : {std::pair{"POSITION", ""}, {"NORMAL", "VEC3"}, {"TANGENT", "VEC4"}}) {
             const auto index = primitive.find(name);
             if (!index) {
@@ -195,8 +196,8 @@ void noteStalePackedFrames(const Document& document, std::span<const Primitive> 
         if (!is_new) continue;
         for (const StoredPacking& packing : findPacked(document, primitives[i])) {
             if (!packing.fault.empty() || packing.layout->format == options.storage.pack) continue;
-            reports[i].notes.push_back("its packed frames in " + packing.attribute + " are outdated (--pack " +
-                                       frameFormatName(packing.layout->format) + " renews them)");
+            reports[i].notes.push_back("its packed frames in " + packing.attribute + " are outdated (use --pack " +
+                                       frameFormatName(packing.layout->format) + " to replace them)");
         }
     }
 }

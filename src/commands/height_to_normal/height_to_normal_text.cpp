@@ -26,7 +26,7 @@ std::string heightToNormalText(const Outcome<HeightToNormalFileReport>& outcome,
     if (!options.mesh.empty()) {
         table.addRow({"mesh", fmt::format("{}: {} triangles in {} primitives{}, on {} texels", printable(options.mesh),
                                           done.mesh.triangle_count, done.mesh.primitive_count,
-                                          done.mesh.tangents_made ? ", tangents made" : "", done.texels.on_mesh)});
+                                          done.mesh.tangents_made ? ", tangents computed" : "", done.texels.on_mesh)});
     }
     table.addRow({"slopes", fmt::format("mean {:.3g} degrees, maximum {:.3g}", done.texels.mean_lean_deg,
                                         done.texels.max_lean_deg)});

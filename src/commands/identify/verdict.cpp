@@ -323,7 +323,7 @@ std::string tiesOf(const std::vector<Explanation>& explanations) {
         if (&other == &best || other.nearShare() + kTieShare < best.nearShare() || isCloser(best, other)) continue;
         ties += (ties.empty() ? "" : ", ") + makerOf(other);
     }
-    return ties.empty() ? "" : " (so do " + ties + ")";
+    return ties.empty() ? "" : " (equally well: " + ties + ")";
 }
 
 /// Returns whether, at nearly every vertex, the stored tangent equals the computed tangent of one of its corners.
@@ -368,7 +368,7 @@ std::string exceptionsSentence(const Identification& result) {
         if (files == primitive.explanations.end() || files->nearShare() + kClearlyMore < own->nearShare())
             others.add(makerOf(*own));
     }
-    return others.size() == 0 ? "" : " But clearly " + others.text() + ".";
+    return others.size() == 0 ? "" : " Some primitives clearly match another method: " + others.text() + ".";
 }
 
 std::string signSentence(const Identification& result) {

@@ -127,9 +127,10 @@ std::string primitiveRows(const PrimitiveInfo& primitive) {
             {"faults", counted(primitive.degenerate_triangle_count, "triangle") + " with two corners at one position"});
     }
     if (primitive.position_noise != 0) {
-        table.addRow({"positions", fmt::format("noisy, by {:.2g} of an edge length; normals without the noise: tspace "
-                                               "generate --overwrite-normals --normals best --denoise auto",
-                                               primitive.position_noise)});
+        table.addRow(
+            {"positions", fmt::format("noisy ({:.2g} of an edge length); to compute normals without the noise: tspace "
+                                      "generate --overwrite-normals --normals best --denoise auto",
+                                      primitive.position_noise)});
     }
     return fmt::format("  mesh {}{}, primitive {}{}\n{}", primitive.mesh, name, primitive.primitive, material,
                        table.text("    "));

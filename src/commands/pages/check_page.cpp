@@ -116,7 +116,7 @@ std::string FindingPictures::drawAfter(const RemedyCommand& command, std::size_t
                                        std::span<const std::size_t> triangles, RenderFrames frames,
                                        FindingPicture& result) {
     const std::optional<GenerateOptions> options = optionsOf(command);
-    if (!options) return "The fix requires a decision, so no picture of it was made.";
+    if (!options) return "No picture of the fix was made, because the fix requires a decision.";
     const Model::Mending& mending = model_->mendedBy(commandLine(command), *options);
     if (!mending.model) return mending.why_not;
     const auto pair = std::find_if(mending.model->pairs.begin(), mending.model->pairs.end(),
@@ -171,7 +171,7 @@ std::string figuresOf(const Finding& finding, const FindingPicture& picture) {
                          (isOfTargets(finding) ? " of the base mesh; the fault appears when it deforms." : "."));
     const std::string command = "after " + picture.command;
     std::string figures = figureHtml(picture.before, kPlaceWidth, kPlaceHeight,
-                                     picture.is_clay ? "as in the file, without base color" : "as the file is");
+                                     picture.is_clay ? "as in the file, without base color" : "as in the file");
     if (!picture.after.empty())
         return figures + figureHtml(picture.after, kPlaceWidth, kPlaceHeight, command) +
                figureHtml(picture.difference, kPlaceWidth, kPlaceHeight, picture.caption);
@@ -287,7 +287,7 @@ std::string findingsHtml(const report::CheckOutcome& outcome) { return fileHtml(
 std::string checkPage(const std::vector<report::CheckOutcome>& outcomes, const FileOptions& file,
                       const PageOrigin& origin, const Progress& progress) {
     std::string html = pageHead("tspace check");
-    html += "<h1>Frames of " + counted(outcomes.size(), "file") + "</h1>\n";
+    html += "<h1>Findings in " + counted(outcomes.size(), "file") + "</h1>\n";
     html += originHtml(origin) +
             "<p class=\"dim\">Severities: error: wrong shading in every renderer; warning: wrong shading in some "
             "renderers or in a small area, or uncertain; note: harmless. A frame marks the location of a finding. "

@@ -96,7 +96,8 @@ std::string tableHtml(const report::TextTable& table) {
 std::string histogramHtml(const AngleStatistics& tangents) {
     if (tangents.count == 0) return {};
     const std::uint64_t most = *std::max_element(tangents.histogram.begin(), tangents.histogram.end());
-    std::string html = "<h2>T, degrees and corners</h2>\n" + std::string(kWideTable) + "\n";
+    std::string html =
+        "<h2>Corners by the angle between their tangents, in degrees</h2>\n" + std::string(kWideTable) + "\n";
     for (std::size_t i = 0; i < kAngleBins.size(); ++i) {
         const std::uint64_t count = tangents.histogram[i];
         // Lengths are in thousandths of the longest bar, and at least one thousandth.
@@ -126,11 +127,11 @@ class Room {
 std::string heatHtml(DiffPictures& pictures) {
     std::string figures;
     for (const DiffPictures::Side side : {DiffPictures::Side::front, DiffPictures::Side::back}) {
-        figures += figureHtml(
-            pictures.heatMap(side), DiffPictures::kHeatWidth, DiffPictures::kHeatHeight,
-            side == DiffPictures::Side::front ? "the angle between the frames, in degrees" : "the same from behind");
+        figures += figureHtml(pictures.heatMap(side), DiffPictures::kHeatWidth, DiffPictures::kHeatHeight,
+                              side == DiffPictures::Side::front ? "the angle between the frames, in degrees"
+                                                                : "the angle between the frames, from behind");
     }
-    return figures.empty() ? noFigureHtml("No heat map was made, because the scene of A contains nothing to draw.")
+    return figures.empty() ? noFigureHtml("There is no heat map, because the scene of A contains nothing to draw.")
                            : figures;
 }
 
@@ -174,11 +175,11 @@ std::string diffPage(const std::string& a, const std::string& b, const FrameDiff
             "<p class=\"dim\">T is the tangent, N the normal, B the bitangent as reconstructed by shaders; angles are "
             "in degrees, over triangle corners.</p>\n";
     html += heat +
-            "<p class=\"dim\">The largest of the angles between the two T, N and B vectors, on the surface of A. Gray: "
-            "nothing to compare.</p>\n";
+            "<p class=\"dim\">The largest of the angles between the two T, N and B vectors, shown on the surface of A. "
+            "Gray areas cannot be compared.</p>\n";
     html += tableHtml(words.angles) + histogramHtml(diff.tangents);
     html += "<h2>Primitives</h2>\n" + tableHtml(words.primitives);
-    if (!words.worst.empty()) html += "<h2>Worst places</h2>\n" + tableHtml(words.worst) + places;
+    if (!words.worst.empty()) html += "<h2>Largest differences</h2>\n" + tableHtml(words.worst) + places;
     return html + pageEnd();
 }
 

@@ -73,10 +73,10 @@ Option viewOption(RenderOptions& options) {
 Option lightOption(RenderOptions& options) {
     const auto take = [&options](const std::string& text) -> std::string {
         std::array<double, 2> angles{};
-        std::array<double, 3> towards{};
-        if (parseNumbers(text, towards)) {
-            options.to_light = {static_cast<float>(towards[0]), static_cast<float>(towards[1]),
-                                static_cast<float>(towards[2])};
+        std::array<double, 3> toward{};
+        if (parseNumbers(text, toward)) {
+            options.to_light = {static_cast<float>(toward[0]), static_cast<float>(toward[1]),
+                                static_cast<float>(toward[2])};
         } else if (parseNumbers(text, angles) && std::abs(angles[0]) <= 360 && std::abs(angles[1]) <= 90) {
             options.to_light = directionOf(angles[0], angles[1]);
         } else {
@@ -86,7 +86,7 @@ Option lightOption(RenderOptions& options) {
         return light.x == 0 && light.y == 0 && light.z == 0 ? "must not be 0" : "";
     };
     Option made = option("--light", "DIRECTION", take,
-                         "Direction to the light for lit and both, in camera space. X,Y,Z: right, up, and towards the "
+                         "Direction to the light for lit and both, in camera space. X,Y,Z: right, up, and toward the "
                          "camera; YAW,PITCH in degrees, where 0,0 is the direction to the camera.");
     made.default_text = "-0.45,0.65,0.8";
     return made;

@@ -33,7 +33,8 @@ std::string givePart(const Option& option, const std::string& value) {
         constexpr std::size_t kMostListed = 12;
         wrong = option.take(value);  // explains for some names why they are invalid
         if (wrong.empty()) {
-            wrong = choices.size() <= kMostListed ? "must be one of " + joined(choices) : "not a known " + option.value;
+            wrong =
+                choices.size() <= kMostListed ? "must be one of " + joined(choices) : "is not a known " + option.value;
             wrong += didYouMean(value, choices);
         }
     } else {

@@ -72,7 +72,7 @@ std::string pictureHtml(const Path& input, const FileOptions& options) {
         const ModelPicture picture(posed.drawn, RenderShow::lit, {}, {}, &textures, posed.poses);
         if (picture.meshes().empty()) return {};
         return figuresHtml(
-            figureHtml(encodePicture(drawModel(picture, render).image), render.width, render.height, "as the file is"));
+            figureHtml(encodePicture(drawModel(picture, render).image), render.width, render.height, "as in the file"));
     } catch (const FileError&) {
         return {};
     }

@@ -134,7 +134,7 @@ Error checkFaces(const MeshView& mesh) {
         return fine();
     }
     if (mesh.face_sizes.data() == nullptr) return {ErrorCode::nullData, "face_sizes is null, but its count is not 0"};
-    if (mesh.face_sizes.size() > kMaxCorners) return {ErrorCode::tooLarge, "more than 2^31-1 faces"};
+    if (mesh.face_sizes.size() > kMaxCorners) return {ErrorCode::tooLarge, "the mesh has more than 2^31-1 faces"};
     std::uint64_t sum = 0;
     for (std::size_t f = 0; f < mesh.face_sizes.size(); ++f) {
         sum += mesh.face_sizes[f];
@@ -211,7 +211,8 @@ Error checkAttribute(const StridedSpan<const std::byte>& span, std::size_t eleme
     if (indices.type == IndexType::none && indices.count == 0)
         return span.empty() ? fine() : checkCount(mesh.vertexCount());
     if (indices.type == IndexType::corners) return span.empty() ? fine() : checkCount(corner_count);
-    if (span.count > kMaxCorners) return makeError(ErrorCode::tooLarge, kNoElement, "more than 2^31-1 %s", name);
+    if (span.count > kMaxCorners)
+        return makeError(ErrorCode::tooLarge, kNoElement, "the mesh has more than 2^31-1 %s", name);
     if (Error e = checkCount(kAnyCount); e.code != ErrorCode::ok) return e;
     if (Error e = checkIndexSpan(indices, indices_name); e.code != ErrorCode::ok) return e;
     if (indices.count != corner_count) {
@@ -244,7 +245,7 @@ Error checkSpan(const void* data, std::size_t count, std::size_t stride_bytes, s
         return makeError(ErrorCode::misaligned, kNoElement, "%s is not aligned to %zu bytes", name, alignment);
     }
     if (count > 1 && (count - 1) > (std::numeric_limits<std::size_t>::max() - element_bytes) / stride_bytes) {
-        return makeError(ErrorCode::tooLarge, kNoElement, "%s exceeds the address space with its stride", name);
+        return makeError(ErrorCode::tooLarge, kNoElement, "%s with its stride exceeds the address space", name);
     }
     return fine();
 }

@@ -31,7 +31,7 @@ tspace_ErrorCode tspace_validate(const tspace_Mesh* mesh, tspace_Error* error) n
 
 tspace_ErrorCode tspace_findConvention(const char* name, tspace_Convention* out, tspace_Error* error) noexcept {
     return atCBorder(error, [&]() -> Result<Done> {
-        if (name == nullptr || out == nullptr) return Error{ErrorCode::nullData, "name or out is null"};
+        if (name == nullptr || out == nullptr) return Error{ErrorCode::nullData, "name and out must not be null"};
         const Convention* convention = findConvention(name);
         if (convention == nullptr) {
             return makeError(ErrorCode::invalidOption, kNoElement, "unknown convention \"%s\"", name);

@@ -23,7 +23,7 @@ class FramesMaker {
     Result<IndexedFrames> make() {
         if (options_.tangents.domain != OutputDomain::corner) {
             return Error{ErrorCode::invalidOption,
-                         "frames of an indexed mesh can only be computed per corner (domain)"};
+                         "frames of an indexed mesh can only be computed per corner; set domain to corner"};
         }
         if (Result<Done> valid = validate(mesh_); !valid) return std::move(valid).error();
         const bool keeps_places = mesh_.indices.type != IndexType::none && !mesh_.hasOwnLists();

@@ -190,7 +190,8 @@ class BufferWriter {
           fold_(is_lengyel_ ? 1.0f : signFactor(convention_) * normalFactor(convention_)) {}
 
     Result<PlanBuffers> write(const Execution& execution) {
-        if (in_.triangleCount() > kMostTriangles) return Error{ErrorCode::tooLarge, "more than 268435455 triangles"};
+        if (in_.triangleCount() > kMostTriangles)
+            return Error{ErrorCode::tooLarge, "the plan has more than 268435455 triangles"};
         if (options_.mesh.vertexCount() != 0) {
             Result<WordList> shared = findSharedNormals(options_.mesh, options_.normals, execution);
             if (!shared) return std::move(shared).error();
@@ -387,13 +388,13 @@ Error checkBuffers(const TangentPlan& plan, const PlanParts& parts, const PlanBu
         return refuse("lengyel on a GPU needs a triangle mesh; triangulate the mesh first");
     if (parts.has_own_lists && options.indices.empty())
         return refuse(
-            "the plan was made for a mesh with several index lists, so options.indices must give the vertex of each "
-            "corner in a pose");
+            "the plan was created for a mesh with several index lists, so options.indices must contain the vertex of "
+            "each corner in a pose");
     if (!options.indices.empty() && options.indices.size() != plan.cornerCount())
         return {ErrorCode::countMismatch, "indices must have one entry per corner of the plan"};
     for (const std::uint32_t corner : options.source_corners) {
         if (corner != kNoCorner && corner >= plan.cornerCount())
-            return {ErrorCode::indexOutOfRange, "a source corner is not a corner of the plan"};
+            return {ErrorCode::indexOutOfRange, "the source corners contain a corner that the plan does not have"};
     }
     if (!options.source_corners.empty() && plan.outputCount() != plan.cornerCount())
         return refuse("source corners cannot be combined with a plan that has one result per vertex");
@@ -401,7 +402,7 @@ Error checkBuffers(const TangentPlan& plan, const PlanParts& parts, const PlanBu
     if (options.normals.weighting == NormalWeighting::best || options.normals.denoise != 0)
         return refuse("the shaders cannot compute normals with the weighting best or with denoise");
     if (options.mesh.vertexCount() != plan.vertexCount() || options.mesh.cornerCount() != plan.cornerCount())
-        return {ErrorCode::planMismatch, "the mesh is not the mesh that the plan was made for"};
+        return {ErrorCode::planMismatch, "the mesh is not the mesh that the plan was created for"};
     return {ErrorCode::ok, {}};
 }
 

@@ -217,7 +217,7 @@ namespace {
 
 Error checkOptions(const TangentOptions& options) {
     if (options.method > kLastMethod) {
-        return makeError(ErrorCode::invalidOption, kNoElement, "unknown method %u",
+        return makeError(ErrorCode::invalidOption, kNoElement, "method is %u, which is not a value of Method",
                          static_cast<unsigned>(options.method));
     }
     if (options.convention.v_axis == VAxis::unset) {
@@ -227,9 +227,10 @@ Error checkOptions(const TangentOptions& options) {
     }
     if (options.convention.v_axis > VAxis::down)
         return {ErrorCode::invalidOption, "the v axis of the convention is not a value of VAxis"};
-    if (options.pairing > Pairing::corrected) return {ErrorCode::invalidOption, "unknown pairing"};
-    if (options.ngons > Ngons::skip) return {ErrorCode::invalidOption, "unknown treatment of n-gons"};
-    if (options.domain > OutputDomain::vertex) return {ErrorCode::invalidOption, "unknown output domain"};
+    if (options.pairing > Pairing::corrected) return {ErrorCode::invalidOption, "pairing is not a value of Pairing"};
+    if (options.ngons > Ngons::skip) return {ErrorCode::invalidOption, "ngons is not a value of Ngons"};
+    if (options.domain > OutputDomain::vertex)
+        return {ErrorCode::invalidOption, "domain is not a value of OutputDomain"};
     if (options.refine > 2) return {ErrorCode::invalidOption, "refine must be 0, 1 or 2"};
     if (options.frame > FrameShape::symmetric) return {ErrorCode::invalidOption, "frame is not a value of FrameShape"};
     if (options.frame == FrameShape::symmetric &&
@@ -253,7 +254,7 @@ Error checkInput(const MeshView& mesh, const TangentOptions& options, Parallel& 
         return {ErrorCode::missingAttribute, "this method needs UVs, but the mesh has none"};
     }
     if (isGrouped(options.method) && 3 * mikk::countTriangles(mesh, options.ngons) > mikk::kMaxHalfEdges) {
-        return {ErrorCode::tooLarge, "more than 715827882 triangles"};
+        return {ErrorCode::tooLarge, "the mesh has more than 715827882 triangles"};
     }
     return {ErrorCode::ok, {}};
 }

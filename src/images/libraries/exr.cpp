@@ -325,13 +325,13 @@ class ExrReader {
         for (std::size_t i = 0; i < names.size(); ++i) {
             if (!channels_.has(names[i])) continue;
             const exr_attr_chlist_entry_t& entry = entries[i];
-            why_ = "the channels of the EXR are subsampled";
+            why_ = "the EXR has subsampled channels, which are not supported";
             if (entry.x_sampling != 1 || entry.y_sampling != 1) return false;
             if (entry.pixel_type == EXR_PIXEL_FLOAT) bits_ = 32;
             whole += entry.pixel_type == EXR_PIXEL_UINT ? 1 : 0;
             ++used;
         }
-        why_ = "the EXR mixes channels of floats and integers";
+        why_ = "some channels of the EXR contain floats and others integers; write one type for all channels";
         is_whole_ = whole == used;
         return whole == 0 || is_whole_;
     }
@@ -509,7 +509,7 @@ std::optional<FloatImage> decodeExr(ByteSpan bytes, std::uint64_t most_pixels, s
     const std::optional<ExrHead> head = ExrHeadReader(bytes).read();
     if (!head || isTooLarge(head->size, bytes.size(), most_pixels, why)) return {};
     if (head->channel_count > kMostChannels) why = "the EXR has more channels than tspace supports";
-    if (head->has_more) why = "the EXR has several parts or deep pixels";
+    if (head->has_more) why = "the EXR has several parts or deep pixels, which are not supported";
     if (!head->is_plain) why = "the EXR uses lossy compression (B44 or DWA), which is not supported";
     if (head->channel_count > kMostChannels || head->has_more || !head->is_plain) return {};
     return orOutOfMemory([&] { return ExrReader(bytes, *head, use, why).read(); });

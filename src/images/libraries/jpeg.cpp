@@ -66,7 +66,7 @@ std::optional<RgbImage> decodeJpeg(ByteSpan bytes, std::uint64_t most_pixels, st
     const JpegHead head = readHead(decompressor, bytes);
     if (head.size.pixels() == 0 || isTooLarge(head.size, bytes.size(), most_pixels, why)) return {};
     if (head.isForPrint()) {
-        why = "the JPEG is CMYK (for print), which is not supported";
+        why = "the JPEG is CMYK (for print), which is not supported; convert it to RGB";
         return {};
     }
     RgbImage image{head.size.width, head.size.height, {}};
@@ -82,7 +82,8 @@ Result<ChannelImage> readJpegPixels(ByteSpan bytes) {
         return Error{ErrorCode::unsupportedFile, "the JPEG is gray, so it has no separate green channel"};
     }
     if (head.isForPrint()) {
-        return Error{ErrorCode::unsupportedFile, "the JPEG is CMYK (for print), which is not supported"};
+        return Error{ErrorCode::unsupportedFile,
+                     "the JPEG is CMYK (for print), which is not supported; convert it to RGB"};
     }
     ChannelImage image{head.size.width, head.size.height, 3, {}};
     if (!decompress(decompressor, bytes, head.size, image.pixels)) {

@@ -85,7 +85,8 @@ Result<std::vector<std::uint8_t>> writeWebp(const ChannelImage& image) {
     WebPPicture picture;
     if (WebPConfigInit(&config) == 0 || WebPConfigLosslessPreset(&config, kLevel) == 0 ||
         WebPPictureInit(&picture) == 0)
-        return Error{ErrorCode::internal, "the version of libwebp differs from that of its headers"};
+        return Error{ErrorCode::internal,
+                     "the installed libwebp has another version than the headers with which tspace was built"};
     config.exact = 1;
     picture.use_argb = 1;
     picture.width = static_cast<int>(image.width);

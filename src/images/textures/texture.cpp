@@ -108,7 +108,7 @@ std::optional<TextureFile> openTexture(ByteSpan bytes, std::uint64_t most_pixels
     }
     if (level != 0) {
         if (level >= texture->levels.size()) {
-            why = "it has no level " + std::to_string(level) + "; its last level is " +
+            why = "the texture has no mip level " + std::to_string(level) + "; its last mip level is " +
                   std::to_string(texture->levels.size() - 1);
             return {};
         }

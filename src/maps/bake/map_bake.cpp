@@ -53,7 +53,7 @@ class Baking {
                                padding, parallel_, allocator_);
         if (!triangles)
             return makeError(ErrorCode::tooLarge, kNoElement,
-                             "the triangles of the low poly cover the image too many times");
+                             "the UVs of the low poly cover the image too many times; scale them down");
         if (triangles->counts.inside == 0)
             return makeError(ErrorCode::missingAttribute, kNoElement,
                              "the UVs of the low poly cover no texel of the map");
@@ -227,7 +227,7 @@ Error checkBakeOptions(const BakeOptions& options, std::size_t low_triangles, st
                          "the width and height of a map must be from 1 to %u texels", kMostSide);
     if (options.bits != 8 && options.bits != 16) return wrong("the number of bits per channel must be 8 or 16");
     if (options.padding > kMostPadding) return wrong("the padding must not exceed 256 texels");
-    if (options.reading.scale != 1) return wrong("the scale of the map must be 1 for baking");
+    if (options.reading.scale != 1) return wrong("the scale of the map must be 1 when a map is baked");
     if (!areAxes(options.axes))
         return wrong("the axes of a map must have unit length and be perpendicular to each other");
     if (options.space == MapSpace::object && options.reading.two_channels)

@@ -470,12 +470,12 @@ Error checkLayers(const LayerOptions& layers, const BakeOptions& options, std::s
     std::array<bool, kMapLayerCount> is_asked{};
     for (const MapLayer layer : layers.layers) {
         const auto number = static_cast<std::size_t>(layer);
-        if (number >= kMapLayerCount) return wrong("unknown layer");
-        if (std::exchange(is_asked[number], true)) return wrong("the same layer was requested twice");
+        if (number >= kMapLayerCount) return wrong("a layer is not a value of MapLayer");
+        if (std::exchange(is_asked[number], true)) return wrong("a layer was requested twice");
         if (isMaterial(layer) && !layers.material)
             return wrong("the layers color, orm and emission need the materials of the high poly");
     }
-    if (layers.layers.empty() && !layers.has_normal) return wrong("no map is requested");
+    if (layers.layers.empty() && !layers.has_normal) return wrong("no map was requested; name at least one layer");
     if (layers.ray_count == 0 || layers.ray_count > kMostLayerRays)
         return wrong("the number of rays per point must be from 1 to 4096");
     for (const double length :

@@ -166,7 +166,8 @@ class Conversion {
     Result<ConvertMapReport> run(const Progress& progress) {
         if (!main_.uvs.empty()) {
             if (!findPlaces()) {
-                return makeError(ErrorCode::tooLarge, kNoElement, "the UVs repeat the image too many times");
+                return makeError(ErrorCode::tooLarge, kNoElement,
+                                 "the UVs repeat the image too many times; move or scale them to the 0-1 range");
             }
         }
         const std::size_t texels = map_.texels.size(), tasks = (texels + kTexelsOfTask - 1) / kTexelsOfTask;
@@ -415,7 +416,8 @@ Error checkSide(const MapSide& side, const MapSide& other, const char* missing) 
         return needs_mesh ? makeError(ErrorCode::missingAttribute, kNoElement, "%s", missing) : kFine;
     }
     if (side.normals.empty() || side.tangents.empty()) {
-        return makeError(ErrorCode::missingAttribute, kNoElement, "tangent space needs normals and tangents");
+        return makeError(ErrorCode::missingAttribute, kNoElement,
+                         "converting from or to tangent space needs the normals and tangents of the mesh");
     }
     if (Error error = checkSpan(side.normals, corners, "normals"); error.code != ErrorCode::ok) return error;
     return checkSpan(side.tangents, corners, "tangents");
@@ -433,11 +435,11 @@ Error checkCall(const MapImage& map, const MapSide& from, const MapSide& to, std
     if (options.bits != 8 && options.bits != 16 && options.bits != 32) {
         return makeError(ErrorCode::invalidOption, kNoElement, "bits must be 8, 16 or 32");
     }
-    if (Error error = checkSide(from, to, "the mesh whose frames the map was made for is required");
+    if (Error error = checkSide(from, to, "the frames for which the map was made are needed, but `from` has no mesh");
         error.code != ErrorCode::ok) {
         return error;
     }
-    return checkSide(to, from, "the mesh whose frames the map will be read with is required");
+    return checkSide(to, from, "the frames with which the map will be read are needed, but `to` has no mesh");
 }
 
 }  // namespace

@@ -66,7 +66,9 @@ class Heights {
         if (!mesh_.uvs.empty()) {
             // Filtering reads texels up to two away from a triangle.
             auto places = findTexelTriangles(triangles, map_.width, map_.height, 2, parallel_, allocator_);
-            if (!places) return makeError(ErrorCode::tooLarge, kNoElement, "the UVs repeat the image too many times");
+            if (!places)
+                return makeError(ErrorCode::tooLarge, kNoElement,
+                                 "the UVs repeat the image too many times; move or scale them to the 0-1 range");
             places_ = std::move(*places);
             findTexelSize();
         }
@@ -206,7 +208,7 @@ Error checkCall(const HeightMap& map, const MapSide& mesh, std::span<Vec3> out, 
     if (corners % 3 != 0 || corners / 3 >= kNoTriangle / 3)
         return makeError(ErrorCode::countMismatch, kNoElement, "uvs must have three entries per triangle");
     if (mesh.positions.empty() || mesh.normals.empty() || mesh.tangents.empty())
-        return makeError(ErrorCode::missingAttribute, kNoElement, "a mesh needs positions, normals and tangents");
+        return makeError(ErrorCode::missingAttribute, kNoElement, "the mesh must have positions, normals and tangents");
     for (Error error : {checkSpan(mesh.uvs, kAnyCount, "uvs"), checkSpan(mesh.positions, corners, "positions"),
                         checkSpan(mesh.normals, corners, "normals"), checkSpan(mesh.tangents, corners, "tangents")}) {
         if (error.code != ErrorCode::ok) return error;

@@ -16,7 +16,7 @@ Error checkMap(const MapImage& map, const MapErrorOptions& options) {
     if (map.width == 0 || map.height == 0 || map.texels.size() / map.width != map.height ||
         map.texels.size() % map.width != 0)
         return makeError(ErrorCode::countMismatch, kNoElement,
-                         "the map must have width * height texels, and at least one");
+                         "the map must have width * height texels, and at least 1");
     if (options.point_count == 0 || options.point_count > kMostPoints)
         return makeError(ErrorCode::invalidOption, kNoElement, "point_count must be from 1 to %u", kMostPoints);
     return {ErrorCode::ok};

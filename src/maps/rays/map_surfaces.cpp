@@ -104,7 +104,7 @@ Error checkHighMaps(const HighPoly& high) {
     if (high.maps.empty()) return {ErrorCode::ok};
     if (high.normals.empty() || high.tangents.empty() || high.uvs.empty())
         return makeError(ErrorCode::missingAttribute, kNoElement,
-                         "the normal maps of the high poly need its normals, tangents and UVs");
+                         "using the normal maps of the high poly needs its normals, tangents and UVs");
     if (Error error = checkSpan(high.tangents, high.positions.count, "high.tangents"); error.code != ErrorCode::ok)
         return error;
     if (Error error = checkSpan(high.uvs, high.positions.count, "high.uvs"); error.code != ErrorCode::ok) return error;
@@ -112,7 +112,8 @@ Error checkHighMaps(const HighPoly& high) {
         return makeError(ErrorCode::countMismatch, kNoElement, "high.map_of must have one entry per triangle");
     for (std::size_t i = 0; i < high.map_of.size(); ++i) {
         if (high.map_of[i] != kNoHighMap && high.map_of[i] >= high.maps.size())
-            return makeError(ErrorCode::indexOutOfRange, i, "high.map_of refers to a map that does not exist");
+            return makeError(ErrorCode::indexOutOfRange, i,
+                             "high.map_of contains the index of a map that does not exist");
     }
     for (const HighMap& map : high.maps) {
         const MapImage& image = map.image;

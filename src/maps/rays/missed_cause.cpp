@@ -175,7 +175,7 @@ std::string otherPlace(const Trial& trial, double size, double high_size, double
 
 std::string causeOfMisses(const LowPoly& low, const HighPoly& high, const RaySurface& surface, double reach) {
     const Trial trial(surface, samplesOf(low));
-    if (trial.metBacksAlone(reach) >= 0.5) return "its faces point inwards: rays hit only back faces";
+    if (trial.metBacksAlone(reach) >= 0.5) return "its faces point inward: rays hit only back faces";
     const double size = PositionBox(low.positions).diagonal(), high_size = PositionBox(high.positions).diagonal();
     const double usual = std::max(reach, kUsualReach * size);
     const auto furtherAway = [&](double other) {
@@ -187,7 +187,7 @@ std::string causeOfMisses(const LowPoly& low, const HighPoly& high, const RaySur
     for (const double factor : {2.0, 4.0, 8.0}) {
         if (trial.met(factor * usual) >= kMeets) return furtherAway(factor * usual);
     }
-    if (trial.metBacksAlone(usual) >= 0.5) return "its faces point inwards: rays hit only back faces";
+    if (trial.metBacksAlone(usual) >= 0.5) return "its faces point inward: rays hit only back faces";
     return {};
 }
 

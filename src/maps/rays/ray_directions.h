@@ -100,7 +100,7 @@ class RayField {
     LowPoly low_ = {};
     RayOptions rays_ = {};
     double offset_ = 0;
-    double bend_ = 0;  ///< distance from a hard edge within which directions bend towards it
+    double bend_ = 0;  ///< distance from a hard edge within which directions bend toward it
     /// Offset from a corner to the cage, for a cage offset of 1. It is longer than 1 if faces are inclined to the mean
     /// normal, so that the cage keeps its distance from the faces.
     Buffer<Vec3> averaged_ = {};

@@ -96,7 +96,7 @@ struct RaySurface::State {
         has_embree_failed = true;
         scene = nullptr;
         device = second_device = nullptr;
-        return makeError(ErrorCode::outOfMemory, kNoElement, "out of memory for the ray tracing data");
+        return makeError(ErrorCode::outOfMemory, kNoElement, "there is not enough memory for the ray tracing data");
     }
 
     ~State() {

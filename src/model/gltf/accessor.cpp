@@ -177,7 +177,7 @@ const std::uint8_t* elementSource(const Document& document, const Accessor& acce
     }
     if (!accessor.view && accessor.count > kMaxZeroElements) {
         failFile(ErrorCode::unsupportedFile,
-                 "an accessor without data declares " + std::to_string(accessor.count) + " elements",
+                 "the accessor has no data, but declares " + std::to_string(accessor.count) + " elements",
                  join(accessor.place(), "count"));
     }
     if (!accessor.view || accessor.count == 0) return nullptr;
@@ -440,7 +440,7 @@ std::string formatName(const Accessor& accessor) {
             name = "float";
             break;
     }
-    if (accessor.component_count == 0) return name + " of an unknown type";
+    if (accessor.component_count == 0) return name + " with an unknown accessor type";
     if (accessor.component_count == 1) return name;
     // "snorm16x3", but "float3" without an x.
     return name + (accessor.component == ComponentType::f32 ? "" : "x") + std::to_string(accessor.component_count);

@@ -304,8 +304,8 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
         if (!document.files.areInMemory() && isSameFile(from, to)) return;
         if (output.leave(to, document.files.read(from, place))) return;
         failFile(ErrorCode::cannotWrite,
-                 "the model references the file " + inQuotes(uri) + " beside it, but " + pathInQuotes(to) +
-                     " exists already and is a different file",
+                 "the output would reference the file " + inQuotes(uri) + ", but " + pathInQuotes(to) +
+                     " already exists and is a different file; choose another output folder",
                  place);
     }
     output.addShared(to, document.files.read(from, place));

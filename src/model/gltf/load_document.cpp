@@ -123,7 +123,7 @@ Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, cons
         buffer.bytes = BufferBytes(std::span(document.file_bytes).subspan(begin, length));
         return buffer;
     }
-    if (!uri->is_string()) failFile(ErrorCode::invalidFile, "'uri' is not a string", join(place, "uri"));
+    if (!uri->is_string()) failFile(ErrorCode::invalidFile, "the member 'uri' is not a string", join(place, "uri"));
     const auto& text = uri->text();
     Bytes bytes;
     if (uriKind(text) == UriKind::data) {

@@ -393,7 +393,7 @@ constexpr std::size_t kMaxDifferences = 8;
 std::string difference(const TangentUse& first, const TangentUse& other) {
     if (first.uv_set != other.uv_set) {
         return "follow TEXCOORD_" + std::to_string(first.uv_set) + " for " + textureName(first) + ", but " +
-               textureName(other) + " is on TEXCOORD_" + std::to_string(other.uv_set);
+               textureName(other) + " uses TEXCOORD_" + std::to_string(other.uv_set);
     }
     return "fit the KHR_texture_transform of " + textureName(first) + ", but " + textureName(other) +
            " is rotated or mirrored differently";
@@ -406,14 +406,14 @@ void addDifferences(const std::vector<TangentUse>& uses, TextureTransform readin
         notes.push_back("the tangents " + difference(uses[0], use));
     }
     if (count > kMaxDifferences) {
-        notes.push_back("neither do they fit " + std::to_string(count - kMaxDifferences) + " more textures");
+        notes.push_back("they do not fit " + std::to_string(count - kMaxDifferences) + " more textures");
     }
 }
 
 void addTransform(const TangentUse& use, TextureTransform reading, std::vector<std::string>& notes) {
     const UvMatrix matrix = uvMatrixOf(use, TextureTransform::apply);
     if (matrix.isIdentity()) return;
-    notes.push_back(kTransformNote + std::string(matrix.mirrors() ? "mirrors " : "turns ") + textureName(use) +
+    notes.push_back(kTransformNote + std::string(matrix.mirrors() ? "mirrors " : "rotates ") + textureName(use) +
                     (reading == TextureTransform::apply
                          ? ": the tangents follow the transformed UVs"
                          : ": as requested, the tangents follow the UVs before the transform"));

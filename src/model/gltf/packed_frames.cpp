@@ -24,12 +24,12 @@ std::string wantedFormat(const PackedPart& part) {
 std::string faultOf(const Document& document, const Accessor& accessor, const PackedPart& part) {
     const bool fits =
         accessor.component == part.component && accessor.type == part.type && accessor.normalized == part.normalized;
-    if (!fits) return "is " + formatName(accessor) + ", and must be " + wantedFormat(part);
+    if (!fits) return "is " + formatName(accessor) + ", but must be " + wantedFormat(part);
     return hasData(document, accessor) ? "" : "has no data that this build of tspace can read";
 }
 
 std::string countFault(const Accessor& accessor, const Primitive& primitive) {
-    return "has " + std::to_string(accessor.count) + " elements, and the primitive " +
+    return "has " + std::to_string(accessor.count) + " elements, but the primitive has " +
            std::to_string(primitive.vertex_count) + " vertices";
 }
 
@@ -55,7 +55,8 @@ std::vector<StoredPacking> findPacked(const Document& document, const Primitive&
             }
         }
         if (packing.attribute.empty()) continue;
-        if (!missing.empty() && packing.fault.empty()) packing.fault = "has no " + missing + " beside it";
+        if (!missing.empty() && packing.fault.empty())
+            packing.fault = "needs the attribute " + missing + ", which is missing";
         found.push_back(std::move(packing));
     }
     return found;

@@ -367,7 +367,7 @@ void warnOfScaledNormals(Document& document, std::span<const Primitive> primitiv
     if (count == 0) return;
     if (primitive_count > kMostNamed) named += "; and " + std::to_string(primitive_count - kMostNamed) + " more";
     const std::string lengths = "normals that do not have unit length: " + std::to_string(count) +
-                                (count == 1 ? " vertex" : " vertices") + " (" + named + ") of lengths from " +
+                                (count == 1 ? " vertex" : " vertices") + " (" + named + ") with lengths from " +
                                 shortNumber(least) + " to " + shortNumber(most);
     document.scaled_normals = {.number = document.warnings.size(), .lengths = lengths};
     document.warnings.push_back(

@@ -228,9 +228,9 @@ std::vector<std::string> VertexNumbers::warnings() const {
     for (const auto& [name, count] : left_) {
         const std::string primitives = count == 1 ? "1 primitive has" : std::to_string(count) + " primitives have";
         list.push_back(name == kCounts
-                           ? primitives + " other vertices now, and " + name + " still contains the old counts"
+                           ? primitives + " new vertex numbers, but " + name + " still contains the old counts"
                            : "the extension " + name + " may refer to vertices by number, but " + primitives +
-                                 " different vertices now; the extension was not changed");
+                                 " new vertex numbers; the extension was not changed");
     }
     return list;
 }

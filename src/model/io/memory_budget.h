@@ -56,7 +56,7 @@ class MemoryBudget {
 
     /// Checks a temporary allocation without charging it. Fails with tooLarge.
     void require(std::uint64_t bytes, const std::string& place) const {
-        if (!has(bytes)) failFile(ErrorCode::tooLarge, "what the file declares " + whyNot(bytes), place);
+        if (!has(bytes)) failFile(ErrorCode::tooLarge, "the data that the file declares " + whyNot(bytes), place);
     }
     [[nodiscard]] bool has(std::uint64_t bytes) const { return limited(bytes) <= left_; }
 

@@ -182,7 +182,7 @@ void warnOfOffset(const FloatLoss& loss, Model& model) {
 void warnOfLoss(const FloatLoss& loss, bool could_be_mended, Model& model) {
     model.warnings.push_back(
         "the coordinates are too large for the 32-bit floats of glTF: rounding changes " + changedEdges(loss) +
-        (could_be_mended ? "; without --keep-coordinates an offset would be subtracted from them"
+        (could_be_mended ? "; omit --keep-coordinates to subtract an offset from them"
                          : ", and no common offset fixes this; split the model, and move each part to its own origin"));
 }
 
@@ -453,21 +453,22 @@ void addWarnings(const Build& build, Model& model) {
         if (count != 0) warn(text + (": " + std::to_string(count)));
     };
     if (notes.unreadable_number_count != 0) {
-        warn("invalid numbers, which were read as 0: " + std::to_string(notes.unreadable_number_count) +
+        warn("number of invalid values, which were read as 0: " + std::to_string(notes.unreadable_number_count) +
              ", the first in line " + std::to_string(notes.unreadable_number_line));
     }
     if (!notes.is_utf8) warn(kNotUtf8);
-    warnCount(build.bad_position_count, "positions that are not finite and were moved to the origin");
-    warnCount(build.bad_uv_count, "texture coordinates that are not finite and were set to 0");
-    warnCount(build.bad_normal_count, "normals that are zero or not finite; faces that use them get new normals");
+    warnCount(build.bad_position_count, "number of positions that are not finite and were moved to the origin");
+    warnCount(build.bad_uv_count, "number of texture coordinates that are not finite and were set to 0");
+    warnCount(build.bad_normal_count,
+              "number of normals that are zero or not finite (faces that use them get new normals)");
     const auto warnDead = [&](const DeadIndices& dead, const std::string& what, const char* result) {
         if (dead.count == 0) return;
-        warn("indices of " + what + " that do not exist: " + std::to_string(dead.count) + ", the first in line " +
-             std::to_string(dead.first_line) + "; " + result);
+        warn("number of indices of " + what + " that do not exist: " + std::to_string(dead.count) +
+             ", the first in line " + std::to_string(dead.first_line) + "; " + result);
     };
     warnDead(build.dead_uvs, "texture coordinates", "faces that use them are treated as having no texture coordinates");
     warnDead(build.dead_normals, "normals", "faces that use them get new normals");
-    warnCount(build.small_face_count, "faces with fewer than 3 corners, which were ignored");
+    warnCount(build.small_face_count, "number of faces with fewer than 3 corners, which were ignored");
     if (notes.has_vertex_colors) warn("vertex colors are ignored");
     if (notes.has_lines_or_points) warn("lines and points are ignored");
     if (notes.has_free_form) warn("free-form curves and surfaces are ignored");

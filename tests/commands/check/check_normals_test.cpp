@@ -56,7 +56,7 @@ TEST(CheckNormals, FindsNormalsThatAreFarFromAllTheirTriangles) {
 }
 
 /// Returns a strip of a cylinder, starting at angle `first`, with `count` steps of `step` degrees, with the normals of
-/// its own triangles or those of the cylinder.
+/// its triangles or those of the cylinder.
 ScenePrimitive strip(std::uint32_t number, double first, int count, double step, bool is_own) {
     std::vector<Vec3> positions, normals;
     std::vector<std::uint32_t> corners;

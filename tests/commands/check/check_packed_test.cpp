@@ -174,18 +174,18 @@ TEST(CheckPacked, FindsAccessorsThatAreNoPackedFramesAndTheAdviceMendsThem) {
         std::function<void(GltfBuilder&)> edit;
     };
     const Case cases[] = {
-        {"is uint32, and must be uint8x4",
+        {"is uint32, but must be uint8x4",
          [](GltfBuilder& model) {
              packedAccessor(model)["componentType"] = kU32;
              packedAccessor(model)["type"] = "SCALAR";
          }},
-        {"is unorm8x4, and must be uint8x4", [](GltfBuilder& model) { packedAccessor(model)["normalized"] = true; }},
-        {"is uint8x3, and must be uint8x4", [](GltfBuilder& model) { packedAccessor(model)["type"] = "VEC3"; }},
-        {"is uint8 of an unknown type, and must be uint8x4",
+        {"is unorm8x4, but must be uint8x4", [](GltfBuilder& model) { packedAccessor(model)["normalized"] = true; }},
+        {"is uint8x3, but must be uint8x4", [](GltfBuilder& model) { packedAccessor(model)["type"] = "VEC3"; }},
+        {"is uint8 with an unknown accessor type, but must be uint8x4",
          [](GltfBuilder& model) { packedAccessor(model)["type"] = "VEC5"; }},
-        {"has 3 elements, and the primitive 25 vertices",
+        {"has 3 elements, but the primitive has 25 vertices",
          [](GltfBuilder& model) { packedAccessor(model)["count"] = 3; }},
-        {"has 1048577 elements, and the primitive 25 vertices",
+        {"has 1048577 elements, but the primitive has 25 vertices",
          [](GltfBuilder& model) {
              packedAccessor(model)["count"] = 1048577;
              packedAccessor(model).erase("bufferView");
@@ -222,7 +222,7 @@ TEST(CheckPacked, FindsHalfOfAPair) {
     const CheckReport report = check(grid.file());
     finding = find(report, FindingCode::packedFramesUnreadable);
     ASSERT_NE(finding, nullptr);
-    EXPECT_EQ(finding->message, "_GLTF_SNORM8_NORMAL has no _GLTF_SNORM8_TANGENT beside it");
+    EXPECT_EQ(finding->message, "_GLTF_SNORM8_NORMAL needs the attribute _GLTF_SNORM8_TANGENT, which is missing");
 }
 
 TEST(CheckPacked, AnotherLengthIsRefusedWhereNothingMakesItAnew) {

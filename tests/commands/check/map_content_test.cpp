@@ -248,7 +248,7 @@ TEST(MapContent, IsNormalsForABulgeOnABulge) {
     }
 }
 
-/// Hills lean by up to 40 degrees.
+/// Normals of hills that are tilted by up to 40 degrees.
 DVec3 hills(double u, double v) {
     const double x = 0.5 * std::cos(5 * u + 1) * std::cos(4 * v), y = 0.5 * std::cos(7 * v + u);
     const double size = std::sqrt(x * x + y * y + 1);
@@ -270,7 +270,7 @@ TEST(MapContent, IsInObjectSpaceOnlyWhereItFollowsTheMesh) {
     EXPECT_EQ(lookAt(shownBy(turned, weak)).content, MapContent::exchanged);
 }
 
-/// Terrain that leans by at most 20 degrees, with relief of over 40 degrees, which hides it in single texels.
+/// Terrain with slopes of at most 20 degrees, and relief of over 40 degrees, which dominates single texels.
 TEST(MapContent, IsInObjectSpaceUnderStrongReliefToo) {
     const auto leaning = [](double x, double y) {
         const double size = std::sqrt(x * x + y * y + 1);

@@ -99,7 +99,7 @@ TEST(Check, NamesTheAxesInWhichTheTangentsWereLeft) {
     });
     const std::vector<Finding> findings = findingsOf(patch);
     const std::string& message = only(findings, FindingCode::directionsWrong).message;
-    EXPECT_NE(message.find("as (x, z, -y) of the stored vectors they fit"), std::string::npos) << message;
+    EXPECT_NE(message.find("they fit if the stored vectors are read as (x, z, -y)"), std::string::npos) << message;
     const Result<PrimitiveVerdict> verdict = judgePrimitive(patch, {}, true);
     ASSERT_TRUE(verdict);
     for (const std::uint32_t bits : verdict->faults) EXPECT_NE(bits & faultBit(FindingCode::directionsWrong), 0u);

@@ -21,7 +21,7 @@ Identification identityOf(const std::vector<ModelData>& models, const IdentifyOp
 }
 
 TEST(Identify, FindsTheMethodThatMadeTheTangents) {
-    // Strongly distorted UVs, so that the methods differ by more than the tolerance. flat is left out: without shared
+    // Strongly distorted UVs, so that the methods differ by more than the tolerance. flat is not tested: without shared
     // vertices it equals lengyel.
     for (const Method method : {Method::mikktspace, Method::area, Method::uniform, Method::lengyel}) {
         ModelData data = bentSheet(5);

@@ -231,7 +231,7 @@ TEST(FindingPictures, SayWhyThereIsNoSecondPicture) {
     EXPECT_FALSE(none.before.empty());
     EXPECT_EQ(none.command, "");
     const FindingPicture open = pictureOf(good, findingAt(FindingCode::packedFramesDiffer, {0}));
-    EXPECT_EQ(open.why_no_after, "The fix requires a decision, so no picture of it was made.");
+    EXPECT_EQ(open.why_no_after, "No picture of the fix was made, because the fix requires a decision.");
 }
 
 }  // namespace

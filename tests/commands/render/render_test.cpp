@@ -130,7 +130,7 @@ TEST(Render, AMirroredHalfShowsTheOtherSign) {
     EXPECT_EQ(countOf(wrong, 34, 64, isRed), 0);
 }
 
-/// Returns a square whose normal map leans upward (green up) or downward.
+/// Returns a square whose normal map is tilted upward (green up) or downward.
 GltfBuilder leaning(std::uint8_t green) {
     GltfBuilder builder = SquareModel().build();
     const std::size_t map = addTexture(builder, plainImage(128, green, 218));
@@ -200,7 +200,7 @@ TEST(Render, BackFacesAreDrawnWhereTheMaterialSaysSo) {
     GltfBuilder builder = SquareModel().build();
     EXPECT_EQ(draw(builder, options).center(), kBackgroundPixel);
     builder.json()["materials"][0]["doubleSided"] = true;
-    EXPECT_TRUE(isNearTo(draw(builder, options).center(), {128, 128, 0}, 1)) << "turned towards the camera";
+    EXPECT_TRUE(isNearTo(draw(builder, options).center(), {128, 128, 0}, 1)) << "turned toward the camera";
 }
 
 TEST(Render, MaskedTexelsAreNotThere) {

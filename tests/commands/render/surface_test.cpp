@@ -65,7 +65,7 @@ TEST(RenderSurface, ABlendedSurfaceIsDrawnWhereItsAlphaIsAtLeastHalfOfTheMateria
 TEST(RenderSurface, WeightsOfMorphTargetsMoveTheSurface) {
     GltfBuilder builder = SquareModel().build();
     Json& mesh = builder.json()["meshes"][0];
-    // The square rotated by 90 degrees about y, where N is +x: halfway it leans by 45 degrees.
+    // The square rotated by 90 degrees about y, where N is +x: halfway it is tilted by 45 degrees.
     const std::size_t normals = builder.addFloats(std::vector<float>{1, 0, -1, 1, 0, -1, 1, 0, -1, 1, 0, -1}, 3);
     mesh["primitives"][0]["targets"] = Json::array({Json{{"NORMAL", normals}}});
     mesh["weights"] = Json::array({0});

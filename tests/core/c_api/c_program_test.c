@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The C API as a C11 program sees it: the header comes first and alone, and a mesh goes through every
- * function of it. */
+/* The C API in a C11 program: the header is self-contained, and every function is called with a mesh. */
 #include "tspace/tspace.h"
 
 #include "c_check.h"

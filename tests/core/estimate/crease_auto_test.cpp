@@ -83,7 +83,7 @@ TEST(AutomaticCreases, AreNoneOnSmoothShapes) {
     }
 }
 
-/// Their edges have angles of 40 degrees and more, distributed continuously.
+/// The edges of these shapes have angles of 40 degrees and more, distributed continuously.
 TEST(AutomaticCreases, HarmNoSmoothShapesThatWereDecimatedToSomeHundredTriangles) {
     for (const std::span<const Shape> all : {accuracy::shapes(), accuracy::heldOutShapes()}) {
         for (const Shape& shape : all) {
@@ -100,7 +100,7 @@ TEST(AutomaticCreases, HarmNoSmoothShapesThatWereDecimatedToSomeHundredTriangles
     }
 }
 
-/// They have flat regions, and their edges are detected.
+/// These parts have flat regions, so their edges are detected.
 TEST(AutomaticCreases, AreFoundOnPartsThatWereDecimatedToSomeHundredTriangles) {
     for (const std::span<const Shape> all : {accuracy::shapes(), accuracy::heldOutShapes()}) {
         for (const Shape& shape : all) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What a C program sees of the two files: prints the bits of all methods on a bumpy plane with a mirrored half, of normals,
- * packed frames, and a mesh made by the one call. */
+/* Uses the two files in C: prints the bits of all methods on a bumpy plane with a mirrored half, of normals, packed
+ * frames, and an indexed mesh. */
 #include <math.h>
 #include <stdio.h>
 

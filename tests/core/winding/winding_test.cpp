@@ -213,7 +213,7 @@ TEST(MendWinding, TakesTheMajorityWhereNoSideIsInside) {
     EXPECT_EQ(1u, mended.report.by_majority_count);
     EXPECT_EQ(0u, mended.report.conflict_count_after);
     EXPECT_EQ(1, shareRight(terrain, damaged, mended));
-    // No information determines that this one is inside out.
+    // There is no information from which the library could tell that this terrain is inside out.
     EXPECT_EQ(0u, mend(turnedWhole(terrain, true).view()).report.turned_count);
 }
 
@@ -250,7 +250,7 @@ TEST(MendWinding, TurnsEachLeafTowardItsOwnNormals) {
     EXPECT_EQ(50u, mended.report.by_normals_count);
     EXPECT_EQ(50u, mended.report.turned_count);
     for (std::size_t f = 0; f < damaged.faceCount(); ++f) EXPECT_EQ(f / 2 % 2 == 0, mended.turned[f] != 0) << f;
-    // Alternating normals give no majority for either side.
+    // Alternating normals have no majority for either side.
     for (std::size_t v = 0; v < normals.size(); ++v) normals[v].z *= v % 2 == 0 ? 1.0F : -1.0F;
     EXPECT_EQ(50u, mend(with_normals).report.small_count);
     EXPECT_EQ(50u, mend(with_normals, {.use_normals = false}).report.small_count);
@@ -333,7 +333,7 @@ TEST(MendWinding, MendsGridsWithEdgesOfFourFacesAndHoles) {
         for (const double share : {0.0, 0.3, 1.0}) {
             const Bodies damaged = turnedByChance(body.bodies, share, 1);
             const Mended mended = mend(damaged.view());
-            // From islands of two and three faces, and from an edge that had four faces and lost two.
+            // Conflicts of islands of two and three faces, and of an edge that had four faces and lost two.
             EXPECT_LE(mended.report.conflict_count_after, 4u) << name << ' ' << share;
             EXPECT_GE(shareRight(body.bodies, damaged, mended), 0.99) << name << ' ' << share;
         }

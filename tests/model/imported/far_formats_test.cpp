@@ -135,7 +135,7 @@ TEST_P(FarFormats, KeptCoordinatesAreRoundedAndSaidToBe) {
     const Made made = make(GetParam(), {sheet(kSide, kFar)}, true);
     EXPECT_FALSE(made.hasOffset());
     EXPECT_EQ(length(made.at(0, 0) - kFar), 0);
-    EXPECT_TRUE(made.warns("without --keep-coordinates"));
+    EXPECT_TRUE(made.warns("omit --keep-coordinates"));
     EXPECT_FALSE(made.warns("no effect"));
     EXPECT_TRUE(make(GetParam(), {sheet(kSide, {0, 0, 0})}, true).warns("--keep-coordinates has no effect"));
 }

@@ -470,7 +470,7 @@ TEST(Obj, WhatGlTfCannotHoldIsMendedAndSaid) {
     const TempFolder folder;
     const ObjModel made =
         make(folder, "v nan 0 0\nv 1e400 0 0\nv 0 1 0\nvt inf 0\nvt 1e60 0\nvt 0 1\nf 1/1 2/2 3/3\nf 1 2\n");
-    EXPECT_TRUE(mentions(made.report.warnings, "invalid numbers"));
+    EXPECT_TRUE(mentions(made.report.warnings, "invalid values"));
     EXPECT_TRUE(mentions(made.report.warnings, "not finite"));
     EXPECT_TRUE(mentions(made.report.warnings, "fewer than 3 corners"));
     for (const Vec3& p : made.vec3("POSITION")) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));

@@ -129,7 +129,7 @@ std::string bashCompletion(const ToolTable& tool) {
     for (const Command& command : tool.commands) cases += bashCases(command);
     std::vector<std::string> first = commandNames(tool);
     for (const std::string& name : allNames(tool.options)) first.push_back(name);
-    return R"(# Completion of tspace for bash. Made from the table of options of the tool.
+    return R"(# Completion of tspace for bash. Generated from the tool's table of options.
 
 # _tspace_words PREFIX WORDS BEGINNING
 _tspace_words() { mapfile -t COMPREPLY < <(compgen -P "$1" -W "$2" -- "$3"); }
@@ -169,8 +169,8 @@ std::string zshCompletion(const ToolTable& tool) {
         cases += "        " + command.name + ")\n            _arguments -s -S" + zshArguments(command.options) + "\n" +
                  "            ;;\n";
     }
-    return "#compdef tspace\n# Completion of tspace for zsh. Made from the table of options of the tool.\n\n"
-           "_tspace() {\n    local -a commands\n    commands=(\n" +
+    return "#compdef tspace\n# Completion of tspace for zsh. Generated from the tool's table of options.\n\n_tspace() "
+           "{\n    local -a commands\n    commands=(\n" +
            commands +
            "    )\n    if ((CURRENT == 2)); then\n        _alternative 'commands:command:{_describe command commands}' "
            "'options:option:(" +
@@ -181,7 +181,7 @@ std::string zshCompletion(const ToolTable& tool) {
 }
 
 std::string fishCompletion(const ToolTable& tool) {
-    std::string script = "# Completion of tspace for fish. Made from the table of options of the tool.\n\n";
+    std::string script = "# Completion of tspace for fish. Generated from the tool's table of options.\n\n";
     for (const Command& command : tool.commands) {
         script += "complete -c tspace -n __fish_use_subcommand -f -a " + command.name + " -d " +
                   fishQuoted(command.summary) + "\n";

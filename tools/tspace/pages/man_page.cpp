@@ -41,7 +41,7 @@ std::string filled(const std::string& text) {
 }
 
 std::string title(const std::string& name, const std::string& date) {
-    return ".\\\" Made from the table of options of the tool.\n.TH " + upperCase(escaped(name)) + " 1 " + date +
+    return ".\\\" Generated from the tool's table of options.\n.TH " + upperCase(escaped(name)) + " 1 " + date +
            " \"tspace " TSPACE_VERSION "\" \"tspace\"\n";
 }
 

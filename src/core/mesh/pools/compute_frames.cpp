@@ -394,7 +394,8 @@ Result<PoolFrames> computePool(PoolComputation& state) {
         corner_count += cornersOfTriangles(primitive);
     }
     if (corner_count > kMaxCorners) {
-        return Error{ErrorCode::tooLarge, "the primitives that share these vertices have more than 2^31-1 corners"};
+        return Error{ErrorCode::tooLarge,
+                     "the primitives that share these vertices have more than 2^31-1 corners in total"};
     }
     const Allocator* allocator = state.options.execution.allocator;
     if (state.generates_tangents) state.tangent_buffer = Buffer<Vec4>(allocator, corner_count);
@@ -418,10 +419,10 @@ Result<PoolFrames> computePool(const PoolView& pool, std::span<const PrimitiveGe
 Error checkPool(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
                 std::span<const FramesReport> reports) {
     const std::size_t count = pool.positions.count;
-    if (count > kMaxCorners) return {ErrorCode::tooLarge, "more than 2^31-1 vertices"};
+    if (count > kMaxCorners) return {ErrorCode::tooLarge, "the vertex pool has more than 2^31-1 vertices"};
     if (reports.size() != primitives.size()) {
         return {ErrorCode::countMismatch,
-                std::to_string(primitives.size()) + " primitives but " + std::to_string(reports.size()) + " reports"};
+                std::to_string(primitives.size()) + " primitives, but " + std::to_string(reports.size()) + " reports"};
     }
     if (!pool.normals.empty() && pool.normals.count != count) {
         return {ErrorCode::countMismatch, "the pool must have as many normals as positions"};
@@ -430,7 +431,7 @@ Error checkPool(const PoolView& pool, std::span<const PrimitiveGeometry> primiti
         return {ErrorCode::countMismatch, "the pool must have as many UVs as positions"};
     }
     if (!pool.kept_tangents.empty() && (pool.kept_tangents.size() != count || pool.normals.empty())) {
-        return {ErrorCode::countMismatch, "kept tangents require as many normals and positions"};
+        return {ErrorCode::countMismatch, "the pool must have a normal and a kept tangent for each position"};
     }
     return {ErrorCode::ok, {}};
 }

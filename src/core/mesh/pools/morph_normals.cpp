@@ -48,7 +48,7 @@ class PoolNormals {
             if (Result<Done> valid = validate(viewInPool(pool_, primitives_[p])); !valid) return valid;
             if (indices_.size() + corners.size() > kMaxCorners) {
                 return Error{ErrorCode::tooLarge,
-                             "the primitives that share these vertices have more than 2^31-1 corners"};
+                             "the primitives that share these vertices have more than 2^31-1 corners in total"};
             }
             const std::size_t first = indices_.size();
             indices_.insert(indices_.end(), corners.begin(), corners.end());

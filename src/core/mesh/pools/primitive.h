@@ -46,7 +46,7 @@ struct VertexMend {
 /// Repairs of one primitive. Invalid values are repaired at every vertex of the pool, listed or not.
 struct Mends {
     std::vector<VertexMend> vertices = {};  ///< ascending
-    /// Its signs stay inverted, and recomputed tangents get inverted signs too.
+    /// The signs remain inverted, and recomputed tangents get inverted signs too.
     bool inverted_signs = false;
 
     friend bool operator==(const Mends&, const Mends&) = default;

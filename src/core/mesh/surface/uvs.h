@@ -23,7 +23,7 @@ struct UvIslands {
 UvIslands findUvIslands(std::span<const std::uint32_t> corners, std::span<const Vec3> positions,
                         std::span<const Vec2> uvs);
 
-/// Returns twice the signed area with v upwards. In double, so that finite float UVs never overflow and float
+/// Returns twice the signed area with v upward. In double, so that finite float UVs never overflow and float
 /// differences are exact.
 double signedUvArea(const Vec2& a, const Vec2& b, const Vec2& c, bool v_runs_down);
 
@@ -40,7 +40,7 @@ struct UvMatrix {
 };
 
 /// Returns the matrix whose frames are those of rotation * scale (KHR_texture_transform). A positive rotation (radians)
-/// rotates (1, 0) towards (0, -1), which is counter-clockwise if v increases downwards.
+/// rotates (1, 0) toward (0, -1), which is counter-clockwise if v increases downward.
 ///
 /// Scales that preserve directions are removed, so a matrix that does not change frames is exactly the identity:
 /// without a rotation the magnitudes of both scales, with one the common factor of both axes. Angles within 1e-6 of a

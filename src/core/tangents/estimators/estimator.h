@@ -4,7 +4,7 @@
 //
 // fast   two_weights_kernel.h: two weighted means of the same vectors, blended by the angle between them
 // best   quadratic_recovery_kernel.h: a quadratic map from UVs to the tangent plane, fitted to the edges; then
-//        refinement steps towards frames that reproduce the edges by interpolation
+//        refinement steps toward frames that reproduce the edges by interpolation
 //
 // Each is implemented once, and compiled for several CPUs with equal bits.
 #pragma once

@@ -119,7 +119,7 @@ class Fan {
         return kept;
     }
 
-    /// Path i leaves towards node ends_[2 * i], where a triangle may follow, and arrives from ends_[2 * i + 1]; nodes
+    /// Path i leaves toward node ends_[2 * i], where a triangle may follow, and arrives from ends_[2 * i + 1]; nodes
     /// are combined with kTopBit, and 0 means no path. A fan with ManyPaths is {1, 0, its number, count of paths}; a
     /// complex one is kComplex.
     Four ends_{};

@@ -415,7 +415,7 @@ void AtomicOutput::makeFolders(const Path& target) {
                 work.forget(created);
             }
         }
-        if (error) failToWrite(target, "cannot make its folder: " + error.message());
+        if (error) failToWrite(target, "cannot create its folder: " + error.message());
     }
 }
 
@@ -471,10 +471,11 @@ void AtomicOutput::leaveSharedFiles() {
         });
         if (kindOf(file.target) == PathKind::nothing || !(file.is_shared || is_of_other || is_read_by_other)) continue;
         if (!hasBytes(file.target, readFile(file.temporary)))
-            failToWrite(file.target, is_read_by_other ? "it is an input of another model in this run; choose another "
-                                                        "output folder"
-                                     : is_of_other    ? "this run has already written a different file with this name"
-                                                      : "a different file with this name was created in the meantime");
+            failToWrite(file.target,
+                        is_read_by_other ? "it is an input of another model in this run; choose another "
+                                           "output folder"
+                        : is_of_other    ? "this run has already written a different file with this name"
+                                      : "another program has created a different file with this name during the run");
         leave(file);
         inRun(file.target, [&](RunFile& known) { known.owner = file.call; });
     }

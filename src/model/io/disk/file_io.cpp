@@ -102,7 +102,7 @@ Path resolveUri(const Path& in_folder, std::string_view uri, bool allow_external
     } catch (const fs::filesystem_error& failure) {
         // Too long names, or circular links.
         failFile(ErrorCode::invalidFile,
-                 "the URI " + inQuotes(uri, 200) + " can be no file: " + failure.code().message(), place);
+                 "the URI " + inQuotes(uri, 200) + " cannot name a file: " + failure.code().message(), place);
     }
     if (!allow_external && !isBelow(root, file)) {
         refuseUri(uri, std::string("leads outside the folder of the model through a symbolic link") + kFollowed, place);
