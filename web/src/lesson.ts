@@ -17,7 +17,7 @@ const sections: readonly (readonly [RegExp, string])[] = [
 /** Returns whether the lesson is next to the page. Pages created by the tool may be anywhere, without the lesson. */
 const isBeside = (): boolean => pageOrigin() === null;
 
-export const lessonLink = (): HTMLElement | false => isBeside() && el("a", { class: "lesson", href: "learn.html", title: "A lesson with interactive figures" }, "What is a tangent?");
+export const lessonLink = (): HTMLElement | false => isBeside() && el("a", { class: "lesson", href: "learn.html", title: "A lesson with interactive figures" }, "Tangents explained");
 
 /** Returns a link to the figure that explains a kind of finding. */
 export function figureLink(code: string): HTMLElement | false {

@@ -97,7 +97,7 @@ test("findings of a kind are one entry, shown together and one after another", {
     const codes = await tab.locator(".finding").evaluateAll((items) => items.map((item) => `${item.className} ${item.dataset.code}`));
     assert.equal(new Set(codes).size, codes.length, codes.join());
     const signs = tab.locator(".finding[data-code=signsInverted]"), details = signs.locator("xpath=following-sibling::*[1]");
-    assert.match(await signs.textContent(), /44 places/);
+    assert.match(await signs.textContent(), /44 locations/);
     const eye = () => tab.evaluate(() => window.tspaceView.views.stage.viewport.camera.position.toArray());
     await drawn(tab);
     const before = await eye();

@@ -16,7 +16,7 @@ test("each variant of a file is shown with its materials, from where the eye is,
     const names = json.extensions.KHR_materials_variants.variants.map(({ name }) => name);
     assert.equal(await openFile(tab, path, { others: named(path) }), "ready");
     const choice = tab.locator(".look").getByLabel("Variant");
-    assert.deepEqual(await choice.locator("option").allTextContents(), ["none (bind pose)", ...names]);
+    assert.deepEqual(await choice.locator("option").allTextContents(), ["none (materials of the file)", ...names]);
     const own = await materials(tab), before = await pixelsOf(tab), place = await eye(tab);
     for (const i of names.keys()) {
       await choice.selectOption(String(i));
@@ -56,7 +56,7 @@ test("a file without variants has no such choice, and one whose mappings name no
     });
     assert.equal(await settled(tab), "ready", await tab.locator(".findings").textContent());
     const own = await materials(tab), choice = tab.locator(".look").getByLabel("Variant");
-    assert.deepEqual(await choice.locator("option").allTextContents(), ["none (bind pose)", "<b>one</b>", "variant 1"]);
+    assert.deepEqual(await choice.locator("option").allTextContents(), ["none (materials of the file)", "<b>one</b>", "variant 1"]);
     await choice.selectOption("0");
     await shown(tab, 0);
     assert.deepEqual(await materials(tab), own);

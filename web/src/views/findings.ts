@@ -46,7 +46,7 @@ export class FindingsView {
 
   constructor(private choices: Choices) {
     this.#filter.addEventListener("input", () => this.#applyFilter());
-    this.element.append(el("h2", {}, "What is wrong"), this.#list, el("h2", {}, "Which method made the tangents"), this.#verdict);
+    this.element.append(el("h2", {}, "What is wrong"), this.#list, el("h2", {}, "Method of the tangents"), this.#verdict);
     this.wait("Open a model to see its findings.");
   }
 
@@ -87,7 +87,7 @@ export class FindingsView {
       const n = file.counts[severity];
       summary.append(el("span", { class: `badge ${severity}${n === 0 ? " none" : ""}` }, plural(n, severity)));
     }
-    const looked = file.image ? mapText(file.image) : `Examined: ${plural(file.primitives, "primitive")}, ${count(file.primitivesWithTangents)} with tangents; ${file.normalMaps === 0 ? "no normal map." : `${plural(file.normalMaps, "normal map")}; the relief of ${count(file.normalMapsWithGreen)} shows which way green points.`}`;
+    const looked = file.image ? mapText(file.image) : `Examined: ${plural(file.primitives, "primitive")}, ${count(file.primitivesWithTangents)} with tangents; ${file.normalMaps === 0 ? "no normal map." : `${plural(file.normalMaps, "normal map")}; the relief of ${count(file.normalMapsWithGreen)} shows the direction of green.`}`;
     this.#filter.value = "";
     replaceChildren(this.#list, summary, isFixed && el("p", { class: "fine after" }, "These are the findings of the fixed file."), file.findings.length >= kFilterFrom && this.#filter);
     if (groups.length === 0) this.#list.append(el("p", { class: "fine" }, "No errors were found."));
@@ -126,7 +126,7 @@ export class FindingsView {
     const button = el("button", { class: `finding ${severity}`, type: "button", "aria-expanded": "false", "data-code": code },
       el("span", { class: "effect" }, first.effect),
       el("span", { class: "message" }, isOne ? causeOf(first) : first.summary),
-      el("span", { class: "quiet" }, [isOne ? placeOf(first) : `${plural(findings.length, "place")}, the first: ${placeOf(first)}`, sure].filter(Boolean).join("; ")),
+      el("span", { class: "quiet" }, [isOne ? placeOf(first) : `${plural(findings.length, "location")}, the first: ${placeOf(first)}`, sure].filter(Boolean).join("; ")),
       el("span", { class: "code" }, isOne && first.place !== "" ? `${code} ${first.place}` : code));
     button.addEventListener("click", () => this.#toggle(button, details, findings));
     return [button, details];
@@ -147,7 +147,7 @@ export class FindingsView {
   /** Returns buttons that step through the locations. */
   #steps(findings: Finding[]): HTMLElement {
     let at = -1;
-    const text = el("p", { class: "quiet step", "aria-live": "polite" }, `${plural(findings.length, "place")}, all of them shown`);
+    const text = el("p", { class: "quiet step", "aria-live": "polite" }, `${plural(findings.length, "location")}, all of them shown`);
     const go = (step: number) => {
       at = (at + step + (at < 0 && step < 0 ? 1 : 0) + findings.length) % findings.length;
       const finding = findings[at];
@@ -173,7 +173,7 @@ function mapText({ width, height, content, green, greenConfidence }: NonNullable
 }
 
 /** Leading clause of messages that start with the symptom, which the effect of the finding already describes. */
-const kSymptom = /^(bumps|the relief|the shading|the surface (has|looks)|the texture looks|the whole model is lit|parts (of the mesh )?are|triangles have dark spots|a seam is visible)\b[^:]*: /;
+const kSymptom = /^(bumps|the relief|the shading|the surface (has|looks)|the texture looks|the whole model is lit|parts (of the mesh )?are|triangles have dark spots|(a seam|an edge) is visible)\b[^:]*: /;
 const causeOf = ({ message }: Finding): string => message.replace(kSymptom, "");
 
 const firstVertices = ({ vertices }: Finding): HTMLElement | false => vertices.length > 0 && el("p", { class: "quiet" }, `First at vertices ${vertices.join(", ")}.`);

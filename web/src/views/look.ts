@@ -75,7 +75,7 @@ export class LookView {
   /** Offers a choice of the file's variants, if any. `chosen`: index of the current variant, or -1. */
   offerVariants(names: string[], chosen = -1): void {
     this.#variants.hidden = names.length === 0;
-    const variants = names.length > 0 && select("Variant", [["-1", "none (bind pose)"], ...names.map((name, i) => [String(i), name] as const)], String(chosen), (value) => this.vary(Number(value))).element;
+    const variants = names.length > 0 && select("Variant", [["-1", "none (materials of the file)"], ...names.map((name, i) => [String(i), name] as const)], String(chosen), (value) => this.vary(Number(value))).element;
     replaceChildren(this.#variants, variants);
   }
 

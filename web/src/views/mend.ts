@@ -276,7 +276,7 @@ function verdictOf(mended: Mended, before: CheckReport | null): { what: string; 
     file.primitives.some(({ windingMended }) => windingMended > 0) && "triangles",
   ].filter(Boolean);
   if (file.primitives.some(changesTangents)) return { what: `Done: ${sizes}`, findings, isGood: !worse, isWorse: worse };
-  return { what: `No tangents changed${others.length > 0 ? `; ${others.join(" and ")} have` : ""}: ${sizes}`, findings, isGood: others.length > 0 && !worse, isWorse: worse };
+  return { what: `The tangents are unchanged${others.length > 0 ? `; ${others.join(" and ")} changed` : ""}: ${sizes}`, findings, isGood: others.length > 0 && !worse, isWorse: worse };
 }
 
 /** Returns words of a command line that are not broken at hyphens. */

@@ -37,7 +37,7 @@ export class MotionView {
     const cameras = motion.cameras.map(({ name }, i) => [String(i), name || `camera ${i}`] as const);
     const moving = el("div", { class: "row", hidden: true }, this.#play, this.#time);
     replaceChildren(this.#rows,
-      clips.length > 0 && select("Animation", [["", "none (bind pose)"], ...clips] as const, "", (value) => {
+      clips.length > 0 && select("Animation", [["", "none (pose of the file)"], ...clips] as const, "", (value) => {
         moving.hidden = value === "";
         this.#choose(value === "" ? null : Number(value));
       }).element,
