@@ -16,7 +16,7 @@ async function fix(tab) {
 
 test("the first view says what is wrong, stands on it, and one click fixes it everywhere", { skip: missing }, async () => {
   await withPage(async (tab) => {
-    assert.match(await tab.locator("h1").textContent(), /^Drop a model: see where its bumps are lit inside out, and fix it\. Nothing is uploaded\.$/);
+    assert.match(await tab.locator("h1").textContent(), /^Drop a model to see where its bumps look like dents, and fix it\. Nothing is uploaded\.$/);
     assert.match(await seen(tab), /^Bumps look like dents on a part of the model/);
     assert.match(await tab.locator(".fix button").textContent(), /^Fix it.*recompute the wrong tangents.*Your file is not changed/);
     assert.deepEqual(await badges(tab), ["1 error", "0 warnings", "0 notes"]);

@@ -80,7 +80,7 @@ test("what is no model, or lacks its files, gets a sentence", { skip: missing },
 test("a .gltf and its files may come one after the other, and what is missing is listed", { skip: missing }, async () => {
   await withPage(async (tab) => {
     assert.equal(await drop(tab, at("box", "crate.gltf")), "failed");
-    assert.match(await tab.locator(".failure").textContent(), /crate\.bin, maps\/side 0\.png, maps\/side 1\.png\. Drop them, too/);
+    assert.match(await tab.locator(".failure").textContent(), /crate\.bin, maps\/side 0\.png, maps\/side 1\.png\. Drop them together with the model/);
     assert.equal(await drop(tab, at("box", "crate.bin")), "ready");
     assert.match(await tab.locator(".remark").textContent(), /not here: maps\/side 0\.png, maps\/side 1\.png/);
     assert.equal(await drop(tab, at("box", "maps", "side 0.png"), at("box", "maps", "side 1.png")), "ready");
