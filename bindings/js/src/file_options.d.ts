@@ -23,7 +23,8 @@ export interface GenerateFileOptions {
   /** Recompute existing tangents. */
   overwrite?: boolean;
   /**
-   * Add missing tangents, keep correct ones, and repair wrong ones, which are not finite, not of unit length, not orthogonal to the normal, have a wrong sign, or do not follow the UVs.
+   * Add missing tangents, keep correct ones, and repair wrong ones, which are not finite, not of unit length, not
+   * orthogonal to the normal, have a wrong sign, or do not follow the UVs.
    */
   repair?: boolean;
   /** Remove tangents that no material needs, including their buffer data. */
