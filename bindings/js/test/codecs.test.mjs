@@ -189,7 +189,7 @@ describe("normal maps", { skip: missing }, () => {
     assert.match(why({ encodeImage: () => domes({ size: 64, bits: 16 }) }), /differ from its input/);
     assert.match(why({ encodeImage: () => domes({ bits: 16, channels: 4 }) }), /channels/);
     assert.match(why({ encodeImage: () => new Uint8Array(9) }), /did not return a PNG/);
-    assert.match(why({ decodeImage: () => null }), /nothing/);
+    assert.match(why({ decodeImage: () => null }), /no pixels/);
     assert.match(why({ decodeImage: () => ({ width: 1, height: 1, rgba: new Uint8Array(4) }) }), /1 x 1/);
     refuses("wrongType", [/rgba/], () => why({ decodeImage: () => ({ width: 128, height: 128 }) }));
     refuses("countMismatch", [/pixels/], () => why({ decodeImage: () => ({ width: 128, height: 128, rgba: new Uint8Array(3) }) }));
