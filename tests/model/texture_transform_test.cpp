@@ -97,7 +97,7 @@ TEST(TextureTransform, IsSaidInANote) {
     };
     const Json turn = {{"rotation", 1}}, mirror = {{"scale", {-1, 1}}}, stretch = {{"scale", {2, 3}}};
     EXPECT_EQ(notes(turn, TextureTransform::apply),
-              std::vector<std::string>{"KHR_texture_transform turns normalTexture of material 0: the tangents follow "
+              std::vector<std::string>{"KHR_texture_transform rotates normalTexture of material 0: the tangents follow "
                                        "the transformed UVs"});
     EXPECT_EQ(notes(mirror, TextureTransform::ignore),
               std::vector<std::string>{"KHR_texture_transform mirrors normalTexture of material 0: as requested, the "
