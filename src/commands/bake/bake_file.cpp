@@ -119,8 +119,8 @@ void noteNoise(FileBaking& state) {
     mesh.indices = high.corners;
     if (const double noise = notedNoise(mesh, state.models.high.position_step); noise > 0)
         state.report.warnings.push_back(
-            "the positions of the high poly are noisy, by " + shortNumber(noise) +
-            " of an edge length, and the map shows this noise; use --denoise auto to bake normals without it");
+            "the positions of the high poly are noisy (" + shortNumber(noise) +
+            " of an edge length), and the map shows this noise; use --denoise auto to bake normals without it");
 }
 
 // -- 3. triangles --
@@ -190,17 +190,18 @@ void findCause(FileBaking& state, const BakedFile& file, const LowPart& part) {
     constexpr std::uint64_t kFew = 50;  // "few" means fewer than one in 50
     if (map.missed_count > map.hit_count) {
         add(std::to_string(map.missed_count) + " of " + std::to_string(map.missed_count + map.hit_count) +
-                " texels of " + pathInQuotes(file.path) + " hit no front face of it" +
+                " texels of " + pathInQuotes(file.path) + " did not hit any front face of the high poly" +
                 (map.hit_count == 0 ? ", so no map was written" : ""),
             causeOfMisses(part.view(), state.models.high.view(), *state.shared.surface, map.error.reach));
     } else if (2 * map.error.inward_count > map.error.point_count) {
-        add("its normals point inwards, opposite to its faces, at " + std::to_string(map.error.inward_count) + " of " +
-                std::to_string(map.error.point_count) + " points",
+        add("the normals of the high poly point inward, opposite to its faces, at " +
+                std::to_string(map.error.inward_count) + " of " + std::to_string(map.error.point_count) + " points",
             "");
     } else if (kFew * map.missed_count > map.hit_count) {
         const std::string why = otherPlaceOf(part.view(), state.models.high.view(), *state.shared.surface);
         if (!why.empty())
-            add(std::to_string(map.missed_count) + " texels of " + pathInQuotes(file.path) + " hit no front face of it",
+            add(std::to_string(map.missed_count) + " texels of " + pathInQuotes(file.path) +
+                    " did not hit any front face of the high poly",
                 why);
     }
 }

@@ -263,7 +263,7 @@ std::string difference(const ExplainedReading& asked, const ExplainedReading& be
         add(best.frames == "file"
                 ? "the tangents in the file"
                 : "tangents that differ from those in the file (tspace generate --overwrite --method " + best.frames +
-                      " makes them)");
+                      " writes them)");
     }
     if (best.reading.bitangent != asked.reading.bitangent)
         add(best.reading.bitangent == BitangentPlace::perVertex ? "a bitangent per vertex, as in three.js and Godot"
@@ -277,10 +277,11 @@ std::string difference(const ExplainedReading& asked, const ExplainedReading& be
 std::string raysPhrase(const RayOptions& rays) {
     const bool is_nearest = rays.target == RayTarget::nearest;
     const std::string which = is_nearest ? ", nearest" : ", outermost";
-    if (!rays.skew.texels.empty()) return "painted directions" + which;
+    if (!rays.skew.texels.empty()) return "directions from the skew map" + which;
     switch (rays.directions) {
         case RayDirections::automatic:
-            return (is_nearest ? "rays that bend at hard edges" : "a cage that bends at hard edges") + which;
+            return (is_nearest ? "rays that are averaged at hard edges" : "a cage that is averaged at hard edges") +
+                   which;
         case RayDirections::averaged:
             return (is_nearest ? "averaged rays" : "an averaged cage") + which;
         case RayDirections::normals:
