@@ -80,8 +80,8 @@ ImportLimits limitsFor(std::uint64_t size, const FileOptions& options) {
                               : std::min(options.import_max_memory_bytes, kAnyFile + kPerByte * size);
     limits.processor_seconds = options.import_max_seconds != 0 ? options.import_max_seconds : seconds;
     limits.reads_anywhere = options.allow_external;
-    // The wall-clock limit is larger than the processor limit, because other programs may use the processors too.
-    limits.seconds = options.import_max_seconds != 0 ? options.import_max_seconds : 2 * seconds;
+    // The wall-clock limit only ends an importer that waits. Where 20 processes share two cores, it gets a tenth of one.
+    limits.seconds = options.import_max_seconds != 0 ? options.import_max_seconds : 10 * seconds;
     return limits;
 }
 
@@ -91,9 +91,13 @@ void checkEnd(const ImportResult& result, const ImportLimits& limits) {
     switch (result.end) {
         case ImportEnd::done:
             return;
-        case ImportEnd::outOfTime:
+        case ImportEnd::outOfProcessorTime:
             why = "the importer was stopped after " + std::to_string(limits.processor_seconds) +
                   " s of CPU time; use --import-seconds to allow more";
+            break;
+        case ImportEnd::outOfTime:
+            why = "the importer was stopped after " + std::to_string(limits.seconds) +
+                  " s; use --import-seconds to allow more";
             break;
         case ImportEnd::outOfSpace:
             why = "the importer was stopped because its result exceeded the size limit";

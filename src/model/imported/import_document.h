@@ -27,10 +27,11 @@ struct ImportLimits {
 
 enum class ImportEnd {
     done,
-    refused,     ///< exited with an error; `messages` contains the reason
-    crashed,     ///< terminated by a signal
-    outOfTime,   ///< stopped: time limit exceeded
-    outOfSpace,  ///< stopped: the result exceeds its memory limit
+    refused,             ///< exited with an error; `messages` contains the reason
+    crashed,             ///< terminated by a signal
+    outOfProcessorTime,  ///< stopped: limit of processor time exceeded
+    outOfTime,           ///< stopped: limit of wall-clock time exceeded
+    outOfSpace,          ///< stopped: the result exceeds its memory limit
 };
 
 struct ImportResult {

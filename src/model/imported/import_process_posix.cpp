@@ -218,7 +218,9 @@ ImportResult runImporter(const std::string& program, const std::string& path, bo
         result.end = ImportEnd::outOfTime;
     } else if (WIFSIGNALED(child.status())) {
         const int signal = WTERMSIG(child.status());
-        result.end = signal == SIGXCPU || signal == SIGALRM ? ImportEnd::outOfTime : ImportEnd::crashed;
+        result.end = signal == SIGXCPU   ? ImportEnd::outOfProcessorTime
+                     : signal == SIGALRM ? ImportEnd::outOfTime
+                                         : ImportEnd::crashed;
     } else if (WEXITSTATUS(child.status()) != 0) {
         result.end = ImportEnd::refused;
     }
