@@ -309,12 +309,13 @@ TEST_F(BakeCommand, WhatIsWrongIsOneLineAndNothingIsWritten) {
 
 TEST_F(BakeCommand, AnErrorNamesTheFileThatItIsAbout) {
     folder.write("broken.glb", "glTF and no more");
+    folder.write("broken.png", "\x89PNG and no more");
     for (const auto& [arguments, begins] :
          {std::pair("bake broken.glb --high high.obj -o n.png --size 32", "tspace: broken.glb: "),
           {"bake low.obj --high broken.glb -o n.png --size 32", "tspace: broken.glb: "},
           {"bake low.obj --high high.obj --cage broken.glb -o n.png --size 32", "tspace: broken.glb: "},
           {"bake low.obj --high high.obj --cage high.obj -o n.png --size 32", "tspace: high.obj: "},
-          {"map-error broken.glb low.obj --high high.obj", "tspace: broken.glb: "},
+          {"map-error broken.png low.obj --high high.obj", "tspace: broken.png: "},
           {"map-error first.png broken.glb --high high.obj", "tspace: broken.glb: "},
           {"map-error first.png low.obj --high broken.glb", "tspace: broken.glb: "}}) {
         const ToolRun run = runTool(folder, arguments);
