@@ -122,7 +122,7 @@ Result<FlippedImage> flipGreen(std::span<const std::uint8_t> image, const FlipGr
 
 /// Like flipGreen, from file to file; `output` may be `input`. If no format is requested, the extension of the output
 /// decides: .png, .jpg, .jpeg, .webp, .ktx2 or .dds. The output is written atomically. Further errors: cannotRead,
-/// cannotWrite; unsupportedFile for another extension.
+/// cannotWrite; invalidOption for an extension that is neither .png nor one of the format of the input.
 Result<FlipGreenReport> flipGreenFile(const std::string& input, const std::string& output,
                                       const FlipGreenOptions& options = {});
 
