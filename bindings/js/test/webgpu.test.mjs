@@ -105,10 +105,10 @@ describe("GpuFrames without a GPU", () => {
     const good = { positions: buffer(192), normals: buffer(192), tangents: buffer(864) };
     frames.encode(device.createCommandEncoder(), good);
     for (const [changed, pattern] of [
-      [{ positions: buffer(188) }, /188 bytes, 192 are needed/], [{ tangents: buffer(860) }, /864 are needed/], [{ normals: null }, /normals are missing/],
-      [{ positions: { buffer: buffer(999), stride: 8 } }, /take 12/], [{ positions: { buffer: buffer(999), offset: 2 } }, /multiples of 4/],
+      [{ positions: buffer(188) }, /188 bytes, but 16 elements need 192/], [{ tangents: buffer(860) }, /elements need 864/], [{ normals: null }, /normals are missing/],
+      [{ positions: { buffer: buffer(999), stride: 8 } }, /have 12 bytes/], [{ positions: { buffer: buffer(999), offset: 2 } }, /multiples of 4/],
       [{ positions: { buffer: buffer(999), format: "half" } }, /must be one of float32x3, snorm16x3/], [{ tangents: buffer(864, 8) }, /STORAGE/],
-      [{ tangent: buffer(864) }, /known names are/], [{ deform: { buffer: buffer(16), morph: { count: 2, weights: 0, deltas: 8 } } }, /ends at 16/],
+      [{ tangent: buffer(864) }, /known names are/], [{ deform: { buffer: buffer(16), morph: { count: 2, weights: 0, deltas: 8 } } }, /has only 16/],
       [{ deform: { buffer: buffer(16), skin: { joints: 2, weights: 0, matrices: 8 } } }, /multiple of 4/],
     ]) assert.throws(() => frames.encode(device.createCommandEncoder(), { ...good, ...changed }), pattern);
     await assert.rejects(GpuFrames.create(device, {}), /a Plan, or the result of planBuffers/);
