@@ -37,14 +37,17 @@ std::string viewsHtml(const std::string& path, const FileOptions& file, const st
             options.height = kViewHeight;
             options.yaw_deg = yaw_deg;
             const ModelPicture model(drawn, show, {}, {}, &textures);
+            const Legend legend = model.legend();
+            const std::uint32_t rows = legendRows(legend, options.width, options.height);
             options.legend = false;
-            if (isBlank(drawModel(model, options).image)) {
+            options.height -= rows;
+            RgbImage image = drawModel(model, options).image;
+            if (isBlank(image)) {
                 figures += noFigureHtml(caption + ", " + words + ": nothing is visible from this side.");
                 return;
             }
-            options.legend = true;
-            figures += figureHtml(encodePicture(drawModel(model, options).image), kViewWidth, kViewHeight,
-                                  caption + ", " + words);
+            addLegend(legend, rows, image);
+            figures += figureHtml(encodePicture(image), kViewWidth, kViewHeight, caption + ", " + words);
         };
         add(RenderShow::lit, kYawDeg, "lit");
         add(RenderShow::lit, kBehindDeg, "lit, from behind");

@@ -12,6 +12,7 @@
 #include "commands/pages/place_pictures.h"
 #include "commands/shared/picture/colors.h"
 #include "core/base/vec_math.h"
+#include "maps/rays/map_surfaces.h"
 
 namespace tspace {
 namespace {
@@ -153,18 +154,14 @@ class PairSearch {
             for (std::size_t k = 0; k < 3; ++k) sum = sum + toDouble(mesh.positions[mesh.corners[3 * i + k]]);
             return mesh.to_world.point((1.0 / 3) * sum);
         };
-        DVec3 least{INFINITY, INFINITY, INFINITY}, most{-INFINITY, -INFINITY, -INFINITY};
-        const std::size_t count = mesh.corners.size() / 3;
-        for (std::size_t i = 0; i < count; ++i) {
-            const DVec3 c = center(i);
-            least = {std::min(least.x, c.x), std::min(least.y, c.y), std::min(least.z, c.z)};
-            most = {std::max(most.x, c.x), std::max(most.y, c.y), std::max(most.z, c.z)};
-        }
-        const DVec3 middle = center(triangle), size = most - least;
+        std::vector<DVec3> centers(mesh.corners.size() / 3);
+        PositionBox box;
+        for (std::size_t i = 0; i < centers.size(); ++i) box.add(centers[i] = center(i));
+        const DVec3 size = box.most - box.least;
         const double radius_squared = dot(size, size) / (7.0 * 7.0);
         std::vector<std::size_t> near;
-        for (std::size_t i = 0; i < count; ++i) {
-            const DVec3 way = center(i) - middle;
+        for (std::size_t i = 0; i < centers.size(); ++i) {
+            const DVec3 way = centers[i] - centers[triangle];
             if (i == triangle || dot(way, way) <= radius_squared) near.push_back(i);
         }
         return near;

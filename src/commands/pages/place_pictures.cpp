@@ -10,6 +10,7 @@
 #include "commands/render/model_picture.h"
 #include "commands/shared/picture/colors.h"
 #include "core/base/vec_math.h"
+#include "maps/rays/map_surfaces.h"
 #include "model/io/file_error.h"
 #include "model/read/read_scene.h"
 
@@ -33,15 +34,14 @@ ViewAngles anglesOf(DVec3 direction) {
     return {kDegrees * (direction.x < 0 ? -yaw : yaw), kDegrees * (direction.y < 0 ? -pitch : pitch)};
 }
 
-/// Returns the diagonal of the bounding box.
-double sizeOf(std::span<const DVec3> points) {
-    DVec3 least{INFINITY, INFINITY, INFINITY}, most{-INFINITY, -INFINITY, -INFINITY};
-    for (const DVec3& p : points) {
-        least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
-        most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
-    }
-    const DVec3 box = most - least;
-    return points.empty() ? 0 : std::sqrt(dot(box, box));
+/// Returns the scale of a location at which its picture shows some of the surroundings, but nothing beyond the mesh.
+double aroundOf(const DrawnMesh& mesh, const PlacePoints& place) {
+    constexpr double kMost = 2.5, kLeast = 1.2;
+    PositionBox whole, part;
+    for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner) whole.add(placeOfCorner(mesh, corner));
+    for (const DVec3& point : place.points) part.add(point);
+    const double size = part.diagonal();
+    return size > 0 ? std::clamp(kLeast * whole.diagonal() / size, kLeast, kMost) : kMost;
 }
 
 }  // namespace
@@ -65,19 +65,6 @@ Camera PlaceView::camera(const PictureSize& size) const {
         },
         angles, 30, size.width * size.samples, size.height * size.samples);
 }
-
-namespace {
-
-/// Returns the scale of a location at which its picture shows some of the surroundings, but nothing beyond the mesh.
-double aroundOf(const DrawnMesh& mesh, const PlacePoints& place) {
-    constexpr double kMost = 2.5, kLeast = 1.2;
-    std::vector<std::size_t> all(mesh.corners.size() / 3);
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    const double whole = sizeOf(PlacePoints(mesh, all).points), part = sizeOf(place.points);
-    return part > 0 ? std::clamp(kLeast * whole / part, kLeast, kMost) : kMost;
-}
-
-}  // namespace
 
 PlaceView viewOver(std::span<const DrawnMesh> meshes, std::size_t mesh, std::span<const std::size_t> triangles) {
     constexpr ViewAngles kTurns[] = {{12, 8}, {-30, 8}, {40, 8}, {12, 40}, {12, -40}, {-65, 8}, {70, 8}};
