@@ -48,9 +48,8 @@ Result<ImageFileFormat> outputFormat(ImageFileFormat input, const FlipGreenOptio
     }
     const ImageFileFormat format = options.format == ImageFileFormat::sameAsInput ? input : options.format;
     if (format != input && format != ImageFileFormat::png) {
-        return Error{
-            ErrorCode::unsupportedFile,
-            "the format of the output cannot store the image without loss; write the format of the input, or PNG"};
+        return Error{ErrorCode::unsupportedFile,
+                     "converting to the format of the output may lose data; write the format of the input, or PNG"};
     }
     if (format == ImageFileFormat::png && whyNotRead(ImageFormat::png) != nullptr) {
         return Error{ErrorCode::unsupportedFile, whyNotRead(ImageFormat::png)};

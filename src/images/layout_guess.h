@@ -26,7 +26,7 @@ class LayoutGuess {
             least_[i] = std::fmin(least_[i], values[i]);
             most_[i] = std::fmax(most_[i], values[i]);
         }
-        grey_ += std::fabs(texel.x - texel.y) <= kApart && std::fabs(texel.x - texel.z) <= kApart ? 1 : 0;
+        gray_ += std::fabs(texel.x - texel.y) <= kApart && std::fabs(texel.x - texel.z) <= kApart ? 1 : 0;
         green_.add(alpha, texel.y);
         red_.add(texel.x, alpha);
         ++count_;
@@ -37,7 +37,7 @@ class LayoutGuess {
         const auto varies = [&](std::size_t i) { return most_[i] - least_[i] > kSame; };
         if (count_ == 0 || !varies(3) || !varies(1)) return {};
         if (!varies(0) && green_.fits(count_)) return twoChannelLayout(MapChannel::alpha, MapChannel::green);
-        if (isNearlyAll(grey_, count_) && red_.fits(count_))
+        if (isNearlyAll(gray_, count_) && red_.fits(count_))
             return twoChannelLayout(MapChannel::red, MapChannel::alpha);
         return {};
     }
@@ -69,7 +69,7 @@ class LayoutGuess {
     };
 
     std::array<float, 4> least_ = {1, 1, 1, 1}, most_ = {};
-    std::uint64_t grey_ = 0, count_ = 0;
+    std::uint64_t gray_ = 0, count_ = 0;
     Pairs green_ = {}, red_ = {};
 };
 

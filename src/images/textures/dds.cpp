@@ -169,9 +169,9 @@ class DdsReader {
         texture_.format = texelFormat(TexelKind::masked);
         texture_.format.block_bytes = static_cast<std::uint8_t>(bits / 8);
         auto& masks = texture_.format.masks;
-        const bool is_grey = (flags & kColors) == 0;
+        const bool is_gray = (flags & kColors) == 0;
         for (std::size_t i = 0; i < 4; ++i) {
-            const bool is_there = i == 3 ? (flags & kAlpha) != 0 : i == 0 || !is_grey;
+            const bool is_there = i == 3 ? (flags & kAlpha) != 0 : i == 0 || !is_gray;
             masks[i] = is_there ? number(kMasksAt + 4 * i) : 0;
             const std::uint32_t ones = masks[i] == 0 ? 0 : masks[i] >> std::countr_zero(masks[i]);
             if ((ones & (ones + 1)) != 0 || (bits < 32 && masks[i] >> bits != 0))
@@ -179,7 +179,7 @@ class DdsReader {
             if (ones > 255) texture_.format.bits = 16;
         }
         if (masks[0] == 0) return false;
-        texture_.format.channels = masks[3] != 0 ? 4 : is_grey || masks[1] == 0 ? 1 : masks[2] == 0 ? 2 : 3;
+        texture_.format.channels = masks[3] != 0 ? 4 : is_gray || masks[1] == 0 ? 1 : masks[2] == 0 ? 2 : 3;
         if (texture_.format.channels == 2) texture_.layout = twoChannelLayout(MapChannel::red, MapChannel::green);
         return true;
     }
