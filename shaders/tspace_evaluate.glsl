@@ -25,7 +25,7 @@ const uint tspace_position_scale = 3u;  // three floats
 const uint tspace_normal_format = 6u;   // 0: no normals are written; 1: three floats. Input normals are always floats
 const uint tspace_normal_offset = 7u;
 const uint tspace_normal_stride = 8u;
-const uint tspace_tangent_format = 9u;  // 0: T and sign as four floats; 2: oct32; 3: snorm8 pair
+const uint tspace_tangent_format = 9u;  // 0: T and sign as four floats; 1: frame32; 2: oct32; 3: snorm8 pair
 const uint tspace_tangent_offset = 10u;
 const uint tspace_tangent_stride = 11u;
 const uint tspace_morph_count = 12u;  // number of morph targets, consecutive arrays of three floats per vertex; 0: none
@@ -691,6 +691,113 @@ uint tspace_encodeOct32(vec3 normal, vec4 tangent) {
     return (uint(i) << 22u) | (uint(j) << 12u) | (k << 1u) | mirrored;
 }
 
+// Returns a coordinate of the Rodrigues vector at u, -1 to 1 along an edge of a chart of frame32.
+float tspace_warped(float u) { return u * (0.38728988 + 0.026923878 * (u * u)); }
+
+// Returns the u of a coordinate of a Rodrigues vector: an initial guess, and two steps of Newton's method.
+float tspace_unwarped(float p) {
+    float straight = p * 2.41421356;
+    float u = straight * (1.0 + 0.065 * (1.0 - straight * straight));
+    for (uint i = 0u; i < 2u; ++i) {
+        u -= (tspace_warped(u) - p) / (0.38728988 + 0.080771634 * (u * u));
+    }
+    return u;
+}
+
+// Returns the components of v with the signs of chart g of frame32, in the chart's order.
+vec3 tspace_inChart(vec3 v, uint g) {
+    uint order = g >> 2u;
+    float first = 1.0;
+    float second = 1.0;
+    float third = 1.0;
+    if ((g & 1u) != 0u) {
+        first = -1.0;
+    }
+    if ((g & 2u) != 0u) {
+        second = -1.0;
+    }
+    if (order > 2u) {
+        third = -1.0;
+    }
+    vec3 s = vec3(first * v.x, second * v.y, first * second * third * v.z);
+    vec3 turned = s;
+    if (order == 1u || order == 4u) {
+        turned = vec3(s.z, s.x, s.y);
+    }
+    if (order == 2u || order == 5u) {
+        turned = vec3(s.y, s.z, s.x);
+    }
+    if (order > 2u) {
+        turned = vec3(turned.x, turned.z, turned.y);
+    }
+    return turned;
+}
+
+// Returns the code of frame32 nearest to a rotation in one chart: x, twice y, z, and the square of its angular error in w.
+vec4 tspace_nearestInChart(vec3 p) {
+    float first_x = clamp(floor(tspace_unwarped(p.x) * 226.0 + 226.0), 0.0, 451.0);
+    float first_z = clamp(floor(tspace_unwarped(p.z) * 226.0 + 226.0), 0.0, 451.0);
+    float twice_row = tspace_unwarped(p.y) * 435.0 + 436.0;
+    vec4 best = vec4(first_x, 0.0, first_z, 1e9);
+    for (uint i = 0u; i < 8u; ++i) {
+        float x = first_x + float(i & 1u);
+        float z = first_z + float((i >> 1u) & 1u);
+        float half_sum = 0.5 * (x + z);
+        float shift = 2.0 * (half_sum - floor(half_sum));  // columns whose sum is odd are shifted by half a row
+        float below = clamp(floor(0.5 * (twice_row - shift)), 0.0, 434.0);
+        float twice_y = 2.0 * (below + float(i >> 2u)) + shift;
+        vec3 d = vec3(tspace_warped((x - 226.0) / 226.0), tspace_warped((twice_y - 436.0) / 435.0),
+                      tspace_warped((z - 226.0) / 226.0)) -
+                 p;
+        vec3 turn = d - cross(p, d);
+        float error = turn.y * turn.y + max(turn.x * turn.x, turn.z * turn.z);
+        if (error < best.w) {
+            best = vec4(x, twice_y, z, error);
+        }
+    }
+    return best;
+}
+
+// Encodes a frame as frame32: the nearest code of all charts that contain its rotation (docs/concepts/pack.md).
+uint tspace_encodeFrame32(vec3 normal, vec4 tangent) {
+    vec3 n = tspace_direction(normal);
+    if (dot(n, n) == 0.0) {
+        n = vec3(0.0, 0.0, 1.0);
+    }
+    vec3 t = vec3(tangent.x, tangent.y, tangent.z);
+    t = tspace_direction(t - dot(n, t) * n);
+    if (dot(t, t) == 0.0) {
+        float side = 1.0;
+        if (n.z < 0.0) {
+            side = -1.0;
+        }
+        t = tspace_direction(tspace_octAcross(vec4(n.x, n.y, n.z, side)));
+    }
+    vec3 b = cross(n, t);
+    float least = 1e9;
+    uint code = 0u;
+    for (uint g = 0u; g < 24u; ++g) {
+        vec3 row_t = tspace_inChart(t, g);
+        vec3 row_b = tspace_inChart(b, g);
+        vec3 row_n = tspace_inChart(n, g);
+        float trace = row_t.x + row_b.y + row_n.z;
+        vec3 axis = vec3(row_b.z - row_n.y, row_n.x - row_t.z, row_t.y - row_b.x);
+        // The corners of a chart have a trace of 1.64, its faces are at tan(22.5 degrees); half a step beyond is allowed.
+        if (trace > 1.63 && tspace_largest(axis) <= 0.41531323 * (1.0 + trace)) {
+            vec4 found = tspace_nearestInChart((1.0 / (1.0 + trace)) * axis);
+            if (found.w < least) {
+                least = found.w;
+                code = ((g * 453u + uint(found.x)) * 436u + (uint(found.y) >> 1u)) * 453u + uint(found.z);
+            }
+        }
+    }
+    uint mirrored = 0u;
+    if (tangent.w < 0.0) {
+        mirrored = 1u;
+    }
+    return (code << 1u) | mirrored;
+}
+
 void tspace_writeTangent(uint result, vec3 normal, vec4 tangent) {
     uint at = (tspace_setting(tspace_tangent_offset) + result * tspace_setting(tspace_tangent_stride)) >> 2u;
     uint format = tspace_setting(tspace_tangent_format);
@@ -699,6 +806,9 @@ void tspace_writeTangent(uint result, vec3 normal, vec4 tangent) {
         tspace_tangents[at + 1u] = floatBitsToUint(tangent.y);
         tspace_tangents[at + 2u] = floatBitsToUint(tangent.z);
         tspace_tangents[at + 3u] = floatBitsToUint(tangent.w);
+    }
+    if (format == 1u) {
+        tspace_tangents[at] = tspace_encodeFrame32(normal, tangent);
     }
     if (format == 2u) {
         tspace_tangents[at] = tspace_encodeOct32(normal, tangent);

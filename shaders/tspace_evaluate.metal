@@ -15,7 +15,7 @@ constant uint tspace_position_scale = 3u;  // three floats
 constant uint tspace_normal_format = 6u;  // 0: no normals are written; 1: three floats. Input normals are always floats
 constant uint tspace_normal_offset = 7u;
 constant uint tspace_normal_stride = 8u;
-constant uint tspace_tangent_format = 9u;  // 0: T and sign as four floats; 2: oct32; 3: snorm8 pair
+constant uint tspace_tangent_format = 9u;  // 0: T and sign as four floats; 1: frame32; 2: oct32; 3: snorm8 pair
 constant uint tspace_tangent_offset = 10u;
 constant uint tspace_tangent_stride = 11u;
 constant uint tspace_morph_count =
@@ -697,6 +697,114 @@ struct tspace_Evaluator {
         return (uint(i) << 22u) | (uint(j) << 12u) | (k << 1u) | mirrored;
     }
 
+    // Returns a coordinate of the Rodrigues vector at u, -1 to 1 along an edge of a chart of frame32.
+    float tspace_warped(float u) { return u * (0.38728988f + 0.026923878f * (u * u)); }
+
+    // Returns the u of a coordinate of a Rodrigues vector: an initial guess, and two steps of Newton's method.
+    float tspace_unwarped(float p) {
+        float straight = p * 2.41421356f;
+        float u = straight * (1.0f + 0.065f * (1.0f - straight * straight));
+        for (uint i = 0u; i < 2u; ++i) {
+            u -= (tspace_warped(u) - p) / (0.38728988f + 0.080771634f * (u * u));
+        }
+        return u;
+    }
+
+    // Returns the components of v with the signs of chart g of frame32, in the chart's order.
+    float3 tspace_inChart(float3 v, uint g) {
+        uint order = g >> 2u;
+        float first = 1.0f;
+        float second = 1.0f;
+        float third = 1.0f;
+        if ((g & 1u) != 0u) {
+            first = -1.0f;
+        }
+        if ((g & 2u) != 0u) {
+            second = -1.0f;
+        }
+        if (order > 2u) {
+            third = -1.0f;
+        }
+        float3 s = float3(first * v.x, second * v.y, first * second * third * v.z);
+        float3 turned = s;
+        if (order == 1u || order == 4u) {
+            turned = float3(s.z, s.x, s.y);
+        }
+        if (order == 2u || order == 5u) {
+            turned = float3(s.y, s.z, s.x);
+        }
+        if (order > 2u) {
+            turned = float3(turned.x, turned.z, turned.y);
+        }
+        return turned;
+    }
+
+    // Returns the code of frame32 nearest to a rotation in one chart: x, twice y, z, and the square of its angular error in w.
+    float4 tspace_nearestInChart(float3 p) {
+        float first_x = metal::clamp(metal::floor(tspace_unwarped(p.x) * 226.0f + 226.0f), 0.0f, 451.0f);
+        float first_z = metal::clamp(metal::floor(tspace_unwarped(p.z) * 226.0f + 226.0f), 0.0f, 451.0f);
+        float twice_row = tspace_unwarped(p.y) * 435.0f + 436.0f;
+        float4 best = float4(first_x, 0.0f, first_z, 1e9f);
+        for (uint i = 0u; i < 8u; ++i) {
+            float x = first_x + float(i & 1u);
+            float z = first_z + float((i >> 1u) & 1u);
+            float half_sum = 0.5f * (x + z);
+            float shift =
+                2.0f * (half_sum - metal::floor(half_sum));  // columns whose sum is odd are shifted by half a row
+            float below = metal::clamp(metal::floor(0.5f * (twice_row - shift)), 0.0f, 434.0f);
+            float twice_y = 2.0f * (below + float(i >> 2u)) + shift;
+            float3 d = float3(tspace_warped((x - 226.0f) / 226.0f), tspace_warped((twice_y - 436.0f) / 435.0f),
+                              tspace_warped((z - 226.0f) / 226.0f)) -
+                       p;
+            float3 turn = d - metal::cross(p, d);
+            float error = turn.y * turn.y + metal::max(turn.x * turn.x, turn.z * turn.z);
+            if (error < best.w) {
+                best = float4(x, twice_y, z, error);
+            }
+        }
+        return best;
+    }
+
+    // Encodes a frame as frame32: the nearest code of all charts that contain its rotation (docs/concepts/pack.md).
+    uint tspace_encodeFrame32(float3 normal, float4 tangent) {
+        float3 n = tspace_direction(normal);
+        if (metal::dot(n, n) == 0.0f) {
+            n = float3(0.0f, 0.0f, 1.0f);
+        }
+        float3 t = float3(tangent.x, tangent.y, tangent.z);
+        t = tspace_direction(t - metal::dot(n, t) * n);
+        if (metal::dot(t, t) == 0.0f) {
+            float side = 1.0f;
+            if (n.z < 0.0f) {
+                side = -1.0f;
+            }
+            t = tspace_direction(tspace_octAcross(float4(n.x, n.y, n.z, side)));
+        }
+        float3 b = metal::cross(n, t);
+        float least = 1e9f;
+        uint code = 0u;
+        for (uint g = 0u; g < 24u; ++g) {
+            float3 row_t = tspace_inChart(t, g);
+            float3 row_b = tspace_inChart(b, g);
+            float3 row_n = tspace_inChart(n, g);
+            float trace = row_t.x + row_b.y + row_n.z;
+            float3 axis = float3(row_b.z - row_n.y, row_n.x - row_t.z, row_t.y - row_b.x);
+            // The corners of a chart have a trace of 1.64, its faces are at tan(22.5 degrees); half a step beyond is allowed.
+            if (trace > 1.63f && tspace_largest(axis) <= 0.41531323f * (1.0f + trace)) {
+                float4 found = tspace_nearestInChart((1.0f / (1.0f + trace)) * axis);
+                if (found.w < least) {
+                    least = found.w;
+                    code = ((g * 453u + uint(found.x)) * 436u + (uint(found.y) >> 1u)) * 453u + uint(found.z);
+                }
+            }
+        }
+        uint mirrored = 0u;
+        if (tangent.w < 0.0f) {
+            mirrored = 1u;
+        }
+        return (code << 1u) | mirrored;
+    }
+
     void tspace_writeTangent(uint result, float3 normal, float4 tangent) {
         uint at = (tspace_setting(tspace_tangent_offset) + result * tspace_setting(tspace_tangent_stride)) >> 2u;
         uint format = tspace_setting(tspace_tangent_format);
@@ -705,6 +813,9 @@ struct tspace_Evaluator {
             tspace_tangents[at + 1u] = as_type<uint>(tangent.y);
             tspace_tangents[at + 2u] = as_type<uint>(tangent.z);
             tspace_tangents[at + 3u] = as_type<uint>(tangent.w);
+        }
+        if (format == 1u) {
+            tspace_tangents[at] = tspace_encodeFrame32(normal, tangent);
         }
         if (format == 2u) {
             tspace_tangents[at] = tspace_encodeOct32(normal, tangent);

@@ -24,7 +24,7 @@ const tspace_position_scale: u32 = 3u;  // three floats
 const tspace_normal_format: u32 = 6u;   // 0: no normals are written; 1: three floats. Input normals are always floats
 const tspace_normal_offset: u32 = 7u;
 const tspace_normal_stride: u32 = 8u;
-const tspace_tangent_format: u32 = 9u;  // 0: T and sign as four floats; 2: oct32; 3: snorm8 pair
+const tspace_tangent_format: u32 = 9u;  // 0: T and sign as four floats; 1: frame32; 2: oct32; 3: snorm8 pair
 const tspace_tangent_offset: u32 = 10u;
 const tspace_tangent_stride: u32 = 11u;
 const tspace_morph_count: u32 = 12u;      // number of morph targets, consecutive arrays of three floats per vertex; 0: none
@@ -687,6 +687,112 @@ fn tspace_encodeOct32(normal: vec3f, tangent: vec4f) -> u32 {
     return (u32(i) << 22u) | (u32(j) << 12u) | (k << 1u) | mirrored;
 }
 
+// Returns a coordinate of the Rodrigues vector at u, -1 to 1 along an edge of a chart of frame32.
+fn tspace_warped(u: f32) -> f32 { return u * (0.38728988 + 0.026923878 * (u * u)); }
+
+// Returns the u of a coordinate of a Rodrigues vector: an initial guess, and two steps of Newton's method.
+fn tspace_unwarped(p: f32) -> f32 {
+    var straight: f32 = p * 2.41421356;
+    var u: f32 = straight * (1.0 + 0.065 * (1.0 - straight * straight));
+    for (var i: u32 = 0u; i < 2u; i++) {
+        u -= (tspace_warped(u) - p) / (0.38728988 + 0.080771634 * (u * u));
+    }
+    return u;
+}
+
+// Returns the components of v with the signs of chart g of frame32, in the chart's order.
+fn tspace_inChart(v: vec3f, g: u32) -> vec3f {
+    var order: u32 = g >> 2u;
+    var first: f32 = 1.0;
+    var second: f32 = 1.0;
+    var third: f32 = 1.0;
+    if ((g & 1u) != 0u) {
+        first = -1.0;
+    }
+    if ((g & 2u) != 0u) {
+        second = -1.0;
+    }
+    if (order > 2u) {
+        third = -1.0;
+    }
+    var s: vec3f = vec3f(first * v.x, second * v.y, first * second * third * v.z);
+    var turned: vec3f = s;
+    if (order == 1u || order == 4u) {
+        turned = vec3f(s.z, s.x, s.y);
+    }
+    if (order == 2u || order == 5u) {
+        turned = vec3f(s.y, s.z, s.x);
+    }
+    if (order > 2u) {
+        turned = vec3f(turned.x, turned.z, turned.y);
+    }
+    return turned;
+}
+
+// Returns the code of frame32 nearest to a rotation in one chart: x, twice y, z, and the square of its angular error in w.
+fn tspace_nearestInChart(p: vec3f) -> vec4f {
+    var first_x: f32 = clamp(floor(tspace_unwarped(p.x) * 226.0 + 226.0), 0.0, 451.0);
+    var first_z: f32 = clamp(floor(tspace_unwarped(p.z) * 226.0 + 226.0), 0.0, 451.0);
+    var twice_row: f32 = tspace_unwarped(p.y) * 435.0 + 436.0;
+    var best: vec4f = vec4f(first_x, 0.0, first_z, 1e9);
+    for (var i: u32 = 0u; i < 8u; i++) {
+        var x: f32 = first_x + f32(i & 1u);
+        var z: f32 = first_z + f32((i >> 1u) & 1u);
+        var half_sum: f32 = 0.5 * (x + z);
+        var shift: f32 = 2.0 * (half_sum - floor(half_sum));  // columns whose sum is odd are shifted by half a row
+        var below: f32 = clamp(floor(0.5 * (twice_row - shift)), 0.0, 434.0);
+        var twice_y: f32 = 2.0 * (below + f32(i >> 2u)) + shift;
+        var d: vec3f = vec3f(tspace_warped((x - 226.0) / 226.0), tspace_warped((twice_y - 436.0) / 435.0),
+                          tspace_warped((z - 226.0) / 226.0)) - p;
+        var turn: vec3f = d - cross(p, d);
+        var error: f32 = turn.y * turn.y + max(turn.x * turn.x, turn.z * turn.z);
+        if (error < best.w) {
+            best = vec4f(x, twice_y, z, error);
+        }
+    }
+    return best;
+}
+
+// Encodes a frame as frame32: the nearest code of all charts that contain its rotation (docs/concepts/pack.md).
+fn tspace_encodeFrame32(normal: vec3f, tangent: vec4f) -> u32 {
+    var n: vec3f = tspace_direction(normal);
+    if (dot(n, n) == 0.0) {
+        n = vec3f(0.0, 0.0, 1.0);
+    }
+    var t: vec3f = vec3f(tangent.x, tangent.y, tangent.z);
+    t = tspace_direction(t - dot(n, t) * n);
+    if (dot(t, t) == 0.0) {
+        var side: f32 = 1.0;
+        if (n.z < 0.0) {
+            side = -1.0;
+        }
+        t = tspace_direction(tspace_octAcross(vec4f(n.x, n.y, n.z, side)));
+    }
+    var b: vec3f = cross(n, t);
+    var least: f32 = 1e9;
+    var code: u32 = 0u;
+    for (var g: u32 = 0u; g < 24u; g++) {
+        var row_t: vec3f = tspace_inChart(t, g);
+        var row_b: vec3f = tspace_inChart(b, g);
+        var row_n: vec3f = tspace_inChart(n, g);
+        var trace: f32 = row_t.x + row_b.y + row_n.z;
+        var axis: vec3f = vec3f(row_b.z - row_n.y, row_n.x - row_t.z, row_t.y - row_b.x);
+        // The corners of a chart have a trace of 1.64, its faces are at tan(22.5 degrees); half a step beyond is allowed.
+        if (trace > 1.63 && tspace_largest(axis) <= 0.41531323 * (1.0 + trace)) {
+            var found: vec4f = tspace_nearestInChart((1.0 / (1.0 + trace)) * axis);
+            if (found.w < least) {
+                least = found.w;
+                code = ((g * 453u + u32(found.x)) * 436u + (u32(found.y) >> 1u)) * 453u + u32(found.z);
+            }
+        }
+    }
+    var mirrored: u32 = 0u;
+    if (tangent.w < 0.0) {
+        mirrored = 1u;
+    }
+    return (code << 1u) | mirrored;
+}
+
 fn tspace_writeTangent(result: u32, normal: vec3f, tangent: vec4f) {
     var at: u32 = (tspace_setting(tspace_tangent_offset) + result * tspace_setting(tspace_tangent_stride)) >> 2u;
     var format: u32 = tspace_setting(tspace_tangent_format);
@@ -695,6 +801,9 @@ fn tspace_writeTangent(result: u32, normal: vec3f, tangent: vec4f) {
         tspace_tangents[at + 1u] = bitcast<u32>(tangent.y);
         tspace_tangents[at + 2u] = bitcast<u32>(tangent.z);
         tspace_tangents[at + 3u] = bitcast<u32>(tangent.w);
+    }
+    if (format == 1u) {
+        tspace_tangents[at] = tspace_encodeFrame32(normal, tangent);
     }
     if (format == 2u) {
         tspace_tangents[at] = tspace_encodeOct32(normal, tangent);

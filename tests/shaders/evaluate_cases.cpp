@@ -51,12 +51,6 @@ std::vector<Vec3> bent(const std::vector<Vec3>& positions) {
     return result;
 }
 
-PosedMesh posed(std::string name, test::SimpleMesh mesh, float threshold_deg = 180) {
-    PosedMesh made{std::move(name), std::move(mesh), threshold_deg, {}};
-    made.poses = {made.mesh.positions, bent(made.mesh.positions)};
-    return made;
-}
-
 /// Returns a closed torus with UV seams and unit normals.
 test::SimpleMesh torus(std::uint32_t rings, std::uint32_t sides) {
     test::SimpleMesh mesh;
@@ -81,25 +75,31 @@ test::SimpleMesh torus(std::uint32_t rings, std::uint32_t sides) {
 
 }  // namespace
 
+PosedMesh withBentPose(std::string name, test::SimpleMesh mesh, float threshold_deg) {
+    PosedMesh made{std::move(name), std::move(mesh), threshold_deg, {}};
+    made.poses = {made.mesh.positions, bent(made.mesh.positions)};
+    return made;
+}
+
 std::vector<PosedMesh> generatedMeshes() {
     std::vector<PosedMesh> meshes;
-    meshes.push_back(posed("grid", test::grid(24)));
-    meshes.push_back(posed("torus", torus(40, 20)));
-    meshes.push_back(posed("fan", test::fan(60)));
-    meshes.push_back(posed("unrolled fan", test::unrolledFan(50)));
-    meshes.push_back(posed("cone", test::cone(40)));
+    meshes.push_back(withBentPose("grid", test::grid(24)));
+    meshes.push_back(withBentPose("torus", torus(40, 20)));
+    meshes.push_back(withBentPose("fan", test::fan(60)));
+    meshes.push_back(withBentPose("unrolled fan", test::unrolledFan(50)));
+    meshes.push_back(withBentPose("cone", test::cone(40)));
     test::SimpleMesh mirrored = test::grid(16);
     for (Vec2& uv : mirrored.uvs) uv.x = std::fabs(uv.x - 0.5f);
-    meshes.push_back(posed("mirrored", mirrored));
+    meshes.push_back(withBentPose("mirrored", mirrored));
     test::SimpleMesh collapsed = test::grid(12);
     for (std::size_t v = 0; v < collapsed.uvs.size(); v += 7) collapsed.uvs[v] = {0.5f, 0.5f};
     for (std::size_t i = 0; i + 1 < collapsed.indices.size(); i += 31) collapsed.indices[i] = collapsed.indices[i + 1];
-    meshes.push_back(posed("degenerate", collapsed));
-    PosedMesh moving = posed("folding", test::grid(10));
+    meshes.push_back(withBentPose("degenerate", collapsed));
+    PosedMesh moving = withBentPose("folding", test::grid(10));
     for (std::size_t v = 0; v < moving.poses[1].size(); v += 5) moving.poses[1][v] = moving.poses[1][v / 2];
     meshes.push_back(moving);
     meshes.back().collapses = meshes[meshes.size() - 2].collapses = true;
-    PosedMesh huge = posed("huge", test::grid(10));
+    PosedMesh huge = withBentPose("huge", test::grid(10));
     huge.poses[1][40].x = std::numeric_limits<float>::quiet_NaN();
     huge.poses[1][80].y = std::numeric_limits<float>::infinity();
     huge.poses.push_back(huge.mesh.positions);
@@ -121,7 +121,7 @@ std::vector<PosedMesh> sharedMeshes() {
     for (const std::filesystem::path& path : files) {
         test::GoldenMesh golden;
         if (test::readGolden(path, golden))
-            meshes.push_back(posed(path.filename().string(), golden.shape, golden.angular_threshold_deg));
+            meshes.push_back(withBentPose(path.filename().string(), golden.shape, golden.angular_threshold_deg));
     }
     return meshes;
 }

@@ -57,6 +57,8 @@ struct PosedMesh {
     bool collapses = false;  ///< has triangles without area
 };
 
+/// Returns the mesh in its own pose and in one that changes the shape of all triangles.
+PosedMesh withBentPose(std::string name, test::SimpleMesh mesh, float threshold_deg = 180);
 /// Returns regular and degenerate meshes, some with NaN and huge values.
 std::vector<PosedMesh> generatedMeshes();
 /// Returns the meshes of the shared test data, in their own pose and a bent one; empty if the data is absent.

@@ -9,6 +9,7 @@
 
 #include "core/base/vec_math.h"
 #include "core/pack/random_frames.h"
+#include "evaluate_by_loop.h"
 #include "evaluate_expectations.h"
 #include "tspace/pack.h"
 
@@ -24,6 +25,8 @@ using metal::as_type;
 #include "tspace_evaluate.metal"
 }  // namespace by_hand
 
+}  // namespace
+
 std::string evaluateByLoop(EvaluateBuffers& in) {
     auto& [plan, settings, positions, deform, normals, tangents] = in.arrays;
     for (uint i = 0; i < in.result_count; ++i) {
@@ -32,6 +35,8 @@ std::string evaluateByLoop(EvaluateBuffers& in) {
     }
     return {};
 }
+
+namespace {
 
 TEST(PlanBuffers, GiveTheTangentsOfThePlan) { expectTangents(generatedMeshes(), evaluateByLoop); }
 TEST(PlanBuffers, GiveTheFramesOfVertices) { expectFrames(generatedMeshes(), evaluateByLoop); }
@@ -197,14 +202,15 @@ TEST(PlanBuffers, WriteBytesOfBothVectors) {
     }
 }
 
-/// Words of oct32 against packFrames: within the bounds of the format, and nearly all of them equal.
-void expectOct32(std::span<const Vec3> n, std::span<const Vec4> t, std::span<const std::uint32_t> found) {
+/// Words of a format against packFrames: within the bounds of the format, and nearly all of them equal.
+void expectWords(FrameFormat format, std::span<const Vec3> n, std::span<const Vec4> t,
+                 std::span<const std::uint32_t> found) {
     std::vector<std::uint32_t> expected(n.size());
-    ASSERT_TRUE(packFrames(n, t, FrameFormat::oct32, std::as_writable_bytes(std::span(expected))));
+    ASSERT_TRUE(packFrames(n, t, format, std::as_writable_bytes(std::span(expected))));
     std::vector<Vec3> normals(n.size());
     std::vector<Vec4> tangents(n.size());
-    ASSERT_TRUE(unpackFrames(std::as_bytes(found), FrameFormat::oct32, normals, tangents));
-    const FrameErrorBound bound = frameErrorBound(FrameFormat::oct32);
+    ASSERT_TRUE(unpackFrames(std::as_bytes(found), format, normals, tangents));
+    const FrameErrorBound bound = frameErrorBound(format);
     std::size_t others = 0;
     for (std::size_t r = 0; r < n.size(); ++r) {
         ASSERT_LE(test::angleDeg(normals[r], n[r]), bound.normal_deg) << r;
@@ -217,22 +223,30 @@ void expectOct32(std::span<const Vec3> n, std::span<const Vec4> t, std::span<con
     EXPECT_LE(others, n.size() / 1000);  // where two points of the grid are equally near, rounding decides
 }
 
-TEST(PlanBuffers, WriteTheOct32OfPackFrames) {
-    Grid floats, words;
-    auto& settings = words.in.arrays[EvaluateBuffers::settings];
-    settings[tangent_format] = 2;
-    settings[tangent_stride] = 12;
-    settings[tangent_offset] = 4;
-    evaluateByLoop(floats.in);
-    evaluateByLoop(words.in);
-    const std::size_t count = floats.in.result_count;
-    std::vector<std::uint32_t> found;
-    for (std::size_t r = 0; r < count; ++r) found.push_back(words.in.arrays[EvaluateBuffers::tangents][3 * r + 1]);
-    expectOct32({reinterpret_cast<const Vec3*>(floats.in.arrays[EvaluateBuffers::normals].data()), count},
-                {reinterpret_cast<const Vec4*>(floats.in.arrays[EvaluateBuffers::tangents].data()), count}, found);
+/// The formats of one word, and their numbers in the settings.
+constexpr struct {
+    FrameFormat format;
+    std::uint32_t number;
+} kWordFormats[] = {{FrameFormat::frame32, 1}, {FrameFormat::oct32, 2}};
+
+TEST(PlanBuffers, WriteTheWordsOfPackFrames) {
+    for (const auto& [format, number] : kWordFormats) {
+        Grid floats, words;
+        auto& settings = words.in.arrays[EvaluateBuffers::settings];
+        settings[tangent_format] = number;
+        settings[tangent_stride] = 12;
+        settings[tangent_offset] = 4;
+        evaluateByLoop(floats.in);
+        evaluateByLoop(words.in);
+        const std::size_t count = floats.in.result_count;
+        std::vector<std::uint32_t> found;
+        for (std::size_t r = 0; r < count; ++r) found.push_back(words.in.arrays[EvaluateBuffers::tangents][3 * r + 1]);
+        expectWords(format, {reinterpret_cast<const Vec3*>(floats.in.arrays[EvaluateBuffers::normals].data()), count},
+                    {reinterpret_cast<const Vec4*>(floats.in.arrays[EvaluateBuffers::tangents].data()), count}, found);
+    }
 }
 
-TEST(PlanBuffers, PackFramesOfAnyDirectionAsOct32) {
+TEST(PlanBuffers, PackFramesOfAnyDirection) {
     test::RandomBits random(7);
     test::FrameList frames = test::randomFrames(random, 20000);
     for (const float z : {1.0f, -1.0f}) {
@@ -241,15 +255,24 @@ TEST(PlanBuffers, PackFramesOfAnyDirectionAsOct32) {
         frames.add({z, 0, 0}, {0, -1, 0, z});
     }
     by_hand::tspace_Evaluator shader{};
-    std::vector<std::uint32_t> found;
-    for (std::size_t r = 0; r < frames.size(); ++r) {
-        const Vec3& n = frames.normals[r];
-        const Vec4& t = frames.tangents[r];
-        found.push_back(shader.tspace_encodeOct32({n.x, n.y, n.z}, {t.x, t.y, t.z, t.w}));
+    const auto pack = [&](FrameFormat format, const Vec3& n, const Vec4& t) {
+        return format == FrameFormat::frame32 ? shader.tspace_encodeFrame32({n.x, n.y, n.z}, {t.x, t.y, t.z, t.w})
+                                              : shader.tspace_encodeOct32({n.x, n.y, n.z}, {t.x, t.y, t.z, t.w});
+    };
+    for (const auto& [format, number] : kWordFormats) {
+        std::vector<std::uint32_t> found;
+        for (std::size_t r = 0; r < frames.size(); ++r)
+            found.push_back(pack(format, frames.normals[r], frames.tangents[r]));
+        expectWords(format, frames.normals, frames.tangents, found);
+        // Frames without directions, or with one only, get the missing ones: the normal (0, 0, 1), a tangent across it.
+        for (const float z : {0.0f, 1.0f, -1.0f}) {
+            const std::uint32_t word = pack(format, {0, 0, z}, {});
+            Vec3 normal;
+            Vec4 tangent;
+            ASSERT_TRUE(unpackFrames(std::as_bytes(std::span(&word, 1)), format, {&normal, 1}, {&tangent, 1}));
+            EXPECT_NEAR(normal.z, z < 0 ? -1.0f : 1.0f, 1e-5f) << z;
+        }
     }
-    expectOct32(frames.normals, frames.tangents, found);
-    // A frame without directions gets the normal (0, 0, 1).
-    EXPECT_EQ(shader.tspace_encodeOct32({0, 0, 0}, {0, 0, 0, 0}) >> 12, 511u << 10 | 511u);
 }
 
 TEST(PlanBuffers, RefuseWhatShadersDoNotHave) {

@@ -41,7 +41,7 @@ export interface GpuArrays {
   /** Three floats each. If the plan computes normals: output (optional), one per result; otherwise input, one per vertex. */
   normals?: StorageBuffer | GpuArray<"float32x3"> | null;
   /** Output, one per result: four floats (tangent and sign), or packed frames as in "tspace/pack". */
-  tangents: StorageBuffer | GpuArray<"float32x4" | "oct32" | "snorm8_pair">;
+  tangents: StorageBuffer | GpuArray<"float32x4" | "frame32" | "oct32" | "snorm8_pair">;
   deform?: GpuDeformation | null;
 }
 

