@@ -1,5 +1,5 @@
-# The codecs of compressed glTF: TSPACE_WITH_MESHOPT and TSPACE_WITH_DRACO are ON where the library is found. Set one to
-# OFF to build without it; files that need it are then refused with a message that says so.
+# Codecs of compressed glTF: TSPACE_WITH_MESHOPT and TSPACE_WITH_DRACO are ON if the library is found. If one is set to
+# OFF, files that need the codec are rejected with a message that names it.
 foreach(codec MESHOPT DRACO)
     if(codec STREQUAL MESHOPT)
         set(package meshoptimizer)

@@ -1,6 +1,6 @@
-# Installation and packages. Component tspace_core is the core library and needs nothing else; tspace_asset is there when
-# it is part of the build; tspace_tool the programs. Consumers: find_package(tspace [COMPONENTS core asset shared]) and
-# pkg-config.
+# Installation and packages. Component tspace_core is the core library and has no dependencies; tspace_asset exists if
+# it is part of the build; tspace_tool contains the programs. Consumers use find_package(tspace [COMPONENTS core asset
+# shared]) or pkg-config.
 include(CMakePackageConfigHelpers)
 
 tspace_install_built(tspace tspace_core EXPORT tspace_core ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
@@ -30,17 +30,17 @@ foreach(program tspace_tool tspace_import)
     endif()
 endforeach()
 
-# What reports are, for programs that read them.
+# Installs the schemas of reports, for programs that read reports.
 if(TARGET tspace_tool)
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/schema" DESTINATION "${CMAKE_INSTALL_DATADIR}/tspace" COMPONENT tspace_tool)
 endif()
 
-# The page that tspace view writes, where scripts/web has built it.
+# Installs the page that tspace view writes, if scripts/web has built it.
 install(FILES "${PROJECT_SOURCE_DIR}/build/web/view.html" "${PROJECT_SOURCE_DIR}/build/web/learn.html" DESTINATION "${CMAKE_INSTALL_DATADIR}/tspace" COMPONENT tspace_tool OPTIONAL)
 
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/tspace" COMPONENT tspace_core)
 
-# The library is static, so a C program has to name the C++ runtime as well.
+# The library is static, so C programs must also link the C++ runtime.
 set(TSPACE_PC_CXX_RUNTIME "")
 foreach(runtime stdc++ c++)
     if(runtime IN_LIST CMAKE_CXX_IMPLICIT_LINK_LIBRARIES)
@@ -48,7 +48,7 @@ foreach(runtime stdc++ c++)
     endif()
 endforeach()
 
-# Why a component is not there, which find_package says.
+# The reason that find_package reports for a missing component.
 set(TSPACE_WITHOUT_ASSET "which had not been built")
 set(TSPACE_WITHOUT_SHARED "which had not been built")
 if(NOT TSPACE_BUILD_ASSET)
@@ -71,7 +71,7 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/package/tspaceConfigVers
 install(FILES "${PROJECT_BINARY_DIR}/package/tspaceConfig.cmake" "${PROJECT_BINARY_DIR}/package/tspaceConfigVersion.cmake"
         DESTINATION "${TSPACE_CMAKE_DIR}" COMPONENT tspace_core)
 
-# The prefix is found from where the file lies, so that an installed tree can be moved.
+# The prefix is derived from the location of the file, so that an installed tree can be moved.
 if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}" OR IS_ABSOLUTE "${CMAKE_INSTALL_INCLUDEDIR}")
     set(TSPACE_PC_PREFIX "${CMAKE_INSTALL_PREFIX}")
     set(TSPACE_PC_LIBDIR "${CMAKE_INSTALL_FULL_LIBDIR}")
@@ -89,15 +89,15 @@ function(tspace_pkg_config TSPACE_PC_NAME target component TSPACE_PC_DESCRIPTION
     tspace_install_file_of(${target} ${component} "${CMAKE_INSTALL_LIBDIR}/pkgconfig" "${PROJECT_BINARY_DIR}/package/${TSPACE_PC_NAME}.pc")
 endfunction()
 tspace_pkg_config(tspace tspace tspace_core "${PROJECT_DESCRIPTION}" "-ltspace ${TSPACE_PC_CXX_RUNTIME} -lm -pthread")
-# The C++ functions are in the static library alone, which -ltspace does not take where a shared one lies beside it.
-# So it has a second name, a link.
+# Only the static library has the C++ functions, but -ltspace prefers a shared library in the same folder. A symbolic
+# link gives the static library a second name.
 tspace_installed_folder(folder "${CMAKE_INSTALL_LIBDIR}")
 set(link "${CMAKE_STATIC_LIBRARY_PREFIX}tspace-cpp${CMAKE_STATIC_LIBRARY_SUFFIX}")
 install(CODE "if(EXISTS \"$<TARGET_FILE:tspace>\")
     file(CREATE_LINK \"$<TARGET_FILE_NAME:tspace>\" \"\$ENV{DESTDIR}${folder}/${link}\" SYMBOLIC)
 endif()" COMPONENT tspace_core)
 tspace_pkg_config(tspace-cpp tspace tspace_core "${PROJECT_DESCRIPTION}, in C++" "-ltspace-cpp -lm -pthread")
-# The static library of files needs other libraries, which this one has found already.
+# The static library of files depends on other libraries, which this build has already found.
 if(TARGET tspace_files_shared)
     tspace_pkg_config(tspace-files tspace_files_shared tspace_files_shared_link "${PROJECT_DESCRIPTION}: model files, in C" "-ltspace-files")
 endif()

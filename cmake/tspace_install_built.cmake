@@ -1,10 +1,11 @@
-# What was not built is left out of an installation, with all that would name it, and said so: scripts/demo builds the tool
-# alone, and users install what they have.
+# Installs only targets that were built, and omits every reference to the others with a message: scripts/demo builds
+# only the tool, and users install that build.
 include_guard(GLOBAL)
 include(GNUInstallDirs)
 set(TSPACE_CMAKE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/tspace")
 
-# tspace_install_built(TARGET COMPONENT ARGUMENTS...): install(TARGETS) with these arguments.
+# tspace_install_built(TARGET COMPONENT ARGUMENTS...): calls install(TARGETS) with these arguments if the target was
+# built.
 function(tspace_install_built target component)
     install(CODE "if(NOT EXISTS \"$<TARGET_FILE:${target}>\")
         message(STATUS \"Left out, because it was not built: $<TARGET_FILE_NAME:${target}>\")
@@ -12,7 +13,7 @@ function(tspace_install_built target component)
     install(TARGETS ${target} ${ARGN} COMPONENT ${component} OPTIONAL)
 endfunction()
 
-# The folder of an installation, in code that installs.
+# Sets `result` to an installation folder, for use in install(CODE).
 function(tspace_installed_folder result folder)
     if(IS_ABSOLUTE "${folder}")
         set(${result} "${folder}" PARENT_SCOPE)
@@ -21,7 +22,7 @@ function(tspace_installed_folder result folder)
     endif()
 endfunction()
 
-# tspace_install_file_of(TARGET COMPONENT FOLDER FILE): where the target was built.
+# tspace_install_file_of(TARGET COMPONENT FOLDER FILE): installs FILE if the target was built.
 function(tspace_install_file_of target component folder file)
     tspace_installed_folder(folder "${folder}")
     install(CODE "if(EXISTS \"$<TARGET_FILE:${target}>\")
@@ -29,7 +30,8 @@ function(tspace_install_file_of target component folder file)
     endif()" COMPONENT ${component})
 endfunction()
 
-# tspace_install_export(PART COMPONENT TARGET...): tspace-PART.cmake, of the export set tspace_PART, where these targets were built.
+# tspace_install_export(PART COMPONENT TARGET...): installs tspace-PART.cmake, from the export set tspace_PART, if these
+# targets were built.
 function(tspace_install_export part component)
     install(EXPORT tspace_${part} NAMESPACE tspace:: FILE tspace-${part}.cmake DESTINATION "${TSPACE_CMAKE_DIR}"
             COMPONENT ${component})

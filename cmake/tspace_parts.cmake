@@ -1,9 +1,9 @@
-# The parts of the build: each is on where tspace is built for itself and the libraries are there. What is left out is said
-# in one line; with -DTSPACE_BUILD_...=ON a part is demanded, and a missing library is an error.
+# Parts of the build. Each part is on if tspace is the top-level project and its libraries are found. One message lists
+# the omitted parts. -DTSPACE_BUILD_...=ON makes a part mandatory, so that a missing library is an error.
 include_guard(GLOBAL)
 
-# tspace_part(NAME "what it is" NEEDS...): option TSPACE_BUILD_NAME. A need is PACKAGE=DEBIAN, by find_package, or
-# HEADER.h=DEBIAN.
+# tspace_part(NAME "description" NEEDS...): declares the option TSPACE_BUILD_NAME. A need is PACKAGE=DEBIAN, for
+# find_package, or HEADER.h=DEBIAN.
 macro(tspace_part name what)
     if(PROJECT_IS_TOP_LEVEL AND NOT DEFINED TSPACE_BUILD_${name})
         tspace_find_missing(TSPACE_MISSING ${ARGN})
@@ -11,7 +11,7 @@ macro(tspace_part name what)
         set(TSPACE_MISSING "")
     endif()
     if(TSPACE_MISSING)
-        # No cache entry: it is looked for again when cmake runs again.
+        # Not cached, so that each run of cmake searches again.
         set(TSPACE_BUILD_${name} OFF)
         list(APPEND TSPACE_LEFT_OUT "${what}")
         list(APPEND TSPACE_NEEDED ${TSPACE_MISSING})
@@ -21,7 +21,7 @@ macro(tspace_part name what)
     endif()
 endmacro()
 
-# The Debian packages of those needs that are not there.
+# Returns the Debian packages of the missing needs.
 function(tspace_find_missing result)
     set(missing "")
     foreach(need IN LISTS ARGN)

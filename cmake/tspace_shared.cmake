@@ -1,8 +1,8 @@
-# Shared libraries with the C ABI alone, beside the static ones and from the same objects.
+# Shared libraries that export only the C ABI, from the same objects as the static libraries.
 include_guard(GLOBAL)
 
-# tspace_shared_library(TARGET NAME OUTPUT_NAME STATIC_TARGET...): tspace::NAME, libOUTPUT_NAME.so.0 of all objects of these
-# libraries.
+# tspace_shared_library(TARGET NAME OUTPUT_NAME STATIC_TARGET...): defines tspace::NAME, libOUTPUT_NAME.so.0, from all
+# objects of these libraries.
 function(tspace_shared_library target name output_name)
     set(objects "")
     foreach(library ${ARGN})
@@ -10,7 +10,7 @@ function(tspace_shared_library target name output_name)
     endforeach()
     add_library(${target} SHARED ${objects})
     add_library(tspace::${name} ALIAS ${target})
-    # SOVERSION is the number of the ABI: it grows when an old program could no longer run.
+    # SOVERSION is the ABI number: it increases when existing programs could no longer run.
     set_target_properties(${target} PROPERTIES OUTPUT_NAME ${output_name} VERSION ${PROJECT_VERSION} SOVERSION 0
                           LINKER_LANGUAGE CXX EXPORT_NAME ${name} LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}"
                           LINK_DEPENDS "${PROJECT_SOURCE_DIR}/cmake/exported.map")
@@ -30,12 +30,12 @@ function(tspace_shared_library target name output_name)
     endif()
 endfunction()
 
-# tspace_link_needs(TARGET LIBRARY...): links what these libraries need from outside.
+# tspace_link_needs(TARGET LIBRARY...): links the external dependencies of these libraries.
 function(tspace_link_needs target)
     foreach(library ${ARGN})
         get_target_property(needs ${library} LINK_LIBRARIES)
         list(FILTER needs EXCLUDE REGEX "^tspace::")
-        # Static libraries of images are not all made to be in a shared one.
+        # Some static image libraries were not compiled for use in a shared library.
         foreach(image_library turbojpeg webp sharpyuv zstd z)
             list(TRANSFORM needs REPLACE "BUILD_INTERFACE:.*/lib${image_library}[.]a" "BUILD_INTERFACE:${image_library}")
         endforeach()

@@ -1,10 +1,10 @@
-# Kernels that are compiled once per CPU and chosen at run time (src/core/simd): several for x86-64, one for 64-bit ARM
-# (little-endian) and for WebAssembly, and the scalar ones for every CPU. The compiler is asked what it compiles for, so that cross compilers
-# need not be told.
+# Kernels that are compiled once per CPU and selected at run time (src/core/simd): several for x86-64, one for 64-bit
+# ARM (little-endian) and one for WebAssembly, and scalar kernels for every CPU. A test compilation detects the target
+# CPU, so that cross compilers need no settings.
 include_guard(GLOBAL)
 include(CheckCXXSourceCompiles)
 
-set(CMAKE_REQUIRED_QUIET ON)  # "Failed" only means another CPU
+set(CMAKE_REQUIRED_QUIET ON)  # a failed check only means that the target is another CPU
 check_cxx_source_compiles("
     #if !defined(__x86_64__)
     #error
@@ -31,7 +31,7 @@ else()
     set(tspace_simd_cpus)
 endif()
 
-# Gives each source whose name ends in a CPU's name the flags for that CPU, for targets of the current folder.
+# Sets the compiler flags of each source by the CPU at the end of its name, for targets of the current folder.
 function(tspace_simd_flags sources)
     set(options_avx2 -mavx2)
     set(options_avx512 -mavx512f -mavx512dq)
@@ -46,8 +46,8 @@ function(tspace_simd_flags sources)
     endforeach()
 endfunction()
 
-# tspace_simd_kernel(ROOM/NAME [NOT avx512]): the kernel NAME_kernel.h of a room of the core will be compiled for every CPU,
-# but for those that it is not faster on: TSPACE_KERNEL_TABLE_NOT_AVX512.
+# tspace_simd_kernel(ROOM/NAME [NOT avx512]): compiles the kernel NAME_kernel.h of a room of the core for every CPU,
+# except those on which it is not faster: TSPACE_KERNEL_TABLE_NOT_AVX512.
 function(tspace_simd_kernel name)
     cmake_parse_arguments(arg "" "NOT" "" ${ARGN})
     set(kernel "core/${name}_kernel.h")
@@ -59,8 +59,9 @@ function(tspace_simd_kernel name)
     endforeach()
 endfunction()
 
-# tspace_simd_sources(ROOM...): makes one source for each CPU, which includes the lanes of that CPU, then all kernels of the
-# room. Not one for all rooms: a program that makes tangents would have the kernels of normals in it.
+# tspace_simd_sources(ROOM...): generates one source per room and CPU, which includes the lanes of that CPU and all
+# kernels of the room. Rooms have separate sources, so that a program that computes tangents does not contain the
+# kernels of normals.
 function(tspace_simd_sources)
     foreach(room ${ARGN})
         foreach(cpu scalar ${tspace_simd_cpus})
@@ -71,7 +72,7 @@ function(tspace_simd_sources)
         endforeach()
     endforeach()
     tspace_simd_flags("${sources}")
-    # Plain C++ is what tests ask for where every CPU does better: LIBS tspace_scalar_kernels.
+    # Scalar kernels that tests compare with the SIMD kernels of the CPU: LIBS tspace_scalar_kernels.
     if(tspace_simd_cpus)
         set(scalar ${sources})
         list(FILTER scalar INCLUDE REGEX "_scalar\\.cpp$")

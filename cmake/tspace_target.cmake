@@ -1,8 +1,9 @@
-# Flags that every target of the project is built with. Nothing is set globally.
+# Compiler flags of every target of the project. Nothing is set globally.
 include_guard(GLOBAL)
 
-# Warnings, sanitizers and include paths. No target contracts to FMA, which GCC would do wherever the CPU has it, as on every
-# 64-bit ARM: results would differ from those of other CPUs, and inline functions of src/core/base would have two versions.
+# Sets warnings, sanitizers and include paths. FMA contraction is off for every target: GCC would contract wherever the
+# CPU has FMA, for example on every 64-bit ARM, so results would differ between CPUs, and inline functions of
+# src/core/base would exist in two versions.
 function(tspace_configure_target target)
     target_compile_features(${target} PUBLIC cxx_std_20)
     set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
@@ -12,7 +13,7 @@ function(tspace_configure_target target)
         target_compile_options(${target} PRIVATE -O2)
     endif()
     if(MINGW)
-        # GCC takes printf for Microsoft's, which knows no %zu. It is that of MinGW-w64, which does.
+        # GCC assumes Microsoft's printf, which does not support %zu. MinGW-w64 provides its own, which does.
         target_compile_options(${target} PRIVATE -Wno-format -Wno-format-extra-args)
     endif()
     if(TSPACE_DEVELOPER)
@@ -21,14 +22,14 @@ function(tspace_configure_target target)
     if(TSPACE_SANITIZE)
         target_compile_options(${target} PRIVATE -fsanitize=${TSPACE_SANITIZE} -fno-omit-frame-pointer
                                                  -fno-sanitize-recover=all)
-        # GCC and Clang have no macro in common for it.
+        # GCC and Clang have no common macro for sanitizers.
         target_compile_definitions(${target} PRIVATE TSPACE_SANITIZED)
         target_link_options(${target} PUBLIC -fsanitize=${TSPACE_SANITIZE})
     endif()
 endfunction()
 
-# The option TSPACE_WITH_<name>: ON where all of the variables behind `missing` are set, as find_library and the like set them.
-# `missing` says what was not found to who sets it ON all the same.
+# Declares the option TSPACE_WITH_<name>: ON if all variables after `missing` are set, for example by find_library.
+# `missing` is the text of the error if the option is ON but a variable is not set.
 function(tspace_optional name help missing)
     set(has_all ON)
     foreach(found ${ARGN})
@@ -42,18 +43,20 @@ function(tspace_optional name help missing)
     endif()
 endfunction()
 
-# Compiles forty files as one, where TSPACE_BATCHES asks for it.
+# Compiles up to forty files as one (unity build) if TSPACE_BATCHES is set.
 function(tspace_batch_sources target)
     if(TSPACE_BATCHES)
         set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 40)
-        # Those are of names that only meet because their files are one here; the last is a guess, and wrong under sanitizers.
+        # Names of different files meet in a unity build, which causes these warnings; maybe-uninitialized also gives
+        # false positives with sanitizers.
         target_compile_options(${target} PRIVATE -Wno-shadow
                                $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage;-Wno-maybe-uninitialized>)
     endif()
 endfunction()
 
-# The same for the core, folder by folder: a program has all of a batch in it or nothing, and one that makes tangents needs no
-# normals. Those of src/core/frames stay apart, since few programs need more than one. Call it where the target has its sources.
+# Sets up unity builds of the core, one per folder: a program links a whole batch or nothing of it, and a program that
+# computes tangents needs no normals. Files of src/core/frames are compiled separately, since few programs need more
+# than one. Call this function after the target's sources are set.
 function(tspace_batch_folders target)
     tspace_batch_sources(${target})
     set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
@@ -67,9 +70,9 @@ function(tspace_batch_folders target)
     endforeach()
 endfunction()
 
-# The core promises the same bits everywhere: no relaxed arithmetic either. errno of sqrt is never read. Programs carry all of
-# it, so a release is -O2, but for loops over meshes that -O3 makes faster (tspace_optimize), and linkers that are told to
-# (--gc-sections) leave out what a program never calls.
+# The core guarantees identical bits on all systems, so relaxed floating-point arithmetic is off; errno of sqrt is never
+# read. Release builds use -O2 for small programs, except for loops over meshes that are faster with -O3
+# (tspace_optimize). Function sections let linkers drop unused functions (--gc-sections).
 function(tspace_configure_core target)
     target_compile_options(${target} PRIVATE -fno-fast-math -fno-math-errno -fno-trapping-math -ffunction-sections
                                              $<$<CONFIG:Release>:-O2>)
@@ -80,13 +83,14 @@ function(tspace_configure_core target)
     endforeach()
 endfunction()
 
-# tspace_optimize(LEVEL FILE...): the level of release builds for sources of the core, if not -O2.
+# tspace_optimize(LEVEL FILE...): sets the optimization level of these core sources in release builds. The default is
+# -O2.
 function(tspace_optimize level)
     set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:${level}>")
 endfunction()
 
-# tspace_sources(TARGET FOLDER... [EXCEPT name...]): all sources of these folders of the current wing. A file of one system ends
-# in _posix or _windows.
+# tspace_sources(TARGET FOLDER... [EXCEPT name...]): adds all sources of these folders of the current wing. Names of
+# system-specific files end in _posix or _windows.
 function(tspace_sources target)
     cmake_parse_arguments(arg "" "" "EXCEPT" ${ARGN})
     foreach(folder ${arg_UNPARSED_ARGUMENTS})
@@ -103,14 +107,15 @@ function(tspace_sources target)
     endforeach()
 endfunction()
 
-# What all installed libraries have in common; `name` is that of tspace::name.
+# Sets the properties that all installed libraries share; `name` is the name after tspace::.
 function(tspace_configure_library target name)
     set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} ARCHIVE_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}"
                           POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
 endfunction()
 
-# tspace_wing(NAME LINKS target... [LEVEL -O...] [FOLDERS folder...] [EXCEPT name...]): the library tspace::NAME of the current
-# folder, or of FOLDERS in it. It sees the public headers and the wings that it links. LEVEL: optimization of release builds.
+# tspace_wing(NAME LINKS target... [LEVEL -O...] [FOLDERS folder...] [EXCEPT name...]): defines the library tspace::NAME
+# from the current folder, or from FOLDERS in it. It can include the public headers and the wings that it links. LEVEL:
+# optimization of release builds.
 function(tspace_wing name)
     cmake_parse_arguments(arg "" "LEVEL" "LINKS;FOLDERS;EXCEPT" ${ARGN})
     if(NOT arg_FOLDERS)
@@ -128,7 +133,8 @@ function(tspace_wing name)
     endif()
 endfunction()
 
-# A second library from the core's sources with other optimization flags, to prove that the bits do not change.
+# Defines a second library from the core's sources with other optimization flags, to test that the results have the same
+# bits.
 function(tspace_core_variant target)
     get_target_property(sources tspace SOURCES)
     add_library(${target} STATIC EXCLUDE_FROM_ALL ${sources})

@@ -56,7 +56,7 @@ def npm_contents(path):
 
 
 def debian_versions():
-    """Of packages, and of the sources that they are made of."""
+    """Returns versions of packages, and of the source packages that they are built from."""
     try:
         listed = subprocess.run(["dpkg-query", "-W", "-f", "${Package} ${source:Package} ${source:Version}\n"], capture_output=True, text=True)
     except FileNotFoundError:
@@ -69,7 +69,7 @@ def debian_versions():
 
 
 def purl(registry, name, version=None):
-    """A package URL, in which an npm scope's @ is %40, and so are : and + of versions escaped."""
+    """Returns a package URL; the @ of an npm scope, and : and + in versions, are percent-encoded."""
     place = "deb/debian" if registry == "deb" else registry
     return f"pkg:{place}/{quote(name, safe='/')}" + (f"@{quote(version, safe='')}" if version else "")
 
@@ -104,7 +104,7 @@ def main(version, folder):
             relations.append((spdx_id(name), "DEPENDS_ON", identifier))
         for what in CONTENTS.get(path.suffix, lambda _: ())(path):
             identifier = spdx_id("inside", what)
-            release = versions.get(what) or versions.get(f"lib{what}")  # the source of zstd is libzstd
+            release = versions.get(what) or versions.get(f"lib{what}")  # the package of zstd is libzstd
             needed[identifier] = package(what, identifier, **({"versionInfo": release} if release else {}), externalRefs=[{
                 "referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl", "referenceLocator": purl("deb", what, release)}])
             relations.append((spdx_id(name), "CONTAINS", identifier))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""C++: conversions between structs of the C API and their twins, and checks that both have the same numbers (c_fields.h)."""
+"""C++: conversions between structs of the C API and their C++ counterparts, and checks that both have the same values
+(c_fields.h)."""
 
 HEAD = """\
 // SPDX-License-Identifier: MIT
@@ -30,7 +31,7 @@ def fields(headers):
         if owner.endswith(("Report", "Noise")):
             lines += ["", f"inline {owner} toReport(const {twin}& from) {{", f"    {owner} made;", "    TSPACE_INIT(made);",
                       *(f"    made.{field} = from.{_from_cpp(entity)};" for field, entity in members), "    return made;", "}"]
-        elif owner.endswith("Options") and owner != "tspace_PlanBufferOptions":  # arrays and structs alone
+        elif owner.endswith("Options") and owner != "tspace_PlanBufferOptions":  # options of arrays and structs only
             kinds = [(field, kind) for field, entity in members for kind in [_kind(entity, largest)] if kind]
             lines += ["", f"inline void copyFields(const {owner}& from, {twin}& to) {{",
                       *(f"    to.{field} = {kind.format('from.' + field)};" for field, kind in kinds), "}",
@@ -46,7 +47,7 @@ def _from_cpp(entity):
 
 
 def _kind(entity, enums):
-    """How C++ gets the value of a field, "" for what is not one number."""
+    """Returns the C++ expression for the value of a field, or "" if the field is not a single number."""
     known = {"bool": "{} != 0", "Convention": "toConvention({})", "float": "{}", "std::uint32_t": "{}"}
     return f"static_cast<{entity.type}>({{}})" if entity.type in enums else known.get(entity.type, "")
 
@@ -77,7 +78,7 @@ inline const std::map<std::string, std::map<std::string, double>> kEnumerators =
 
 
 def visitors(model):
-    """Functions that call visit(name, type, value) for each number in a struct."""
+    """Generates functions that call visit(name, type, value) for each number in a struct."""
     lines = [VISITORS]
     for name, values in model.enums.items():
         lines.append(f'{{"{name}", {{{", ".join(f"{{{chr(34)}{value.lower()}{chr(34)}, {number}}}" for value, number in values.items())}}}}},')

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """C: comments and defaults of the C headers, values of enumerations, and new fields of sized structs, from the C++ headers.
 
-Names become those of C. Text about C alone stands behind "In C:" and is kept. Also a problem: what only one of the two APIs
-has and twins.py does not name, and enumerators with other numbers or names.
+Names are converted to those of C. Text after "In C:" describes only the C API and is kept. Declarations that only one of
+the two APIs has and that twins.py does not list, and enumerators with different numbers or names, are reported as problems.
 """
 import re
 import textwrap
@@ -12,14 +12,14 @@ import cpp as cpp_headers
 import twins
 from names import camel, pascal, snake
 
-WIDTH = 117  # leaves room for the end of a comment
+WIDTH = 117  # keeps columns free for the end of a comment
 DEFAULTS = "/* == defaults == */"
 C_TYPES = {"bool": "uint32_t", "std::uint32_t": "uint32_t", "std::uint64_t": "uint64_t", "float": "float", "double": "double"}
 problems = []
 
 
 def listed(name, table):
-    """Whether a pattern of this table of exceptions is the name."""
+    """Returns whether a pattern in this table of exceptions matches the name."""
     return any(re.fullmatch(pattern, name) for pattern in table.values())
 
 
@@ -28,7 +28,7 @@ def twin_type(owner):
 
 
 def cpp_entities(read):
-    """(comments at the tops of headers, entities by their names) of all C++ headers that C has a counterpart for."""
+    """Returns (comments at the tops of headers, entities by name) of all C++ headers that have a C counterpart."""
     heads, entities = {}, {}
     for header in [*re.findall(r'#include "tspace/(\w+\.h)"', read("tspace.hpp")), *twins.FILE_HEADERS]:
         heads[header], declared = cpp_headers.parse(read(header))
@@ -36,7 +36,7 @@ def cpp_entities(read):
             if header in twins.FILE_HEADERS and entity.kind != "function":
                 continue  # in C, options and reports of the calls on files are JSON
             entity.header = header
-            parameter = re.search(r"\(.*?(\w+)(?: = [^,]*)?[,)]", entity.type)  # the first one tells overloads apart
+            parameter = re.search(r"\(.*?(\w+)(?: = [^,]*)?[,)]", entity.type)  # distinguishes overloads
             overload = f"{entity.name}({parameter[1]})" if entity.kind == "function" and parameter else ""
             entity.name = overload if overload in twins.TWINS.values() else entity.name
             if entity.name not in entities or entity.doc:
@@ -45,7 +45,7 @@ def cpp_entities(read):
 
 
 class Pairs:
-    """Which declaration of C is which of C++."""
+    """Maps declarations of the C API to those of the C++ API."""
 
     def __init__(self, entities, declared):
         self.entities, self.twin, self.c_name, self.c_only = entities, {}, {}, set()
@@ -87,7 +87,7 @@ def members(entities, owner, *kinds):
 
 
 class Words:
-    """Puts sentences of the C++ headers into the names of C."""
+    """Rewrites sentences of the C++ headers with the names of the C API."""
 
     NAME = re.compile(r"(?<!\w)(`?)([A-Za-z]\w*)(?:(::|\.)(\w+))?(\(\))?(`?)")
     LEFT = re.compile(r"\*/|/\*|\w*::\w+|\bstd\b|\bk[A-Z]\w+|(?<![\"_A-Za-z])[a-z]{2,}[A-Z][a-z]\w+(?!\")\b")
@@ -114,7 +114,7 @@ class Words:
         return text
 
     def word(self, found, entity):
-        """One name: name, Type::member, name(), object.name(), or any of them in backticks."""
+        """Converts one name: name, Type::member, name(), object.name(), or any of these in backticks."""
         tick, name, between, member, call, _ = found.groups()
         before, after = found.string[: found.start()], found.string[found.end():]
         c_name, entities = self.pairs.c_name, self.pairs.entities
@@ -126,14 +126,14 @@ class Words:
         if call and own in c_name and entities[own].kind == "method":
             return c_name[own].rpartition(".")[2]
         if name in c_name:
-            is_prose = re.fullmatch("[A-Za-z][a-z]+", name)  # a word of prose too
+            is_prose = re.fullmatch("[A-Za-z][a-z]+", name)  # an ordinary English word as well
             is_type = entities[name].kind == "type"
             if not is_prose or tick or (re.search("[a-z] $", before) if is_type else call or after[:1] == "("):
                 return f"{tick}{c_name[name]}{tick}"
         if name in self.codes and not before.endswith('"'):
             return self.codes[name]
         if tick and entity.header not in twins.FILE_HEADERS:
-            # The enumerator of this name that the header declares, or that all do.
+            # The enumerator of this name in the same header, or the only one in all headers.
             found_there = self.enumerators.get(name, [])
             near = [c for header, c in found_there if header == entity.header] or [c for _, c in found_there]
             return near[0] if len(near) == 1 else found[0]
@@ -141,7 +141,7 @@ class Words:
 
 
 def wrapped(parts, indent):
-    """Lines of a comment, of at most WIDTH columns."""
+    """Returns the lines of a comment, each of at most WIDTH columns."""
     lines = []
     widest = max((len(names) for kind, names, _ in parts if kind == "parameter"), default=0)
     for kind, name, text in parts:
@@ -153,20 +153,20 @@ def wrapped(parts, indent):
 
 
 def written(lines, indent):
-    """A comment above a declaration."""
+    """Returns the lines of a comment above a declaration."""
     margin = " " * indent
     made = [(margin + ("/* " if i == 0 else " * ") + line).rstrip() for i, line in enumerate(lines)]
     return "\n".join(made) + (" */" if len(made[-1]) <= 120 - 3 else f"\n{margin} */")
 
 
 def floats(declaration, name=r"\w+"):
-    """What an element of a span is, which C cannot say by a type."""
+    """Returns the element type of a span, which the C type does not show."""
     found = re.search(rf"(?:StridedSpan|vector)<(?:const )?(?:Vec([234])|float)>(?: {name}\b|$)", declaration)
     return f"{found[1] or 1} float{'s' if found[1] else ''} each" if found else ""
 
 
 def own_lines(comment):
-    """The lines of a comment that are of C alone."""
+    """Returns the lines of a comment that describe only the C API."""
     lines = re.sub(r"^\s*/\* ?|\s*\*/\s*$", "", comment).split("\n")
     text = "\n".join(re.sub(r"^\s*\* ?", "", line) if i else line for i, line in enumerate(lines))
     found = re.search(r"(?:^|(?<=[\s.]))In C: ", text)
@@ -174,7 +174,7 @@ def own_lines(comment):
 
 
 def comment_parts(item, entity, words, default):
-    """The parts of an item's comment that come from C++."""
+    """Returns the parts of an item's comment that come from C++."""
     parts = [(kind, names, words.of(text, entity)) for kind, names, text in cpp_headers.blocks(entity.doc, entity.indent)]
     if item.kind == "function":
         for at, (kind, names, text) in enumerate(parts):
@@ -197,7 +197,7 @@ def comment_parts(item, entity, words, default):
 
 
 def rewritten(item, pairs, words, defaults):
-    """An item with the comment that it has to have."""
+    """Returns an item with its generated comment."""
     entity = pairs.twin[item.full()]
     indent = len(item.code) - len(item.code.lstrip())
     parts, own = comment_parts(item, entity, words, defaults.get(item.full())), own_lines(item.comment)
@@ -212,7 +212,7 @@ def rewritten(item, pairs, words, defaults):
 
 
 def defaults_of(pairs, words):
-    """type.field -> value, of the fields of sized structs whose default is not zero."""
+    """Returns type.field -> value for the fields of sized structs with a nonzero default."""
     found = {}
     for full, entity in pairs.twin.items():
         if entity.kind != "field" or not pairs.is_sized(full.partition(".")[0]) or listed(full, twins.OTHER_DEFAULTS):
@@ -224,7 +224,7 @@ def defaults_of(pairs, words):
 
 
 def defaults_code(defaults, pairs):
-    """The end of the header: what TSPACE_INIT calls."""
+    """Returns the end of the header: the functions that TSPACE_INIT calls."""
     types = {full.partition(".")[0]: "" for full in defaults}
     types = {kind: f"tspace_set{kind[len('tspace_'):].removesuffix('Options')}Defaults" for kind in types}
     lines = [DEFAULTS, "/* For TSPACE_INIT: the defaults that are not zero. */",
@@ -247,7 +247,7 @@ def defaults_code(defaults, pairs):
 
 
 def completed(text, entities):
-    """A header with the enumerators and fields at the ends of its types that C++ has and it lacks."""
+    """Adds enumerators and fields that C++ has and C lacks to the ends of their types in a header."""
     groups = {}
     for item in c_model.items(text):
         if item.owner:
@@ -275,12 +275,12 @@ def completed(text, entities):
 
 
 def plain(text):
-    """Without what scripts/format decides."""
+    """Removes differences that scripts/format decides."""
     return "".join(text.replace("\\\n", "").split())
 
 
 class Headers:
-    """The C headers as they have to be: `texts`, by name; and which declaration of C is which of C++: `pairs`."""
+    """Generates the C headers (`texts`, by name), and maps C declarations to C++ declarations (`pairs`)."""
 
     def __init__(self, read):
         heads, entities = cpp_entities(read)
@@ -291,14 +291,14 @@ class Headers:
         defaults = defaults_of(pairs, words)
 
         def section(found):
-            """A comment that begins with "== frame.h ==": that at the top of this C++ header."""
+            """Replaces a comment that begins with "== frame.h ==" by the comment at the top of this C++ header."""
             entity = cpp_headers.Entity(found[1], "head", header=found[1])
             parts = [(kind, names, words.of(part, entity)) for kind, names, part in cpp_headers.blocks(heads[found[1]])]
             return written([f"== {found[1]} ==", *wrapped(parts, 0)], 0)
 
         for name, declared in self.items.items():
             text = self.texts[name]
-            for item in {item.start: item for item in reversed(declared)}.values():  # from the end; of several on a line the first
+            for item in {item.start: item for item in reversed(declared)}.values():  # from the end; the first per line
                 if item.full() in pairs.twin and not item.code.startswith("enum {"):
                     text = text[: item.start] + rewritten(item, pairs, words, defaults) + text[item.end:]
             end = read(name).partition(DEFAULTS)[2]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The declarations of C headers: items with their comments, and types, structs and functions for other languages."""
+"""Parses the declarations of C headers: items with their comments, and types, structs and functions for other languages."""
 import dataclasses
 import os
 import re
@@ -22,11 +22,11 @@ KINDS = {"struct": "type", "number": "type", "opaque": "type", "pointer": "field
 
 @dataclasses.dataclass
 class Item:
-    """A declaration, and where it and its comment stand in the header."""
-    kind: str  # that of an Entity, or "callback"
+    """A declaration, with the positions of the declaration and its comment in the header."""
+    kind: str  # a kind of Entity, or "callback"
     name: str
-    owner: str  # the type of a member
-    value: str  # of an enumerator
+    owner: str  # the type that a member belongs to
+    value: str  # value of an enumerator
     code: str
     comment: str
     start: int
@@ -51,10 +51,10 @@ def items(text):
 
 @dataclasses.dataclass(frozen=True)
 class Type:
-    """A C type: `name` without "tspace_", and for each pointer whether what it points to is const, the innermost first."""
+    """A C type: `name` without "tspace_", and for each pointer whether it points to const, innermost first."""
     name: str
     pointers: tuple = ()
-    count: str = ""  # of an array
+    count: str = ""  # size of an array
 
     def is_number(self):
         return not self.pointers and not self.count
@@ -73,7 +73,7 @@ class Function:
 
 class Model:
     def __init__(self, declared):
-        self.enums = {}  # name -> {"MIKKTSPACE": 0}, without what stands for a value that was forgotten
+        self.enums = {}  # name -> {"MIKKTSPACE": 0}, without the value that marks an uninitialized field
         self.values, self.constants, self.callbacks, self.structs = {}, {}, {}, {}  # structs: name -> [(field, Type or Function)]
         self.functions, self.opaque = [], set()
         for item in declared:
@@ -106,7 +106,7 @@ class Model:
 
 def _function(code):
     result, name, parameters = re.match(r"(.*?) ?\(?\*?\b(\w+)\)?\((.*)\)$", " ".join(code.split())).groups()
-    ends = re.sub(r",(?![^(]*\))", ";", parameters) + ";"  # commas between parameters, not those of callbacks
+    ends = re.sub(r",(?![^(]*\))", ";", parameters) + ";"  # separates parameters; commas inside callbacks are kept
     return Function(name, _variable(result)[1], [] if parameters == "void" else list(_variables(ends)))
 
 
@@ -122,6 +122,6 @@ def _variables(text):
 
 
 def _variable(code):
-    """(name, Type) of a declaration; the name is empty where it has none."""
+    """Returns (name, Type) of a declaration; the name is empty if the declaration has none."""
     found = re.match(r"(const )?(?:tspace_)?(\w+)(\**)(?: (\w+)(?:\[(\w+)\])?)?$", code)
     return found[4] or "", Type(found[2], tuple(bool(found[1]) and i == 0 for i in range(len(found[3]))), found[5] or "")

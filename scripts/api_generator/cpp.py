@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What the C++ headers declare and say about it, as data: the one source of what C and
-other languages say. Reads headers as scripts/format leaves them; it is no parser of C++."""
+"""Parses the declarations and comments of the C++ headers, the single source of the C API and the bindings. Expects
+headers formatted by scripts/format; it is not a general C++ parser."""
 import dataclasses
 import re
 
@@ -9,20 +9,20 @@ import re
 class Entity:
     name: str  # "generateNormals", "Method", "Method::best", "TangentOptions::refine"
     kind: str  # "type", "enumerator", "field", "method", "function" or "constant"
-    owner: str = ""  # the type of a member
-    type: str = ""  # of a field; of a function all of its declaration
-    value: str = ""  # of a field or an enumerator, "" where it has none
-    doc: list = dataclasses.field(default_factory=list)  # lines, as written
-    indent: int = 0  # of the comment
+    owner: str = ""  # the type that a member belongs to
+    type: str = ""  # type of a field; whole declaration of a function
+    value: str = ""  # value of a field or an enumerator; "" if it has none
+    doc: list = dataclasses.field(default_factory=list)  # lines of the comment, as written
+    indent: int = 0  # indentation of the comment
     header: str = ""
 
     def member(self):
-        """The name without that of its type."""
+        """Returns the name without its type."""
         return self.name.rpartition("::")[2]
 
 
 def parse(text):
-    """(head, entities): the comment at the top of a header, as lines, and all that it declares."""
+    """Returns (head, entities): the lines of the comment at the top of a header, and all declarations."""
     lines = text.splitlines()
     head = []
     for line in lines[1:]:
@@ -33,7 +33,7 @@ def parse(text):
 
 
 def _entities(lines):
-    scopes = []  # (kind, name, indent); the kind "body": nothing in it is declared
+    scopes = []  # (kind, name, indent); declarations inside the kind "body" are ignored
     doc, code = [], ""
     for line in lines:
         text = line.strip()
@@ -114,8 +114,9 @@ def _declared(code, scopes):
 
 
 def blocks(entity_doc, indent=0):
-    """The parts of a comment: ("text", "", words), ("parameter", names, words), ("verbatim", "", line) and
-    ("blank", "", ""). A line starts a new part where it is a parameter's, or where the one before ends a sentence and had room."""
+    """Splits a comment into ("text", "", words), ("parameter", names, words), ("verbatim", "", line) and ("blank", "",
+    ""). A line starts a new part if it describes a parameter, or if the previous line ends a sentence before the
+    right margin."""
     made = []
     before = ""
     for line in entity_doc:

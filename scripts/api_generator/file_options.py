@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Options of calls on files: names for Python and JavaScript, and types for their checkers, from the table of options."""
+"""Options of calls on files: their names in Python and JavaScript, and their types for type checkers, from the table of
+options."""
 import ast
 import re
 import textwrap
@@ -7,7 +8,7 @@ import textwrap
 from names import camel
 
 PATHS = ("match",)  # a name or a path
-# What the module of JavaScript does not have: threads, disks, importers, and copies of maps.
+# Options that the JavaScript module lacks, because it has no threads, disks or importers, and does not copy maps.
 NOT_IN_JS = ("threads", "no-sync", "import-seconds", "convert-maps")
 JS_CALLS = ("generate", "check", "inspect", "identify", "diff")
 PYI = '''\
@@ -42,7 +43,7 @@ def python_names(options):
 
 
 def choices_of(option):
-    """What it may be; of "up|down" in help both."""
+    """Returns the possible values of an option: its choices, or the alternatives of "up|down" in its help."""
     return option["choices"] or (option["value"].split("|") if "|" in option["value"] else [])
 
 

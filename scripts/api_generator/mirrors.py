@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Choices, options and reports for Rust, C#, Python and JavaScript, with the comments of C++."""
+"""Generates choices, options and reports for Rust, C#, Python and JavaScript, with the comments of the C++ headers."""
 import re
 import textwrap
 
@@ -10,19 +10,19 @@ from twins import PHRASES
 CHOICES = ("Method", "Pairing", "Ngons", "OutputDomain", "FrameShape", "NormalWeighting", "FrameFormat", "VAxis", "Green",
            "StoredSign", "Handedness", "Winding")
 REPORTS = ("TangentReport", "NormalReport", "PositionNoise", "SanitizeReport", "WindingReport", "PackReport")
-NOT_IN_CSHARP = ("domain", "smoothing_groups", "smoothing_groups_are_masks")  # options
+NOT_IN_CSHARP = ("domain", "smoothing_groups", "smoothing_groups_are_masks")  # options that only C# lists here
 RUST = {"uint32_t": "u32", "uint64_t": "u64", "float": "f32", "double": "f64", "bool": "bool"}
 CSHARP = {"uint32_t": "int", "uint64_t": "long", "float": "float", "bool": "bool"}
 
 
 class Mirrors:
-    """The structs of the C API as other languages show them: fields with their types and comments."""
+    """Structs of the C API as they appear in other languages: fields with their types and comments."""
 
     def __init__(self, model, pairs):
         self.model, self.pairs, self.entities = model, pairs, pairs.entities
 
     def fields(self, struct):
-        """(name, type, comment) of each: a type of C, "bool", a choice, "Convention" or "list"."""
+        """Returns (name, type, comment) of each field: a C type, "bool", a choice, "Convention" or "list"."""
         for name, kind in self.model.structs[struct]:
             entity = self.pairs.twin.get(f"tspace_{struct}.{name}")
             if entity:
@@ -30,17 +30,17 @@ class Mirrors:
                 yield name, shown, self.text(entity)
 
     def text(self, entity, own=()):
-        """A comment as one paragraph, with `own` names of enumerators."""
+        """Returns a comment as one paragraph, with `own` names of enumerators."""
         text = " ".join(part for kind, _, part in blocks(entity.doc) if kind == "text")
         for phrase, said in PHRASES.items():
             text = re.sub(phrase, said, text)
         text = re.sub(r"`?\b[A-Z]\w+::(\w+)`?", r"`\1`", text)
         text = re.sub(r"`(\w+)`", lambda found: f"`{dict(own).get(found[1], found[1])}`", text)
-        text = text[:1].upper() + text[1:] if re.match(r"(?!true\b|false\b)(a [a-z]|[a-z]{2,}[ ,:])", text) else text  # a sentence, not a formula
+        text = text[:1].upper() + text[1:] if re.match(r"(?!true\b|false\b)(a [a-z]|[a-z]{2,}[ ,:])", text) else text  # not a formula
         return text if not text or text.endswith(".") else f"{text}."
 
     def choice(self, name):
-        """(name in C++, name in other languages, number, comment) of each enumerator, and the comment of the enumeration."""
+        """Returns (C++ name, name in other languages, number, comment) of each enumerator, and the enumeration's comment."""
         by_number = {entity.value: entity for entity in self.entities.values() if entity.owner == name and entity.kind == "enumerator"}
         found = [(by_number[str(number)], pascal(c), number) for c, number in self.model.enums[name].items()]
         own = [(entity.member(), shown) for entity, shown, _ in found]
@@ -70,7 +70,7 @@ def rust_choices(mirrors):
         lines.append("}")
     rows, text = mirrors.choice("ErrorCode")
     lines += ["", *_wrapped(text, "/// "), "#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]", "#[non_exhaustive]", "pub enum ErrorCode {"]
-    for _, member, _, comment in rows[1:]:  # not that of success
+    for _, member, _, comment in rows[1:]:  # without the code for success
         lines += [*_wrapped(comment, "    /// "), f"    {member},"]
     lines += ["    /// An error number that this crate does not know.", "    Other(u32),", "}", "", "impl ErrorCode {",
               "    pub(crate) fn of(code: u32) -> ErrorCode {", "        match code {",
@@ -86,7 +86,7 @@ RUST_HEAD = """\
 use crate::enums::*;
 use crate::options::{prepared, Convention, Execution};
 use crate::sys;"""
-# How Rust has a field of options: its type, its default from `raw`, and what `raw` gets.
+# Fields of options in Rust: type, default from `raw`, and value passed to `raw`.
 RUST_OPTIONS = {
     "list": ("&'a [u32]", "&[]", "if self.{0}.is_empty() {{ std::ptr::null() }} else {{ self.{0}.as_ptr() }}"),
     "Convention": ("Convention", "", "self.{0}.raw()"), "bool": ("bool", "raw.{0} != 0", "self.{0}.into()"),
@@ -192,13 +192,13 @@ def python_names(model, presets):
 
 
 def _report_members(mirrors, name):
-    """In the order in which the WebAssembly modules store them: counts first."""
+    """Returns the fields in the order in which the WebAssembly modules store them: counts first."""
     members = [entity for entity in mirrors.entities.values() if entity.owner == name and entity.kind in ("field", "method")]
     return sorted(members, key=lambda entity: entity.type != "std::uint64_t")
 
 
 def js_names(mirrors, choices, reports):
-    """Names of choices in the order of their numbers, and of the numbers of reports."""
+    """Returns names of choices in the order of their numbers, and names of the numbers in reports."""
     lines = ["// SPDX-License-Identifier: MIT", "// Names of choices, and of numbers of reports. Written by scripts/api."]
     lists = {name: [value.lower() if name == "FrameFormat" else camel(value) for value in mirrors.model.enums[name]] for name in choices}
     lists.update({name: [camel(snake(entity.member()).removesuffix("_deg")) for entity in _report_members(mirrors, name)] for name in reports})
@@ -228,7 +228,7 @@ def wasm_reports(mirrors):
         counts = [f"&{name}::{entity.member()}" for entity in members if entity.type == "std::uint64_t"]
         others = [f"{entity.member()}{'()' * (entity.kind == 'method')}" for entity in members[len(counts):]]
         lines.append(f"inline std::size_t keep(const {name}& from, std::size_t first = 0) {{")
-        if counts:  # a loop over them takes fewer bytes than a statement for each
+        if counts:  # a loop over them is smaller than one statement for each
             lines += [f"    static constexpr std::uint64_t {name}::* kCounts[] = {{{', '.join(counts)}}};",
                       "    for (const auto count : kCounts) report[first++] = static_cast<double>(from.*count);"]
         lines += [*(f"    report[first++] = static_cast<double>(from.{other});" for other in others), "    return first;", "}", ""]

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""Names in the styles of languages."""
+"""Converts names between the styles of languages."""
 import re
 
 
 def snake(name):
-    """CounterClockwise: counter_clockwise."""
+    """Converts CounterClockwise to counter_clockwise."""
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
 
 
 def pascal(name):
-    """counter_clockwise: CounterClockwise."""
+    """Converts counter_clockwise to CounterClockwise."""
     return "".join(part[:1].upper() + part[1:].lower() for part in name.split("_"))
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The C API as Python's _abi.py, Rust's sys.rs and C#'s Native.cs: structs, numbers and functions."""
+"""Generates the declarations of the C API in Python's _abi.py, Rust's sys.rs and C#'s Native.cs: structs, numbers and
+functions."""
 from c_model import Function
 from names import pascal, plural, snake
 
@@ -8,7 +9,7 @@ PYTHON = {"uint32_t": "c_uint32", "uint64_t": "c_uint64", "uint8_t": "c_uint8", 
 RUST = {"uint32_t": "u32", "uint64_t": "u64", "uint8_t": "u8", "size_t": "usize", "int": "i32", "float": "f32",
         "double": "f64", "char": "c_char", "void": "c_void"}
 CSHARP = {"uint32_t": "uint", "uint64_t": "ulong", "uint8_t": "byte", "size_t": "UIntPtr", "char": "byte",
-          "ConstSpan": "Span"}  # pointers are never const here
+          "ConstSpan": "Span"}  # const is dropped from pointers here
 
 
 class Python:
@@ -29,7 +30,7 @@ from ._library import declare, load
         self.model = model
 
     def type(self, kind):
-        """Pointers to structs are typed; others are addresses, as arrays give them."""
+        """Returns the type of a pointer: typed for structs, an address for arrays."""
         if isinstance(kind, Function):
             return f"CFUNCTYPE({', '.join(map(self.type, (kind.result, *(taken for _, taken in kind.parameters))))})"
         name = PYTHON.get(kind.name, "c_uint32" if kind.name in self.model.enums else kind.name)
@@ -47,7 +48,7 @@ from ._library import declare, load
         return [*lines, "}"]
 
     def abi(self, model, presets):
-        """`model` is that of the core, whose enumerations and functions are declared at once."""
+        """`model` describes the core, whose enumerations and functions are declared first."""
         lines = [self.HEAD]
         for name, values in model.enums.items():
             lines += [f"{plural(snake(name)).upper()} = {{", *(f'    "{value.lower()}": {number},' for value, number in values.items()), "}"]

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""What c_headers.py cannot know by itself: where the two APIs differ, and why they may."""
+"""Exceptions that c_headers.py cannot derive: differences between the C and C++ APIs, and their reasons."""
 
 C_HEADERS = ("tspace.h", "tspace_files.h")
 FILE_HEADERS = ("bake_file.h", "check.h", "file_options.h", "generate.h", "inspect.h", "map_files.h")
 
-# Name in C -> name in C++, where it is no other by rule.
+# Name in C -> name in C++, for names that do not follow the general rule.
 TWINS = {
     "tspace_Mesh": "MeshView",
     "tspace_Indices": "IndexView",
@@ -15,12 +15,12 @@ TWINS = {
     "tspace_arenaHeldBytes": "Arena::heldBytes",
     "tspace_arenaUsedBytes": "Arena::usedBytes",
     "tspace_trimArena": "Arena::trim",
-    "tspace_generateTangentsOfMeshes": "generateTangents(jobs)",  # an overload, by its first parameter
+    "tspace_generateTangentsOfMeshes": "generateTangents(jobs)",  # an overload, identified by its first parameter
     "tspace_TangentPlanInfo": "TangentPlan",
     "tspace_flipGreenBytes": "flipGreen",
 }
 
-# Why something is only in C -> what it is (regular expressions; a type stands for its fields).
+# Reason why declarations exist only in C -> regular expressions of their names; a type includes its fields.
 C_ALONE = {
     "constructors and destructors": r"tspace_init\w+|tspace_createArena|tspace_destroy\w+",
     "C++ programs are linked with the library that they were compiled with": r"tspace_version",
@@ -34,7 +34,7 @@ C_ALONE = {
     r"|tspace_(generate|check|inspect|identify|diff|compressMap)Bytes",
 }
 
-# Why something is only in C++ -> what it is.
+# Reason why declarations exist only in C++ -> regular expressions of their names.
 CPP_ALONE = {
     "tspace_findConvention gives them by their names": r"conventions::\w+",
     "C takes its fields as parameters": r"TexelDecode",
@@ -50,10 +50,10 @@ CPP_ALONE = {
     "the first word of PlanBuffers": r"PlanBuffers::kVersion",
 }
 
-# Fields whose default in C is zero: what that means -> which they are.
+# Meaning of a zero default in C -> regular expression of the fields with that default.
 OTHER_DEFAULTS = {"3": r"tspace_Mesh\.face_size", "the same as 1": r"tspace_Execution\.thread_count"}
 
-# Regular expressions -> how C says it.
+# Regular expressions in C++ comments -> their replacements in C comments.
 PHRASES = {
     r"`?conventions::(\w+)`?": r'"\1"',
     r"those of convertMap and of readers of models": "those of readers of models",
@@ -67,5 +67,5 @@ PHRASES = {
     r"Returns null for any other name\.": "INVALID_OPTION for any other name.",
 }
 
-# Words that look like names of C++ and are none.
+# Words that look like C++ names but are not.
 WORDS = {"glTF", "lowerCamelCase", "normalTexture"}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# fmt from its headers alone.
+# Finds fmt as a header-only library.
 if(NOT TARGET fmt::fmt)
     add_library(fmt::fmt INTERFACE IMPORTED)
     target_include_directories(fmt::fmt INTERFACE "${TSPACE_HEADERS}/include")
