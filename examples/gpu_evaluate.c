@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Normals and tangents of a pose by Vulkan: a plan is made once, written as words (tspace_planBuffers) and uploaded, and a
- * compute shader, shaders/tspace_evaluate.glsl, computes the frames of a bent sheet. They are read back here only to compare
- * them with the library's own; a renderer would bind the two buffers as vertex buffers.
+/* Computes normals and tangents of a pose with Vulkan. A plan is made once, written as words (tspace_planBuffers) and uploaded;
+ * the compute shader shaders/tspace_evaluate.glsl then computes the frames of a bent sheet. This program reads them back only
+ * to compare them with the frames of the library; a renderer would bind the two buffers as vertex buffers.
  *
  *   glslangValidator -V -S comp -o evaluate.spv shaders/tspace_evaluate.glsl
  *   cc examples/gpu_evaluate.c -ltspace -lvulkan -lm -o gpu_evaluate && ./gpu_evaluate evaluate.spv */
@@ -14,7 +14,7 @@
 #include "tspace/tspace.h"
 
 enum { QUADS = 48, SIDE = QUADS + 1, VERTICES = SIDE * SIDE, CORNERS = 6 * QUADS * QUADS };
-/* The bindings of the shader. */
+/* Binding numbers of the shader. */
 enum { PLAN, SETTINGS, POSITIONS, DEFORM, NORMALS, TANGENTS, BINDINGS };
 enum { SETTING_WORDS = 32, THREADS = 64 };
 
@@ -204,7 +204,7 @@ static void dispatch(uint32_t results) {
     VK(vkBeginCommandBuffer(buffer, &begin));
     vkCmdBindPipeline(buffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
     vkCmdBindDescriptorSets(buffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, NULL);
-    vkCmdDispatch(buffer, (results + THREADS - 1) / THREADS, 1, 1); /* at most 65535 in x: more groups go to y */
+    vkCmdDispatch(buffer, (results + THREADS - 1) / THREADS, 1, 1); /* the limit in x is 65535; larger counts need y */
     /* The next reader of the results: here the host; a renderer uses VERTEX_INPUT and VERTEX_ATTRIBUTE_READ. */
     const VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
                                      .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT,

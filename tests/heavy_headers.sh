@@ -1,13 +1,13 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Limits how many files include the headers that take longest to compile: 0.2 to 0.5 s each for those of the C++ library, seconds
-# for the JSON library. Lower a limit when an include is removed.
+# Limits the number of files that include the headers with the longest compile times: 0.2 to 0.5 s each for headers of
+# the C++ library, seconds for the JSON library. Lower a limit when an include is removed.
 # usage: heavy_headers.sh SOURCE_FOLDER
 set -euo pipefail
 cd "${1:?usage: heavy_headers.sh SOURCE_FOLDER}"
 
 failed=0
-# limit HEADERS SOURCES NAME...: at most so many headers and source files include one of these.
+# limit HEADERS SOURCES NAME...: at most HEADERS headers and SOURCES source files may include one of these.
 limit() {
     local most=("$1" "$2") kinds=(h cpp) names files count i
     shift 2
@@ -30,7 +30,7 @@ limit 2 22 filesystem
 limit 4 18 chrono thread condition_variable mutex
 limit 18 100 functional
 limit 15 100 map unordered_map
-# Libraries that read files and shoot rays: their headers stay in one file each.
+# Libraries that read files and cast rays: only one source file each may include their headers.
 limit 0 1 draco
 limit 0 1 embree4/rtcore embree3/rtcore
 limit 1 0 tiny_obj_loader

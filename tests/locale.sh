@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# No number is read or written as the locale of the program says: std::to_chars and parseReal have a point everywhere.
+# Numbers are read and written independently of the program's locale: std::to_chars and parseReal always use a decimal
+# point.
 # usage: locale.sh SOURCE_FOLDER
 set -euo pipefail
 cd "${1:?usage: locale.sh SOURCE_FOLDER}"

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Sources that a comment names exist: a file that was renamed or removed leaves no trail.
+# Source files that comments mention exist, so that no comment mentions a renamed or removed file.
 # usage: named_files.sh SOURCE_FOLDER
 set -euo pipefail
 cd "${1:?usage: named_files.sh SOURCE_FOLDER}"

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# No two types of the library, the tool and the tests have one qualified name: a program with both is undefined (the linker keeps one constructor for
-# both). The compiler cannot see it, since no file includes both.
+# No two types of the library, the tool and the tests have the same qualified name. A program with both is undefined
+# (the linker keeps one constructor for both), and the compiler cannot detect it, since no file includes both.
 # usage: one_type_a_name.sh SOURCE_FOLDER
 set -euo pipefail
 cd "${1:?usage: one_type_a_name.sh SOURCE_FOLDER}"
@@ -12,7 +12,7 @@ fi
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-# names FOLDER...: each qualified name that two files define, with the files.
+# names FOLDER...: prints each qualified name that two files define, with the files.
 names() {
     python3 - "$@" <<'PY'
 import collections, pathlib, re, sys

@@ -1,14 +1,15 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# The wings, the folders of src/, stand in an order: each includes only itself and those below it. Within a wing its rooms stand
-# in an order too, and so do all units (a header with its source) and public headers: tsort finds it, or a loop.
+# The wings, the folders of src/, are ordered: each includes only itself and those before it. The rooms of a wing, all
+# units (a header with its source) and public headers must be free of cycles too; tsort determines an order or reports a
+# cycle.
 # usage: rooms.sh SOURCE_FOLDER
 set -euo pipefail
 cd "${1:?usage: rooms.sh SOURCE_FOLDER}/src"
 wings=$(ls -d -- */ | tr -d / | sort | tr '\n' ' ')
 [ "$wings" = "api commands core images maps model textures " ] || { echo "these are not the seven wings: $wings"; exit 1; }
 
-# "FOLDER FOLDER" for each include. A room is a folder of a wing; those below mesh/ and shared/ are rooms of their own.
+# "FOLDER FOLDER" for each include. A room is a folder of a wing; folders below mesh/ and shared/ are separate rooms.
 includes=$(grep -rE '^#include "[a-z_]+/' --include='*.h' --include='*.cpp' . |
     sed -E 's|^\./([^:]*)/[^/:]*:#include "(.*)/[^/"]*".*|\1 \2|' | grep -v ' tspace' | sort -u)
 [ "$(wc -l <<<"$includes")" -gt 50 ] || { echo "only these includes were found: $includes"; exit 1; }
@@ -35,7 +36,7 @@ awk '{ for (i = 1; i <= 2; ++i) {
            for (k = 2; k <= depth && k <= count; ++k) $i = $i "/" part[k]
        } } $1 != $2' <<<"$includes" | sort -u | tsort
 
-# Units: "UNIT UNIT" for each include. Public headers keep their ending, since tspace.h and tspace.hpp are two.
+# Units: "UNIT UNIT" for each include. Public headers keep their extension, since tspace.h and tspace.hpp are two units.
 cd ..
 units=$(grep -rE '^#include "[a-z_]+/' --include='*.h' --include='*.hpp' --include='*.cpp' src include |
     sed -E 's|^(src\|include)/([^:]*):#include "([^"]*)".*|\2 \3|' |

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# What is said of reports in other places is what docs/schema says; and where it is not, scripts/schema finds it.
+# Generated descriptions of reports are up to date with docs/schema, and scripts/schema reports differences.
 # usage: schema.sh SOURCE_FOLDER
 set -euo pipefail
 cd "${1:?usage: schema.sh SOURCE_FOLDER}"
@@ -26,7 +26,7 @@ fresh() {
     cp bindings/python/src/tspace/_{generate_report,file_reports}.py "$folder/bindings/python/src/tspace"
 }
 
-# must_find FILE OLD NEW WORDS: with this change in the file, --check prints the words.
+# must_find FILE OLD NEW WORDS: after this change of the file, --check prints the words.
 must_find() {
     fresh
     grep -qF -- "$2" "$1" || fail "there is no \"$2\" in $1"
@@ -52,7 +52,7 @@ must_find $check '"confidence": {"type": "number"' '"confidence": {"format": "da
 must_find $check '"$id": "tspace.check.1.json"' '"$id": "tspace.check.2.json"' '$id is'
 must_find $check '"const": "tspace.check/1"' '"const": "tspace.check/2"' 'another schema than its name says'
 
-# Without --check it writes.
+# Without --check it writes the files.
 "$folder/scripts/schema" >/dev/null 2>&1 && fail "a wrong schema is no error"
 fresh
 rm "$folder"/bindings/js/src/*.d.ts

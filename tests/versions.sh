@@ -1,14 +1,14 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Every file that states the version states that of CMakeLists.txt, and the manifest of the add-on for Blender is one that Blender
-# takes: it refuses sentences of more than 64 characters, and those that end in punctuation.
+# Every file that states the version has the version of CMakeLists.txt, and Blender accepts the manifest of the add-on:
+# it rejects sentences of more than 64 characters, and sentences that end in punctuation.
 # usage: versions.sh SOURCE_FOLDER
 set -euo pipefail
 cd "${1:?usage: versions.sh SOURCE_FOLDER}"
 version=$(sed -n 's/^project(tspace VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 [ -n "$version" ] || { echo "CMakeLists.txt states no version"; exit 1; }
 status=0
-states() { # FILE TEXT: the file has this line, or a part of it
+states() { # states FILE TEXT: the file contains this text
     grep -qF "$2" "$1" || { echo "$1 does not have: $2"; status=1; }
 }
 states CHANGELOG.md "## $version"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Run by Blender: imports each model after "--" and prints one line for each. What is imported must be what the file says:
-as many vertices, three loops per triangle, all shape keys and skins. An exception ends Blender with status 1
+"""Run by Blender: imports each model after "--" and prints one line for each. The import must match the file: the same
+number of vertices, three loops per triangle, and all shape keys and skins. An exception ends Blender with status 1
 (--python-exit-code)."""
 import json
 import pathlib
@@ -22,7 +22,7 @@ def read_json(path):
 
 
 def expected(path):
-    """(vertices, loops, shape keys, skins) of models whose primitives are indexed triangles and share no vertices."""
+    """Returns (vertices, loops, shape keys, skins) of models whose primitives are indexed triangles and share no vertices."""
     gltf = read_json(path)
     count = [accessor["count"] for accessor in gltf["accessors"]]
     primitives = [primitive for mesh in gltf["meshes"] for primitive in mesh["primitives"]]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""same_tangents.py DIFF LEAST: in the answer of `tspace diff --json` at least LEAST of 1000 corners have tangents within a
-degree of each other, and no sign differs."""
+"""same_tangents.py DIFF LEAST: in the output of `tspace diff --json`, at least LEAST of 1000 corners must have tangents
+within one degree of each other, and no sign may differ."""
 import json
 import sys
 

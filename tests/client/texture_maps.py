@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""python3 texture_maps.py write MAP.png NUMBERS: a normal map of waves, 64 x 48 texels of 16 bits, and its x and y as bytes
-python3 texture_maps.py pillow NUMBERS DDS...: Pillow reads these as that map
-python3 texture_maps.py tga NUMBERS TGA: this is that map
+"""python3 texture_maps.py write MAP.png NUMBERS: writes a normal map of waves, 64 x 48 texels of 16 bits, and its x and y as bytes
+python3 texture_maps.py pillow NUMBERS DDS...: Pillow must read these files as that map
+python3 texture_maps.py tga NUMBERS TGA: the file must contain that map
 """
 
 import math
@@ -10,7 +10,7 @@ import sys
 import zlib
 
 WIDTH, HEIGHT = 64, 48
-MOST = 4  # of 255: a step of a block, plus the change of texels by the search for the filter
+MOST = 4  # of 255: a step of a block, plus changes by the optimization for filtering
 
 
 def write(path, numbers):
@@ -36,7 +36,7 @@ def write(path, numbers):
 
 
 def compare(name, numbers, pixels):
-    """`pixels`: red and green of each, from the top."""
+    """`pixels`: red and green of each pixel, starting with the top row."""
     with open(numbers, "rb") as file:
         wanted = file.read()
     if len(pixels) != WIDTH * HEIGHT:

@@ -2,8 +2,8 @@
 // validate.mjs VALIDATOR PAIRS: for each "input TAB output" in the file PAIRS, the output may have no error or warning
 // of the Khronos validator that the input does not have. With "-" as input it may have none at all.
 //
-// A finding is its code and, where it is about an accessor, what that accessor is used for: "NORMAL
-// ACCESSOR_VECTOR3_NON_UNIT". How often it occurs does not matter: splitting a vertex repeats what was wrong with it.
+// A finding is its code and, if it concerns an accessor, the uses of that accessor: "NORMAL ACCESSOR_VECTOR3_NON_UNIT".
+// The number of occurrences does not matter: splitting a vertex repeats its errors.
 //
 // validate.mjs VALIDATOR PAIRS --tangents: the outputs may have no error about tangents, whatever the inputs have.
 import { readFileSync } from "node:fs";
@@ -67,7 +67,7 @@ async function tangentErrors(file) {
     } catch (error) {
         return []; // not JSON, or not glTF 2.0
     }
-    // Wrong declared bounds are not a fault of the tangents: they are kept with kept tangents.
+    // Wrong declared bounds are not errors of the tangents: they are kept with kept tangents.
     const isOfBounds = /^ACCESSOR_(M(IN|AX)_MISMATCH|ELEMENT_OUT_OF_M(IN|AX)_BOUND)$/;
     const errors = report.issues.messages.filter(({ severity, code }) => severity === 0 && !isOfBounds.test(code));
     if (errors.length === 0) return [];

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Draws the pictures of the documentation that programs of this repository draw.
+# Draws the images of the documentation that programs of this repository draw.
 # usage: draw_pictures.sh PROGRAMS_FOLDER IMAGES_FOLDER
 set -euo pipefail
 programs=${1:?usage: draw_pictures.sh PROGRAMS_FOLDER IMAGES_FOLDER}
@@ -39,7 +39,7 @@ for reading in gltf=right directx=turned; do
     "$programs/tspace" render -q "$work/crate.glb" -o "$images/green-${reading#*=}.png" --size 220 --samples 3 --no-legend --view 8,8 --fov 20 \
         --light=0,1,0.6 --reading "${reading%=*}"
 done
-# Tangents of another method, so that there is an error to see.
+# Tangents of another method, so that the error is visible.
 "$programs/tspace" generate -q "$work/bare.glb" -o "$work/flat.glb" --method flat
 draw() { "$programs/tspace" render -q "$work/$1.glb" -o "$images/render-$2.png" --show "$2" --size 260 --view 20,15 "${@:3}"; }
 draw crate lit
@@ -56,7 +56,7 @@ pipe() { "$programs/tspace" render -q "$work/pipe.glb" -o "$images/render-$1.png
 pipe posed
 pipe unposed --no-pose
 
-# docs/concepts/normals.md: kinds of meshes, each with usual normals and with those that suit it.
+# docs/concepts/normals.md: kinds of meshes, each with the usual normals and with the recommended ones.
 python3 "$(dirname "$0")/normal_kinds.py" "$work"
 normals() {
     "$programs/tspace" generate -q --all --method basis "$work/$1.obj" -o "$work/kind.glb" "${@:3}"

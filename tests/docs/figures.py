@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 """figures.py SOURCE_FOLDER: figures of README and of the pages about other libraries equal those of the tables they cite.
 
-Every figure with a unit on these pages must be claimed below, with its source, or be listed as one that stands only there."""
+Every figure with a unit on these pages must be listed below, either with its source or as an original figure of that page.
+"""
 import pathlib
 import re
 import sys

@@ -9,7 +9,7 @@ cd "${1:?usage: links.sh SOURCE_FOLDER}"
 # Markdown without its code blocks.
 prose() { awk '/^ *```/ { code = !code; next } !code' "$1"; }
 
-# The anchors that GitHub makes of headings: lower case, punctuation dropped, each space a dash.
+# Anchors that GitHub generates from headings: lower case, without punctuation, spaces replaced by dashes.
 anchors() {
     prose "$1" | sed -nE 's/^#+ +//p' | tr '[:upper:]' '[:lower:]' | sed -E 's/[^a-z0-9 _-]//g; s/ /-/g'
 }
@@ -35,7 +35,7 @@ while read -r page; do
     done < <(prose "$page" | grep -oE '\]\([^) ]+\)' | sed -E 's/^\]\(//; s/\)$//')
 done < <(find . \( -name '*.md' -o -path ./llms.txt \) -not -path './build/*' -not -path './.git/*' -not -path '*/node_modules/*' | sort)
 
-# In each item, every `function` is in a linked file that follows it.
+# In each item, every `function` must be defined in a linked file that follows it.
 for page in docs/concepts/methods/*.md; do
     items=$(awk '/^## / { part = ""; inside = $0 == "## Implementation" } inside && !/^## / { part = part $0 "\n" }
                  END { printf "%s", part }' "$page" | grep '`' || true)

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: MIT
 """usage: normal_kinds.py FOLDER
 
-Writes the meshes of the pictures in docs/concepts/normals.md into FOLDER, as OBJ without normals: grid (surface nets of a field with
-noise), scan (points of a part with sharp edges, with noise), bevel (a box with narrow bevels), cad (a disc with a fillet whose flat sides
-are fans from one vertex), decimated (of a smooth grid an eighth of the triangles) and turned (a torus of which some triangles are
-wound the wrong way).
+Writes the meshes of the pictures in docs/concepts/normals.md into FOLDER, as OBJ without normals: grid (surface nets of a
+noisy field), scan (noisy points of a part with sharp edges), bevel (a box with narrow bevels), cad (a disc with a fillet whose
+flat sides are fans around one vertex), decimated (an eighth of the triangles of a smooth grid) and turned (a torus with
+some triangles of the wrong winding).
 """
 import heapq
 import os
@@ -13,7 +13,7 @@ import sys
 
 
 class Random:
-    """The same numbers on every machine."""
+    """Random numbers that are equal on every machine."""
 
     def __init__(self):
         self.state = 1
@@ -53,7 +53,7 @@ def part(p):
 
 
 def nets(distance, cells, noise):
-    """Surface nets in the cube from -1 to 1; noise in cells, on the field."""
+    """Returns surface nets of a field in the cube from -1 to 1, with noise on the field, in cells."""
     random, step = Random(), 2 / cells
     side = cells + 1
     values = {}
@@ -91,7 +91,7 @@ def nets(distance, cells, noise):
 
 
 def scan(distance, cells, noise):
-    """Points of surface nets, put onto the surface and then moved by chance; noise in cells."""
+    """Returns surface nets whose points are projected onto the surface and then moved randomly; noise in cells."""
     random, step = Random(), 2 / cells
     points, faces = nets(distance, cells, 0)
     for p in points:
@@ -105,7 +105,7 @@ def scan(distance, cells, noise):
 
 
 def bevelled_box():
-    """Faces of a box with one row of quads around each, and triangles at the corners."""
+    """Returns the faces of a box with one row of quads along each edge, and triangles at the corners."""
     half, width = (0.8, 0.5, 0.6), 0.06
     points, numbers, faces = [], {}, []
     signs = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
@@ -135,7 +135,7 @@ def bevelled_box():
 
 
 def circle(i, count):
-    """A point of the unit circle, by the half angle's tangent in each quarter: sines differ between machines."""
+    """Returns a point of the unit circle from the tangent of the half angle in each quadrant: sines differ between machines."""
     quarter, t = divmod(4 * i, count)
     t = t / count * (1 + 0.05 * (1 - t / count))
     c, s = (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
@@ -143,7 +143,7 @@ def circle(i, count):
 
 
 def filleted_disc():
-    """As CAD kernels write it: flat sides are fans from one vertex of the rim."""
+    """Returns a disc as CAD kernels write it: flat sides are fans around one vertex of the rim."""
     sides, segments, fillet, half = 32, 2, 0.1, 0.25
     profile = []
     for side in (-1, 1):
@@ -171,7 +171,7 @@ def minus(a, b):
 
 
 class Simplifier:
-    """Edges collapse to one of their ends, least error first (Garland and Heckbert 1997)."""
+    """Collapses edges to one of their ends, least error first (Garland and Heckbert 1997)."""
 
     def __init__(self, points, quads):
         self.points = points
@@ -193,7 +193,7 @@ class Simplifier:
         return cross(minus(b, a), minus(c, a))
 
     def cost(self, a, b):
-        """Of a moving to b."""
+        """Returns the error of moving vertex a to b."""
         p = [*self.points[b], 1]
         products = [p[i] * p[j] * (1 if i == j else 2) for i in range(4) for j in range(i, 4)]
         return sum((x + y) * z for x, y, z in zip(self.errors[a], self.errors[b], products))
@@ -240,7 +240,7 @@ def decimated(points, quads, share):
 
 
 def turned_torus():
-    """Triangles, of which those in some spots are wound the wrong way."""
+    """Returns triangles with wrong winding in some spots."""
     columns, rows = 64, 28
     points, faces = [], []
     for i in range(columns):

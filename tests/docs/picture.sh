@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# The pictures of the documentation are what the programs draw, and small; scripts/picture draws them anew.
+# The images of the documentation are equal to those that the programs draw, and small; scripts/picture draws them
+# again.
 # usage: picture.sh PROGRAMS_FOLDER SOURCE_FOLDER
 set -euo pipefail
 programs=${1:?usage: picture.sh PROGRAMS_FOLDER SOURCE_FOLDER}

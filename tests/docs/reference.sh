@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# The API reference is made of the headers without a warning; and a comment that is wrong is one.
+# The API reference is built from the headers without a warning, and a wrong comment causes a warning.
 # usage: reference.sh SOURCE_FOLDER
 set -euo pipefail
 cd "${1:?usage: reference.sh SOURCE_FOLDER}"

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Every C++ and C block of the documentation compiles against the public headers. A block with an #include is a file of
-# its own, C always; the others stand, each in a function that has a mesh, in one program, which is run: no call of the
-# library may end with an error there.
+# Every C++ and C block of the documentation compiles with the public headers. Blocks with an #include, and all C
+# blocks, are compiled as separate files; the others become functions with a mesh as parameter in one program, which is
+# run: no call of the library may return an error.
 # usage: snippets.sh SOURCE_FOLDER COMPILER LIBRARY [FLAG...]
 set -euo pipefail
 usage="usage: snippets.sh SOURCE_FOLDER COMPILER LIBRARY [FLAG...]"
@@ -47,7 +47,7 @@ find . -name '*.md' -not -path './build/*' -not -path './.git/*' -not -path '*/n
             print blocks >(work "/blocks")
         }'
 
-# Calls that give a Result are looked at.
+# Results of calls that return a Result are checked.
 {
     echo '#include <tspace/generate.h>'
     echo '#include <tspace/tspace.hpp>'

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""build_tools.py TOOL: depfiles as make and ninja read them, and lists of inputs."""
+"""build_tools.py TOOL: tests depfiles as make and ninja read them, and lists of inputs."""
 import json
 import os
 import shutil
@@ -36,7 +36,7 @@ def write_library(name, image):
         file.write("newmtl skin\n" + (f"norm {image}\n" if image else ""))
 
 
-# A name with what has a meaning for make and ninja.
+# A name with characters that are special in make and ninja.
 odd = "my $model #1 a:b.obj"
 write_model(odd, "skin.mtl")
 write_library("skin.mtl", "")
@@ -48,7 +48,7 @@ expect("my\\ $$model\\ \\#1\\ a\\:b.obj" in text and "skin.mtl" in text, f"an in
 
 
 def rebuilt(build, outputs):
-    """Whether a build makes the outputs anew."""
+    """Returns whether a build rewrites the outputs."""
     before = [os.stat(one).st_mtime_ns for one in outputs]
     time.sleep(0.02)
     done = subprocess.run(build, capture_output=True, text=True)
@@ -57,7 +57,7 @@ def rebuilt(build, outputs):
 
 
 def try_build(name, build, output):
-    """First everything is made; then nothing; then again for each file that was read."""
+    """The first build creates everything, the second nothing; then each input file that changes causes a build."""
     for source in (odd, "skin.mtl"):
         os.utime(source, (time.time() - 10, time.time() - 10))
     done = subprocess.run(build, capture_output=True, text=True)
@@ -66,7 +66,7 @@ def try_build(name, build, output):
         return
     expect(not rebuilt(build, [output]), f"{name}: builds again for nothing")
     for source in (odd, "skin.mtl"):
-        later = time.time() + 2  # after the output, whatever the clock of the file system rounds to
+        later = time.time() + 2  # later than the output at the time resolution of any file system
         os.utime(source, (later, later))
         expect(rebuilt(build, [output]), f"{name}: does not build again when '{source}' has changed")
         os.utime(source, (time.time() - 10, time.time() - 10))
@@ -77,7 +77,7 @@ if shutil.which("make"):
     with open("Makefile", "w", encoding="ascii") as file:
         file.write("out.glb: ; '" + tool + "' generate -q --all 'my $$model #1 a:b.obj' -o out.glb --depfile make.d\n-include make.d\n")
     try_build("make", ["make", "out.glb"], "out.glb")
-    os.rename("skin.mtl", "other.mtl")  # an input that is gone does not stop make
+    os.rename("skin.mtl", "other.mtl")  # a missing input does not stop make
     write_model(odd, "other.mtl")
     done = subprocess.run(["make", "out.glb"], capture_output=True, text=True)
     expect(done.returncode == 0, f"make stops for a removed input: {done.stderr}")
@@ -90,7 +90,7 @@ if shutil.which("ninja"):
                        f"  depfile = ninja.d\n{deps}build ninja.glb: tangents\n")
         try_build(f"ninja{deps}", ["ninja"], "ninja.glb")
 
-# Other commands, and several outputs.
+# Depfiles of other commands, and of several outputs.
 expect(run("generate", "-q", "--all", odd, "-o", "two.gltf", "--depfile", "two.d").returncode == 0, "generate .gltf")
 expect(open("two.d", encoding="utf-8").read().split(":")[0].split() == ["two.bin", "two.gltf"] or
        set(open("two.d", encoding="utf-8").read().split(":")[0].split()) == {"two.bin", "two.gltf"}, open("two.d", encoding="utf-8").read())
@@ -109,7 +109,7 @@ for wrong in (["generate", "two.gltf", "--in-place", "--depfile", "x.d"], ["chec
 expect(run("generate", "-q", "missing.glb", "-o", "m.glb", "--depfile", "m.d").returncode == 4 and not os.path.exists("m.d"), "a failed run leaves a depfile")
 expect(run("generate", "-q", "two.gltf", "-o", "same.glb", "--depfile", "same.glb").returncode != 0, "the depfile is the output")
 
-# Lists of inputs.
+# Lists of inputs (--inputs).
 for command, more in (("check", []), ("inspect", []), ("identify", []), ("generate", ["--all", "-o", "made/"])):
     for separator in (b"\n", b"\r\n", b"\0"):
         listed = run(command, "--json", *more, "--files-from", "-", stdin=separator.join([b"two.gltf", odd.encode(), b""]))

@@ -21,7 +21,7 @@ def run(arguments):
 
 listed = run(["--help"]).stdout
 
-# Inputs of each command, its options, and a right name of its output.
+# Inputs of each command, its options, and a valid name of its output.
 COMMANDS = {
     "generate": (["MODEL"], [], "out.glb"),
     "diff": (["MODEL", "a.obj"], [], None),

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""terminal.py TOOL [FILTER]: what the tool shows on a terminal: progress of every long stage, and text that fits its width."""
+"""terminal.py TOOL [FILTER]: tests the output on a terminal: progress of every long stage, and text that fits the
+terminal's width."""
 import fcntl
 import os
 import pty
@@ -25,7 +26,7 @@ def expect(condition, text):
 
 
 def on_terminal(arguments, columns=100, stdout=False):
-    """Runs with stderr, or stdout too, on a terminal. Returns what came there."""
+    """Runs the tool with stderr, or also stdout, on a terminal. Returns the output."""
     ours, theirs = pty.openpty()
     fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 40, columns, 0, 0))
     environment = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
@@ -47,7 +48,7 @@ def on_terminal(arguments, columns=100, stdout=False):
 
 
 def write_grid(name, count, height):
-    """A square of count * count quads, bent by a height."""
+    """Returns a square of count * count quads, bent by a height function."""
     side = range(count + 1)
     with open(name, "w", encoding="ascii") as file:
         file.write("mtllib grid.mtl\nusemtl skin\n")
@@ -70,7 +71,7 @@ subprocess.run([tool, "generate", "-q", "--all", "large.obj", "-o", "large.glb"]
 
 
 def lines_of(text):
-    """The states of the status line: each begins at the start of a line and is erased."""
+    """Returns the states of the status line: each begins at the start of a line and is erased."""
     return [line for line in re.split(r"\r\x1b\[K|\r?\n", text) if line]
 
 
@@ -88,7 +89,7 @@ def test_progress():
         begin = time.monotonic()
         text = on_terminal(arguments)
         if name == "diff" and time.monotonic() - begin < 1:
-            continue  # too fast for a line
+            continue  # the stage was too fast for a status line
         shown = lines_of(text)
         expect(any(re.search(stage, line) for line in shown), f"{name}: no stage '{stage}' in {shown[:40]}")
         expect(any(re.search(r"\d+ s$", line) for line in shown), f"{name}: no time in {shown[:5]}")
@@ -101,7 +102,7 @@ def test_progress():
 
 
 def unbreakable(line):
-    """A command, or a path, may be wider than the terminal."""
+    """Returns whether a line is a command or a path, which may be wider than the terminal."""
     return re.search(r"tspace [a-z-]+ .*|\S{30,}", line)
 
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// judge.mjs CHROMIUM THREE OUT ROLE=NAME=MODEL...: renders NormalTangentTest in several versions and says which cells are
-// lit on the wrong side. Pictures go to OUT/NAME.SIDE.png. ROLE is what must come out:
-//   shown     anything; the numbers are printed
+// judge.mjs CHROMIUM THREE OUT ROLE=NAME=MODEL...: renders NormalTangentTest in several versions and reports the cells that
+// are lit on the wrong side. Pictures are written to OUT/NAME.SIDE.png. ROLE is the expected result:
+//   shown     any; the numbers are printed
 //   right     no wrong cell
-//   inverted  every mapped cell is wrong: proof that the comparison sees it
+//   inverted  every mapped cell is wrong: proof that the comparison detects it
 import { mkdirSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import { cellsOf, comparePairs, MAPPED_CELLS, missingDomes, wrongOf } from "./cells.mjs";

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# All languages say what the C++ headers say; and where they do not, scripts/api finds it.
-# usage: api.sh SOURCE_FOLDER [PAGES]: the program tspace_pages, which knows the options of calls on files
+# All generated mirrors of the C++ headers are up to date, and scripts/api reports differences between the APIs.
+# usage: api.sh SOURCE_FOLDER [PAGES]: the program tspace_pages, which prints the options of calls on files
 set -euo pipefail
 cd "${1:?usage: api.sh SOURCE_FOLDER [PAGES]}"
 pages=(--pages "${2-}")
@@ -17,7 +17,7 @@ fail() {
     echo "api.sh: $1" >&2
     exit 1
 }
-# finds WHAT HEADER FROM TO: an edit that makes the APIs differ, and what is printed about it.
+# finds WHAT HEADER FROM TO: edits a header so that the APIs differ, and checks the message about it.
 finds() {
     rm -rf "$folder"/*
     cp -r include scripts "$folder"

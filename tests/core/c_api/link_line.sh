@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Runs the line of docs/guides/from-mikktspace.md that compiles and links a C program, and the program.
+# Runs the command in docs/guides/from-mikktspace.md that compiles and links a C program, and then the program.
 # usage: link_line.sh SOURCES LIBRARY COMPILER
 set -euo pipefail
 sources=$1 library=$2 compiler=$3
