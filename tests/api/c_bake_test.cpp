@@ -86,7 +86,7 @@ TEST_F(CFilesBake, AFinishedModelWithItsMapsIsThatOfTheTool) {
     EXPECT_NE(folder.read("a.html").find("<title>"), std::string::npos);
 }
 
-TEST_F(CFilesBake, ABakeThatMeetsNothingSucceedsAndItsReportHasTheExitCodeOfTheTool) {
+TEST_F(CFilesBake, ABakeWithoutHitsSucceedsAndItsReportHasTheExitCodeOfTheTool) {
     folder.write("far.obj", sheet(4, 0, true, "sheet", 1000));
     const ToolRun run = runTool(folder, "bake low.obj --high far.obj -o out.png --size 32 --reach 0.1 --json");
     ASSERT_EQ(run.exit_code, 1) << run.err;
@@ -162,7 +162,7 @@ TEST_F(CFilesBake, AnErrorOfFinishSaysWhichModelItIsAboutAndNothingIsWritten) {
     EXPECT_EQ(names(), before);
 }
 
-TEST_F(CFilesBake, NoOutputTakesThePlaceOfAnInputOrOfAnotherOutput) {
+TEST_F(CFilesBake, RejectsOutputsThatAreInputsOrEqual) {
     ASSERT_EQ(runTool(folder, "generate low.obj -o low.glb --all -q").exit_code, 0);
     const std::string before = folder.read("low.glb");
     const std::set<std::string> names_before = names();

@@ -211,7 +211,7 @@ TEST(CFilesInMemory, PathsAreDecodedAndHaveSlashes) {
     EXPECT_NE(output.text().find("IHDR"), std::string::npos) << "the image goes into the GLB";
 }
 
-TEST(CFilesInMemory, AnOutputIsCalledLikeItsModel) {
+TEST(CFilesInMemory, AnOutputHasTheNameOfItsModel) {
     for (const auto& [name, output] : {std::pair("a.b/c", "a.b/c.glb"), std::pair("c.gltf", "c.glb"),
                                        std::pair("c", "c.glb"), std::pair("", "model.glb")}) {
         MemoryModel model(name, triangleModel("b.bin"));
@@ -223,7 +223,7 @@ TEST(CFilesInMemory, AnOutputIsCalledLikeItsModel) {
     }
 }
 
-TEST(CFilesInMemory, ABufferThatIsNotGivenIsAnErrorWithItsPlace) {
+TEST(CFilesInMemory, AMissingBufferIsAnErrorWithItsLocation) {
     MemoryModel model("a.gltf", triangleModel("b.bin"));
     tspace_Error error;
     for (const bool has_callback : {true, false}) {
@@ -237,7 +237,7 @@ TEST(CFilesInMemory, ABufferThatIsNotGivenIsAnErrorWithItsPlace) {
     }
 }
 
-TEST(CFilesInMemory, AnImageThatIsNotGivenStaysOutside) {
+TEST(CFilesInMemory, AMissingImageStaysExternal) {
     MemoryModel model("a.gltf", triangleModel("b.bin", "n.png"));
     model.files = {{"b.bin", triangleBytes()}};
     const tspace_Model view = model.view();
@@ -287,7 +287,7 @@ TEST(CFilesInMemory, AnErrorOfTheCallerEndsTheCallForImagesToo) {
               TSPACE_ERROR_INTERNAL);
 }
 
-TEST(CFilesInMemory, NobodyIsAskedForFilesOutsideOfTheModelsFolder) {
+TEST(CFilesInMemory, FilesOutsideTheModelsFolderAreNotRequested) {
     for (const char* uri : {"../b.bin", "/b.bin", "b/../../b.bin", "%2e%2e/b.bin", "http://a.b/b.bin", "..\\\\b.bin"}) {
         MemoryModel model("a.gltf", triangleModel(uri));
         const tspace_Model view = model.view();
@@ -300,7 +300,7 @@ TEST(CFilesInMemory, NobodyIsAskedForFilesOutsideOfTheModelsFolder) {
     EXPECT_EQ(tspace_inspectBytes(&view, R"({"allow-external": true})", nullptr, nullptr), TSPACE_OK);
 }
 
-TEST(CFilesInMemory, BrokenBytesAreAnErrorAndGiveNothing) {
+TEST(CFilesInMemory, MalformedBytesCauseAnErrorAndNoOutput) {
     NEEDS_MODELS;
     std::ifstream file(shared("models/khronos/AnimatedMorphCube.glb"), std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(file), {}};
@@ -322,7 +322,7 @@ TEST(CFilesInMemory, BrokenBytesAreAnErrorAndGiveNothing) {
     }
 }
 
-TEST(CFilesOptions, WrongOnesAreSaidInTheWordsOfTheTool) {
+TEST(CFilesOptions, InvalidOptionsHaveTheMessagesOfTheTool) {
     struct Wrong {
         const char* json;
         const char* command_line;
@@ -343,7 +343,7 @@ TEST(CFilesOptions, WrongOnesAreSaidInTheWordsOfTheTool) {
     }
 }
 
-TEST(CFilesOptions, WhatIsNoOptionIsRefused) {
+TEST(CFilesOptions, UnknownOptionsAreRejected) {
     const auto messageOf = [](const char* json) {
         tspace_Error error;
         EXPECT_EQ(tspace_generateFile("a.glb", "b.glb", json, nullptr, &error), TSPACE_ERROR_INVALID_OPTION) << json;
@@ -360,7 +360,7 @@ TEST(CFilesOptions, WhatIsNoOptionIsRefused) {
     EXPECT_EQ(messageOf(R"({"a\nb": 1})").find('\n'), std::string::npos);
 }
 
-TEST(CFilesNull, WhatIsNeededAndNullIsAnError) {
+TEST(CFilesNull, ARequiredArgumentThatIsNullIsAnError) {
     tspace_Error error;
     tspace_Bytes output;
     tspace_Model model;
@@ -378,7 +378,7 @@ TEST(CFilesNull, WhatIsNeededAndNullIsAnError) {
     EXPECT_EQ(tspace_checkBytes(&model, nullptr, nullptr, &error), TSPACE_ERROR_INVALID_OPTION);
 }
 
-TEST(CFilesDiff, SaysWhichModelIsAtFault) {
+TEST(CFilesDiff, ErrorsNameTheModel) {
     MemoryModel good("a.gltf", triangleModel("b.bin")), bad("b.glb", "glTF");
     good.files = {{"b.bin", triangleBytes()}};
     const tspace_Model a = good.view(), b = bad.view();
@@ -420,7 +420,7 @@ TEST(CFilesConvertMap, FilesAreThoseOfTheTool) {
         R"({"mesh":"wall.obj","to":"object","from-convention":"directx","bits":"8"})", R"({"into":"object"})");
 }
 
-TEST(CFilesConvertMap, OptionsThatMeanSomethingTogetherAreApplied) {
+TEST(CFilesConvertMap, CombinedOptionsAreApplied) {
     // Both channels are inverted after all options are known; a model that will use the map requires the original
     // model.
     expectFilesOfTheTool(tspace_convertMapFile, "convert-map bump.png -o out.png --flip-green --flip-red",

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Loaded into a program in front of the C library (LD_PRELOAD): calls that it makes fail, or a signal comes in between.
+// Loaded into a program before the C library (LD_PRELOAD): makes calls fail, or sends a signal during a call.
 //
-// TSPACE_FAIL_CALL=K       the Kth call of those below fails, as on a disk that breaks
-// TSPACE_FAIL_MALLOC=K     the Kth allocation of the C library fails, and all further ones with TSPACE_FAIL_MALLOC_AFTER=1
-// TSPACE_NO_RESERVE=1      the C++ library does not get the memory that it keeps for exceptions when there is no other
-// TSPACE_FAIL_MARK=FILE    is made at the end of a program that has reached that call, with the number of allocations in it
-// TSPACE_SIGNAL_AT_SYNC=N  signal N comes where the first file is sent to the disk
-// TSPACE_SIGNAL_AFTER_COMMIT=N  signal N comes once, where a folder is sent to the disk after its files were renamed
+// TSPACE_FAIL_CALL=K       the Kth call of the functions below fails, as on a faulty disk
+// TSPACE_FAIL_MALLOC=K     the Kth allocation of the C library fails, and all further ones if TSPACE_FAIL_MALLOC_AFTER=1
+// TSPACE_NO_RESERVE=1      the C++ library does not get its emergency memory for exceptions
+// TSPACE_FAIL_MARK=FILE    a file that a program which has reached that call writes at its end: the number of allocations
+// TSPACE_SIGNAL_AT_SYNC=N  signal N is raised when the first file is synced to disk
+// TSPACE_SIGNAL_AFTER_COMMIT=N  signal N is raised once, when a folder is synced after its files were renamed
 // TSPACE_NO_THREADS=1      no thread can be started
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -30,7 +30,7 @@ long numberOf(const char* name) {
     return text == nullptr ? 0 : std::atol(text);
 }
 
-/// Counts a call; returns whether it is the one that fails.
+/// Counts a call; returns whether it is the one that must fail.
 bool fails(int why) {
     static const long failing = numberOf("TSPACE_FAIL_CALL");
     if (++call_count != failing) return false;

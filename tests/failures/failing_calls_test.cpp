@@ -45,7 +45,7 @@ bool hasWritten(const ToolRun& run) {
     return run.exit_code == 0 || run.err.find("standard output") != std::string::npos;
 }
 
-TEST(FailingCalls, LeaveTheOldFileOrTheNewOne) {
+TEST(FailingCalls, KeepTheOldFileOrWriteTheNewOne) {
     const TempFolder folder;
     const std::string before = writeModel(folder);
     ASSERT_EQ(runTool(folder, "generate plain.glb -q --overwrite -o new.glb").exit_code, 0);
@@ -81,7 +81,7 @@ TEST(FailingCalls, OfSeveralFilesLeaveAllOldOnesOrAllNewOnes) {
     });
 }
 
-TEST(FailingCalls, OfACheckAreSaidAndLeaveNoHalfPage) {
+TEST(FailingCalls, OfACheckAreReportedAndLeaveNoPartialPage) {
     const TempFolder folder;
     writeModel(folder);
     const std::string command = "check plain.glb --html page.html --json";
@@ -269,7 +269,7 @@ class FailingMallocs {
     bool is_there_ = false;
 };
 
-TEST(FailingAllocations, OfTheCLibraryAreCalledSoAndLeaveNoOutput) {
+TEST(FailingAllocations, OfTheCLibraryAreReportedAndLeaveNoOutput) {
     const TempFolder folder;
     writeModel(folder);
     runTool(folder, "convert-map bump.png -q -o bump.exr");
@@ -285,7 +285,7 @@ TEST(FailingAllocations, OfTheCLibraryAreCalledSoAndLeaveNoOutput) {
         FailingMallocs(folder, writing).failEach();
 }
 
-TEST(FailingAllocations, OfAnExceptionItselfAreNoEndBySignal) {
+TEST(FailingAllocations, OfAnExceptionDoNotRaiseASignal) {
     const TempFolder folder;
     writeModel(folder);
     const std::set<std::string> files = folder.files();
@@ -319,7 +319,7 @@ TEST(FailingAllocations, AtTheEndOfAnyCommandLeaveNoOutput) {
     }
 }
 
-TEST(NoThreads, LeavesTheWorkToTheOneThatIsThere) {
+TEST(NoThreads, RunsOnTheCallingThread) {
     const TempFolder folder;
     writeModel(folder);
     for (const char* name : {"a", "b", "c", "d"})

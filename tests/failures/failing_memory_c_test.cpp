@@ -90,7 +90,7 @@ TEST_F(FailingMemory, OfTheCFunctionsThatMakeFrames) {
     });
 }
 
-TEST_F(FailingMemory, OfTheCFunctionsOnWhatIsThere) {
+TEST_F(FailingMemory, OfTheCFunctionsThatProcessExistingFrames) {
     const Square square;
     std::vector<float> tangents(24);
     for (int corner = 0; corner < 6; ++corner) tangents[4 * corner] = tangents[4 * corner + 3] = 1;
@@ -239,7 +239,7 @@ TEST_F(FailingMemory, OfTheCFunctionsOfFiles) {
     });
 }
 
-TEST_F(FailingMemory, OfCFunctionsWhoseCallIsWrongIsAnErrorAndNoEndOfTheProgram) {
+TEST_F(FailingMemory, OfCFunctionsWithInvalidArgumentsIsAnError) {
     const Square square;
     tspace_Error error;
     const std::string path = at("plain.glb");

@@ -131,7 +131,7 @@ TEST(Signals, AfterTheOutputsAreInPlaceLetTheReportBeWritten) {
     }
 }
 
-TEST(Signals, EndABatchWhileALaterFileIsInWork) {
+TEST(Signals, EndABatchDuringALaterFile) {
     const TempFolder folder;
     writeInputs(folder);
     if (!fs::exists(fs::path(TSPACE_TOOL).parent_path() / "tspace-import")) GTEST_SKIP() << "no importer was built";

@@ -38,7 +38,7 @@ std::optional<FloatImage> decodedExr(const std::vector<std::uint8_t>& bytes, std
     return image;
 }
 
-TEST_F(Exr, FloatsComeBackBitForBit) {
+TEST_F(Exr, FloatsRoundTripExactly) {
     for (const auto& [width, height] : {std::pair{1U, 1U}, {17U, 33U}, {64U, 16U}, {3U, 200U}}) {
         FloatImage image = waves(width, height);
         const auto file = encodeExr(image, 32);
@@ -55,7 +55,7 @@ TEST_F(Exr, FloatsComeBackBitForBit) {
     }
 }
 
-TEST_F(Exr, HalvesComeBackRounded) {
+TEST_F(Exr, HalvesRoundTripRounded) {
     const FloatImage image = waves(40, 40);
     const auto decoded = decodedExr(*encodeExr(image, 16));
     ASSERT_TRUE(decoded);
@@ -67,7 +67,7 @@ TEST_F(Exr, HalvesComeBackRounded) {
     EXPECT_EQ(encodeExr(*decoded, 16), encodeExr(image, 16));
 }
 
-TEST_F(Exr, WhatIsNotFiniteBecomesGray) {
+TEST_F(Exr, ValuesThatAreNotFiniteBecomeGray) {
     FloatImage image = waves(8, 8);
     image.texels[5].y = std::nanf("");
     image.texels[9].x = std::numeric_limits<float>::infinity();
@@ -88,7 +88,7 @@ std::vector<std::uint8_t> withCorner(std::vector<std::uint8_t> file, std::size_t
     return file;
 }
 
-TEST_F(Exr, RefusesWhatIsBrokenOrTooLarge) {
+TEST_F(Exr, RejectsCorruptAndTooLargeFiles) {
     const std::vector<std::uint8_t> file = *encodeExr(waves(20, 20), 32);
     for (std::size_t size = 0; size < file.size(); size += 1 + size / 16)
         EXPECT_FALSE(decodedExr({file.begin(), file.begin() + static_cast<std::ptrdiff_t>(size)})) << size;
@@ -103,7 +103,7 @@ TEST_F(Exr, RefusesWhatIsBrokenOrTooLarge) {
     EXPECT_FALSE(decodedExr(withCorner(file, 3, 18), &why));
 }
 
-TEST_F(Exr, RoundsWhereEightBitsAreAskedFor) {
+TEST_F(Exr, RoundsToEightBitsOnRequest) {
     std::string why;
     const auto image = decodeImage(*encodeExr(waves(9, 9), 32), 1 << 20, why);
     ASSERT_TRUE(image) << why;
@@ -194,7 +194,7 @@ TEST_F(Exr, NumbersFromZeroToOneStay) {
     expectSame(read(mapExr(colors)), colors, "colors");
 }
 
-TEST_F(Exr, SaysWhereLengthsDoNotTell) {
+TEST_F(Exr, ReportsAmbiguousRanges) {
     Vectors odd(normalMapOf(kSide, bumps));
     for (std::size_t i = 0; i < odd.x.size(); ++i) odd.z[i] *= 2;
     const auto image = read(mapExr(odd));

@@ -100,7 +100,7 @@ TEST(FlipGreen, IsExactForEveryKindOfPngAndChangesNothingElse) {
             const bool is_green = i / sample_bytes % channels == 1;
             RC_ASSERT(read.samples[i] == (is_green ? 255 - samples[i] : samples[i]));
         }
-        RC_ASSERT(readPng(flipped(result->bytes)).samples == samples);  // twice is nothing
+        RC_ASSERT(readPng(flipped(result->bytes)).samples == samples);  // inverting twice restores the input
     }));
 }
 
@@ -135,7 +135,7 @@ TEST(FlipGreen, IsExactInTheBlocksOfATexture) {
     }
 }
 
-TEST(FlipGreen, SaysOfADdsThatIsCutShortWhatStaysAsItWas) {
+TEST(FlipGreen, ReportsUnchangedPartsOfATruncatedDds) {
     const std::string blocks(16 * 64, '\x55');
     const Result<FlippedImage> whole = flipGreen(bytesOf(ddsFile(83, 32, 32, blocks + blocks, 2)));
     ASSERT_TRUE(whole);
@@ -172,7 +172,7 @@ TEST(FlipGreen, IsExactInPlainTextures) {
     }
 }
 
-TEST(FlipGreen, InvertsYOfATextureThatHasItInAlpha) {
+TEST(FlipGreen, InvertsYInAlpha) {
     const RgbImage map = normalMapOf(32, bumps);
     std::string data;
     for (std::size_t i = 0; i < map.rgb.size(); i += 3) {
@@ -188,7 +188,7 @@ TEST(FlipGreen, InvertsYOfATextureThatHasItInAlpha) {
     }
 }
 
-TEST(FlipGreen, MakesAPngOfATextureThatCannotHoldIt) {
+TEST(FlipGreen, WritesAPngIfTheTextureFormatCannotRepresentIt) {
     const RgbImage map = normalMapOf(32, bumps);
     const std::string data = redAndGreen(map);
     Ktx2Parts parts{.format = 16, .width = 32, .height = 32, .levels = {zstdOf(data)}, .unpacked = {data.size()}};
@@ -303,7 +303,7 @@ TEST(FlipGreen, WritesWebpWithoutLoss) {
     }
 }
 
-TEST(FlipGreen, RefusesWhatHasNoGreenOrCannotBeRead) {
+TEST(FlipGreen, RejectsImagesWithoutGreenAndUnreadableOnes) {
     const Bytes8 gray = makePng({2, 2, 8, kGray, 0, 0, 0}, noise(4));
     const Bytes8 color = makePng({8, 8, 8, kRgb, 0, 0, 0}, noise(192));
     EXPECT_EQ(whyNot(gray), ErrorCode::unsupportedFile);
@@ -365,7 +365,7 @@ ErrorCode codeOf(const Bytes8& file, std::uint64_t memory_limit_bytes = 0) {
     return flipped ? ErrorCode::ok : flipped.error().code;
 }
 
-TEST(FlipGreen, TakesNoTimeForRowsThatFewBytesClaim) {
+TEST(FlipGreen, RejectsDeclaredRowsQuickly) {
     constexpr std::uint64_t kGigabyte = std::uint64_t{1} << 30;
     for (const std::uint8_t color : {kRgb, kPalette, kRgba}) {
         const Bytes8 thin = claimingPng(1, 0x7fffffff, 8, color, 194'000);
@@ -379,7 +379,7 @@ TEST(FlipGreen, TakesNoTimeForRowsThatFewBytesClaim) {
     EXPECT_EQ(codeOf(claimingPng(60000, 60000, 8, kRgb, 200'000'000)), ErrorCode::invalidFile);
 }
 
-TEST(FlipGreen, TakesLargeImagesOfOneColor) {
+TEST(FlipGreen, AcceptsLargeImagesOfOneColor) {
     constexpr std::uint32_t kSide = 4096;
     spng_ihdr header{};
     header.width = header.height = kSide;

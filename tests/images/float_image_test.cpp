@@ -25,7 +25,7 @@ std::optional<FloatImage> decode(const std::vector<std::uint8_t>& bytes) {
     return decodeFloatImage(bytes, 1 << 22, why);
 }
 
-TEST(FloatImage, EveryIntegerComesBackFromAPng) {
+TEST(FloatImage, EveryIntegerRoundTripsThroughPng) {
     for (const unsigned bits : {8u, 16u}) {
         const FloatImage image = everyNumber(bits);
         const auto file = encodePng(image, bits);
@@ -60,7 +60,7 @@ TEST(FloatImage, ClampsAndRoundsToTheNearest) {
     EXPECT_EQ(decoded->texels[1], (Vec3{0, 1.0f / 255, 1}));
 }
 
-TEST(FloatImage, SaysNothingOfColors) {
+TEST(FloatImage, DoesNotConvertColors) {
     const auto file = encodePng(everyNumber(8), 8);
     const std::string text(file->begin(), file->end());
     for (const char* chunk : {"gAMA", "sRGB", "iCCP", "cHRM"}) EXPECT_EQ(text.find(chunk), std::string::npos) << chunk;
@@ -80,7 +80,7 @@ TEST(FloatImage, HasTheNumbersOfTheOtherDecoder) {
     }
 }
 
-TEST(FloatImage, RefusesWhatIsBrokenOrTooLarge) {
+TEST(FloatImage, RejectsCorruptAndTooLargeFiles) {
     const std::string png = pngFile(normalMapOf(64, bumps));
     std::string why;
     EXPECT_FALSE(decodeFloatImage(bytesOf(png.substr(0, png.size() / 2)), 1 << 22, why));

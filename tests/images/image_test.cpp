@@ -40,7 +40,7 @@ TEST(DecodeImage, GivesThePixelsOfAWebp) {
     EXPECT_EQ(lossy->height, 33u);
 }
 
-TEST(DecodeImage, RefusesWebpThatItCannotTrust) {
+TEST(DecodeImage, RejectsWebpThatItCannotTrust) {
     const std::string webp = webpFile(normalMapOf(64, bumps), true);
     EXPECT_EQ(whyNot(webp.substr(0, webp.size() / 2)), "the WebP is damaged");
     EXPECT_EQ(whyNot(webp, 1000), "the image has more pixels than tspace supports");
@@ -57,7 +57,7 @@ TEST(DecodeImage, RefusesWebpThatItCannotTrust) {
     EXPECT_EQ(whyNot(animated), "the WebP is animated, which is not supported");
 }
 
-TEST(DecodeImage, SaysWhatItTakesOfMemory) {
+TEST(DecodeImage, ReportsItsMemoryUse) {
     const RgbImage map = normalMapOf(64, bumps);
     for (const std::string& file : {pngFile(map), jpegFile(map, 90), webpFile(map, true), webpFile(map, false)}) {
         EXPECT_EQ(claimedSize(bytesOf(file)).pixels(), 64u * 64u);
@@ -66,7 +66,7 @@ TEST(DecodeImage, SaysWhatItTakesOfMemory) {
     EXPECT_EQ(imageWorkBytes(bytesOf("DDS |")), 0u);
 }
 
-TEST(DecodeImage, SaysWhyItDoesNotLook) {
+TEST(DecodeImage, ReportsWhyItDoesNotDecode) {
     const std::string png = pngFile(normalMapOf(64, bumps)), jpeg = jpegFile(normalMapOf(64, bumps), 90);
     EXPECT_EQ(whyNot(png), "");
     EXPECT_EQ(whyNot(png, 1000), "the image has more pixels than tspace supports");
@@ -85,7 +85,7 @@ TEST(DecodeImage, SaysWhyItDoesNotLook) {
               "the JPEG is CMYK (for print), which is not supported; convert it to RGB");
 }
 
-TEST(DecodeImage, RefusesAFewBytesThatClaimManyPixels) {
+TEST(DecodeImage, RejectsAFewBytesThatClaimManyPixels) {
     std::string png = pngFile(normalMapOf(64, bumps));
     // Width and height of the header, whose checksum is then wrong; either reason is accepted.
     png[18] = png[22] = 0x20;
@@ -99,7 +99,7 @@ TEST(DecodeImage, RefusesAFewBytesThatClaimManyPixels) {
 }
 
 /// A code table has at most 256 entries; its 16 counts can declare 4080.
-TEST(DecodeImage, RefusesAJpegWhoseTableHasTooManyCodes) {
+TEST(DecodeImage, RejectsAJpegWhoseTableHasTooManyCodes) {
     std::string jpeg = jpegFile(normalMapOf(64, bumps), 90);
     const std::size_t table = jpeg.find("\xff\xc4");
     ASSERT_NE(table, std::string::npos);

@@ -45,7 +45,7 @@ constexpr const char* kBroken = "the TGA is damaged";
 const Bytes kFourTexels = {255, 0, 0, 0, 255, 0, 0, 0, 255, 10, 20, 30};
 const Bytes kFourStored = {0, 0, 255, 0, 255, 0, 255, 0, 0, 30, 20, 10};
 
-TEST(ReadTga, GivesWhatWasWritten) {
+TEST(ReadTga, RoundTrips) {
     const RgbImage map = normalMapOf(33, bumps);
     const auto of_bytes = encodeTga(map);
     ASSERT_TRUE(of_bytes);
@@ -89,7 +89,7 @@ TEST(ReadTga, SkipsAnIdAndWhatFollowsThePixels) {
     EXPECT_EQ(rgbOf(file), kFourTexels);
 }
 
-TEST(ReadTga, UnpacksRunsAndWhatIsNoRun) {
+TEST(ReadTga, DecodesRunsAndLiterals) {
     const Bytes packed = head(10, 3, 2, 24, kFromTheTop) + Bytes{0x83, 1, 2, 3, 0x01, 4, 5, 6, 7, 8, 9};
     EXPECT_EQ(rgbOf(packed), (Bytes{3, 2, 1, 3, 2, 1, 3, 2, 1, 3, 2, 1, 6, 5, 4, 9, 8, 7}))
         << "runs go on in the next row";
@@ -125,13 +125,13 @@ TEST(ReadTga, ReadsAPalette) {
 }
 
 /// Zeros are not alpha if the header declares none; other values are, since many writers do not declare alpha.
-TEST(ReadTga, TakesAFourthByteForAlphaUnlessItIsAll0AndNotSaid) {
+TEST(ReadTga, TreatsAFourthByteAsAlphaUnlessUndeclaredAndZero) {
     EXPECT_EQ(decodeAlpha(head(2, 2, 1, 32, 0) + Bytes{1, 2, 3, 0, 4, 5, 6, 0}), Bytes());
     EXPECT_EQ(decodeAlpha(head(2, 2, 1, 32, 8) + Bytes{1, 2, 3, 0, 4, 5, 6, 0}), (Bytes{0, 0}));
     EXPECT_EQ(decodeAlpha(head(2, 2, 1, 32, 0) + Bytes{1, 2, 3, 9, 4, 5, 6, 0}), (Bytes{9, 0}));
 }
 
-TEST(ReadTga, IsToldByAHeadThatIsRightInEveryField) {
+TEST(ReadTga, IsDetectedOnlyByAValidHeader) {
     const Bytes right = head(2, 2, 2, 24, kFromTheTop) + kFourStored;
     ASSERT_EQ(imageFormat(right), ImageFormat::tga);
     const auto with = [&](std::size_t at, std::uint8_t byte) {
@@ -168,7 +168,7 @@ TEST(ReadTga, IsToldByAHeadThatIsRightInEveryField) {
     EXPECT_EQ(whyNot(Bytes{0, 0, 2, 0, 1, 0, 16, 16, 0, 0, 1, 0, 1, 0, 1, 0, 24, 0} + Bytes(64)), kUnknown);
 }
 
-TEST(ReadTga, IsRefusedAtEachShorterLength) {
+TEST(ReadTga, IsRejectedAtEachShorterLength) {
     const Bytes plain = head(2, 2, 2, 24, kFromTheTop) + kFourStored;
     for (std::size_t size = 0; size < plain.size(); ++size)
         EXPECT_EQ(whyNot(ByteSpan(plain).first(size)), kUnknown) << size;
@@ -180,13 +180,13 @@ TEST(ReadTga, IsRefusedAtEachShorterLength) {
     }
 }
 
-TEST(ReadTga, RefusesRunsThatGoBeyondItsPixels) {
+TEST(ReadTga, RejectsRunsThatGoBeyondItsPixels) {
     EXPECT_EQ(whyNot(head(10, 2, 1, 24, 0) + Bytes{0x82, 1, 2, 3}), kBroken);
     EXPECT_EQ(whyNot(head(10, 2, 1, 24, 0) + Bytes{0x00, 1, 2, 3, 0x81, 1, 2, 3}), kBroken);
     EXPECT_EQ(whyNot(head(11, 2, 1, 8, 0) + Bytes{0x02, 1, 2, 3}), kBroken);
 }
 
-TEST(ReadTga, ClaimsNoMorePixelsThanItsBytesCanHold) {
+TEST(ReadTga, RejectsMorePixelsThanItsBytesCanRepresent) {
     Bytes huge = head(2, 0, 0, 32, 8) + Bytes(1000);
     huge[12] = huge[13] = huge[14] = huge[15] = 255;
     EXPECT_EQ(imageFormat(huge), ImageFormat::unknown);
@@ -205,7 +205,7 @@ TEST(ReadTga, ClaimsNoMorePixelsThanItsBytesCanHold) {
     EXPECT_EQ(imageFormat(runs), ImageFormat::unknown);
 }
 
-TEST(ReadTga, IsInvertedIntoAPngAlone) {
+TEST(ReadTga, CanOnlyBeInvertedIntoAPng) {
     const Bytes file = head(2, 2, 1, 32, 8) + Bytes{1, 2, 3, 4, 5, 6, 7, 8};
     EXPECT_FALSE(flipGreen(file));
     const auto flipped = flipGreen(file, {.format = ImageFileFormat::png});

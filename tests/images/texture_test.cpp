@@ -188,7 +188,7 @@ TEST(Texture, DecodesAstcOfOneColor) {
     }
 }
 
-TEST(Texture, BrokenBlocksHaveTheColorsThatTheirFormatsName) {
+TEST(Texture, InvalidBlocksHaveTheSpecifiedErrorColors) {
     const auto bc7 = decode(ddsFile(98, 4, 4, std::string(16, '\0')));
     ASSERT_TRUE(bc7);
     EXPECT_EQ(bc7->texels[5], (Vec3{0, 0, 0}));
@@ -289,7 +289,7 @@ TEST(Texture, UnpacksZstandardAndZlib) {
     }
 }
 
-TEST(Texture, SaysWhatItDoesNotRead) {
+TEST(Texture, NamesUnsupportedFormats) {
     const Ktx2Parts plain{.format = 16, .width = 8, .height = 8, .levels = {std::string(128, '\x80')}};
     const std::string file = ktx2File(plain);
     EXPECT_EQ(whyNot(file), "");
@@ -318,7 +318,7 @@ TEST(Texture, SaysWhatItDoesNotRead) {
     EXPECT_EQ(whyNot(dds.substr(0, 100)), "the DDS is damaged");
 }
 
-TEST(Texture, RefusesLevelsThatOverlapOrLieOutside) {
+TEST(Texture, RejectsLevelsThatOverlapOrLieOutside) {
     const std::string large(128, '\x80'), small(32, '\x80');
     const std::string file = ktx2File({.format = 16, .width = 8, .height = 8, .levels = {large, small}});
     EXPECT_EQ(whyNot(file), "");
@@ -339,7 +339,7 @@ TEST(Texture, RefusesLevelsThatOverlapOrLieOutside) {
     EXPECT_EQ(whyNot(file.substr(0, file.size() - 1)), "the KTX2 is damaged");
 }
 
-TEST(Texture, RefusesAFewBytesThatClaimManyPixels) {
+TEST(Texture, RejectsAFewBytesThatClaimManyPixels) {
     const std::string packed = zstdOf(std::string(1 << 20, '\x80'));
     Ktx2Parts parts{.format = 37, .width = 1 << 15, .height = 1 << 15, .levels = {packed}};
     parts.unpacked = {std::uint64_t{4} << 30};
@@ -350,7 +350,7 @@ TEST(Texture, RefusesAFewBytesThatClaimManyPixels) {
               "the DDS is damaged");
 }
 
-TEST(Texture, SizesWhoseProductWith64BitsWouldBeZeroAreRefused) {
+TEST(Texture, SizesWhoseProductWith64BitsWouldBeZeroAreRejected) {
     // 2^30 * 2^30 texels of 16 bytes (RGBA as floats).
     constexpr std::uint32_t kSide = std::uint32_t{1} << 30;
     constexpr std::uint64_t kAny = ~std::uint64_t{0};
@@ -359,7 +359,7 @@ TEST(Texture, SizesWhoseProductWith64BitsWouldBeZeroAreRefused) {
               "the KTX2 is damaged");
 }
 
-TEST(Texture, ReadsTheLevelThatIsAskedFor) {
+TEST(Texture, ReadsTheRequestedLevel) {
     // Red distinguishes the levels; 4 x 2, 2 x 1 and 1 x 1 texels of two bytes.
     const std::vector<std::string> levels = {std::string(16, '\x10'), std::string(4, '\x20'), std::string(2, '\x30')};
     const std::string ktx2 = ktx2File({.format = 16, .width = 4, .height = 2, .levels = levels});
@@ -377,7 +377,7 @@ TEST(Texture, ReadsTheLevelThatIsAskedFor) {
     EXPECT_FALSE(decodeFloatTexture(bytesOf(ktx2), 0, why, 2));
 }
 
-TEST(Texture, TurnsAndSwizzlesAsTheFileSays) {
+TEST(Texture, AppliesOrientationAndSwizzleOfTheFile) {
     const std::string data("\x10\x20\x30\x40\x50\x60\x70\x80", 8);  // 2 x 2 texels with two channels
     Ktx2Parts parts{.format = 16, .width = 2, .height = 2, .levels = {data}};
     const auto plain = decode(ktx2File(parts));
@@ -395,7 +395,7 @@ TEST(Texture, TurnsAndSwizzlesAsTheFileSays) {
     EXPECT_EQ(swizzled->texture.layout.y.channel, MapChannel::alpha);
 }
 
-TEST(Texture, SaysWhereXAndYAre) {
+TEST(Texture, ReportsTheChannelsOfXAndY) {
     const RgbImage map = normalMapOf(32, bumps);
     const auto bc5 = decode(ddsFile(83, 32, 32, bc5Blocks(map)));
     ASSERT_TRUE(bc5);

@@ -9,7 +9,7 @@
 namespace tspace::test {
 namespace {
 
-TEST(Tga, HasAHeadThatSaysWhatFollowsAndPixelsFromTheTopInBlueGreenRed) {
+TEST(Tga, HasAValidHeaderAndPixelsFromTheTopInBlueGreenRed) {
     FloatImage image{.width = 2, .height = 3};
     image.texels = {{1, 0.5F, 0}, {0, 0, 1}, {2, -1, std::nanf("")}, {}, {}, {0.2F, 0.4F, 0.6F}};
     const auto file = encodeTga(image);
@@ -22,7 +22,7 @@ TEST(Tga, HasAHeadThatSaysWhatFollowsAndPixelsFromTheTopInBlueGreenRed) {
     EXPECT_EQ(std::string(file->end() - 18, file->end()), std::string("TRUEVISION-XFILE.\0", 18));
 }
 
-TEST(Tga, HasAlphaWhereThereIsSome) {
+TEST(Tga, HasAlphaIfTheImageHasAlpha) {
     FloatImage image{.width = 1, .height = 1, .texels = {{0, 1, 0}}, .alpha = {0.5F}};
     const auto file = encodeTga(image);
     ASSERT_TRUE(file);
@@ -31,13 +31,13 @@ TEST(Tga, HasAlphaWhereThereIsSome) {
     EXPECT_EQ((*file)[21], 128);
 }
 
-TEST(Tga, RoundsBytesOfAPictureNot) {
+TEST(Tga, DoesNotChangeBytesOfAPicture) {
     const auto file = encodeTga(RgbImage{.width = 1, .height = 1, .rgb = {1, 2, 3}});
     ASSERT_TRUE(file);
     EXPECT_EQ(std::vector<std::uint8_t>(file->begin() + 18, file->begin() + 21), (std::vector<std::uint8_t>{3, 2, 1}));
 }
 
-TEST(Tga, SidesThatItCannotSayAreRefused) {
+TEST(Tga, RejectsSizesThatItCannotRepresent) {
     EXPECT_FALSE(encodeTga(FloatImage{.width = 65536, .height = 1}));
     EXPECT_FALSE(encodeTga(RgbImage{.width = 1, .height = 65536}));
 }

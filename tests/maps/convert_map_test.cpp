@@ -152,7 +152,7 @@ double meanApart(const std::vector<DVec3>& a, const std::vector<DVec3>& b) {
     return sum / count;
 }
 
-TEST(ConvertMap, ShowsOnTheNewFramesWhatItShowedOnTheOld) {
+TEST(ConvertMap, RendersEqualOnTheNewFrames) {
     const Corners from = cornersOf({}), to = cornersOf({.twist = 0.3, .lean = 0.2});
     for (const unsigned bits : {16U, 32U}) {
         const auto texels = randomTexels(kSize * kSize, bits, 1);
@@ -263,7 +263,7 @@ TEST(ConvertMap, FindsTrianglesInAnyOrderAlsoOnMirroredHalves) {
         << "quads cut the other way: the same half";
 }
 
-TEST(ConvertMap, GoesToObjectSpaceAndBack) {
+TEST(ConvertMap, ConvertsToObjectSpaceAndBack) {
     const Corners mesh = cornersOf({.twist = 0.3, .lean = 0.2});
     const auto texels = randomTexels(kSize * kSize, 16, 6);
     const MapSide object{.space = MapSpace::object};
@@ -294,7 +294,7 @@ double lengthOf(const Vec3& texel) { return length(2.0 * toDouble(texel) - DVec3
 
 DVec3 directionOf(const Vec3& texel) { return (1 / lengthOf(texel)) * (2.0 * toDouble(texel) - DVec3{1, 1, 1}); }
 
-TEST(ConvertMap, RoundsTogetherWhatComesFromObjectSpace) {
+TEST(ConvertMap, RoundsChannelsOfObjectSpaceMapsTogether) {
     const Corners mesh = cornersOf({.twist = 0.3, .lean = 0.2});
     const auto texels = randomTexels(kSize * kSize, 32, 6);
     const MapSide object{.space = MapSpace::object};
@@ -341,7 +341,7 @@ std::vector<Vec3> roundedPlainly(const std::vector<Vec3>& texels, const Corners&
     return rounded;
 }
 
-TEST(ConvertMap, TakesTheBestLengthsWithEightBits) {
+TEST(ConvertMap, ChoosesTheBestLengthsWithEightBits) {
     const Corners from = cornersOf({}), to = cornersOf({.twist = 0.3, .lean = 0.2});
     const auto texels = gentleTexels();
     const auto wanted = shown(texels, from);
@@ -370,7 +370,7 @@ double meansApart(const std::vector<Vec3>& a, const std::vector<Vec3>& b, std::u
 }
 
 // As in baked maps, 8-bit maps with `even` lengths have smaller direction errors in mip levels than with `free`.
-TEST(ConvertMap, EvenLengthsLeanLessInSmallerLevelsThanFreeOnes) {
+TEST(ConvertMap, EvenLengthsHaveSmallerErrorsInMipLevels) {
     const Corners from = cornersOf({}), to = cornersOf({.twist = 0.3, .lean = 0.2});
     const auto texels = gentleTexels(), exact = converted(texels, from.side(), to.side(), {.bits = 32});
     const auto even = converted(texels, from.side(), to.side(), {.bits = 8}),
@@ -452,7 +452,7 @@ TEST(ConvertMap, NeverMakesNan) {
     EXPECT_EQ(report.bad_uv_count, 1u);
 }
 
-TEST(ConvertMap, SaysWhenRoundingUndoesIt) {
+TEST(ConvertMap, ReportsWhenRoundingCancelsTheChange) {
     const Corners from = cornersOf({}), to = cornersOf({.twist = 0.001});
     ConvertMapReport report;
     converted(randomTexels(kSize * kSize, 16, 10), from.side(), to.side(), {.bits = 8}, &report);
@@ -484,7 +484,7 @@ TEST(ConvertMap, StopsWhenAskedTo) {
     EXPECT_EQ(stopped.error().code, ErrorCode::cancelled);
 }
 
-TEST(ConvertMap, RefusesWhatMakesNoSense) {
+TEST(ConvertMap, RejectsInvalidArguments) {
     const auto texels = randomTexels(16, 16, 12);
     std::vector<Vec3> out(16);
     const auto codeOf = [&](const MapSide& from, const MapSide& to, const ConvertMapOptions& options = {}) {
@@ -509,7 +509,7 @@ TEST(ConvertMap, RefusesWhatMakesNoSense) {
     EXPECT_FALSE(convertMap({0, 5, {}}, {}, {}, {}, {}).ok());
 }
 
-RC_GTEST_PROP(NearestIntegers, PointAsWellAsAnyThatAreLongEnough, ()) {
+RC_GTEST_PROP(NearestIntegers, AreAsAccurateAsAnyOfSufficientLength, ()) {
     const auto part = [] { return *rc::gen::inRange(-1000, 1001) / 1000.0; };
     DVec3 direction{part(), part(), part()};
     RC_PRE(normalize(direction));

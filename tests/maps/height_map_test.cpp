@@ -79,7 +79,7 @@ TEST(HeightToNormal, GivesTheSlopesOfWavesAtClampedBorders) {
     }
 }
 
-TEST(HeightToNormal, TakesImagesOfOneOrTwoTexels) {
+TEST(HeightToNormal, AcceptsImagesOfOneOrTwoTexels) {
     const std::vector<float> heights{0, 1, 2, 3};
     const auto slopes = [&](std::uint32_t width, std::uint32_t height, TextureWrap wrap) {
         std::vector<Vec3> out(std::size_t{width} * height);
@@ -178,7 +178,7 @@ TEST(HeightToNormal, GivesTheSameBitsForAnyNumberOfThreads) {
     EXPECT_EQ(four.texels, one.texels);
 }
 
-TEST(HeightToNormal, RefusesWhatItCannotDo) {
+TEST(HeightToNormal, RejectsInvalidArguments) {
     const std::vector<float> heights(16);
     std::vector<Vec3> out(16);
     EXPECT_EQ(heightToNormal({4, 5, heights}, {}, {}, out).error().code, ErrorCode::countMismatch);

@@ -78,7 +78,7 @@ TEST_F(HighMapBake, AMapOnOtherUvsShowsTheSameNormals) {
     EXPECT_LT(result.error.max_deg, 0.01) << "the error is measured against the map";
 }
 
-TEST_F(HighMapBake, TheScaleAndGreenOfItsMaterialCount) {
+TEST_F(HighMapBake, AppliesTheScaleAndGreenOfTheMaterial) {
     const Square low, high;
     const EvenMap map({0.48F, 0.36F, 0.8F});
     const std::vector<HighMap> maps = {{.image = map.image(), .reading = {.green = Green::down, .scale = 0.5F}}};
@@ -104,7 +104,7 @@ TEST_F(HighMapBake, TrianglesWithoutAMapKeepTheirNormals) {
     EXPECT_LT(degreesBetween(vectorIn(baked(low.low(), poly, options())), {0, 0, 1}), 0.01);
 }
 
-TEST_F(HighMapBake, MapsThatDoNotFitTheMeshAreRefused) {
+TEST_F(HighMapBake, RejectsMapsThatDoNotFitTheMesh) {
     const Square low, high;
     const EvenMap map({0, 0, 1});
     std::vector<HighMap> maps = {{.image = map.image()}};
@@ -174,7 +174,7 @@ TEST_F(SharedTexels, TheFirstTheLargerOrTheMeanCounts) {
     EXPECT_LT(degreesBetween(vectorIn(bakedWith(MapOverlap::mean)), {0.3, 0.3, 0.8}), 0.01);
 }
 
-TEST_F(SharedTexels, WhatFreshMemoryHoldsChangesNoTexel) {
+TEST_F(SharedTexels, TheContentOfFreshMemoryChangesNoTexel) {
     for (const MapOverlap overlap : {MapOverlap::mean, MapOverlap::first, MapOverlap::larger}) {
         const BakedMap expected = bakedWith(overlap);
         for (const unsigned char byte : test::kFillings) {
@@ -184,7 +184,7 @@ TEST_F(SharedTexels, WhatFreshMemoryHoldsChangesNoTexel) {
     }
 }
 
-TEST_F(SharedTexels, TheAngleBetweenThemIsSaid) {
+TEST_F(SharedTexels, TheAngleBetweenThemIsReported) {
     const double apart = degreesBetween(kFirst, kSecond);
     for (const MapOverlap overlap : {MapOverlap::mean, MapOverlap::first, MapOverlap::larger}) {
         const BakedMap map = bakedWith(overlap);

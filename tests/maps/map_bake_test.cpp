@@ -67,7 +67,7 @@ TEST_F(MapBake, SolvingHalvesTheErrorOfAReliefWith16Bits) {
     }
 }
 
-TEST_F(MapBake, TheRimOfAnOpenSurfaceIsAsNearAsItsInside) {
+TEST_F(MapBake, TheRimOfAnOpenSurfaceIsAsAccurateAsItsInside) {
     // Rays beyond the rim hit nothing, but filters read the texels there.
     const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
     const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 512, true);
@@ -75,7 +75,7 @@ TEST_F(MapBake, TheRimOfAnOpenSurfaceIsAsNearAsItsInside) {
     EXPECT_LT(solved.seam_mean_deg, 1.2 * solved.inside_mean_deg);
 }
 
-TEST_F(MapBake, FewerRaysOfLargeMapsCostNextToNothing) {
+TEST_F(MapBake, FewerRaysInLargeMapsHardlyIncreaseTheError) {
     // Above 1024 x 1024 texels, four rays per texel and its center give the same result as nine rays in smaller maps.
     const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
     const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 400, true);
@@ -122,7 +122,7 @@ TEST_F(MapBake, GivesTheSameTexelsForAnyNumberOfThreads) {
     }
 }
 
-TEST_F(MapBake, MirroredHalvesOnSharedTexelsAreAsNearAsOneHalf) {
+TEST_F(MapBake, MirroredHalvesOnSharedTexelsAreAsAccurateAsOneHalf) {
     const LowMesh low = bench::makeLow(surfaceNamed("cube-sphere"), Charts::mirrored);
     const HighMesh high = bench::makeHigh(surfaceNamed("cube-sphere"), 128, false);
     const BakedMap map = baked(low.view(), high.view(), sized(128));
@@ -132,14 +132,14 @@ TEST_F(MapBake, MirroredHalvesOnSharedTexelsAreAsNearAsOneHalf) {
     EXPECT_LT(map.error.mean_deg, 1.3 * baked(apart.view(), high.view(), sized(128)).error.mean_deg);
 }
 
-TEST_F(MapBake, HalvesThatWantDifferentNormalsAreCounted) {
+TEST_F(MapBake, CountsHalvesThatNeedDifferentNormals) {
     const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::mirrored);
     const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 64, true);
     const BakedMap map = baked(low.view(), high.view(), sized(64));
     EXPECT_GT(map.conflict_count, map.overlap_count / 2);
 }
 
-TEST_F(MapBake, WhatMissesIsCountedAndFilledFromAround) {
+TEST_F(MapBake, MissesAreCountedAndFilledFromNeighbors) {
     const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
     HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 64, false);
     // A hole in the middle.
@@ -162,7 +162,7 @@ TEST_F(MapBake, WhatMissesIsCountedAndFilledFromAround) {
     }
 }
 
-TEST_F(MapBake, ReachDecidesHowFarItLooks) {
+TEST_F(MapBake, ReachLimitsTheRays) {
     const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
     HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 32, false);
     for (Vec3& position : high.positions) position.z += 0.05F;
@@ -174,7 +174,7 @@ TEST_F(MapBake, ReachDecidesHowFarItLooks) {
     EXPECT_EQ(near.error().code, ErrorCode::missingAttribute);
 }
 
-TEST_F(MapBake, ACageSaysWhereRaysBegin) {
+TEST_F(MapBake, ACageDefinesTheOriginsOfRays) {
     LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
     HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 32, false);
     // An additional layer farther out than the default cage and than the nearest hit.
@@ -201,7 +201,7 @@ TEST_F(MapBake, ACageSaysWhereRaysBegin) {
     }
 }
 
-TEST_F(MapBake, GroupsSeeTheirOwnTrianglesAlone) {
+TEST_F(MapBake, GroupsHitOnlyTheirOwnTriangles) {
     const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
     const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 32, false);
     const std::vector<std::uint32_t> ones(low.positions.size() / 3, 1);
@@ -248,7 +248,7 @@ double levelError(const BakedMap& map, const BakedMap& truth, std::uint32_t side
     return sum / static_cast<double>(count) * 180 / kPi;
 }
 
-TEST_F(MapBake, EvenLengthsLeaveSmallerLevelsRightAndFreeOnesTheFirst) {
+TEST_F(MapBake, EvenLengthsSuitMipLevelsAndFreeLengthsTheFirstLevel) {
     const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
     const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 256, true);
     const BakedMap truth = baked(low.view(), high.view(), sized(256, 16, MapFit::texel));
@@ -287,7 +287,7 @@ TEST_F(MapBake, TwoChannelMapsHaveUnitTexels) {
     }
 }
 
-TEST_F(MapBake, TheReadingThatTheMapWasMadeForExplainsItBest) {
+TEST_F(MapBake, TheReadingOfTheBakeHasTheSmallestError) {
     const LowMesh low = bench::makeLow(surfaceNamed("torus"), Charts::four);
     const HighMesh high = bench::makeHigh(surfaceNamed("torus"), 96, true);
     std::vector<MapCandidate> candidates;
@@ -320,7 +320,7 @@ TEST_F(MapBake, ObjectSpaceNeedsNoTangents) {
     EXPECT_LT(baked(view, high.view(), options).error.mean_deg, 0.1);
 }
 
-TEST_F(MapBake, BrokenTrianglesLeaveNoNan) {
+TEST_F(MapBake, InvalidTrianglesCauseNoNan) {
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
     LowMesh low = bench::makeLow(surfaceNamed("bumpy"), Charts::one);
     HighMesh high = bench::makeHigh(surfaceNamed("bumpy"), 48, true);
@@ -361,7 +361,7 @@ LowMesh stretchedLow(const char* surface) {
     return low;
 }
 
-TEST_F(MapBake, AnImageThatDoesNotRepeatIsAsNearAtItsEdges) {
+TEST_F(MapBake, AClampedImageIsAsAccurateAtItsEdges) {
     const LowMesh low = stretchedLow("saddle");
     const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 256, true);
     for (const unsigned bits : {8U, 16U}) {
@@ -381,7 +381,7 @@ TEST_F(MapBake, AnImageThatDoesNotRepeatIsAsNearAtItsEdges) {
     }
 }
 
-TEST_F(MapBake, TilesOfAMirroredImageShowItFromItsEnd) {
+TEST_F(MapBake, OddTilesOfAMirroredImageAreReversed) {
     LowMesh low = stretchedLow("saddle");
     const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 64, true);
     for (const unsigned bits : {8U, 16U}) {
@@ -409,7 +409,7 @@ TEST_F(MapBake, TilesOfAMirroredImageShowItFromItsEnd) {
     }
 }
 
-TEST_F(MapBake, BeyondTheEdgeOfAClampedImageNothingIsAsked) {
+TEST_F(MapBake, NothingIsSampledBeyondAClampedImage) {
     LowMesh low = stretchedLow("saddle");
     const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 64, true);
     BakeOptions options = sized(64);
@@ -442,7 +442,7 @@ TEST_F(MapBake, SmallImagesWork) {
     }
 }
 
-TEST_F(MapBake, SaysWhatIsWrongWithOptionsAndMeshes) {
+TEST_F(MapBake, ReportsErrorsOfOptionsAndMeshes) {
     const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
     const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 8, false);
     const auto codeOf = [&](const BakeOptions& options) {
@@ -471,7 +471,7 @@ TEST_F(MapBake, SaysWhatIsWrongWithOptionsAndMeshes) {
     EXPECT_EQ(bakeMap(one_point.view(), high.view(), sized(8)).error().code, ErrorCode::missingAttribute);
 }
 
-TEST_F(MapBake, SaysWhatKeepsMeshesApart) {
+TEST_F(MapBake, ReportsWhyMeshesDoNotOverlap) {
     const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
     const PositionBox box(low.view().positions);
     const auto said = [&](const auto& change) {
@@ -520,7 +520,7 @@ TEST_F(MapBake, HeatIsTheErrorOfEachTexel) {
 }
 
 #ifdef TSPACE_HAS_TBB
-TEST_F(MapBake, LimitsOfAHostThatUsesTbbStayAsTheyAre) {
+TEST_F(MapBake, KeepsTheTbbLimitsOfAHost) {
     // Embree uses TBB too, whose thread limit applies to the whole process.
     const auto limit = [] { return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism); };
     const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
@@ -540,7 +540,7 @@ TEST_F(MapBake, LimitsOfAHostThatUsesTbbStayAsTheyAre) {
 }
 #endif
 
-TEST_F(MapBake, ReachesAndPlacesMayBeOfAnySize) {
+TEST_F(MapBake, ReachAndPositionsMayHaveAnySize) {
     const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
     HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 8, false);
     const MapImage map{1, 1, kFlat};

@@ -99,7 +99,7 @@ class MapLayers : public testing::Test {
     std::vector<Vec2> uvs_ = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
 };
 
-TEST_F(MapLayers, ABallHidesOfTheSkyOverAPlaneWhatItsFormFactorSays) {
+TEST_F(MapLayers, OcclusionByASphereEqualsItsFormFactor) {
     Mesh high;
     high.addSquare(2, 0, 8);
     high.addBall({0, 0, 0.8}, 0.3, 64);
@@ -117,14 +117,14 @@ TEST_F(MapLayers, ABallHidesOfTheSkyOverAPlaneWhatItsFormFactorSays) {
     EXPECT_LT(std::sqrt(sum / kSize / kSize), 0.0065);
 }
 
-TEST_F(MapLayers, WhatIsFurtherAwayThanTheDistanceHidesNothing) {
+TEST_F(MapLayers, SurfacesBeyondTheDistanceDoNotOcclude) {
     Mesh high;
     high.addSquare(2, 0, 8);
     high.addBall({0, 0, 0.8}, 0.3, 32);
     for (const float value : one(high, MapLayer::ao, {.sky_distance = 0.45}, sized(16)).values) EXPECT_EQ(value, 1);
 }
 
-TEST_F(MapLayers, ACoarseBallThatIsShadedSmoothlyHidesNothingOfItsOwnSky) {
+TEST_F(MapLayers, ACoarseSmoothSphereDoesNotOccludeItself) {
     Mesh high;
     high.addBall({0, 0, -1.9}, 2, 12);
     for (const Vec3& at : high.positions) {
@@ -138,7 +138,7 @@ TEST_F(MapLayers, ACoarseBallThatIsShadedSmoothlyHidesNothingOfItsOwnSky) {
     EXPECT_EQ(*std::min_element(ao.values.begin(), ao.values.end()), 1);
 }
 
-TEST_F(MapLayers, BesideAWallTheOpenDirectionsLeanAwayFromIt) {
+TEST_F(MapLayers, BentNormalsTiltAwayFromAWall) {
     Mesh high;
     high.addSquare(1, 0);
     high.addGrid(1, [](double u, double v) { return DVec3{-1.001, 80 * (2 * u - 1), 80 * v}; });
@@ -153,7 +153,7 @@ TEST_F(MapLayers, BesideAWallTheOpenDirectionsLeanAwayFromIt) {
     EXPECT_NEAR(maps.layers[1].values[texel], 0.5, 0.02);
 }
 
-TEST_F(MapLayers, TheThicknessOfASlabIsItsHeightAndThatOfABallItsRadius) {
+TEST_F(MapLayers, TheThicknessOfASlabIsItsHeightAndThatOfASphereItsRadius) {
     Mesh slab;
     slab.addSquare(200, 0);
     slab.addSquare(200, -0.25, 1, false);
@@ -169,14 +169,14 @@ TEST_F(MapLayers, TheThicknessOfASlabIsItsHeightAndThatOfABallItsRadius) {
     for (const float value : of_ball.values) EXPECT_NEAR(value, 0.5, 0.01);
 }
 
-TEST_F(MapLayers, WhereNothingLiesBehindASheetItIsAsThickAsCanBe) {
+TEST_F(MapLayers, ThicknessWithoutABackSideIsMaximal) {
     Mesh high;
     high.addSquare(1, 0);
     for (const float value : one(high, MapLayer::thickness, {.thickness_range = 1}, sized(8)).values)
         EXPECT_EQ(value, 1);
 }
 
-TEST_F(MapLayers, WhatHasNothingBehindSaysNothingOfTheRangeOfThickness) {
+TEST_F(MapLayers, SurfacesWithoutABackSideDoNotExtendTheThicknessRange) {
     Mesh high;
     high.addSquare(1, 0);
     high.addSquare(0.5, -0.25, 1, false);
@@ -184,7 +184,7 @@ TEST_F(MapLayers, WhatHasNothingBehindSaysNothingOfTheRangeOfThickness) {
     EXPECT_NEAR(layer.most[0], 0.25, 1e-5);
 }
 
-TEST_F(MapLayers, HeightIsTheWayFromTheLowPolyAndGrayIsTheLowPolyItself) {
+TEST_F(MapLayers, HeightIsTheDistanceFromTheLowPolyAndGrayIsZero) {
     Mesh high;
     high.addGrid(1, [](double u, double v) { return DVec3{2 * u - 1, 2 * v - 1, 0.2 * u}; });
     const BakedLayer fixed = one(high, MapLayer::height, {.height_range = 0.4}, sized(16));
@@ -198,13 +198,13 @@ TEST_F(MapLayers, HeightIsTheWayFromTheLowPolyAndGrayIsTheLowPolyItself) {
     }
 }
 
-TEST_F(MapLayers, WithoutAnyHeightAllIsGray) {
+TEST_F(MapLayers, ZeroHeightIsGray) {
     Mesh high;
     high.addSquare(1, 0);
     for (const float value : one(high, MapLayer::height, {}, sized(8)).values) EXPECT_EQ(value, 0.5);
 }
 
-TEST_F(MapLayers, PositionsLieInTheBoxThatIsTold) {
+TEST_F(MapLayers, PositionsLieInTheReportedBox) {
     Mesh high;
     high.addSquare(1, 0.1);
     high.addSquare(3, -5);
@@ -220,7 +220,7 @@ TEST_F(MapLayers, PositionsLieInTheBoxThatIsTold) {
     }
 }
 
-TEST_F(MapLayers, WhereRaysMeetNothingTexelsAreFilledFromThoseAround) {
+TEST_F(MapLayers, MissedTexelsAreFilledFromNeighbors) {
     Mesh high;
     high.addGrid(1, [](double u, double v) { return DVec3{u - 1, 2 * v - 1, 0.1}; });  // the left half
     const BakedMaps maps =
@@ -230,7 +230,7 @@ TEST_F(MapLayers, WhereRaysMeetNothingTexelsAreFilledFromThoseAround) {
     for (std::size_t i = 0; i < 256; ++i) EXPECT_EQ(maps.layers[1].values[3 * i], idColor(7).x);
 }
 
-TEST_F(MapLayers, NothingIsMixedAcrossAnEdgeOfIds) {
+TEST_F(MapLayers, IdsAreNotBlendedAcrossEdges) {
     Mesh high;
     high.addSquare(1, 0, 3);
     std::vector<std::uint32_t> ids;
@@ -289,7 +289,7 @@ double curvatureError(int cells) {
     return std::sqrt(sum / static_cast<double>(curvature.size()));
 }
 
-TEST(SurfaceCurvature, OfATorusIsNearerToTheFormulaTheFinerItIs) {
+TEST(SurfaceCurvature, OfATorusConverges) {
     EXPECT_LT(curvatureError(32), 0.03);
     EXPECT_LT(curvatureError(128), 0.003);
 }
@@ -302,7 +302,7 @@ TEST(SurfaceCurvature, OfACoarseBallWithoutNormalsIsOneByItsRadius) {
     for (std::size_t i = 65; i + 65 < curvature.size(); ++i) EXPECT_NEAR(curvature[i], 2, 0.02) << i;
 }
 
-TEST(SurfaceCurvature, AtPositionsThatAreEqualButForRoundingIsThatOfOnePoint) {
+TEST(SurfaceCurvature, IgnoresRoundingOfPositions) {
     // A tube whose ends meet along a line with separate vertices.
     constexpr int kCells = 32;
     const auto curvature = [&](float nudge, float weld_distance) {
@@ -392,7 +392,7 @@ TEST_F(MapLayers, FittedColorsOfATextureOfTheSameSizeAreItsTexels) {
     }
 }
 
-TEST_F(MapLayers, FittedColorsAreNearerToATextureOfAnotherSizeThanMeans) {
+TEST_F(MapLayers, FittedColorsAreMoreAccurateThanMeans) {
     Mesh high;
     high.addSquare(1, 0, 3);
     const Picture picture = noise(48);
@@ -415,7 +415,7 @@ TEST_F(MapLayers, FittedColorsAreNearerToATextureOfAnotherSizeThanMeans) {
     EXPECT_LT(errorOf(MapFit::solve), 0.75 * errorOf(MapFit::texel));
 }
 
-TEST_F(MapLayers, RedOfOrmIsTheOcclusionWhereBothAreMade) {
+TEST_F(MapLayers, RedOfOrmIsTheOcclusionMap) {
     Mesh high;
     high.addSquare(2, 0, 8);
     high.addBall({0, 0, 0.8}, 0.3, 32);
@@ -481,7 +481,7 @@ TEST_F(MapLayers, WrongOptionsAreErrors) {
     EXPECT_EQ(errorOf({.layers = {MapLayer::id}}).code, ErrorCode::countMismatch);
 }
 
-TEST_F(MapLayers, MoreMemoryThanTheLimitIsRefusedBeforeAnyWork) {
+TEST_F(MapLayers, ExceedingTheMemoryLimitIsRejectedBeforeAnyWork) {
     BakeOptions options = sized(16384);
     options.memory_limit_bytes = bakeBytes(2, 2, options) + (std::uint64_t{1} << 20);
     EXPECT_EQ(errorOf({.layers = {MapLayer::position}}, options).code, ErrorCode::tooLarge);
@@ -511,7 +511,7 @@ TEST(ScrambledSobol, EachPartOfTheSquareHasOneOfThePointsOfATexelAndOfABlock) {
     }
 }
 
-TEST(CosineDirection, TheMeanOfItsHeightIsTwoThirdsAndItIsUnit) {
+TEST(CosineDirection, IsUnitWithMeanHeightTwoThirds) {
     double sum = 0;
     const ScrambledSobol points(1024, 3, 5);
     for (std::uint32_t i = 0; i < 1024; ++i) {

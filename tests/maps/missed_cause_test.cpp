@@ -64,7 +64,7 @@ Vec3 turned(const Vec3& at, int degrees, char axis) {
     return result;
 }
 
-TEST_F(MissedCause, ATurnThatIsNamedBringsTheHighPolyBack) {
+TEST_F(MissedCause, TheReportedRotationRestoresTheHighPoly) {
     int found = 0;
     for (const int first : {0, 90, 180, -90}) {
         for (const char second_axis : {'y', 'z'}) {
@@ -91,27 +91,27 @@ TEST_F(MissedCause, ATurnThatIsNamedBringsTheHighPolyBack) {
     EXPECT_GT(found, 12);
 }
 
-TEST_F(MissedCause, UnitsAreNamed) {
+TEST_F(MissedCause, ReportsDifferentUnits) {
     const std::string cause = causeOf(changed([](const Vec3& at) { return 100.0F * at; }));
     EXPECT_NE(cause.find("scale it by 0.01 "), std::string::npos) << cause;
     const std::string both = causeOf(changed([](const Vec3& at) { return 2.54F * turned(at, 90, 'x'); }));
     EXPECT_NE(both.find("rotate it by -90 degrees about x and scale it by 0.394 "), std::string::npos) << both;
 }
 
-TEST_F(MissedCause, FacesThatPointInwardsAreNamed) {
+TEST_F(MissedCause, ReportsFacesThatPointInward) {
     HighMesh turned_over = high_;
     for (std::size_t i = 0; i < turned_over.corners.size(); i += 3)
         std::swap(turned_over.corners[i], turned_over.corners[i + 1]);
     EXPECT_NE(causeOf(turned_over).find("faces point inward"), std::string::npos) << causeOf(turned_over);
 }
 
-TEST_F(MissedCause, AReachThatIsTooShortIsNamed) {
+TEST_F(MissedCause, ReportsAReachThatIsTooShort) {
     const HighMesh lifted = changed([](const Vec3& at) { return Vec3{at.x, at.y, at.z + 0.1F}; });
     const std::string cause = causeOf(lifted, 0.01);
     EXPECT_NE(cause.find("--reach"), std::string::npos) << cause;
 }
 
-TEST_F(MissedCause, NothingIsNamedWhereNothingHelps) {
+TEST_F(MissedCause, ReportsNothingIfNothingHelps) {
     HighMesh scrap = high_;
     scrap.corners.resize(60);
     EXPECT_EQ(causeOf(scrap), "");

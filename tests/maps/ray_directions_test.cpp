@@ -111,7 +111,7 @@ class RayDirectionsTest : public testing::Test {
 };
 
 /// Rays at corners whose positions differ only by rounding from those of adjacent sides still coincide.
-TEST_F(RayDirectionsTest, PositionsThatAreEqualButForRoundingAreOne) {
+TEST_F(RayDirectionsTest, PositionsThatDifferOnlyByRoundingAreWelded) {
     const HighMesh high = roundedBox(false);
     LowMesh nudged = box();
     for (std::size_t i = 6; i < 12; ++i) nudged.positions[i].x = std::nextafter(nudged.positions[i].x, 2.0F);
@@ -159,7 +159,7 @@ TEST_F(RayDirectionsTest, ShellsOnAFaceAreSeenFromOutside) {
     EXPECT_EQ(outermost.own_error.point_count, 0U) << "only where it differs";
 }
 
-TEST_F(RayDirectionsTest, BeyondTheCageTheNearestFrontCounts) {
+TEST_F(RayDirectionsTest, BeyondTheCageTheNearestFrontFaceIsUsed) {
     const HighMesh high = roundedBox(true);
     const BakedMap whole = baked(high, {}), low = baked(high, {.cage_offset = 0.02});
     EXPECT_LT(leaningTexels(low), leaningTexels(whole)) << "the cage lies inside of the stud";
@@ -172,7 +172,7 @@ TEST_F(RayDirectionsTest, BeyondTheCageTheNearestFrontCounts) {
     EXPECT_EQ(baked(larger, {.cage_offset = 0.02}).missed_count, 0U);
 }
 
-TEST_F(RayDirectionsTest, DetailOnFlatFacesDoesNotLean) {
+TEST_F(RayDirectionsTest, DetailOnFlatFacesIsNotSkewed) {
     // Far from the center averaged rays are tilted by 30 degrees, so they hit only one side of the stud.
     const HighMesh high = roundedBox(true, 0.5F);
     const int automatic = leaningTexels(baked(high, {})),
@@ -182,7 +182,7 @@ TEST_F(RayDirectionsTest, DetailOnFlatFacesDoesNotLean) {
     EXPECT_LT(automatic - base, (averaged - averaged_base) / 2);
 }
 
-TEST_F(RayDirectionsTest, APaintedSkewGoesFromAveragedToStraight) {
+TEST_F(RayDirectionsTest, ASkewMapBlendsAveragedAndStraightRays) {
     const HighMesh high = roundedBox(true, 0.5F);
     const std::vector<Vec3> black(4), white(4, Vec3{1, 1, 1});
     const BakedMap averaged = baked(high, {.directions = RayDirections::averaged}),
@@ -279,7 +279,7 @@ TEST_F(RayDirectionsTest, BacksArePassedThroughAndCounted) {
     EXPECT_EQ(error->mean_deg, kMissedDeg);
 }
 
-TEST_F(RayDirectionsTest, LengthsThatAreNoneAreRefused) {
+TEST_F(RayDirectionsTest, RejectsInvalidLengths) {
     for (const double wrong : {-1.0, static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
         const Result<BakedMap> map = bakeMap(box().view(), roundedBox(false).view(), options({.cage_offset = wrong}));
         ASSERT_FALSE(map);

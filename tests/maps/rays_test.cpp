@@ -153,7 +153,7 @@ std::vector<RayLine> linesTogether(std::mt19937& random, std::size_t count) {
     return lines;
 }
 
-TEST(Rays, MeetTheSameTogetherAsOneByOne) {
+TEST(Rays, HitTheSameTogetherAsOneByOne) {
     std::mt19937 random(13);
     const Soup soup = randomSoup(random, 1, 0);
     Parallel parallel({});
@@ -182,7 +182,7 @@ TEST(Rays, MeetTheSameTogetherAsOneByOne) {
     EXPECT_LE(others, 3);
 }
 
-TEST(Rays, MissNothingThroughEdgesAndVertices) {
+TEST(Rays, DoNotPassThroughEdgesAndVertices) {
     // A grid seen along its normals, at its vertices and along its edges.
     Soup soup;
     constexpr std::uint32_t kSide = 9;

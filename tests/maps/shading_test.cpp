@@ -48,7 +48,7 @@ TEST(Shading, AgreesWithTheFunctionOfOneFrame) {
     }));
 }
 
-TEST(Shading, WhatIsEncodedShadesAsWanted) {
+TEST(Shading, EncodedTexelsGiveTheWantedNormal) {
     EXPECT_TRUE(rc::check([] {
         MapReading reading = anyReading();
         if (reading.two_channels) reading.scale = 1;
@@ -60,7 +60,7 @@ TEST(Shading, WhatIsEncodedShadesAsWanted) {
     }));
 }
 
-TEST(Shading, TurnedGreenIsOneMinusGreen) {
+TEST(Shading, InvertedGreenIsOneMinusGreen) {
     EXPECT_TRUE(rc::check([] {
         const DVec3 vector = toDouble(anyVector());
         const DVec3 up = encodeTexel(vector, {}), down = encodeTexel(vector, {.green = Green::down});
@@ -113,7 +113,7 @@ TEST(BilinearTaps, TexelCentersReadTheTexel) {
     }
 }
 
-TEST(BilinearTaps, TheImageGoesOnAsTheModeSays) {
+TEST(BilinearTaps, TheWrapModeDeterminesTexelsBeyondTheImage) {
     const auto left = [](TextureWrap wrap, std::int64_t at) { return wrappedTexel(at, 4, wrap); };
     EXPECT_EQ(left(TextureWrap::repeat, -1), 3u);
     EXPECT_EQ(left(TextureWrap::repeat, 9), 1u);

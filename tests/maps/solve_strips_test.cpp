@@ -76,7 +76,7 @@ struct Apart {
     }
 };
 
-TEST(SolveStrips, AreAsNearToAWholeMapAtTheirEdgesAsElsewhere) {
+TEST(SolveStrips, AreAsCloseToAWholeMapAtTheirEdgesAsElsewhere) {
     constexpr std::uint32_t kRows = 32;
     for (const TextureWrap wrap : {TextureWrap::repeat, TextureWrap::clamp}) {
         for (const float shift : {0.0F, 0.5F}) {
@@ -141,7 +141,7 @@ struct MemoryMeter {
     }
 };
 
-TEST(SolveStrips, TakeNoMemoryOfASystemForTheWholeMap) {
+TEST(SolveStrips, NeedLessMemoryThanASystemForTheWholeMap) {
     const bench::LowMesh low = bench::makeLow(saddle(), bench::Charts::one);
     const bench::HighMesh high = bench::makeHigh(saddle(), 32, true, 2);
     const auto most = [&](std::uint32_t height, unsigned bits) {
@@ -159,7 +159,7 @@ TEST(SolveStrips, TakeNoMemoryOfASystemForTheWholeMap) {
     }
 }
 
-TEST(SolveStrips, TellOfStepsThatGoOn) {
+TEST(SolveStrips, ReportProgressThatAdvances) {
     const bench::LowMesh low = bench::makeLow(saddle(), bench::Charts::one);
     const bench::HighMesh high = bench::makeHigh(saddle(), 64, true, 2);
     std::uint64_t last = 0, count = 0;

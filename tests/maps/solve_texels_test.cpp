@@ -66,7 +66,7 @@ std::vector<Vec3> centers(const std::vector<Sample>& samples) {
     return texels;
 }
 
-TEST(SolveTexels, TheFilteredImageIsNearerThanThatOfExactTexels) {
+TEST(SolveTexels, TheFilteredImageIsMoreAccurateThanThatOfExactTexels) {
     constexpr std::uint32_t kWidth = 22, kHeight = 17;
     const std::vector<Sample> samples = waves(kWidth, kHeight);
     const TexelSystem system = systemOf(samples, kWidth, kHeight, 0.02F);
@@ -104,7 +104,7 @@ TEST(SolveTexels, IntegersCancelEachOthersErrors) {
     }
 }
 
-TEST(SolveTexels, IntegersBesideTheChosenOnesAreHardlyBetter) {
+TEST(SolveTexels, NeighboringIntegersAreHardlyBetter) {
     // The last texel of every second row is chosen after all of its neighbors.
     constexpr std::uint32_t kWidth = 5, kHeight = 400;
     const std::vector<Sample> samples = waves(kWidth, kHeight);
@@ -157,7 +157,7 @@ TEST(SolveTexels, FreerLengthsAreNoWorseWhereDetailIsFine) {
     EXPECT_LT(errorWith(0.5F), errorWith(0.7F));
 }
 
-TEST(SolveTexels, TexelsWithoutSamplesStay) {
+TEST(SolveTexels, TexelsWithoutSamplesAreUnchanged) {
     const std::vector<TexelRole> roles(64, TexelRole::unknown);
     const TexelSystem system(nullptr, 8, 8, roles);
     std::vector<Vec3> texels(64, Vec3{0.6F, 0, 0.8F});

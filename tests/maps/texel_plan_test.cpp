@@ -51,7 +51,7 @@ DVec3 waveAt(double x, double y) {
     return wave;
 }
 
-TEST(TexelPlan, SmoothFieldsAreAskedAtTheRimAlone) {
+TEST(TexelPlan, SmoothFieldsAreSampledOnlyAtTheRim) {
     const TexelPlan plan = Field(waveAt).plan(0.1F);
     for (std::uint32_t y = 0; y < kFieldSide; ++y) {
         for (std::uint32_t x = 0; x < kFieldSide; ++x) {
@@ -79,7 +79,7 @@ TEST(TexelPlan, CellsAtACreaseAreRough) {
     EXPECT_EQ(plan.cells[15 * kFieldSide + 30], TexelCell::smooth);
 }
 
-TEST(TexelPlan, TexelsThatSeveralTrianglesShowAreAsked) {
+TEST(TexelPlan, OverlappingTexelsAreSampled) {
     Field field(waveAt);
     field.triangles.overlaps[20 * kFieldSide + 20] = true;
     EXPECT_EQ(field.plan(0.1F).cells[20 * kFieldSide + 20], TexelCell::rough);

@@ -117,7 +117,7 @@ double nearestOf(const UvMap& map, const TextureShape& shape, std::size_t texel)
     return std::sqrt(least);
 }
 
-RC_GTEST_PROP(TexelTriangles, TakeTheNearestTriangleBesideThem, ()) {
+RC_GTEST_PROP(TexelTriangles, UseTheNearestTriangleInThePadding, ()) {
     UvMap map = randomMap();
     // Triangles beyond the edge of a clamped image do not extend into it.
     if (map.wrap == TextureWrap::clamp) map.wrap = TextureWrap::repeat;
@@ -160,7 +160,7 @@ RC_GTEST_PROP(TexelTriangles, AreTheSameForAnyNumberOfThreads, ()) {
     }
 }
 
-TEST(TexelTriangles, CountTexelsThatSeveralTrianglesClaim) {
+TEST(TexelTriangles, CountOverlappingTexels) {
     const std::vector<Vec2> square = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
     EXPECT_EQ(find(mapOf(square), 8, 8, 0).counts.overlapping, 0u) << "centers on the diagonal are no overlap";
     std::vector<Vec2> halves = square;
@@ -170,7 +170,7 @@ TEST(TexelTriangles, CountTexelsThatSeveralTrianglesClaim) {
     for (std::size_t texel = 0; texel < 64; ++texel) EXPECT_LT(found.places[texel].triangle, 2u) << "the first wins";
 }
 
-TEST(TexelTriangles, CountWhatIsLeftOut) {
+TEST(TexelTriangles, CountIgnoredTriangles) {
     const TexelTriangles found = find(mapOf({{0, 0},
                                              {1, 0},
                                              {0.5f, 0},  //

@@ -33,7 +33,7 @@ std::string picture(const TexelMask& mask) {
     return text;
 }
 
-TEST(UvCoverage, TakesTexelsWhoseCenterIsInside) {
+TEST(UvCoverage, ContainsTexelsWhoseCenterIsInside) {
     EXPECT_EQ(picture(cover({{0, 0}, {1, 0}, {0, 1}}, 4, 4)),
               "####\n"
               "###.\n"
@@ -62,7 +62,7 @@ TEST(UvCoverage, LeavesNoGapBetweenTrianglesThatShareAnEdge) {
     }));
 }
 
-TEST(UvCoverage, TakesNothingThatIsClearlyOutside) {
+TEST(UvCoverage, ContainsNothingThatIsClearlyOutside) {
     EXPECT_TRUE(rc::check([] {
         const auto coordinate = [] { return static_cast<float>(*rc::gen::inRange(-3000, 3000)) / 1000.0f; };
         std::array<Vec2, 3> uv;
@@ -97,7 +97,7 @@ TEST(UvCoverage, TakesNothingThatIsClearlyOutside) {
     }));
 }
 
-TEST(UvCoverage, LeavesOutUvsThatMeanNothing) {
+TEST(UvCoverage, IgnoresInvalidUvs) {
     for (const float bad : {NAN, INFINITY, 1e30f}) {
         EXPECT_EQ(count(cover({{0, 0}, {bad, 0}, {0, 1}}, 8, 8)), 0u);
         EXPECT_EQ(count(cover({{0, 0}, {1, 0}, {0, -bad}}, 8, 8)), 0u);

@@ -222,7 +222,7 @@ TEST(MemoryCeiling, HoldsForMeshoptViewsOverOneStream) {
     EXPECT_EQ(test::expectBounded(path, std::filesystem::file_size(path)), 4);
 }
 
-TEST(MemoryCeiling, HoldsForAFallbackBufferOfNothing) {
+TEST(MemoryCeiling, HoldsForAnEmptyFallbackBuffer) {
     const TempFolder folder;
     Json json = {{"asset", {{"version", "2.0"}}}};
     json["buffers"] = {

@@ -106,7 +106,7 @@ TEST(MemoryCeiling, HoldsForTexturesThatUnpackToManyPixels) {
     expectImageBounded(test::ddsFile(83, 1 << 16, 1 << 16, std::string(64, 'x')), 1, true);
 }
 
-TEST(MemoryCeiling, LeavesGoodNormalMapsToBeLookedAt) {
+TEST(MemoryCeiling, StillDecodesValidNormalMaps) {
     const RgbImage map = test::normalMapOf(1024, test::bumps);
     for (const std::string& image : {test::pngFile(map), test::jpegFile(map, 90)}) {
         const TempFolder folder;

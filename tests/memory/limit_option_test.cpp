@@ -47,7 +47,7 @@ class LongStrip : public testing::Test {
     std::string path_ = writeLongStrip(folder_);
 };
 
-TEST_F(LongStrip, IsRefusedWithTheOptionThatTakesIt) {
+TEST_F(LongStrip, IsRejectedWithTheOptionThatAcceptsIt) {
     EXPECT_EQ(run("generate").exit_code, 3);
     EXPECT_TRUE(says("use --memory-limit to raise it")) << message();
     EXPECT_EQ(run("generate", "100M").exit_code, 3);
@@ -56,7 +56,7 @@ TEST_F(LongStrip, IsRefusedWithTheOptionThatTakesIt) {
     EXPECT_EQ(run("generate", "none").exit_code, 0) << message();
 }
 
-TEST_F(LongStrip, TakesNoMoreThanTheLimit) {
+TEST_F(LongStrip, UsesNoMoreThanTheLimit) {
     for (const std::string command : {"generate", "check", "identify", "inspect"}) {
         for (const std::uint64_t limit : {100, 500}) {
             const MeasuredRun measured = run(command, std::to_string(limit) + "M");
@@ -67,7 +67,7 @@ TEST_F(LongStrip, TakesNoMoreThanTheLimit) {
 }
 
 /// A user who passes the limit in the message is asked for more only a few times, as the work progresses.
-TEST_F(LongStrip, IsTakenWithTheMemoryThatTheLineNames) {
+TEST_F(LongStrip, IsAcceptedWithTheLimitFromTheMessage) {
     int exit_code = run("generate").exit_code;
     for (int tries = 0; exit_code == 3 && tries < 4; ++tries) {
         const std::string about = "needs about ", line = message();

@@ -38,7 +38,7 @@ TEST(MemoryCeiling, HoldsForJsonOfManySmallValues) {
     }
 }
 
-TEST(MemoryCeiling, HoldsForManyEntriesThatSayNothing) {
+TEST(MemoryCeiling, HoldsForManyEmptyEntries) {
     for (const char* list :
          {"images", "materials", "nodes", "animations", "skins", "textures", "meshes", "scenes", "cameras"}) {
         SCOPED_TRACE(list);

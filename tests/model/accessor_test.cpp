@@ -104,7 +104,7 @@ TEST(Accessor, AppliesSparseValues) {
     EXPECT_EQ(decodeVec2(based, readAccessor(based, 0), ""), (std::vector<Vec2>{{0, 1}, {7, 8}, {4, 5}, {9, 10}}));
 }
 
-TEST(Accessor, RefusesSparseDefects) {
+TEST(Accessor, RejectsSparseDefects) {
     const auto place = [](const std::function<void(Json&)>& change) {
         GltfBuilder builder = sparseBuilder(true);
         change(builder.json()["accessors"][0]["sparse"]);
@@ -147,7 +147,7 @@ TEST(Accessor, StaysInsideItsView) {
     EXPECT_EQ(code(0, 2, std::numeric_limits<std::size_t>::max()), ErrorCode::invalidFile);
 }
 
-TEST(Accessor, RefusesFourBillionVerticesBeforeAllocating) {
+TEST(Accessor, RejectsFourBillionVerticesBeforeAllocating) {
     GltfBuilder builder;
     builder.json()["accessors"].push_back({{"componentType", 5126}, {"count", 4000000000u}, {"type", "VEC3"}});
     EXPECT_EQ(errorOf([&] { parse(builder); }).code, ErrorCode::unsupportedFile);
@@ -173,14 +173,14 @@ TEST(Accessor, ChecksEveryIndex) {
     EXPECT_EQ(errorOf([&] { decode(floats, 9); }).code, ErrorCode::invalidFile);
 }
 
-TEST(Accessor, RefusesAnAttributeOfAnotherWidth) {
+TEST(Accessor, RejectsAnAttributeWithAWrongComponentCount) {
     GltfBuilder builder;
     builder.addFloats({1, 2, 3, 4}, 4);
     const Document document = parse(builder);
     EXPECT_EQ(errorOf([&] { decodeVec3(document, readAccessor(document, 0), "/here"); }).place, "/here");
 }
 
-TEST(Accessor, NeedsNoPaddingBehindTheLastColumnOfMatrices) {
+TEST(Accessor, NeedsNoPaddingAfterTheLastColumnOfMatrices) {
     // MAT3 of bytes: columns of 3 start every 4 bytes.
     const std::vector<std::uint8_t> two = {1,  2,  3,  0, 4,  5,  6,  0, 7,  8,  9, 0,
                                            11, 12, 13, 0, 14, 15, 16, 0, 17, 18, 19};
@@ -248,7 +248,7 @@ TEST(Accessor, OfABufferWithoutDataIsAnErrorOnlyWhenItsElementsAreNeeded) {
     EXPECT_TRUE(hasData(with_data, readAccessor(with_data, 0)));
 }
 
-TEST(Accessor, ReadsEveryQuantisedTypeByItsRule) {
+TEST(Accessor, ReadsEveryQuantizedType) {
     // KHR_mesh_quantization: normalized or by value.
     GltfBuilder builder;
     builder.addAccessor(std::vector<std::int8_t>{-128, -127, 127, 0}, 5120, "VEC3", 1);

@@ -21,7 +21,7 @@ using test::errorOf;
 using test::TempFolder;
 using test::toBytes;
 
-TEST(AtomicOutput, PutsAllFilesInPlaceAtOnce) {
+TEST(AtomicOutput, RenamesAllFilesAtOnce) {
     const TempFolder folder;
     folder.write("a", std::string("old"));
     AtomicOutput output;
@@ -48,7 +48,7 @@ TEST(AtomicOutput, LeavesNothingWithoutCommit) {
     EXPECT_EQ(folder.entryCount(), 1u);
 }
 
-TEST(AtomicOutput, TakesBackWhatWasRenamedWhenALaterRenameFails) {
+TEST(AtomicOutput, UndoesRenamesIfALaterRenameFails) {
     const TempFolder folder;
     folder.write("last", std::string("old"));
     AtomicOutput output;
@@ -63,7 +63,7 @@ TEST(AtomicOutput, TakesBackWhatWasRenamedWhenALaterRenameFails) {
     EXPECT_TRUE(std::filesystem::is_directory(folder.path("first")));
 }
 
-TEST(AtomicOutput, SaysThatThereIsNoRoomForPiecesThatAreMade) {
+TEST(AtomicOutput, ReportsAFullDiskForGeneratedPieces) {
     struct Zeros final : ByteMaker {
         [[nodiscard]] std::size_t size() const override { return 10'000'000; }
         void make(std::size_t, std::span<std::uint8_t> to) const override {
@@ -99,7 +99,7 @@ TEST(AtomicOutput, WritesThroughALink) {
 }
 
 /// Writing would replace the link by a file.
-TEST(AtomicOutput, RefusesALinkToWhatIsNotThere) {
+TEST(AtomicOutput, RejectsALinkWithAMissingTarget) {
     const TempFolder folder;
     std::filesystem::create_symlink("nothing", folder.path("link"));
     AtomicOutput output;
@@ -116,7 +116,7 @@ std::filesystem::path temporaryFile(const TempFolder& folder) {
     return {};
 }
 
-TEST(AtomicOutput, GivesATemporaryFileNoMoreThanTheTargetHas) {
+TEST(AtomicOutput, GivesATemporaryFileNoMorePermissionsThanTheTarget) {
     using std::filesystem::perms;
     const TempFolder folder;
     for (const perms kept :
@@ -133,7 +133,7 @@ TEST(AtomicOutput, GivesATemporaryFileNoMoreThanTheTargetHas) {
     }
 }
 
-TEST(AtomicOutput, HasTemporaryNamesThatNobodyForesees) {
+TEST(AtomicOutput, UsesUnpredictableTemporaryNames) {
     const TempFolder folder;
     std::set<std::string> names;
     for (int i = 0; i < 20; ++i) {
@@ -152,7 +152,7 @@ TEST(AtomicOutput, HasTemporaryNamesThatNobodyForesees) {
     EXPECT_EQ(readFile(folder.path(longest)), toBytes("new"));
 }
 
-TEST(AtomicOutput, RefusesInputsAndTwoOutputsThatAreOne) {
+TEST(AtomicOutput, RejectsOutputsThatAreInputsOrEqual) {
     const TempFolder folder;
     folder.write("input", std::string("old"));
     std::filesystem::create_symlink("input", folder.path("link"));
@@ -170,7 +170,7 @@ TEST(AtomicOutput, RefusesInputsAndTwoOutputsThatAreOne) {
     EXPECT_EQ(readFile(folder.path("input")), toBytes("old"));
 }
 
-TEST(AtomicOutput, ASharedFileStaysAsTheFirstBroughtIt) {
+TEST(AtomicOutput, ASharedFileKeepsTheContentOfTheFirstWriter) {
     const TempFolder folder;
     AtomicOutput first, same, other;
     first.add(folder.path("first"), toBytes("first"));
@@ -187,7 +187,7 @@ TEST(AtomicOutput, ASharedFileStaysAsTheFirstBroughtIt) {
     EXPECT_FALSE(std::filesystem::exists(folder.path("other")));
 }
 
-TEST(AbandonedFiles, ComeBackWhereTheirPlaceIsEmpty) {
+TEST(AbandonedFiles, AreRestoredIfNoFileReplacedThem) {
     const TempFolder folder;
     // A process that has ended.
     const pid_t child = fork();
@@ -207,7 +207,7 @@ TEST(AbandonedFiles, ComeBackWhereTheirPlaceIsEmpty) {
     EXPECT_EQ(folder.read("b"), "new");
 }
 
-TEST(AtomicOutput, SaysWhyItCannotWrite) {
+TEST(AtomicOutput, ReportsWhyItCannotWrite) {
     const TempFolder folder;
     folder.write("file", std::string("x"));
     AtomicOutput output;

@@ -101,7 +101,7 @@ TEST(BitangentsGltf, AreSharedByPrimitivesThatShareVertices) {
     EXPECT_EQ(outcome.primitives[0].find("_BITANGENT"), outcome.primitives[1].find("_BITANGENT"));
 }
 
-TEST(BitangentsGltf, OfStripsStayStripsWithoutASplit) {
+TEST(BitangentsGltf, StripsStayStripsWithoutASplit) {
     GltfBuilder model = shearedModel(0.75f, 0.75f);
     const std::size_t strip = model.addAccessor(std::vector<std::uint16_t>{0, 1, 5, 6, 10, 11}, kU16, "SCALAR", 6);
     firstPrimitive(model)["indices"] = strip;
@@ -137,7 +137,7 @@ TEST(BitangentsGltf, AreMissingWhereTangentsAreKeptAndANoteSaysSo) {
     EXPECT_NE(report->primitives[0].notes[0].find("no bitangents"), std::string::npos);
 }
 
-TEST(BitangentsGltf, ReplaceOldOnesOnlyWhenAskedFor) {
+TEST(BitangentsGltf, ReplaceExistingOnesOnlyOnRequest) {
     GltfBuilder model = withTangents(Grid(4, false));
     const std::size_t old = model.addFloats(std::vector<float>(75, 0.25f), 3);
     firstPrimitive(model)["attributes"]["_BITANGENT"] = old;

@@ -39,7 +39,7 @@ class Copying final : public ByteMaker {
     Bytes bytes_;
 };
 
-RC_GTEST_PROP(BufferBytes, HoldsWhatAnArrayWouldHold, ()) {
+RC_GTEST_PROP(BufferBytes, EqualsAContiguousArray, ()) {
     Bytes outside = anyBytes();
     Bytes expected = outside;
     BufferBytes bytes(std::span<std::uint8_t>{outside});
@@ -87,7 +87,7 @@ RC_GTEST_PROP(BufferBytes, HoldsWhatAnArrayWouldHold, ()) {
     RC_ASSERT(bytes.joined() == expected);
 }
 
-TEST(BufferBytes, AreWrittenWhereTheyLie) {
+TEST(BufferBytes, AreWrittenAtTheirOffsets) {
     Bytes outside{1, 2, 3, 4};
     BufferBytes bytes(std::span<std::uint8_t>{outside});
     bytes.append({5, 6}, 1);
@@ -97,7 +97,7 @@ TEST(BufferBytes, AreWrittenWhereTheyLie) {
     EXPECT_EQ(bytes.joined(), (Bytes{1, 20, 3, 4, 5, 60}));
 }
 
-TEST(BufferBytes, ThatAreKeptAreWrittenFromWhereTheyAre) {
+TEST(BufferBytes, KeptBytesAreWrittenFromTheInput) {
     std::vector<std::uint32_t> values{1, 2, 3};
     const void* place = values.data();
     BufferBytes bytes;
@@ -109,7 +109,7 @@ TEST(BufferBytes, ThatAreKeptAreWrittenFromWhereTheyAre) {
     EXPECT_EQ(pieces[0].bytes.size(), 12u);
 }
 
-TEST(BufferBytes, StayWhereTheyAreWhenMoved) {
+TEST(BufferBytes, KeepTheirAddressesWhenMoved) {
     BufferBytes bytes(Bytes{1, 2, 3});
     const std::uint8_t* place = std::as_const(bytes).range(0, 3).data();
     const BufferBytes moved = std::move(bytes);

@@ -34,7 +34,7 @@ TEST(Glb, ReadsBackWhatItFrames) {
     EXPECT_EQ(file.size() % 4, 0u);
 }
 
-TEST(Glb, RefusesEveryTruncation) {
+TEST(Glb, RejectsEveryTruncation) {
     const Bytes file = smallGlb();
     for (std::size_t length = 0; length < file.size(); ++length) {
         const Bytes cut(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(length));
@@ -45,7 +45,7 @@ TEST(Glb, RefusesEveryTruncation) {
     }
 }
 
-TEST(Glb, RefusesWrongLengthsAndOrder) {
+TEST(Glb, RejectsWrongLengthsAndOrder) {
     Bytes shorter = smallGlb();
     shorter.pop_back();
     EXPECT_EQ(errorOf([&] { readGlb(shorter); }).place, "byte 8");
@@ -75,7 +75,7 @@ TEST(Glb, IgnoresBytesBehindItsEnd) {
     }
 }
 
-TEST(Glb, RefusesToGrowBeyond4GiB) {
+TEST(Glb, RejectsToGrowBeyond4GiB) {
     EXPECT_EQ(errorOf([] { frameGlb("{}", std::size_t{0xffffffff}, {}); }).code, ErrorCode::cannotWrite);
 }
 
@@ -96,7 +96,7 @@ TEST(JsonText, KeepsItsLayout) {
     }
 }
 
-TEST(JsonText, RefusesDeepNestingWithoutRecursion) {
+TEST(JsonText, RejectsDeepNestingWithoutRecursion) {
     const std::string deep(2000000, '[');
     EXPECT_NE(errorOf([&] { parseJson(toBytes(deep)); }).message.find("nested"), std::string::npos);
     std::string objects;
@@ -112,7 +112,7 @@ TEST(JsonText, ReadsWideObjectsInLinearTime) {
     EXPECT_EQ(parsed.root["extras"].size(), 300001u);
 }
 
-TEST(JsonText, SaysWhatIsWrong) {
+TEST(JsonText, ReportsErrors) {
     const auto message = [](const std::string& text) { return errorOf([&] { parseJson(toBytes(text)); }).message; };
     EXPECT_EQ(message("{\"a\":1e400}"), "the JSON contains a number that is too large");
     EXPECT_EQ(message("{\"a\":NaN}"), "the JSON has a syntax error");
@@ -122,7 +122,7 @@ TEST(JsonText, SaysWhatIsWrong) {
     EXPECT_EQ(message("{\"a\":\"\xff\"}"), "the JSON has a syntax error");
 }
 
-TEST(Document, RefusesWrongTypesAtTheirPlace) {
+TEST(Document, RejectsWrongTypesWithTheirLocation) {
     const struct {
         const char* text;
         const char* place;
@@ -154,7 +154,7 @@ TEST(Document, RefusesWrongTypesAtTheirPlace) {
     }
 }
 
-TEST(Document, SaysThatGltf1IsTooOld) {
+TEST(Document, RejectsGltf1WithAMessage) {
     // In version 1.0 the root contains objects where 2.0 has arrays.
     const Error error = errorOf([] {
         gltf::parseDocument(toBytes(R"({"accessors":{},"meshes":{},"asset":{"version":"1.0"}})"), "model.gltf", {});
@@ -186,7 +186,7 @@ TEST(Document, MessagesAreOneLineOfValidUtf8) {
     }
 }
 
-TEST(InQuotes, KeepsCharactersAndReplacesWhatIsNone) {
+TEST(InQuotes, KeepsCharactersAndReplacesInvalidBytes) {
     EXPECT_EQ(inQuotes("a\u00e9\u20ac\U0001f600"), "'a\u00e9\u20ac\U0001f600'");
     // Each byte of a malformed sequence counts as one character, and so does a control character.
     const auto unknown = [](std::size_t count) {

@@ -255,7 +255,7 @@ TEST(ConvertMaps, SplitsAMapThatSeveralMeshesNeedInDifferentWays) {
     EXPECT_NE(image_of(1), image_of(2));
 }
 
-TEST(ConvertMaps, MakesOneMapForMeshesWhosePartsDoNotMeet) {
+TEST(ConvertMaps, MakesOneMapForMeshesThatUseSeparateTexels) {
     const TempFolder folder;
     GltfBuilder builder;
     addSheet(builder, {.seed = 1, .first = {0, 0}, .last = {0.45F, 1}}, 0);
@@ -270,7 +270,7 @@ TEST(ConvertMaps, MakesOneMapForMeshesWhosePartsDoNotMeet) {
     EXPECT_EQ(json["materials"].size(), 2U);
 }
 
-TEST(ConvertMaps, MakesAMapOfItsOwnForAMeshWithNewNormalsThatClampsIt) {
+TEST(ConvertMaps, MakesASeparateMapForAMeshThatClampsIt) {
     const TempFolder folder;
     GltfBuilder builder;
     addSheet(builder, {.seed = 1, .first = {0, 0}, .last = {0.45F, 1}}, 0);
@@ -289,7 +289,7 @@ TEST(ConvertMaps, MakesAMapOfItsOwnForAMeshWithNewNormalsThatClampsIt) {
     for (const ConvertedMapReport& map : report->converted_maps) EXPECT_EQ(map.primitive_count, 1U);
 }
 
-TEST(ConvertMaps, LeavesTheImageToWhatElseShowsIt) {
+TEST(ConvertMaps, KeepsTheImageForItsOtherUsers) {
     const TempFolder folder;
     GltfBuilder builder;
     addSheet(builder, {}, 0);
@@ -345,7 +345,7 @@ TEST(ConvertMaps, WritesNewFilesBesideAGltf) {
     EXPECT_EQ(folder.read("bumps.png"), std::string(map.begin(), map.end()));
 }
 
-TEST(ConvertMaps, SaysWhyAMapStays) {
+TEST(ConvertMaps, ExplainsWhyAMapIsKept) {
     const TempFolder folder;
     for (const auto& [image, why] : {std::pair<std::string, std::string>{"no image", "neither PNG"},
                                      {std::string("\xabKTX 20\xbb\r\n\x1a\n", 12), "KTX2"}}) {
@@ -363,7 +363,7 @@ TEST(ConvertMaps, SaysWhyAMapStays) {
     }
 }
 
-TEST(ConvertMaps, RefusesOptionsThatChangeThePictureOnPurpose) {
+TEST(ConvertMaps, RejectsOptionsThatChangeThePictureOnPurpose) {
     const TempFolder folder;
     GltfBuilder builder;
     addSheet(builder, {}, 0);

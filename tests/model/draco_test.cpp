@@ -175,7 +175,7 @@ TEST(DracoKeep, SharesTheDataOfPrimitivesThatShareTheirs) {
     EXPECT_EQ(outcome.after.json["bufferViews"].size(), 1u);
 }
 
-TEST(DracoKeep, CarriesMorphTargetsOutsideOfTheData) {
+TEST(DracoKeep, KeepsMorphTargetsOutsideTheData) {
     GltfBuilder builder = model(grid());
     std::vector<float> deltas;
     for (int i = 0; i < 75; ++i) deltas.push_back(static_cast<float>(i));
@@ -214,7 +214,7 @@ TEST(DracoPack, BoundsOfTargetsFollowTheVerticesThatStay) {
     EXPECT_EQ(highest, (std::vector<double>{1, 0})) << "nobody draws the vertex that moves by 7";
 }
 
-TEST(DracoPack, TakesMeshesThatComeApartAndHaveVerticesThatNobodyDraws) {
+TEST(DracoPack, EncodesDisconnectedMeshesWithUnusedVertices) {
     GltfBuilder builder = sharedVertices();
     // Flat normals and a mirrored UV map give every corner a separate vertex.
     builder.json()["meshes"][0]["primitives"].erase(0);
@@ -228,7 +228,7 @@ TEST(DracoPack, TakesMeshesThatComeApartAndHaveVerticesThatNobodyDraws) {
     EXPECT_EQ(outcome.report.primitives[0].vertices_after, 6u);
 }
 
-TEST(DracoKeep, GivesEachPrimitiveItsOwnAccessorsWhereOneStandsForSeveralData) {
+TEST(DracoKeep, SeparatesAccessorsThatSeveralCompressedPrimitivesShare) {
     DracoMesh other = grid();
     std::vector<float> moved(75);
     std::memcpy(moved.data(), other.attributes[0].values.data(), 300);
@@ -247,7 +247,7 @@ TEST(DracoKeep, GivesEachPrimitiveItsOwnAccessorsWhereOneStandsForSeveralData) {
     for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i].x + 1, b[i].x, 0.01);
 }
 
-TEST(DracoKeep, UsesAndRenewsPlainDataBesideTheCompressedOnes) {
+TEST(DracoKeep, UpdatesUncompressedFallbackData) {
     const DracoMesh mesh = grid();
     GltfBuilder builder = model(mesh);
     Json& accessors = builder.json()["accessors"];
@@ -281,7 +281,7 @@ Error loadError(const GltfBuilder& builder) {
     return errorOf([&] { static_cast<void>(load(builder)); });
 }
 
-TEST(DracoHostile, NamesThePlaceOfEveryWrongMember) {
+TEST(DracoHostile, NamesTheLocationOfEveryWrongMember) {
     const auto expectRefused = [](const char* what, const std::function<void(GltfBuilder&)>& spoil) {
         GltfBuilder builder = model(grid());
         spoil(builder);
@@ -305,7 +305,7 @@ TEST(DracoHostile, NamesThePlaceOfEveryWrongMember) {
     expectRefused("points", [](GltfBuilder& b) { b.json()["meshes"][0]["primitives"][0]["mode"] = 0; });
 }
 
-TEST(DracoHostile, RefusesDataThatAreCutShort) {
+TEST(DracoHostile, RejectsTruncatedData) {
     const std::size_t length = model(grid()).json()["bufferViews"][0]["byteLength"].get<std::size_t>();
     for (std::size_t left = 0; left < length; ++left) {
         GltfBuilder builder = model(grid());
@@ -316,7 +316,7 @@ TEST(DracoHostile, RefusesDataThatAreCutShort) {
 
 TEST(DracoHostile, SurvivesEveryFlippedByte) { expectOrderWhateverByteIsChanged(model(grid())); }
 
-TEST(DracoHostile, RefusesCountsInTheDataBeforeAnyMemoryIsAskedFor) {
+TEST(DracoHostile, RejectsCountsInTheDataBeforeAllocating) {
     // The header, then the numbers of faces and points as written by the library; nothing follows.
     for (const std::uint8_t method : {std::uint8_t{0}, std::uint8_t{1}}) {
         Bytes data = {'D', 'R', 'A', 'C', 'O', 2, 2, 1, method, 0, 0};

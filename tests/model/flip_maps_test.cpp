@@ -89,7 +89,7 @@ RgbImage inverted(RgbImage image) {
     return image;
 }
 
-TEST(FlipMaps, MendsWhatCheckFindsInAGlb) {
+TEST(FlipMaps, FixesFindingsOfCheckInAGlb) {
     const TempFolder folder;
     for (const auto& [file, type] : {std::pair(pngFile(downMap()), "image/png"),
                                      {webpFile(downMap(), true), "image/webp"},
@@ -117,7 +117,7 @@ TEST(FlipMaps, MendsWhatCheckFindsInAGlb) {
     }
 }
 
-TEST(FlipMaps, LeavesMapsAloneThatPointUpAndAllOtherBytesWithThem) {
+TEST(FlipMaps, KeepsMapsThatPointUpByteForByte) {
     const TempFolder folder;
     GltfBuilder builder = square();
     embed(builder, 0, pngFile(upMap()), "image/png");
@@ -132,7 +132,7 @@ TEST(FlipMaps, LeavesMapsAloneThatPointUpAndAllOtherBytesWithThem) {
     EXPECT_TRUE(codes(folder.path("all.glb").string()).contains("greenFlipped"));
 }
 
-TEST(FlipMaps, LeavesMapsAloneThatInvertedSignsCancel) {
+TEST(FlipMaps, KeepsMapsThatInvertedSignsCancel) {
     const TempFolder folder;
     GltfBuilder builder = square(-1);
     embed(builder, 0, pngFile(downMap()), "image/png");
@@ -151,7 +151,7 @@ TEST(FlipMaps, LeavesMapsAloneThatInvertedSignsCancel) {
 }
 
 /// The map is correct for one mesh but not for the other: correct rendering must not be broken.
-TEST(FlipMaps, LeavesMapsAloneThatSomeMeshesAreMadeFor) {
+TEST(FlipMaps, KeepsMapsThatMatchSomeMeshes) {
     const TempFolder folder;
     GltfBuilder builder = square(-1);
     embed(builder, 0, pngFile(downMap()), "image/png");
@@ -168,7 +168,7 @@ TEST(FlipMaps, LeavesMapsAloneThatSomeMeshesAreMadeFor) {
     EXPECT_EQ(codes(out), Codes{});
 }
 
-TEST(FlipMaps, LeavesMapsAloneThatPointDownAsTheConventionHasIt) {
+TEST(FlipMaps, KeepsMapsThatMatchTheConvention) {
     const TempFolder folder;
     GltfBuilder builder = square();
     embed(builder, 0, pngFile(downMap()), "image/png");
@@ -180,7 +180,7 @@ TEST(FlipMaps, LeavesMapsAloneThatPointDownAsTheConventionHasIt) {
     EXPECT_NE(report.normal_maps[0].reason.find("convention"), std::string::npos);
 }
 
-TEST(FlipMaps, GivesNormalMapsAnImageOfTheirOwnWhereItIsSomethingElseToo) {
+TEST(FlipMaps, SeparatesTheImageFromItsOtherUses) {
     const TempFolder folder;
     GltfBuilder builder = square();
     embed(builder, 0, pngFile(downMap()), "image/png");
@@ -200,7 +200,7 @@ TEST(FlipMaps, GivesNormalMapsAnImageOfTheirOwnWhereItIsSomethingElseToo) {
     EXPECT_EQ(pixelsOf(imageOf(out, 1)).rgb, inverted(downMap()).rgb);
 }
 
-TEST(FlipMaps, GivesBothFormatsOfATextureThatIsSomethingElseTooImagesOfTheirOwn) {
+TEST(FlipMaps, SeparatesBothFormatsOfATextureFromOtherUses) {
     const TempFolder folder;
     GltfBuilder builder = square();
     embed(builder, 0, pngFile(downMap()), "image/png");
@@ -257,7 +257,7 @@ TEST(FlipMaps, NeverChangesTheFilesOfTheUser) {
     EXPECT_FALSE(folder.has("maps/n-green-up-2.png")) << "the same bytes need no second file";
 }
 
-TEST(FlipMaps, TakesAnotherNameWhereAFileOfTheUserHasIt) {
+TEST(FlipMaps, AvoidsNamesOfTheUsersFiles) {
     const TempFolder folder;
     folder.write("n.png", pngFile(downMap()));
     folder.write("n-green-up.png", "mine");
@@ -270,7 +270,7 @@ TEST(FlipMaps, TakesAnotherNameWhereAFileOfTheUserHasIt) {
     EXPECT_FALSE(codes(out).contains("greenFlipped"));
 }
 
-TEST(FlipMaps, MendsDataUrisAndFilesThatAGlbTakesIn) {
+TEST(FlipMaps, FixesDataUrisAndFilesThatAGlbEmbeds) {
     const TempFolder folder;
     GltfBuilder builder = square();
     builder.json()["images"][0]["uri"] = encodeDataUri("image/png", toBytes(pngFile(downMap())));
@@ -285,7 +285,7 @@ TEST(FlipMaps, MendsDataUrisAndFilesThatAGlbTakesIn) {
     EXPECT_EQ(codes(folder.path("b.glb").string()), Codes{});
 }
 
-TEST(FlipMaps, TakesFilesIntoAGlbSoThatItCanGoThroughAPipe) {
+TEST(FlipMaps, EmbedsFilesIntoAGlbForAPipe) {
     const TempFolder folder;
     const std::string png = pngFile(downMap());
     folder.write("n.png", png);
@@ -305,7 +305,7 @@ TEST(FlipMaps, TakesFilesIntoAGlbSoThatItCanGoThroughAPipe) {
     EXPECT_FALSE(folder.has("n-green-up.png"));
 }
 
-TEST(FlipMaps, WritesNothingInADryRunAndSaysWhatItWould) {
+TEST(FlipMaps, WritesNothingInADryRunAndReportsChanges) {
     const TempFolder folder;
     folder.write("n.png", pngFile(downMap()));
     GltfBuilder builder = square();
@@ -319,7 +319,7 @@ TEST(FlipMaps, WritesNothingInADryRunAndSaysWhatItWould) {
     EXPECT_EQ(folder.files(), before);
 }
 
-TEST(FlipMaps, LeavesAMapAloneWhoseOtherFormatStays) {
+TEST(FlipMaps, KeepsAMapWhoseOtherFormatIsKept) {
     const TempFolder folder;
     GltfBuilder builder = square();
     embed(builder, 0, pngFile(downMap()), "image/png");
@@ -357,7 +357,7 @@ TEST(FlipMaps, InvertsBothFormatsOfATextureOrNeither) {
     }
 }
 
-TEST(FlipMaps, MendsMapsOfAnObjOnTheirWayIn) {
+TEST(FlipMaps, FixesMapsOfAnObj) {
     const TempFolder folder;
     const std::string png = pngFile(downMap());
     folder.write("m.mtl", "newmtl a\nnorm n.png\nmap_Kd n.png\n");
@@ -376,7 +376,7 @@ TEST(FlipMaps, MendsMapsOfAnObjOnTheirWayIn) {
     }
 }
 
-TEST(FlipMaps, SaysWhyAMapWasLeftAlone) {
+TEST(FlipMaps, ExplainsWhyAMapIsUnchanged) {
     const TempFolder folder;
     GltfBuilder builder = square();
     embed(builder, 0, "not an image", "image/png");

@@ -18,7 +18,7 @@ namespace {
 using test::GltfBuilder;
 using test::TempFolder;
 
-RC_GTEST_PROP(GatheredBytes, MakesAnyPartOfTheCopies, ()) {
+RC_GTEST_PROP(GatheredBytes, GeneratesAnyPartOfTheCopies, ()) {
     const auto element_bytes = *rc::gen::inRange<std::size_t>(1, 18);
     const std::size_t stride = element_bytes + *rc::gen::inRange<std::size_t>(0, 5), count = 20;
     Bytes from(stride * count);
@@ -60,7 +60,7 @@ SplitSources someCopies() {
             .copies = std::make_shared<const std::vector<std::uint32_t>>(std::vector<std::uint32_t>(500, 3))};
 }
 
-TEST(GatherSplit, CopiesLaterWhatACopyAtOnceWouldHave) {
+TEST(GatherSplit, EqualsAnImmediateCopy) {
     const Document document = threeAccessors();
     const Accessor accessor = readAccessor(document, 1);
     ElementData later = gatherSplit(document, accessor, someCopies());
@@ -73,7 +73,7 @@ TEST(GatherSplit, CopiesLaterWhatACopyAtOnceWouldHave) {
     EXPECT_EQ(later.bytes, now.bytes);
 }
 
-TEST(GatherSplit, IsNotDeceivedByBytesThatChangeBeforeTheyAreCopied) {
+TEST(GatherSplit, IsUnaffectedByBytesThatChangeLater) {
     Document document = threeAccessors();
     const Accessor accessor = readAccessor(document, 1);
     ElementData expected = gatherSplit(document, accessor, someCopies());

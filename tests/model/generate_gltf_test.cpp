@@ -148,7 +148,7 @@ TEST(GenerateGltf, LeavesPlainTrianglesWithoutIndices) {
 }
 
 /// gridModel with wrong float tangents that nothing else uses.
-TEST(GenerateGltf, KeepsTangentsUnlessOverwriteIsAskedFor) {
+TEST(GenerateGltf, KeepsTangentsWithoutOverwrite) {
     const GltfBuilder builder = withTangents(Grid(4, false));
     const TempFolder folder;
     const std::string input = folder.write("in.glb", builder.glb()), output = folder.path("out.glb").string();
@@ -159,7 +159,7 @@ TEST(GenerateGltf, KeepsTangentsUnlessOverwriteIsAskedFor) {
     EXPECT_EQ(readFile(output), readFile(input));
 }
 
-TEST(GenerateGltf, OverwritesTangentsWhereTheyAre) {
+TEST(GenerateGltf, OverwritesTangentsInPlace) {
     const GenerateRun outcome =
         run(withTangents(Grid(4, false)), {.selection = {.existing = ExistingTangents::replace}});
     EXPECT_EQ(outcome.report.primitives.at(0).action, PrimitiveAction::replaced);
@@ -168,7 +168,7 @@ TEST(GenerateGltf, OverwritesTangentsWhereTheyAre) {
     EXPECT_EQ(outcome.after.json["accessors"][4]["max"], Json::array({1.0, 0.0, 0.0, 1.0})) << "bounds follow";
 }
 
-TEST(GenerateGltf, LeavesOtherReadersOfOldTangentsAlone) {
+TEST(GenerateGltf, KeepsTangentsForOtherUsers) {
     GltfBuilder builder = withTangents(Grid(4, false));
     builder.json()["meshes"][0]["primitives"][0]["attributes"]["_COPY"] = 4;
     const GenerateRun outcome = run(builder, {.selection = {.existing = ExistingTangents::replace}});
@@ -184,7 +184,7 @@ TEST(GenerateGltf, LeavesNoOldBytesBehindWhenASplitReplacesThem) {
     EXPECT_LT(outcome.after.buffers[0].bytes.size(), needed + 5 * 16);
 }
 
-TEST(GenerateGltf, TakesTangentsWithoutNormalsForMissing) {
+TEST(GenerateGltf, TreatsTangentsWithoutNormalsAsMissing) {
     GltfBuilder builder = withTangents(Grid(4, false));
     builder.json()["meshes"][0]["primitives"][0]["attributes"].erase("NORMAL");
     const GenerateRun outcome = run(builder);
@@ -195,7 +195,7 @@ TEST(GenerateGltf, TakesTangentsWithoutNormalsForMissing) {
     EXPECT_EQ(readTangents(outcome.after, outcome.primitives[0])[0], (Vec4{1, 0, 0, 1}));
 }
 
-TEST(GenerateGltf, SaysWhyAPrimitiveIsLeftAlone) {
+TEST(GenerateGltf, ExplainsWhyAPrimitiveIsUnchanged) {
     GltfBuilder builder = gridModel(Grid(4, false));
     std::vector<float> tangents;
     for (std::size_t v = 0; v < 25; ++v) tangents.insert(tangents.end(), {0, 1, 0, 1});
@@ -383,7 +383,7 @@ TEST(GenerateGltf, KeepsTheUriOfAMissingImageAndWarns) {
 }
 
 /// Exporters write the folder of a texture that was never saved.
-TEST(GenerateGltf, TakesAFolderInPlaceOfAnImageForAMissingOne) {
+TEST(GenerateGltf, TreatsAFolderInsteadOfAnImageAsMissing) {
     const TempFolder folder;
     writeWithFiles(folder, "a.gltf", gridModel(Grid(4)), "tex/.");
     for (const char* name : {"out/a.glb", "out/a.gltf"}) {
@@ -395,7 +395,7 @@ TEST(GenerateGltf, TakesAFolderInPlaceOfAnImageForAMissingOne) {
     }
 }
 
-TEST(GenerateGltf, RefusesOtherOutputs) {
+TEST(GenerateGltf, RejectsOtherOutputs) {
     const TempFolder folder;
     const std::string input = folder.write("in.glb", gridModel(Grid(4)).glb());
     const auto obj = generateFile(input, folder.path("out.obj").string());
@@ -404,7 +404,7 @@ TEST(GenerateGltf, RefusesOtherOutputs) {
     EXPECT_EQ(folder.entryCount(), 1u);
 }
 
-TEST(GenerateGltf, EndsInOrderWhateverByteIsChanged) {
+TEST(GenerateGltf, SucceedsOrFailsCleanlyForAnyChangedByte) {
     const TempFolder folder;
     const Bytes sound = withTangents(Grid(2)).glb();
     const std::string input = folder.path("in.glb").string(), output = folder.path("out.glb").string();
@@ -421,7 +421,7 @@ TEST(GenerateGltf, EndsInOrderWhateverByteIsChanged) {
     }
 }
 
-TEST(GenerateGltf, NamesThePlaceOfABadIndex) {
+TEST(GenerateGltf, NamesTheLocationOfAnInvalidIndex) {
     const TempFolder folder;
     GltfBuilder builder = gridModel(Grid(4));
     builder.bytes()[builder.json()["bufferViews"][3]["byteOffset"].get<std::size_t>()] = 0xff;
@@ -432,7 +432,7 @@ TEST(GenerateGltf, NamesThePlaceOfABadIndex) {
     EXPECT_EQ(folder.entryCount(), 1u);
 }
 
-TEST(GenerateGltf, DropsBytesBehindTheGlbOnlyWhenItWritesAnew) {
+TEST(GenerateGltf, DropsBytesAfterTheGlbOnlyWhenItRewritesTheFile) {
     const auto longer = [](Bytes file) {
         file.insert(file.end(), {1, 2, 3});
         return file;
@@ -480,7 +480,7 @@ TEST(GenerateGltf, ConvertsAModelWithoutAnyData) {
     EXPECT_EQ(after.json["bufferViews"][0]["buffer"], 1);
 }
 
-TEST(GenerateGltf, RefusesUvSetsThatNoReportCanName) {
+TEST(GenerateGltf, RejectsUvSetsThatNoReportCanName) {
     const TempFolder folder;
     GltfBuilder builder = gridModel(Grid(4));
     builder.json()["materials"][0]["normalTexture"]["texCoord"] = 4294967295u;
@@ -490,7 +490,7 @@ TEST(GenerateGltf, RefusesUvSetsThatNoReportCanName) {
     EXPECT_EQ(report.error().place, "/materials/0/normalTexture/texCoord");
 }
 
-TEST(GenerateGltf, RefusesThousandsOfAttributes) {
+TEST(GenerateGltf, RejectsThousandsOfAttributes) {
     const TempFolder folder;
     GltfBuilder builder = gridModel(Grid(4));
     Json& attributes = builder.json()["meshes"][0]["primitives"][0]["attributes"];
@@ -526,7 +526,7 @@ GltfBuilder invertedGrid(std::size_t flat_rows) {
 }
 
 /// The normal map may have been created for these signs. Vertices whose UVs determine no sign do not count.
-TEST(GenerateGltf, SignsThatWereAllInvertedStaySoWhereNormalsAreMadeAnew) {
+TEST(GenerateGltf, KeepsInvertedSignsWhenNormalsAreRecomputed) {
     for (const std::size_t flat_rows : {0, 2}) {
         for (const ExistingTangents existing : {ExistingTangents::keep, ExistingTangents::replace}) {
             GenerateOptions options{.selection = {.existing = existing}};
@@ -566,7 +566,7 @@ GltfBuilder farGrid(bool has_normals) {
     return builder;
 }
 
-TEST(GenerateGltf, WarnsOfWhatItMakesOverRoundedPositions) {
+TEST(GenerateGltf, WarnsOfTangentsComputedFromRoundedPositions) {
     const auto warningOf = [](bool has_normals, const GenerateOptions& options) {
         const TempFolder folder;
         const std::string input = folder.write("in.glb", farGrid(has_normals).glb());

@@ -60,7 +60,7 @@ GltfBuilder fan(bool is_mirrored, bool is_indexed) {
     return strung(6, places, uvs, is_indexed);
 }
 
-TEST(GeometryStorage, StripsAndFansStayWhatTheyAreUnlessVerticesAreSplit) {
+TEST(GeometryStorage, StripsAndFansAreKeptUnlessVerticesAreSplit) {
     for (const bool is_indexed : {false, true}) {
         for (const auto& make : {ribbon, fan}) {
             const GltfBuilder plain = make(false, is_indexed);
@@ -80,7 +80,7 @@ TEST(GeometryStorage, StripsAndFansStayWhatTheyAreUnlessVerticesAreSplit) {
     }
 }
 
-TEST(GeometryStorage, PrimitiveRestartIsRefusedInOneSentence) {
+TEST(GeometryStorage, PrimitiveRestartIsRejectedInOneSentence) {
     GltfBuilder builder = ribbon(false, false);
     firstPrimitive(builder)["indices"] =
         builder.addAccessor<std::uint16_t>({0, 1, 2, 3, 65535, 4, 5, 6}, kU16, "SCALAR", 8);
@@ -96,7 +96,7 @@ TEST(GeometryStorage, PrimitiveRestartIsRefusedInOneSentence) {
     EXPECT_EQ(folder.entryCount(), 1u);
 }
 
-TEST(GeometryStorage, TheLargestIndexIsAVertexWhereThereIsOne) {
+TEST(GeometryStorage, TheLargestIndexIsAVertexIfItExists) {
     // glTF forbids this index; some viewers restart the primitive there, others draw it: tspace reads it as an index,
     // and fixes it in a split.
     const GenerateRun outcome = run(gridModel(Grid(15), kU8));
@@ -138,7 +138,7 @@ TEST(GeometryStorage, PiecesOfOneVertexArrayShareItsSplit) {
     EXPECT_EQ(outcome.report.primitives.at(0).vertices_after, 30u) << "the middle column belongs to both";
 }
 
-TEST(GeometryStorage, PrimitivesThatShareOnlySomeAccessorsPartOnlyWhereTheyMust) {
+TEST(GeometryStorage, PrimitivesThatShareSomeAccessorsAreSeparatedOnlyIfNecessary) {
     // Shared positions and normals, separate UVs: mirrored for one primitive, not for the other.
     GltfBuilder builder = gridModel(Grid(4));
     const std::size_t straight = builder.addFloats(Grid(4, false).uvs, 2);
@@ -193,7 +193,7 @@ TEST(GeometryStorage, SkinsGoAlongWithASplit) {
     EXPECT_EQ(outcome.after.json["skins"], outcome.before.json["skins"]);
 }
 
-TEST(GeometryStorage, InstancesKeepTheirPlacesEvenIfTheyAreThoseOfVertices) {
+TEST(GeometryStorage, InstancesKeepTheirPositionsEvenIfSharedWithVertices) {
     // One instance at each vertex of the mesh itself: both use the same accessor, and a split must not move the
     // instances.
     GltfBuilder builder = gridModel(Grid(4));

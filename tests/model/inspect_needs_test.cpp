@@ -116,7 +116,7 @@ GltfBuilder roundedSheet(bool as_floats) {
     return builder;
 }
 
-TEST(InspectNeeds, RoundingToStoredNumbersIsNoNoise) {
+TEST(InspectNeeds, RoundingIsNotReportedAsNoise) {
     EXPECT_GT(inspect(roundedSheet(true)).primitives.at(0).position_noise, 0.03)
         << "floats that happen to be whole numbers are taken for what they are";
     EXPECT_EQ(inspect(roundedSheet(false)).primitives.at(0).position_noise, 0);

@@ -30,7 +30,7 @@ std::vector<TangentUse> usesOf(const GltfBuilder& builder) {
     return tangentUses(document, readPrimitives(document)[0]);
 }
 
-TEST(TangentUses, FollowTheTextureThatAsks) {
+TEST(TangentUses, FollowTheTextureThatNeedsThem) {
     const struct {
         const char* material;
         const char* needed_by;
@@ -149,7 +149,7 @@ TEST(TangentUses, IgnoreVariantsWithoutTheirMaterial) {
         usesOf(withMaterial("{}", "", R"({"KHR_materials_variants":{"mappings":[{"material":1},{}]}})")).empty());
 }
 
-TEST(TangentUses, RefuseWrongTypesAtTheirPlace) {
+TEST(TangentUses, RejectWrongTypesWithTheirLocation) {
     const auto placeOf = [](const std::string& material, const std::string& extensions = "{}") {
         return errorOf([&] { usesOf(withMaterial(material, "", extensions)); }).place;
     };

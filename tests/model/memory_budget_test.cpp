@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint64_t kMegabyte = std::uint64_t{1} << 20;
 
-TEST(MemoryBudget, GrowsWithTheFileUnlessTheUserSaysHowMuch) {
+TEST(MemoryBudget, GrowsWithTheFileUnlessTheUserSetsIt) {
     MemoryBudget by_size, by_user(100 * kMegabyte);
     EXPECT_TRUE(by_size.has(40 * kMegabyte));
     EXPECT_FALSE(by_size.has(41 * kMegabyte));
@@ -20,13 +20,13 @@ TEST(MemoryBudget, GrowsWithTheFileUnlessTheUserSaysHowMuch) {
     EXPECT_FALSE(by_user.has(77 * kMegabyte));
 }
 
-TEST(MemoryBudget, WithoutLimitTakesWhatIsThere) {
+TEST(MemoryBudget, WithoutLimitUsesTheAvailableMemory) {
     MemoryBudget budget(~std::uint64_t{0});
     for (int i = 0; i < 100; ++i) budget.take(1000 * 1000 * kMegabyte, {});
     EXPECT_TRUE(budget.has(1000 * 1000 * kMegabyte));
 }
 
-TEST(MemoryBudget, NamesWhatIsNeededAndWhatThereIs) {
+TEST(MemoryBudget, NamesRequiredAndAvailableMemory) {
     MemoryBudget budget(100 * kMegabyte);
     budget.take(26 * kMegabyte, {});
     EXPECT_EQ(budget.whyNot(60 * kMegabyte), "needs about 110 MB of memory, but --memory-limit is 100 MB");
@@ -35,7 +35,7 @@ TEST(MemoryBudget, NamesWhatIsNeededAndWhatThereIs) {
         "needs about 84 MB of memory, but the limit for a file of its size is 64 MB; use --memory-limit to raise it");
 }
 
-TEST(MemoryBudget, LetsThingsBeWorkedOnTogetherThatFit) {
+TEST(MemoryBudget, AllowsParallelTasksThatFit) {
     const MemoryBudget budget;
     const auto together = [&](std::vector<std::uint64_t> megabytes) {
         return budget.countTogether(megabytes.size(), [&](std::size_t i) { return megabytes[i] * kMegabyte; });

@@ -253,7 +253,7 @@ PackedModel packedGrid(const char* extension = kExtMeshopt) {
     return model;
 }
 
-TEST(MeshoptKeep, EncodesSplitVerticesWithTheFilterThatTheyHad) {
+TEST(MeshoptKeep, EncodesSplitVerticesWithTheirFilter) {
     const CompressedRun outcome = generateAll(packedGrid().glb());
     EXPECT_EQ(outcome.report.primitives.at(0).vertices_after, 30u);
     const Primitive primitive = readPrimitives(outcome.after).at(0);
@@ -293,7 +293,7 @@ TEST(MeshoptPack, LeavesNoBufferEmpty) {
     EXPECT_EQ(decodeVec3(document, readAccessor(document, 0), "")[2], (Vec3{1, 1, 0}));
 }
 
-TEST(MeshoptKeep, LeavesCompressedBytesOfUntouchedViewsAsTheyWere) {
+TEST(MeshoptKeep, KeepsCompressedBytesOfUnchangedViews) {
     PackedModel model = packedGrid();
     // UVs that are not mirrored: nothing is split, and only tangents are new.
     std::vector<float> uvs;
@@ -316,7 +316,7 @@ TEST(MeshoptKeep, MovesBetweenContainers) {
     EXPECT_FALSE(outcome.after.json["buffers"][1].contains("uri"));
 }
 
-TEST(MeshoptKeep, RenewsPlainDataAndCompressedOnesWhereThereAreBoth) {
+TEST(MeshoptKeep, UpdatesBothUncompressedAndCompressedData) {
     // The fallback buffer becomes part of BIN.
     PackedModel model = packedGrid();
     const Document packed = model.load();
@@ -384,7 +384,7 @@ TEST(MeshoptKhr, AppliesTheColorFilter) {
 
 #else
 
-TEST(MeshoptKhr, IsRefusedWithTheVersionsThatAreThereAndNeeded) {
+TEST(MeshoptKhr, IsRejectedWithTheInstalledAndTheRequiredVersion) {
     const TempFolder folder;
     const std::string input = folder.write("in.glb", packedGrid(kKhrMeshopt).glb());
     const auto report = generateFile(input, folder.path("out.glb").string(), {.selection = {.all = true}});
@@ -400,7 +400,7 @@ Error loadError(const PackedModel& model) {
     return errorOf([&] { static_cast<void>(model.load()); });
 }
 
-TEST(MeshoptHostile, NamesThePlaceOfEveryWrongMember) {
+TEST(MeshoptHostile, NamesTheLocationOfEveryWrongMember) {
     const auto expectRefused = [](const char* member, const Json& value) {
         PackedModel model = packedGrid();
         model.extension(1)[member] = value;
@@ -431,7 +431,7 @@ TEST(MeshoptHostile, NamesThePlaceOfEveryWrongMember) {
     expectRefused("filter", "SHARPEN");
 }
 
-TEST(MeshoptHostile, RefusesAFallbackBufferFarLargerThanItsViews) {
+TEST(MeshoptHostile, RejectsAFallbackBufferFarLargerThanItsViews) {
     PackedModel model = packedGrid();
     model.setFallbackBytes(4'000'000'000u);
     const Error error = loadError(model);
@@ -439,7 +439,7 @@ TEST(MeshoptHostile, RefusesAFallbackBufferFarLargerThanItsViews) {
     EXPECT_EQ(error.place, "/buffers/1/byteLength");
 }
 
-TEST(MeshoptHostile, RefusesViewsThatTogetherClaimTooMuch) {
+TEST(MeshoptHostile, RejectsViewsThatTogetherDeclareTooMuch) {
     // Each view is valid by itself, but all of them refer to the same few bytes.
     PackedModel model;
     const std::size_t view = model.addView({.count = 25600}, Bytes(25600 * 4, 7), "ATTRIBUTES");
@@ -449,7 +449,7 @@ TEST(MeshoptHostile, RefusesViewsThatTogetherClaimTooMuch) {
     EXPECT_NE(error.message.find("more data than the file can contain"), std::string::npos) << error.message;
 }
 
-TEST(MeshoptHostile, RefusesDataThatAreCutShort) {
+TEST(MeshoptHostile, RejectsTruncatedData) {
     for (std::size_t view = 1; view < 5; ++view) {
         PackedModel model = packedGrid();
         model.extension(view)["byteLength"] = model.extension(view)["byteLength"].get<std::size_t>() - 1;

@@ -25,7 +25,7 @@ Model twoPrimitives(const FileOptions& options = {}) {
     return Model(parseDocument(builder.glb(), "model.glb", options));
 }
 
-TEST(DecodedArrays, HandsOutOneArrayAsLongAsSomebodyHasIt) {
+TEST(DecodedArrays, SharesAnArrayWhileItIsInUse) {
     Model model = twoPrimitives();
     const SharedArray<Vec3> first = model.arrays().vec3(0, {}), second = model.arrays().vec3(0, {});
     EXPECT_EQ(first.data(), second.data());
@@ -33,7 +33,7 @@ TEST(DecodedArrays, HandsOutOneArrayAsLongAsSomebodyHasIt) {
     EXPECT_EQ(model.sceneOf().primitives[1].positions.data(), first.data());
 }
 
-TEST(DecodedArrays, ChargesAnArrayOnceAndGivesItBackWithTheLast) {
+TEST(DecodedArrays, ChargesAnArrayOnceUntilItsLastUserReleasesIt) {
     Model model = twoPrimitives();
     const MemoryBudget& memory = *model.document().memory;
     const std::int64_t before = memory.left();
@@ -54,7 +54,7 @@ TEST(DecodedArrays, ChargesAnArrayOnceAndGivesItBackWithTheLast) {
     EXPECT_EQ(memory.left(), before);
 }
 
-TEST(DecodedArrays, GivesBackWhatItCouldNotDecode) {
+TEST(DecodedArrays, RefundsTheBudgetOfFailedDecoding) {
     GltfBuilder builder;
     builder.addFloats({0, 0, 0, 1, 0, 0, 0, 1, 0}, 3);
     builder.addPrimitive({{"POSITION", 0}});
@@ -89,7 +89,7 @@ TEST(DecodedArrays, ServesSeveralThreads) {
     for (std::thread& thread : threads) thread.join();
 }
 
-TEST(Model, ReadsAnewWhatWasEdited) {
+TEST(Model, ReadsEditedArraysAgain) {
     Model model = twoPrimitives();
     const SharedArray<Vec3> old = model.scene().primitives[0].positions;
     model.document().json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 1;
@@ -99,7 +99,7 @@ TEST(Model, ReadsAnewWhatWasEdited) {
     EXPECT_EQ(old[0], (Vec3{0, 0, 0})) << "who has an array keeps it";
 }
 
-TEST(Model, KeepsItsPlacesWhenItIsMoved) {
+TEST(Model, KeepsItsAddressesWhenItIsMoved) {
     Model model = twoPrimitives();
     const Primitive* const primitive = &model.primitives()[0];
     Model moved = std::move(model);

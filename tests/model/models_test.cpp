@@ -104,7 +104,7 @@ TEST_P(Models, SurviveRepairAndStrip) {
     }
 }
 
-TEST_P(Models, StayAsTheyAreWithoutOverwriteWhereNothingIsMissing) {
+TEST_P(Models, AreUnchangedWithoutOverwriteIfNothingIsMissing) {
     const TempFolder folder;
     const std::string output = folder.path(input_.filename().string()).string();
     const auto report = generateFile(input_.string(), output, {});
@@ -150,7 +150,7 @@ struct Packing {
 
 class EveryPacking : public testing::TestWithParam<Packing> {};
 
-TEST_P(EveryPacking, ChangesOnlyWhatItSaysAndNothingTheSecondTime) {
+TEST_P(EveryPacking, ChangesOnlyReportedDataAndNothingTheSecondTime) {
     TSPACE_NEEDS_SHARED("models");
     int count = 0;
     for (const std::filesystem::path& input : smallModels()) {
@@ -217,7 +217,7 @@ INSTANTIATE_TEST_SUITE_P(Shared, Models, testing::ValuesIn(test::modelFiles("mod
 
 class BadFiles : public testing::TestWithParam<std::string> {};
 
-TEST_P(BadFiles, EndWithAnErrorOrASoundFile) {
+TEST_P(BadFiles, GiveAnErrorOrAValidFile) {
     if (GetParam().empty()) GTEST_SKIP() << "test data " << shared("bad") << " is not there";
     const std::string input = (shared("bad") / GetParam()).string();
     for (const char* name : {"out.glb", "out.gltf"}) {

@@ -223,7 +223,7 @@ TEST(MorphGltf, AddsMissingDeltasToKeptTangentsThatAgree) {
     EXPECT_TRUE(again && !again->changed);
 }
 
-TEST(MorphGltf, LeavesKeptTangentsAloneThatDiffer) {
+TEST(MorphGltf, AddsNoDeltasToKeptTangentsThatDiffer) {
     const TempFolder folder;
     withoutFirstDeltas(folder, "part.gltf");
     GenerateOptions options;
@@ -256,7 +256,7 @@ TEST(MorphGltf, DoesNotGrowWhenDeltasAreReplaced) {
     EXPECT_TRUE(accessorOf(after, 0, "TANGENT").contains("sparse"));
 }
 
-TEST(MorphGltf, ReadsQuantisedOffsets) {
+TEST(MorphGltf, ReadsQuantizedOffsets) {
     const Grid grid(4);
     GltfBuilder builder = gridModel(grid);
     std::vector<std::int8_t> offsets;
@@ -276,7 +276,7 @@ TEST(MorphGltf, ReadsQuantisedOffsets) {
     EXPECT_NEAR(tangents[0].y + deltas[0].y, std::sqrt(0.5), 1e-6);
 }
 
-TEST(MorphGltf, KeepsOffsetsThatAreNoVectors) {
+TEST(MorphGltf, KeepsOffsetsThatAreNotVectors) {
     const TempFolder folder;
     const Grid grid(4);
     GltfBuilder builder = gridModel(grid);

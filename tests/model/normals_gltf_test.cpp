@@ -194,7 +194,7 @@ TEST(NormalsOverPrimitives, TheCreaseAngleHolds) {
     EXPECT_NEAR(borderOf(make(parts, options)).worst_deg, 90, 0.1);
 }
 
-TEST(NormalsOverPrimitives, SharedAndQuantisedVerticesAreJoinedToo) {
+TEST(NormalsOverPrimitives, SharedAndQuantizedVerticesAreJoinedToo) {
     const ModelData sheet = arch(8, 0.8f);
     GltfBuilder shared;
     addPart(shared, sheet);
@@ -251,7 +251,7 @@ TEST(NormalsOverPrimitives, MorphTargetsKeepTheBorderClosed) {
     EXPECT_GT(turned, 5);
 }
 
-TEST(NormalsOverPrimitives, NormalsThatAreThereStayAndAreTakenOnWhereTheyFit) {
+TEST(NormalsOverPrimitives, ExistingNormalsAreKeptAndContinuedIfTheyFit) {
     const ModelData sheet = arch(8, 0.8f);
     ModelData right = rightOf(sheet);
     right.normals.assign(right.positions.size(), Vec3{0.1f, 0, 0.99498744f});
@@ -270,7 +270,7 @@ TEST(NormalsOverPrimitives, NormalsThatAreThereStayAndAreTakenOnWhereTheyFit) {
     EXPECT_GT(borderOf(make(apart, smooth())).worst_deg, 60) << "a hard edge";
 }
 
-TEST(NormalsOverPrimitives, SidesOfASheetAndTurnedPiecesAreNotJoined) {
+TEST(NormalsOverPrimitives, SidesOfASheetAndFlippedPiecesAreNotJoined) {
     const ModelData sheet = arch(4, 0.8f);
     ModelData back = sheet, turned = rightOf(sheet);
     for (ModelData* data : {&back, &turned}) {
@@ -291,7 +291,7 @@ GenerateOptions anew(NormalWeighting weighting = NormalWeighting::angle) {
     return options;
 }
 
-TEST(OverwriteNormals, FlatTrianglesBecomeSmoothAndTheirVerticesOne) {
+TEST(OverwriteNormals, FlatTrianglesBecomeSmoothWithMergedVertices) {
     const ModelData sheet = arch(8, 0.8f);
     ModelData flat = withTangents(sheet, Method::mikktspace);
     for (std::size_t c = 0; c < flat.indices.size(); c += 3) {
@@ -321,7 +321,7 @@ TEST(OverwriteNormals, FlatTrianglesBecomeSmoothAndTheirVerticesOne) {
     EXPECT_GT(again.primitives[0].vertex_count, 81u) << "hard edges split what was welded";
 }
 
-TEST(OverwriteNormals, WhatElseDiffersKeepsVerticesApart) {
+TEST(OverwriteNormals, OtherDifferencesKeepVerticesSeparate) {
     ModelData data = unwelded(arch(2, 0.5f));
     std::vector<float> colors(data.positions.size() * 3);
     for (std::size_t v = 0; v < data.positions.size(); ++v) colors[3 * v] = v % 3 == 0 ? 1.0f : 0.0f;
@@ -337,7 +337,7 @@ TEST(OverwriteNormals, WhatElseDiffersKeepsVerticesApart) {
     EXPECT_EQ(before, after);
 }
 
-TEST(OverwriteNormals, NormalsAloneWhereNobodyNeedsTangents) {
+TEST(OverwriteNormals, OnlyNormalsIfTangentsAreNotNeeded) {
     GltfBuilder builder;
     addPart(builder, arch(4, 0.8f), true)["material"] = 1;
     const Made made = make(builder, anew());
@@ -347,7 +347,7 @@ TEST(OverwriteNormals, NormalsAloneWhereNobodyNeedsTangents) {
     EXPECT_TRUE(made.report.changed);
 }
 
-TEST(OverwriteNormals, NormalsStayWhereTangentsCouldNotFollow) {
+TEST(OverwriteNormals, NormalsAreKeptIfTangentsCannotBeRecomputed) {
     const ModelData data = withTangents(arch(4, 0.8f), Method::mikktspace);
     GltfBuilder builder;
     Json& attributes = addPart(builder, data, true)["attributes"];
@@ -360,7 +360,7 @@ TEST(OverwriteNormals, NormalsStayWhereTangentsCouldNotFollow) {
     EXPECT_NE(made.report.primitives[0].notes[0].find("its normals were kept"), std::string::npos);
 }
 
-TEST(OverwriteNormals, InvertedSignsStayBecauseTheMapMayBeMadeForThem) {
+TEST(OverwriteNormals, InvertedSignsAreKeptBecauseTheMapMayMatchThem) {
     ModelData data = withTangents(arch(4, 0.8f), Method::mikktspace);
     for (const float factor : {1.0f, -1.0f}) {
         for (Vec4& tangent : data.tangents) tangent.w *= factor;
@@ -401,7 +401,7 @@ bool says(const std::vector<std::string>& warnings, const std::string& what) {
                        [&](const std::string& warning) { return warning.find(what) != std::string::npos; });
 }
 
-TEST(OptionsWithoutEffect, AreSaid) {
+TEST(OptionsWithoutEffect, AreReported) {
     const ModelData data = withTangents(arch(4, 0.8f), Method::mikktspace);
     GltfBuilder builder;
     addPart(builder, data, true)["attributes"]["TANGENT"] = builder.addFloats(floatsOf(data.tangents), 4);
@@ -421,7 +421,7 @@ TEST(OptionsWithoutEffect, AreSaid) {
     EXPECT_TRUE(make(builder, {}).report.warnings.empty());
 }
 
-TEST(OverwriteNormals, SaysWhereTangentsThatSomebodyMayHaveDrawnGo) {
+TEST(OverwriteNormals, ReportsAuthoredTangentsThatAreReplaced) {
     const ModelData data = withTangents(arch(4, 0.8f), Method::mikktspace);
     const auto notes = [&](const char* material, const GenerateOptions& options) {
         GltfBuilder builder;
@@ -493,7 +493,7 @@ TEST(MorphNormals, OffsetsThatAreNotFiniteAreMissing) {
     ASSERT_GE(right.size(), data.positions.size());
 
     const std::vector<float> all_nan(3 * data.positions.size(), nan);
-    std::vector<float> one_nan(3 * data.positions.size(), 0.125f);  // else somebody's choice
+    std::vector<float> one_nan(3 * data.positions.size(), 0.125f);  // others were authored
     one_nan[3 * 40] = nan;
     for (const MorphNormals which : {MorphNormals::missing, MorphNormals::all}) {
         EXPECT_EQ(offsetsOf(make(rollingWith(data, all_nan), {.normals = {.morphs = which}})), right);
@@ -507,7 +507,7 @@ TEST(MorphNormals, OffsetsThatAreNotFiniteAreMissing) {
     }
 }
 
-TEST(MorphNormals, AreMadeWhereTangentsStayOrAreNotNeeded) {
+TEST(MorphNormals, AreComputedIfTangentsAreKeptOrNotNeeded) {
     ModelData data = bentSheet(8);
     for (Vec3& p : data.positions) p.z = 0;
     data.normals.assign(data.positions.size(), Vec3{0, 0, 1});
@@ -538,7 +538,7 @@ TEST(MorphNormals, AreMadeWhereTangentsStayOrAreNotNeeded) {
     }
 }
 
-TEST(Winding, TurnedTrianglesAndNormalsBehindThemAreCounted) {
+TEST(Winding, CountsFlippedTrianglesAndNormalsToTheBack) {
     ModelData data = arch(8, 0.5f);
     for (std::size_t c = 0; c < data.indices.size(); c += 3 * 7) std::swap(data.indices[c], data.indices[c + 1]);
     GltfBuilder builder;
@@ -557,7 +557,7 @@ TEST(Winding, TurnedTrianglesAndNormalsBehindThemAreCounted) {
     EXPECT_TRUE(right.report.warnings.empty());
 }
 
-TEST(Winding, SheetsWithTwoSidesAreCounted) {
+TEST(Winding, CountsTwoSidedSheets) {
     TSPACE_NEEDS_SHARED("reports/walls_two_sided.obj");
     const TempFolder folder;
     GenerateOptions options = smooth();

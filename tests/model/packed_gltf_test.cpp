@@ -77,7 +77,7 @@ const Json& accessorOf(const gltf::Document& document, const Primitive& primitiv
     return document.json["accessors"][*primitive.find(name)];
 }
 
-TEST(PackedGltf, HoldsTheFramesOfTheFileInEveryFormat) {
+TEST(PackedGltf, StoresTheFramesOfTheFileInEveryFormat) {
     for (const FrameFormat format : kFormats) {
         SCOPED_TRACE(frameFormatName(format));
         const GenerateRun outcome = run(gridModel(bentGrid()), packing(format));
@@ -89,7 +89,7 @@ TEST(PackedGltf, HoldsTheFramesOfTheFileInEveryFormat) {
     }
 }
 
-TEST(PackedGltf, LiesInAccessorsThatGltfAllows) {
+TEST(PackedGltf, UsesValidAccessors) {
     for (const FrameFormat format : kFormats) {
         SCOPED_TRACE(frameFormatName(format));
         const gltf::PackedLayout& layout = gltf::packedLayout(format);
@@ -121,7 +121,7 @@ TEST(PackedGltf, IsFourBytesForFrame32) {
     EXPECT_FALSE(accessor.contains("normalized"));
 }
 
-TEST(PackedGltf, TakesTangentsThatStayAndMendsThemOnTheWay) {
+TEST(PackedGltf, PacksAndRepairsKeptTangents) {
     const TempFolder folder;
     const std::string input = folder.write("in.glb", withTangents(Grid(4)).glb()),
                       output = folder.path("out.glb").string();
@@ -138,7 +138,7 @@ TEST(PackedGltf, TakesTangentsThatStayAndMendsThemOnTheWay) {
     for (const Vec4& t : unpacked(after, b, FrameFormat::oct32).tangents) EXPECT_EQ(t.w, 1);
 }
 
-TEST(PackedGltf, IsLeftOutWithTheReasonWhereAFrameIsMissing) {
+TEST(PackedGltf, IsOmittedWithAReasonIfAFrameIsMissing) {
     GltfBuilder model = gridModel(Grid(4));
     firstPrimitive(model)["material"] = 1;
     const GenerateRun outcome = run(model, packing(FrameFormat::frame32));
@@ -152,7 +152,7 @@ TEST(PackedGltf, IsLeftOutWithTheReasonWhereAFrameIsMissing) {
     EXPECT_TRUE(run(model, all).report.primitives.at(0).frames_packed) << "the advice holds";
 }
 
-TEST(PackedGltf, IsOfTheNumbersThatAreStored) {
+TEST(PackedGltf, UsesTheStoredNumbers) {
     for (const VectorFormat numbers : {VectorFormat::snorm16, VectorFormat::snorm8}) {
         GenerateOptions options = packing(FrameFormat::frame64);
         options.storage.format = numbers;
@@ -172,7 +172,7 @@ TEST(PackedGltf, IsOfTheNumbersThatAreStored) {
     }
 }
 
-TEST(PackedGltf, MayStandInPlaceOfWhatItWasPackedFrom) {
+TEST(PackedGltf, MayReplaceItsSource) {
     for (const PackDrop drop : {PackDrop::tangents, PackDrop::all}) {
         const TempFolder folder;
         const std::string input = folder.write("in.glb", gridModel(bentGrid()).glb()),
@@ -212,7 +212,7 @@ TEST(PackedGltf, MayStandInPlaceOfWhatItWasPackedFrom) {
     }
 }
 
-TEST(PackedGltf, GivesUpNothingThatOthersUse) {
+TEST(PackedGltf, RemovesNothingThatIsUsedElsewhere) {
     GltfBuilder model = gridModel(Grid(4, false));
     model.json()["meshes"][0]["primitives"].push_back(Json(firstPrimitive(model)));
     Json& other = model.json()["meshes"][0]["primitives"][1];
@@ -236,7 +236,7 @@ TEST(PackedGltf, IsSharedByPrimitivesThatShareFrames) {
     EXPECT_EQ(outcome.primitives[0].find("_FRAME32"), outcome.primitives[1].find("_FRAME32"));
 }
 
-TEST(PackedGltf, IsOfTheBaseOfMorphTargetsWhoseBaseStays) {
+TEST(PackedGltf, KeepsTheBaseOfMorphTargets) {
     GltfBuilder model = gridModel(Grid(4));
     std::vector<float> offsets(75, 0);
     for (std::size_t i = 0; i < 25; ++i) offsets[3 * i + 2] = static_cast<float>(i % 3);
@@ -253,7 +253,7 @@ TEST(PackedGltf, IsOfTheBaseOfMorphTargetsWhoseBaseStays) {
               "for them");
 }
 
-TEST(PackedGltf, FollowsTangentsThatAreReplacedOnlyWhenAskedFor) {
+TEST(PackedGltf, UpdatesWithReplacedTangentsOnlyOnRequest) {
     const TempFolder folder;
     const std::string input = folder.write("in.glb", gridModel(bentGrid()).glb()),
                       packed = folder.path("packed.glb").string(), turned = folder.path("turned.glb").string();
@@ -277,7 +277,7 @@ TEST(PackedGltf, FollowsTangentsThatAreReplacedOnlyWhenAskedFor) {
         << "the old words were overwritten";
 }
 
-TEST(PackedGltf, TakesThePlaceOfWhatIsNoPackedFrame) {
+TEST(PackedGltf, ReplacesInvalidPackedFrames) {
     GltfBuilder model = gridModel(Grid(4, false));
     const std::size_t number = model.addAccessor(std::vector<std::uint32_t>(25, 7), kU32, "SCALAR", 25);
     firstPrimitive(model)["attributes"]["_FRAME32"] = number;
@@ -320,7 +320,7 @@ TEST(PackedGltf, WritesNothingOnADryRun) {
     EXPECT_EQ(readFile(input).size(), report->output_bytes);
 }
 
-TEST(PackedGltf, RefusesOptionsThatMeanNothing) {
+TEST(PackedGltf, RejectsInvalidOptions) {
     const TempFolder folder;
     const std::string input = folder.write("in.glb", gridModel(Grid(4)).glb());
     GenerateOptions no_pack;

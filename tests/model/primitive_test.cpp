@@ -27,7 +27,7 @@ Corners corners(const GltfBuilder& builder) {
     return readTriangleCorners(document, readPrimitives(document).at(0));
 }
 
-TEST(Primitive, CutsStripsAndFansAsTheSpecificationSays) {
+TEST(Primitive, TriangulatesStripsAndFansAsSpecified) {
     GltfBuilder builder = withVertices(5);
     Json& primitive = builder.json()["meshes"][0]["primitives"][0];
     primitive["mode"] = 5;
@@ -71,7 +71,7 @@ GltfBuilder interleaved(std::size_t shift) {
     return builder;
 }
 
-TEST(Primitive, LendsFloatsFromWhereTheyLie) {
+TEST(Primitive, ReturnsFloatsWithoutACopy) {
     if (std::endian::native != std::endian::little) GTEST_SKIP() << "here floats are turned, and so copied";
     const Document document = parse(interleaved(4));
     const Primitive primitive = readPrimitives(document)[0];
@@ -85,7 +85,7 @@ TEST(Primitive, LendsFloatsFromWhereTheyLie) {
     EXPECT_EQ(uvs->stride_bytes, 20u);
 }
 
-TEST(Primitive, LendsNothingThatIsNotPlainAlignedFloats) {
+TEST(Primitive, CopiesDataThatIsNotAlignedFloats) {
     if (std::endian::native != std::endian::little) GTEST_SKIP() << "here floats are turned, and so copied";
     const auto lent = [](const GltfBuilder& builder) {
         const Document document = parse(builder);
@@ -112,7 +112,7 @@ TEST(Primitive, LendsNothingThatIsNotPlainAlignedFloats) {
     EXPECT_EQ(lent(builder), std::pair(false, false));
 }
 
-TEST(Primitive, RefusesBadReferencesAtTheirPlace) {
+TEST(Primitive, RejectsInvalidReferencesWithTheirLocation) {
     const auto place = [](const std::string& key, const Json& value) {
         GltfBuilder builder = withVertices(3);
         builder.addFloats({0, 0, 0}, 3);

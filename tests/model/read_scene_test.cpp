@@ -83,7 +83,7 @@ TEST(ReadScene, LeavesPointsAndLinesWithoutCorners) {
     }
 }
 
-TEST(ReadScene, RefusesArraysFarLargerThanTheFile) {
+TEST(ReadScene, RejectsArraysFarLargerThanTheFile) {
     GltfBuilder builder = oneTriangle();
     // Each one is within the limit for accessors without data; together they exceed it.
     for (int i = 0; i < 400; ++i) {
@@ -93,7 +93,7 @@ TEST(ReadScene, RefusesArraysFarLargerThanTheFile) {
     EXPECT_EQ(errorOf([&] { (void)read(builder); }).code, ErrorCode::tooLarge);
 }
 
-TEST(ReadScene, RefusesWhatGenerateRefuses) {
+TEST(ReadScene, RejectsFilesThatGenerateRejects) {
     const TempFolder folder;
     const auto code = [](const std::string& file) { return errorOf([&] { (void)readScene(file, {}, false); }).code; };
     EXPECT_EQ(code("no such file.glb"), ErrorCode::cannotRead);
@@ -136,7 +136,7 @@ TEST(ReadScene, ReadsTheBytesOfNormalMapsOnlyWhenAsked) {
     for (const SceneImage& image : readScene(file, {}, false).images) EXPECT_TRUE(image.bytes.empty());
 }
 
-TEST(ReadScene, CutsTheFacesOfAnObjAndTurnsItsUvs) {
+TEST(ReadScene, TriangulatesTheFacesOfAnObjAndFlipsItsUvs) {
     const TempFolder folder;
     folder.write("m.mtl", "newmtl a\nnorm n.png\n");
     folder.write("n.png", "image");

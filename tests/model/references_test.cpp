@@ -44,7 +44,7 @@ RC_GTEST_PROP(Overlaps, AgreesWithMarkingEveryByte, ()) {
     RC_ASSERT(!common || overlaps(a, b));
 }
 
-RC_GTEST_PROP(CutVacated, LeavesEveryOtherAccessorAsItWas, ()) {
+RC_GTEST_PROP(CutVacated, KeepsEveryOtherAccessor, ()) {
     GltfBuilder builder;
     const auto count = *rc::gen::inRange<std::size_t>(1, 12);
     std::vector<Bytes> expected;
@@ -107,7 +107,7 @@ TEST(CutVacated, ShrinksASharedView) {
     EXPECT_EQ(document.json["bufferViews"][0]["byteLength"], 128);
 }
 
-TEST(Editor, OverwritesOnlyWhatNobodyElseReads) {
+TEST(Editor, OverwritesOnlyUnsharedBytes) {
     GltfBuilder builder;
     builder.addFloats(std::vector<float>(8), 4);
     builder.addFloats(std::vector<float>(8), 4);

@@ -22,7 +22,7 @@ struct FaultyAttribute {
 };
 
 /// Runs the remedies of `check`.
-TEST(Repair, MendsAttributesOfAWrongTypeOrNumber) {
+TEST(Repair, RepairsAttributesOfAWrongTypeOrCount) {
     const Grid grid(4, false);
     const std::size_t count = grid.vertexCount();
     for (const FaultyAttribute& faulty : {

@@ -71,7 +71,7 @@ class Model {
     TempFolder folder_;
 };
 
-TEST(Repair, KeepsGoodTangentsWhateverMethodMadeThem) {
+TEST(Repair, KeepsCorrectTangentsOfAnyMethod) {
     for (const Method method : {Method::mikktspace, Method::lengyel, Method::angle, Method::area, Method::flat}) {
         const bool splits = method != Method::lengyel;  // lengyel cannot represent a mirrored seam
         Model model(gridModel(Grid(6, splits)), method);
@@ -93,7 +93,7 @@ TEST(Repair, ReplacesWrongSignsAndDirections) {
     model.expectRepaired("not perpendicular", [](std::size_t, Vec4& t) { t = {0, 0, 1, t.w}; });
 }
 
-TEST(Repair, ReplacesWhatNoFileMayHaveEvenAtOneVertex) {
+TEST(Repair, ReplacesInvalidValuesEvenAtOneVertex) {
     Model model(gridModel(Grid(40)));  // one vertex is less than 0.1 % of it
     const auto at_one = [](const Vec4& value) {
         return [value](std::size_t i, Vec4& t) {
@@ -120,7 +120,7 @@ TEST(Repair, ReplacesTangentsThatAreSharedAcrossAMirroredSeam) {
 
 /// At vertices of a fold nearly any direction could be intended. Their neighbors are all wrong, so they are too, and
 /// recomputed tangents must not be combined with remaining ones.
-TEST(Repair, MendsWhatCannotBeJudgedWithTheWrongDirectionsAroundIt) {
+TEST(Repair, RepairsIndeterminateTangentsNextToWrongOnes) {
     Grid grid(64, false);
     const std::size_t folded = 32 * 65 + 32;
     grid.uvs[2 * folded] = grid.uvs[2 * folded + 2] + 0.5f / 64;
@@ -131,7 +131,7 @@ TEST(Repair, MendsWhatCannotBeJudgedWithTheWrongDirectionsAroundIt) {
     for (const Finding& finding : report->findings) ADD_FAILURE() << finding.message;
 }
 
-TEST(Repair, LeavesPrimitivesWithGoodTangentsAloneBesideWrongOnes) {
+TEST(Repair, KeepsPrimitivesWithCorrectTangentsNextToWrongOnes) {
     const Grid grid(4, false);
     GltfBuilder builder = gridModel(grid);
     std::vector<float> good, wrong;
@@ -171,7 +171,7 @@ TEST(Repair, AddsDeltasOfMorphTargetsToGoodTangents) {
 }
 
 /// Kept tangents were not computed with the transform.
-TEST(Repair, DoesNotSayThatKeptTangentsFollowTheTransform) {
+TEST(Repair, DoesNotClaimThatKeptTangentsFollowTheTransform) {
     GltfBuilder builder = gridModel(Grid(4, false));
     std::vector<float> tangents;
     for (std::size_t i = 0; i < 25; ++i) tangents.insert(tangents.end(), {1, 0, 0, 1});
@@ -226,7 +226,7 @@ Tangents repairHarmed(const std::function<void(std::size_t, Vec4&)>& harm) {
 
 bool sameBits(const Vec4& a, const Vec4& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-TEST(Repair, MendsWhatIsWrongAndNothingElse) {
+TEST(Repair, RepairsOnlyWrongTangents) {
     const auto is_harmed = [](std::size_t i) { return i % 7 == 3; };
     for (const Vec4& wrong : {Vec4{0, 1, 0, 1}, Vec4{NAN, 0, 0, 1}, Vec4{0, 0, 0, 1}, Vec4{0, 0, 1, 1}}) {
         const Tangents tangents = repairHarmed([&](std::size_t i, Vec4& t) {
@@ -239,7 +239,7 @@ TEST(Repair, MendsWhatIsWrongAndNothingElse) {
     }
 }
 
-TEST(Repair, TurnsWrongSignsAndKeepsDirections) {
+TEST(Repair, InvertsWrongSignsAndKeepsDirections) {
     for (const std::size_t every : {1, 2, 7}) {
         const Tangents tangents = repairHarmed([&](std::size_t i, Vec4& t) {
             if (i % every == 0) t.w = -t.w;
@@ -288,7 +288,7 @@ struct MappedModel {
     }
 };
 
-TEST(Repair, LeavesInvertedSignsThatTheNormalMapCancels) {
+TEST(Repair, KeepsInvertedSignsThatTheNormalMapCancels) {
     const std::string down = pngFile(normalMapOf(256, bumps, true)), up = pngFile(normalMapOf(256, bumps, false));
     EXPECT_TRUE(MappedModel(-1, down).isLeftAlone());
     EXPECT_TRUE(MappedModel(1, down).isLeftAlone());
@@ -303,13 +303,13 @@ TEST(Repair, LeavesInvertedSignsThatTheNormalMapCancels) {
     EXPECT_TRUE(both.isLeftAlone()) << "one of its two maps renders right";
 }
 
-TEST(Repair, LeavesInvertedSignsWhereTheNormalMapCannotBeRead) {
+TEST(Repair, KeepsInvertedSignsIfTheNormalMapIsUnreadable) {
     for (const char* content : {"", "no image", "\xABKTX 20\xBB"}) {
         EXPECT_TRUE(MappedModel(-1, content).isLeftAlone()) << content;
     }
 }
 
-TEST(Repair, MendsWhatNoMapCancelsBesideInvertedSignsThatStay) {
+TEST(Repair, RepairsSignsThatNoMapCancelsNextToKeptOnes) {
     MappedModel model(-1, pngFile(normalMapOf(256, bumps, true)));
     auto* const tangents = reinterpret_cast<float*>(
         model.builder.bytes().data() + model.builder.json()["bufferViews"][4]["byteOffset"].get<std::size_t>());
@@ -335,7 +335,7 @@ TEST(Repair, DecidesForEachPrimitiveOverSharedVertices) {
 }
 
 /// Repair keeps tangents for which `check` reports only a warning or nothing.
-TEST(Repair, LeavesWhatIsNoError) {
+TEST(Repair, KeepsTangentsWithoutErrors) {
     for (const float degrees : {20.0f, 40.0f}) {
         MappedModel model(1, pngFile(normalMapOf(256, bumps, false)));
         const float angle = degrees * 3.14159265f / 180;
@@ -350,7 +350,7 @@ TEST(Repair, LeavesWhatIsNoError) {
 }
 
 /// Deltas on kept tangents are kept; deltas on new tangents are recomputed.
-TEST(Repair, KeepsWhatTargetsAddToGoodTangents) {
+TEST(Repair, KeepsDeltasOfCorrectTangents) {
     const Grid grid(4, false);
     GltfBuilder builder = gridModel(grid);
     std::vector<float> tangents, lift, deltas;
@@ -391,7 +391,7 @@ std::vector<Vec4> tangentsAfter(const GltfBuilder& builder, const GenerateOption
     return primitive.find("TANGENT") ? readTangents(document, primitive) : std::vector<Vec4>{};
 }
 
-TEST(Repair, ReplacesTangentsThatCannotBeRead) {
+TEST(Repair, ReplacesUnreadableTangents) {
     const Grid grid(4, false);
     GltfBuilder of_another_shape = gridModel(grid), of_another_mesh = gridModel(grid), of_bytes = gridModel(grid);
     firstPrimitive(of_another_shape)["attributes"]["TANGENT"] = 1;  // VEC3
@@ -438,7 +438,7 @@ GltfBuilder withUnusedVertex(const std::vector<Vec4>& tangents) {
     return builder;
 }
 
-TEST(Repair, MakesEverySignOneAndEveryLengthToo) {
+TEST(Repair, MakesEverySignAndEveryLengthOne) {
     const std::vector<Vec4> good(26, Vec4{1, 0, 0, 1});
     for (const bool is_needed : {true, false}) {
         for (const Vec4& value :
@@ -465,7 +465,7 @@ TEST(Repair, MakesEverySignOneAndEveryLengthToo) {
     EXPECT_EQ(tangentsAfter(withUnusedVertex(all), {}, report), all) << "nothing was asked for";
 }
 
-TEST(Repair, MendsValuesInTheFormatThatTheyHave) {
+TEST(Repair, RepairsValuesInTheirFormat) {
     const std::size_t count = Grid(4, false).vertexCount();
     std::vector<std::int16_t> numbers;
     for (std::size_t v = 0; v < count; ++v)
@@ -491,7 +491,7 @@ TEST(Repair, MendsValuesInTheFormatThatTheyHave) {
 }
 
 /// Tangents along the strokes of brushed metal do not depend on UVs.
-TEST(Repair, LeavesTangentsThatNoTextureIsReadWith) {
+TEST(Repair, KeepsTangentsThatNoTextureUses) {
     for (const bool has_uvs : {true, false}) {
         GltfBuilder builder = gridModel(Grid(4, false));
         std::vector<float> tangents;
@@ -510,7 +510,7 @@ TEST(Repair, LeavesTangentsThatNoTextureIsReadWith) {
     }
 }
 
-TEST(Repair, SaysWhatWasLookedAtWhereTangentsStay) {
+TEST(Repair, ReportsWhatWasExaminedForKeptTangents) {
     Grid grid(4, false);
     std::vector<float> tangents;
     for (std::size_t v = 0; v < 25; ++v) tangents.insert(tangents.end(), {1, 0, 0, 1});
@@ -528,7 +528,7 @@ TEST(Repair, SaysWhatWasLookedAtWhereTangentsStay) {
     EXPECT_NE(reasonOf().find("only their values"), std::string::npos) << reasonOf();
 }
 
-TEST(Repair, KeepsGoodTangentsAlsoWhereGeometryIsPackedAnew) {
+TEST(Repair, KeepsCorrectTangentsWhenGeometryIsRecompressed) {
     const Model model(gridModel(Grid(4)));
     const TempFolder folder;
     GenerateOptions options = kRepair;

@@ -20,7 +20,7 @@ GltfBuilder unneeded(const Grid& grid = Grid(4, false)) {
     return builder;
 }
 
-TEST(StripTangents, TakesThemAwayWithTheirBytes) {
+TEST(StripTangents, RemovesThemWithTheirBytes) {
     const GenerateRun outcome = run(unneeded(), {.selection = {.strip = true}});
     const PrimitiveReport& report = outcome.report.primitives.at(0);
     EXPECT_EQ(report.action, PrimitiveAction::removed);
@@ -33,13 +33,13 @@ TEST(StripTangents, TakesThemAwayWithTheirBytes) {
         << "entries are not removed, because others may count on their numbers";
 }
 
-TEST(StripTangents, IsNotDoneUnlessAskedFor) {
+TEST(StripTangents, RunsOnlyOnRequest) {
     const GenerateRun outcome = run(unneeded());
     EXPECT_EQ(outcome.report.primitives.at(0).action, PrimitiveAction::notNeeded);
     EXPECT_FALSE(outcome.report.changed);
 }
 
-TEST(StripTangents, LeavesThoseThatAMaterialOrAVariantNeeds) {
+TEST(StripTangents, KeepsThoseThatAMaterialOrAVariantNeeds) {
     const GenerateRun needed =
         run(withTangents(Grid(4, false)), {.selection = {.strip = true, .existing = ExistingTangents::replace}});
     EXPECT_EQ(needed.report.primitives.at(0).action, PrimitiveAction::replaced);
@@ -53,7 +53,7 @@ TEST(StripTangents, LeavesThoseThatAMaterialOrAVariantNeeds) {
               "a material variant needs tangents for normalTexture, and overwriting was requested");
 }
 
-TEST(StripTangents, LeavesDataThatSomethingElseUses) {
+TEST(StripTangents, KeepsSharedData) {
     GltfBuilder builder = unneeded();
     Json& primitives = builder.json()["meshes"][0]["primitives"];
     primitives.push_back(Json(primitives[0]));
@@ -70,7 +70,7 @@ TEST(StripTangents, LeavesDataThatSomethingElseUses) {
     EXPECT_EQ(before.buffers[0].bytes.size(), after.buffers[0].bytes.size());
 }
 
-TEST(StripTangents, LeavesInterleavedNeighborsAsTheyAre) {
+TEST(StripTangents, KeepsInterleavedNeighbors) {
     // POSITION and TANGENT in one view, 28 bytes apart.
     GltfBuilder builder;
     std::vector<float> mixed;
@@ -89,7 +89,7 @@ TEST(StripTangents, LeavesInterleavedNeighborsAsTheyAre) {
     EXPECT_EQ(readVec3(outcome.after, outcome.primitives[0], "POSITION")[2], (Vec3{14, 15, 16}));
 }
 
-TEST(StripTangents, TakesThoseOfMorphTargetsToo) {
+TEST(StripTangents, RemovesThoseOfMorphTargetsToo) {
     GltfBuilder builder = unneeded();
     const std::size_t delta = builder.addFloats(std::vector<float>(25 * 3), 3);
     const std::size_t turn = builder.addFloats(std::vector<float>(25 * 3), 3);
@@ -106,7 +106,7 @@ TEST(StripTangents, TakesThoseOfMorphTargetsToo) {
         << report.reason;
 }
 
-TEST(StripTangents, TakesThemFromPointsAndFromSparseAccessors) {
+TEST(StripTangents, RemovesThemFromPointsAndFromSparseAccessors) {
     GltfBuilder builder = unneeded();
     firstPrimitive(builder)["mode"] = 0;
     Json& accessor = builder.json()["accessors"][4];
@@ -150,7 +150,7 @@ TEST(StripTangents, NeedsNoBuffer) {
     }
 }
 
-TEST(StripTangents, ContradictsAll) {
+TEST(StripTangents, ConflictsWithAll) {
     const TempFolder folder;
     const std::string input = folder.write("in.glb", unneeded().glb());
     const auto report =

@@ -35,7 +35,7 @@ void expectAll(const std::vector<Vec4>& tangents, const Vec4& expected) {
     }
 }
 
-TEST(TextureTransform, TurnsTangentsTheWayItTurnsTheImage) {
+TEST(TextureTransform, RotatesTangentsLikeTheImage) {
     // UVs rotate counter-clockwise, so the image rotates clockwise: its right direction now points down.
     expectAll(tangentsOf(transformed({{"rotation", kQuarter}})), {0, -1, 0, 1});
     expectAll(tangentsOf(transformed({{"rotation", -kQuarter}})), {0, 1, 0, 1});
@@ -52,7 +52,7 @@ TEST(TextureTransform, FlipsTheSignWhereItMirrors) {
     expectAll(tangentsOf(transformed({{"rotation", kQuarter}, {"scale", {6, -2}}})), {0, 1, 0, -1});
 }
 
-TEST(TextureTransform, ScalesBeforeItTurns) {
+TEST(TextureTransform, ScalesBeforeItRotates) {
     // u' = c su u + s sv v, v' = -s su u + c sv v; T has constant v' and increasing u'. u = x, v = -y.
     const double c = std::cos(0.4), s = std::sin(0.4), su = 3, sv = 0.5;
     const double x = c / su, y = -s / sv, length = std::sqrt(x * x + y * y);
@@ -68,7 +68,7 @@ TEST(TextureTransform, ChangesNoBitWhereItOnlyShiftsOrStretches) {
     }
 }
 
-TEST(TextureTransform, GivesSoundTangentsHoweverAbsurdItIs) {
+TEST(TextureTransform, GivesValidTangentsForExtremeTransforms) {
     for (const double number : {0.0, -0.0, 1e-320, 1e-30, -1e30, 1e308, -1.7e308, 12345.678}) {
         for (const Json& transform :
              {Json{{"rotation", number}}, Json{{"scale", {number, 1}}},
@@ -82,7 +82,7 @@ TEST(TextureTransform, GivesSoundTangentsHoweverAbsurdItIs) {
     }
 }
 
-TEST(TextureTransform, IsLeftOutWhenAskedFor) {
+TEST(TextureTransform, IsIgnoredOnRequest) {
     const auto options = [](TextureTransform reading) {
         return GenerateOptions{.tangents = {.texture_transform = reading}};
     };
@@ -91,7 +91,7 @@ TEST(TextureTransform, IsLeftOutWhenAskedFor) {
     EXPECT_NE(tangentsOf(builder, options(TextureTransform::apply)), tangentsOf(gridModel(Grid(4))));
 }
 
-TEST(TextureTransform, IsSaidInANote) {
+TEST(TextureTransform, IsReportedInANote) {
     const auto notes = [](const Json& transform, TextureTransform reading) {
         return run(transformed(transform), {.tangents = {.texture_transform = reading}}).report.primitives.at(0).notes;
     };
@@ -105,7 +105,7 @@ TEST(TextureTransform, IsSaidInANote) {
     EXPECT_TRUE(notes(stretch, TextureTransform::apply).empty());
 }
 
-TEST(TextureTransform, PartsPrimitivesThatShareVerticesOnlyWhereTheirTangentsDiffer) {
+TEST(TextureTransform, SeparatesSharedVerticesOnlyIfTangentsDiffer) {
     GltfBuilder builder = transformed({{"rotation", 1}});
     Json& materials = builder.json()["materials"];
     const auto add = [&](const Json& transform) {
@@ -142,7 +142,7 @@ TEST(TextureTransform, OfAnotherTextureIsNotedWhereOneTangentCannotServeBoth) {
                                        "clearcoatNormalTexture of material 0 uses TEXCOORD_1"});
 }
 
-TEST(TextureTransform, ThatIsAnimatedIsNoted) {
+TEST(TextureTransform, IsNotedIfAnimated) {
     GltfBuilder builder = transformed({{"offset", {0, 0}}});
     const auto notes = [&](const std::string& member) {
         const std::string pointer = "/materials/0/normalTexture/extensions/KHR_texture_transform/" + member;

@@ -59,7 +59,7 @@ TEST(ResolveUri, StaysInsideTheFolder) {
     EXPECT_EQ(resolve(""), ErrorCode::invalidFile);
 }
 
-TEST(ResolveUri, TakesWindowsSeparatorsForSlashes) {
+TEST(ResolveUri, TreatsWindowsSeparatorsAsSlashes) {
     const TempFolder folder;
     EXPECT_EQ(resolveUri(folder.path(""), "sub\\a%20b.bin", false, ""), folder.path("") / "sub/a b.bin");
     EXPECT_EQ(resolveUri(folder.path(""), "..\\b.bin", true, ""), folder.path("") / "../b.bin");
@@ -97,7 +97,7 @@ TEST(ResolveUri, IsAskedForBuffersAndImages) {
     EXPECT_EQ(load(R"("buffers":[{"byteLength":4,"uri":"."}])", false).code, ErrorCode::invalidFile);
 }
 
-TEST(ResolveUri, OfModelsInMemoryWithoutFilesIsNotFollowedAndYetAUri) {
+TEST(ResolveUri, OfModelsInMemoryWithoutFilesIsKeptButNotFollowed) {
     const auto load = [](const std::string& uri) {
         const std::string text = R"({"asset":{"version":"2.0"},"images":[{"uri":")" + uri + "\"}]}";
         FileOptions options;
@@ -109,7 +109,7 @@ TEST(ResolveUri, OfModelsInMemoryWithoutFilesIsNotFollowedAndYetAUri) {
 }
 
 /// Geometry does not depend on images.
-TEST(ResolveUri, OfAnImageThatIsRefusedIsAWarning) {
+TEST(ResolveUri, OfARejectedImageIsAWarning) {
     const TempFolder folder;
     folder.write("secret.png", std::string("x"));
     folder.write("model/n.png", std::string("x"));

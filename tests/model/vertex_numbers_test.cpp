@@ -116,7 +116,7 @@ TEST(VertexNumbers, OutlinesOfPrimitivesThatShareVerticesAreEachTheirOwn) {
     EXPECT_EQ(written.primitive(0)["extensions"], written.primitive(1)["extensions"]);
 }
 
-TEST(VertexNumbers, WithoutASplitOutlinesStayAsTheyAre) {
+TEST(VertexNumbers, WithoutASplitOutlinesAreUnchanged) {
     GltfBuilder builder = gridModel(Grid(kSize, false));
     addOutline(builder, kEdges);
     const Written written = generated(builder);
@@ -124,7 +124,7 @@ TEST(VertexNumbers, WithoutASplitOutlinesStayAsTheyAre) {
               std::vector<std::uint32_t>(kEdges.begin(), kEdges.end()));
 }
 
-TEST(VertexNumbers, ABrokenOutlineStaysAndIsNamed) {
+TEST(VertexNumbers, AnInvalidOutlineIsKeptAndReported) {
     GltfBuilder builder = splitModel();
     addOutline(builder, {0, 1, 900, 1});
     EXPECT_TRUE(generated(builder).warns("CESIUM_primitive_outline"));
@@ -157,7 +157,7 @@ TEST(VertexNumbers, FeatureIdsThatAreNumbersOfVerticesBecomeAnAttribute) {
     }
 }
 
-TEST(VertexNumbers, OtherExtensionsOfPrimitivesAndMeshesAreNamed) {
+TEST(VertexNumbers, OtherExtensionsOfPrimitivesAndMeshesAreReported) {
     GltfBuilder builder = splitModel();
     firstPrimitive(builder)["extensions"]["FB_ngon_encoding"] = Json::object();
     firstPrimitive(builder)["extensions"]["KHR_materials_variants"] = Json::parse(R"({"mappings": []})");
@@ -173,14 +173,14 @@ TEST(VertexNumbers, OtherExtensionsOfPrimitivesAndMeshesAreNamed) {
     EXPECT_EQ(written.document.json["meshes"][0]["extensions"], builder.json()["meshes"][0]["extensions"]);
 }
 
-TEST(VertexNumbers, WithoutASplitNothingIsNamed) {
+TEST(VertexNumbers, WithoutASplitNothingIsReported) {
     GltfBuilder builder = gridModel(Grid(kSize, false));
     firstPrimitive(builder)["extensions"]["FB_ngon_encoding"] = Json::object();
     builder.json()["extensionsUsed"] = {"FB_ngon_encoding"};
     EXPECT_TRUE(generated(builder).report.warnings.empty());
 }
 
-TEST(VertexNumbers, DracoLeavesUnusedVerticesOutAndOutlinesKnow) {
+TEST(VertexNumbers, OutlinesFollowWhenDracoRemovesUnusedVertices) {
     if (!gltf::dracoMissing().empty()) GTEST_SKIP() << gltf::dracoMissing();
     GltfBuilder builder = splitModel();
     // Without the first quad: vertex 0 is unused.

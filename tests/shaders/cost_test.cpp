@@ -30,7 +30,7 @@ std::map<std::string, std::string> statedCosts(const std::string& file_name) {
     return costs;
 }
 
-TEST(ShaderCosts, AreWhatTheCompilerCounts) {
+TEST(ShaderCosts, EqualTheCompilersCounts) {
     const std::map<std::string, std::string> stated = statedCosts("tspace.glsl");
     std::size_t found = 0;
     for (const auto& [name, count] : countOperations(readSpirv("glsl"))) {

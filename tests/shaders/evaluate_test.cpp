@@ -275,7 +275,7 @@ TEST(PlanBuffers, PackFramesOfAnyDirection) {
     }
 }
 
-TEST(PlanBuffers, RefuseWhatShadersDoNotHave) {
+TEST(PlanBuffers, RejectOptionsThatShadersLack) {
     const PosedMesh posed = generatedMeshes()[0];
     const MeshView mesh = posed.mesh.view();
     for (const Method method : {Method::flat, Method::basis, Method::best}) {

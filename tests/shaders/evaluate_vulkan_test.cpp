@@ -68,7 +68,7 @@ bool isNear(Differences& found) {
            found.percentile(0.9999) <= kMostUsual && found.worst_deg <= kMost;
 }
 
-TEST(EvaluateShader, IsFoundWrongWhereAPartIsReplaced) {
+TEST(EvaluateShader, IsWrongIfAPartIsReplaced) {
     std::string why;
     const std::unique_ptr<VulkanCompute> vulkan = VulkanCompute::open(why);
     if (vulkan == nullptr) GTEST_SKIP() << why;

@@ -175,7 +175,7 @@ std::vector<Vec3> leastSquares(const NormalLevel& level) {
     return texels;
 }
 
-TEST(FitBlocks, IsNearerThanTheLeastSquaresOfAllBlocksAsItIsFiltered) {
+TEST(FitBlocks, IsMoreAccurateUnderFilteringThanLeastSquares) {
     for (const NormalLevel& level : {reliefLevel(64, 64), reliefLevel(64, 64, 0.2)}) {
         const double squares = measureFiltered(level, leastSquares(level), true, oneThread()).mean_deg;
         EXPECT_LT(meanError(level, {.quality = BlockQuality::fast}), 0.95 * squares);
@@ -184,7 +184,7 @@ TEST(FitBlocks, IsNearerThanTheLeastSquaresOfAllBlocksAsItIsFiltered) {
     }
 }
 
-TEST(FitBlocks, SpreadsLittleOfWhatNoTexelsMakeGoodAtHardEdges) {
+TEST(FitBlocks, SpreadsLittleErrorFromHardEdges) {
     const NormalLevel level = facetLevel(64);
     const auto errorOf = [&](const std::vector<Vec3>& texels) {
         return measureFiltered(level, texels, true, oneThread());
@@ -196,7 +196,7 @@ TEST(FitBlocks, SpreadsLittleOfWhatNoTexelsMakeGoodAtHardEdges) {
     EXPECT_LT(fast.p99_deg, squares.p99_deg);
 }
 
-TEST(FitBlocks, HoldsFlatMapsWithinTheStepsBetweenTwoEnds) {
+TEST(FitBlocks, RepresentsFlatMapsWithinAQuantizationStep) {
     NormalLevel flat{16, 16, std::vector<Vec3>(256, Vec3{0, 0, 1}), {}};
     // Half of 255 steps is not represented exactly; signed formats represent 0.
     EXPECT_LT(meanError(flat, {}), 0.045);
@@ -215,7 +215,7 @@ TEST(FitBlocks, WritesTheSameBytesForAnyNumberOfThreads) {
     }
 }
 
-TEST(BlockSearch, AloneIsNearlyAsGoodAsEveryPairOfEnds) {
+TEST(BlockSearch, IsNearlyAsGoodAsTryingEveryPairOfEndpoints) {
     const Bc4Format format(false);
     Noise noise(5);
     double packed = 0, least = 0;

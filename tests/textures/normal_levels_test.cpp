@@ -70,7 +70,7 @@ TEST(NormalLevels, AreTheUnitMeansOfWhatTheyCoverWhateverTheSize) {
     }
 }
 
-TEST(NormalLevels, KnowHowFarTheNormalsThatTheyCoverSpread) {
+TEST(NormalLevels, StoreTheSpreadOfTheirNormals) {
     for (const auto& [width, height] : {std::pair(32U, 16U), {33U, 17U}, {7U, 1U}}) {
         const NormalLevel first = noiseLevel(width, height);
         Parallel parallel(Execution{.thread_count = 2});
@@ -89,7 +89,7 @@ TEST(NormalLevels, KnowHowFarTheNormalsThatTheyCoverSpread) {
 }
 
 /// Texels are covered by a quarter, or not at all, in which case they contain an unrelated direction.
-TEST(NormalLevels, AreMeansOfWhatIsCovered) {
+TEST(NormalLevels, AreMeansOfCoveredTexels) {
     NormalLevel first = noiseLevel(13, 8);
     NormalLevel foreign = first;
     for (std::size_t i = 0; i < first.normals.size(); ++i) {

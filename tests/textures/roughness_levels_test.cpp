@@ -60,7 +60,7 @@ TEST(RoughnessLevels, OfSmallerTexturesHoldTheSpreadFromTheFirstLevelOn) {
     EXPECT_GT(large[2].texels[0].y, 0.5);
 }
 
-TEST(RoughnessLevels, AreMeansOfWhatIsCovered) {
+TEST(RoughnessLevels, AreMeansOfCoveredTexels) {
     NormalLevel normals{8, 8, std::vector<Vec3>(64, Vec3{0, 0, 1}), {}, std::vector<float>(64, 1.0F)};
     RoughnessLevel roughness = evenRoughness(8, 8, 0.5F);
     for (std::size_t i = 0; i < 64; ++i) {
@@ -73,7 +73,7 @@ TEST(RoughnessLevels, AreMeansOfWhatIsCovered) {
     EXPECT_EQ(levels[3].texels[0], (Vec3{1, 0.5F, 0.25F}));
 }
 
-TEST(RoughnessLevels, AreRefusedWhereGridsDoNotFit) {
+TEST(RoughnessLevels, AreRejectedForMismatchingSizes) {
     EXPECT_EQ(whyGridsDiffer(evenRoughness(8, 8, 0), 8, 8), "");
     EXPECT_EQ(whyGridsDiffer(evenRoughness(6, 3, 0), 24, 12), "");
     EXPECT_EQ(whyGridsDiffer(evenRoughness(24, 12, 0), 6, 3), "");

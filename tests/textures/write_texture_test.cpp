@@ -22,7 +22,7 @@ Texture textureOf(std::uint32_t width, std::uint32_t height, TexelKind kind) {
     }
 }
 
-TEST(WriteTexture, WhatIsWrittenIsReadAgain) {
+TEST(WriteTexture, WrittenTexturesRoundTrip) {
     for (const TexelKind kind : {TexelKind::bc5, TexelKind::bc5s, TexelKind::eacRg, TexelKind::eacRgs, TexelKind::rg8,
                                  TexelKind::rg8s, TexelKind::rgba8}) {
         const Texture texture = textureOf(37, 18, kind);
@@ -61,7 +61,7 @@ TEST(WriteTexture, WhatIsWrittenIsReadAgain) {
     }
 }
 
-TEST(WriteTexture, LevelsThatArePackedOnceMoreAreTheSame) {
+TEST(WriteTexture, SupercompressedLevelsAreUnchanged) {
     if (whyNotZstd() != nullptr) GTEST_SKIP() << whyNotZstd();
     const Texture texture = textureOf(64, 64, TexelKind::bc5);
     const auto plain = writeKtx2(texture), packed = writeKtx2(texture, 19);

@@ -136,7 +136,7 @@ class Advice : public testing::TestWithParam<std::string> {
     bool is_gltf_ = false;
 };
 
-TEST_P(Advice, MendsTheFindingThatItStandsBelowAndMakesNoNewOne) {
+TEST_P(Advice, FixesItsFindingAndCausesNoNewOne) {
     const Json before = findingsOf(folder_, input_);
     std::map<NamedCommand, Json> commands;  // and their findings
     for (const Json& finding : before) {

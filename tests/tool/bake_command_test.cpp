@@ -60,7 +60,7 @@ double leanOf(const FloatImage& map) {
     return sum / static_cast<double>(map.texels.size());
 }
 
-TEST_F(BakeCommand, BakesNoNoiseOfPositionsWhereItIsAskedTo) {
+TEST_F(BakeCommand, DenoisesPositionsOnRequest) {
     folder.write("high.obj", noisySheet(80));
     const std::string common = "bake low.obj --high high.obj --size 64 --report r.json -q -o ";
     ASSERT_EQ(runTool(folder, common + "noisy.png").exit_code, 0);
@@ -70,14 +70,14 @@ TEST_F(BakeCommand, BakesNoNoiseOfPositionsWhereItIsAskedTo) {
     EXPECT_LT(leanOf(imageOf(folder, "smooth.png")), 0.2 * leanOf(imageOf(folder, "noisy.png")));
 }
 
-TEST_F(BakeCommand, SaysNothingOfNoiseWhereThereIsNone) {
+TEST_F(BakeCommand, DoesNotReportNoiseOnSmoothMeshes) {
     ASSERT_EQ(runTool(folder, "bake low.obj --high high.obj --size 32 --report r.json -q -o a.png").exit_code, 0);
     EXPECT_EQ(folder.read("r.json").find("noisy"), std::string::npos);
     ASSERT_EQ(runTool(folder, "bake low.obj --high high.obj --size 32 -q -o b.png --denoise auto").exit_code, 0);
     EXPECT_EQ(folder.read("a.png"), folder.read("b.png"));
 }
 
-TEST_F(BakeCommand, GoesStraightToBlocks) {
+TEST_F(BakeCommand, WritesCompressedTexturesDirectly) {
     const std::string common = "bake low.obj --high high.obj -q --size 64 -o ";
     for (const std::string name : {"n.png", "n.ktx2", "n.dds"}) ASSERT_EQ(runTool(folder, common + name).exit_code, 0);
     ASSERT_EQ(runTool(folder, "compress-map -q n.png -o after.ktx2").exit_code, 0);
@@ -101,7 +101,7 @@ TEST_F(BakeCommand, GivesTheSameBytesForAnyNumberOfThreads) {
     }
 }
 
-TEST_F(BakeCommand, DirectxIsGreenTurnedRound) {
+TEST_F(BakeCommand, DirectxInvertsGreen) {
     const std::string common = "bake low.obj --high high.obj -q --size 32 --fit texel -o ";
     ASSERT_EQ(runTool(folder, common + "gl.png").exit_code, 0);
     ASSERT_EQ(runTool(folder, common + "dx.png --convention directx").exit_code, 0);
@@ -194,7 +194,7 @@ TEST_F(BakeCommand, WritesAFilePerTile) {
     EXPECT_EQ(runTool(folder, "map-error n.1001.png tiles.obj --high high.obj --tile 1003").exit_code, 3);
 }
 
-TEST_F(BakeCommand, AMapIsMeasuredAsItsTextureWraps) {
+TEST_F(BakeCommand, MeasuresAMapWithItsWrapMode) {
     ASSERT_EQ(
         runTool(folder, "bake low.obj --high high.obj -o n.png --size 32 --fit texel --out-mesh game.gltf").exit_code,
         0);
@@ -212,7 +212,7 @@ TEST_F(BakeCommand, AMapIsMeasuredAsItsTextureWraps) {
     EXPECT_EQ(clamped, mirrored) << "both show the edge's own texels there";
 }
 
-TEST_F(BakeCommand, AMapIsBakedForTheWayItsTextureWraps) {
+TEST_F(BakeCommand, BakesAMapForItsWrapMode) {
     ASSERT_EQ(runTool(folder, "bake low.obj --high high.obj -o n.png --size 8 --out-mesh game.gltf").exit_code, 0);
     const auto seamOf = [&](int wrap, const std::string& options) {
         auto model = nlohmann::json::parse(folder.read("game.gltf"));
@@ -234,7 +234,7 @@ TEST_F(BakeCommand, AMapIsBakedForTheWayItsTextureWraps) {
     }
 }
 
-TEST_F(BakeCommand, WhatReachesBeyondAClampedImageIsCounted) {
+TEST_F(BakeCommand, CountsTrianglesBeyondAClampedImage) {
     ASSERT_EQ(runTool(folder, "bake low.obj --high high.obj -o n.png --size 8 --out-mesh game.gltf").exit_code, 0);
     auto model = nlohmann::json::parse(folder.read("game.gltf"));
     model["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33071}}};
@@ -247,7 +247,7 @@ TEST_F(BakeCommand, WhatReachesBeyondAClampedImageIsCounted) {
     EXPECT_NE(run.out.find("16 triangles extend beyond the texture"), std::string::npos) << run.out;
 }
 
-TEST_F(BakeCommand, AMapTakesThePlaceOfAnImageWhoseViewDoesNotExist) {
+TEST_F(BakeCommand, AMapReplacesAnImageWithoutABufferView) {
     ASSERT_EQ(runTool(folder, "bake low.obj --high high.obj -o n.png --size 8 --out-mesh game.gltf").exit_code, 0);
     auto model = nlohmann::json::parse(folder.read("game.gltf"));
     for (const std::uint64_t view : {std::uint64_t{9}, std::uint64_t{1} << 40}) {
@@ -262,7 +262,7 @@ TEST_F(BakeCommand, AMapTakesThePlaceOfAnImageWhoseViewDoesNotExist) {
     }
 }
 
-TEST_F(BakeCommand, ModelsInDifferentUnitsAreNamed) {
+TEST_F(BakeCommand, ReportsModelsInDifferentUnits) {
     std::istringstream lines(sheet(40, 0.02, false));
     std::string scaled;
     for (std::string line; std::getline(lines, line); scaled += line + "\n") {
@@ -279,7 +279,7 @@ TEST_F(BakeCommand, ModelsInDifferentUnitsAreNamed) {
     EXPECT_NE((measured.out + measured.err).find(says), std::string::npos) << measured.out << measured.err;
 }
 
-TEST_F(BakeCommand, WhatIsWrongIsOneLineAndNothingIsWritten) {
+TEST_F(BakeCommand, AnErrorIsOneLineAndNothingIsWritten) {
     folder.write("bare.obj", sheet(4, 0, false));
     folder.write("far.obj", sheet(4, 0, false, "far", 50));
     folder.write("broken.glb", "glTF and no more");
@@ -436,7 +436,7 @@ std::vector<std::string> badModels(std::size_t wanted) {
     return some;
 }
 
-TEST_F(BakeCommand, BadModelsAreOneLineAndLeaveNothing) {
+TEST_F(BakeCommand, AMalformedModelCausesOneLineAndNoFile) {
     const std::vector<std::string> models = badModels(12);
     if (models.empty()) GTEST_SKIP() << "the bad models are not there";
     for (const std::string& model : models) {

@@ -40,7 +40,7 @@ class BakeMaps : public BakeCommand {
     }
 };
 
-TEST_F(BakeMaps, AnyOfThemStandBesideTheOutputAndTheNormalMapIsTheOutput) {
+TEST_F(BakeMaps, AreWrittenNextToTheOutputWhichIsTheNormalMap) {
     const auto json = report(
         "-o out/n.png --maps normal,ao,bent,curvature,height,position,thickness,id,color,orm,emission "
         "--samples 8");
@@ -68,7 +68,7 @@ TEST_F(BakeMaps, WithoutTheNormalMapItIsNeitherWrittenNorMeasured) {
     EXPECT_EQ(runTool(folder, "bake low.obj --high high.obj -o n.png --maps ao --heat h.png").exit_code, 2);
 }
 
-TEST_F(BakeMaps, HeightsAreThoseOfTheSheetByTheRangeOfTheReport) {
+TEST_F(BakeMaps, HeightsMatchTheSheetInTheReportedRange) {
     const auto json = report("-o n.png --maps height,position");
     const double range = json["files"][0]["maps"][0]["white"][0];
     EXPECT_NEAR(range, 0.02, 0.001);

@@ -84,7 +84,7 @@ TEST_F(BakeModels, TheMapOfTheHighPolyIsBakedThroughOnOtherUvs) {
     EXPECT_EQ(without["highMaps"].size(), 0U);
 }
 
-TEST_F(BakeModels, GreenOfTheHighPolysMapIsSeenOrTold) {
+TEST_F(BakeModels, TheGreenDirectionOfTheHighPolysMapIsDetectedOrGiven) {
     const auto slopes = [](double green) {
         return [green](double u, double v) {
             // h = sin(12 u) sin(9 v'), with v' pointing up.
@@ -108,7 +108,7 @@ TEST_F(BakeModels, GreenOfTheHighPolysMapIsSeenOrTold) {
     EXPECT_GT(degreesBetween(middleOf("of_up.png"), middleOf("told.png")), 1);
 }
 
-TEST_F(BakeModels, AGrayMapOfTheHighPolyIsNoNormalMap) {
+TEST_F(BakeModels, AGrayMapOfTheHighPolyIsNotANormalMap) {
     writeMap("gray.png", 8, [](double u, double) { return DVec3{u, u, u}; });
     writeMapped("gray", "gray.png");
     const json report = bake("low.obj --high gray.obj --size 32");
@@ -148,7 +148,7 @@ std::string twoDetails() {
     return text;
 }
 
-TEST_F(BakeModels, CopiesOutsideOfTheUvMapHaveNoSay) {
+TEST_F(BakeModels, IgnoresCopiesOutsideTheUvRange) {
     folder.write("moved.obj", twoSheets(1));
     folder.write("details.obj", twoDetails());
     const std::string options = " --high details.obj --size 32 --match all --reach 0.1";
@@ -165,7 +165,7 @@ TEST_F(BakeModels, CopiesOutsideOfTheUvMapHaveNoSay) {
     EXPECT_NE(folder.read("out.png"), folder.read("wrapped.png"));
 }
 
-TEST_F(BakeModels, AMaterialThatLiesOutsideAsAWholeIsBaked) {
+TEST_F(BakeModels, BakesAMaterialThatIsCompletelyOutsideTheUvRange) {
     folder.write("moved.obj", twoSheets(1));
     std::string away = sheet(4, 0, true);
     std::string text;
@@ -184,7 +184,7 @@ TEST_F(BakeModels, AMaterialThatLiesOutsideAsAWholeIsBaked) {
     EXPECT_GT(report["files"][0]["texels"]["baked"], 1000);
 }
 
-TEST_F(BakeModels, OverlapSaysWhichOfTwoPiecesCounts) {
+TEST_F(BakeModels, OverlapSelectsOneOfTwoPieces) {
     folder.write("shared.obj", twoSheets(0));
     folder.write("details.obj", twoDetails());
     const std::string options = " --high details.obj --size 32 --match all --reach 0.1";
@@ -226,7 +226,7 @@ TEST_F(BakeModels, AMapInObjectSpaceMayHaveZUp) {
             << axes;
 }
 
-TEST_F(BakeModels, InstancesOfAMirroredHalfGetTheRayDistanceOfWhatTheyShow) {
+TEST_F(BakeModels, InstancesOfAMirroredHalfGetTheRayDistanceOfTheWhole) {
     TSPACE_NEEDS_SHARED("reports/second/bake_low_negnode.glb");
     const std::filesystem::path file = shared("reports/second/bake_low_negnode.glb");
     const std::string both = "'" + file.string() + "'";

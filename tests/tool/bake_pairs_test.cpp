@@ -51,7 +51,7 @@ TEST_F(BakePairs, MayBeTgaWithTheTexelsOfThePngOfEightBits) {
     EXPECT_EQ(runTool(folder, "bake low.obj --high high.obj -o c.tga --out-mesh c.glb").exit_code, 2);
 }
 
-TEST_F(BakePairs, ResumeLeavesOutWhatIsDoneAndUnchanged) {
+TEST_F(BakePairs, ResumeSkipsCompletedUnchangedPairs) {
     const std::string arguments = "--pairs t/table.txt -o two --manifest m.jsonl --resume";
     (void)pairs(arguments);
     Json json = pairs(arguments);
@@ -64,7 +64,7 @@ TEST_F(BakePairs, ResumeLeavesOutWhatIsDoneAndUnchanged) {
     EXPECT_FALSE(json["pairs"][0]["skipped"].get<bool>()) << "with other options";
 }
 
-TEST_F(BakePairs, OneThatFailsIsALineAndTheOthersAreBaked) {
+TEST_F(BakePairs, AFailedPairIsReportedAndTheOthersAreBaked) {
     folder.write("t/table.txt", "none.obj = high.obj\nlow.obj = high.obj\n");
     const ToolRun run = runTool(folder, "bake --pairs t/table.txt -o two --size 32 --report r.json");
     EXPECT_EQ(run.exit_code, 4);
@@ -89,7 +89,7 @@ TEST_F(BakePairs, NamesInATableStayInTheFolderOfTheOutput) {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "in/two/sub/deep.png")) << "models may lie anywhere";
 }
 
-TEST_F(BakePairs, ATableGivesNoFileAControlCharacterInItsName) {
+TEST_F(BakePairs, ATableCannotPutControlCharactersIntoFileNames) {
     for (const char* name : {"a\tb.png", "a\x1b[2Jb.png", "a\x7f.png", "a\xc2\x9b.png"}) {
         folder.write("t/table.txt", std::string("low.obj = high.obj\nlow.obj = high.obj = ") + name + "\n");
         const ToolRun run = runTool(folder, "bake --pairs t/table.txt -o in/two --size 32");
@@ -106,7 +106,7 @@ TEST_F(BakePairs, ATableGivesNoFileAControlCharacterInItsName) {
     EXPECT_TRUE(folder.has("in/two/named.png"));
 }
 
-TEST_F(BakePairs, LowPolysOfOneNameInTwoFoldersTakeNamesOfTheirOwn) {
+TEST_F(BakePairs, LowPolysWithEqualNamesGetDistinctOutputs) {
     folder.write("t/a/low.obj", folder.read("low.obj"));
     folder.write("t/table.txt", "# props\nlow.obj = high.obj\na/low.obj = high.obj\n");
     const ToolRun run = runTool(folder, "bake --pairs t/table.txt -o two --size 32");
@@ -118,7 +118,7 @@ TEST_F(BakePairs, LowPolysOfOneNameInTwoFoldersTakeNamesOfTheirOwn) {
     EXPECT_EQ(pairs("--pairs t/table.txt -o two")["pairs"].size(), 2U);
 }
 
-TEST_F(BakePairs, NoTwoLinesWriteOneFile) {
+TEST_F(BakePairs, RejectsTwoLinesWithOneOutput) {
     folder.write("t/two.obj", "mtllib two.mtl\nusemtl body\n" + sheet(4, 0, true, "a") + "usemtl belt\n" +
                                   sheet(4, 0, true, "b", 0.01, 25));
     folder.write("t/two.mtl", "newmtl body\nnewmtl belt\n");
@@ -151,7 +151,7 @@ TEST_F(BakePairs, NoTwoLinesWriteOneFile) {
     EXPECT_EQ(run("low.obj = high.obj = x.png", "low.obj = other.obj = x_ao.png", "").exit_code, 0);
 }
 
-TEST_F(BakePairs, NoLineWritesWhatAnotherReads) {
+TEST_F(BakePairs, RejectsALineThatWritesAnInputOfAnother) {
     folder.write("t/names.png", "sheet = sheet\n");
     folder.write("t/part.glb", folder.read("low.obj"));
     for (const auto& [table, options] :
@@ -167,7 +167,7 @@ TEST_F(BakePairs, NoLineWritesWhatAnotherReads) {
     }
 }
 
-TEST_F(BakePairs, TablesThatMakeNoSenseAreOneLine) {
+TEST_F(BakePairs, AnInvalidTableCausesOneLine) {
     for (const auto& [table, code] :
          {std::pair("low.obj\n", 3), std::pair("low.obj = high.obj = a.png = b\n", 3), std::pair("= high.obj\n", 3),
           std::pair("", 3), std::pair("low.obj = high.obj\nlow.obj = other.obj\n", 2),

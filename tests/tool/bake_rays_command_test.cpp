@@ -19,7 +19,7 @@ void writeTwoSheets(const TempFolder& folder) {
     folder.write("detail.obj", sheet(40, 0.05, false, "a_high") + sheet(40, 0, false, "b_high", 3, 41 * 41));
 }
 
-TEST_F(BakeCommand, SeveralHighPolysBelongToOneLowPolyByName) {
+TEST_F(BakeCommand, MatchesSeveralHighPolysToOneLowPolyByName) {
     writeTwoSheets(folder);
     // For a: a base and a buckle above it. For b: a sheet with detail at the position of a.
     const auto high = [&](const std::string& third) {
@@ -58,7 +58,7 @@ TEST_F(BakeCommand, SeveralHighPolysBelongToOneLowPolyByName) {
     EXPECT_NE(wrong.err.find("line 1"), std::string::npos) << wrong.err;
 }
 
-TEST_F(BakeCommand, AMapOfOneMaterialIsNotCalledThatOfAnotherModel) {
+TEST_F(BakeCommand, AMapOfOneMaterialIsNotAttributedToAnotherModel) {
     writeTwoSheets(folder);
     const ToolRun run = runTool(folder, "bake two.obj --high detail.obj -o n.png --size 32");
     ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -68,7 +68,7 @@ TEST_F(BakeCommand, AMapOfOneMaterialIsNotCalledThatOfAnotherModel) {
     EXPECT_NE(one.out.find("fits"), std::string::npos) << one.out;
 }
 
-TEST_F(BakeCommand, NoMoreTexelsDisagreeThanSeveralTrianglesShow) {
+TEST_F(BakeCommand, ConflictingTexelsAreAtMostTheOverlappingOnes) {
     // Some centers are on diagonals, inside no triangle.
     writeTwoSheets(folder);
     const ToolRun run = runTool(folder, "bake one.obj --high detail.obj -o n.png --size 32 --json");
@@ -110,7 +110,7 @@ std::string withLines(const std::string& obj, const Change& change) {
     return text;
 }
 
-TEST_F(BakeCommand, ABakeThatMostlyMissesIsAFindingWithItsCause) {
+TEST_F(BakeCommand, ReportsTheCauseIfMostRaysMiss) {
     const std::string high = sheet(40, 0.02, false);
     const auto reversed = [](const std::string& line) {
         std::istringstream words(line);
@@ -186,7 +186,7 @@ std::string sheetWithShell() {
     return sheet(40, 0.02, false, "base") + moved_faces;
 }
 
-TEST_F(BakeCommand, WhatAShellHidesIsSaid) {
+TEST_F(BakeCommand, ReportsSurfacesHiddenByAShell) {
     folder.write("shell.obj", sheetWithShell());
     const auto bakedWith = [&](const std::string& options) {
         const ToolRun run =
@@ -225,7 +225,7 @@ TEST_F(BakeCommand, WhatAShellHidesIsSaid) {
     EXPECT_EQ(told["angles"], hidden["files"][0]["ownError"]);
 }
 
-TEST_F(BakeCommand, AFewTexelsDoNotMakeTwoChannels) {
+TEST_F(BakeCommand, AFewTexelsDoNotIndicateTwoChannels) {
     ASSERT_EQ(runTool(folder, "bake low.obj --high high.obj -o dx.png --size 64 --convention directx --bits 16 --unit")
                   .exit_code,
               0);
@@ -246,7 +246,7 @@ TEST_F(BakeCommand, AFewTexelsDoNotMakeTwoChannels) {
     EXPECT_NE(two.out.find("two channels"), std::string::npos) << two.out;
 }
 
-TEST_F(BakeCommand, ACageOfOnesOwnSaysAllAboutRays) {
+TEST_F(BakeCommand, ACageMeshDeterminesTheRays) {
     ASSERT_EQ(
         runTool(folder, "bake low.obj --high high.obj -o n.png --size 32 --cage low.obj --rays nearest").exit_code, 2);
     folder.write("broken.png", "no image");

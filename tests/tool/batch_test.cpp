@@ -66,7 +66,7 @@ TEST(Batch, JobsChangeNeitherFilesNorTheOrderOfReports) {
     for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i]["input"], b[i]["input"]);
 }
 
-TEST(Batch, TextOfFilesComesInTheirOrder) {
+TEST(Batch, PrintsFilesInTheirOrder) {
     const TempFolder folder;
     writeModels(folder, 9);
     const std::string text = runTool(folder, "generate in -o out --jobs 3").out;
@@ -80,7 +80,7 @@ TEST(Batch, TextOfFilesComesInTheirOrder) {
     EXPECT_NE(text.find("9 of 9 files written, 0 failed"), std::string::npos) << text;
 }
 
-TEST(Batch, SharesCoverAllFilesOnceAndStayWhenFilesAreAdded) {
+TEST(Batch, ShardsCoverAllFilesOnceAndAreStableWhenFilesAreAdded) {
     const TempFolder folder;
     writeModels(folder, 20);
     const auto share = [&](int i) {
@@ -107,7 +107,7 @@ TEST(Batch, SharesCoverAllFilesOnceAndStayWhenFilesAreAdded) {
     EXPECT_EQ(covered, 27U);
 }
 
-TEST(Batch, AShareThatMakesNoSenseIsWrongUsage) {
+TEST(Batch, AnInvalidShardIsWrongUsage) {
     const TempFolder folder;
     writeModels(folder, 1);
     for (const char* shard : {"0/3", "4/3", "2", "a/b", "1/0", "-1/3", ""}) {
@@ -117,7 +117,7 @@ TEST(Batch, AShareThatMakesNoSenseIsWrongUsage) {
     }
 }
 
-TEST(Batch, AnEmptyShareIsDoneAtOnce) {
+TEST(Batch, AnEmptyShardSucceeds) {
     const TempFolder folder;
     writeModels(folder, 1);
     std::size_t written = 0;
@@ -129,7 +129,7 @@ TEST(Batch, AnEmptyShareIsDoneAtOnce) {
     EXPECT_EQ(written, 1U);
 }
 
-TEST(Batch, PatternsMatchLikeAShellAndTwoStarsGoDown) {
+TEST(Batch, PatternsMatchLikeAShellAndTwoStarsMatchSubfolders) {
     const TempFolder folder;
     writeModels(folder, 6);
     writeFoldedObj(folder, "in/.hidden/x.obj");
@@ -148,7 +148,7 @@ TEST(Batch, PatternsMatchLikeAShellAndTwoStarsGoDown) {
     EXPECT_EQ(runTool(folder, "generate 'in/*.fbx' -o out").exit_code, 4);
 }
 
-TEST(Batch, TheManifestSaysWhatWasDone) {
+TEST(Batch, TheManifestListsProcessedFiles) {
     const TempFolder folder;
     writeModels(folder, 3);
     folder.write("in/bad.glb", "no glTF");
@@ -173,7 +173,7 @@ TEST(Batch, TheManifestSaysWhatWasDone) {
     EXPECT_EQ(failed, 1U);
 }
 
-TEST(Batch, ResumeLeavesOutWhatIsDoneAndUnchanged) {
+TEST(Batch, ResumeSkipsCompletedUnchangedFiles) {
     const TempFolder folder;
     writeModels(folder, 6);
     const std::string command = "generate in -o out --json --manifest m.jsonl --resume";
@@ -196,7 +196,7 @@ TEST(Batch, ResumeLeavesOutWhatIsDoneAndUnchanged) {
         << "options that change no byte";
 }
 
-TEST(Batch, ResumeTriesAgainWhatFailed) {
+TEST(Batch, ResumeRetriesFailedFiles) {
     const TempFolder folder;
     writeModels(folder, 2);
     folder.write("in/bad.glb", "no glTF");
@@ -221,7 +221,7 @@ TEST(Batch, ResumeSurvivesAManifestThatEndsInsideALine) {
     EXPECT_EQ(countOf(doneBy(runTool(folder, command)), "written"), 4U);
 }
 
-TEST(Batch, ResumeInPlaceLooksAtWhatWasWritten) {
+TEST(Batch, ResumeInPlaceComparesTheWrittenFile) {
     const TempFolder folder;
     writeModels(folder, 3);
     runTool(folder, "generate in -o models");
@@ -258,7 +258,7 @@ TEST(Batch, ResumeWithoutAManifestIsWrongUsage) {
     EXPECT_EQ(runTool(folder, "generate in -o out --resume").exit_code, 2);
 }
 
-TEST(Batch, AManifestThatCannotBeWrittenStopsTheRunBeforeItBegins) {
+TEST(Batch, AnUnwritableManifestPreventsTheRun) {
     const TempFolder folder;
     writeModels(folder, 1);
     folder.write("file", "");
@@ -268,7 +268,7 @@ TEST(Batch, AManifestThatCannotBeWrittenStopsTheRunBeforeItBegins) {
     EXPECT_FALSE(folder.has("out"));
 }
 
-TEST(Batch, InspectTakesJobsAndShares) {
+TEST(Batch, InspectSupportsJobsAndShards) {
     const TempFolder folder;
     writeModels(folder, 8);
     EXPECT_EQ(runTool(folder, "inspect in --json").out, runTool(folder, "inspect in --json --jobs 4").out);

@@ -14,7 +14,7 @@ void writeGood(const TempFolder& folder, const std::string& name) {
     ASSERT_EQ(runTool(folder, "generate folded.obj -q -o " + name).exit_code, 0);
 }
 
-TEST(CheckCommand, SaysInOneLineThatAGoodFileIsGood) {
+TEST(CheckCommand, PrintsOneLineForAFileWithoutFindings) {
     const TempFolder folder;
     writeGood(folder, "good.glb");
     const ToolRun run = runTool(folder, "check good.glb");
@@ -44,7 +44,7 @@ TEST(CheckCommand, BeginsWithASummaryAndEndsEachFindingWithItsRemedy) {
     EXPECT_EQ(run.out.find('\x1b'), std::string::npos) << "colors are for terminals";
 }
 
-TEST(CheckCommand, SaysHowGoodPackedFramesAreAndWhatToRunWhereTheyAreOthers) {
+TEST(CheckCommand, ReportsTheErrorOfPackedFramesAndTheRemedyForOutdatedOnes) {
     const TempFolder folder;
     writeGood(folder, "good.glb");
     ASSERT_EQ(runTool(folder, "generate good.glb -q --in-place --pack frame32").exit_code, 0);
@@ -64,7 +64,7 @@ TEST(CheckCommand, SaysHowGoodPackedFramesAreAndWhatToRunWhereTheyAreOthers) {
     EXPECT_EQ(runTool(folder, "check other.glb --convention opengl --fail-on note").exit_code, 0);
 }
 
-TEST(CheckCommand, FailsFromTheLevelThatWasAskedFor) {
+TEST(CheckCommand, FailsFromTheRequestedSeverityOn) {
     const TempFolder folder;
     writeInverted(folder, "error.glb");
     writeFoldedObj(folder, "note.obj");
@@ -81,7 +81,7 @@ TEST(CheckCommand, FailsFromTheLevelThatWasAskedFor) {
     EXPECT_EQ(code("error.glb --fail-on never"), 2);
 }
 
-TEST(CheckCommand, GroupsWhatManyPrimitivesHave) {
+TEST(CheckCommand, GroupsEqualFindingsOfManyPrimitives) {
     const TempFolder folder;
     folder.write("folded.mtl", "newmtl skin\nmap_Bump bump.png\n");
     std::string obj = "mtllib folded.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl skin\n";

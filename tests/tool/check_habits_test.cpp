@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-TEST(CheckLeavesOut, CodesThatAreIgnored) {
+TEST(CheckIgnores, IgnoredCodesAreOmitted) {
     const TempFolder folder;
     writeInverted(folder, "a.glb");
     EXPECT_EQ(runTool(folder, "check a.glb").exit_code, 1);
@@ -39,7 +39,7 @@ TEST(CheckLeavesOut, CodesThatAreIgnored) {
     EXPECT_EQ(json["files"][0]["findings"].size(), 1U);
 }
 
-TEST(CheckLeavesOut, CodesThatDoNotExistOnlyAsWrongUsage) {
+TEST(CheckIgnores, UnknownCodesAreWrongUsage) {
     const ToolRun run = runTool(TempFolder(), "check a.glb --ignore tangentsUnused,signInverted");
     EXPECT_EQ(run.exit_code, 2);
     EXPECT_NE(run.err.find("did you mean 'signsInverted'"), std::string::npos) << run.err;
@@ -47,7 +47,7 @@ TEST(CheckLeavesOut, CodesThatDoNotExistOnlyAsWrongUsage) {
     EXPECT_EQ(runTool(TempFolder(), "check a.glb --ignore tangentsUnused,").exit_code, 2);
 }
 
-TEST(CheckLeavesOut, WhatIsBelowTheSeverity) {
+TEST(CheckIgnores, FindingsBelowTheSeverityAreOmitted) {
     const TempFolder folder;
     writeInverted(folder, "a.glb");
     const ToolRun errors = runTool(folder, "check a.glb folded.obj -v --severity error");
@@ -60,7 +60,7 @@ TEST(CheckLeavesOut, WhatIsBelowTheSeverity) {
     EXPECT_EQ(runTool(folder, "check folded.obj --severity fatal").exit_code, 2);
 }
 
-TEST(CheckColors, StandWhereTheUserWantsThem) {
+TEST(CheckColors, FollowTheUsersSettings) {
     const TempFolder folder;
     writeInverted(folder, "a.glb");
     const auto is_colored = [&](const std::string& options, const std::string& environment = "") {
@@ -124,7 +124,7 @@ void expectValidSarif(const Json& log) {
     }
 }
 
-TEST(Sarif, HoldsEveryFindingWhereItIs) {
+TEST(Sarif, ContainsEveryFindingWithItsLocation) {
     const TempFolder folder;
     writeInverted(folder, "in/a b%\xc3\xa9.glb");
     const ToolRun run = runTool(folder, "check in --sarif out.sarif");
@@ -145,7 +145,7 @@ TEST(Sarif, HoldsEveryFindingWhereItIs) {
     EXPECT_EQ(folder.files().size(), 5U) << "no temporary file stays";
 }
 
-TEST(Sarif, LinksToARowPerCodeOrNowhere) {
+TEST(Sarif, LinksToTheRowOfEachCode) {
     TempFolder folder;
     writeFoldedObj(folder, "folded.obj");
     const Json log = Json::parse(runTool(folder, "check folded.obj --sarif -").out);
@@ -158,7 +158,7 @@ TEST(Sarif, LinksToARowPerCodeOrNowhere) {
     }
 }
 
-TEST(Sarif, GoesToStdoutAlone) {
+TEST(Sarif, IsTheOnlyOutputOnStdout) {
     const TempFolder folder;
     writeInverted(folder, "a.glb");
     for (const char* options : {"--sarif -", "--sarif - --quiet", "--sarif - --severity error"}) {
@@ -175,7 +175,7 @@ TEST(Sarif, GoesToStdoutAlone) {
     EXPECT_EQ(runTool(folder, "check a.glb --sarif - --json").exit_code, 2);
 }
 
-TEST(Sarif, SaysWhichFilesCouldNotBeRead) {
+TEST(Sarif, ListsUnreadableFiles) {
     const TempFolder folder;
     folder.write("bad.glb", "glTF");
     const ToolRun run = runTool(folder, "check bad.glb --sarif -");
@@ -189,7 +189,7 @@ TEST(Sarif, SaysWhichFilesCouldNotBeRead) {
     EXPECT_EQ(log["runs"][0]["results"].size(), 0U);
 }
 
-TEST(SarifSchemaOfTheTests, FindsWhatTheSchemaForbids) {
+TEST(SarifSchemaOfTheTests, DetectsViolations) {
     const Json good = Json::parse(R"({"version":"2.1.0","runs":[{"tool":{"driver":{"name":"a"}},"results":[]}]})");
     SarifSchema().expectValid(good);
     for (const auto& [pointer, value] :
@@ -209,7 +209,7 @@ TEST(SarifSchemaOfTheTests, FindsWhatTheSchemaForbids) {
     }
 }
 
-TEST(Sarif, ThatCannotBeWrittenIsExitCodeFour) {
+TEST(Sarif, UnwritableSarifIsExitCodeFour) {
     const TempFolder folder;
     writeInverted(folder, "a.glb");
     const ToolRun run = runTool(folder, "check a.glb --sarif a.glb/out.sarif");

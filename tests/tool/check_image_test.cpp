@@ -66,7 +66,7 @@ class CheckImage : public ::testing::Test {
 
 using Codes = std::vector<std::string>;
 
-TEST_F(CheckImage, SaysWhichWayGreenPointsInEveryFormat) {
+TEST_F(CheckImage, ReportsTheDirectionOfGreenInEveryFormat) {
     for (const bool is_down : {false, true}) {
         const RgbImage map = normalMapOf(kMapSide, bumps, is_down);
         std::vector<ExrChannel> channels{{"R", {}}, {"G", {}}, {"B", {}}};
@@ -105,7 +105,7 @@ TEST_F(CheckImage, SaysWhichWayGreenPointsInEveryFormat) {
     EXPECT_EQ(codes(check("OUT.png")), Codes{});
 }
 
-TEST_F(CheckImage, SaysWhatTheChannelsHoldAndHowToConvertThem) {
+TEST_F(CheckImage, ReportsTheContentOfChannelsAndItsConversion) {
     expectFound("xz.png", changed(map_, [](std::uint8_t* t) { std::swap(t[0], t[2]); }), "exchanged",
                 {"warning normalMapChannels"});
     expectFound("srgb.png",
@@ -142,7 +142,7 @@ TEST_F(CheckImage, SaysWhatTheChannelsHoldAndHowToConvertThem) {
     EXPECT_EQ(codes(check("bc5.dds")), Codes{"note normalMapTwoChannels"}) << "that is what BC5 is for";
 }
 
-TEST_F(CheckImage, SaysWhatIsNoNormalMap) {
+TEST_F(CheckImage, ReportsImagesThatAreNotNormalMaps) {
     RgbImage height{kMapSide, kMapSide, {}}, around{kMapSide, kMapSide, {}};
     for (std::uint32_t i = 0; i < kMapSide * kMapSide; ++i) {
         const double u = (i % kMapSide + 0.5) / kMapSide, v = (i / kMapSide + 0.5) / kMapSide;
@@ -159,7 +159,7 @@ TEST_F(CheckImage, SaysWhatIsNoNormalMap) {
                 {"warning normalMapConstant"});
 }
 
-TEST_F(CheckImage, SaysWhereNumbersAreALittleOff) {
+TEST_F(CheckImage, ReportsSmallDeviations) {
     expectFound("short.png",
                 changed(map_,
                         [](std::uint8_t* t) {
@@ -172,7 +172,7 @@ TEST_F(CheckImage, SaysWhereNumbersAreALittleOff) {
     expectFound("zero.png", zero, "normals", {"note normalMapZero"});
 }
 
-TEST_F(CheckImage, GoesWithModelsPipesAndPages) {
+TEST_F(CheckImage, WorksWithModelsPipesAndPages) {
     folder_.write("n.png", pngFile(normalMapOf(kMapSide, bumps, true)));
     writeFoldedObj(folder_, "folded.obj");
     writeBumpMap(folder_);

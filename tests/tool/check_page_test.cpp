@@ -38,7 +38,7 @@ TEST(CheckPage, ShowsEachFindingBeforeAndAfter) {
     EXPECT_LT(page.size(), 2000000U);
 }
 
-TEST(CheckPage, TextOfFilesIsText) {
+TEST(CheckPage, EscapesTextOfFiles) {
     const TempFolder folder;
     writeInvertedSquare(folder, "a<b>&.glb");
     runTool(folder, "check -q 'a<b>&.glb' --html report.html");
@@ -49,7 +49,7 @@ TEST(CheckPage, TextOfFilesIsText) {
     EXPECT_EQ(countOf(page, "http"), 1U) << "nothing is loaded: the only one is that of http-equiv";
 }
 
-TEST(CheckPage, SaysWhenAndByWhichCommandItWasMade) {
+TEST(CheckPage, StatesItsDateAndCommand) {
     const TempFolder folder;
     writeInvertedSquare(folder, "it's a sheet.glb");
     const std::string arguments = "check -q \"it's a sheet.glb\" --html report.html";
@@ -84,7 +84,7 @@ TEST(CheckPage, SeveralFilesHaveAnOverview) {
     EXPECT_NE(page.find("<div class=\"scroll\" tabindex=\"0\">"), std::string::npos) << "it scrolls by keys too";
 }
 
-TEST(CheckPage, WhatCannotBeWrittenIsSaid) {
+TEST(CheckPage, ReportsAnUnwritablePage) {
     const TempFolder folder;
     writeInvertedSquare(folder, "sheet.glb");
     const ToolRun run = runTool(folder, "check -q sheet.glb --html sheet.glb/report.html");

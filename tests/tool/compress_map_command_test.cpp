@@ -41,7 +41,7 @@ Json reportOf(const TempFolder& folder, const std::string& arguments) {
     return Json::parse(run.out);
 }
 
-TEST(CompressMapCommand, GainsByTheBitsOfTheInput) {
+TEST(CompressMapCommand, IsMoreAccurateFor16BitInputs) {
     const TempFolder folder;
     writeWaves(folder);
     const Json coarse = reportOf(folder, "n8.png -o a.dds"), fine = reportOf(folder, "n16.png -o b.dds");
@@ -155,7 +155,7 @@ TEST(CompressMapCommand, EveryFormatIsReadAgainAsTheMap) {
     }
 }
 
-TEST(CompressMapCommand, PacksAstcByTheLibraryOrSaysThatItIsNotThere) {
+TEST(CompressMapCommand, CompressesAstcOrReportsTheMissingLibrary) {
     const TempFolder folder;
     writeWaves(folder);
     const ToolRun first = runTool(folder, "compress-map n16.png -o a.ktx2 --format astc-4x4 --threads 1");
@@ -179,7 +179,7 @@ TEST(CompressMapCommand, PacksAstcByTheLibraryOrSaysThatItIsNotThere) {
         EXPECT_EQ(runTool(folder, "compress-map n16.png " + arguments).exit_code, 2) << arguments;
 }
 
-TEST(CompressMapCommand, SaysWhyThereIsNoUastc) {
+TEST(CompressMapCommand, ExplainsWhyUastcIsUnsupported) {
     const TempFolder folder;
     const ToolRun run = runTool(folder, "compress-map n.png -o n.ktx2 --format uastc");
     EXPECT_EQ(run.exit_code, 2);
@@ -193,7 +193,7 @@ TEST(CompressMapCommand, SaysWhyThereIsNoUastc) {
     EXPECT_NE(other.err.find("must be one of bc5, eac-rg11, astc-4x4, rg8"), std::string::npos) << other.err;
 }
 
-TEST(MapErrorCommand, SaysOfATextureBesideItsSourceWhatCompressMapSaid) {
+TEST(MapErrorCommand, ReportsTheErrorThatCompressMapReported) {
     const TempFolder folder;
     writeWaves(folder);
     for (const std::string output : {"n.ktx2", "n.dds"}) {
@@ -213,7 +213,7 @@ TEST(MapErrorCommand, SaysOfATextureBesideItsSourceWhatCompressMapSaid) {
         EXPECT_NE(runTool(folder, "map-error " + arguments).exit_code, 0) << arguments;
 }
 
-TEST(MapErrorCommand, SaysOfATextureWhatItsFigureDoesNot) {
+TEST(MapErrorCommand, ExplainsWhatTheErrorOfATextureExcludes) {
     const TempFolder folder;
     writeWaves(folder);
     const auto beside = [&](const std::string& arguments) {
@@ -290,7 +290,7 @@ double mostOff(const TempFolder& folder, unsigned level) {
     return most;
 }
 
-TEST(CompressMapCommand, AlphaIsCoverageWhereTheTexelsSaySo) {
+TEST(CompressMapCommand, DetectsAlphaThatIsCoverage) {
     const TempFolder folder;
     const auto write = [&](const FloatImage& image) {
         const auto file = encodePng(image, 16);
@@ -355,7 +355,7 @@ TEST(CompressMapCommand, WritesHeadersOfOlderReaders) {
     EXPECT_EQ(runTool(folder, "convert-map n8.png -o a.png --dds-header legacy").exit_code, 2);
 }
 
-TEST(CompressMapCommand, PacksLevelsOnceMore) {
+TEST(CompressMapCommand, SupercompressesLevels) {
     const TempFolder folder;
     writeWaves(folder);
     const Json plain = reportOf(folder, "n8.png -o plain.ktx2"),
@@ -378,7 +378,7 @@ void writeCorrugated(const TempFolder& folder, std::uint32_t size, std::uint32_t
     folder.write("orm.png", std::span<const std::uint8_t>(*encodePng(orm, 8)));
 }
 
-TEST(CompressMapCommand, PutsWhatNormalsSpreadIntoTheRoughnessOfTheSameLevel) {
+TEST(CompressMapCommand, AddsTheSpreadOfNormalsToTheRoughnessOfTheSameLevel) {
     const TempFolder folder;
     writeCorrugated(folder, 16, 16);
     const Json report = reportOf(folder, "n.png -o levels/ --roughness orm.png -o2 levels/");
@@ -402,7 +402,7 @@ TEST(CompressMapCommand, PutsWhatNormalsSpreadIntoTheRoughnessOfTheSameLevel) {
     EXPECT_NEAR(orm->texels[0].y, 0.4, 0.003);
 }
 
-TEST(CompressMapCommand, RefusesWhatDoesNotFitTogether) {
+TEST(CompressMapCommand, RejectsConflictingOptions) {
     const TempFolder folder;
     writeCorrugated(folder, 16, 12);
     for (const std::string arguments :
@@ -415,7 +415,7 @@ TEST(CompressMapCommand, RefusesWhatDoesNotFitTogether) {
     EXPECT_FALSE(folder.has("n.ktx2"));
 }
 
-TEST(CompressMapCommand, SaysWhatTwoChannelsDoNotHold) {
+TEST(CompressMapCommand, ReportsTexelsThatTwoChannelsCannotRepresent) {
     const TempFolder folder;
     FloatImage image{8, 8, 8, std::vector<Vec3>(64, Vec3{0.5F, 0.95F, 0.3F}), std::vector<float>(64, 0.5F)};
     const auto file = encodePng(image, 8);
@@ -455,7 +455,7 @@ std::string vectorsOfSizes(std::array<double, 2> sizes) {
     return {file->begin(), file->end()};
 }
 
-TEST(CompressMapCommand, DoubtsVectorsThatNoNormalMapHasAndNotThoseOfOurMapsOf8Bits) {
+TEST(CompressMapCommand, WarnsAboutVectorsThatNoNormalMapHas) {
     const TempFolder folder;
     folder.write("free.png", vectorsOfSizes({0.7, 1.1}));
     folder.write("other.png", vectorsOfSizes({0.5, 1}));

@@ -106,7 +106,7 @@ TEST(ConvertMapCommand, InvertsGreenExactly) {
     EXPECT_EQ(runTool(folder, "convert-map -q - -o - --bits 8 < n.png").out.substr(1, 3), "PNG");
 }
 
-TEST(ConvertMapCommand, TakesBitangentsBeforeOrBehindConventions) {
+TEST(ConvertMapCommand, AcceptsBitangentsBeforeOrAfterConventions) {
     const TempFolder folder;
     writeSheet(folder);
     const std::string command = "convert-map -q bump.png --mesh a.glb -o ";
@@ -179,7 +179,7 @@ DVec3 directionIn(const Vec3& texel) {
 
 constexpr double kRounding = 6e-5;  // twice the rounding of 16 bits
 
-TEST(ConvertMapCommand, TurnsWorldSpaceWithTheNodesOfTheMesh) {
+TEST(ConvertMapCommand, TransformsWorldSpaceWithTheNodesOfTheMesh) {
     const TempFolder folder;
     writeSheet(folder);
     struct Case {
@@ -216,7 +216,7 @@ TEST(ConvertMapCommand, TurnsWorldSpaceWithTheNodesOfTheMesh) {
     }
 }
 
-TEST(ConvertMapCommand, RefusesAWorldInWhichAMeshStandsInSeveralWays) {
+TEST(ConvertMapCommand, RejectsWorldSpaceForMeshesWithSeveralTransforms) {
     const TempFolder folder;
     writeSheet(folder);
     const auto run_with = [&](const Json& second) {
@@ -238,7 +238,7 @@ TEST(ConvertMapCommand, RefusesAWorldInWhichAMeshStandsInSeveralWays) {
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "world.png"));
 }
 
-TEST(ConvertMapCommand, HonoursTheScaleOfEitherMaterial) {
+TEST(ConvertMapCommand, AppliesTheScaleOfBothMaterials) {
     const TempFolder folder;
     writeSheet(folder);
     const auto scaled = [&](const std::string& model, const std::string& name, double scale) {
@@ -278,7 +278,7 @@ TEST(ConvertMapCommand, WarnsWhenRoundingUndoesTheChange) {
     EXPECT_EQ(json["warnings"].dump().find("rounding") != std::string::npos, json["belowHalfStep"] == true);
 }
 
-TEST(ConvertMapCommand, SaysInOneLineWhatIsWrong) {
+TEST(ConvertMapCommand, ReportsErrorsInOneLine) {
     const TempFolder folder;
     writeSheet(folder);
     folder.write("broken.png", folder.read("bump.png").substr(0, 100));

@@ -77,7 +77,7 @@ TEST_F(ConvertMapRefusals, MaterialsThatShareUvsWhereNoneNamesTheMap) {
     EXPECT_EQ(convert("--mesh named.obj --to object"), 0) << said;
 }
 
-TEST_F(ConvertMapRefusals, HalvesThatShareTexelsAndLookTwoWaysInObjectSpace) {
+TEST_F(ConvertMapRefusals, HalvesThatShareTexelsWithDifferentObjectSpaceNormals) {
     const auto upright = [](const std::string& keyword, double x, double y) {
         return keyword == "v" ? " 0" + numbers(x, y) : std::string();
     };

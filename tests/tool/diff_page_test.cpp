@@ -39,7 +39,7 @@ TEST(DiffPage, ShowsAnglesAndTheWorstPlaces) {
     EXPECT_EQ(page.find("<div class=\"scroll\">"), std::string::npos) << "wide tables scroll by keys too";
 }
 
-TEST(DiffPage, TextOfFilesIsTextAndNothingIsLoaded) {
+TEST(DiffPage, EscapesTextOfFilesAndLoadsNothing) {
     const TempFolder folder;
     writePlainSquare(folder, "a<b>&.glb", 1);
     runTool(folder, "diff -q 'a<b>&.glb' 'a<b>&.glb' --html report.html");
@@ -59,7 +59,7 @@ TEST(DiffPage, EqualModelsHaveNoWorstPlaces) {
     EXPECT_EQ(pictureCount(folder.read("report.html")), 2U);
 }
 
-TEST(DiffPage, ThereIsNoneOfWhatCannotBeRead) {
+TEST(DiffPage, IsNotWrittenForUnreadableFiles) {
     const TempFolder folder;
     writePlainSquare(folder, "a.glb", 1);
     folder.write("broken.glb", std::string("glTF"));

@@ -63,7 +63,7 @@ std::string turnedSheet(int cells, bool with_normals, bool fits) {
     return text + faces;
 }
 
-TEST_F(Finish, LeavesAModelThatIsRightByteForByte) {
+TEST_F(Finish, KeepsACorrectModelByteForByte) {
     writeBumpMap(folder);
     writeFoldedObj(folder, "a.obj");
     make("generate a.obj -o right.glb");
@@ -73,7 +73,7 @@ TEST_F(Finish, LeavesAModelThatIsRightByteForByte) {
     EXPECT_FALSE(json["models"][0]["made"]["changed"].get<bool>());
 }
 
-TEST_F(Finish, OfAMeshWithoutNormalsAllTrianglesAgreeAndAllNormalsAreThere) {
+TEST_F(Finish, AddsNormalsAndMakesTheWindingConsistent) {
     folder.write("a.obj", turnedSheet(12, false, false));
     EXPECT_GT(turnable("a.obj"), 0);
     const Json json = report("a.obj -o out.glb");
@@ -83,7 +83,7 @@ TEST_F(Finish, OfAMeshWithoutNormalsAllTrianglesAgreeAndAllNormalsAreThere) {
     EXPECT_EQ(json["check"]["counts"]["error"], 0);
 }
 
-TEST_F(Finish, TurnsNoTriangleWhoseNormalsFitIt) {
+TEST_F(Finish, FlipsNoTriangleThatFitsItsNormals) {
     folder.write("a.obj", turnedSheet(12, true, true));
     make("generate a.obj -o a.glb");
     EXPECT_GT(turnable("a.glb"), 0);
@@ -95,7 +95,7 @@ TEST_F(Finish, TurnsNoTriangleWhoseNormalsFitIt) {
     EXPECT_EQ(turnable("all.glb"), 0);
 }
 
-TEST_F(Finish, TurnsTrianglesAgainstNormalsThatStay) {
+TEST_F(Finish, FlipsTrianglesThatContradictKeptNormals) {
     folder.write("a.obj", turnedSheet(12, true, false));
     make("generate a.obj -o a.glb");
     const Json json = report("a.glb -o out.glb");
@@ -135,7 +135,7 @@ TEST_F(Finish, LeavesNoErrorThatCheckFindsInTangentsOrNormals) {
     EXPECT_FALSE(primitives[1]["normalsGenerated"].get<bool>());
 }
 
-TEST_F(Finish, SaysWhatMakesUvsWhereTheyAreMissingAndDoesTheRest) {
+TEST_F(Finish, NamesToolsForMissingUvsAndDoesTheOtherSteps) {
     folder.write("a.obj", turnedSheet(6, false, false));
     const Json json = report("a.obj -o out.glb");
     ASSERT_EQ(json["remarks"].size(), 1U);
@@ -148,7 +148,7 @@ TEST_F(Finish, SaysWhatMakesUvsWhereTheyAreMissingAndDoesTheRest) {
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "b.glb"));
 }
 
-TEST_F(Finish, BrokenFilesAreOneLineAndNothingIsWritten) {
+TEST_F(Finish, MalformedFilesCauseOneLineAndNoFile) {
     folder.write("bad.glb", "glTF....");
     folder.write("a.obj", sheet(4, 0, true));
     for (const std::string arguments : {"bad.glb -o out.glb", "a.obj --low bad.glb -o out.glb", "none.obj -o out.glb",
@@ -206,7 +206,7 @@ class FinishLow : public BakeCommand {
     }
 };
 
-TEST_F(FinishLow, PutsAllMapsBesideTheModelAndInItThoseThatGltfHasAPlaceFor) {
+TEST_F(FinishLow, WritesAllMapsAndEmbedsThoseThatGltfSupports) {
     const Json json = Json::parse(finish("high.obj --low low.obj -o out/a.glb --json").out, nullptr, false);
     std::vector<std::string> wanted = {"out/a.glb"};
     for (const char* map :
@@ -241,7 +241,7 @@ TEST_F(FinishLow, GivesTheSameBytesForAnyThreads) {
     EXPECT_NE(folder.read("one/a.html").find("one/a_normal.png"), std::string::npos);
 }
 
-TEST_F(FinishLow, WhereNoRayMeetsAnythingNothingIsWritten) {
+TEST_F(FinishLow, WritesNothingIfNoRayHits) {
     std::string far = sheet(4, 0, false, "far", 900);
     folder.write("far.obj", far);
     const ToolRun run = runTool(folder, "finish far.obj --low low.obj -o a.glb --size 32 --reach 0.01 --maps normal");

@@ -54,7 +54,7 @@ TEST(FlipGreenCommand, PrintsJson) {
     EXPECT_EQ(failed["exitCode"], 4);
 }
 
-TEST(FlipGreenCommand, TakesAndGivesPipes) {
+TEST(FlipGreenCommand, ReadsAndWritesPipes) {
     const TempFolder folder;
     folder.write("n.png", pngFile(normalMapOf(16, bumps)));
     folder.write("n.jpg", jpegFile(normalMapOf(16, bumps), 90));
@@ -104,7 +104,7 @@ TEST(FlipGreenCommand, WritesNothingInADryRun) {
     EXPECT_EQ(folder.read("n.png"), png);
 }
 
-TEST(FlipGreenCommand, RefusesWithOneLineAndWritesNothing) {
+TEST(FlipGreenCommand, RejectsInputsWithOneLineAndWritesNothing) {
     const TempFolder folder;
     const std::string png = pngFile(normalMapOf(16, bumps));
     folder.write("n.png", png);
@@ -134,7 +134,7 @@ TEST(FlipGreenCommand, RefusesWithOneLineAndWritesNothing) {
     EXPECT_EQ(folder.read("n.png"), png);
 }
 
-TEST(FlipGreenCommand, MendsAModelWithTheCommandThatCheckNames) {
+TEST(FlipGreenCommand, FixesAModelWithTheCommandOfCheck) {
     const TempFolder folder;
     folder.write("m.mtl", "newmtl a\nnorm n.png\n");
     folder.write("n.png", pngFile(normalMapOf(256, bumps, true)));

@@ -18,7 +18,7 @@ bool isCompleteGlb(const std::string& bytes) {
     return length == bytes.size();
 }
 
-TEST(Generate, WritesTheOutputAndSaysWhatItDid) {
+TEST(Generate, WritesTheOutputAndReportsIt) {
     const TempFolder folder;
     writeFoldedObj(folder, "folded.obj");
     const ToolRun run = runTool(folder, "generate folded.obj -o out/folded.glb");
@@ -68,7 +68,7 @@ TEST(Generate, PacksFramesOfObjFilesToo) {
     EXPECT_EQ(alone.find("TANGENT"), std::string::npos) << alone;
 }
 
-TEST(Generate, SaysThatTangentsOfTheMethodBasisFollowNoUvs) {
+TEST(Generate, ReportsThatBasisTangentsFollowNoUvs) {
     const TempFolder folder;
     writeFoldedObj(folder, "folded.obj");
     EXPECT_NE(runTool(folder, "generate folded.obj -o basis.glb --method basis").out.find("do not follow the UVs"),
@@ -76,7 +76,7 @@ TEST(Generate, SaysThatTangentsOfTheMethodBasisFollowNoUvs) {
     EXPECT_EQ(runTool(folder, "generate folded.obj -o plain.glb").out.find("do not follow the UVs"), std::string::npos);
 }
 
-TEST(Generate, SaysWhichOptionsHaveNoEffect) {
+TEST(Generate, ReportsOptionsWithoutEffect) {
     const TempFolder folder;
     folder.write("bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/3/1\n");
     ASSERT_EQ(runTool(folder, "generate -q --all bare.obj -o has.glb").exit_code, 0);
@@ -129,7 +129,7 @@ TEST(Generate, HintsAtAllWhenNothingNeedsTangents) {
     EXPECT_NE(runTool(folder, "generate a.obj -o a.glb --all").out.find("1 generated"), std::string::npos);
 }
 
-TEST(Generate, RepairKeepsWhatItMadeItself) {
+TEST(Generate, RepairKeepsItsOwnOutput) {
     const TempFolder folder;
     writeFoldedObj(folder, "folded.obj");
     writeBumpMap(folder);
@@ -145,7 +145,7 @@ TEST(Generate, RepairKeepsWhatItMadeItself) {
         << inverted.out;
 }
 
-TEST(Generate, StripTakesAwayWhatNobodyNeeds) {
+TEST(Generate, StripRemovesUnneededTangents) {
     const TempFolder folder;
     folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
     ASSERT_EQ(runTool(folder, "generate a.obj -o a.glb --all").exit_code, 0);
@@ -155,7 +155,7 @@ TEST(Generate, StripTakesAwayWhatNobodyNeeds) {
     EXPECT_EQ(runTool(folder, "inspect b.glb").out.find("TANGENT"), std::string::npos);
 }
 
-TEST(Generate, TheContainerIsChosenWhenTheNameDoesNotSay) {
+TEST(Generate, ChoosesTheContainerIfTheNameHasNoExtension) {
     const TempFolder folder;
     writeFoldedObj(folder, "a.obj");
     EXPECT_EQ(runTool(folder, "generate a.obj -o b").exit_code, 0);
@@ -259,7 +259,7 @@ TEST(Generate, AFailedRunLeavesTheOldOutput) {
     EXPECT_EQ(folder.files(), (std::set<std::string>{"bad.obj", "out.glb"}));
 }
 
-TEST(Generate, WhatCannotBeWrittenExitsWithFourAndLeavesNothing) {
+TEST(Generate, AnUnwritableOutputExitsWithFourAndLeavesNothing) {
     const TempFolder folder;
     writeFoldedObj(folder, "a.obj");
     folder.write("file", "in the way");
@@ -319,7 +319,7 @@ TEST(Generate, AnInterruptLeavesACompleteFileOrNone) {
     }
 }
 
-TEST(Generate, PathsThatLeadOutsideAreRefused) {
+TEST(Generate, PathsThatLeadOutsideAreRejected) {
     const TempFolder folder;
     folder.write("data.bin", std::string(36, '\0'));
     folder.write("in/a.gltf",
@@ -370,7 +370,7 @@ void writeNoisyTube(const TempFolder& folder, const std::string& name, bool is_n
     folder.write(name, text);
 }
 
-TEST(Generate, TakesNoiseOutOfNormalsAndSaysSo) {
+TEST(Generate, DenoisesNormalsAndReportsIt) {
     const TempFolder folder;
     writeNoisyTube(folder, "noisy.obj", true);
     writeNoisyTube(folder, "clean.obj", false);

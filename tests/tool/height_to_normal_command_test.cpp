@@ -95,7 +95,7 @@ TEST(HeightToNormalCommand, TakesTheStrengthInUnitsOfTheMesh) {
     EXPECT_LT(errorOf(folder.read("up.png"), 0.05), 0.06);
 }
 
-TEST(HeightToNormalCommand, SaysWhatIsOdd) {
+TEST(HeightToNormalCommand, ReportsUnusualInputs) {
     const TempFolder folder;
     writeHeights(folder, 8);
     EXPECT_NE(runTool(folder, "height-to-normal height.png -o n.png --strength 1e6").out.find("warning"),
@@ -181,7 +181,7 @@ TEST(HeightToNormalCommand, GenerateConvertsMapBumpOfObj) {
 }
 
 /// Heights with a tint are still heights, and a colored picture is neither heights nor a normal map.
-TEST(HeightToNormalCommand, TakesMapBumpForHeightsOnlyWhereItIsGray) {
+TEST(HeightToNormalCommand, TreatsMapBumpAsHeightsOnlyIfItIsGray) {
     const TempFolder folder;
     writeWall(folder);
     const auto write = [&](double green, double blue) {

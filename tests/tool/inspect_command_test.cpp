@@ -23,7 +23,7 @@ TEST(Inspect, BeginsWithASummaryLine) {
     }
 }
 
-TEST(Inspect, SeesTheTangentsThatGenerateWrote) {
+TEST(Inspect, ReportsTheTangentsThatGenerateWrote) {
     const TempFolder folder;
     writeFoldedObj(folder, "a.obj");
     writeBumpMap(folder);
@@ -56,7 +56,7 @@ TEST(Inspect, OneBadFileDoesNotStopTheOthers) {
     EXPECT_NE(run.out.find("a.obj: 1 primitive"), std::string::npos);
 }
 
-TEST(Inspect, SaysWhatWasLeftOutAsAFileWasRead) {
+TEST(Inspect, ReportsDataIgnoredWhileReading) {
     const TempFolder folder;
     folder.write("a.obj", "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     EXPECT_NE(runTool(folder, "inspect a.obj").out.find("  warning   cannot find the material library 'none.mtl'\n"),

@@ -36,7 +36,7 @@ void expectBoth(const std::string& arguments) {
     EXPECT_EQ(document["files"][1]["error"]["place"], "line 1");
 }
 
-TEST(JsonOutput, SaysWhatBecameOfEachFile) {
+TEST(JsonOutput, ReportsTheResultOfEachFile) {
     expectBoth("generate in -o out --flip-green");
     expectBoth("inspect in");
     expectBoth("identify in");
@@ -99,7 +99,7 @@ Json soundReport() {
     return documentOf(folder, "check in", 3);
 }
 
-TEST(JsonOutput, ThatASchemaDoesNotAllowIsFound) {
+TEST(JsonOutput, ViolationsOfASchemaAreDetected) {
     const Json sound = soundReport();
     EXPECT_EQ(reportFaults(sound.dump()), "");
     const auto expectFault = [&](const char* place, const Json& value, const std::string& words) {

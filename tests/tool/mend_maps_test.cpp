@@ -107,7 +107,7 @@ const Kind kKinds[] = {
      }},
 };
 
-TEST(MendMaps, WhatCheckNamesMendsTheModelAndTheImage) {
+TEST(FixMaps, RemediesOfCheckFixTheModelAndTheImage) {
     const FloatImage right = floatsOf(soundMap());
     for (const Kind& kind : kKinds) {
         const TempFolder folder;
@@ -142,7 +142,7 @@ TEST(MendMaps, WhatCheckNamesMendsTheModelAndTheImage) {
     }
 }
 
-TEST(MendMaps, TexturesBecomePngsThatTheModelNamesPlainly) {
+TEST(FixMaps, TexturesBecomePngsWithoutAnExtension) {
     const TempFolder folder;
     const RgbImage map = normalMapOf(64, bumps);
     folder.write("n.png", pngFile(map));
@@ -190,7 +190,7 @@ double bumpsApart(double x, double y) {
     return h;
 }
 
-TEST(MendMaps, MendsRedAndGreenThatWereExchanged) {
+TEST(FixMaps, FixesExchangedRedAndGreen) {
     const TempFolder folder;
     const FloatImage right = floatsOf(normalMapOf(256, bumpsApart));
     FloatImage wrong = right;
@@ -210,7 +210,7 @@ TEST(MendMaps, MendsRedAndGreenThatWereExchanged) {
     EXPECT_LT(meanError(imageIn(folder, "map-mended.png"), right), 1);
 }
 
-TEST(MendMaps, NamesBothWaysToTurnTheVectorsOfAnImageThatWasTurned) {
+TEST(FixMaps, NamesBothRotationsOfTheVectorsOfARotatedImage) {
     const TempFolder folder;
     const FloatImage right = floatsOf(normalMapOf(256, bumpsApart));
     FloatImage wrong = right;
@@ -235,7 +235,7 @@ TEST(MendMaps, NamesBothWaysToTurnTheVectorsOfAnImageThatWasTurned) {
     EXPECT_EQ(findingsIn(folder, "mended.gltf")[0]["code"], "normalMapChannels");
 }
 
-TEST(MendMaps, OneCommandMendsChannelsAndGreen) {
+TEST(FixMaps, OneCommandFixesChannelsAndGreen) {
     const TempFolder folder;
     const FloatImage right = floatsOf(soundMap());
     FloatImage wrong = right;
@@ -256,7 +256,7 @@ TEST(MendMaps, OneCommandMendsChannelsAndGreen) {
     EXPECT_LT(meanError(imageIn(folder, "OUT.png"), right), 1);
 }
 
-TEST(MendMaps, TakesAMapOutOfObjectSpace) {
+TEST(FixMaps, ConvertsAMapFromObjectSpace) {
     const TempFolder folder;
     writeImage(folder, "map.png", floatsOf(soundMap()));
     folder.write("map.mtl", "newmtl a\nnorm map.png\n");
@@ -297,7 +297,7 @@ TEST(MendMaps, TakesAMapOutOfObjectSpace) {
     EXPECT_LT(meanError(imageIn(folder, "OUT.png"), right), 1);
 }
 
-TEST(MendMaps, NamesBothCausesOfACurlTheWrongWayRound) {
+TEST(FixMaps, NamesBothCausesOfAnInvertedCurl) {
     for (const bool is_red : {false, true}) {
         const TempFolder folder;
         const FloatImage right = floatsOf(soundMap());
@@ -322,7 +322,7 @@ TEST(MendMaps, NamesBothCausesOfACurlTheWrongWayRound) {
     }
 }
 
-TEST(MendMaps, ReadsWhatTheFileDeclares) {
+TEST(FixMaps, ReadsWhatTheFileDeclares) {
     const TempFolder folder;
     writeImage(folder, "map.png", floatsOf(soundMap(true)));
     writeSquare(folder, "map");
@@ -338,7 +338,7 @@ TEST(MendMaps, ReadsWhatTheFileDeclares) {
     EXPECT_NE(map["reason"].get<std::string>().find("declares"), std::string::npos);
 }
 
-TEST(MendMaps, NotesAScaleThatIsNotAboveZero) {
+TEST(FixMaps, NotesAScaleThatIsNotPositive) {
     for (const double scale : {1.0, 0.0, -1.0}) {
         const TempFolder folder;
         writeImage(folder, "map.png", floatsOf(soundMap()));
@@ -364,7 +364,7 @@ double pictureDifference(const FloatImage& a, const FloatImage& b) {
     return sum / static_cast<double>(a.texels.size());
 }
 
-TEST(MendMaps, WithoutImagesRepairKeepsInvertedSignsAndOverwriteReadsNone) {
+TEST(FixMaps, WithoutImagesRepairKeepsInvertedSignsAndOverwriteReadsNone) {
     const TempFolder folder;
     writeImage(folder, "map.png", floatsOf(soundMap(false)));
     writeSquare(folder, "map");
@@ -385,7 +385,7 @@ TEST(MendMaps, WithoutImagesRepairKeepsInvertedSignsAndOverwriteReadsNone) {
               std::string::npos);
 }
 
-TEST(MendMaps, OverwriteWarnsWhereSignsAndGreenCancel) {
+TEST(FixMaps, OverwriteWarnsWhereSignsAndGreenCancel) {
     const TempFolder folder;
     writeImage(folder, "map.png", floatsOf(soundMap(true)));
     writeSquare(folder, "map");

@@ -83,7 +83,7 @@ bool findsNormalsAgainstWinding(const TempFolder& folder, const std::string& fil
     return runTool(folder, "check --json " + file).out.find("\"normalsAgainstWinding\"") != std::string::npos;
 }
 
-TEST(MendWindingOfFiles, TurnsFacesOfObjBeforeNormalsAreMade) {
+TEST(FixWindingOfFiles, FlipsFacesOfObjBeforeNormalsAreComputed) {
     TempFolder folder;
     writeTorus(folder, false);
     const Json report = fileReport(folder, "generate --all --normals angle --fix-winding a.obj -o b.glb");
@@ -100,7 +100,7 @@ TEST(MendWindingOfFiles, TurnsFacesOfObjBeforeNormalsAreMade) {
     EXPECT_EQ(folder.read("c.glb"), folder.read("d.glb"));
 }
 
-TEST(MendWindingOfFiles, LeavesCheckNothingToFindWhateverTheFileIsPackedAs) {
+TEST(FixWindingOfFiles, LeavesNoFindingForAnyCompression) {
     TempFolder folder;
     writeTorus(folder, true);
     for (const std::string packed : {"none", "meshopt", "draco"}) {
@@ -122,7 +122,7 @@ TEST(MendWindingOfFiles, LeavesCheckNothingToFindWhateverTheFileIsPackedAs) {
     }
 }
 
-TEST(MendWindingOfFiles, FollowsTheVolumeWhereNormalsAreMadeAnew) {
+TEST(FixWindingOfFiles, FollowsTheVolumeIfNormalsAreRecomputed) {
     TempFolder folder;
     writeTorus(folder, true);
     ASSERT_EQ(0, runTool(folder, "generate -q --all a.obj -o a.glb").exit_code);
@@ -133,7 +133,7 @@ TEST(MendWindingOfFiles, FollowsTheVolumeWhereNormalsAreMadeAnew) {
 }
 
 /// Cards around a point, with normals that point away from it; every second card has the opposite winding.
-TEST(MendWindingOfFiles, TurnsEachCardTowardItsOwnNormals) {
+TEST(FixWindingOfFiles, FlipsEachCardTowardItsOwnNormals) {
     TempFolder folder;
     constexpr int kCards = 10;
     std::string text, faces;
@@ -208,7 +208,7 @@ std::string tetrahedron(unsigned mode, const std::vector<int>& corners, bool wit
     return json.dump();
 }
 
-TEST(MendWindingOfFiles, MakesListsOfStripsAndOfWhatHasNone) {
+TEST(FixWindingOfFiles, ConvertsStripsAndUnindexedPrimitivesToLists) {
     TempFolder folder;
     // The tetrahedron inside out, as a strip and without indices, and with one flipped face.
     folder.write("strip.gltf", tetrahedron(5, {0, 1, 2, 3, 0, 1}, true));

@@ -132,7 +132,7 @@ TEST(LongNames, OnTheCommandLineCannotBeReadOrWritten) {
     }
 }
 
-TEST(NamesThatAreNoUtf8, AreKnownToTheManifest) {
+TEST(NamesThatAreNotUtf8, AreKnownToTheManifest) {
     const TempFolder folder;
     const std::string data = triangleBytes();
     // Two names that are equal once invalid bytes are replaced, and one that equals the encoding of the first.
@@ -168,7 +168,7 @@ TEST(NamesThatAreNoUtf8, AreKnownToTheManifest) {
     EXPECT_NE(added.find(R"("inputEncoded":"in/b%FF.gltf")"), std::string::npos) << added;
 }
 
-TEST(Reports, MakeTheFoldersThatAreMissing) {
+TEST(Reports, CreateMissingFolders) {
     const TempFolder folder;
     folder.write("a.bin", triangleBytes());
     folder.write("a.gltf", triangle("a.bin"));
@@ -187,7 +187,7 @@ TEST(Reports, MakeTheFoldersThatAreMissing) {
     }
 }
 
-TEST(Reports, ThatCannotBeWrittenCostNothingElse) {
+TEST(Reports, UnwritableReportsAffectNothingElse) {
     const TempFolder folder;
     folder.write("a.bin", triangleBytes());
     folder.write("a.gltf", triangle("a.bin"));
@@ -231,7 +231,7 @@ TEST(Reports, ThatCannotBeWrittenCostNothingElse) {
     }
 }
 
-TEST(OneRun, BringsNoTwoFilesOfOneName) {
+TEST(OneRun, WritesNoTwoFilesOfOneName) {
     // a copies shared.bin; c.glb is split into shared.gltf and its own shared.bin.
     for (const char* order : {"p/a.gltf q/shared.glb", "q/shared.glb p/a.gltf"}) {
         const TempFolder folder;
@@ -257,7 +257,7 @@ TEST(OneRun, BringsNoTwoFilesOfOneName) {
     }
 }
 
-TEST(OneRun, ChangesInPlaceWhatNoOtherModelNeeds) {
+TEST(OneRun, ChangesUnsharedFilesInPlace) {
     for (const char* order : {"a.gltf b.gltf", "b.gltf a.gltf", "a.gltf b.gltf --jobs 2"}) {
         const TempFolder folder;
         folder.write("x.bin", triangleBytes());
@@ -281,7 +281,7 @@ TEST(OneRun, ChangesInPlaceWhatNoOtherModelNeeds) {
     }
 }
 
-TEST(OneRun, ChangesAModelThatIsNamedTwiceOnce) {
+TEST(OneRun, ProcessesARepeatedModelOnce) {
     const TempFolder folder;
     folder.write("x.bin", triangleBytes());
     folder.write("x.gltf", triangle("x.bin"));
@@ -292,7 +292,7 @@ TEST(OneRun, ChangesAModelThatIsNamedTwiceOnce) {
     EXPECT_EQ(run.out.find("\"input\""), run.out.rfind("\"input\"")) << run.out;
 }
 
-TEST(FilesThatAModelNames, AreInputsAlsoWhereTheyAreNotRead) {
+TEST(ReferencedFiles, AreInputsEvenIfTheyAreNotRead) {
     const TempFolder folder;
     writeBumpMap(folder);
     folder.write("height.png", folder.read("bump.png"));
@@ -322,7 +322,7 @@ TEST(FilesThatAModelNames, AreInputsAlsoWhereTheyAreNotRead) {
     EXPECT_EQ(runTool(folder, "bake c.gltf --high b.glb -q --size 4 -o new.png").exit_code, 0);
 }
 
-TEST(FilesThatAModelNames, AreBakedAnewWhereTheyAreNotRead) {
+TEST(ReferencedFiles, MayBeReplacedByABakeThatDoesNotReadThem) {
     const TempFolder folder;
     writeBumpMap(folder);
     folder.write("named.png", folder.read("bump.png"));
@@ -356,7 +356,7 @@ TEST(FilesThatAModelNames, AreBakedAnewWhereTheyAreNotRead) {
     }
 }
 
-TEST(DryRuns, TidyAndMakeNothing) {
+TEST(DryRuns, CreateAndRemoveNothing) {
     const TempFolder folder;
     writeBumpMap(folder);
     folder.write("a.bin", triangleBytes());

@@ -31,7 +31,7 @@ std::map<std::string, std::string> contentsOf(const TempFolder& folder) {
     return contents;
 }
 
-TEST(Outputs, NeverTakeThePlaceOfAnInput) {
+TEST(Outputs, NeverReplaceAnInput) {
     const TempFolder folder;
     writeModels(folder);
     fs::create_directory(folder.path("sub"));
@@ -79,7 +79,7 @@ TEST(Outputs, NeverTakeThePlaceOfAnInput) {
     }
 }
 
-TEST(Outputs, AReportIsNoFileThatBakingRead) {
+TEST(Outputs, AReportNeverReplacesAnInputOfTheBake) {
     const TempFolder folder;
     writeModels(folder);
     std::string bin;
@@ -103,7 +103,7 @@ TEST(Outputs, AReportIsNoFileThatBakingRead) {
     }
 }
 
-TEST(Outputs, OfModelsAtOneTimeKeepTheirOwnBuffers) {
+TEST(Outputs, OfParallelModelsKeepTheirOwnBuffers) {
     const TempFolder folder;
     // Two triangles that differ only in their buffers, which have the same name.
     for (const auto& [name, byte] : {std::pair("p/a.gltf", '\x3f'), std::pair("q/b.gltf", '\x40')}) {
@@ -143,7 +143,7 @@ TEST(Outputs, OfOneRunAreDifferentFiles) {
     }
 }
 
-TEST(Outputs, WhoseNamesAreMadeReplaceNoReportAndNoManifest) {
+TEST(Outputs, WithDerivedNamesReplaceNoReportAndNoManifest) {
     const TempFolder folder;
     writeModels(folder);
     folder.write("two.obj",
@@ -215,7 +215,7 @@ TEST(Outputs, RemoveTemporaryFilesOfKilledRunsInAllTheirFolders) {
     }
 }
 
-TEST(Outputs, KeepThePermissionsThatWereThere) {
+TEST(Outputs, KeepExistingPermissions) {
     const TempFolder folder;
     writeModels(folder);
     for (const char* name : {"page.html", "page.sarif", "out.glb", "picture.png"}) {
@@ -231,7 +231,7 @@ TEST(Outputs, KeepThePermissionsThatWereThere) {
     }
 }
 
-TEST(Outputs, GoIntoPipesAndDevicesAndLeaveThemThere) {
+TEST(Outputs, AreWrittenToPipesAndDevicesWithoutReplacingThem) {
     const TempFolder folder;
     writeModels(folder);
     ASSERT_EQ(mkfifo(folder.path("pipe").c_str(), 0600), 0);
@@ -297,7 +297,7 @@ TEST(Outputs, FollowNoLinkOfAnotherUserInAFolderForAll) {
     }
 }
 
-TEST(Outputs, HaveNamesAsLongAsNamesMayBe) {
+TEST(Outputs, SupportNamesOfMaximumLength) {
     const TempFolder folder;
     writeModels(folder);
     const std::string longest = std::string(251, 'n');
@@ -315,7 +315,7 @@ TEST(Outputs, AreTheSameWithoutWaitingForTheDisk) {
     EXPECT_EQ(folder.read("a.glb"), folder.read("b.glb"));
 }
 
-TEST(Names, ThatTurnTextAroundAreShownEscaped) {
+TEST(Names, WithBidirectionalControlsAreEscaped) {
     const TempFolder folder;
     writeModels(folder);
     // A right-to-left override, a line separator, an isolate; a Persian word keeps its joiner.
@@ -337,7 +337,7 @@ TEST(Names, ThatTurnTextAroundAreShownEscaped) {
     EXPECT_NE(runTool(folder, "check '" + joined + "'").out.find(joined), std::string::npos);
 }
 
-TEST(Folders, ThatCannotBeReadCostNoOther) {
+TEST(Folders, UnreadableFoldersAffectNoOther) {
     if (std::system("test $(id -u) = 0 && command -v setpriv > /dev/null") != 0) GTEST_SKIP() << "needs another user";
     const TempFolder folder;
     writeModels(folder);
@@ -355,7 +355,7 @@ TEST(Folders, ThatCannotBeReadCostNoOther) {
     fs::permissions(folder.path("in/b"), fs::perms::all);
 }
 
-TEST(Descriptors, ThatAreClosedOrFullEndNoRun) {
+TEST(Descriptors, ClosedOrFullDescriptorsEndNoRun) {
     const TempFolder folder;
     writeModels(folder);
     folder.write("bad.glb", "no model");
@@ -369,7 +369,7 @@ TEST(Descriptors, ThatAreClosedOrFullEndNoRun) {
     }
 }
 
-TEST(Descriptors, ThatAreClosedLetNoMessageIntoAFile) {
+TEST(Descriptors, ClosedDescriptorsPutNoMessageIntoAFile) {
     const TempFolder folder;
     writeModels(folder);
     folder.write("in/bad.glb", "no model");
@@ -391,7 +391,7 @@ TEST(Descriptors, ThatAreClosedLetNoMessageIntoAFile) {
     }
 }
 
-TEST(Descriptors, AFullStdoutIsOneLineWhereItIsTheProduct) {
+TEST(Descriptors, AFullStdoutCausesOneLineIfItIsTheOutput) {
     const TempFolder folder;
     writeModels(folder);
     for (const char* command :

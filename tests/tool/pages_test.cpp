@@ -57,7 +57,7 @@ TEST(BashCompletion, KnowsCommandsOptionsAndValues) {
     EXPECT_EQ(offered(folder, "tspace inspect --jobs ''"), (Words{""}));
 }
 
-TEST(BashCompletion, OffersFilesWhereFilesAreMeant) {
+TEST(BashCompletion, OffersFilesForFileArguments) {
     const TempFolder folder;
     folder.write("model one.glb", "x");
     folder.write("models/a.glb", "x");

@@ -17,7 +17,7 @@ void writePlain(const TempFolder& folder) {
     ASSERT_EQ(runTool(folder, "generate made.glb -q --overwrite --convention opengl -o plain.glb").exit_code, 0);
 }
 
-TEST(Pipe, GivesTheBytesThatAFileGets) {
+TEST(Pipe, GivesTheBytesOfAFile) {
     const TempFolder folder;
     writePlain(folder);
     ASSERT_EQ(runTool(folder, "generate plain.glb -q --overwrite -o file.glb").exit_code, 0);
@@ -58,7 +58,7 @@ TEST(Pipe, IsReadByTheCommandsThatOnlyRead) {
     EXPECT_EQ(runTool(folder, "inspect -", R"(echo ' {"asset":{"version":"2.0"}}' |)").exit_code, 0);
 }
 
-TEST(Pipe, ThatHoldsNoModelIsBadInputInOneLine) {
+TEST(Pipe, WithoutAModelIsBadInputInOneLine) {
     const TempFolder folder;
     writePlain(folder);
     struct Case {
@@ -80,7 +80,7 @@ TEST(Pipe, ThatHoldsNoModelIsBadInputInOneLine) {
     EXPECT_NE(full.err.find("cannot write standard output: No space left on device"), std::string::npos) << full.err;
 }
 
-TEST(Pipe, IsNoPlaceForSeveralModelsAndNoTerminal) {
+TEST(Pipe, AcceptsNeitherSeveralModelsNorATerminal) {
     const TempFolder folder;
     writePlain(folder);
     for (const char* wrong :
@@ -99,7 +99,7 @@ TEST(Pipe, IsNoPlaceForSeveralModelsAndNoTerminal) {
     EXPECT_EQ(folder.read("typescript").find("glTF\x02"), std::string::npos);
 }
 
-TEST(DryRun, WritesNothingAndSaysWhatItWould) {
+TEST(DryRun, WritesNothingAndReportsWhatItWouldWrite) {
     const TempFolder folder;
     writePlain(folder);
     const std::set<std::string> before = folder.files();
@@ -124,7 +124,7 @@ TEST(DryRun, WritesNothingAndSaysWhatItWould) {
     EXPECT_EQ(folder.files(), before);
 }
 
-TEST(OutputThatIsTheInput, NeedsInPlaceUnderWhateverName) {
+TEST(OutputThatIsTheInput, NeedsInPlaceUnderAnyName) {
     const TempFolder folder;
     writePlain(folder);
     std::filesystem::create_symlink("plain.glb", folder.path("symbolic.glb"));
@@ -144,7 +144,7 @@ TEST(OutputThatIsTheInput, NeedsInPlaceUnderWhateverName) {
     EXPECT_NE(folder.read("plain.glb"), before);
 }
 
-TEST(OutputWithoutAnExtension, IsAFileAndTheToolSaysSo) {
+TEST(OutputWithoutAnExtension, IsAFileAndIsReported) {
     const TempFolder folder;
     writePlain(folder);
     const ToolRun run = runTool(folder, "generate plain.glb -o foo");
@@ -157,7 +157,7 @@ TEST(OutputWithoutAnExtension, IsAFileAndTheToolSaysSo) {
     EXPECT_TRUE(folder.has("foo/plain.glb"));
 }
 
-TEST(WhatCannotBeOpened, SaysWhy) {
+TEST(UnreadablePaths, ReportsTheReason) {
     const TempFolder folder;
     folder.write("file.glb", "x");
     std::filesystem::create_directory(folder.path("folder.glb"));

@@ -59,7 +59,7 @@ TEST(RenderCommand, DrawsAllInstancesOfANode) {
     EXPECT_EQ(nlohmann::json::parse(run.out)["triangles"], 1536) << run.err;
 }
 
-TEST(RenderCommand, TakesPipes) {
+TEST(RenderCommand, ReadsAndWritesPipes) {
     const TempFolder folder;
     writeBentSheet(folder);
     ASSERT_EQ(runTool(folder, "render -q sheet.glb -o a.png --size 64").exit_code, 0);
@@ -74,7 +74,7 @@ TEST(RenderCommand, NamedViewsAreAngles) {
     EXPECT_EQ(folder.read("a.png"), folder.read("b.png"));
 }
 
-TEST(RenderCommand, ALegendIsThereUnlessItIsLeftOut) {
+TEST(RenderCommand, ALegendIsDrawnUnlessDisabled) {
     const TempFolder folder;
     writeBentSheet(folder);
     ASSERT_EQ(runTool(folder, "render -q sheet.glb -o with.png --size 400").exit_code, 0);

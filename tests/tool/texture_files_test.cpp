@@ -50,7 +50,7 @@ void writeMaps(const TempFolder& folder) {
     folder.write("bc5.dds", ddsFile(83, 64, 64, bc5Blocks(map)));
 }
 
-TEST(TextureFiles, ConvertMapMakesZ) {
+TEST(TextureFiles, ConvertMapReconstructsZ) {
     const TempFolder folder;
     writeMaps(folder);
     const FloatImage png = imageIn(folder, "n.png");
@@ -123,7 +123,7 @@ TEST(TextureFiles, FlipGreenKeepsTheirFormatOrMakesAPng) {
     EXPECT_EQ(run.errorLines(), 1);
 }
 
-TEST(TextureFiles, WhatIsWrongIsOneLine) {
+TEST(TextureFiles, AnErrorIsOneLine) {
     const TempFolder folder;
     writeMaps(folder);
     folder.write("cut.dds", folder.read("bc5.dds").substr(0, 1000));

@@ -75,7 +75,7 @@ TEST_F(TgaFiles, OfAnObjAreJudgedAndInvertedIntoAPng) {
     EXPECT_EQ(findingsOf("flipped.glb"), findingsOf("flipped_png.glb"));
 }
 
-TEST_F(TgaFiles, OfAGltfAreNotLookedAt) {
+TEST_F(TgaFiles, OfAGltfAreIgnored) {
     ASSERT_EQ(runTool(folder, "generate png.obj -o png.gltf").exit_code, 0);
     std::string gltf = folder.read("png.gltf");
     const std::size_t name = gltf.find("n.png");
@@ -89,7 +89,7 @@ TEST_F(TgaFiles, OfAGltfAreNotLookedAt) {
     EXPECT_EQ(runTool(folder, "generate tga.gltf -o tga.glb").exit_code, 0);
 }
 
-TEST_F(TgaFiles, ThatAreCutShortAreOneLineAndExitCode3) {
+TEST_F(TgaFiles, TruncatedFilesCauseOneLineAndExitCode3) {
     const std::string whole = folder.read("n.tga");
     for (const std::size_t size :
          {std::size_t{0}, std::size_t{17}, std::size_t{18}, std::size_t{1000}, whole.size() - 27}) {

@@ -71,7 +71,7 @@ TEST(Usage, WrongCommandLinesExitWithTwoAndOneLine) {
     EXPECT_EQ(folder.files(), (std::set<std::string>{"a.obj", "b.obj", "folded.mtl"}));
 }
 
-TEST(Usage, AnOutputIsAskedForInWords) {
+TEST(Usage, RequestsAMissingOutputInASentence) {
     const TempFolder folder;
     writeFoldedObj(folder, "a.obj");
     const ToolRun run = runTool(folder, "generate a.obj");
@@ -92,7 +92,7 @@ TEST(Usage, WithoutACommandTheToolListsAllCommands) {
         EXPECT_NE(run.out.find(name), std::string::npos) << run.out;
 }
 
-TEST(Usage, AWordOfOtherToolsIsAnsweredWithTheCommandLine) {
+TEST(Usage, SuggestsTheCommandLineForWordsOfOtherTools) {
     for (const auto& [word, says] : {std::pair("fix", "generate --repair IN"),
                                      {"repair", "generate --repair IN"},
                                      {"version", "tspace --version"},
@@ -104,7 +104,7 @@ TEST(Usage, AWordOfOtherToolsIsAnsweredWithTheCommandLine) {
     }
 }
 
-TEST(Usage, AnImageInPlaceOfAModelIsAnsweredWithTheCommandForImagesAndTheReverse) {
+TEST(Usage, SuggestsTheOtherCommandForAnImageInsteadOfAModelAndViceVersa) {
     for (const char* command : {"identify a.png", "inspect a.KTX2", "render a.png -o b.png", "generate a.jpg -o b.glb",
                                 "finish a.dds -o b.glb", "diff a.png b.png", "bake a.png --high b.glb -o c.png"}) {
         const ToolRun run = runTool(TempFolder(), command);
@@ -135,7 +135,7 @@ TEST(Usage, AWrongExtensionOfAnOutputIsAWrongCommandLineInEveryCommand) {
     }
 }
 
-TEST(Usage, AMistypedWordIsAnsweredWithTheOneThatIsNear) {
+TEST(Usage, SuggestsTheNearestWordForATypo) {
     struct Case {
         const char* arguments;
         const char* meant;
@@ -167,7 +167,7 @@ TEST(Usage, AMistypedWordIsAnsweredWithTheOneThatIsNear) {
     }
 }
 
-TEST(Usage, ValuesMayStandInEveryUsualPlace) {
+TEST(Usage, ValuesMayHaveEveryUsualPosition) {
     const TempFolder folder;
     writeFoldedObj(folder, "a.obj");
     for (const char* spelling : {"-o out.glb", "-oout.glb", "--output out.glb", "--output=out.glb", "-qo out.glb",
@@ -182,7 +182,7 @@ TEST(Usage, ValuesMayStandInEveryUsualPlace) {
     EXPECT_EQ(runTool(folder, "inspect ./-a.obj").exit_code, 0);
 }
 
-TEST(Usage, AWrongLineSaysWhatIsWrongWithIt) {
+TEST(Usage, AWrongLineIsExplained) {
     struct Case {
         const char* arguments;
         const char* says;
@@ -208,7 +208,7 @@ TEST(Usage, AWrongLineSaysWhatIsWrongWithIt) {
     }
 }
 
-TEST(Usage, NumbersAreTakenAsPeopleWriteThem) {
+TEST(Usage, NumbersHaveUsualSpellings) {
     const TempFolder folder;
     writeFoldedObj(folder, "a.obj");
     for (const std::string number : {"60", "+60", "060", "60.", ".5", "0.5e2", "5E+1", "1e-300", "0"}) {

@@ -34,7 +34,7 @@ class Installed {
 
 constexpr const char* kPage = "<body><!-- model --><script>1</script></body>";
 
-TEST(ViewCommand, PutsTheModelAndWhatItNamesIntoThePage) {
+TEST(ViewCommand, EmbedsTheModelAndItsFilesInThePage) {
     const Installed installed(kPage);
     const ToolRun run = installed.run("view a.obj -o a.html");
     ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -47,7 +47,7 @@ TEST(ViewCommand, PutsTheModelAndWhatItNamesIntoThePage) {
     EXPECT_TRUE(page.ends_with("<script>1</script></body>"));
 }
 
-TEST(ViewCommand, ReadsAsAPageWithoutScripts) {
+TEST(ViewCommand, IsReadableWithoutScripts) {
     const Installed installed(kPage);
     const auto page = [&](const char* epoch) {
         const ToolRun run = runTool(installed.folder(), "view a.obj -o a.html",
@@ -68,7 +68,7 @@ TEST(ViewCommand, ReadsAsAPageWithoutScripts) {
     EXPECT_EQ(page("1767225600"), made);
 }
 
-TEST(ViewCommand, NamesOfFilesInTheCommandAreNoMarkup) {
+TEST(ViewCommand, EscapesNamesOfFilesInTheCommand) {
     const Installed installed(kPage);
     ASSERT_EQ(installed.run("generate a.obj -o '<b>.glb'").exit_code, 0);
     ASSERT_EQ(installed.run("view '<b>.glb' -o a.html").exit_code, 0);
@@ -95,7 +95,7 @@ TEST(ViewCommand, FollowsTheRulesForFilesThatAModelNames) {
     EXPECT_NE(installed.folder().read("x.html").find("data-name=\"sub/bump.png\""), std::string::npos);
 }
 
-TEST(ViewCommand, NamesAreNoMarkup) {
+TEST(ViewCommand, EscapesNames) {
     const Installed installed(kPage);
     ASSERT_EQ(installed.run("generate a.obj -o '\"><b\t&.glb'").exit_code, 0);
     ASSERT_EQ(installed.run("view '\"><b\t&.glb' -o a.html").exit_code, 0);
@@ -110,7 +110,7 @@ TEST(ViewCommand, PrintsJson) {
     EXPECT_EQ(json["outputBytes"], installed.folder().read("a.html").size());
 }
 
-TEST(ViewCommand, RefusesWithOneLineAndWritesNothing) {
+TEST(ViewCommand, RejectsInputsWithOneLineAndWritesNothing) {
     const Installed installed(kPage);
     installed.folder().write("broken.glb", "glTF");
     installed.folder().write("a.fbx", "Kaydara");

@@ -9,7 +9,7 @@ import bpy
 
 
 def install(archive):
-    """As an extension, by its manifest, from Blender 4.2 on, and as an add-on before. Gives the name of its module."""
+    """Installs as an extension from Blender 4.2 on, and as an add-on before. Returns the name of its module."""
     if bpy.app.version < (4, 2, 0):
         bpy.ops.preferences.addon_install(filepath=archive, overwrite=True)
         bpy.ops.preferences.addon_enable(module="tspace_addon")

@@ -43,7 +43,7 @@ def new_mesh(add, name, **options):
 
 
 def use(*things):
-    """Selects these; the first is active."""
+    """Selects these objects; the first one becomes active."""
     bpy.ops.object.select_all(action="DESELECT")
     for thing in things:
         thing.select_set(True)

@@ -66,7 +66,7 @@ internal sealed class JsonReader
 internal static class Cases
 {
     private static readonly string[] Calls = { "tangents", "normals", "sanitize", "make_indexed_frames" };
-    /// <summary>What this binding does not have; cases with it are left to other languages.</summary>
+    /// /// <summary>Features that this binding lacks; cases that need them are tested in other languages.</summary>
     private static readonly string[] Lacks =
         { "domain", "normal_indices", "uv_indices", "smoothing_groups", "orthogonalize_all" };
 

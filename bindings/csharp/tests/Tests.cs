@@ -52,7 +52,7 @@ internal sealed class Golden
     }
 }
 
-// As Unity's.
+// Same layout as Unity's vector.
 [StructLayout(LayoutKind.Sequential)]
 internal struct Vector3
 {

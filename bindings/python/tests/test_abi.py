@@ -35,14 +35,14 @@ ENUMERATIONS = {
 
 
 def structs():
-    """By their names in C."""
+    """Returns the types of _abi by their names in C."""
     kinds = {name: kind for name, kind in vars(_abi).items() if isinstance(kind, type) and issubclass(kind, ctypes.Structure)}
     del kinds["Structure"]
     return kinds
 
 
 def expected():
-    """C expression -> what Python says."""
+    """Returns the values in Python for C expressions."""
     values = {"TSPACE_NO_ELEMENT": _abi.NO_ELEMENT, "TSPACE_NO_CORNER": _abi.NO_CORNER}
     values["TSPACE_ALL_THREADS"] = _abi.ALL_THREADS
     values["TSPACE_MAX_CORNERS"] = _abi.MAX_CORNERS
@@ -63,7 +63,7 @@ class Names(unittest.TestCase):
 
     @unittest.skipUnless(OPTIONS.exists(), "the sources are not there")
     def test_options_of_files_are_those_that_the_library_knows(self):
-        """Every function is asked, past the check of names, for every option that any has."""
+        """Passes every option that any function has to every function, without Python's check of names."""
         names = set()
         for path in OPTIONS.rglob("*.cpp"):
             names.update(name.replace("-", "_") for name in re.findall(r'"(?:-\w+, )?--([a-z-]+)"', path.read_text()))

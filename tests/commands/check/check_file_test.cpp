@@ -15,7 +15,7 @@ namespace {
 using gltf::Json;
 
 /// Frames are relative to the mesh's own space.
-TEST(CheckFile, DoesNotLookAtNodesThatMoveScaleOrMirror) {
+TEST(CheckFile, IgnoresNodeTransforms) {
     const TestModel still;
     TestModel moved;
     const std::size_t times = moved.builder.addAccessor(std::vector<float>{0, 1}, 5126, "SCALAR", 2);
@@ -31,7 +31,7 @@ TEST(CheckFile, DoesNotLookAtNodesThatMoveScaleOrMirror) {
     EXPECT_GT(inverted.check().error_count, a.error_count);
 }
 
-TEST(CheckFile, FindsNothingInAGoodFile) {
+TEST(CheckFile, FindsNothingInACorrectFile) {
     const CheckReport report = TestModel().check();
     EXPECT_EQ(codes(report), CodeCounts{});
     EXPECT_EQ(report.primitive_count, 1u);
@@ -40,7 +40,7 @@ TEST(CheckFile, FindsNothingInAGoodFile) {
     EXPECT_EQ(report.format, "gltf");
 }
 
-TEST(CheckFile, SaysWhereAndInWhat) {
+TEST(CheckFile, StatesTheLocationAndTheObject) {
     const CheckReport report = TestModel(false, true).check();
     ASSERT_EQ(codes(report), CodeCounts{"error signsInverted"});
     const Finding& finding = report.findings[0];
@@ -62,7 +62,7 @@ TEST(CheckFile, FindsANormalMapWhoseGreenPointsDown) {
     EXPECT_EQ(codes(TestModel(true).check({.images = false})), CodeCounts{});
 }
 
-TEST(CheckFile, KnowsThatInvertedSignsAndGreenDownCancelOut) {
+TEST(CheckFile, DetectsThatInvertedSignsAndGreenDownCancelOut) {
     const CheckReport report = TestModel(true, true).check();
     EXPECT_EQ(codes(report), (CodeCounts{"warning signsInverted", "note greenFlipped"}));
     for (const Finding& finding : report.findings) {
@@ -119,7 +119,7 @@ CheckReport checkHalves(const TempFolder& folder, bool with_left, bool with_righ
     return report ? *report : CheckReport{};
 }
 
-TEST(CheckFile, ReadsTheTexelsOfAMapThatTrianglesShow) {
+TEST(CheckFile, ReadsOnlyTexelsCoveredByTriangles) {
     const TempFolder folder;
     EXPECT_EQ(codes(checkHalves(folder, true, false)), CodeCounts{}) << "the other half may hold anything";
     EXPECT_EQ(codes(checkHalves(folder, false, true)), CodeCounts{"warning greenFlipped"});
@@ -128,7 +128,7 @@ TEST(CheckFile, ReadsTheTexelsOfAMapThatTrianglesShow) {
     EXPECT_EQ(codes(checkHalves(folder, true, false, R"({"offset":[-0.5,7]})")), CodeCounts{"warning greenFlipped"});
 }
 
-TEST(CheckFile, SaysWhichPartOfAMixedMapPointsDown) {
+TEST(CheckFile, NamesThePartOfAMixedMapThatPointsDown) {
     const TempFolder folder;
     const CheckReport report = checkHalves(folder, true, true);
     ASSERT_EQ(codes(report), CodeCounts{"warning greenMixed"});
@@ -148,7 +148,7 @@ TEST(CheckFile, AdvisesBothOrNeitherWhereTwoFaultsCancelOut) {
     }
 }
 
-TEST(CheckFile, LeavesOpenWhatAMapThatItCannotReadWouldCancel) {
+TEST(CheckFile, StatesThatAnUnreadableMapMayCancelTheFault) {
     for (const char* content : {"", "RIFF0000WEBP", "\xABKTX 20", "no image"}) {
         TestModel model(false, true);
         model.folder.write("normal.png", content);
@@ -162,7 +162,7 @@ TEST(CheckFile, LeavesOpenWhatAMapThatItCannotReadWouldCancel) {
 }
 
 /// An explicitly requested convention determines which signs are right.
-TEST(CheckFile, LeavesNothingOpenWhereAnotherConventionIsAskedFor) {
+TEST(CheckFile, GivesADefiniteVerdictForAnExplicitConvention) {
     TestModel model;
     model.folder.write("normal.png", "no image");
     EXPECT_EQ(codes(model.check({.convention = conventions::opengl})),
@@ -170,13 +170,13 @@ TEST(CheckFile, LeavesNothingOpenWhereAnotherConventionIsAskedFor) {
     EXPECT_EQ(codes(model.check()), CodeCounts{"note normalMapUnreadable"});
 }
 
-TEST(CheckFile, TakesGreenThatPointsDownForRightWhereTheConventionHasItSo) {
+TEST(CheckFile, AcceptsGreenDownIfTheConventionRequiresIt) {
     const CheckReport report = TestModel(true, true).check({.convention = conventions::directx});
     ASSERT_EQ(codes(report), CodeCounts{"note greenFlipped"});
     EXPECT_EQ(report.findings[0].remedy.find("tspace"), std::string::npos);
 }
 
-TEST(CheckFile, CorrectsSignsAndAMapTogetherThatHalfOfItsMeshesAreMadeFor) {
+TEST(CheckFile, FixesSignsAndMapTogetherIfHalfOfTheMeshesMatchTheMap) {
     TestModel model(true, true);
     addPatch(model.builder, goodPatch(Seam::turned));
     const CheckReport report = model.check();
@@ -190,7 +190,7 @@ TEST(CheckFile, CorrectsSignsAndAMapTogetherThatHalfOfItsMeshesAreMadeFor) {
     EXPECT_EQ(codes(*checkFile(output)), CodeCounts{});
 }
 
-TEST(CheckFile, WeighsEveryNormalMapOfAPrimitive) {
+TEST(CheckFile, ConsidersEveryNormalMapOfAPrimitive) {
     TestModel model(false, true);
     model.folder.write("down.png", pngFile(normalMapOf(256, bumps, true)));
     model.builder.json()["images"].push_back(Json{{"uri", "down.png"}});
@@ -201,7 +201,7 @@ TEST(CheckFile, WeighsEveryNormalMapOfAPrimitive) {
         << "one of two is cancelled";
 }
 
-TEST(CheckFile, SaysOnceThatTangentsAreNotNeeded) {
+TEST(CheckFile, ReportsUnneededTangentsOnce) {
     TestModel model(false, true);
     Json& primitives = model.builder.json()["meshes"][0]["primitives"];
     for (int i = 0; i < 3; ++i) primitives.push_back(primitives[0]);
@@ -216,7 +216,7 @@ TEST(CheckFile, SaysOnceThatTangentsAreNotNeeded) {
 }
 
 /// An empty target is not allowed, so its tangents cannot be removed.
-TEST(CheckFile, AdvisesNothingThatCannotBeDone) {
+TEST(CheckFile, AdvisesNothingImpossible) {
     TestModel model;
     Json& primitive = model.builder.json()["meshes"][0]["primitives"][0];
     primitive["targets"] = Json::array({Json{{"TANGENT", primitive["attributes"]["NORMAL"]}}});
@@ -232,7 +232,7 @@ TEST(CheckFile, AdvisesNothingThatCannotBeDone) {
     }
 }
 
-TEST(CheckFile, LooksAtNothingThatAnUnlitMaterialDoesNotUse) {
+TEST(CheckFile, IgnoresMapsThatAnUnlitMaterialDoesNotUse) {
     TestModel model(false, true);
     model.builder.json()["materials"][0]["extensions"]["KHR_materials_unlit"] = Json::object();
     EXPECT_EQ(codes(model.check()), CodeCounts{"note tangentsUnused"});
@@ -262,7 +262,7 @@ TEST(CheckFile, GivesOneVerdictWithAndWithoutAnUnlitFallback) {
 }
 
 /// VRM 0.x describes materials at the root of the file, and KHR_materials_unlit is the fallback of its MToon.
-TEST(CheckFile, KnowsTheNormalMapsOfVrm0) {
+TEST(CheckFile, FindsTheNormalMapsOfVrm0) {
     const auto verdict = [](const char* shader, const char* textures, bool has_gltf_map) {
         TestModel model(false, true);
         Json& root = model.builder.json();
@@ -280,7 +280,7 @@ TEST(CheckFile, KnowsTheNormalMapsOfVrm0) {
     }
 }
 
-TEST(CheckFile, SaysThatAnImageWasNotLookedAt) {
+TEST(CheckFile, ReportsThatAnImageWasNotExamined) {
     TestModel model;
     model.folder.write("normal.png", "RIFF0000WEBP");
     CheckReport report = model.check();
@@ -329,7 +329,7 @@ TEST(CheckFile, IsTheSameForAnyNumberOfThreads) {
     EXPECT_FALSE(texts(1).empty());
 }
 
-TEST(CheckFile, LooksAtAnObjWithoutComplainingThatItHasNoTangents) {
+TEST(CheckFile, DoesNotReportMissingTangentsOfAnObj) {
     const TempFolder folder;
     folder.write("m.mtl", "newmtl a\nnorm n.png\n");
     folder.write("n.png", pngFile(normalMapOf(256, bumps, true)));
@@ -342,7 +342,7 @@ TEST(CheckFile, LooksAtAnObjWithoutComplainingThatItHasNoTangents) {
     EXPECT_EQ(report->findings[0].place, "usemtl a");
 }
 
-TEST(CheckFile, PassesOnWhatReadingHadToSay) {
+TEST(CheckFile, PassesOnWarningsOfTheReader) {
     const TempFolder folder;
     const std::string file = folder.write("a.obj",
                                           "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvn 0 0 1\n"
@@ -356,7 +356,7 @@ TEST(CheckFile, PassesOnWhatReadingHadToSay) {
     EXPECT_EQ(report->findings[0].place, "") << "it is about the whole file";
 }
 
-TEST(CheckFile, TellsHowFarItIs) {
+TEST(CheckFile, ReportsItsProgress) {
     TestModel model;
     addPatch(model.builder, goodPatch(Seam::none));
     addPatch(model.builder, goodPatch(Seam::none));

@@ -39,7 +39,7 @@ TEST(CheckModels, FindsTheInvertedSignsOfTwoSidedPlane) {
     EXPECT_EQ(report.error_count, 1u);
 }
 
-TEST(CheckModels, SaysOnceThatNobodySeesTheTangentsOfAFile) {
+TEST(CheckModels, ReportsOnceThatTheTangentsOfAFileAreInvisible) {
     for (const char* model : {"khronos/Suzanne/Suzanne.gltf", "khronos/ClearCoatTest.glb", "assets/Ghost.glb"}) {
         TSPACE_NEEDS_SHARED("models/" + std::string(model));
         const CheckReport report = check(model);
@@ -66,7 +66,7 @@ TEST(CheckModels, FindsTheInvertedSignsOfChessBoard) {
     EXPECT_EQ(find(report, FindingCode::signsInverted)->severity, Severity::error);
 }
 
-TEST(CheckModels, HasNoErrorWhereExportersDidWell) {
+TEST(CheckModels, HasNoErrorOnCorrectExports) {
     for (const char* model :
          {"khronos/Lantern.glb", "khronos/FlightHelmet/FlightHelmet.gltf", "khronos/ClearCoatTest.glb",
           "khronos/BoomBoxWithAxes.glb", "khronos/SheenCloth.glb", "khronos/MultiUVTest/MultiUVTest.gltf",
@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(All, Models, testing::ValuesIn(modelFiles("models")),
                          [](const auto& model) { return testName(model.param); });
 
 /// Every corrupt file gives a report or an error.
-TEST(CheckBadFiles, EndWell) {
+TEST(CheckBadFiles, GiveAReportOrAnError) {
     TSPACE_NEEDS_SHARED("bad");
     std::size_t files = 0, refused = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(shared("bad"))) {

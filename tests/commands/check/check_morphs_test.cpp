@@ -60,7 +60,7 @@ void collapse(const ScenePrimitive& patch, SceneMorphTarget& target) {
     });
 }
 
-TEST(CheckMorphs, ForgivesTangentsOfWhatATargetCollapses) {
+TEST(CheckMorphs, IgnoresTangentsOfCollapsedTriangles) {
     ScenePrimitive patch = goodPatch();
     patch.morph_targets = {bend(patch, 1.0)};
     collapse(patch, patch.morph_targets[0]);
@@ -70,7 +70,7 @@ TEST(CheckMorphs, ForgivesTangentsOfWhatATargetCollapses) {
     EXPECT_EQ(codesOf(patch), Codes{});
 }
 
-TEST(CheckMorphs, FindsMorphTangentsThatDoNotFitBesideWhatCollapses) {
+TEST(CheckMorphs, FindsWrongMorphTangentsNextToCollapsedTriangles) {
     ScenePrimitive patch = goodPatch();
     patch.morph_targets = {bend(patch, 1.0)};
     collapse(patch, patch.morph_targets[0]);

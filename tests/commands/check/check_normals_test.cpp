@@ -103,7 +103,7 @@ TEST(CheckSeams, FindsOneSurfaceWhosePrimitivesHaveTheirOwnNormals) {
     EXPECT_EQ(found[0].place, "/meshes/0/primitives/0");
 }
 
-TEST(CheckSeams, SaysNothingWhereAnEdgeMayBeMeantOrTheSurfaceIsSmooth) {
+TEST(CheckSeams, ReportsNothingAtPossibleHardEdgesAndSmoothBorders) {
     EXPECT_TRUE(seamsOf({strip(0, 0, 6, 8, false), strip(1, 48, 6, 8, false)}).empty()) << "smooth";
     EXPECT_TRUE(seamsOf({strip(0, 0, 1, 48, true), strip(1, 48, 6, 8, true)}).empty())
         << "a flat side, and one that bends";
@@ -157,7 +157,7 @@ ScenePrimitive rolled(double how, bool has_normals = true) {
     return primitive;
 }
 
-TEST(CheckMorphNormals, FindsWhatIsMissingAndWhatIsWrong) {
+TEST(CheckMorphNormals, FindsMissingAndWrongDeltas) {
     EXPECT_TRUE(checkPrimitive(rolled(1), {}, true)->empty());
     EXPECT_TRUE(checkPrimitive(rolled(0.9), {}, true)->empty()) << "other weights";
     for (const auto& [primitive, code] : {std::pair(rolled(0), FindingCode::morphNormalsMissing),
@@ -192,7 +192,7 @@ TEST(CheckMorphNormals, DoesNotJudgeWhereTrianglesAreFlipped) {
     EXPECT_EQ(checkPrimitive(folded, {}, true)->front().code, FindingCode::morphNormalsWrong);
 }
 
-TEST(CheckMorphNormals, LooksAtTheChangeAndNotAtTheNormals) {
+TEST(CheckMorphNormals, JudgesTheChangeAndNotTheNormals) {
     ScenePrimitive tilted = rolled(1);
     const Vec3 lean{0, 0.6f, 0.8f};
     std::vector<Vec3> offsets;
@@ -258,7 +258,7 @@ TEST(CheckMorphNormals, AtBordersAreThoseOfTheWholeMesh) {
     EXPECT_EQ(wrongNormals(roof[0], roof), 1u);
 }
 
-TEST(CheckMorphNormals, ThatLeanMayLeanTheOtherWayWhereAFaceSpins) {
+TEST(CheckMorphNormals, TiltedNormalsMayTiltOppositelyIfAFaceRotates) {
     ScenePrimitive square = squareFrom(0);
     square.normals = std::vector<Vec3>(4, Vec3{0.6F, 0, 0.8F});
     const std::vector<Vec3> spin = {{1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, -1, 0}};
@@ -305,7 +305,7 @@ TEST(CheckMorphNormals, FindsOneNormalThatATargetCancels) {
     EXPECT_EQ(checkPrimitive(primitive, {}, true)->front().remedy, "Export the normals of the targets again.");
 }
 
-TEST(CheckMorphNormals, SaysWhatIsTrueOfFiles) {
+TEST(CheckMorphNormals, ReportsTheFaultsOfFiles) {
     TSPACE_NEEDS_SHARED("reports/morph_right.glb");
     const auto find = [](const char* name) {
         const auto report = checkFile(shared(std::string("reports/") + name).string());

@@ -74,7 +74,7 @@ Json& packedAccessor(GltfBuilder& model) {
     return model.json()["accessors"][firstPrimitive(model)["attributes"]["_FRAME32"].get<std::size_t>()];
 }
 
-TEST(CheckPacked, SaysHowGoodTheyAreInEveryFormat) {
+TEST(CheckPacked, ReportsTheErrorInEveryFormat) {
     for (const FrameFormat format : kAllFormats) {
         SCOPED_TRACE(frameFormatName(format));
         const PackedGrid grid([](GltfBuilder&) {});
@@ -96,7 +96,7 @@ TEST(CheckPacked, SaysHowGoodTheyAreInEveryFormat) {
     }
 }
 
-TEST(CheckPacked, FindsNothingInWhatGenerateMakesOfModels) {
+TEST(CheckPacked, FindsNothingInOutputsOfGenerate) {
     double worst = 0;
     for (const char* name : {"khronos/NormalTangentTest.glb", "derived/NormalTangentTest_quantized.glb",
                              "blender/01_morphed_cube/01_morphed_cube.gltf", "khronos/CesiumMan.glb"}) {
@@ -121,7 +121,7 @@ TEST(CheckPacked, FindsNothingInWhatGenerateMakesOfModels) {
     EXPECT_GT(worst, 0.1) << "it was measured";
 }
 
-TEST(CheckPacked, ComparesWithWhatBrokenTangentsAreMendedTo) {
+TEST(CheckPacked, ComparesWithRepairedTangents) {
     const TempFolder folder;
     const std::string input = folder.write("in.glb", withTangents(Grid(4)).glb()),
                       output = folder.path("out.glb").string();
@@ -129,7 +129,7 @@ TEST(CheckPacked, ComparesWithWhatBrokenTangentsAreMendedTo) {
     EXPECT_EQ(find(check(output), FindingCode::packedFramesDiffer), nullptr) << "packing again would change nothing";
 }
 
-TEST(CheckPacked, FindsFramesAndSignsOfOthers) {
+TEST(CheckPacked, FindsWrongFramesAndSigns) {
     const PackedGrid turned([](GltfBuilder& model) {
         const std::vector<Vec3> normals(1, {0, 0, 1});
         const std::vector<Vec4> tangents(1, {0, 1, 0, -1});
@@ -168,7 +168,7 @@ TEST(CheckPacked, SmallDifferencesAreANote) {
     EXPECT_EQ(finding->severity, Severity::note);
 }
 
-TEST(CheckPacked, FindsAccessorsThatAreNoPackedFramesAndTheAdviceMendsThem) {
+TEST(CheckPacked, FindsAccessorsThatAreNotPackedFramesAndTheirRemedyWorks) {
     struct Case {
         std::string fault;
         std::function<void(GltfBuilder&)> edit;
@@ -225,7 +225,7 @@ TEST(CheckPacked, FindsHalfOfAPair) {
     EXPECT_EQ(finding->message, "_GLTF_SNORM8_NORMAL needs the attribute _GLTF_SNORM8_TANGENT, which is missing");
 }
 
-TEST(CheckPacked, AnotherLengthIsRefusedWhereNothingMakesItAnew) {
+TEST(CheckPacked, RejectsAWrongLengthIfNothingRecomputesIt) {
     const PackedGrid grid([](GltfBuilder& model) { packedAccessor(model)["count"] = 3; });
     GenerateOptions other;
     other.storage.pack = FrameFormat::oct32;
@@ -244,7 +244,7 @@ TEST(CheckPacked, AccessorsThatLeaveTheirBufferAreAnError) {
     EXPECT_EQ(report.error().code, ErrorCode::invalidFile);
 }
 
-TEST(CheckPacked, WhereNothingCanBePackedTheAdviceNamesNoCommand) {
+TEST(CheckPacked, GivesNoCommandIfNothingCanBePacked) {
     const PackedGrid grid([](GltfBuilder& model) {
         packedAccessor(model)["normalized"] = true;
         firstPrimitive(model)["attributes"].erase("TANGENT");
@@ -256,7 +256,7 @@ TEST(CheckPacked, WhereNothingCanBePackedTheAdviceNamesNoCommand) {
     EXPECT_EQ(finding->remedy.find("tspace"), std::string::npos) << finding->remedy;
 }
 
-TEST(CheckPacked, TangentsThatAreOnlyPackedAreMissingForOthersAlone) {
+TEST(CheckPacked, OnlyPackedTangentsAreMissingForOtherReaders) {
     for (const PackDrop drop : {PackDrop::tangents, PackDrop::all}) {
         const PackedGrid grid([](GltfBuilder&) {});
         pack(grid.file(), grid.output(), FrameFormat::frame32, drop);

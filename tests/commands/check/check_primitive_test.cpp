@@ -130,7 +130,7 @@ TEST(Check, FindsMissingTangents) {
     EXPECT_EQ(codesOf(patch), Codes{}) << "nobody needs them";
 }
 
-TEST(Check, FindsTangentsThatNobodyNeeds) {
+TEST(Check, FindsUnusedTangents) {
     ScenePrimitive patch = goodPatch();
     patch.uses.clear();
     EXPECT_EQ(codesOf(patch), Codes{"note tangentsUnused"});
@@ -139,7 +139,7 @@ TEST(Check, FindsTangentsThatNobodyNeeds) {
     EXPECT_EQ(codesOf(patch), Codes{"note tangentsUnused"});
 }
 
-TEST(Check, SaysNoMoreOfTangentsThatNobodyNeeds) {
+TEST(Check, ReportsNothingElseAboutUnusedTangents) {
     ScenePrimitive patch = goodPatch();
     edit(patch.tangents, [](auto& tangents) {
         for (Vec4& t : tangents) t = {kNan, 0, 2, -t.w};
@@ -149,14 +149,14 @@ TEST(Check, SaysNoMoreOfTangentsThatNobodyNeeds) {
 }
 
 /// In glTF, points with tangents are lit with the normal map of their material.
-TEST(Check, LeavesTangentsToPointsThatHaveANormalMap) {
+TEST(Check, AcceptsTangentsOfPointsWithANormalMap) {
     ScenePrimitive patch = goodPatch();
     patch.corners = {};
     patch.mode = "points";
     EXPECT_EQ(codesOf(patch), Codes{});
 }
 
-TEST(Check, MakesANoteOfNormalsThatUnlitMaterialsDoNotUse) {
+TEST(Check, NotesNormalsThatUnlitMaterialsDoNotUse) {
     ScenePrimitive patch = goodPatch();
     patch.uses.clear();
     patch.tangents = {};
@@ -171,7 +171,7 @@ TEST(Check, MakesANoteOfNormalsThatUnlitMaterialsDoNotUse) {
 }
 
 /// Foliage often uses the normals of the whole tree.
-TEST(Check, WarnsOfNormalsAgainstTheWindingWhereBothSidesAreShown) {
+TEST(Check, WarnsOfNormalsAgainstTheWindingOfDoubleSidedMaterials) {
     ScenePrimitive patch = goodPatch();
     edit(patch.corners, [](auto& corners) {
         for (std::size_t c = 0; c < corners.size() * 7 / 10; c += 3) std::swap(corners[c], corners[c + 1]);
@@ -199,7 +199,7 @@ TEST(Check, FindsTangentsThatAreNotUnit) {
     EXPECT_EQ(codesOf(patch), Codes{"error tangentsNotUnit"}) << "none at all is worse";
 }
 
-TEST(Check, FindsTangentsThatLeanOutOfTheSurface) {
+TEST(Check, FindsTangentsThatAreTiltedOutOfTheSurface) {
     const auto leaning = [](float by) {
         ScenePrimitive patch = goodPatch();
         edit(patch.tangents, [&](auto& tangents) {
@@ -316,7 +316,7 @@ TEST(Check, FindsDirectionsThatAreOff) {
 
 /// Collapses the UVs of a patch to a point except for one column of its first half: only the triangles there determine
 /// the right direction.
-TEST(Check, LetsTrianglesWithoutUvAreaVoteInNothing) {
+TEST(Check, IgnoresTrianglesWithoutUvArea) {
     ScenePrimitive patch = goodPatch();
     edit(patch.uv_sets[0], [](auto& uvs) {
         for (std::size_t v = 0; v < uvs.size(); ++v) {
@@ -338,7 +338,7 @@ TEST(Check, LetsTrianglesWithoutUvAreaVoteInNothing) {
     EXPECT_EQ(codesOf(patch), (Codes{"error signsInverted", "warning uvsDegenerate"}));
 }
 
-TEST(Check, HoldsNothingAgainstWhatGenerateGives) {
+TEST(Check, AcceptsTangentsOfGenerate) {
     EXPECT_TRUE(rc::check([] {
         ScenePrimitive patch = goodPatch(Seam::none);
         // Few UVs, so that many triangles have no area, fold over or overlap.
@@ -369,7 +369,7 @@ TEST(Check, HoldsNothingAgainstWhatGenerateGives) {
 }
 
 /// A mesh of text whose second UV set was never unwrapped.
-TEST(Check, ExplainsNothingByAUvSetWithoutArea) {
+TEST(Check, DoesNotBlameAUvSetWithoutArea) {
     ScenePrimitive patch = goodPatch();
     edit(patch.tangents, [](auto& tangents) {
         for (Vec4& t : tangents) t = {-t.x, -t.y, -t.z, t.w};
@@ -470,7 +470,7 @@ TEST(Check, EveryCodeHasANameAndARemedy) {
     EXPECT_STREQ(findingName(static_cast<FindingCode>(kFindingCodeCount)), "");
 }
 
-TEST(ExamineTangents, SaysWhyTangentsAreNotKept) {
+TEST(ExamineTangents, ReportsWhyTangentsAreNotKept) {
     ScenePrimitive patch = goodPatch(Seam::mirrored);
     const auto why = [&] {
         const Result<FrameHealth> health = examineTangents(viewOf(patch), CheckOptions{});
@@ -520,7 +520,7 @@ TEST(ExamineTangents, SurvivesGarbage) {
     }));
 }
 
-TEST(CheckFile, RefusesOptionsWithoutMeaning) {
+TEST(CheckFile, RejectsInvalidOptions) {
     for (const CheckOptions& options : {CheckOptions{.direction_deg = -1}, CheckOptions{.error_share = NAN}}) {
         const Result<CheckReport> report = checkFile("unread.glb", options);
         ASSERT_FALSE(report);

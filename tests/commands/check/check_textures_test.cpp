@@ -17,7 +17,7 @@ namespace {
 
 using gltf::Json;
 
-TEST(CheckFile, NamesTheFormatOfAnImageThatIsNotRead) {
+TEST(CheckFile, NamesTheFormatOfAnUnsupportedImage) {
     TestModel model;
     model.folder.write("normal.png", "\xabKTX 20\xbb\r\n\x1a\n");
     model.setTextureExtension("KHR_texture_basisu");
@@ -35,7 +35,7 @@ std::string plainKtx2(bool green_down) {
     return ktx2File(parts);
 }
 
-TEST(CheckFile, LooksAtKtx2AndDds) {
+TEST(CheckFile, ReadsKtx2AndDds) {
     TestModel model;
     model.setTextureExtension("KHR_texture_basisu");
     model.folder.write("normal.png", plainKtx2(false));
@@ -86,7 +86,7 @@ double degreesOff(const std::string& file, std::uint32_t size) {
     return std::sqrt(3 * sum / static_cast<double>(map.rgb.size()));
 }
 
-TEST(CheckFile, SaysAboutHowFarVectorsAreOffThatWerePackedAsColors) {
+TEST(CheckFile, EstimatesTheErrorOfVectorsCompressedAsColors) {
     TestModel model;
     model.setTextureExtension("EXT_texture_webp");
     const RgbImage map = normalMapOf(256, bumps);
@@ -105,7 +105,7 @@ TEST(CheckFile, SaysAboutHowFarVectorsAreOffThatWerePackedAsColors) {
     EXPECT_NEAR(degreesIn(coarse.findings[0]) / degreesOff(etc1s, 64), 0.9, 0.25) << coarse.findings[0].message;
 }
 
-TEST(CheckFile, FindsATextureThatClaimsTheSrgbCurveOfLinearNumbers) {
+TEST(CheckFile, FindsATextureThatDeclaresLinearNumbersAsSrgb) {
     const RgbImage map = normalMapOf(256, bumps);
     Ktx2Parts parts{.format = 29, .width = 256, .height = 256, .levels = {{map.rgb.begin(), map.rgb.end()}}};
     parts.unpacked = {map.rgb.size()};
@@ -161,7 +161,7 @@ TEST(CheckFile, FindsXAndYInOtherChannelsOfATexture) {
     }
 }
 
-TEST(CheckFile, LooksAtWebp) {
+TEST(CheckFile, ReadsWebp) {
     TestModel model;
     model.folder.write("normal.png", webpFile(normalMapOf(256, bumps, true), false));
     model.setTextureExtension("EXT_texture_webp");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cones of directions contain exactly the directions between those added.
+// A cone of directions contains exactly the directions between the added ones.
 #include <gtest/gtest.h>
 
 #include "commands/check/direction_cones.h"
@@ -19,7 +19,7 @@ TEST(DirectionCone, OfOneDirectionIsThatDirection) {
     EXPECT_NEAR(cone.distanceTo(1.0 + kHalfTurn), kHalfTurn, 1e-12);
 }
 
-TEST(DirectionCone, GoesTheShortWayRoundTheTurn) {
+TEST(DirectionCone, UsesTheShorterArc) {
     std::vector<double> angles{3.0, -3.0};
     const DirectionCone cone = coneAround(angles);
     EXPECT_EQ(cone.distanceTo(kHalfTurn), 0);
@@ -33,7 +33,7 @@ TEST(DirectionCone, IsEverythingWhereNoHalfTurnIsFree) {
     EXPECT_TRUE(coneAround({}).empty());
 }
 
-TEST(DirectionCone, HoldsEveryWeightedMeanOfItsDirections) {
+TEST(DirectionCone, ContainsEveryWeightedMeanOfItsDirections) {
     EXPECT_TRUE(rc::check([] {
         const double middle = anyNumber(-3, 3);
         std::vector<double> angles;
@@ -48,7 +48,7 @@ TEST(DirectionCone, HoldsEveryWeightedMeanOfItsDirections) {
     }));
 }
 
-TEST(DirectionDistances, IsTheAngleThatATangentWasTurnedBy) {
+TEST(DirectionDistances, EqualTheRotationOfATangent) {
     EXPECT_TRUE(rc::check([] {
         ScenePrimitive patch = goodPatch(Seam::turned);
         const double by = anyNumber(20, 120);
@@ -62,7 +62,7 @@ TEST(DirectionDistances, IsTheAngleThatATangentWasTurnedBy) {
     }));
 }
 
-TEST(DirectionDistances, SaysNothingWhereNothingIsKnown) {
+TEST(DirectionDistances, AreUndefinedWithoutADirection) {
     ScenePrimitive patch = goodPatch();
     edit(patch.uv_sets[0], [](auto& uvs) {
         for (Vec2& uv : uvs) uv = {0.5f, 0.5f};
@@ -72,7 +72,7 @@ TEST(DirectionDistances, SaysNothingWhereNothingIsKnown) {
         EXPECT_EQ(distance, kUnknownDirection);
 }
 
-TEST(DescribeSurface, SumsAreasToTheWhole) {
+TEST(DescribeSurface, SumsAreasToTheTotal) {
     const ScenePrimitive patch = goodPatch();
     const Surface surface = describeSurface(viewOf(patch));
     double sum = 0;

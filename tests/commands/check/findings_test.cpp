@@ -8,7 +8,7 @@ namespace {
 
 using Vertices = std::vector<std::uint32_t>;
 
-TEST(Tally, NamesEachVertexOnceThoughItsCornersCount) {
+TEST(Tally, NamesEachVertexOnceAndCountsItsCorners) {
     Tally first, second;
     for (const std::uint32_t vertex : {4U, 4U, 7U, 4U}) first.add(vertex, 1);
     for (const std::uint32_t vertex : {7U, 2U, 2U}) second.add(vertex, 1);

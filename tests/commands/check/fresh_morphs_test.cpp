@@ -61,7 +61,7 @@ GltfBuilder anyMorphModel() {
     return builder;
 }
 
-RC_GTEST_PROP(FreshMorphs, AreNotFaulted, ()) {
+RC_GTEST_PROP(FreshMorphs, HaveNoFindings, ()) {
     const TempFolder folder;
     const std::string out = folder.path("out.gltf").string();
     const auto made = generateFile(folder.write("in.gltf", anyMorphModel().gltfText()), out);

@@ -46,7 +46,7 @@ std::uint8_t withoutSrgb(std::uint8_t c) {
     return byteOf(part <= 0.04045 ? part / 12.92 : std::pow((part + 0.055) / 1.055, 2.4));
 }
 
-TEST(MapContent, IsNormalsForSoundMaps) {
+TEST(MapContent, IsNormalsForValidMaps) {
     const auto flat = [](double, double) { return 0.0; };
     const auto stripes = [](double x, double) { return 0.02 * std::sin(40 * x); };
     const auto steep = [](double x, double y) { return 10 * bumps(x, y); };
@@ -96,7 +96,7 @@ TEST(MapContent, IsNormalsForMapsThatAreFlatNearlyEverywhere) {
     EXPECT_EQ(lookAt(normalMapOf(256, rivet)).content, MapContent::normals);
 }
 
-TEST(MapContent, TellsTwoChannels) {
+TEST(MapContent, DetectsTwoChannels) {
     for (const int blue : {0, 127, 255}) {
         const MapLook look =
             lookAt(changed(sound(), [&](std::uint8_t* texel) { texel[2] = static_cast<std::uint8_t>(blue); }));
@@ -107,12 +107,12 @@ TEST(MapContent, TellsTwoChannels) {
     EXPECT_EQ(lookAt(changed(flat, [](std::uint8_t* texel) { texel[2] = 0; })).content, MapContent::twoChannels);
 }
 
-TEST(MapContent, TellsZFromZeroToOne) {
+TEST(MapContent, DetectsZFromZeroToOne) {
     const RgbImage map = changed(sound(), [](std::uint8_t* texel) { texel[2] = byteOf(texel[2] / 127.5 - 1); });
     EXPECT_EQ(lookAt(map).content, MapContent::unsignedZ);
 }
 
-TEST(MapContent, TellsZFromZeroToOneInJpeg) {
+TEST(MapContent, DetectsZFromZeroToOneInJpeg) {
     const RgbImage map = changed(sound(), [](std::uint8_t* texel) { texel[2] = byteOf(texel[2] / 127.5 - 1); });
     for (const int quality : {70, 85, 95}) {
         std::string why;
@@ -121,7 +121,7 @@ TEST(MapContent, TellsZFromZeroToOneInJpeg) {
     }
 }
 
-TEST(MapContent, TellsTwoChannelsThatLeanToOneSide) {
+TEST(MapContent, DetectsTwoChannelsThatTiltToOneSide) {
     const RgbImage leaning = normalMapOf(128, [](double x, double y) { return 2 * bumps(x, y) + 0.4 * x; });
     EXPECT_EQ(lookAt(leaning).content, MapContent::normals);
     for (const int blue : {0, 128, 255}) {
@@ -130,7 +130,7 @@ TEST(MapContent, TellsTwoChannelsThatLeanToOneSide) {
     }
 }
 
-TEST(MapContent, TellsXInAlphaFromHeightsWithAMask) {
+TEST(MapContent, DistinguishesXInAlphaFromHeightsWithAMask) {
     std::vector<std::uint8_t> alpha;
     for (std::size_t i = 0; i < sound().rgb.size(); i += 3) alpha.push_back(sound().rgb[i]);
     for (const int other : {0, 255, -1}) {
@@ -148,7 +148,7 @@ TEST(MapContent, TellsXInAlphaFromHeightsWithAMask) {
     EXPECT_EQ(lookAt(heights, mask).content, MapContent::height);
 }
 
-TEST(MapContent, TellsExchangedAndInvertedChannels) {
+TEST(MapContent, DetectsExchangedAndInvertedChannels) {
     struct Case {
         int order[3];
         bool is_inverted;
@@ -168,7 +168,7 @@ TEST(MapContent, TellsExchangedAndInvertedChannels) {
     }
 }
 
-TEST(MapContent, TellsColors) {
+TEST(MapContent, DetectsColors) {
     const auto encode = [](const auto& curve) {
         return [&curve](std::uint8_t* texel) {
             for (int k = 0; k < 3; ++k) texel[k] = curve(texel[k]);
@@ -182,7 +182,7 @@ TEST(MapContent, TellsColors) {
 }
 
 /// A map of the normals of a sphere, unchanged and with different axes.
-TEST(MapContent, TellsObjectSpaceByTheMesh) {
+TEST(MapContent, DetectsObjectSpaceByTheMesh) {
     constexpr std::uint32_t kSize = 64;
     for (const bool is_z_up : {false, true}) {
         RgbImage map{kSize, kSize, {}};
@@ -334,7 +334,7 @@ void isPicture(const RgbImage& image, const char* what) {
     EXPECT_EQ(static_cast<int>(lookAt(jpeg).content), static_cast<int>(MapContent::picture)) << what << " as JPEG";
 }
 
-TEST(MapContent, TellsPictures) {
+TEST(MapContent, DetectsPictures) {
     isPicture(tinted({1, 0.8, 0.6}), "wood");
     isPicture(tinted({1, 0.6, 0.3}), "orange");
     isPicture(tinted({0.3, 0.8, 0.4}), "leaves");
@@ -365,7 +365,7 @@ TEST(MapContent, TellsPictures) {
               "tiles");
 }
 
-TEST(MapContent, TellsHeightsWithATint) {
+TEST(MapContent, DetectsTintedHeights) {
     for (const double tint : {0.99, 0.96, 0.92}) {
         const RgbImage map = tinted({1, (1 + tint) / 2, tint});
         EXPECT_EQ(lookAt(map).content, MapContent::height) << tint;
@@ -376,7 +376,7 @@ TEST(MapContent, TellsHeightsWithATint) {
 }
 
 /// Valid maps, and maps with other findings.
-TEST(MapContent, IsNoPictureWhereItMayBeVectors) {
+TEST(MapContent, IsNotAPictureIfItMayBeVectors) {
     for (const TexelBytes& color :
          {TexelBytes{0, 0, 255, 255}, TexelBytes{128, 128, 255, 255}, TexelBytes{200, 90, 10, 255}}) {
         const RgbImage one{1, 1, {color[0], color[1], color[2]}};
@@ -424,7 +424,7 @@ TEST(MapContent, IsInWorldSpaceWhereANodeTurnsTheNormals) {
     }
 }
 
-TEST(MapContent, OfAnyReliefIsToldFromAllOtherKinds) {
+TEST(MapContent, OfAnyReliefIsDistinguishedFromAllOtherKinds) {
     EXPECT_TRUE(rc::check([] {
         const double a = *rc::gen::inRange(5, 40), b = *rc::gen::inRange(5, 40), c = *rc::gen::inRange(-20, 20);
         const auto height = [&](double x, double y) {

@@ -59,7 +59,7 @@ void encodeHemiOctahedral(double& x, double& y, double& z) {
     y = a - b;
 }
 
-TEST(MapSlopes, TellHemiOctahedralMapsFromXAndY) {
+TEST(MapSlopes, DistinguishHemiOctahedralMapsFromXAndY) {
     for (const Height& relief : kReliefs) {
         for (const double scale : {1.0, 4.0}) {
             const Height height = [&](double x, double y) { return scale * relief(x, y); };
@@ -115,7 +115,7 @@ TEST(MapSlopes, DoubtTwoChannelsThatFitBetterAsOctahedral) {
     }
 }
 
-TEST(MapSlopes, TellHemiOctahedralMapsInAlphaAndGreen) {
+TEST(MapSlopes, DetectHemiOctahedralMapsInAlphaAndGreen) {
     RgbImage map = stored(bumps, [](double& x, double& y, double& z) { encodeHemiOctahedral(x, y, z); });
     std::vector<std::uint8_t> alpha;
     for (std::size_t i = 0; i < map.rgb.size(); i += 3) {
@@ -141,7 +141,7 @@ TEST(MapSlopes, DoubtTwoChannelsThatAreTheSlopesOfNoHeight) {
     EXPECT_TRUE(look.is_doubtful);
 }
 
-TEST(MapSlopes, KnowImagesThatWereTurnedWithoutTheirVectors) {
+TEST(MapSlopes, DetectImagesRotatedWithoutTheirVectors) {
     for (const bool is_clockwise : {false, true}) {
         const RgbImage map = stored(roundBumps, [&](double& x, double& y, double&) {
             // The vectors of the rotated relief are correct, so the rotation is undone.

@@ -81,7 +81,7 @@ TEST(GreenTest, GivesNoVerdictOnAColorImage) {
     EXPECT_EQ(testGreen(picture).verdict, GreenVerdict::unknown);
 }
 
-TEST(GreenTest, SeesThroughJpeg) {
+TEST(GreenTest, WorksOnJpeg) {
     for (const int quality : {95, 75}) {
         const std::optional<RgbImage> image = decode(jpegFile(normalMapOf(256, bumps, true), quality));
         ASSERT_TRUE(image);
@@ -89,7 +89,7 @@ TEST(GreenTest, SeesThroughJpeg) {
     }
 }
 
-TEST(GreenTest, SeesThroughNoiseThatFourTexelsTakeOut) {
+TEST(GreenTest, WorksOnNoiseThatAveragingRemoves) {
     // So strong that single texels correlate by 0.05, and means of four by 0.45.
     for (const bool down : {false, true}) {
         RgbImage map = normalMapOf(512, bumps, down);
@@ -105,7 +105,7 @@ TEST(GreenTest, SeesThroughNoiseThatFourTexelsTakeOut) {
     }
 }
 
-TEST(GreenTest, ReadsTexelsInsideOfTheMaskAlone) {
+TEST(GreenTest, ReadsOnlyTexelsInsideTheMask) {
     // Like padding that was computed differently from the islands.
     RgbImage map = normalMapOf(256, bumps);
     flip(map, {0, 0, 256, 160});
@@ -116,7 +116,7 @@ TEST(GreenTest, ReadsTexelsInsideOfTheMaskAlone) {
     EXPECT_EQ(GreenBlocks(map, TexelMask(256, 256)).all().verdict, GreenVerdict::unknown);
 }
 
-TEST(GreenTest, SaysWhereAMixedMapPointsDown) {
+TEST(GreenTest, LocatesGreenDownInAMixedMap) {
     RgbImage map = normalMapOf(512, bumps);
     const TexelRect down{64, 128, 288, 352};
     flip(map, down);
@@ -130,7 +130,7 @@ TEST(GreenTest, SaysWhereAMixedMapPointsDown) {
     EXPECT_GT(test.confidence(), 0.5);
 }
 
-TEST(GreenTest, TellsThePartsOfAMixedMapApart) {
+TEST(GreenTest, DistinguishesThePartsOfAMixedMap) {
     RgbImage map = normalMapOf(512, bumps);
     flip(map, {0, 0, 256, 512});
     TexelMask all(512, 512), left = all, right = all, corner = all;
@@ -150,7 +150,7 @@ TEST(GreenTest, TellsThePartsOfAMixedMapApart) {
     EXPECT_EQ(one_way.within(corner).verdict, GreenVerdict::up) << "one block, in a map that is";
 }
 
-TEST(GreenTest, DoesNotCareHowIslandsAreTurned) {
+TEST(GreenTest, DoesNotDependOnTheRotationOfIslands) {
     // A map rotated as a whole, including its normals, as bakers do for a rotated island.
     const auto turned = [](double x, double y) { return bumps(y, 1 - x); };
     const auto mirrored = [](double x, double y) { return bumps(1 - x, y); };

@@ -23,7 +23,7 @@ ScenePrimitive halfWithoutUvArea() {
     return patch;
 }
 
-TEST(Check, FindsTangentsAlongTheNormalWhereUvsHaveNoArea) {
+TEST(Check, FindsTangentsParallelToTheNormalWithoutUvArea) {
     const auto leaning = [](double degrees) {
         ScenePrimitive patch = halfWithoutUvArea();
         edit(patch.tangents, [&](auto& tangents) {
@@ -42,7 +42,7 @@ TEST(Check, FindsTangentsAlongTheNormalWhereUvsHaveNoArea) {
     EXPECT_EQ(leaning(30), sound) << "a lean that nobody sees";
 }
 
-TEST(Check, TakesAFewTangentsAlongTheNormalForAnErrorOfTheirOwn) {
+TEST(Check, ReportsAFewTangentsParallelToTheNormalSeparately) {
     ScenePrimitive patch = goodPatch();
     edit(patch.tangents, [&](auto& tangents) {
         for (std::size_t v = 0; v < tangents.size(); ++v) {
@@ -70,7 +70,7 @@ TEST(Check, FindsBrokenValuesAtVerticesThatNoTriangleUses) {
 }
 
 /// Brushed metal: anisotropy by a factor, tangents along the strokes.
-TEST(Check, LooksAtValuesAloneWhereNoTextureIsReadWithTheTangents) {
+TEST(Check, ChecksOnlyValuesIfNoTextureUsesTheTangents) {
     ScenePrimitive patch = goodPatch();
     patch.uses = {{.needed_by = "anisotropy", .has_texture = false}};
     edit(patch.tangents, [&](auto& tangents) {
@@ -92,7 +92,7 @@ TEST(Check, LooksAtValuesAloneWhereNoTextureIsReadWithTheTangents) {
     EXPECT_EQ(codesOf(patch), Codes{"error tangentsNotUnit"});
 }
 
-TEST(Check, NamesTheAxesInWhichTheTangentsWereLeft) {
+TEST(Check, NamesTheAxesOfUnconvertedTangents) {
     ScenePrimitive patch = goodPatch();
     edit(patch.tangents, [](auto& tangents) {
         for (Vec4& t : tangents) t = {t.x, -t.z, t.y, t.w};  // converted to Z up
@@ -106,7 +106,7 @@ TEST(Check, NamesTheAxesInWhichTheTangentsWereLeft) {
 }
 
 /// A tile of a globe in its own coordinates, stored as floats.
-TEST(Check, BlamesRoundedPositionsAndNotTheTangents) {
+TEST(Check, AttributesErrorsToRoundedPositions) {
     ScenePrimitive patch = goodPatch();
     const auto moveBy = [&](float offset) {
         ScenePrimitive moved = patch;
@@ -140,7 +140,7 @@ ScenePrimitive roundedPatch(double step) {
 
 /// Rounded to decimals, to a binary fraction, and to fractions of a bounding box; edges are half a step to three steps
 /// long.
-TEST(Check, BlamesPositionsThatWereRoundedNearTheOrigin) {
+TEST(Check, DetectsPositionsRoundedNearTheOrigin) {
     for (const double step : {0.1, 0.125, 0.2, 0.25, 0.3, 7.0 / 65535 * 2000}) {
         EXPECT_EQ(codesOf(roundedPatch(step)), Codes{"warning positionsRounded"}) << step;
         ScenePrimitive wrong = roundedPatch(step);
@@ -154,8 +154,8 @@ TEST(Check, BlamesPositionsThatWereRoundedNearTheOrigin) {
     EXPECT_EQ(codesOf(bare).count("warning positionsRounded"), 0u) << "no tangents, and none are needed";
 }
 
-/// Modeled on a grid, and not rounded to it: its triangles match its UVs, and wrong tangents are reported.
-TEST(Check, TakesModelsBuiltOnAGridForExact) {
+/// Modeled on a grid without rounding: triangles match the UVs, and wrong tangents are reported.
+TEST(Check, TreatsModelsBuiltOnAGridAsExact) {
     for (const float step : {1.0F, 0.1F}) {
         ScenePrimitive grid = goodPatch();
         edit(grid.positions, [&](auto& positions) {
@@ -180,8 +180,8 @@ TEST(Check, TakesModelsBuiltOnAGridForExact) {
     }
 }
 
-/// Terrain in steps of one meter, in meters of a map projection.
-TEST(Check, TakesRastersFarFromTheOriginForExact) {
+/// Terrain with a grid spacing of one meter, in meters of a map projection.
+TEST(Check, TreatsRastersFarFromTheOriginAsExact) {
     ScenePrimitive terrain = goodPatch();
     edit(terrain.positions, [&](auto& positions) {
         edit(terrain.normals, [&](auto& normals) {
@@ -204,7 +204,7 @@ TEST(Check, TakesRastersFarFromTheOriginForExact) {
     EXPECT_EQ(codesOf(terrain), Codes{"error directionsWrong"});
 }
 
-TEST(Check, TakesTangentsThatCannotBeReadForMissing) {
+TEST(Check, TreatsUnreadableTangentsAsMissing) {
     ScenePrimitive patch = goodPatch();
     patch.tangents = {};
     patch.tangent_faults = {{.why = "they do not have 4 components"}};

@@ -120,7 +120,7 @@ TEST(Diff, SignsThatDifferAreCountedAndTurnTheBitangent) {
     EXPECT_TRUE(diff.worst[0].sign_differs);
 }
 
-TEST(Diff, WhatIsNoSignDiffersFromSignsButNotFromItself) {
+TEST(Diff, InvalidSignsDifferFromSignsButNotFromThemselves) {
     ModelData other = sheet();
     other.tangents[0].w = 0;
     other.tangents[1].w = std::nanf("");
@@ -132,7 +132,7 @@ TEST(Diff, WhatIsNoSignDiffersFromSignsButNotFromItself) {
                                                     std::count(corners.begin(), corners.end(), 1U)));
 }
 
-TEST(Diff, TheWorstPlacesAreTheWorst) {
+TEST(Diff, ListsTheLargestDifferences) {
     ModelData other = sheet();
     for (const std::size_t i : {5U, 50U, 100U})
         other.tangents[i] = turned(other.tangents[i], other.normals[i], static_cast<double>(i) / 2);
@@ -143,7 +143,7 @@ TEST(Diff, TheWorstPlacesAreTheWorst) {
     EXPECT_NEAR(diff.worst[0].tangent_deg, 50, 0.01);
 }
 
-TEST(Diff, QuantisedAndRescaledPositionsAreStillPaired) {
+TEST(Diff, QuantizedAndRescaledPositionsAreStillPaired) {
     ModelData other = shuffled(sheet(), 4);
     for (Vec3& p : other.positions) {
         const auto snap = [](float x) { return std::round(x * 4000) / 4000 * 3 + 17; };
@@ -168,7 +168,7 @@ TEST(Diff, PrimitivesArePairedByGeometryThoughNamesAndOrderChanged) {
     EXPECT_TRUE(diff.isWithin(0));
 }
 
-TEST(Diff, WhatHasNoPartnerIsCounted) {
+TEST(Diff, CountsTrianglesWithoutAMatch) {
     ModelData small = withTangents(bentSheet(3), Method::mikktspace);
     small.name = "small";
     const FrameDiff diff = diffOf({sheet(), small}, {sheet()});
@@ -181,7 +181,7 @@ TEST(Diff, WhatHasNoPartnerIsCounted) {
     EXPECT_EQ(diffOf({sheet()}, {cut}).unpaired_triangle_count, 1U);
 }
 
-TEST(Diff, TangentsInOneFileOnlyAreNoEquality) {
+TEST(Diff, TangentsInOnlyOneFileAreADifference) {
     ModelData without = sheet();
     without.tangents.clear();
     const FrameDiff diff = diffOf({sheet()}, {without});
@@ -190,7 +190,7 @@ TEST(Diff, TangentsInOneFileOnlyAreNoEquality) {
     EXPECT_FALSE(diff.isWithin(180));
 }
 
-TEST(Diff, ValuesThatAreNoDirectionAreCountedApart) {
+TEST(Diff, InvalidDirectionsAreCountedSeparately) {
     ModelData other = sheet();
     other.tangents[0] = {0, 0, 0, 1};
     other.tangents[1] = {std::nanf(""), 0, 0, -1};
@@ -209,7 +209,7 @@ TEST(Diff, AnErrorSaysWhichFile) {
     EXPECT_EQ(diffFiles(good, folder.path("none.glb").string()).error().code, ErrorCode::cannotRead);
 }
 
-TEST(Diff, ManyTrianglesAtOnePlaceTakeNoQuadraticTime) {
+TEST(Diff, ManyTrianglesAtOnePositionTakeLinearTime) {
     ModelData heap = unwelded(bentSheet(1));
     heap.tangents.assign(heap.positions.size(), {1, 0, 0, 1});
     const std::vector<std::uint32_t> indices = heap.indices;

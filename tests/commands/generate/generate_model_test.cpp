@@ -48,7 +48,7 @@ void expectSame(const DrawnScene& a, const DrawnScene& b) {
 
 class GenerateModel : public testing::TestWithParam<const char*> {};
 
-TEST_P(GenerateModel, GivesWhatAReaderOfItsGlbGets) {
+TEST_P(GenerateModel, EqualsTheModelReadFromItsGlb) {
     TSPACE_NEEDS_SHARED(GetParam());
     const TempFolder folder;
     const std::string input = shared(GetParam()).string(), output = folder.path("out.glb").string();
@@ -76,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(Models, GenerateModel,
                                          "models/derived/Lantern_quantized.glb", "models/khronos/CesiumMan.glb",
                                          "models/obj/spot.obj", "reports/morph_pos_only.glb", "reports/two_mats.obj"));
 
-TEST(GenerateModelOptions, RefusesWhatGenerateFileRefuses) {
+TEST(GenerateModelOptions, RejectsOptionsLikeGenerateFile) {
     GenerateOptions options{.selection = {.strip = true}};
     options.selection.all = true;
     const std::optional<Error> error =

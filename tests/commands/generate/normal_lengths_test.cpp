@@ -113,7 +113,7 @@ TEST(NormalLengths, TangentsAreThoseOfUnitNormals) {
     }
 }
 
-TEST(NormalLengths, AreSaidOnceAndOnlyWhereTheyAreOff) {
+TEST(NormalLengths, AreReportedOnceAndOnlyIfWrong) {
     const std::vector<Vec4> wanted = tangentsOf(sheetOf(1));
     for (const float length : {0.5f, 0.99f, 2.0f, 100.0f, 1e-6f, 1e-10f, 1e-18f, 1e30f}) {
         const Files files;
@@ -126,7 +126,7 @@ TEST(NormalLengths, AreSaidOnceAndOnlyWhereTheyAreOff) {
     }
 }
 
-TEST(NormalLengths, AreSaidByCommandsThatOnlyRead) {
+TEST(NormalLengths, AreReportedByCommandsThatOnlyRead) {
     for (const float length : {1.0f, 2.0f}) {
         const Files files;
         const std::string input = files.input(sheetOf(length)), other = files.folder.write("b.glb", sheetOf(1).glb());
@@ -146,7 +146,7 @@ TEST(NormalLengths, AreSaidByCommandsThatOnlyRead) {
     }
 }
 
-TEST(NormalLengths, OfQuantizedNormalsCountToo) {
+TEST(NormalLengths, OfQuantizedNormalsAreHandledToo) {
     const std::vector<Vec3> normals = [] {
         const Files files;
         return Stored(files.input(sheetOf(1))).normals();
@@ -349,7 +349,7 @@ double worstAcross(const std::string& path) {
     return worst;
 }
 
-TEST(NearPositions, GiveMadeNormalsNoSeam) {
+TEST(NearPositions, CauseNoSeamInComputedNormals) {
     for (const char* name : {"three_torus_bare", "three_cylinder_bare", "exact_torus_bare"}) {
         const std::string input = "reports/second/" + std::string(name) + ".glb";
         TSPACE_NEEDS_SHARED(input);

@@ -75,7 +75,7 @@ TEST(Identify, TellsTheSignsOfGltfFromInvertedOnes) {
     EXPECT_NE(identityOf({inverted}).verdict.find("inverted"), std::string::npos);
 }
 
-TEST(Identify, SeesThatOneCornerServesAWholeVertex) {
+TEST(Identify, DetectsTangentsWrittenPerVertex) {
     // A mirrored seam through the middle, welded after computing: the last corner wins.
     ModelData data = bentSheet(8);
     for (std::size_t i = 0; i < data.uvs.size(); ++i)
@@ -141,7 +141,7 @@ TEST(Identify, FollowsTheTextureTransformAndSaysSo) {
     }
 }
 
-TEST(Identify, SaysNothingOfTransformsThatChangeNoFrame) {
+TEST(Identify, IgnoresTransformsThatChangeNoFrame) {
     const ModelData data = withTangents(bentSheet(4), Method::mikktspace);
     const Identification result = identityWithTransform(data, {{"offset", {0.5, 0.25}}, {"scale", {3, 2}}});
     EXPECT_EQ(result.verdict.find("KHR_texture_transform"), std::string::npos) << result.verdict;
@@ -191,7 +191,7 @@ TEST(Identify, CountsThePrimitivesOnTrianglesWithThoseOnQuads) {
     EXPECT_EQ(result.primitives[1].explanations[0].faces, Faces::triangles);
 }
 
-TEST(Identify, LetsCornersWithoutUvAreaVoteInNothing) {
+TEST(Identify, IgnoresCornersWithoutUvArea) {
     ModelData data = withTangents(bentSheet(6), Method::mikktspace);
     // Adds as many triangles whose UVs are a single point, with meaningless tangents and signs.
     ModelData flat = unwelded(bentSheet(6));
@@ -224,7 +224,7 @@ TEST(Identify, FollowsNoUvSetThatHasNoArea) {
     EXPECT_EQ(identityOf({data}).primitives[0].skipped, "its UVs have no area");
 }
 
-TEST(Identify, SaysWhichMethodsMadeWhichPrimitives) {
+TEST(Identify, NamesTheMethodOfEachPrimitive) {
     ModelData sheet = trianglesOf(hills(10), kCuts[3]);
     const Identification result = identityOf(
         {withTangents(sheet, Method::mikktspace), withTangents(sheet, Method::area), withTangents(sheet, Method::area)},
@@ -233,7 +233,7 @@ TEST(Identify, SaysWhichMethodsMadeWhichPrimitives) {
         << result.verdict;
 }
 
-TEST(Identify, PutsMethodsOfTheWorldBeforeThoseThatOnlyTspaceHas) {
+TEST(Identify, PrefersCommonMethodsOverThoseOfTspace) {
     // Nine of ten tangents are those of all methods, and the others are those of `best`.
     ModelData flat = bentSheet(12);
     for (std::size_t v = 0; v < flat.positions.size(); ++v) {
@@ -251,7 +251,7 @@ TEST(Identify, PutsMethodsOfTheWorldBeforeThoseThatOnlyTspaceHas) {
     EXPECT_GT(best->near_count, result.explanations[0].near_count);
 }
 
-TEST(Identify, SaysWhyAPrimitiveWasNotLookedAt) {
+TEST(Identify, ExplainsWhyAPrimitiveWasSkipped) {
     const ModelData data = withTangents(bentSheet(2), Method::mikktspace);
     ModelData no_tangents = data, no_normals = data, no_uvs = data;
     no_tangents.tangents.clear();
@@ -265,7 +265,7 @@ TEST(Identify, SaysWhyAPrimitiveWasNotLookedAt) {
     EXPECT_EQ(identityOf({no_tangents}).verdict, "This file contains no tangents.");
 }
 
-TEST(Identify, NoiseIsMadeByNoMethod) {
+TEST(Identify, NoiseMatchesNoMethod) {
     ModelData data = withTangents(bentSheet(6), Method::mikktspace);
     for (std::size_t i = 0; i < data.tangents.size(); ++i) {
         const Vec4 t = data.tangents[i];

@@ -25,7 +25,7 @@ TEST(Colors, BytesComeBackFromTheirLight) {
     for (int byte = 0; byte < 256; ++byte) EXPECT_EQ(lightToSrgb(table[static_cast<std::size_t>(byte)]), byte);
 }
 
-TEST(Colors, WhatIsNoLightIsBlackOrWhite) {
+TEST(Colors, InvalidLightIsBlackOrWhite) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     EXPECT_EQ(lightToSrgb(std::nanf("")), 0);
     EXPECT_EQ(lightToSrgb(-1), 0);

@@ -12,7 +12,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity(), kNoNumber = 
 constexpr RenderShow kAllShows[] = {RenderShow::lit,   RenderShow::normals, RenderShow::tangents, RenderShow::sign,
                                     RenderShow::error, RenderShow::uv,      RenderShow::mapped};
 
-TEST(HostileRender, AnyFloatsAreDrawnOrLeftOut) {
+TEST(HostileRender, AnyFloatsAreDrawnOrIgnored) {
     for (const float bad : {kNoNumber, kInfinity, -kInfinity, 3.4e38f, -3.4e38f, 1e-45f, 0.0f}) {
         for (int what = 0; what < 4; ++what) {
             SquareModel model;
@@ -33,7 +33,7 @@ TEST(HostileRender, AnyFloatsAreDrawnOrLeftOut) {
     }
 }
 
-TEST(HostileRender, OneWildVertexLeavesTheRest) {
+TEST(HostileRender, OneExtremeVertexDoesNotAffectTheRest) {
     SquareModel model;
     model.positions.insert(model.positions.end(), {kNoNumber, 0, 0});
     model.normals.insert(model.normals.end(), {0, 0, 1});
@@ -44,14 +44,14 @@ TEST(HostileRender, OneWildVertexLeavesTheRest) {
     EXPECT_EQ(drawn.center()[2], 255);
 }
 
-TEST(HostileRender, NodesInCirclesAreNotFollowed) {
+TEST(HostileRender, CyclesOfNodesAreIgnored) {
     GltfBuilder builder = SquareModel().build();
     builder.json()["nodes"] = Json::parse(R"([{"children":[1]},{"children":[0,2,2],"mesh":0},{"mesh":0}])");
     builder.json()["scenes"] = Json::parse(R"([{"nodes":[1]}])");
     EXPECT_EQ(draw(builder, plainView(RenderShow::normals)).report.triangle_count, 4U);
 }
 
-TEST(HostileRender, TrianglesWithoutEndAreRefused) {
+TEST(HostileRender, EndlessInstancesAreRejected) {
     // Each is as large as the picture, drawn by a few thousand nodes from back to front.
     SquareModel model;
     for (int i = 0; i < 2000; ++i) model.indices.insert(model.indices.end(), {0, 1, 2, 0, 2, 3});
@@ -77,7 +77,7 @@ TEST(HostileRender, AnEmptyModelIsAnEmptyPicture) {
     EXPECT_EQ(drawn.center(), drawn.at(0, 0));
 }
 
-TEST(HostileRender, TexturesThatCannotBeReadAreSaid) {
+TEST(HostileRender, ReportsUnreadableTextures) {
     GltfBuilder builder = SquareModel().build();
     const std::size_t number = addTexture(builder, plainImage(1, 2, 3));
     builder.json()["images"][number] = {{"uri", "data:image/png;base64,AAAA"}, {"name", "a\nb"}};

@@ -23,7 +23,7 @@ std::vector<std::uint8_t> rowsOf(const RgbImage& image, std::uint32_t from, std:
             image.rgb.begin() + static_cast<std::ptrdiff_t>(to * row)};
 }
 
-TEST(RenderLegend, StandsUnderEveryViewAndLeavesThePictureAsItIs) {
+TEST(RenderLegend, IsBelowEveryViewWithoutChangingThePicture) {
     const GltfBuilder model = SquareModel().build();
     for (const RenderShow show : kEveryShow) {
         RenderOptions options = plainView(show, 512);
@@ -65,7 +65,7 @@ TEST(RenderLegend, FitsIntoPicturesOfAnyWidth) {
     }
 }
 
-TEST(RenderLegend, SaysWhoseTangentsAreShown) {
+TEST(RenderLegend, NamesTheSourceOfTheTangents) {
     const auto words = [](const TangentSources& sources) {
         return wordsOf(legendOf(RenderShow::lit, sources, Method::fast));
     };
@@ -81,7 +81,7 @@ TEST(RenderLegend, SaysWhoseTangentsAreShown) {
               "[LEFT: NO TANGENTS, FLAT][RIGHT: TANGENTS BY BEST]");
 }
 
-TEST(RenderLegend, GrayIsExplainedWhereThereIsSome) {
+TEST(RenderLegend, ExplainsGrayIfItOccurs) {
     EXPECT_EQ(wordsOf(legendOf(RenderShow::sign, {.stored = true}, Method::mikktspace)),
               "[W = +1][W = -1][UV MIRRORED][WRONG SIGN][NEITHER][TANGENTS OF THE FILE]");
     EXPECT_EQ(wordsOf(legendOf(RenderShow::tangents, {.missing = true}, Method::mikktspace)),

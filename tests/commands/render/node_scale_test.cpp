@@ -68,7 +68,7 @@ TEST(NodeScale, TangentsOfAnyLengthAreShadedAsUnitOnes) {
     }
 }
 
-TEST(NodeScale, BakingAndPicturesHaveOneFrame) {
+TEST(NodeScale, BakingAndRenderingUseTheSameFrame) {
     const Leaning mesh;
     const std::array<double, 3> weights{0.2, 0.2, 0.6};
     const Affine place{{0.9, 0.3, 0}, {-0.5, 2.1, 0.2}, {0, 0.4, 0.6}, {}};
@@ -79,7 +79,7 @@ TEST(NodeScale, BakingAndPicturesHaveOneFrame) {
     EXPECT_LT(degreesBetween(mappedNormal(mesh.shown(), place, {.triangle = 0, .weights = weights}), baked), 1e-4);
 }
 
-TEST(NodeScale, SeenFromBehindANormalIsTurnedRound) {
+TEST(NodeScale, FlipsNormalsOfBackFaces) {
     const Leaning mesh;
     const Affine place{{1, 0, 0}, {0, 2.5, 0}, {0, 0, 0.6}, {}};
     SurfacePoint point{.triangle = 0, .weights = {0.5, 0.3, 0.2}};

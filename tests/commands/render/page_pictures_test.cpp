@@ -62,7 +62,7 @@ TEST(DiffPictures, ShowTheLargestAngle) {
     expectHeat(turnedSquare(10), turnedSquare(0), 10);
 }
 
-TEST(DiffPictures, ASignCountsAsWhatItDoesToB) { expectHeat(turnedSquare(0), turnedSquare(0, -1), 180); }
+TEST(DiffPictures, ASignIsShownByItsEffectOnB) { expectHeat(turnedSquare(0), turnedSquare(0, -1), 180); }
 
 TEST(DiffPictures, NormalsAreCompared) {
     SquareModel a, b;
@@ -79,7 +79,7 @@ TEST(DiffPictures, TrianglesAreComparedWithTheirPartners) {
     expectHeat(turnedSquare(0), b, 30);
 }
 
-TEST(DiffPictures, GrayIsWhereNothingCanBeCompared) {
+TEST(DiffPictures, IncomparableSurfacesAreGray) {
     SquareModel without;
     without.tangents.clear();
     const Bytes file_a = SquareModel().build().glb(), file_b = without.build().glb();
@@ -90,7 +90,7 @@ TEST(DiffPictures, GrayIsWhereNothingCanBeCompared) {
     EXPECT_EQ(image.rgb[i], image.rgb[i + 2]);
 }
 
-TEST(DiffPictures, APlaceIsThePictureOfItsModel) {
+TEST(DiffPictures, ALocationIsAPictureOfItsModel) {
     const Bytes file_a = SquareModel().build().glb(), file_b = turnedSquare(30).build().glb();
     DiffPictures pictures("a.glb", "b.glb", {.file = inMemory(file_a), .file_b = inMemory(file_b)});
     const DiffPictures::Place place = pictures.place({.vertex_a = 1, .vertex_b = 1});
@@ -157,12 +157,12 @@ TEST(FindingPictures, ShowWhatRepairChanges) {
     EXPECT_EQ(picture.caption.rfind("difference", 0), 0U) << picture.caption;
 }
 
-TEST(FindingPictures, ShowNothingWhereNothingCanBeSeen) {
+TEST(FindingPictures, AreOmittedIfNothingIsVisible) {
     const FindingPicture same = pictureOf(mapped(turnedSquare(8, 1)), findingAt(FindingCode::signsInverted, {0}));
     EXPECT_TRUE(same.before.empty() && same.after.empty() && same.difference.empty());
 }
 
-TEST(FindingPictures, LeaveOutColorsThatHideTheDifference) {
+TEST(FindingPictures, OmitColorsThatHideTheDifference) {
     // Nearly black, and blue, whose brightness people hardly see.
     for (const auto& color : {Json{0.004, 0.004, 0.004, 1}, Json{0, 0, 1, 1}}) {
         GltfBuilder builder = turnedSquare(0, -1).build();
@@ -189,7 +189,7 @@ TEST(FindingPictures, ShowTheSideThatIsVisibleAfterTheFix) {
     }
 }
 
-TEST(FindingPictures, PlacesAreSeenWhereSomethingStandsInFront) {
+TEST(FindingPictures, ShowLocationsBehindOtherSurfaces) {
     // A square behind a plate that faces it, and is ten times as large: the square is visible only without the plate.
     GltfBuilder builder = turnedSquare(0).build();
     SquareModel plate;
@@ -222,7 +222,7 @@ TEST(FindingPictures, ShowAMapWithItsGreenTurned) {
     EXPECT_GT(differingPixels(decoded(picture.before), decoded(picture.after)), 5000U);
 }
 
-TEST(FindingPictures, SayWhyThereIsNoSecondPicture) {
+TEST(FindingPictures, ExplainAMissingSecondPicture) {
     const Bytes good = mapped(SquareModel());
     const FindingPicture nothing = pictureOf(good, findingAt(FindingCode::signsWrong, {0}));
     EXPECT_TRUE(nothing.after.empty());

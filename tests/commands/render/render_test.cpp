@@ -57,7 +57,7 @@ TEST(Render, NormalsOfASphereAreItsFormula) {
     EXPECT_GT(compared, 5000);
 }
 
-TEST(Render, TheCameraStandsWhereTheViewSays) {
+TEST(Render, TheViewDeterminesTheCamera) {
     RenderOptions options = plainView(RenderShow::normals);
     const GltfBuilder model = sphere(40).build();
     const auto seen = [&](double yaw, double pitch) {
@@ -73,7 +73,7 @@ TEST(Render, TheCameraStandsWhereTheViewSays) {
     EXPECT_TRUE(isNearTo(seen(0, -90), {128, 0, 128}, 3));
 }
 
-TEST(Render, PerspectiveHoldsAllOfTheModelToo) {
+TEST(Render, PerspectiveShowsTheWholeModel) {
     RenderOptions options = plainView(RenderShow::normals, 100);
     options.field_of_view_deg = 60;
     const Drawn drawn = draw(sphere(60).build(), options);
@@ -160,7 +160,7 @@ TEST(Render, MappedNormalsAreThoseOfTheShadingReference) {
     EXPECT_TRUE(isNearTo(draw(builder, plainView(RenderShow::mapped)).center(), expected, 1));
 }
 
-TEST(Render, TexturesLieAsGltfSays) {
+TEST(Render, TexturesAreOrientedAsInGltf) {
     RgbImage image{.width = 2, .height = 2, .rgb = {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255}};
     GltfBuilder builder = SquareModel().build();
     const std::size_t map = addTexture(builder, image);
@@ -180,7 +180,7 @@ TEST(Render, TexturesLieAsGltfSays) {
     EXPECT_TRUE(isNearTo(draw(builder, options).at(16, 16), {0, 255, 0}, 60));
 }
 
-TEST(Render, AFlatGraySquareHasTheLightOfLambert) {
+TEST(Render, AFlatGraySquareIsLitByLambertsLaw) {
     GltfBuilder builder = SquareModel().build();
     builder.json()["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0.5, 0.5, 0.5, 1};
     RenderOptions options = plainView(RenderShow::lit);
@@ -194,7 +194,7 @@ TEST(Render, AFlatGraySquareHasTheLightOfLambert) {
     EXPECT_NEAR(gray({0, 0, -1}), 69, 1);
 }
 
-TEST(Render, BackFacesAreDrawnWhereTheMaterialSaysSo) {
+TEST(Render, BackFacesAreDrawnForDoubleSidedMaterials) {
     RenderOptions options = plainView(RenderShow::normals);
     options.yaw_deg = 180;
     GltfBuilder builder = SquareModel().build();
@@ -203,7 +203,7 @@ TEST(Render, BackFacesAreDrawnWhereTheMaterialSaysSo) {
     EXPECT_TRUE(isNearTo(draw(builder, options).center(), {128, 128, 0}, 1)) << "turned toward the camera";
 }
 
-TEST(Render, MaskedTexelsAreNotThere) {
+TEST(Render, MaskedTexelsAreTransparent) {
     GltfBuilder builder = SquareModel().build();
     Json& material = builder.json()["materials"][0];
     material["alphaMode"] = "MASK";
@@ -228,7 +228,7 @@ TEST(Render, NodesPlaceTheMesh) {
     EXPECT_TRUE(isNearTo(draw(builder, options).center(), {255, 128, 128}, 1));
 }
 
-TEST(Render, ASkinStandsAsItWasBound) {
+TEST(Render, ASkinIsDrawnInItsPose) {
     GltfBuilder builder = SquareModel().build();
     // The joint moves by (3, 0, 0), and the mesh was bound there, so it does not move. The node's own scale is ignored.
     const std::size_t bind =
@@ -256,7 +256,7 @@ TEST(Render, ErrorIsTheAngleBetweenTheFrames) {
     EXPECT_NEAR(draw(inverted.build(), plainView(RenderShow::error)).report.mean_error_deg, 180, 1e-4);
 }
 
-TEST(Render, TangentsThatAreMissingAreComputed) {
+TEST(Render, MissingTangentsAreComputed) {
     SquareModel model;
     model.tangents.clear();
     GltfBuilder builder = model.build();
@@ -304,7 +304,7 @@ TEST(Render, WritesAllOrNothing) {
     EXPECT_TRUE(folder.has("good.png"));
 }
 
-TEST(Render, OptionsOutOfRangeAreRefused) {
+TEST(Render, OptionsOutOfRangeAreRejected) {
     const Bytes model = SquareModel().build().glb();
     const auto errorWith = [&](const std::function<void(RenderOptions&)>& change) {
         RenderOptions options = plainView(RenderShow::lit);

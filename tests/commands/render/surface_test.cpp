@@ -39,7 +39,7 @@ GltfBuilder twoSquares(const std::vector<double>& far, const std::vector<double>
     return builder;
 }
 
-TEST(RenderSurface, NothingShowsThroughBlendedSurfacesWhateverTheirOrder) {
+TEST(RenderSurface, BlendedSurfacesAreOpaqueInAnyOrder) {
     for (const bool is_near_first : {false, true}) {
         const GltfBuilder builder = twoSquares({0, 1, 0, 1}, {1, 0, 0, 0.25}, is_near_first);
         EXPECT_TRUE(isNear(draw(builder, plainView(RenderShow::lit)).center(), {255, 0, 0}, 1)) << is_near_first;
@@ -80,7 +80,7 @@ TEST(RenderSurface, WeightsOfMorphTargetsMoveTheSurface) {
     EXPECT_TRUE(isNear(draw(builder, options).center(), {128, 128, 255}, 1));
 }
 
-TEST(RenderSurface, BonesTurnFramesAndTheNodeOfASkinnedMeshHasNoPartInIt) {
+TEST(RenderSurface, BonesTransformFramesAndTheNodeOfASkinnedMeshIsIgnored) {
     GltfBuilder builder = SquareModel().build();
     Json& attributes = builder.json()["meshes"][0]["primitives"][0]["attributes"];
     attributes["JOINTS_0"] = builder.addAccessor(

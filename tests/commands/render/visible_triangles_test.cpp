@@ -48,7 +48,7 @@ RC_GTEST_PROP(VisibleTriangles, NeighborsLeaveNoGapAndNoSampleTwice, ()) {
 }
 
 /// Each sample shows the first triangle on its ray.
-RC_GTEST_PROP(VisibleTriangles, TheNearestTriangleIsSeen, ()) {
+RC_GTEST_PROP(VisibleTriangles, TheNearestTriangleIsVisible, ()) {
     std::vector<Vec3> points;
     const int count = *rc::gen::inRange(1, 8);
     for (int i = 0; i < 3 * count; ++i)
@@ -129,7 +129,7 @@ RC_GTEST_PROP(VisibleTriangles, WeightsLeadToTheSample, ()) {
     }
 }
 
-TEST(VisibleTriangles, WhatReachesBehindTheCameraIsCut) {
+TEST(VisibleTriangles, TrianglesBehindTheCameraAreClipped) {
     // A floor through the camera position; the camera looks at a small part of it.
     const std::vector<Vec3> points = {{-100, -1, 100}, {100, -1, 100}, {100, -1, -100}, {-100, -1, -100}};
     const std::vector<std::uint32_t> corners = {0, 1, 2, 0, 2, 3};

@@ -38,7 +38,7 @@ double normalError(NormalWeighting weighting, const TestMesh& mesh, Corners corn
     return normalErrors(mesh, normalsBy(weighting, mesh, refine), corners).mean;
 }
 
-TEST(Surfaces, HaveTheDerivativesThatDifferencesShow) {
+TEST(Surfaces, HaveTheDerivativesOfDifferences) {
     constexpr double kStep = 1e-5;
     Random random{1};
     for (const Surface* surface : allSurfaces()) {
@@ -58,7 +58,7 @@ TEST(Surfaces, HaveTheDerivativesThatDifferencesShow) {
     }
 }
 
-TEST(Surfaces, AreFoundAgainByTheirUvs) {
+TEST(Surfaces, AreRecoveredFromTheirUvs) {
     Random random{2};
     for (const Surface* surface : allSurfaces()) {
         for (int i = 0; i < 20; ++i) {
@@ -73,7 +73,7 @@ TEST(Surfaces, AreFoundAgainByTheirUvs) {
     }
 }
 
-TEST(Tessellations, OfOneSeedAreTheSameAndOfAnotherAreNot) {
+TEST(Tessellations, DependOnlyOnTheSeed) {
     const Surface& surface = surfaces()[0];
     const TestMesh a = tessellate(surface, Tessellation::irregular, 16, Random{1, 2});
     const TestMesh b = tessellate(surface, Tessellation::irregular, 16, Random{1, 2});
@@ -82,7 +82,7 @@ TEST(Tessellations, OfOneSeedAreTheSameAndOfAnotherAreNot) {
     EXPECT_NE(a.positions, c.positions);
 }
 
-TEST(Tessellations, TurnNoTriangleOverAndKeepTheSidesOfAFoldApart) {
+TEST(Tessellations, FlipNoTriangleAndSeparateTheSidesOfAFold) {
     using enum Tessellation;
     for (const Surface* surface : allSurfaces()) {
         for (const Tessellation kind : {regular, alternating, irregular, random, anisotropic, loops}) {
@@ -122,12 +122,12 @@ TEST(Mikktspace, ConvergesWithTheFirstOrderOnIrregularMeshes) {
     EXPECT_LT(std::log2(coarse / fine) / 2, 1.3);
 }
 
-TEST(Mikktspace, ErrsByTheKnownAmounts) {
+TEST(Mikktspace, HasTheKnownErrors) {
     EXPECT_NEAR(meanOver(32, [](const TestMesh& mesh) { return vertexError(Method::mikktspace, mesh); }), 0.18, 0.02);
     EXPECT_NEAR(meanOver(32, [](const TestMesh& mesh) { return vertexError(Method::area, mesh); }), 0.38, 0.04);
 }
 
-TEST(ExactVertexFrames, StillErrWhereTheyAreInterpolated) {
+TEST(ExactVertexFrames, HaveAnErrorWhereTheyAreInterpolated) {
     const double floor = meanOver(32, [](const TestMesh& mesh) {
         EXPECT_LT(tangentErrors(mesh, exactFrames(mesh), Corners::all).max, 1e-4);
         return Shading(mesh, 1000, Random{6}).meanError(exactFrames(mesh));
@@ -190,7 +190,7 @@ TEST(BestNormals, AreSeveralTimesCloserThanAnyMeanOnSmoothSurfaces) {
     EXPECT_LT(1.3 * best, errorOf(NormalWeighting::max));
 }
 
-TEST(BestTangents, ShadeAFifthCloserByTheFirstStepAndMoreByTheSecond) {
+TEST(BestTangents, LoseAFifthOfTheShadingErrorInTheFirstStepAndMoreInTheSecond) {
     for (const int cells : {8, 32}) {
         double errors[3];
         for (std::uint32_t refine = 0; refine < 3; ++refine) {
@@ -203,7 +203,7 @@ TEST(BestTangents, ShadeAFifthCloserByTheFirstStepAndMoreByTheSecond) {
     }
 }
 
-TEST(BestTangents, LoseNextToNothingToNoiseByTheSteps) {
+TEST(BestTangents, RefinementHardlyIncreasesTheErrorOnNoisyMeshes) {
     for (const Damage kind : {Damage::position_noise, Damage::uv_noise}) {
         const auto errorBy = [&](std::uint32_t refine) {
             return meanOver(32, [&](TestMesh mesh) {
@@ -231,7 +231,7 @@ std::array<double, 3> errorsBySteps(Tessellation tessellation, int cells, double
     return means;
 }
 
-TEST(BestNormals, GainAThirdByTheFirstStepAndMoreByTheSecond) {
+TEST(BestNormals, LoseAThirdOfTheErrorInTheFirstStepAndMoreInTheSecond) {
     for (const Tessellation tessellation : {Tessellation::irregular, Tessellation::loops}) {
         const auto [fit, one, two] = errorsBySteps(tessellation, 32, 0);
         EXPECT_LT(one, 0.67 * fit);
@@ -242,7 +242,7 @@ TEST(BestNormals, GainAThirdByTheFirstStepAndMoreByTheSecond) {
     EXPECT_LT(two, one);
 }
 
-TEST(BestNormals, LoseNextToNothingToNoiseByTheSteps) {
+TEST(BestNormals, RefinementHardlyIncreasesTheErrorOnNoisyMeshes) {
     for (const double noise : {0.02, 0.1, 0.2}) {
         const auto [fit, one, two] = errorsBySteps(Tessellation::irregular, 32, noise);
         EXPECT_LT(one, 1.01 * fit) << noise;

@@ -31,7 +31,7 @@ TEST(PolarAngle, IsExactOnTheAxes) {
     EXPECT_EQ(polarAngle(-1e200, 0), kPi);
 }
 
-TEST(AngleBetween, SeesAnglesThatTheCosineCannot) {
+TEST(AngleBetween, IsAccurateForAnglesTooSmallForTheCosine) {
     EXPECT_NEAR(angleBetween({1, 0, 0}, {1, 1e-12, 0}), 1e-12, 1e-20);
     EXPECT_NEAR(angleBetween({1, 0, 0}, {-1, 1e-12, 0}), kPi - 1e-12, 1e-15);
     EXPECT_EQ(angleBetween({0, 0, 0}, {1, 0, 0}), 0);

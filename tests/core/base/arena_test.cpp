@@ -48,7 +48,7 @@ bool isIntact(const Block& block) {
     return std::all_of(block.memory, block.memory + block.bytes, [&](std::uint8_t b) { return b == block.mark; });
 }
 
-RC_GTEST_PROP(Arena, NeverGivesTheSameMemoryTwice, ()) {
+RC_GTEST_PROP(Arena, NeverReturnsOverlappingBlocks, ()) {
     const Arena arena;
     std::vector<Block> live;
     std::size_t used = 0;
@@ -78,7 +78,7 @@ RC_GTEST_PROP(Arena, NeverGivesTheSameMemoryTwice, ()) {
     RC_ASSERT(arena.usedBytes() == 0u);
 }
 
-RC_GTEST_PROP(Arena, NeedsNothingNewWhenTheSameIsDoneAgain, ()) {
+RC_GTEST_PROP(Arena, AllocatesNothingForARepeatedCall, ()) {
     const Arena arena;
     const auto steps = *rc::gen::container<std::vector<std::pair<std::uint32_t, bool>>>(
         rc::gen::pair(rc::gen::inRange<std::uint32_t>(1, 3000000), rc::gen::arbitrary<bool>()));
@@ -103,7 +103,7 @@ RC_GTEST_PROP(Arena, NeedsNothingNewWhenTheSameIsDoneAgain, ()) {
     RC_ASSERT(arena.heldBytes() == held);
 }
 
-TEST(Arena, GivesMemoryBackWhenTrimmed) {
+TEST(Arena, ReleasesMemoryWhenTrimmed) {
     Arena arena;
     const Block below = take(arena, 3 * kStep, 1), above = take(arena, 5 * kStep, 2);
     EXPECT_EQ(arena.heldBytes(), 8 * kStep);
@@ -120,7 +120,7 @@ TEST(Arena, GivesMemoryBackWhenTrimmed) {
     EXPECT_EQ(arena.heldBytes(), 0u);
 }
 
-TEST(Arena, SaysNoToWhatNoSystemHas) {
+TEST(Arena, ReturnsNullForSizesThatNoSystemHas) {
     const Arena arena;
     const Allocator& allocator = *arena.allocator();
     for (const std::size_t bytes : {SIZE_MAX, SIZE_MAX - 4096, SIZE_MAX / 2}) {
@@ -131,7 +131,7 @@ TEST(Arena, SaysNoToWhatNoSystemHas) {
 }
 
 #if defined(__linux__) && !defined(TSPACE_SANITIZED)
-TEST(Arena, LeavesAddressesToOthersWhereTheyAreLimited) {
+TEST(Arena, ReservesLittleIfAddressSpaceIsLimited) {
     const auto use = [] {
         const rlimit limit{std::size_t{1} << 30, std::size_t{1} << 30};
         if (setrlimit(RLIMIT_AS, &limit) != 0) return false;
@@ -179,7 +179,7 @@ bool stayInsideWith(std::size_t left) {
     return is_sound && arena.usedBytes() == 0;
 }
 
-TEST(Arena, WritesOnlyToItsOwnMemoryWhereAddressesAreScarce) {
+TEST(Arena, WritesOnlyToItsOwnMemoryIfAddressSpaceIsScarce) {
     for (std::size_t megabytes = 1; megabytes <= 72; ++megabytes) {
         EXPECT_EXIT(std::exit(stayInsideWith(megabytes << 20) ? 0 : 1), testing::ExitedWithCode(0), "")
             << megabytes << " MB left";
@@ -255,7 +255,7 @@ void computeAll(const Torus& torus, Method method, const Allocator* allocator) {
 }
 
 #if defined(__GLIBC__) && !defined(TSPACE_SANITIZED)
-TEST(Arena, IsWhatKeepsMemoryAndNoThreadDoes) {
+TEST(Arena, KeepsMemoryInsteadOfThreads) {
     // also stops glibc from adapting the threshold: each large buffer gets fresh pages
     mallopt(M_MMAP_THRESHOLD, 131072);
     const Torus torus(100);
@@ -280,7 +280,7 @@ TEST(Arena, IsWhatKeepsMemoryAndNoThreadDoes) {
 }
 #endif
 
-TEST(Arena, ServesASecondCallFromWhatItHolds) {
+TEST(Arena, ServesASecondCallFromItsMemory) {
     const Torus torus(150);
     for (const Method method : kMethods) {
         const Arena arena;
@@ -295,7 +295,7 @@ TEST(Arena, ServesASecondCallFromWhatItHolds) {
     }
 }
 
-TEST(Arena, ServesEvaluationsBesideThePlanThatItHolds) {
+TEST(Arena, ServesEvaluationsOfAPlanThatItHolds) {
     const Torus torus(150);
     const Arena arena;
     const Execution execution{.thread_count = 1, .allocator = arena.allocator()};
@@ -317,7 +317,7 @@ TEST(Arena, ServesEvaluationsBesideThePlanThatItHolds) {
     EXPECT_EQ(arena.usedBytes(), 0u);
 }
 
-TEST(Arena, HoldsLittleMoreThanPlainAllocationPeaksAt) {
+TEST(Arena, UsesLittleMoreThanThePeakOfPlainAllocation) {
     const Torus torus(250);
     for (const Method method : kMethods) {
         PeakAllocator plain;

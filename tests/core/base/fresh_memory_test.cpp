@@ -40,7 +40,7 @@ TEST(FreshMemory, ChangesNoNormal) {
     }
 }
 
-TEST(FreshMemory, TurnsNoOtherFace) {
+TEST(FreshMemory, FlipsNoOtherFace) {
     test::Bodies bodies;
     test::addTorus(bodies, {}, 1, 0.4);
     test::addSphere(bodies, {1, 0, 0}, 0.1);

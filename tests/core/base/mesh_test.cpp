@@ -43,7 +43,7 @@ TEST_F(MeshBorder, NamesTheCornerWhoseIndexIsOutOfRange) {
     EXPECT_FALSE(result.error().message.empty());
 }
 
-TEST_F(MeshBorder, FindsTheOneBadIndexOfEveryWidthAtEveryPlace) {
+TEST_F(MeshBorder, FindsTheInvalidIndexOfEveryWidthAtEveryPosition) {
     const auto expectFound = [&](auto index, auto bad) {
         for (std::size_t at = 0; at < 66; ++at) {
             std::vector<decltype(index)> many(66, index);

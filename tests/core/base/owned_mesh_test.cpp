@@ -6,7 +6,7 @@
 namespace tspace {
 namespace {
 
-TEST(OwnedMesh, IsShownAsItIs) {
+TEST(OwnedMesh, ItsViewIsUnchanged) {
     const OwnedMesh mesh{.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
                          .normals = {4, Vec3{0, 0, 1}},
                          .uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}},

@@ -85,7 +85,7 @@ TEST(Parallel, WakesThreadsThatFellAsleepBetweenLoops) {
     }
 }
 
-TEST(Parallel, StartsNoThreadThatCostsMoreThanItBrings) {
+TEST(Parallel, StartsNoThreadForLittleWork) {
     const Execution eight{.thread_count = 8};
     EXPECT_EQ(Parallel(eight, 0).width(), 1u);
     EXPECT_EQ(Parallel(eight, 75'000).width(), 1u);  // 25,000 triangles
@@ -113,7 +113,7 @@ TEST(Parallel, UsesTheCallersExecutor) {
     for (const int n : seen) ASSERT_EQ(n, 1);
 }
 
-TEST(Parallel, CarriesWhatABodyThrowsToTheCaller) {
+TEST(Parallel, PropagatesExceptionsToTheCaller) {
     struct Thrown {
         std::size_t task;
     };

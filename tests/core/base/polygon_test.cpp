@@ -189,7 +189,7 @@ TEST(Polygon, MakesNoFlatTriangleOfVerticesOnALine) {
     for (const auto& t : cut(polygon)) EXPECT_GT(areaAlongZ(polygon[t[0]], polygon[t[1]], polygon[t[2]]), 0.1);
 }
 
-TEST(Polygon, CutsAPolygonWithABridgeToItsHole) {
+TEST(Polygon, TriangulatesAPolygonWithABridgeToItsHole) {
     const std::vector<Vec3> polygon{{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}, {0, 0, 0},
                                     {1, 1, 0}, {1, 2, 0}, {2, 2, 0}, {2, 1, 0}, {1, 1, 0}};
     double sum = 0;

@@ -53,7 +53,7 @@ TEST(ScratchBlock, UsesMemoryAgainWhenTheLastBufferGoesFirst) {
     EXPECT_EQ(source.calls, 1);
 }
 
-TEST(ScratchBlock, TakesFromTheCallersAllocatorWhatDoesNotFit) {
+TEST(ScratchBlock, UsesTheCallersAllocatorIfABufferDoesNotFit) {
     Source source;
     {
         ScratchBlock scratch(&source.allocator, 1000);
@@ -78,7 +78,7 @@ TEST(ScratchBlock, KeepsABufferThatGoesBeforeALaterOne) {
     EXPECT_EQ(second[99], 7);
 }
 
-TEST(ScratchBlock, SaysWhenTheCallersAllocatorHasNothingMore) {
+TEST(ScratchBlock, ReportsWhenTheCallersAllocatorFails) {
     Source source;
     source.most_calls = 1;
     ScratchBlock scratch(&source.allocator, 256);
@@ -86,7 +86,7 @@ TEST(ScratchBlock, SaysWhenTheCallersAllocatorHasNothingMore) {
     EXPECT_NO_THROW(Buffer<std::uint8_t>(scratch.allocator(), 256));
 }
 
-TEST(ScratchBlock, GivesOutMemoryOfSomebodyElseAndNothingBeyondIt) {
+TEST(ScratchBlock, UsesExternalMemoryWithinItsBounds) {
     alignas(kMemoryAlignment) std::byte memory[512] = {};
     for (const std::size_t skip : {std::size_t{0}, std::size_t{4}, std::size_t{63}}) {
         Source source;
@@ -105,7 +105,7 @@ TEST(ScratchBlock, GivesOutMemoryOfSomebodyElseAndNothingBeyondIt) {
     }
 }
 
-TEST(ScratchBlock, TakesAllFromTheCallersAllocatorWithoutMemory) {
+TEST(ScratchBlock, UsesOnlyTheCallersAllocatorWithoutMemory) {
     Source source;
     std::byte few[8];
     for (const std::span<std::byte> memory : {std::span<std::byte>(), std::span<std::byte>(few)}) {

@@ -11,7 +11,7 @@
 namespace tspace::test {
 namespace {
 
-TEST(SortInLittleCode, GivesWhatStableSortGives) {
+TEST(CompactSort, EqualsStableSort) {
     std::mt19937 random(7);
     for (std::size_t count = 0; count < 200; ++count) {
         for (const std::uint32_t kinds : {1u, 3u, 1000000u}) {
@@ -35,7 +35,7 @@ TEST(SortInLittleCode, GivesWhatStableSortGives) {
     }
 }
 
-TEST(SortInLittleCode, LeavesListsThatAreSortedAndTurnsThoseThatAreTurned) {
+TEST(CompactSort, KeepsSortedListsAndReversesReversedOnes) {
     std::vector<float> up, down;
     for (int i = 0; i < 1000; ++i) {
         up.push_back(static_cast<float>(i));

@@ -62,7 +62,7 @@ TEST(CApi, UsesTheCallersExecutorAndAllocator) {
     EXPECT_EQ(memory.live, 0u);
 }
 
-TEST(CApi, AnArenaServesASecondCallFromWhatItHolds) {
+TEST(CApi, AnArenaServesASecondCallFromItsMemory) {
     const RandomMesh mesh(8, 600);
     CApiOutputs expected(mesh.cornerCount()), c(mesh.cornerCount());
     ASSERT_TRUE(generateTangents(mesh.view(), {.convention = conventions::opengl}, expected.view()));

@@ -67,7 +67,7 @@ void expectInitLikeTheMacro(Init<Struct> init, std::initializer_list<std::size_t
     EXPECT_EQ(TSPACE_ERROR_NULL_DATA, init(nullptr, sizeof(Struct), &error));
 }
 
-TEST(CApi, FunctionsPrepareOptionsAsTheMacroDoes) {
+TEST(CApi, InitFunctionsSetTheValuesOfTheMacro) {
     expectInitLikeTheMacro<tspace_Execution>(tspace_initExecution);
     expectInitLikeTheMacro<tspace_TangentOptions>(tspace_initTangentOptions);
     expectInitLikeTheMacro<tspace_NormalOptions>(tspace_initNormalOptions, {offsetof(tspace_NormalOptions, denoise)});
@@ -84,7 +84,7 @@ Struct zerosWithSize() {
     return zeros;
 }
 
-TEST(CApi, TangentOptionsOfZerosAreRefused) {
+TEST(CApi, RejectsTangentOptionsOfZeros) {
     const RandomMesh mesh(2, 60);
     CApiOutputs c(mesh.cornerCount());
     const tspace_Mesh c_mesh = mesh.c();
@@ -105,7 +105,7 @@ TEST(CApi, TangentOptionsOfZerosAreRefused) {
     EXPECT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr, nullptr));
 }
 
-TEST(CApi, NormalOptionsOfZerosAreRefused) {
+TEST(CApi, RejectsNormalOptionsOfZeros) {
     const RandomMesh mesh(3, 60);
     const tspace_Mesh c_mesh = mesh.c();
     std::vector<Vec3> made(mesh.cornerCount()), flat(mesh.cornerCount());
@@ -122,7 +122,7 @@ TEST(CApi, NormalOptionsOfZerosAreRefused) {
     EXPECT_TRUE(sameBits(flat, made));
 }
 
-TEST(CApi, WindingOptionsOfZerosAreRefused) {
+TEST(CApi, RejectsWindingOptionsOfZeros) {
     SimpleMesh cube = triangleCube(5);
     tspace_Mesh mesh;
     TSPACE_INIT(mesh);
@@ -138,7 +138,7 @@ TEST(CApi, WindingOptionsOfZerosAreRefused) {
     EXPECT_EQ(TSPACE_OK, tspace_mendWinding(&mesh, &options, turned.data(), turned.size(), nullptr, nullptr, nullptr));
 }
 
-TEST(CApi, IndexedFramesOptionsOfZerosAreRefused) {
+TEST(CApi, RejectsIndexedFramesOptionsOfZeros) {
     const RandomMesh mesh(2, 60);
     const tspace_Mesh c_mesh = mesh.c();
     const auto options = zerosWithSize<tspace_IndexedFramesOptions>();

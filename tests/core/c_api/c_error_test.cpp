@@ -82,7 +82,7 @@ void expectSizeChecked(const char* what, Struct& sized, Call call, std::size_t e
     EXPECT_EQ(TSPACE_OK, call()) << what;
 }
 
-TEST_F(CErrors, RefuseSizesOfStructsThatThisVersionDoesNotKnow) {
+TEST_F(CErrors, RejectSizesOfStructsThatThisVersionDoesNotKnow) {
     tspace_TangentOptions tangent_options = tangentOptions();
     tspace_TangentReport tangent_report;
     TSPACE_INIT(tangent_report);
@@ -145,7 +145,7 @@ struct AsOldCaller {
     alignas(Struct) std::array<std::byte, sizeof(Struct)> bytes;
 };
 
-TEST_F(CErrors, ServeCallersThatWereCompiledWithAnOlderHeader) {
+TEST_F(CErrors, SupportCallersCompiledWithAnOlderHeader) {
     const tspace_TangentOptions now = tangentOptions();
     ASSERT_EQ(TSPACE_OK, generate(&now));
     const std::vector<float> expected = tangents;
@@ -211,7 +211,7 @@ TEST_F(CErrors, KnowEverySizeThatAStructHad) {
     expectKnown(c_api::kSizes<tspace_PackReport>, {72});
 }
 
-TEST_F(CErrors, RefuseNullWhereSomethingIsNeeded) {
+TEST_F(CErrors, ReportRequiredPointersThatAreNull) {
     EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_validate(nullptr, &error));
     EXPECT_STREQ("mesh is null", error.message);
     EXPECT_EQ(TSPACE_ERROR_NULL_DATA, tspace_generateNormals(nullptr, nullptr, span(3), nullptr, nullptr, nullptr));
@@ -250,7 +250,7 @@ TEST_F(CErrors, SetResultsToNull) {
     EXPECT_EQ(nullptr, split);
 }
 
-TEST_F(CErrors, RefuseChoicesThatDoNotExist) {
+TEST_F(CErrors, RejectChoicesThatDoNotExist) {
     const auto expectRefused = [&](auto change) {
         tspace_TangentOptions options = tangentOptions();
         change(options);
@@ -281,7 +281,7 @@ TEST_F(CErrors, RefuseChoicesThatDoNotExist) {
     EXPECT_NE(nullptr, std::strstr(error.message, "weighting")) << error.message;
 }
 
-TEST_F(CErrors, RefuseHooksWithoutFunctions) {
+TEST_F(CErrors, RejectHooksWithoutFunctions) {
     const tspace_Executor executor = {nullptr, nullptr, 1};
     const tspace_Allocator allocator = {nullptr, nullptr, nullptr};
     const tspace_TangentOptions options = tangentOptions();
@@ -298,7 +298,7 @@ TEST_F(CErrors, RefuseHooksWithoutFunctions) {
     EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, codeOf());
 }
 
-TEST_F(CErrors, PassOnWhatTheLibraryFinds) {
+TEST_F(CErrors, PassOnErrorsOfTheLibrary) {
     const tspace_TangentOptions options = tangentOptions();
     tspace_Mesh bad = c_mesh;
     bad.positions.stride_bytes = 8;

@@ -67,7 +67,7 @@ static void checkShading(void) {
     const tspace_Vec3 light = {0, 0, 1};
     CHECK(distance(tspace_lambert(frame, light, normal), 0.8f) < 1e-6f);
     CHECK(distance(tspace_objectNormal(frame, normal).x, 0.6f) < 1e-6f);
-    const tspace_Vec4 tangent = {2, 0, 0, 1}; /* longer than unit, as between vertices it is shorter: not mended */
+    const tspace_Vec4 tangent = {2, 0, 0, 1}; /* not unit, like interpolated tangents: must not be normalized */
     const tspace_Vec3 diagonal = {1, 0, 2};
     const tspace_Vec3 result = tspace_objectNormalMikktspace(light, tangent, diagonal);
     CHECK(distance(result.x, result.z) < 1e-6f && result.y == 0);

@@ -111,7 +111,7 @@ static void checkTangents(float tangents[8][4]) {
 
 static void checkSanitize(float tangents[8][4]) {
     tspace_Mesh mesh = makeMesh();
-    tangents[2][0] = 0.0f; /* zero: to be mended */
+    tangents[2][0] = 0.0f; /* zero: must be repaired */
     tspace_Span span = {&tangents[0][0], 8, 0};
     tspace_SanitizeReport report;
     TSPACE_INIT(report);

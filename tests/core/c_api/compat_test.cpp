@@ -145,7 +145,7 @@ TEST(Compat, IsFalseWithoutAFaceOfThreeOrFourVertices) {
     }
 }
 
-TEST(Compat, TakesNegativeCountsAsNone) {
+TEST(Compat, TreatsNegativeCountsAsZero) {
     Strip strip({4});
     for (const int face_count : {-1, INT_MIN}) {
         strip.face_count = face_count;
@@ -165,7 +165,7 @@ TEST(Compat, ReadsTheFirstCornerOfAnUnsupportedFirstFaceOnly) {
     EXPECT_EQ(strip.count('n'), 4u);
 }
 
-TEST(Compat, RefusesMoreCornersThanFitBeforeReadingOne) {
+TEST(Compat, RejectsMoreCornersThanFitBeforeReadingOne) {
     Strip strip({});
     strip.callbacks.m_getNumFaces = [](const SMikkTSpaceContext*) { return INT_MAX; };
     strip.callbacks.m_getNumVerticesOfFace = [](const SMikkTSpaceContext*, const int) { return 4; };

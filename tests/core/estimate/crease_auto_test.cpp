@@ -84,7 +84,7 @@ TEST(AutomaticCreases, AreNoneOnSmoothShapes) {
 }
 
 /// The edges of these shapes have angles of 40 degrees and more, distributed continuously.
-TEST(AutomaticCreases, HarmNoSmoothShapesThatWereDecimatedToSomeHundredTriangles) {
+TEST(AutomaticCreases, AreNoneOnSmoothShapesDecimatedToSomeHundredTriangles) {
     for (const std::span<const Shape> all : {accuracy::shapes(), accuracy::heldOutShapes()}) {
         for (const Shape& shape : all) {
             if (shape.is_sharp) continue;
@@ -101,7 +101,7 @@ TEST(AutomaticCreases, HarmNoSmoothShapesThatWereDecimatedToSomeHundredTriangles
 }
 
 /// These parts have flat regions, so their edges are detected.
-TEST(AutomaticCreases, AreFoundOnPartsThatWereDecimatedToSomeHundredTriangles) {
+TEST(AutomaticCreases, AreDetectedOnPartsDecimatedToSomeHundredTriangles) {
     for (const std::span<const Shape> all : {accuracy::shapes(), accuracy::heldOutShapes()}) {
         for (const Shape& shape : all) {
             if (!shape.is_sharp) continue;
@@ -144,7 +144,7 @@ TEST(AutomaticCreases, HaveTheSameBitsForAnyNumberOfThreads) {
     }
 }
 
-TEST(AutomaticCreases, HaveTheSameBitsBesideAFaceThatIsNoTriangle) {
+TEST(AutomaticCreases, HaveTheSameBitsNextToAPolygon) {
     // Noise is then smoothed face by face instead of four triangles at a time.
     for (const double noise : {0.025, 0.05, 0.1}) {
         Scan scan = accuracy::scan(shape("part"), 24, noise, Random{7});

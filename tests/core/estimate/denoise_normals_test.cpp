@@ -205,7 +205,7 @@ TEST(DenoisedNormals, TakeAFactorOnTheNoiseThatIsMeasured) {
     }
 }
 
-TEST(DenoisedNormals, AreNotLookedAtByOtherWeightings) {
+TEST(DenoisedNormals, OptionIsIgnoredByOtherWeightings) {
     const Scan scan = accuracy::scan(shape("torus"), 24, 0.1, Random{4});
     const NormalOptions angle{.weighting = NormalWeighting::angle, .denoise = kAuto};
     EXPECT_TRUE(sameBits(normalsOf(scan.view(), angle).normals, normalsOf(scan.view(), {}).normals));
@@ -328,7 +328,7 @@ TEST(PositionNoise, IsMeasuredOnSmoothShapes) {
     }
 }
 
-TEST(PositionNoise, FromALeastOnIsWhatTheFullMeasureGives) {
+TEST(PositionNoise, AboveAMinimumEqualsTheFullMeasurement) {
     constexpr double kLeast = 0.03;
     for (const char* name : {"blob", "torus", "rounded box"}) {
         for (const double noise : {0.0, 0.02, 0.035, 0.06, 0.3}) {
@@ -346,7 +346,7 @@ TEST(PositionNoise, FromALeastOnIsWhatTheFullMeasureGives) {
     }
 }
 
-TEST(PositionNoise, IsMeasuredInEdgesAsTheyWereWithoutIt) {
+TEST(PositionNoise, IsRelativeToTheEdgesWithoutNoise) {
     for (const Shape& shape : accuracy::heldOutShapes()) {
         if (shape.is_sharp) continue;
         const double edge = measurePositionNoise(accuracy::scan(shape, 80, 0, Random{1}).view())->mean_edge;

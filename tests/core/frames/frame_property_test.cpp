@@ -70,7 +70,7 @@ RC_GTEST_PROP(FaceFrameProperty, RebuildsTheEdgesFromTheUvDifferences, ()) {
     }
 }
 
-RC_GTEST_PROP(FaceFrameProperty, FollowsLinearMapsBeforeOrthogonalisation, ()) {
+RC_GTEST_PROP(FaceFrameProperty, FollowsLinearMapsBeforeOrthogonalization, ()) {
     Triangle t = randomTriangle();
     const Mat3 map{{randomVec3(), randomVec3(), randomVec3()}};
     const FaceFrame before = faceFrame(t.positions, t.uvs);
@@ -104,7 +104,7 @@ RC_GTEST_PROP(OrthonormalizeProperty, IsGramSchmidtInThatOrder, ()) {
     const Frame f = randomSoundFrame();
     const Frame o = orthonormalize(f);
     RC_ASSERT(frameSign(o) == frameSign(f));
-    // T stays in the plane of T and N, on its side; B stays on its side.
+    // T stays in the plane of T and N, on the same side; B stays on its side.
     RC_ASSERT(std::fabs(dot(f.tangent, o.bitangent)) < 1e-6);
     RC_ASSERT(dot(f.tangent, o.tangent) > 0);
     RC_ASSERT(dot(f.bitangent, o.bitangent) > 0);

@@ -64,11 +64,11 @@ TEST(FrameSign, IsTheSignOfTheDeterminant) {
     EXPECT_EQ(determinant({{2, 0, 0}, {0, -3, 0}, {0, 0, 4}}), -24);
 }
 
-TEST(FrameSign, SeesFramesTooSmallForAFloatDeterminant) {
+TEST(FrameSign, DetectsFramesTooSmallForAFloatDeterminant) {
     EXPECT_EQ(frameSign({{1e-20f, 0, 0}, {0, -1e-20f, 0}, {0, 0, 1e-20f}}), -1);
 }
 
-TEST(Orthonormalize, TakesOutOfTWhatLiesAlongN) {
+TEST(Orthonormalize, RemovesTheNormalComponentOfT) {
     const Frame frame = orthonormalize({{1, 0, 1}, {0, 2, 3}, {0, 0, 4}});
     expectNear(frame.tangent, {1, 0, 0});
     expectNear(frame.bitangent, {0, 1, 0});
@@ -79,7 +79,7 @@ TEST(Orthonormalize, KeepsAMirroredFrameMirrored) {
     expectNear(orthonormalize({{1, 0.5f, 0}, {0, -1, 0}, {0, 0, 1}}).bitangent, {0.4472136f, -0.8944272f, 0});
 }
 
-TEST(Orthonormalize, ReplacesWhatIsMissing) {
+TEST(Orthonormalize, ReplacesMissingVectors) {
     const Frame parallel = orthonormalize({{0, 0, 2}, {0, 1, 0}, {0, 0, 1}});
     expectNear(parallel.tangent, basisFromNormal({0, 0, 1}).tangent);
     const Frame no_bitangent = orthonormalize({{1, 0, 0}, {1, 0, 0}, {0, 0, 1}});
@@ -97,14 +97,14 @@ TEST(RebuildBitangent, IsSignTimesNCrossT) {
     EXPECT_EQ(rebuildBitangent({0, 0, 1}, {1, 0, 0, -1}), (Vec3{0, -1, 0}));
 }
 
-TEST(BasisFromNormal, DoesNotTellMinusZeroFromZero) {
+TEST(BasisFromNormal, TreatsMinusZeroLikeZero) {
     const Frame up = basisFromNormal({1, 0, 0.0f});
     const Frame down = basisFromNormal({1, 0, -0.0f});
     EXPECT_EQ(up.tangent, down.tangent);
     EXPECT_EQ(up.bitangent, down.bitangent);
 }
 
-TEST(ObjectToTangent, RefusesSingularFramesAndWritesNothing) {
+TEST(ObjectToTangent, RejectsSingularFramesAndWritesNothing) {
     Mat3 out{{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}};
     EXPECT_FALSE(objectToTangent({{1, 2, 3}, {2, 4, 6}, {0, 0, 1}}, out));
     EXPECT_FALSE(objectToTangent({{kNan, 2, 3}, {2, 4, 6}, {0, 0, 1}}, out));

@@ -67,7 +67,7 @@ void expectMended(const Vec4& t, const Vec3& n) {
     EXPECT_TRUE(t.w == 1.0f || t.w == -1.0f);
 }
 
-TEST(Sanitize, ChangesNoBitOfSoundTangents) {
+TEST(Sanitize, ChangesNoBitOfValidTangents) {
     Scene scene = twoTriangles();
     scene.tangents[0] = {1.0004f, 0, -0.0f, 1};  // unit within the validator's tolerance
     scene.tangents[1] = {0.8f, 0, 0.6f, 1};      // not orthogonal, which is not a fault of the frame
@@ -77,7 +77,7 @@ TEST(Sanitize, ChangesNoBitOfSoundTangents) {
     EXPECT_TRUE(sameBits(scene.tangents, before));
 }
 
-TEST(Sanitize, CountsEachCornerByItsFirstCauseAndByItsCure) {
+TEST(Sanitize, CountsEachCornerByItsFirstCauseAndItsRepair) {
     Scene scene = twoTriangles();
     scene.tangents = {{kNan, 0, 0, 1}, {0, 0, 0, 1}, {1, 0, 0, 1}, {0, 2, 0, 1}, {0, 0, 1, 1}, {1, 0, 0, 0}};
     const SanitizeReport report = scene.sanitize();
@@ -96,7 +96,7 @@ TEST(Sanitize, CountsEachCornerByItsFirstCauseAndByItsCure) {
     for (const Vec4& t : scene.tangents) expectMended(t, {0, 0, 1});
 }
 
-TEST(Sanitize, FindsABrokenCornerWhereverItLies) {
+TEST(Sanitize, FindsAnInvalidCornerAtAnyPosition) {
     Scene scene = twoTriangles();
     scene.face_sizes = {};
     for (std::uint32_t face = 2; face < 130; ++face) scene.indices.insert(scene.indices.end(), {0, 1, 2});
@@ -117,7 +117,7 @@ TEST(Sanitize, FindsABrokenCornerWhereverItLies) {
     }
 }
 
-TEST(Sanitize, TakesTheFirstSoundTangentAtThePositionWhenTheFaceHasNone) {
+TEST(Sanitize, UsesTheFirstValidTangentAtThePositionIfTheFaceHasNone) {
     Scene scene = twoTriangles();
     scene.positions[2].x = -0.0f;
     scene.positions.push_back({0, 1, 0});  // the same position with a different index and a different zero
@@ -133,14 +133,14 @@ TEST(Sanitize, TakesTheFirstSoundTangentAtThePositionWhenTheFaceHasNone) {
     EXPECT_EQ(scene.tangents[5].w, -1.0f);
 }
 
-TEST(Sanitize, KeepsTheSignThatABrokenFaceHas) {
+TEST(Sanitize, KeepsTheSignOfAnInvalidFace) {
     Scene scene = twoTriangles();
     for (std::size_t c = 3; c < 6; ++c) scene.tangents[c] = {kNan, kNan, kNan, -1};
     scene.sanitize();
     for (std::size_t c = 3; c < 6; ++c) EXPECT_EQ(scene.tangents[c].w, -1.0f);
 }
 
-TEST(Sanitize, LetsTheMajorityOfSoundCornersDecideTheSignOfAFace) {
+TEST(Sanitize, UsesTheMajoritySignOfValidCornersOfAFace) {
     Scene scene = twoTriangles();
     scene.tangents[0].w = -1;
     scene.tangents[3] = {0, 3, 0, -1};
@@ -150,7 +150,7 @@ TEST(Sanitize, LetsTheMajorityOfSoundCornersDecideTheSignOfAFace) {
     for (const Vec4& t : scene.tangents) EXPECT_EQ(t.w, 1.0f);
 }
 
-TEST(Sanitize, LetsTheFirstSoundCornerDecideATie) {
+TEST(Sanitize, TheFirstValidCornerDecidesATie) {
     Scene scene;
     scene.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     scene.normals = {4, Vec3{0, 0, 1}};
@@ -170,7 +170,7 @@ TEST(Sanitize, WritesAnOrthonormalTangentWhereItChangesTheSign) {
     EXPECT_TRUE(sameBits(scene.tangents[0], {1, 0, 0, 1}));
 }
 
-TEST(Sanitize, DrawsTheLineForParallelAtOneDegree) {
+TEST(Sanitize, TreatsLessThanOneDegreeAsParallel) {
     const auto tilted = [](double degrees) {
         const double a = degrees * 3.14159265358979 / 180;
         return Vec4{static_cast<float>(std::sin(a)), 0, static_cast<float>(-std::cos(a)), 1};
@@ -184,7 +184,7 @@ TEST(Sanitize, DrawsTheLineForParallelAtOneDegree) {
     EXPECT_TRUE(sameBits(scene.tangents[1], sound));
 }
 
-TEST(Sanitize, LaysPlaceholdersIntoTheSurface) {
+TEST(Sanitize, ProjectsPlaceholdersOntoTheSurface) {
     Scene scene = twoTriangles();
     scene.normals[1] = {0.6f, 0, 0.8f};
     scene.normals[3] = {3, 0, 0.1f};  // 2 degrees from the placeholder
@@ -200,7 +200,7 @@ TEST(Sanitize, LaysPlaceholdersIntoTheSurface) {
     for (const std::size_t c : {0u, 2u, 3u}) EXPECT_TRUE(sameBits(scene.tangents[c], {1, 0, 0, 1}));
 }
 
-TEST(Sanitize, LeavesOtherTangentsAsFarFromTheSurfaceAsTheyAre) {
+TEST(Sanitize, KeepsTheTiltOfOtherTangents) {
     Scene scene = twoTriangles();
     scene.normals[1] = {0.6f, 0, 0.8f};
     for (const std::size_t c : {1u, 4u}) scene.tangents[c] = {0.99999994f, 1e-8f, 0, 1};
@@ -209,7 +209,7 @@ TEST(Sanitize, LeavesOtherTangentsAsFarFromTheSurfaceAsTheyAre) {
     EXPECT_TRUE(sameBits(scene.tangents, before));
 }
 
-TEST(Sanitize, AsksNoPlaceholderForTheSignOfAFace) {
+TEST(Sanitize, IgnoresPlaceholdersForTheSignOfAFace) {
     Scene scene = twoTriangles();
     scene.normals[0] = scene.normals[1] = {0.6f, 0, 0.8f};
     scene.tangents[0].w = scene.tangents[1].w = -1;
@@ -221,7 +221,7 @@ TEST(Sanitize, AsksNoPlaceholderForTheSignOfAFace) {
     EXPECT_EQ(scene.tangents[1].w, 1);
 }
 
-TEST(Sanitize, MakesAllFramesOrthogonalOnlyWhenAsked) {
+TEST(Sanitize, MakesAllFramesOrthogonalOnlyOnRequest) {
     Scene scene = twoTriangles();
     scene.normals[0] = {0, 0, 0.98f};
     scene.tangents[0] = {0.8f, 0, 0.6f, 1};
@@ -235,7 +235,7 @@ TEST(Sanitize, MakesAllFramesOrthogonalOnlyWhenAsked) {
     }
 }
 
-TEST(Sanitize, GivesAUnitTangentWhereTheNormalIsBroken) {
+TEST(Sanitize, GivesAUnitTangentIfTheNormalIsInvalid) {
     Scene scene = twoTriangles();
     scene.normals = {{0, 0, 0}, {kNan, 0, 0}, {0, -kInf, 0}, {0, 0, 1e-42f}};
     for (Vec4& t : scene.tangents) t = {kNan, 0, 0, kNan};
@@ -246,7 +246,7 @@ TEST(Sanitize, GivesAUnitTangentWhereTheNormalIsBroken) {
 }
 
 /// A vertex whose N has no direction needs one tangent, and no copies.
-TEST(Sanitize, GivesOneTangentToAVertexWhoseNormalIsBroken) {
+TEST(Sanitize, GivesOneTangentToAVertexWithAnInvalidNormal) {
     for (const Vec3& normal : {Vec3{}, Vec3{kNan, kNan, kNan}}) {
         Scene scene = twoTriangles();
         scene.normals[1] = normal;
@@ -262,7 +262,7 @@ TEST(Sanitize, GivesOneTangentToAVertexWhoseNormalIsBroken) {
     }
 }
 
-TEST(Sanitize, AsksNoCornerWithoutANormalForTheSignOfAFace) {
+TEST(Sanitize, IgnoresCornersWithoutANormalForTheSignOfAFace) {
     Scene scene = twoTriangles();
     scene.normals[1] = scene.normals[2] = {};
     scene.tangents[0].w = scene.tangents[5].w = -1;
@@ -270,7 +270,7 @@ TEST(Sanitize, AsksNoCornerWithoutANormalForTheSignOfAFace) {
     for (const Vec4& tangent : scene.tangents) EXPECT_EQ(tangent.w, -1);
 }
 
-TEST(Sanitize, LeavesFacesWithFewerThanThreeCornersAlone) {
+TEST(Sanitize, IgnoresFacesWithFewerThanThreeCorners) {
     Scene scene = twoTriangles();
     scene.face_sizes = {2, 1, 3};
     scene.tangents.assign(6, Vec4{});
@@ -278,7 +278,7 @@ TEST(Sanitize, LeavesFacesWithFewerThanThreeCornersAlone) {
     for (std::size_t c = 0; c < 3; ++c) EXPECT_TRUE(sameBits(scene.tangents[c], Vec4{}));
 }
 
-TEST(Sanitize, RefusesWhatItCannotRead) {
+TEST(Sanitize, RejectsInvalidArguments) {
     Scene scene = twoTriangles();
     MeshView mesh = scene.view();
     mesh.normals = {};
@@ -401,7 +401,7 @@ TEST(Sanitize, GivesTheSameBitsForAnyThreadCount) {
     }
 }
 
-TEST(Sanitize, ReportsThatMemoryRanOutAndGivesAllOfItBack) {
+TEST(Sanitize, ReportsThatMemoryRanOutAndFreesAllOfIt) {
     struct Memory {
         int left = 0;
         int held = 0;

@@ -81,7 +81,7 @@ TEST(Split, ChangesNothingWithoutAttributes) {
     EXPECT_EQ(result.vertexCount(), 2u);
 }
 
-TEST(Split, TakesCornersForVerticesWithoutIndices) {
+TEST(Split, TreatsCornersAsVerticesWithoutIndices) {
     const std::vector<float> values{1, 2, 3};
     const std::vector<CornerAttribute> attributes{floats(values)};
     const Result<SplitResult> result = splitVertices(IndexView{}, 4, 3, attributes);
@@ -90,7 +90,7 @@ TEST(Split, TakesCornersForVerticesWithoutIndices) {
     EXPECT_EQ(result->source_corners, (Indices{0, 1, 2, kNoCorner}));
 }
 
-TEST(Split, TellsZerosAndNansApartByTheirBits) {
+TEST(Split, DistinguishesZerosAndNansByTheirBits) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     EXPECT_EQ(split({0, 0, 0}, 1, {floats({0.0f, -0.0f, 0.0f})}).indices, (Indices{0, 1, 0}));
     EXPECT_EQ(split({0, 0, 0, 0}, 1, {floats({nan, nan, -nan, nan})}).indices, (Indices{0, 0, 1, 0}));
@@ -102,7 +102,7 @@ TEST(Split, MergesNoiseWithinTheToleranceOnly) {
     EXPECT_EQ(split({0, 0, 0, 0, 0, 0, 0}, 1, {floats(values, 1e-5f)}).indices, (Indices{0, 0, 0, 1, 2, 2, 3}));
 }
 
-TEST(Split, ComparesWithTheCornerThatGotTheVertexSoThatChainsDoNotCreep) {
+TEST(Split, ComparesWithTheFirstCornerSoThatTolerancesDoNotAccumulate) {
     EXPECT_EQ(split({0, 0, 0, 0}, 1, {floats({0.0f, 0.75f, 1.5f, 0.8f}, 1.0f)}).indices, (Indices{0, 0, 1, 0}));
 }
 
@@ -110,7 +110,7 @@ TEST(Split, SplitsWhereAnyOfSeveralAttributesDisagrees) {
     EXPECT_EQ(split({0, 0, 0}, 1, {floats({1, 1, 2}), floats({5, 6, 5})}).indices, (Indices{0, 1, 2}));
 }
 
-TEST(Split, RefusesWhatItCannotRead) {
+TEST(Split, RejectsInvalidArguments) {
     const Indices indices{0, 1, 2};
     const std::vector<float> values{1, 2, 3};
     const auto code = [&](std::size_t vertices, std::size_t corners, CornerAttribute attribute) {
@@ -176,13 +176,13 @@ RandomCorners anyCorners() {
     return r;
 }
 
-RC_GTEST_PROP(Split, FollowsItsRule, ()) {
+RC_GTEST_PROP(Split, FollowsItsDefinition, ()) {
     const RandomCorners r = anyCorners();
     const SplitResult result = split(r.indices, r.vertex_count, r.attributes);
     RC_ASSERT(equalResults(result, splitSlowly(r.indices, r.vertex_count, r.attributes)));
 }
 
-RC_GTEST_PROP(Split, GivesBackTheCornersBitForBitWhenReindexed, ()) {
+RC_GTEST_PROP(Split, RestoresTheCornersBitForBit, ()) {
     RandomCorners r = anyCorners();
     for (CornerAttribute& attribute : r.attributes) attribute.tolerance = 0;
     const SplitResult result = split(r.indices, r.vertex_count, r.attributes);

@@ -12,7 +12,7 @@ namespace {
 
 using Numbers = std::vector<std::uint32_t>;
 
-TEST(Triangulate, GivesBackTriangles) {
+TEST(Triangulate, KeepsTriangles) {
     const std::vector<Vec3> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
     const Numbers indices{0, 1, 2, 2, 1, 3};
     MeshView mesh;
@@ -38,7 +38,7 @@ TEST(Triangulate, SkipsFacesWithoutAnAreaAndNamesTheFaceOfEachTriangle) {
     EXPECT_EQ(result->faces, (Numbers{1, 1, 4}));
 }
 
-TEST(Triangulate, CutsQuadsByTheirUvs) {
+TEST(Triangulate, SplitsQuadsByTheirUvs) {
     const std::vector<Vec3> positions{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     const std::vector<Vec2> uvs{{0, 0}, {0.5f, 0.4f}, {1, 1}, {0.5f, 0.6f}};
     MeshView mesh;
@@ -49,7 +49,7 @@ TEST(Triangulate, CutsQuadsByTheirUvs) {
     EXPECT_EQ(triangulate(mesh)->corners, (Numbers{0, 1, 3, 1, 2, 3}));
 }
 
-TEST(Triangulate, RefusesABrokenMesh) {
+TEST(Triangulate, RejectsAnInvalidMesh) {
     const std::vector<Vec3> positions(4);
     MeshView mesh;
     mesh.positions = positions;

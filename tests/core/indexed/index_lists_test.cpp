@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Meshes with an index list per attribute give what the same mesh with one list gives.
+// Meshes with an index list per attribute give the same results as the mesh with one list.
 #include <gtest/gtest.h>
 
 #include "core/indexed/lists_mesh.h"
@@ -91,7 +91,7 @@ TEST(IndexLists, EntriesPerCornerCountAsOneWhereTheirBitsAreEqual) {
     }
 }
 
-TEST(IndexLists, AreTakenByNormalsSanitizeAndTriangulate) {
+TEST(IndexLists, AreSupportedByNormalsSanitizeAndTriangulate) {
     const ListsMesh mesh(6, 90);
     const UnrolledMesh unrolled(mesh);
     std::vector<Vec3> normals(mesh.cornerCount()), wanted_normals(mesh.cornerCount());

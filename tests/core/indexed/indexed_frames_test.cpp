@@ -82,7 +82,7 @@ TEST(IndexedFrames, TakeAnIndexListPerAttribute) {
     }
 }
 
-TEST(IndexedFrames, MakeNormalsWhereThereAreNoneOrTheyAreAskedFor) {
+TEST(IndexedFrames, ComputeMissingAndRequestedNormals) {
     const ListsMesh lists(3, 60);
     MeshView without = lists.view();
     without.normals = {};
@@ -109,7 +109,7 @@ TEST(IndexedFrames, MakeNormalsWhereThereAreNoneOrTheyAreAskedFor) {
     EXPECT_TRUE(sameBits(atCorners(*replaced, replaced->normals), normals));
 }
 
-TEST(IndexedFrames, TheConventionSaysWhichSideIsOut) {
+TEST(IndexedFrames, TheConventionDefinesTheOutside) {
     const ListsMesh lists(3, 30);
     MeshView mesh = lists.view();
     mesh.normals = {};
@@ -162,7 +162,7 @@ TEST(IndexedFrames, AMeshWithoutIndicesGetsThem) {
     EXPECT_EQ(kept->vertexCount(), positions.size());
 }
 
-TEST(IndexedFrames, VerticesWithoutCornersKeepTheirPlaceAndGetAFrame) {
+TEST(IndexedFrames, UnusedVerticesKeepTheirPositionAndGetAFrame) {
     UnrolledMesh mesh{ListsMesh(5, 20)};
     mesh.positions.push_back({9, 9, 9});
     mesh.normals.push_back({0, 1, 0});
@@ -188,7 +188,7 @@ TEST(IndexedFrames, GiveTheSameForAnyNumberOfThreads) {
     EXPECT_TRUE(sameBits(one->tangents, three->tangents));
 }
 
-TEST(IndexedFrames, SayWhatIsWrong) {
+TEST(IndexedFrames, ReportErrors) {
     const ListsMesh lists(7, 20);
     const auto codeOf = [](const MeshView& mesh, const IndexedFramesOptions& options) {
         const auto frames = makeIndexedFrames(mesh, options);

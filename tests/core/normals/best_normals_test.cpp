@@ -160,7 +160,7 @@ TEST(BestNormals, KeepAFlatCapThatIsAFanFromItsRimAsFlatAsAngleTimesAreaBesideAF
     }
 }
 
-TEST(BestNormals, OfACubeArePracticallyTheDiagonalsHoweverTheFacesAreCut) {
+TEST(BestNormals, OfACubeAreNearlyTheDiagonalsForAnyTriangulation) {
     for (unsigned diagonals = 0; diagonals < 64; ++diagonals) {
         const SimpleMesh cube = test::triangleCube(diagonals);
         const std::vector<Vec3> normals = bestOf(cube.view());
@@ -181,7 +181,7 @@ TEST(BestNormals, DoNotCrossHardEdges) {
     for (std::size_t c = 0; c < grouped.size(); ++c) EXPECT_LT(angleDeg(grouped[c], test::kCubeNormals[c / 4]), 1e-4);
 }
 
-TEST(BestNormals, TurnRoundWithTheWindingAndGrowWithNothing) {
+TEST(BestNormals, FlipWithTheWindingAndDoNotDependOnScale) {
     SimpleMesh mesh = grid({0, 0.2f, 0.3f, 0.7f, 1}, [](float x, float y) { return x * y; });
     const std::vector<Vec3> normals = bestOf(mesh.view());
     Convention clockwise;
@@ -196,7 +196,7 @@ TEST(BestNormals, TurnRoundWithTheWindingAndGrowWithNothing) {
     }
 }
 
-TEST(BestNormals, DoNotDependOnVerticesThatNoTriangleNames) {
+TEST(BestNormals, DoNotDependOnUnusedVertices) {
     SimpleMesh mesh = grid({0, 0.1f, 0.15f, 0.9f, 1}, [](float x, float y) { return x * x - 0.5f * y * y; });
     for (Vec3& p : mesh.positions) p = {std::ldexp(p.x, -60), std::ldexp(p.y, -60), std::ldexp(p.z, -60)};
     const std::vector<Vec3> want = bestOf(mesh.view());

@@ -96,7 +96,7 @@ TEST(Crowds, CollapsedFacesAtOnePointAllGetASubstitute) {
     EXPECT_EQ(report.fallback_corner_count, 3 * kCount);
 }
 
-TEST(Crowds, APolygonThatStandsStillAtOnePointCountsOnce) {
+TEST(Crowds, APolygonWithRepeatedCornersAtAPointCountsOnce) {
     constexpr std::uint32_t kCount = 200'000;
     SimpleMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};

@@ -330,7 +330,7 @@ TEST(PoseNormals, KeepTheHardEdgesOfTheMesh) {
     EXPECT_NEAR(hard[4].x, -std::sin(10 * kPi / 180), 1e-6) << "hard on the mesh";
 }
 
-TEST(PoseNormals, RefuseAnotherNumberOfPositions) {
+TEST(PoseNormals, RejectAWrongNumberOfPositions) {
     const SimpleMesh mesh = book(10);
     std::vector<Vec3> out(8), positions(5);
     EXPECT_EQ(generatePoseNormals(mesh.view(), StridedSpan<const Vec3>(positions), {}, out).error().code,

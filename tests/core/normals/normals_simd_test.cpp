@@ -154,7 +154,7 @@ TEST(HardEdges, DoNotDependOnWhichVerticesArePoints) {
 }
 
 /// If no edge is hard, and the faces around a point form one fan, the code path must not affect the result.
-TEST(HardEdges, ThatAreNoneLeaveTheBitsOfSmoothNormals) {
+TEST(HardEdges, WithoutHardEdgesBitsEqualThoseOfSmoothNormals) {
     for (const SimpleMesh& mesh : {sheet(40), sheet(200)}) {
         NormalOptions options;
         const Outcome smooth = compute(mesh.view(), options);
@@ -163,7 +163,7 @@ TEST(HardEdges, ThatAreNoneLeaveTheBitsOfSmoothNormals) {
     }
 }
 
-TEST(Simd, AnyNumberOfTrianglesAndVerticesIsDone) {
+TEST(Simd, AnyNumberOfTrianglesAndVerticesIsProcessed) {
     const SimpleMesh whole = randomMesh();
     for (std::size_t count = 1; count < 150; ++count) {
         SimpleMesh mesh = whole;
@@ -213,7 +213,7 @@ float allowedOfBest(const SimpleMesh& mesh) {
 }
 
 /// A smoothing group that contains every face changes only the code path.
-TEST(ShortWay, GivesTheNormalsOfTheGeneralOneAlsoForTinyHugeAndThinTriangles) {
+TEST(TriangleFastPath, EqualsTheGeneralPathForTinyHugeAndThinTriangles) {
     for (const SimpleMesh& mesh : soundMeshes()) {
         const std::vector<std::uint32_t> one_group(mesh.indices.size() / 3, 1);
         for (NormalOptions options : kKinds) {

@@ -47,7 +47,7 @@ void expectCubeIsHard(const std::vector<Vec3>& normals) {
     for (std::size_t c = 0; c < normals.size(); ++c) EXPECT_EQ(normals[c], test::kCubeNormals[c * 6 / normals.size()]);
 }
 
-TEST(AngleWeights, GiveTheBoxDiagonalHoweverTheFacesAreCut) {
+TEST(AngleWeights, GiveTheBoxDiagonalForAnyTriangulation) {
     for (unsigned diagonals = 0; diagonals < 64; ++diagonals) {
         const SimpleMesh cube = test::triangleCube(diagonals);
         expectCubeIsSmooth(cube, normalsOf(cube.view()));
@@ -67,7 +67,7 @@ TEST(AngleWeights, CountAReflexCornerByItsInteriorAngle) {
     expectNear(normalsOf(whole.view())[0], normalsOf(cut.view())[0]);
 }
 
-TEST(Weights, AreWhatTheirNamesSay) {
+TEST(Weights, EqualTheirFormulas) {
     // Two triangles at the origin: in the plane z = 0 with legs 1 and 1, in the plane x = 0 with legs 2 and 4.
     SimpleMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 2, 0}, {0, 0, 4}};
@@ -132,7 +132,7 @@ TEST(CreaseAngle, SplitsACubeBelowNinetyDegreesOnly) {
     }
 }
 
-TEST(CreaseAngle, ActsOnEdgesSoThatGentleTurnsAddUp) {
+TEST(CreaseAngle, AppliesToEdgesSoThatSmallAnglesAddUp) {
     // A quarter of a cylinder in nine steps of 10 degrees about one point: first and last face differ by 80 degrees.
     SimpleMesh mesh;
     mesh.positions.push_back({0, 0, 0});
@@ -205,7 +205,7 @@ TEST(Welding, MakesUvSeamsSmoothAndCanBeTurnedOff) {
     expectCubeIsSmooth(cube, normalsOf(cube.view(), {.weld_positions = false}));
 }
 
-TEST(Welding, TakesMinusZeroForZeroAndNothingForNan) {
+TEST(Welding, TreatsMinusZeroAsZeroAndWeldsNoNan) {
     SimpleMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-0.0f, 0, -0.0f}, {0, 0, 1}, {kNan, 0, 0}, {kNan, 0, 0}};
     mesh.addFace({0, 1, 2});

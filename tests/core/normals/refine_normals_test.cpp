@@ -146,7 +146,7 @@ RC_GTEST_PROP(RefinedNormals, WithHardEdgesAreTheStepOfEachSide, ()) {
 }
 
 /// Triangles of arbitrary values, or of a small grid: collapsed, crowded, double-sided, not finite.
-RC_GTEST_PROP(RefinedNormals, OfGarbageTurnByFourteenDegreesAtMostAndStayUnit, ()) {
+RC_GTEST_PROP(RefinedNormals, OfGarbageRotateByAtMostFourteenDegreesAndStayUnit, ()) {
     SimpleMesh mesh;
     const bool is_grid = test::randomInt(0, 2) == 0;
     const auto coordinate = [] { return static_cast<float>(test::randomInt(0, 3)); };
@@ -168,7 +168,7 @@ RC_GTEST_PROP(RefinedNormals, OfGarbageTurnByFourteenDegreesAtMostAndStayUnit, (
     }
 }
 
-TEST(RefinedNormals, OfOtherWeightingsAreTheirs) {
+TEST(RefinedNormals, OfOtherWeightingsAreUnchanged) {
     const SimpleMesh cube = test::triangleCube(21);
     for (const auto weighting : {NormalWeighting::flat, NormalWeighting::uniform, NormalWeighting::area,
                                  NormalWeighting::angle, NormalWeighting::angleArea, NormalWeighting::max}) {
@@ -186,7 +186,7 @@ TEST(RefinedNormals, AreOfTwoStepsAtMost) {
 }
 
 /// The center of a fan of 200,000 triangles costs one sum, regardless of the number of steps.
-TEST(RefinedNormals, OfAFanAreDoneInOnePassAStep) {
+TEST(RefinedNormals, OfAFanTakeOnePassPerStep) {
     SimpleMesh fan;
     fan.positions.push_back({0, 0, 0.2f});
     constexpr std::uint32_t kCount = 200'000;

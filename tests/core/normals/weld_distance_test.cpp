@@ -121,14 +121,14 @@ TEST(WeldDistance, GivesTheSameBitsForAnyNumberOfThreads) {
 }
 
 /// Edges are a few float spacings long: the remaining shape must be preserved.
-TEST(WeldDistance, LeavesSmallMeshesFarFromTheOriginAlone) {
+TEST(WeldDistance, KeepsSmallMeshesFarFromTheOrigin) {
     const SimpleMesh mesh = torus(0.01, {4096, 0, 0});
     Parallel parallel({});
     EXPECT_TRUE(NearPositions(mesh.view(), NormalOptions::weld_auto, nullptr, parallel).empty());
 }
 
 /// One large triangle must not affect a small part near the origin, where floats are precise.
-TEST(WeldDistance, LeavesFineDetailBesideALargeTriangleAlone) {
+TEST(WeldDistance, KeepsFineDetailNextToALargeTriangle) {
     SimpleMesh mesh = torus(1e-4);
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     mesh.positions.insert(mesh.positions.end(), {{-1e4f, -1e4f, 0}, {1e4f, -1e4f, 0}, {0, 1e4f, 0}});
@@ -137,7 +137,7 @@ TEST(WeldDistance, LeavesFineDetailBesideALargeTriangleAlone) {
     EXPECT_EQ(with, normalsOf(mesh, {}));
 }
 
-TEST(WeldDistance, DoesNotPassOnAlongARow) {
+TEST(WeldDistance, DoesNotWeldChains) {
     SimpleMesh mesh;
     for (int i = 0; i < 8; ++i) mesh.positions.push_back({static_cast<float>(i), 0, 0});
     Parallel parallel({});
@@ -147,7 +147,7 @@ TEST(WeldDistance, DoesNotPassOnAlongARow) {
     EXPECT_EQ(x, (std::vector<float>{0, 0, 2, 2, 4, 4, 6, 6}));
 }
 
-TEST(WeldDistance, TakesEqualPositionsToOnePlace) {
+TEST(WeldDistance, WeldsEqualPositionsToOneVertex) {
     SimpleMesh mesh;
     mesh.positions = {{1, 0, 0}, {1.5f, 0, 0}, {2, 0, 0}, {1.5f, 0, 0}, {2, 0, 0}, {-0.0f, 0, 0}, {0.0f, 0, 0}};
     Parallel parallel({});
@@ -160,7 +160,7 @@ TEST(WeldDistance, TakesEqualPositionsToOnePlace) {
     EXPECT_EQ(at[5], at[6]);
 }
 
-TEST(WeldDistance, RefusesWhatIsNoDistance) {
+TEST(WeldDistance, RejectsInvalidDistances) {
     const SimpleMesh mesh = torus();
     std::vector<Vec3> normals(mesh.cornerCount());
     std::vector<std::uint8_t> turned(mesh.cornerCount() / 3);

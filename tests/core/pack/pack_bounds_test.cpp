@@ -132,7 +132,7 @@ void expectFoundAgain(FrameFormat format, const std::vector<std::byte>& bytes) {
     EXPECT_TRUE(frames.tangents == again.tangents) << nameOf(format);
 }
 
-TEST_P(PackExact, FindsAnyWordAgain) {
+TEST_P(PackExact, RestoresAnyWord) {
     const long count = frameCount(500'000);
     const std::size_t each = frameBytes(GetParam());
     RandomBits random(4);
@@ -143,7 +143,7 @@ TEST_P(PackExact, FindsAnyWordAgain) {
     }
 }
 
-TEST_P(PackExact, FindsTheFirstAndLastWordsAgain) {
+TEST_P(PackExact, RestoresTheFirstAndLastWords) {
     const std::size_t each = frameBytes(GetParam());
     std::vector<std::byte> bytes;
     for (std::uint64_t i = 0; i < 4096; ++i) {
@@ -155,7 +155,7 @@ TEST_P(PackExact, FindsTheFirstAndLastWordsAgain) {
 }
 
 /// Evenly distributed over all 4-byte words: TSPACE_FRAMES=4294967296 tests all of them.
-TEST(PackWords, OfFourBytesAreFoundAgain) {
+TEST(PackWords, OfFourBytesAreRestored) {
     const std::uint64_t count = std::uint64_t{1} << 32, step = count / static_cast<std::uint64_t>(frameCount(500'000));
     for (const FrameFormat format : {FrameFormat::frame32, FrameFormat::oct32}) {
         std::vector<std::byte> bytes;
@@ -169,7 +169,7 @@ TEST(PackWords, OfFourBytesAreFoundAgain) {
 }
 
 /// Corners, edges and centers of the cubes in all charts of frame32.
-TEST(Frame32, FindsWordsAtTheBordersOfChartsAgain) {
+TEST(Frame32, RestoresWordsAtTheBordersOfCharts) {
     std::vector<std::byte> bytes;
     for (std::uint32_t g = 0; g < 24; ++g) {
         for (const std::uint32_t x : {0, 1, 2, 113, 225, 226, 227, 450, 451, 452}) {
@@ -211,7 +211,7 @@ TEST_P(PackExact, KeepsTheBitsOfFramesAlongAxes) {
     EXPECT_TRUE(after.tangents == frames.tangents);
 }
 
-TEST(PackBounds, AreNotMetByCoarserCodes) {
+TEST(PackBounds, AreExceededByCoarserCodes) {
     // Checks that the error measure can fail: N and T with 8 bits each exceed the bound of frame32.
     RandomBits random(6);
     const PackErrors errors = errorsOf(FrameFormat::snorm8Pair, randomFrames(random, 10'000));

@@ -85,7 +85,7 @@ TEST_P(PackSimd, PacksAnyNumberOfFramesToTheSameBytes) {
     for (std::size_t count = 0; count < 150; ++count) expectSamePacked(format(), randomFrames(random, count));
 }
 
-TEST_P(PackSimd, MendsToTheSameBytes) {
+TEST_P(PackSimd, RepairsToTheSameBytes) {
     RandomBits random(16);
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     const float values[] = {0, -0.0f, 1, -1, 0.6f, -0.8f, 1e-30f, 3e38f, kInfinity, std::nanf("")};

@@ -37,14 +37,14 @@ std::vector<int> bytesOf(FrameFormat format, const Vec3& normal, const Vec4& tan
     return numbers;
 }
 
-TEST(FrameBytes, IsWhatEachFormatTakes) {
+TEST(FrameBytes, IsTheSizeOfEachFormat) {
     const std::size_t bytes[] = {4, 6, 8, 4, 8, 8, 16, 7, 14};
     for (std::size_t i = 0; i < std::size(kAllFormats); ++i) EXPECT_EQ(frameBytes(kAllFormats[i]), bytes[i]);
     EXPECT_EQ(frameBytes(kNoFormat), 0);
     EXPECT_EQ(frameErrorBound(kNoFormat).normal_deg, 0);
 }
 
-TEST(PackFrames, StoresWhatTheFormatSays) {
+TEST(PackFrames, StoresTheDocumentedLayout) {
     const Vec3 z{0, 0, 1};
     const Vec4 x{1, 0, 0, 1}, x_mirrored{1, 0, 0, -1};
     // N at the center of the grid, angle 0, and the sign in the lowest bit.
@@ -78,14 +78,14 @@ TEST(PackFrames, CountsEachFrameByTheFirstCause) {
     EXPECT_EQ(reportOf({0, 0, 0}, {kNan, 0, 0, 0}).mendedCount(), 1);
 }
 
-TEST(PackFrames, MendsByTheFramesOwnDirections) {
+TEST(PackFrames, RepairsWithTheFramesOwnDirections) {
     const FrameList frame = through(FrameFormat::frame64, {0, 0, 1e-30f}, {3, 0, 4, -0.5f});
     EXPECT_EQ(frame.normals[0], (Vec3{0, 0, 1}));
     EXPECT_EQ(frame.tangents[0], (Vec4{1, 0, 0, -1}));
     EXPECT_EQ(through(FrameFormat::frame32, {3e38f, 0, 0}, {0, -3e38f, 0, 1}).tangents[0], (Vec4{0, -1, 0, 1}));
 }
 
-TEST(PackFrames, TakesTheSignOfABadSign) {
+TEST(PackFrames, UsesTheSignOfAnInvalidSign) {
     for (const FrameFormat format : kAllFormats) {
         for (const float w : {0.0f, -0.0f, kNan, kInfinity, 0.25f, 1.0f}) {
             EXPECT_EQ(through(format, {0, 0, 1}, {1, 0, 0, w}).tangents[0].w, 1);
@@ -96,7 +96,7 @@ TEST(PackFrames, TakesTheSignOfABadSign) {
     }
 }
 
-TEST(PackFrames, PacksAnythingIntoASoundFrame) {
+TEST(PackFrames, PacksAnythingIntoAValidFrame) {
     EXPECT_TRUE(rc::check("any floats", [] {
         const Vec3 n = randomGarbageVec3(), t = randomGarbageVec3();
         for (const FrameFormat format : kAllFormats) {
@@ -108,7 +108,7 @@ TEST(PackFrames, PacksAnythingIntoASoundFrame) {
     }));
 }
 
-TEST(UnpackFrames, MakesAFrameOfAnyBytes) {
+TEST(UnpackFrames, DecodesAnyBytesToAFrame) {
     RandomBits random(7);
     for (const FrameFormat format : kAllFormats) {
         for (const int fill : {0x00, 0x80, 0xff, 0x7f, -1}) {
@@ -150,7 +150,7 @@ TEST(PackFrames, ReadsAndWritesWithStrides) {
     }
 }
 
-TEST(PackFrames, RefusesArraysThatDoNotFit) {
+TEST(PackFrames, RejectsMismatchingArrays) {
     std::array<Vec3, 2> normals{{{0, 0, 1}, {0, 0, 1}}};
     std::array<Vec4, 2> tangents{{{1, 0, 0, 1}, {1, 0, 0, 1}}};
     std::array<std::byte, 16> bytes{};
@@ -173,7 +173,7 @@ TEST(PackFrames, RefusesArraysThatDoNotFit) {
     EXPECT_EQ(code(FrameFormat::frame32, normals, {tangents.data(), 2, 12}, eight), ErrorCode::strideTooSmall);
 }
 
-TEST(PackFrames, TakesBytesAtAnyAddress) {
+TEST(PackFrames, AcceptsUnalignedBytes) {
     RandomBits random(9);
     const FrameList frames = randomFrames(random, 10);
     for (const FrameFormat format : kAllFormats) {

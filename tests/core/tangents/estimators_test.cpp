@@ -137,7 +137,7 @@ TEST(Estimators, AThinShearedBevelDoesNotTurnTheFlatFace) {
     for (const Method method : kEstimated) EXPECT_LT(worst(method), 3);
 }
 
-TEST(Estimators, PowersOfFourInLengthsAndUvsDoNotMatterToABit) {
+TEST(Estimators, ScalingByPowersOfFourChangesNoBit) {
     const SimpleMesh shape = bumpyRing(6, 9);
     for (const Method method : kEstimated) {
         const Outputs want = generate(shape, method);
@@ -158,7 +158,7 @@ TEST(Estimators, PowersOfFourInLengthsAndUvsDoNotMatterToABit) {
     }
 }
 
-TEST(Estimators, VerticesThatNoTriangleNamesDoNotMatterToABit) {
+TEST(Estimators, UnusedVerticesChangeNoBit) {
     const SimpleMesh shape = bumpyRing(6, 9);
     SimpleMesh crowded = shape;
     for (std::size_t i = 0; i < 3 * shape.positions.size(); ++i)
@@ -221,7 +221,7 @@ TEST(Estimators, GiveUnitTangentsWhateverTheInput) {
     }
 }
 
-TEST(Estimators, GiveFiniteTangentsOnTheGoldenMeshesAndSanitizeMendsTheRest) {
+TEST(Estimators, GiveFiniteTangentsOnTheGoldenMeshesAndSanitizeRepairsTheRest) {
     TSPACE_NEEDS_SHARED("golden/mikktspace");
     std::size_t meshes = 0;
     for (const auto& entry : std::filesystem::directory_iterator(shared("golden/mikktspace"))) {

@@ -154,7 +154,7 @@ TEST(GridOrder, IsTheReferencesForAFewNodesOfALongCell) {
     }
 }
 
-TEST(GridOrder, IsTheReferencesWhereManyCutsTakeLittleOff) {
+TEST(GridOrder, IsTheReferencesForManyUnbalancedSplits) {
     std::mt19937 random(9);
     SimpleMesh shape;
     const auto power = [&] { return std::ldexp(1.0f, -static_cast<int>(random() % 120)); };
@@ -166,7 +166,7 @@ TEST(GridOrder, IsTheReferencesWhereManyCutsTakeLittleOff) {
     for (std::size_t n = 0; n < 200; ++n) EXPECT_EQ(found.some[n], found.wanted[n]);
 }
 
-TEST(GridOrder, PassesOverVerticesThatNoTriangleUses) {
+TEST(GridOrder, IgnoresUnusedVertices) {
     for (const bool along : {false, true}) {  // on the longest axis, or on another one
         SimpleMesh shape = soup(3000, 1000.0f, 5);
         const auto nobodys = static_cast<std::uint32_t>(shape.positions.size());

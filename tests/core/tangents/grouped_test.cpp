@@ -85,7 +85,7 @@ TEST(Grouped, FacesThatAreNotUsedGiveZeros) {
     EXPECT_EQ(got.report.skipped_face_count, 3u);
 }
 
-TEST(Grouped, NgonsAreCutOrSkipped) {
+TEST(Grouped, NgonsAreTriangulatedOrSkipped) {
     SimpleMesh shape;
     std::vector<std::uint32_t> corners;
     for (int i = 0; i < 6; ++i) {
@@ -108,7 +108,7 @@ TEST(Grouped, NgonsAreCutOrSkipped) {
     }
 }
 
-TEST(Grouped, ATriangleWithoutUvAreaTakesItsNeighborsFrame) {
+TEST(Grouped, ATriangleWithoutUvAreaUsesItsNeighborsFrame) {
     SimpleMesh shape = square();
     const std::uint32_t far = shape.addVertex({2, 2, 0}, kUp, {1, 1});
     shape.addFace({1, far, 2});
@@ -205,7 +205,7 @@ TEST(TangentPlan, GivesTheBitsOfTheOneCallOnItsOwnPose) {
 }
 
 /// A square of two triangles that do not share vertices, but have equal ones along the diagonal.
-TEST(TangentPlan, FollowsEqualVerticesThatComeApart) {
+TEST(TangentPlan, SupportsEqualVerticesThatSeparate) {
     SimpleMesh square;
     for (const Vec2& uv : {Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 0}, Vec2{1, 1}, Vec2{0, 1}}) {
         square.indices.push_back(static_cast<std::uint32_t>(square.positions.size()));
@@ -246,7 +246,7 @@ TEST(TangentPlan, KeepsItsGroupsOnAnotherPose) {
     EXPECT_FALSE(sameBits(at_rest, got));
 }
 
-TEST(TangentPlan, RefusesAPoseOfAnotherMesh) {
+TEST(TangentPlan, RejectsAPoseOfAnotherMesh) {
     const SimpleMesh shape = grid(4);
     const Result<TangentPlan> plan = planTangents(shape.view(), {.convention = conventions::opengl});
     ASSERT_TRUE(plan);
@@ -263,7 +263,7 @@ TEST(TangentPlan, RefusesAPoseOfAnotherMesh) {
     EXPECT_EQ(code({shape.positions, shape.normals}, outputs.view()), ErrorCode::planMismatch);
 }
 
-TEST(TangentBorder, NamesWhatIsWrong) {
+TEST(TangentBorder, NamesTheInvalidArgument) {
     const SimpleMesh shape = grid(2);
     Outputs outputs(shape.cornerCount());
     const auto code = [&](const MeshView& mesh, const TangentOptions& options, const TangentOutput& out) {
@@ -298,7 +298,7 @@ TEST(TangentBorder, AnEmptyMeshIsFine) {
     EXPECT_EQ(result->triangle_count, 0u);
 }
 
-TEST(TangentBorder, OutputsThatAreNotWantedMayBeMissing) {
+TEST(TangentBorder, UnwantedOutputsMayBeMissing) {
     const SimpleMesh shape = someDegenerate(200);
     const Outputs all = generate(shape);
     Outputs some(shape.cornerCount());

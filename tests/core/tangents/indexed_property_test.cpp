@@ -83,7 +83,7 @@ RC_GTEST_PROP(IndexedProperty, IsFiniteUnitAndSignedForGarbage, ()) {
     }
 }
 
-/// The sums of the method's definition, in double precision.
+/// Compares with the sums of the method's definition, in double precision.
 RC_GTEST_PROP(IndexedProperty, LengyelIsItsDefinition, ()) {
     const SimpleMesh mesh = randomMesh(3);
     const Outputs out = tangentsOf(mesh.view(), Method::lengyel);

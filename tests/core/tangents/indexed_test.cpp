@@ -144,7 +144,7 @@ TEST(Lengyel, SubtractsTheVectorAlongN) {
     }
 }
 
-TEST(Lengyel, LeavesOutFacesWithoutUvAreaAndBrokenOnes) {
+TEST(Lengyel, IgnoresFacesWithoutUvAreaAndInvalidOnes) {
     SimpleMesh mesh = square();
     mesh.positions.push_back({kNan, 0, 0});
     mesh.normals.push_back({0, 0, 1});
@@ -162,7 +162,7 @@ TEST(Lengyel, LeavesOutFacesWithoutUvAreaAndBrokenOnes) {
     EXPECT_EQ(out.report.default_corner_count, 2u);
 }
 
-TEST(Defaults, StandWhereNoFaceGivesATangent) {
+TEST(Defaults, AreWrittenIfNoFaceContributes) {
     SimpleMesh mesh = square();
     mesh.uvs.assign(4, {0.5f, 0.5f});
     for (const Method method : {Method::lengyel, Method::flat}) {
@@ -278,7 +278,7 @@ TEST(VertexDomain, GivesUnusedVerticesZeroAndCountsOutputs) {
     }
 }
 
-TEST(VertexDomain, IsRefusedForMethodsThatMaySplitAVertex) {
+TEST(VertexDomain, IsRejectedForMethodsThatMaySplitAVertex) {
     const SimpleMesh mesh = square();
     std::vector<Vec4> tangents(4);
     const auto codeOf = [&](Method method, OutputDomain domain, std::size_t count) {
@@ -343,7 +343,7 @@ TEST(Lengyel, LosesNoDigitsAtExtremeScales) {
     }
 }
 
-TEST(Lengyel, TellsSliversOfTheUvMapFromCollinearUvs) {
+TEST(Lengyel, DistinguishesUvSliversFromCollinearUvs) {
     SimpleMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     mesh.normals.assign(3, {0, 0, 1});
@@ -380,7 +380,7 @@ TEST(Plan, EvaluatesAnotherPoseWithItsOwnUvs) {
     }
 }
 
-TEST(Plan, ThatWasMovedFromIsThatOfAMeshWithoutVertices) {
+TEST(Plan, AfterAMoveEqualsThatOfAnEmptyMesh) {
     const SimpleMesh mesh = square();
     const MeshView view = mesh.view();
     std::vector<Vec4> tangents(view.cornerCount());

@@ -32,13 +32,13 @@ TEST(KernelArcCosine, EqualsTheRoundedDoubleFunction) {
     }
 }
 
-TEST(KernelArcCosine, KnowsItsEnds) {
+TEST(KernelArcCosine, IsExactAtItsEnds) {
     EXPECT_EQ(kernelArcCosine(1.0f), 0.0f);
     EXPECT_EQ(kernelArcCosine(-1.0f), 3.14159274f);
     EXPECT_EQ(kernelArcCosine(0.0f), 1.57079637f);
 }
 
-TEST(KernelArcCosine, KeepsCosinesThatRoundingMadeTooLargeAtTheEnds) {
+TEST(KernelArcCosine, ClampsCosinesOutsideItsDomain) {
     EXPECT_EQ(kernelArcCosine(1.0000001f), 0.0f);
     EXPECT_EQ(kernelArcCosine(-1.0000001f), arcCosine(-1.0f));
     EXPECT_TRUE(std::isnan(kernelArcCosine(std::bit_cast<float>(0x7fc00000u))));

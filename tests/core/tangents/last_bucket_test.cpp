@@ -258,7 +258,7 @@ TEST(LastBucket, IsTheSameForLargeMeshesAndAllThreads) {
 }
 
 /// The nodes of the last triangles all have their first corners, and therefore their representatives, at the start.
-TEST(LastBucket, IsFoundWhereTheLastTrianglesOnlyUseOldNodes) {
+TEST(LastBucket, IsFoundIfTheLastTrianglesUseOnlyEarlierNodes) {
     SimpleMesh shape = test::grid(80);
     for (int repeat = 0; repeat < 6000; ++repeat) shape.addTriangle(0, 1, 82);
     Welded welded(shape.view());

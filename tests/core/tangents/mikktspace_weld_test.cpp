@@ -101,7 +101,7 @@ TEST(Weld, FindsEqualVerticesWhereMostAreEqual) {
     expectWanted(unindexed);
 }
 
-TEST(Weld, PutsNothingThatRemainsIntoTransientMemory) {
+TEST(Weld, PutsNoPermanentDataIntoTransientMemory) {
     const SimpleMesh few = randomVertices(kMany, 100);
     expectTheSameWithTransientMemory(few.view());
     const SimpleMesh many = randomVertices(kMany - kMany % 3, 2);
@@ -143,7 +143,7 @@ TEST(Weld, KeepsVerticesThatDifferInOneValue) {
     }
 }
 
-TEST(Weld, LeavesNothingBehindWhereNoVerticesAreEqual) {
+TEST(Weld, UsesNoExtraMemoryWithoutEqualVertices) {
     const SimpleMesh shape = test::grid(100);
     const Nodes nodes = weldWith(shape.view(), 1);
     EXPECT_EQ(nodes.count, shape.positions.size());
@@ -171,7 +171,7 @@ TEST(Weld, ReadsStridesAndIndicesOfOtherWidths) {
     expectWanted(mesh);
 }
 
-TEST(Weld, TakesZerosOfBothSignsForOne) {
+TEST(Weld, TreatsZerosOfBothSignsAsEqual) {
     SimpleMesh shape;
     for (const float zero : {0.0f, -0.0f, 0.0f}) shape.addVertex({zero, 0, 0}, {0, 0, 1}, {0, -zero});
     shape.addVertex({1, 0, 0}, {0, 0, 1}, {1, 0});
@@ -184,7 +184,7 @@ TEST(Weld, TakesZerosOfBothSignsForOne) {
     EXPECT_EQ(nodes.vertex(nodes.ofVertex(1)), 1u);
 }
 
-TEST(Weld, DoesNotMindWildVerticesThatNoTriangleUses) {
+TEST(Weld, IgnoresExtremeUnusedVertices) {
     SimpleMesh shape = test::grid(10);
     const std::size_t count = shape.positions.size();
     const float nan = std::numeric_limits<float>::quiet_NaN();

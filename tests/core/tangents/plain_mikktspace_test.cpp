@@ -148,7 +148,7 @@ TEST(PlainMikktspace, TheEngineHasItsBitsOnRegularMeshes) {
     }
 }
 
-TEST(PlainMikktspace, OtherFacesThanTrianglesAndQuadsGetZeros) {
+TEST(PlainMikktspace, FacesThatAreNotTrianglesOrQuadsGetZeros) {
     SimpleMesh shape;
     for (int i = 0; i < 5; ++i)
         shape.addVertex({static_cast<float>(i), static_cast<float>(i * i), 0}, {0, 0, 1}, {static_cast<float>(i), 0});

@@ -129,7 +129,7 @@ TEST(RefinedTangents, AreCloserToTheSurfaceThanTheFitAndTheSecondStepIsCloserSti
 }
 
 /// If UVs are linear, the fit is exact, and nothing remains to be refined.
-TEST(RefinedTangents, StayWhereEdgesFit) {
+TEST(RefinedTangents, AreUnchangedIfEdgesFit) {
     const SmoothPatch patch = patchOf(5, 0);
     const Outputs fit = generate(patch.shape, 0), two = generate(patch.shape, 2);
     for (std::size_t c = 0; c < patch.shape.cornerCount(); ++c)
@@ -174,7 +174,7 @@ TEST(RefinedTangents, OfAPlanFollowThePose) {
 }
 
 /// A closed tube with a UV seam along one line: neighbors on each side of that line are separate.
-TEST(RefinedTangents, OnBothSidesOfASeamAgreeTwiceAsWell) {
+TEST(RefinedTangents, HaveHalfTheDifferenceAcrossASeam) {
     constexpr std::uint32_t kSide = 32;
     const auto tube = [](double u, double v) {
         const double a = 6.283185307179586 * u, r = 1 + 0.3 * std::sin(3 * v);
@@ -202,7 +202,7 @@ TEST(RefinedTangents, OnBothSidesOfASeamAgreeTwiceAsWell) {
     EXPECT_LT(twice, 0.7 * once);
 }
 
-TEST(RefinedTangents, OfOtherMethodsAreTheirs) {
+TEST(RefinedTangents, OfOtherMethodsAreUnchanged) {
     const SmoothPatch patch = patchOf(7);
     for (const Method method : {Method::mikktspace, Method::lengyel, Method::uniform, Method::angle, Method::area,
                                 Method::flat, Method::fast, Method::basis})

@@ -137,7 +137,7 @@ TEST(Simd, EveryTargetGivesTheBitsOfPlainCode) {
     }
 }
 
-TEST(Simd, AWishForMoreThanThereIsGetsTheBestThereIs) {
+TEST(Simd, RequestingAnUnsupportedTargetSelectsTheBestSupportedOne) {
     const SimdTarget best = simd::resolve(SimdTarget::best);
     EXPECT_NE(best, SimdTarget::best);
     EXPECT_LE(simd::resolve(SimdTarget::avx512), best);
@@ -145,7 +145,7 @@ TEST(Simd, AWishForMoreThanThereIsGetsTheBestThereIs) {
     EXPECT_EQ(simd::resolve(SimdTarget::scalar), SimdTarget::scalar);
 }
 
-TEST(Simd, AWishForAnotherKindOfCpuGetsOneThatIsThere) {
+TEST(Simd, RequestingAnotherArchitectureSelectsASupportedTarget) {
     const SimdTarget best = simd::resolve(SimdTarget::best);
     const bool is_x86 = best != SimdTarget::scalar && best != SimdTarget::neon;
     for (const SimdTarget wish : {SimdTarget::sse2, SimdTarget::avx2, SimdTarget::avx512})

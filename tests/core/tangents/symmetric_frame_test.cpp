@@ -36,7 +36,7 @@ Outputs generate(const SimpleMesh& shape, const TangentOptions& options) {
     return outputs;
 }
 
-TEST(SymmetricFrame, TurnsTheTangentByHalfOfTheShear) {
+TEST(SymmetricFrame, RotatesTheTangentByHalfOfTheShear) {
     for (const bool mirrored : {false, true}) {
         for (const double shear : {-60.0, 20.0, 45.0}) {
             const SimpleMesh shape = leaningPlane(shear, mirrored);
@@ -54,7 +54,7 @@ TEST(SymmetricFrame, TurnsTheTangentByHalfOfTheShear) {
     }
 }
 
-TEST(SymmetricFrame, LeavesUvsAtARightAngleAlone) {
+TEST(SymmetricFrame, DoesNotChangeOrthogonalUvs) {
     const SimpleMesh shape = leaningPlane(0, false);
     for (const Method method : kMethods) {
         const Outputs got =
@@ -77,7 +77,7 @@ TEST(SymmetricFrame, KeepsSignsAndTheOtherOutputs) {
     }
 }
 
-TEST(SymmetricFrame, PlanAndEvaluateEqualTheOneCallAndBitangentsNeedNotBeAskedFor) {
+TEST(SymmetricFrame, PlanAndEvaluateEqualTheOneCallWithoutBitangents) {
     const SimpleMesh shape = leaningPlane(50, false);
     for (const Method method : kMethods) {
         const TangentOptions options{
@@ -124,7 +124,7 @@ TEST(SymmetricFrame, KeepsTangentsThatHaveNoBitangentOrNormal) {
     }
 }
 
-TEST(SymmetricFrame, IsRefusedWhereItMeansNothing) {
+TEST(SymmetricFrame, IsRejectedForMethodsWithoutUvs) {
     const SimpleMesh shape = grid(2);
     std::vector<Vec4> tangents(shape.cornerCount());
     const auto codeOf = [&](const TangentOptions& options) {

@@ -129,7 +129,7 @@ void expectMended(const NamedBodies& sound, const Bodies& damaged, const char* d
     EXPECT_EQ(0u, mend(result.view()).report.turned_count) << sound.name << ", " << damage;
 }
 
-TEST(MendWinding, TurnsNothingOfASoundMesh) {
+TEST(FixWinding, FlipsNothingOfACorrectMesh) {
     for (const NamedBodies& sound : allBodies()) {
         const Mended mended = mend(sound.bodies.view());
         EXPECT_EQ(0u, mended.report.turned_count) << sound.name;
@@ -138,20 +138,20 @@ TEST(MendWinding, TurnsNothingOfASoundMesh) {
     }
 }
 
-TEST(MendWinding, FindsFacesThatWereTurnedByChance) {
+TEST(FixWinding, FixesRandomlyFlippedFaces) {
     for (const NamedBodies& sound : allBodies()) {
         for (const double share : {0.01, 0.17, 0.3})
             expectMended(sound, turnedByChance(sound.bodies, share, 5), "by chance");
     }
 }
 
-TEST(MendWinding, FindsPatchesThatWereTurned) {
+TEST(FixWinding, FixesFlippedPatches) {
     for (const NamedBodies& sound : allBodies()) {
         for (const double share : {0.17, 0.3}) expectMended(sound, turnedInPatches(sound.bodies, share, 5), "patches");
     }
 }
 
-TEST(MendWinding, FindsWholeBodiesThatAreInsideOut) {
+TEST(FixWinding, FixesBodiesThatAreInsideOut) {
     for (const NamedBodies& sound : allBodies()) {
         for (const bool all : {false, true}) expectMended(sound, turnedWhole(sound.bodies, all), "whole");
     }
@@ -164,7 +164,7 @@ TEST(MendWinding, FindsWholeBodiesThatAreInsideOut) {
     EXPECT_EQ(0u, report.conflict_count_before);
 }
 
-TEST(MendWinding, CountsConflictsAsTheyWere) {
+TEST(FixWinding, CountsConflictsBeforeTheFix) {
     Bodies torus;
     addTorus(torus, {}, 1, 0.4);
     torus.turn(100);
@@ -174,7 +174,7 @@ TEST(MendWinding, CountsConflictsAsTheyWere) {
     EXPECT_EQ(0u, report.turned_component_count);
 }
 
-TEST(MendWinding, LeavesCavitiesAndBodiesInBodiesAsTheyMostlyAre) {
+TEST(FixWinding, KeepsTheMajorityWindingOfNestedBodies) {
     for (const bool is_cavity : {false, true}) {
         NamedBodies sound{is_cavity ? "cavity" : "body in a body", {}};
         addSphere(sound.bodies, {}, 1);
@@ -193,7 +193,7 @@ TEST(MendWinding, LeavesCavitiesAndBodiesInBodiesAsTheyMostlyAre) {
     }
 }
 
-TEST(MendWinding, TakesABodyInABodyForACavityWhereTheInputSaysNothing) {
+TEST(FixWinding, TreatsANestedBodyAsACavityIfUndecided) {
     Bodies bodies;
     addTorus(bodies, {}, 1, 0.4);
     addTorus(bodies, {}, 1, 0.1);
@@ -205,7 +205,7 @@ TEST(MendWinding, TakesABodyInABodyForACavityWhereTheInputSaysNothing) {
         EXPECT_EQ((f % 2 != 0) != (bodies.body_of[f] == 1), mended.turned[f] != 0);
 }
 
-TEST(MendWinding, TakesTheMajorityWhereNoSideIsInside) {
+TEST(FixWinding, UsesTheMajorityIfNoSideIsInside) {
     Bodies terrain;
     addSheet(terrain, 40, 40, [](double u, double v) { return vec3(u, v, 0.1 * sineOfTurn(2 * u) * sineOfTurn(v)); });
     const Bodies damaged = turnedByChance(terrain, 0.3, 1);
@@ -217,7 +217,7 @@ TEST(MendWinding, TakesTheMajorityWhereNoSideIsInside) {
     EXPECT_EQ(0u, mend(turnedWhole(terrain, true).view()).report.turned_count);
 }
 
-TEST(MendWinding, TurnsNoLeavesAndCards) {
+TEST(FixWinding, FlipsNoLeavesAndCards) {
     Bodies leaves;
     for (int i = 0; i < 50; ++i) {
         const auto x = static_cast<float>(i);
@@ -230,7 +230,7 @@ TEST(MendWinding, TurnsNoLeavesAndCards) {
     EXPECT_LT(0u, mended.report.conflict_count_after);
 }
 
-TEST(MendWinding, TurnsEachLeafTowardItsOwnNormals) {
+TEST(FixWinding, FlipsEachLeafTowardItsOwnNormals) {
     Bodies leaves;
     for (int i = 0; i < 50; ++i) {
         const auto x = static_cast<float>(i);
@@ -256,7 +256,7 @@ TEST(MendWinding, TurnsEachLeafTowardItsOwnNormals) {
     EXPECT_EQ(50u, mend(with_normals, {.use_normals = false}).report.small_count);
 }
 
-TEST(MendWinding, LeavesAMoebiusBandAsItIsAndMendsWhatIsDamagedInOne) {
+TEST(FixWinding, KeepsAMoebiusBandAndFixesDamageInIt) {
     const Bodies band = moebiusBand(40);
     const Mended mended = mend(band.view());
     EXPECT_EQ(0u, mended.report.turned_count);
@@ -268,7 +268,7 @@ TEST(MendWinding, LeavesAMoebiusBandAsItIsAndMendsWhatIsDamagedInOne) {
     EXPECT_EQ(1u, damaged.conflict_count_after);
 }
 
-TEST(MendWinding, KeepsBothSidesOfASheet) {
+TEST(FixWinding, KeepsBothSidesOfASheet) {
     Bodies sheet;
     addSheet(sheet, 8, 8, [](double u, double v) { return vec3(u, v, 0); });
     const std::size_t one_side = sheet.faceCount();
@@ -289,7 +289,7 @@ TEST(MendWinding, KeepsBothSidesOfASheet) {
     EXPECT_EQ(0u, mend(twice.view()).report.turned_count);
 }
 
-TEST(MendWinding, MendsBothSidesOfATJunctionByThemselves) {
+TEST(FixWinding, FixesBothSidesOfATJunctionSeparately) {
     // The right half has twice as many cells along the seam: only every second of its edges has a neighbor there.
     Bodies sheet;
     addSheet(sheet, 4, 4, [](double u, double v) { return vec3(u, v, 0); });
@@ -301,7 +301,7 @@ TEST(MendWinding, MendsBothSidesOfATJunctionByThemselves) {
     EXPECT_EQ(1, shareRight(sheet, damaged, mended));
 }
 
-TEST(MendWinding, ContinuesStraightOnWhereAFinMeetsASurface) {
+TEST(FixWinding, ContinuesStraightAcrossAFin) {
     Bodies sheet;
     addSheet(sheet, 8, 8, [](double u, double v) { return vec3(u, v, 0); });
     addSheet(sheet, 2, 8, [](double u, double v) { return vec3(0.5, v, u); });
@@ -327,7 +327,7 @@ NamedBodies netWithHoles(const accuracy::Shape& shape, int cells, unsigned seed)
     return net_with_holes;
 }
 
-TEST(MendWinding, MendsGridsWithEdgesOfFourFacesAndHoles) {
+TEST(FixWinding, FixesGridsWithEdgesOfFourFacesAndHoles) {
     for (const char* name : {"part", "gear"}) {
         const NamedBodies body = netWithHoles(shape(name), 32, 1);
         for (const double share : {0.0, 0.3, 1.0}) {
@@ -341,7 +341,7 @@ TEST(MendWinding, MendsGridsWithEdgesOfFourFacesAndHoles) {
 }
 
 /// Faces reached over such an edge have the opposite winding to all faces around them.
-TEST(MendWinding, ReachesFacesByOtherEdgesThanThoseThatLostTwoOfFour) {
+TEST(FixWinding, ReachesFacesByOtherEdgesThanThoseThatLostTwoOfFour) {
     std::vector<NamedBodies> bodies{netWithHoles(shape("gear"), 48, 4)};
     for (const accuracy::Shape& shape : accuracy::heldOutShapes()) bodies.push_back(netWithHoles(shape, 48, 4));
     for (const NamedBodies& body : bodies) {
@@ -352,7 +352,7 @@ TEST(MendWinding, ReachesFacesByOtherEdgesThanThoseThatLostTwoOfFour) {
     }
 }
 
-TEST(MendWinding, FollowsNormalsThatAgreeAmongThemselves) {
+TEST(FixWinding, FollowsNormalsThatAgreeAmongThemselves) {
     Bodies ball;
     addSphere(ball, {}, 1);
     for (const Vec3& p : ball.mesh.positions) ball.mesh.normals.push_back({-p.x, -p.y, -p.z});
@@ -373,7 +373,7 @@ TEST(MendWinding, FollowsNormalsThatAgreeAmongThemselves) {
     EXPECT_EQ(0u, mend(ball.view()).report.turned_count);
 }
 
-TEST(MendWinding, WindsTheOtherWayForOtherConventions) {
+TEST(FixWinding, FollowsTheWindingOfTheConvention) {
     Bodies torus;
     addTorus(torus, {}, 1, 0.4);
     WindingOptions clockwise;
@@ -382,7 +382,7 @@ TEST(MendWinding, WindsTheOtherWayForOtherConventions) {
     EXPECT_EQ(0u, mend(turnedWhole(torus, true).view(), clockwise).report.turned_count);
 }
 
-TEST(MendWinding, TurnsPolygonsToo) {
+TEST(FixWinding, FlipsPolygonsToo) {
     SimpleMesh cube;
     cube.positions = cubePositions();
     for (const auto& face : kCubeFaces) cube.addFace(face);
@@ -395,7 +395,7 @@ TEST(MendWinding, TurnsPolygonsToo) {
     EXPECT_EQ(0u, mended.report.conflict_count_after);
 }
 
-TEST(MendWinding, SurvivesFacesWithoutAreaAndPositionsThatAreNoNumbers) {
+TEST(FixWinding, SurvivesFacesWithoutAreaAndNan) {
     Bodies torus;
     addTorus(torus, {}, 1, 0.4);
     torus.mesh.addTriangle(0, 0, 1);
@@ -426,7 +426,7 @@ TEST(MendWinding, SurvivesFacesWithoutAreaAndPositionsThatAreNoNumbers) {
     EXPECT_EQ(0u, mend(lines.view()).report.face_count);
 }
 
-TEST(MendWinding, IsTheSameForAnyNumberOfThreads) {
+TEST(FixWinding, IsTheSameForAnyNumberOfThreads) {
     for (const NamedBodies& sound : allBodies()) {
         const Bodies damaged = turnedByChance(sound.bodies, 0.3, 9);
         const Mended one = mend(damaged.view());
@@ -434,7 +434,7 @@ TEST(MendWinding, IsTheSameForAnyNumberOfThreads) {
     }
 }
 
-TEST(MendWinding, RefusesAResultOfAnotherLength) {
+TEST(FixWinding, RejectsAResultOfWrongLength) {
     Bodies torus;
     addTorus(torus, {}, 1, 0.4);
     std::vector<std::uint8_t> turned(torus.faceCount() - 1);

@@ -49,7 +49,7 @@ bool reads(const std::string& path) {
 
 bool makes(const std::string& path) { return open(path.c_str(), O_WRONLY | O_CREAT, 0600) >= 0; }
 
-TEST(Confinement, FilesOfTheFolderAreReadAndNoOthers) {
+TEST(Confinement, OnlyFilesOfTheFolderAreReadable) {
     const TempFolder folder, other;
     const std::string inside = folder.write("a.txt", "a"), outside = other.write("b.txt", "b");
     std::filesystem::create_symlink(outside, folder.path("link.txt"));
@@ -64,7 +64,7 @@ TEST(Confinement, FilesOfTheFolderAreReadAndNoOthers) {
     EXPECT_EQ(tryConfined(inside, [&] { return reads(inside); }), 0) << "one file alone";
 }
 
-TEST(Confinement, NothingIsWrittenMadeOrRenamed) {
+TEST(Confinement, WritingCreatingAndRenamingFail) {
     const TempFolder folder;
     const std::string root = folder.path().string(), file = folder.write("a.txt", "a"), fresh = root + "/b.txt";
     const std::function<bool()> attempts[] = {
@@ -87,7 +87,7 @@ TEST(Confinement, NothingIsWrittenMadeOrRenamed) {
     }
 }
 
-TEST(Confinement, NoProgramProcessConnectionOrSignal) {
+TEST(Confinement, ProgramsProcessesConnectionsAndSignalsFail) {
     const std::function<bool()> attempts[] = {
         [] { return socket(AF_INET, SOCK_STREAM, 0) >= 0; },
         [] {

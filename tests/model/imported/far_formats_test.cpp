@@ -93,7 +93,7 @@ TEST_P(FarFormats, AScanHasTheNormalsThatItHasNearTheOrigin) {
     }
 }
 
-TEST_P(FarFormats, AScanThatFloatsMakeAPointOfIsRead) {
+TEST_P(FarFormats, ReadsAScanThatFloatsCollapseToAPoint) {
     Part small = sheet(3, {0, 0, 0});
     for (DVec3& p : small.positions) p = 0.2 * p + DVec3{5200000.12, 5200000.12, 5200000.12};
     const Made made = make(GetParam(), {small});
@@ -120,7 +120,7 @@ TEST_P(FarFormats, GeometriesShareOneOffset) {
     }
 }
 
-TEST_P(FarFormats, AGeometryNearTheOriginStaysAsItIs) {
+TEST_P(FarFormats, AGeometryNearTheOriginIsUnchanged) {
     const std::vector<Part> parts = {sheet(kSide, kFar), sheet(kSide, {0, 0, 0})};
     const Made made = make(GetParam(), parts), near = make(GetParam(), {parts[1]});
     EXPECT_TRUE(made.hasOffset());
@@ -131,7 +131,7 @@ TEST_P(FarFormats, AGeometryNearTheOriginStaysAsItIs) {
     EXPECT_LT(worstAngle(made.normals(0), near.normals(0)), kLeastDegrees);
 }
 
-TEST_P(FarFormats, KeptCoordinatesAreRoundedAndSaidToBe) {
+TEST_P(FarFormats, KeptCoordinatesAreRoundedWithAWarning) {
     const Made made = make(GetParam(), {sheet(kSide, kFar)}, true);
     EXPECT_FALSE(made.hasOffset());
     EXPECT_EQ(length(made.at(0, 0) - kFar), 0);
@@ -140,13 +140,13 @@ TEST_P(FarFormats, KeptCoordinatesAreRoundedAndSaidToBe) {
     EXPECT_TRUE(make(GetParam(), {sheet(kSide, {0, 0, 0})}, true).warns("--keep-coordinates has no effect"));
 }
 
-TEST_P(FarFormats, PartsThatNoOffsetBringsTogetherAreSaidToBeRounded) {
+TEST_P(FarFormats, DistantPartsAreRoundedWithAWarning) {
     const Made made = make(GetParam(), {sheet(kSide, kFar), sheet(kSide, -1.0 * kFar)});
     EXPECT_FALSE(made.hasOffset());
     EXPECT_TRUE(made.warns("no common offset"));
 }
 
-TEST_P(FarFormats, SoAreVerticesOfOneGeometryThatAreFarFromEachOther) {
+TEST_P(FarFormats, DistantVerticesOfOneGeometryAreRoundedWithAWarning) {
     Part part = sheet(kSide, kFar);
     const Part other = sheet(kSide, -1.0 * kFar);
     const auto first = static_cast<int>(part.positions.size());
@@ -158,7 +158,7 @@ TEST_P(FarFormats, SoAreVerticesOfOneGeometryThatAreFarFromEachOther) {
     EXPECT_TRUE(made.warns("no common offset"));
 }
 
-TEST_P(FarFormats, WhatIsWrittenFromFloatsIsNotSaidToBeMended) {
+TEST_P(FarFormats, CoordinatesWrittenFromFloatsCauseNoWarning) {
     Part part = sheet(kSide, kFar);
     for (DVec3& p : part.positions) p = toDouble(toFloat(p));
     for (const int decimals : {6, 9}) {
@@ -172,7 +172,7 @@ INSTANTIATE_TEST_SUITE_P(Import, FarFormats, testing::Values(FarFormat::stlText)
 
 class FarFloats : public testing::TestWithParam<FarFormat> {};
 
-TEST_P(FarFloats, ShapesThatFloatsDoNotHoldAreNamed) {
+TEST_P(FarFloats, ReportsShapesThatFloatsCannotRepresent) {
     for (const bool keep : {false, true}) {
         const Made made = make(GetParam(), {sheet(kSide, kFar)}, keep);
         EXPECT_FALSE(made.hasOffset());
@@ -183,7 +183,7 @@ TEST_P(FarFloats, ShapesThatFloatsDoNotHoldAreNamed) {
     EXPECT_TRUE(make(GetParam(), {sheet(kSide, {0, 0, 0})}).report.warnings.empty());
 }
 
-TEST_P(FarFloats, PlacesOfNodesThatFloatsDoNotHoldAreNamed) {
+TEST_P(FarFloats, ReportsNodePositionsThatFloatsCannotRepresent) {
     std::vector<Part> parts = {sheet(3, {0, 0, 0}), sheet(3, {0, 0, 0})};
     for (const bool has_matrices : {false, true}) {
         const FileStyle style{.has_matrices = has_matrices};
@@ -221,7 +221,7 @@ TEST(FarStl, FloatsOfBinaryFilesHaveTheSameNormalsNearTheOrigin) {
     EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end())) << "differences of neighbors are exact in floats";
 }
 
-TEST(FarFormatsElsewhere, AreSaidToBeReadAsFloats) {
+TEST(FarFormatsElsewhere, AreReadAsFloatsWithAWarning) {
     std::string text = "OFF\n400 722 0\n";
     const Part part = sheet(kSide, kFar);
     for (const DVec3& p : part.positions)

@@ -123,7 +123,7 @@ TEST(Import, UnitsOfFbxBecomeMeters) {
     }
 }
 
-TEST(Import, PolygonsAreCutByTheRuleOfTspace) {
+TEST(Import, TriangulatesPolygonsByTheRuleOfTspace) {
     const TempFolder folder;
     // The diagonal 0-2 is the shorter one.
     const std::string path =
@@ -136,7 +136,7 @@ TEST(Import, PolygonsAreCutByTheRuleOfTspace) {
               (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}));
 }
 
-TEST(Import, NormalMapsUvSetsAndImagesGoAlong) {
+TEST(Import, KeepsNormalMapsUvSetsAndImages) {
     const TempFolder folder;
     folder.write("bump%20map.png", "not looked at");
     GltfBuilder builder;
@@ -162,7 +162,7 @@ TEST(Import, NormalMapsUvSetsAndImagesGoAlong) {
     EXPECT_EQ(scene.images[*scene.primitives[0].uses[0].image].uri, "bump.png");
 }
 
-TEST(Import, SkinsMorphsAndAnimationsGoAlong) {
+TEST(Import, KeepsSkinsMorphsAndAnimations) {
     struct Case {
         const char* file;
         const char* what;  ///< a name in the JSON
@@ -181,7 +181,7 @@ TEST(Import, SkinsMorphsAndAnimationsGoAlong) {
     }
 }
 
-TEST(Import, WhatIsNotFiniteIsMendedAndReported) {
+TEST(Import, ValuesThatAreNotFiniteAreReplacedAndReported) {
     const TempFolder folder;
     const std::string path =
         folder.write("nan.ply",
@@ -240,7 +240,7 @@ std::string plySheet(double x, double y, double step, const std::string& format,
     return text;
 }
 
-TEST(Import, PositionsThatFloatsDoNotHoldAreWarnedOf) {
+TEST(Import, WarnsAboutPositionsThatFloatsCannotRepresent) {
     const TempFolder folder;
     const auto warns = [&](const std::string& stl) {
         const std::string path = folder.write("sheet.stl", stl);
@@ -349,7 +349,7 @@ std::string sceneOfFiles(const TempFolder& folder, std::initializer_list<const c
     return folder.write("scene/a.lws", text);
 }
 
-TEST(Import, FilesThatAModelNamesAreThoseOfItsFolder) {
+TEST(Import, ReadsOnlyReferencedFilesInTheModelsFolder) {
     const TempFolder folder;
     folder.write("scene/parts/inside.ply", kTriangle);
     folder.write("scene/more.ply", kTriangle);

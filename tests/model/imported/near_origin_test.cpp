@@ -56,7 +56,7 @@ TEST(NearOrigin, MovedNumbersReadAsTheyWereWritten) {
     for (const std::size_t i : {0, 1}) EXPECT_EQ(again->lists[i].values, file->lists[i].values);
 }
 
-TEST(NearOrigin, AFileOfWhichNothingMovesKeepsItsBytes) {
+TEST(NearOrigin, AnUnmovedFileKeepsItsBytes) {
     const std::vector<char> bytes = read(farStl())->rewritten();
     EXPECT_EQ(std::string(bytes.begin(), bytes.end()), farStl());
 }
@@ -73,13 +73,13 @@ TEST(NearOrigin, PlyHasItsNumbersInAnyOrder) {
     for (std::size_t i = 0; i < values.size(); ++i) EXPECT_EQ(again->lists[0].values[i], 0.5 * values[i]);
 }
 
-TEST(NearOrigin, CutFilesAreNoTrouble) {
+TEST(NearOrigin, SurvivesTruncatedFiles) {
     for (const std::string& text : {farStl(), plyText({500000, 5200000, 412})}) {
         for (std::size_t size = 0; size < text.size(); ++size) readAnything(text.substr(0, size));
     }
 }
 
-TEST(NearOrigin, ChangedBytesAreNoTrouble) {
+TEST(NearOrigin, SurvivesChangedBytes) {
     std::mt19937 random(7);
     for (const std::string& text : {farStl(), plyText({500000, 5200000, 412})}) {
         for (int i = 0; i < 3000; ++i) {

@@ -34,7 +34,7 @@ double childProcessorSeconds() {
 
 std::string errorOf(const Result<Inspection>& result) { return result ? "" : result.error().message; }
 
-TEST(ImportProcess, FilesThatClaimMuchAreStoppedAfterTwoSeconds) {
+TEST(ImportProcess, FilesWithHugeCountsAreStoppedAfterTwoSeconds) {
     const TempFolder folder;
     for (const char* claim : {"vertex", "face"}) {
         const std::string path =
@@ -68,7 +68,7 @@ TEST(ImportProcess, LimitsGrowWithTheFile) {
     EXPECT_EQ(errorOf(inspectFile(small, options)).substr(10), "7 7");
 }
 
-TEST(ImportProcess, AResultWithoutEndIsStopped) {
+TEST(ImportProcess, AnEndlessResultIsStopped) {
     const TempFolder folder;
     FileOptions options{.importer = script(folder, "exec cat /dev/zero\n")};
     options.memory_limit_bytes = std::uint64_t{1} << 20;
@@ -77,7 +77,7 @@ TEST(ImportProcess, AResultWithoutEndIsStopped) {
               std::string::npos);
 }
 
-TEST(ImportProcess, MessagesWithoutEndAndClosedPipesEndAtTheLimitOfTime) {
+TEST(ImportProcess, EndlessMessagesAndClosedPipesEndAtTheTimeLimit) {
     const TempFolder folder;
     FileOptions options{.importer = script(folder, "exec cat /dev/zero >&2\n")};
     options.import_max_seconds = 1;
@@ -170,7 +170,7 @@ TEST(ImportProcess, EndsWithTheToolAndLeavesNoFile) {
     }
 }
 
-TEST(ImportProcess, HasNoOpenFileButItsModelAndItsPipes) {
+TEST(ImportProcess, OpensOnlyItsModelAndItsPipes) {
     const TempFolder folder;
     folder.write("secret", "x");
     const int secret = open(folder.path("secret").c_str(), O_RDONLY);
@@ -194,7 +194,7 @@ TEST(ImportProcess, HasNoOpenFileButItsModelAndItsPipes) {
     close(secret);
 }
 
-TEST(ImportProcess, IsConfinedBeforeItLooksAtTheModel) {
+TEST(ImportProcess, IsConfinedBeforeItReadsTheModel) {
     const TempFolder folder;
     RunningTool tool(folder, {"inspect", endlessPly(folder), "--import-seconds", "100"});
     std::string status;

@@ -121,7 +121,7 @@ TEST(ImportTangents, OfFbxAreJudgedLikeThoseOfGltf) {
     EXPECT_EQ(bad->findings[0].code, FindingCode::signsInverted);
 }
 
-TEST(ImportTangents, GoodOnesStayAndWrongOnesAreMadeAnew) {
+TEST(ImportTangents, CorrectOnesAreKeptAndWrongOnesRecomputed) {
     const TempFolder folder;
     const auto actionFor = [&](const Stored& stored) {
         const Result<GenerateReport> report =
@@ -135,7 +135,7 @@ TEST(ImportTangents, GoodOnesStayAndWrongOnesAreMadeAnew) {
     EXPECT_EQ(actionFor({.tangents = "", .bitangents = ""}), "generated");
 }
 
-TEST(ImportTangents, WithoutBitangentsTheirSignIsNotMadeUp) {
+TEST(ImportTangents, WithoutBitangentsTheirSignIsNotInvented) {
     const TempFolder folder;
     const std::string path = writeSquares(folder, {.bitangents = ""});
     const Scene scene = readScene(path, kWithImporter, false);
@@ -148,7 +148,7 @@ std::string verdictOn(const std::string& path) {
     return result ? result->verdict : result.error().message;
 }
 
-TEST(ImportTangents, NobodySaysThatThereAreNoneWhereTheyWereNotRead) {
+TEST(ImportTangents, UnreadTangentsAreNotReportedAsMissing) {
     const TempFolder folder;
     const std::string not_read =
         "The tangents of this file, if any, were not read, because the importer does not support them in this format.";
@@ -168,7 +168,7 @@ TEST(ImportTangents, NobodySaysThatThereAreNoneWhereTheyWereNotRead) {
         << checked->findings[0].message;
 }
 
-TEST(ImportTangents, ThatWereNotReadAreNotComparedAndDiffSaysSo) {
+TEST(ImportTangents, UnreadTangentsAreNotComparedAndDiffReportsIt) {
     const TempFolder folder;
     writePly(folder);
     ASSERT_EQ(runTool(folder, "generate a.ply -q -o a.glb").exit_code, 0);

@@ -86,7 +86,7 @@ RC_GTEST_PROP(JsonText, ReplacesBytesThatAreNotUtf8AsTheLibraryDoes, ()) {
               twin.oracle.dump(-1, ' ', false, Oracle::error_handler_t::replace));
 }
 
-RC_GTEST_PROP(JsonText, ComesBackEqual, ()) {
+RC_GTEST_PROP(JsonText, RoundTripsEqually, ()) {
     const Twin twin = randomTwin(3, false);
     const std::string text = twin.json.dump(2);
     const Json read = Json::parse(text);
@@ -94,7 +94,7 @@ RC_GTEST_PROP(JsonText, ComesBackEqual, ()) {
     RC_ASSERT(Oracle::parse(text).dump() == read.dump());
 }
 
-RC_GTEST_PROP(JsonText, IsRefusedExactlyWhereTheLibraryRefusesIt, ()) {
+RC_GTEST_PROP(JsonText, IsRejectedExactlyWhereTheLibraryRefusesIt, ()) {
     std::string text = randomTwin(2, false).json.dump();
     const auto at = *rc::gen::inRange<std::size_t>(0, text.size());
     text[at] = *rc::gen::element('"', '{', ']', ',', ':', '0', 'e', ' ', '\\', '\n');
@@ -108,7 +108,7 @@ RC_GTEST_PROP(JsonText, IsRefusedExactlyWhereTheLibraryRefusesIt, ()) {
     RC_ASSERT(accepts == Oracle::accept(text));
 }
 
-TEST(Json, IsReadWithoutThrowingWhereThatIsAskedFor) {
+TEST(Json, IsParsedWithoutThrowingOnRequest) {
     JsonError error;
     EXPECT_EQ(Json::read("[1]", error), Json::array({1}));
     EXPECT_FALSE(Json::read("[1", error));
@@ -121,7 +121,7 @@ TEST(Json, IsReadWithoutThrowingWhereThatIsAskedFor) {
     EXPECT_FALSE(Json::read(std::string(kMaxJsonDepth + 1, '['), error));
 }
 
-TEST(Json, RefusesToWriteWhatIsNotUtf8UnlessAskedToReplaceIt) {
+TEST(Json, RejectsInvalidUtf8UnlessItIsToBeReplaced) {
     EXPECT_THROW(static_cast<void>(Json("\xff").dump()), JsonError);
     EXPECT_EQ(Json("\xff").dump(-1, ' ', BadUtf8::replace), "\"\xEF\xBF\xBD\"");
 }
@@ -138,7 +138,7 @@ TEST(Json, BracesAreAnObjectWhereAllEntriesAreNamed) {
     EXPECT_EQ(Json::object({{"a", words}, {"b", 2}}).dump(), R"({"a":["a","b"],"b":2})");
 }
 
-TEST(Json, MakesMembersAndElementsThatAreAsked) {
+TEST(Json, CreatesRequestedMembersAndElements) {
     Json json;
     json["a"][2]["b"] = 1;
     EXPECT_EQ(json.dump(), R"({"a":[null,null,{"b":1}]})");
@@ -176,7 +176,7 @@ TEST(Json, ComparesNumbersByValue) {
     EXPECT_FALSE((Json{{"a", 1}, {"b", 2}} == Json{{"b", 2}, {"a", 1}}));
 }
 
-TEST(Json, GivesTheNearestNumberWhereATypeHoldsNotTheNumberItself) {
+TEST(Json, ConvertsToTheNearestRepresentableNumber) {
     const std::uint64_t more = (std::uint64_t{1} << 32) + 16;
     EXPECT_EQ(Json(more).get<std::uint32_t>(), 0xffffffffU);  // and not 16
     EXPECT_EQ(Json(more).get<std::uint64_t>(), more);
@@ -199,7 +199,7 @@ TEST(Json, ThrowsWhereAValueIsOfAnotherKind) {
     EXPECT_FALSE(json["number"].contains("a"));
 }
 
-TEST(JsonText, AsksForTheMemoryThatItTakes) {
+TEST(JsonText, ChargesItsMemory) {
     struct Counter final : JsonMemory {
         void take(std::size_t bytes) override {
             taken += bytes;

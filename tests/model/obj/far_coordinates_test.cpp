@@ -124,7 +124,7 @@ TEST(FarCoordinates, AScanHasTheShapeThatItHasNearTheOrigin) {
     EXPECT_EQ(far.report.primitives[0].normals.degenerate_face_count, 0U);
 }
 
-TEST(FarCoordinates, NearTheOriginNothingIsTakenOut) {
+TEST(FarCoordinates, NearTheOriginNoOffsetIsSubtracted) {
     const TempFolder folder;
     for (const DVec3& place : {DVec3{0, 0, 0}, DVec3{3, -2, 1}, DVec3{100, 0, 0}}) {
         const FarModel made = makeFar(folder, "near", scan(place));
@@ -135,7 +135,7 @@ TEST(FarCoordinates, NearTheOriginNothingIsTakenOut) {
     }
 }
 
-TEST(FarCoordinates, WhatFloatsHoldExactlyStays) {
+TEST(FarCoordinates, ExactFloatsAreUnchanged) {
     const TempFolder folder;
     const FarModel made = makeFar(
         folder, "whole", "v 5000000 0 0\nv 5000001 0 0\nv 5000000 1 0.5\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
@@ -143,7 +143,7 @@ TEST(FarCoordinates, WhatFloatsHoldExactlyStays) {
     EXPECT_EQ(made.vec3("POSITION")[1], (Vec3{5000001, 0, 0}));
 }
 
-TEST(FarCoordinates, KeptCoordinatesAreRoundedAndSaidToBe) {
+TEST(FarCoordinates, KeptCoordinatesAreRoundedWithAWarning) {
     const TempFolder folder;
     const FarModel made = makeFar(folder, "far", scan(kFar), true);
     EXPECT_TRUE(made.translation().is_null());
@@ -162,13 +162,13 @@ TEST(FarCoordinates, AllObjectsOfAFileShareOneOffset) {
     EXPECT_EQ(made.translation(0), made.translation(1));
 }
 
-TEST(FarCoordinates, AFaceThatWasLeftAtTheOriginIsNoHindrance) {
+TEST(FarCoordinates, IgnoresAFaceLeftAtTheOrigin) {
     const TempFolder folder;
     const FarModel made = makeFar(folder, "stray", scan(kFar) + "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n");
     EXPECT_EQ(made.translation().dump(), "[456124.0,5261790.0,0.0]");
 }
 
-TEST(FarCoordinates, ASmallPartThatLiesElsewhereIsNoHindrance) {
+TEST(FarCoordinates, IgnoresASmallDistantPart) {
     const TempFolder folder;
     const std::string far = scan(kFar);
     std::string strays;
@@ -178,14 +178,14 @@ TEST(FarCoordinates, ASmallPartThatLiesElsewhereIsNoHindrance) {
     EXPECT_FALSE(made.translation().is_null());
 }
 
-TEST(FarCoordinates, PartsThatNoOffsetBringsTogetherAreSaidToBeRounded) {
+TEST(FarCoordinates, DistantPartsAreRoundedWithAWarning) {
     const TempFolder folder;
     const FarModel made = makeFar(folder, "spread", "o a\n" + scan(kFar) + "o b\n" + scan(-1.0 * kFar));
     EXPECT_TRUE(made.translation().is_null());
     EXPECT_TRUE(made.warns("no common offset"));
 }
 
-TEST(FarCoordinates, PositionsThatAreNotFiniteDecideNothing) {
+TEST(FarCoordinates, IgnoresPositionsThatAreNotFinite) {
     const TempFolder folder;
     const FarModel made = makeFar(folder, "nan", scan(kFar) + "v 1e999 0 0\nf -1 -2 -3\n");
     EXPECT_FALSE(made.translation().is_null());

@@ -33,7 +33,7 @@ TEST(UvMap, TrianglesThatShareAnEdgeAreOneIsland) {
     EXPECT_EQ(info.degenerate_uv_count, 0U);
 }
 
-TEST(UvMap, MirroredMeansMirroredToTheEyeWhereverVStarts) {
+TEST(UvMap, MirroredIsVisuallyMirroredForAnyVAxis) {
     Square square;
     EXPECT_EQ(describe(square, true).mirrored_island_count, 1U);
     for (Vec2& uv : square.uvs) uv.x = -uv.x;

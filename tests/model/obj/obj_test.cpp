@@ -116,7 +116,7 @@ TEST(Obj, RelativeIndicesMeanTheSameAsAbsoluteOnes) {
     EXPECT_EQ(a.read("out.glb"), b.read("out.glb"));
 }
 
-TEST(Obj, LineEndsContinuationsCommentsAndMarksMakeNoDifference) {
+TEST(Obj, LineEndsContinuationsCommentsAndByteOrderMarksDoNotMatter) {
     const std::string plain = std::string(kQuad) + "f 1/1 2/2 3/3 4/4\n";
     const TempFolder expected;
     make(expected, plain);
@@ -135,7 +135,7 @@ TEST(Obj, LineEndsContinuationsCommentsAndMarksMakeNoDifference) {
     }
 }
 
-TEST(Obj, TextureCoordinatesAreTurnedToRunDown) {
+TEST(Obj, TextureCoordinatesAreFlippedVertically) {
     const TempFolder folder;
     const ObjModel made = make(folder, std::string(kQuad) + "f 1/1 2/2 3/3 4/4\n");
     const std::vector<Vec2> uvs = gltf::readUvs(made.document, made.primitives[0], 0);
@@ -192,7 +192,7 @@ TEST(Obj, SmoothingGroupsDecideWhereNormalsAreMissing) {
     EXPECT_NEAR(smooth.vec3("NORMAL")[1].x, std::sqrt(0.5), 1e-6);
 }
 
-TEST(Obj, OptionsDecideAboutNormalsWhenGroupsAreNotAskedFor) {
+TEST(Obj, OptionsOverrideSmoothingGroups) {
     const TempFolder folder;
     GenerateOptions options = everything();
     options.normals.use_smoothing_groups = false;
@@ -212,7 +212,7 @@ TEST(Obj, SmoothingGoesAcrossMaterialsAndObjects) {
     EXPECT_EQ(made.vec3("NORMAL", 0)[1], made.vec3("NORMAL", 1)[0]);
 }
 
-TEST(Obj, GivenNormalsStayAndOnlyThoseThatAreNotUnitAreScaled) {
+TEST(Obj, NormalsAreKeptAndNormalizedOnlyIfNotUnit) {
     const TempFolder folder;
     const ObjModel made = make(folder, std::string(kQuad) + "vn 0 0.6 0.8\nvn 0 0 2\nf 1/1/1 2/2/2 3/3/1\n");
     EXPECT_EQ(made.vec3("NORMAL"), (std::vector<Vec3>{{0, 0.6f, 0.8f}, {0, 0, 1}, {0, 0.6f, 0.8f}}));
@@ -277,7 +277,7 @@ TEST(Obj, TangentsAreMadeWhereTheMaterialHasANormalMap) {
 }
 
 /// -o, -s and -t take one, two or three numbers; the file name is not a number.
-TEST(Obj, OptionsOfTexturesDoNotSwallowTheName) {
+TEST(Obj, OptionsOfTexturesDoNotIncludeTheName) {
     for (const char* options :
          {"-s 2", "-s 2 2", "-s 2 2 1", "-o 0.5 -s 2 2", "-t .5", "-o -1e-1 +2. -bm 0.5", "-mm 0.1 -clamp on", "-s 1 1",
           "-blendu off -imfchan l", "-texres 512", "-bm 0.5 -s 1 1 1"}) {
@@ -295,7 +295,7 @@ TEST(Obj, OptionsOfTexturesDoNotSwallowTheName) {
     }
 }
 
-TEST(Obj, ABrokenHeightMapIsLeftOutWithAWarning) {
+TEST(Obj, ACorruptHeightMapIsIgnoredWithAWarning) {
     const TempFolder folder;
     folder.write("in/m.mtl", "newmtl a\nmap_bump -bm 0.5 n.png\n");
     folder.write("in/n.png", kPng);
@@ -304,7 +304,7 @@ TEST(Obj, ABrokenHeightMapIsLeftOutWithAWarning) {
     EXPECT_TRUE(mentions(made.report.warnings, "'n.png' was skipped, and no normal map was made from it"));
 }
 
-TEST(Obj, ImagesWithoutASizeAreLeftOut) {
+TEST(Obj, ImagesWithoutASizeAreIgnored) {
     for (const std::string bytes : {"\x89PNG\r\n\x1a\nnot really", "\xff\xd8\xff not really"}) {
         const TempFolder folder;
         folder.write("in/m.mtl", "newmtl a\nnorm n.png\n");
@@ -350,7 +350,7 @@ TEST(Obj, ImagesBesideTheOutputAreNamedAndOthersAreEmbedded) {
     EXPECT_EQ(beside.json["buffers"][0]["uri"], "model.bin");
 }
 
-TEST(Obj, TexturesThatAreMissingForbiddenOrNoImagesAreLeftOutWithAWarning) {
+TEST(Obj, MissingForbiddenAndInvalidTexturesAreIgnoredWithAWarning) {
     for (const std::string name :
          {"missing.png", "../secret.png", "/etc/hostname", "text.png", "sub/../../secret.png"}) {
         const TempFolder folder;
@@ -410,7 +410,7 @@ TEST(Obj, BytesOfABackslashInNamesOfFilesAreKept) {
     }
 }
 
-TEST(Obj, AbsolutePathsAreLookedForByTheirNames) {
+TEST(Obj, AbsolutePathsAreSearchedByFileName) {
     const TempFolder folder;
     folder.write("in/maps/m.mtl", "newmtl a\nmap_Kd /home/me/c.png\nmap_Bump C:\\Users\\me\\Desktop\\n.png\n");
     folder.write("in/maps/n.png", flatPng());
@@ -466,7 +466,7 @@ TEST(Obj, IndicesAreSixteenBitsWhereTheySuffice) {
     EXPECT_EQ(componentType(21846), 5125);
 }
 
-TEST(Obj, WhatGlTfCannotHoldIsMendedAndSaid) {
+TEST(Obj, DataThatGltfCannotRepresentIsReplacedWithAWarning) {
     const TempFolder folder;
     const ObjModel made =
         make(folder, "v nan 0 0\nv 1e400 0 0\nv 0 1 0\nvt inf 0\nvt 1e60 0\nvt 0 1\nf 1/1 2/2 3/3\nf 1 2\n");
@@ -479,7 +479,7 @@ TEST(Obj, WhatGlTfCannotHoldIsMendedAndSaid) {
     }
 }
 
-TEST(Obj, BrokenFilesAreRefusedWithThePlace) {
+TEST(Obj, MalformedFilesAreRejectedWithTheLine) {
     EXPECT_EQ(failure("").message, "the OBJ file has no faces");
     EXPECT_EQ(failure("v 0 0 0\nf 1 1\n").message, "the OBJ file has no faces");
     EXPECT_EQ(failure(std::string(64, '\0')).message, "the OBJ file has no faces");
@@ -492,7 +492,7 @@ TEST(Obj, BrokenFilesAreRefusedWithThePlace) {
 }
 
 /// Exporters do write such files: all normals missing but not their indices, or 0 for a missing normal of a corner.
-TEST(Obj, FacesThatNameUvsOrNormalsThatAreNotThereHaveNone) {
+TEST(Obj, FacesWithMissingUvsOrNormalsHaveNone) {
     const std::string vertices = std::string(kQuad) + "vn 0 0.6 0.8\nf 1/1/1 2/2/1 4/4/1\n";
     const std::string rest = "f 2/2/1 3/3/1 4/4/1\n";
     const TempFolder expected;
@@ -505,7 +505,7 @@ TEST(Obj, FacesThatNameUvsOrNormalsThatAreNotThereHaveNone) {
     }
 }
 
-TEST(Obj, IndicesThatNameNothingAreCountedAndSaid) {
+TEST(Obj, InvalidIndicesAreCountedAndReported) {
     const TempFolder folder;
     const ObjModel made =
         make(folder, std::string(kQuad) + "f 1/1/1 2/5/2 3/-9/3\nf 1/-5 2/2 3/3\n# ahead:\nf 1/5/1 3/3/1 4/4/1\n");
@@ -515,7 +515,7 @@ TEST(Obj, IndicesThatNameNothingAreCountedAndSaid) {
         << "0 says that there is none";
 }
 
-TEST(Obj, OddFloatsDoNotUpsetTheParser) {
+TEST(Obj, UnusualFloatsAreParsed) {
     for (const char* number : {"1e2147483649", "1e-2147483649", "-", "+.", ".", "1e", "0e400", "1.2.3", "--1",
                                "111111111111111111111111111111111111111111111111111111"}) {
         const TempFolder folder;
@@ -555,7 +555,7 @@ std::vector<std::string> sharedObjFiles(const std::string& relative) {
     return files;
 }
 
-TEST(Obj, EverySharedModelGoesThrough) {
+TEST(Obj, EverySharedModelIsConverted) {
     TSPACE_NEEDS_SHARED("models");
     const std::vector<std::string> files = sharedObjFiles("models");
     ASSERT_FALSE(files.empty());

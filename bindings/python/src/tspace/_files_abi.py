@@ -8,13 +8,13 @@ from ._abi import FILE_SIGNATURES
 from ._errors import Error
 from ._library import declare, load
 
-# Wheels that were compiled for another system than that of their build have arrays alone.
+# Wheels that were cross-compiled for another system contain only the functions on arrays.
 NO_FILES = "this package has no library for model files, only for arrays: take the one that scripts/python builds on your system"
 
 
 @functools.lru_cache(maxsize=None)
 def library() -> ctypes.CDLL:
-    """libtspace-files.so.0, with its functions declared."""
+    """Loads libtspace-files.so.0 and declares its functions."""
     try:
         loaded = load("tspace-files")
     except OSError as error:

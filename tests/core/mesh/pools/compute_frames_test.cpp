@@ -58,7 +58,7 @@ RC_GTEST_PROP(ComputeFrames, WritesOnlyUnitTangentsWithOneSignPerFace, ()) {
     }
 }
 
-RC_GTEST_PROP(ComputeFrames, KeepsEveryCornerAtItsVertexAndCopiesBehind, ()) {
+RC_GTEST_PROP(ComputeFrames, KeepsCornersAtTheirVerticesAndAppendsCopies, ()) {
     const OwnedMesh pool = anyPool();
     const std::vector<PrimitiveGeometry> primitives = anyTriangles(pool);
     const PoolOutcome result = compute(pool, primitives, anyOptions());
@@ -73,7 +73,7 @@ RC_GTEST_PROP(ComputeFrames, KeepsEveryCornerAtItsVertexAndCopiesBehind, ()) {
     }
 }
 
-RC_GTEST_PROP(ComputeFrames, ComputesEachPrimitiveAsAMeshOfItsOwn, ()) {
+RC_GTEST_PROP(ComputeFrames, ComputesEachPrimitiveSeparately, ()) {
     const OwnedMesh pool = anyPool();
     const std::vector<PrimitiveGeometry> primitives = anyTriangles(pool);
     const FramesOptions options = anyOptions();
@@ -99,7 +99,7 @@ TEST(ComputeFrames, StoresTheSignOfTheConvention) {
     }
 }
 
-TEST(ComputeFrames, LaysTangentsIntoTheSurfaceWhereUvsHaveNoArea) {
+TEST(ComputeFrames, MakesTangentsOrthogonalIfUvsHaveNoArea) {
     OwnedMesh pool = square();
     const Vec3 tilted{0.8f, 0, 0.6f};
     for (const float x : {5.0f, 6.0f, 7.0f}) {
@@ -177,7 +177,7 @@ TEST(ComputeFrames, TakesSmoothingGroupsFromThePrimitive) {
     EXPECT_TRUE(distinctNormals());
 }
 
-TEST(ComputeFrames, CutsPolygonsAndLeavesFacesWithoutAreaOut) {
+TEST(ComputeFrames, TriangulatesPolygonsAndSkipsFacesWithoutArea) {
     OwnedMesh pool;
     for (int k = 0; k < 6; ++k) {
         const float x = std::cos(1.0471976f * static_cast<float>(k));
@@ -206,7 +206,7 @@ TEST(ComputeFrames, AcceptsPoolsAndPrimitivesWithNothingInThem) {
     EXPECT_TRUE(unused.frames.indices[1].empty());
 }
 
-TEST(ComputeFrames, RefusesIndicesAndCountsThatDoNotFit) {
+TEST(ComputeFrames, RejectsMismatchingIndicesAndCounts) {
     const auto code = [](const OwnedMesh& pool, const PrimitiveGeometry& primitive) {
         std::vector<FramesReport> reports(1);
         return computeFrames(pool, {&primitive, 1}, {}, reports).error().code;

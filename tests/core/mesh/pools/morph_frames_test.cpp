@@ -260,7 +260,7 @@ RC_GTEST_PROP(MorphFrames, ReproduceThemselvesOnTheirOwnOutput, ()) {
     }
 }
 
-RC_GTEST_PROP(MorphFrames, LeaveTheBaseAsItIsWithoutTargetsButForSplits, ()) {
+RC_GTEST_PROP(MorphFrames, LeaveTheBaseUnchangedExceptForSplits, ()) {
     const OwnedMesh pool = anyPoolWithTwins();
     const std::vector<PrimitiveGeometry> primitives = anyFaces(pool);
     const FramesOptions options = anyOptions();
@@ -368,7 +368,7 @@ TEST(MorphFrames, AddNothingWhereNothingMoves) {
 }
 
 /// glTF requires flat normals if there are none, so a plane that a target bends gets hard edges.
-TEST(MorphFrames, SplitWhatLiesInOnePlaneAndIsBentByATarget) {
+TEST(MorphFrames, SplitAPlaneThatATargetBends) {
     OwnedMesh plane = square();
     plane.normals.clear();
     Targets targets(2);
@@ -474,7 +474,7 @@ TEST(MorphFrames, AreAddedToKeptTangentsThatAgree) {
     EXPECT_TRUE(other.frames.morphs.empty());
 }
 
-TEST(MorphFrames, PassOnWhyATargetCannotBeRead) {
+TEST(MorphFrames, ReportWhyATargetCannotBeRead) {
     for (const bool has_normals : {true, false}) {
         OwnedMesh mesh = square();
         if (!has_normals) mesh.normals.clear();

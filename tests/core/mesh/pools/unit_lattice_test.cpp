@@ -23,7 +23,7 @@ double lengthInDoubles(const Vec3& v) { return std::sqrt(double{v.x} * v.x + dou
 /// Returns the bound stated in docs/reference/gltf.md. A search over 20 million directions found 0.3639 and 0.00124.
 double mostDegrees(VectorFormat format) { return format == VectorFormat::snorm8 ? 0.37 : 0.0013; }
 
-RC_GTEST_PROP(UnitLattice, KeepsLengthWithinWhatTheValidatorAllows, ()) {
+RC_GTEST_PROP(UnitLattice, KeepsLengthWithinTheValidatorsTolerance, ()) {
     const Vec3 unit = randomUnit();
     for (const VectorFormat format : kFormats) {
         Vec3 rounded = unit;
@@ -68,7 +68,7 @@ RC_GTEST_PROP(UnitLattice, ChangesNothingTheSecondTime, ()) {
     }
 }
 
-TEST(UnitLattice, LeavesPointsOfTheLatticeAndFloatsAlone) {
+TEST(UnitLattice, KeepsPointsOfTheLatticeAndFloats) {
     Vec3 axis{0, -1, 0};
     roundUnits({&axis, 1}, VectorFormat::snorm8);
     EXPECT_EQ(axis, (Vec3{0, -1, 0}));
@@ -84,7 +84,7 @@ TEST(UnitLattice, PacksTheSignAsExactlyOne) {
     EXPECT_EQ(packUnits(std::span<const Vec4>(tangents), VectorFormat::snorm16).size(), 16u);
 }
 
-TEST(UnitLattice, SurvivesWhatIsNotUnit) {
+TEST(UnitLattice, SurvivesVectorsThatAreNotUnit) {
     const float nan = std::nanf("");
     for (const Vec3& broken : {Vec3{nan, 0, 0}, Vec3{0, 0, 0}, Vec3{1e30f, -1e30f, 0}}) {
         const LatticePoint point = nearestUnit(broken, 127);

@@ -11,7 +11,7 @@
 namespace tspace {
 namespace {
 
-TEST(UvMatrix, IsTheIdentityWhereFramesStay) {
+TEST(UvMatrix, IsTheIdentityIfFramesAreUnchanged) {
     for (const double scale : {1.0, 0.5, 1e-30, 1e30, 0.0}) {
         EXPECT_TRUE(uvMatrix(0, scale, 3).isIdentity());
         EXPECT_TRUE(uvMatrix(0, 3, scale).isIdentity());
@@ -30,7 +30,7 @@ TEST(UvMatrix, HasOnlyOnesInQuarterTurnsAndMirrors) {
     EXPECT_FALSE(uvMatrix(1, -4, -1).mirrors());
 }
 
-TEST(UvMatrix, LeavesOutWhatBothAxesAreScaledBy) {
+TEST(UvMatrix, IgnoresTheUniformScale) {
     const UvMatrix one = uvMatrix(0.7, 1, 1);
     EXPECT_EQ(uvMatrix(0.7, 1024, 1024), one);
     EXPECT_EQ(uvMatrix(0.7, 0.1, 0.1), one);

@@ -41,7 +41,7 @@ TEST(FitQuads, ExplainsNearlyAllBesideRealTriangles) {
     }
 }
 
-TEST(FitQuads, LosesWhereTangentsWereMadeOnTriangles) {
+TEST(FitQuads, LosesIfTangentsWereComputedOnTriangles) {
     for (const Cut& cut : kCuts) {
         for (const Method method : {Method::mikktspace, Method::area, Method::lengyel, Method::uniform}) {
             EXPECT_FALSE(fitOf(withTangents(trianglesOf(hills(16), cut), method)).wins());
@@ -66,7 +66,7 @@ TEST(FitQuads, FindsTheFewRealTrianglesThatAreOnlyLikeQuads) {
     EXPECT_GT(fitOf(data).near_on_quads, near_by_shape);
 }
 
-TEST(FitQuads, CornersThatSayNothingDoNotVote) {
+TEST(FitQuads, IgnoresIndeterminateCorners) {
     ModelData data = withTangentsOnQuads(hills(12), kFan);
     const std::size_t triangle_count = data.indices.size() / 3;
     // A quarter of the triangles has no UV area.

@@ -26,7 +26,7 @@ void expectSameVertices(const QuadFaces& faces, const ModelData& data) {
     }
 }
 
-TEST(QuadPairs, AreFoundHoweverAnExporterWritesThem) {
+TEST(QuadPairs, AreFoundForAnyExportOrder) {
     const PolygonMesh mesh = hills(7);
     for (const Cut& cut : kCuts) {
         for (const bool is_welded : {true, false}) {
@@ -90,7 +90,7 @@ TEST(QuadPairs, AreNeitherFoldedNorTheSameTriangleTwice) {
     EXPECT_EQ(QuadCandidates(viewOf(data)).count(), 0U);
 }
 
-TEST(QuadPairs, OfOneRunAreThoseThatGainMost) {
+TEST(QuadPairs, OfOneRunMaximizeTheGain) {
     // A strip of five triangles: four candidate pairs in a row.
     ModelData data;
     for (int i = 0; i < 7; ++i) data.positions.push_back({static_cast<float>(i) / 2, static_cast<float>(i % 2), 0});
