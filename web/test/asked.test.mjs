@@ -48,7 +48,7 @@ const load = async (tab) => {
   return settled(tab);
 };
 
-test("a model that the address names is asked for after a click, and shown as the address says", { skip: missing }, async () => {
+test("a model in the address is downloaded after a click, and shown with the view of the address", { skip: missing }, async () => {
   await withPage(async (tab, requests) => {
     assert.equal(requests.length, 1, "nothing was asked for");
     assert.deepEqual(models.asked, []);
@@ -63,7 +63,7 @@ test("a model that the address names is asked for after a click, and shown as th
   }, { url: `${addressOf("crate.glb")}#look=signs`, mayAsk: mayAsk() });
 });
 
-test("no other server can be asked, and without ?model= none at all", { skip: missing }, async () => {
+test("no other server is contacted, and none without ?model=", { skip: missing }, async () => {
   const reach = (tab, hosts) => tab.evaluate((hosts) => Promise.all(hosts.map((host) => fetch(`http://${host}/crate.glb`, { mode: "no-cors" }).then(() => true, () => false))), hosts);
   const hosts = [models.host, other.host], before = models.asked.length;
   await withPage(async (tab) => assert.deepEqual(await reach(tab, hosts), [true, false]), { url: addressOf("crate.glb"), allowMessages: true, mayAsk: mayAsk() });
@@ -79,7 +79,7 @@ test("no other server can be asked, and without ?model= none at all", { skip: mi
   assert.deepEqual(other.asked, []);
 });
 
-test("what a server does not give is said", { skip: missing }, async () => {
+test("files missing on the server are reported", { skip: missing }, async () => {
   for (const [name, sentence] of [["none.glb", /none\.glb could not be loaded from .*status 404/], ["closed.glb", /does not allow other pages to read its files/], ["away.glb", /redirects to another server/]]) {
     await withPage(async (tab) => {
       assert.equal(await load(tab), "failed");
@@ -89,7 +89,7 @@ test("what a server does not give is said", { skip: missing }, async () => {
   assert.deepEqual(other.asked, []);
 });
 
-test("a .gltf comes with the files of its server, and an address without an ending is told by its bytes", { skip: noShared }, async () => {
+test("a .gltf is loaded with its files, and an address without an extension is recognized by its bytes", { skip: noShared }, async () => {
   await withPage(async (tab) => {
     assert.equal(await load(tab), "ready");
     assert.equal(await tab.locator(".model-name").textContent(), "Suzanne.gltf");

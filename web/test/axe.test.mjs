@@ -24,7 +24,7 @@ async function objections(tab) {
   return violations.flatMap(({ id, nodes }) => nodes.map(({ target, failureSummary }) => `${id}: ${target.join(" ")}: ${failureSummary.split("\n").slice(1).join(";").trim()}`));
 }
 
-test("axe-core objects where a control has lost its name", { skip }, async () => {
+test("axe-core reports a control without a name", { skip }, async () => {
   await withPage(async (tab) => {
     await tab.evaluate(() => document.querySelector(".split").removeAttribute("aria-label"));
     assert.match((await objections(tab)).join(), /^label: \.split/);
@@ -35,7 +35,7 @@ const looks = ["Lit", "Difference", "Normals", "Signs", "Mirrored", "Error", "Is
 const sizes = ["light", "dark"].flatMap((scheme) => [[390, 844], [1280, 800]].map(([width, height]) => ({ scheme, width, height })));
 
 for (const { scheme, width, height } of sizes) {
-  test(`axe-core objects to nothing on the page at ${width} pixels, ${scheme}`, { skip }, async () => {
+  test(`axe-core reports no violation on the page at ${width} pixels, ${scheme}`, { skip }, async () => {
     await withPage(async (tab) => {
       const found = [], look = async (where) => found.push(...(await objections(tab)).map((text) => `${where}: ${text}`));
       for (const name of looks) {
@@ -68,7 +68,7 @@ for (const { scheme, width, height } of sizes) {
     }, { width, height, scheme, allowMessages: true });
   });
 
-  test(`axe-core objects to nothing in the lesson at ${width} pixels, ${scheme}`, { skip: skip || (!lesson && "the lesson was not built") }, async () => {
+  test(`axe-core reports no violation in the lesson at ${width} pixels, ${scheme}`, { skip: skip || (!lesson && "the lesson was not built") }, async () => {
     await withPage(async (tab) => {
       assert.deepEqual(await objections(tab), []);
       await tab.evaluate(() => document.querySelectorAll("details").forEach((details) => (details.open = true)));

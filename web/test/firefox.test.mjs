@@ -70,7 +70,7 @@ async function shoot(tab, name) {
 }
 
 for (const [name, viewport] of [["wide", { width: 1280, height: 800 }], ["narrow", { width: 390, height: 844 }]])
-  test(`Firefox shows the broken crate and what is wrong with it: ${name}`, { skip, timeout }, async () => {
+  test(`Firefox shows the faulty crate and its findings: ${name}`, { skip, timeout }, async () => {
     await withTab(pathToFileURL(page).href, viewport, async (tab) => {
       assert.equal(await tab.evaluate(() => document.documentElement.dataset.picture), "drawn");
       assert.equal(await tab.$eval(".finding", (button) => button.dataset.code), "signsWrong");
@@ -83,7 +83,7 @@ for (const [name, viewport] of [["wide", { width: 1280, height: 800 }], ["narrow
     });
   });
 
-test("Firefox mends the broken crate into the tool's bytes", { skip: skip || (!tool && "the tool is not built"), timeout }, async () => {
+test("Firefox fixes the faulty crate with the bytes of the tool", { skip: skip || (!tool && "the tool is not built"), timeout }, async () => {
   await withTab(pathToFileURL(page).href, { width: 1280, height: 800 }, async (tab) => {
     const bytesOf = async (script) => Buffer.from(await tab.evaluate(script), "base64");
     await tab.evaluate(() => (window.base64Of = (bytes) => btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""))));

@@ -14,7 +14,7 @@ async function fix(tab) {
   await tab.waitForFunction(() => document.querySelector(".side.right").textContent === "fixed");
 }
 
-test("the first view says what is wrong, stands on it, and one click fixes it everywhere", { skip: missing }, async () => {
+test("the first view names and shows the fault, and one click fixes it", { skip: missing }, async () => {
   await withPage(async (tab) => {
     assert.match(await tab.locator("h1").textContent(), /^Drop a model to see where its bumps look like dents, and fix it\. Nothing is uploaded\.$/);
     assert.match(await seen(tab), /^Bumps look like dents on a part of the model/);
@@ -47,7 +47,7 @@ test("the first view says what is wrong, stands on it, and one click fixes it ev
   });
 });
 
-test("at 390 pixels the picture and the button come before everything else, and the panels are closed", { skip: missing }, async () => {
+test("at 390 pixels the picture and the button come first, and the panels are closed", { skip: missing }, async () => {
   await withPage(async (tab) => {
     const top = async (selector) => (await tab.locator(selector).first().boundingBox()).y;
     assert.ok(await top(".frame") < 190, "below headline and sentence stands the picture");

@@ -20,7 +20,7 @@ async function side(tab, split) {
   return pixelsOf(tab);
 }
 
-test("each fault of the gallery is found by its name, and mended by what is switched on", { skip: missing }, async () => {
+test("each fault of the gallery is detected, and fixed by the preset options", { skip: missing }, async () => {
   await withPage(async (tab) => {
     await tab.locator(".mend > summary").click();
     assert.deepEqual((await tab.locator(".sample").evaluateAll((all) => all.map(({ dataset }) => dataset.file))).sort(), [...Object.keys(found), "crate.glb"].sort());
@@ -44,7 +44,7 @@ test("each fault of the gallery is found by its name, and mended by what is swit
   }, { width: 1400, height: 520 });
 });
 
-test("a mesh by AI is mended to the tool's bytes, and right of the line stands its shape as it was mended", { skip: noTool }, async () => {
+test("an AI-generated mesh is fixed with the bytes of the tool, and the fixed shape is shown right of the line", { skip: noTool }, async () => {
   const folder = mkdtempSync(join(tmpdir(), "tspace-bear-"));
   try {
     await withPage(async (tab) => {

@@ -23,7 +23,7 @@ async function turned(tab) {
   return mended(tab);
 }
 
-test("green that points down is found, shown and mended", { skip: missing }, async () => {
+test("green that points down is detected, shown and fixed", { skip: missing }, async () => {
   await withPage(async (tab) => {
     await ring(tab);
     assert.ok((await codes(tab)).includes("greenFlipped"));
@@ -80,7 +80,7 @@ function withoutImage(glb) {
   return { ...json, buffers: null, bufferViews: json.bufferViews.map((view) => ({ ...view, byteOffset: 0, byteLength: 0 })), views };
 }
 
-test("turned maps have the pixels that the tool gives them, and all else its bytes", { skip: noTool }, async () => {
+test("inverted maps have the pixels of the tool, and all other data its bytes", { skip: noTool }, async () => {
   const folder = mkdtempSync(join(tmpdir(), "tspace-green-"));
   try {
     await withPage(async (tab) => {

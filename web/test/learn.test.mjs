@@ -45,7 +45,7 @@ const press = async (tab, label, key, times) => {
 const errors = (tab) =>
   tab.$$eval("#methods tbody tr", (rows) => Object.fromEntries(rows.map((row) => [row.cells[0].textContent, [...row.cells].slice(1).map((cell) => Number(cell.textContent))])));
 
-it("decodes texels, and tells what a wrong T and a green that points down do", { skip }, async () => {
+it("decodes texels, and shows the effects of a wrong T and of green pointing down", { skip }, async () => {
   const tab = await open();
   const lit = () => tab.$eval("#relief image:nth-of-type(2)", (image) => image.getAttribute("href"));
   const before = await lit();
@@ -73,7 +73,7 @@ const boltFromAbove = (tab) => tab.$eval("#relief image:nth-of-type(2)", async (
   return at(0.24, 0.76 + 0.05) - at(0.24, 0.76 - 0.05);
 });
 
-it("lights bolts as what it says of them: from above, and from below where they look like holes", { skip }, async () => {
+it("lights bolts as described: from above, and from below where they look like holes", { skip }, async () => {
   const tab = await open();
   assert.ok((await boltFromAbove(tab)) > 40, "they stand out");
   await tab.check("#down");
@@ -85,13 +85,13 @@ it("lights bolts as what it says of them: from above, and from below where they 
   assert.ok((await boltFromAbove(tab)) < -40, "and turned round they are holes");
 });
 
-it("begins with triangles that disagree", { skip }, async () => {
+it("starts with triangles of opposite orientation", { skip }, async () => {
   const tab = await open();
   const directions = await tab.$$eval("#average line.arrow.tangent.faint", (lines) => lines.map((l) => Math.atan2(l.y2.baseVal.value - l.y1.baseVal.value, l.x2.baseVal.value - l.x1.baseVal.value)));
   assert.ok(Math.max(...directions) - Math.min(...directions) > 0.2, directions.join());
 });
 
-it("turns the sign when a triangle's UVs turn over", { skip }, async () => {
+it("inverts the sign when a triangle's UVs are mirrored", { skip }, async () => {
   const tab = await open();
   assert.match(await number(tab, "triangle", "the library"), /sign = \+1/);
   await press(tab, "UV of corner 2", "Shift+ArrowDown", 9);
@@ -101,7 +101,7 @@ it("turns the sign when a triangle's UVs turn over", { skip }, async () => {
   assert.deepEqual(tab.faults, []);
 });
 
-it("gives the library's T of Lengyel's formula, wherever vertices and normal are", { skip }, async () => {
+it("gives the T of the library's method lengyel for any vertices and normal", { skip }, async () => {
   const tab = await open();
   for (const [label, key] of [["outer vertex 1", "ArrowLeft"], ["outer vertex 3", "ArrowUp"], ["the normal", "ArrowRight"], ["outer vertex 5", "Shift+ArrowDown"]]) {
     await press(tab, label, key, 5);
@@ -110,7 +110,7 @@ it("gives the library's T of Lengyel's formula, wherever vertices and normal are
   }
 });
 
-it("lights both halves from the top, until the sign is forgotten", { skip }, async () => {
+it("lights both halves from the top, except without the sign", { skip }, async () => {
   const tab = await open();
   assert.match(await number(tab, "mirror", "left half"), /sign = \u22121.*up$/);
   assert.match(await number(tab, "mirror", "right half"), /sign = \+1.*up$/);
@@ -121,7 +121,7 @@ it("lights both halves from the top, until the sign is forgotten", { skip }, asy
   assert.match(await number(tab, "mirror", "left half"), /sign = \+1.*up$/);
 });
 
-it("shades the same in tangent space and in space, however the texture is turned", { skip }, async () => {
+it("gives equal shading in tangent space and object space for any rotation of the texture", { skip }, async () => {
   const tab = await open();
   const pixels = () => tab.$eval("#light canvas", (canvas) => [...canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data]);
   const before = await pixels();
@@ -135,7 +135,7 @@ it("shades the same in tangent space and in space, however the texture is turned
   assert.ok((await pixels()).some((value, i) => Math.abs(value - after[i]) > 20), "the light is seen");
 });
 
-it("measures methods against the true surface", { skip }, async () => {
+it("compares methods with the true surface", { skip }, async () => {
   const tab = await open();
   const sheet = await errors(tab);
   assert.ok(sheet.best[0] < 0.5 * sheet.lengyel[0] && sheet.best[0] < 0.5 * sheet.mikktspace[0], JSON.stringify(sheet));
@@ -148,7 +148,7 @@ it("measures methods against the true surface", { skip }, async () => {
   assert.ok(bevel.best[0] <= bevel.lengyel[0] + 1, JSON.stringify(bevel));
 });
 
-it("shows a ring that turns, with relief on one side of the line only", { skip }, async () => {
+it("shows a rotatable ring with relief on one side of the line", { skip }, async () => {
   const tab = await open();
   const pixels = () => tab.$eval("#hero canvas", (canvas) => [...canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data].filter((_, i) => i % 4 === 0));
   /** Returns the mean difference of neighboring pixels on the ring, left and right of the center, away from line and arrows. */
@@ -170,7 +170,7 @@ it("shows a ring that turns, with relief on one side of the line only", { skip }
   assert.deepEqual(tab.faults, []);
 });
 
-it("takes typed edges and frames, and says what follows", { skip }, async () => {
+it("accepts typed edges and frames, and shows the results", { skip }, async () => {
   const tab = await open();
   await tab.fill('[aria-label="edges in the texture: row 1, column 1"]', "-0.1");
   assert.match(await number(tab, "triangle", "determinant"), /= \u2212/);
@@ -193,7 +193,7 @@ it("takes typed edges and frames, and says what follows", { skip }, async () => 
   assert.deepEqual(tab.faults, []);
 });
 
-it("mixes tangents between corners, shorter where they disagree", { skip }, async () => {
+it("interpolates tangents between corners, shorter where they differ", { skip }, async () => {
   const tab = await open();
   const at = async () => Number((await number(tab, "across", "interpolated T")).match(/length ([\d.]+)/)[1]);
   const between = async () => Number((await number(tab, "across", "shaded normal")).match(/([\d.]+) degrees/)[1]);
@@ -209,7 +209,7 @@ it("mixes tangents between corners, shorter where they disagree", { skip }, asyn
   assert.match(await number(tab, "across", "meaning"), /agree/);
 });
 
-it("scales T by the matrix and N by its inverse transpose, and says how much relief changes where lengths stay", { skip }, async () => {
+it("scales T by the matrix and N by its inverse transpose, and reports the change of relief without normalization", { skip }, async () => {
   const tab = await open();
   const values = async (name) => (await number(tab, "scaled", name)).replaceAll("\u2212", "-").match(/-?\d+\.\d+/g).map(Number);
   assert.ok(Math.abs((await values("N by M"))[2] - 90) > 30, "N by the matrix leans");
@@ -253,7 +253,7 @@ for (const width of [390, 1280])
     assert.deepEqual(tab.faults, []);
   });
 
-it("splits vertices at a seam, and shows what sharing them does", { skip }, async () => {
+it("splits vertices at a seam, and shows the effect of sharing them", { skip }, async () => {
   const tab = await open();
   const lit = () => tab.$eval("#seam image", (image) => image.getAttribute("href"));
   assert.match(await number(tab, "seam", "vertices"), /^8/);
@@ -291,7 +291,7 @@ for (const width of [390, 1280])
     assert.deepEqual(small, []);
   });
 
-it("is reached by the keyboard, fits a telephone, and prints", { skip }, async () => {
+it("works by keyboard, on a phone, and in print", { skip }, async () => {
   const tab = await open({ viewport: { width: 390, height: 844 } });
   assert.ok(await tab.$$eval(".handle", (all) => all.length >= 21 && all.every((knob) => knob.tabIndex === 0 && knob.getAttribute("aria-label") && knob.getAttribute("aria-valuetext"))));
   assert.ok(await tab.evaluate(() => document.documentElement.scrollWidth <= innerWidth));

@@ -34,7 +34,7 @@ async function ringMap(tab, folder) {
 
 const looked = (tab) => tab.locator(".looked").textContent();
 
-test("a PNG for DirectX is named, shown on a surface that can be lit, and flipped by one click", { skip: missing }, async () => {
+test("a DirectX PNG is detected, shown on a lit surface, and inverted by one click", { skip: missing }, async () => {
   await inFolder((folder) => withPage(async (tab) => {
     const path = await ringMap(tab, folder);
     assert.equal(await openMap(tab, path), "ready");
@@ -62,7 +62,7 @@ test("a PNG for DirectX is named, shown on a surface that can be lit, and flippe
   }));
 });
 
-test("DDS and KTX2 are judged by their texels", { skip: noTool }, async () => {
+test("DDS and KTX2 are checked by their texels", { skip: noTool }, async () => {
   await inFolder((folder) => withPage(async (tab) => {
     const path = await ringMap(tab, folder);
     for (const ending of ["dds", "ktx2"]) {
@@ -88,7 +88,7 @@ const pixels = (path) => {
   return { width, height, depth, rgb: Array.from({ length: 3 * width * height }, (_, i) => data[channels * Math.floor(i / 3) + (i % 3)]) };
 };
 
-test("each conversion of a lone map is one click, and has the numbers of the tool", { skip: noTool }, async () => {
+test("each conversion of a lone map takes one click, and equals the tool's", { skip: noTool }, async () => {
   await inFolder((folder) => withPage(async (tab) => {
     const path = await ringMap(tab, folder), wanted = join(folder, "wanted.png"), up = join(folder, "up.png");
     await openMap(tab, path);
@@ -120,7 +120,7 @@ test("each conversion of a lone map is one click, and has the numbers of the too
   }));
 });
 
-test("a PNG with x and y alone gets its z by one click", { skip: noTool }, async () => {
+test("the z of a two-channel PNG is reconstructed by one click", { skip: noTool }, async () => {
   await inFolder((folder) => withPage(async (tab) => {
     const path = await ringMap(tab, folder), two = join(folder, "two.png"), wanted = join(folder, "wanted.png");
     const { width, height, channels, depth, data } = decode(readFileSync(path));
@@ -140,7 +140,7 @@ test("a PNG with x and y alone gets its z by one click", { skip: noTool }, async
   }));
 });
 
-test("a picture is no normal map, and a broken file is said to be one", { skip: noShared }, async () => {
+test("a picture is not a normal map, and a corrupt file is reported", { skip: noShared }, async () => {
   await inFolder((folder) => withPage(async (tab) => {
     const broken = join(folder, "broken.png");
     writeFileSync(broken, "no PNG");

@@ -19,7 +19,7 @@ async function held(tab, session) {
   return { megabytes: (usedSize + embedderHeapUsedSize + backingStorageSize) / 2 ** 20, workers: tab.workers().length, ...card };
 }
 
-test("ten models are opened and closed, and what they held comes back", { skip: missing, timeout: 1_800_000 }, async (t) => {
+test("ten models are opened and closed, and their memory is freed", { skip: missing, timeout: 1_800_000 }, async (t) => {
   await withPage(async (tab) => {
     const session = await tab.context().newCDPSession(tab), model = gridGlb(20_000), after = [];
     for (let i = 0; i < kCycles; ++i) {
@@ -40,7 +40,7 @@ test("ten models are opened and closed, and what they held comes back", { skip: 
   });
 });
 
-test("a model of 100 MB shows what is being done, can be stopped, and is opened", { skip: missing, timeout: 1_800_000 }, async (t) => {
+test("a model of 100 MB shows progress, can be stopped, and is opened", { skip: missing, timeout: 1_800_000 }, async (t) => {
   const folder = mkdtempSync(join(tmpdir(), "tspace-large-")), path = join(folder, "large.glb");
   try {
     const bytes = gridGlb(300_000, 16);

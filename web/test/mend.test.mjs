@@ -9,7 +9,7 @@ import { test } from "node:test";
 import { Glb } from "./glb.mjs";
 import { choose, mended, missing, named, noTool, openFile, openSample, settled, shared, shoot, tool, withPage } from "./support.mjs";
 
-test("repairing the broken crate leaves no finding, and shows what changed", { skip: missing }, async () => {
+test("repairing the faulty crate leaves no finding, and shows the changes", { skip: missing }, async () => {
   await withPage(async (tab) => {
     await tab.locator(".mend summary").click();
     await mended(tab);
@@ -27,7 +27,7 @@ test("repairing the broken crate leaves no finding, and shows what changed", { s
   });
 });
 
-test("right of the slider are the very tangents of the download, whatever made them", { skip: missing }, async () => {
+test("the tangents right of the line are those of the download for any method", { skip: missing }, async () => {
   await withPage(async (tab) => {
     await tab.locator(".mend summary").click();
     await choose(tab, "recompute all", ".mend");
@@ -45,7 +45,7 @@ test("right of the slider are the very tangents of the download, whatever made t
   });
 });
 
-test("downloads are byte for byte the files that the tool writes with the command line that stands there", { skip: noTool }, async () => {
+test("downloads are byte-identical to the output of the displayed command line", { skip: noTool }, async () => {
   const folder = mkdtempSync(join(tmpdir(), "tspace-mend-"));
   try {
     await withPage(async (tab) => {
@@ -88,7 +88,7 @@ function areEqualButForRoundedNormals(a, b) {
   for (const index of a.json.accessors.keys()) if (!free.has(index)) assert.deepEqual(a.numbers(index), b.numbers(index));
 }
 
-test("compressed models are mended to the bytes that the tool unpacks them to", { skip: noTool }, async () => {
+test("fixed compressed models have the bytes of the tool's uncompressed output", { skip: noTool }, async () => {
   const folder = mkdtempSync(join(tmpdir(), "tspace-mend-"));
   try {
     await withPage(async (tab) => {
@@ -113,7 +113,7 @@ test("compressed models are mended to the bytes that the tool unpacks them to", 
   }
 });
 
-test("a .gltf that came in a folder goes out as a folder: only what changed has other bytes", { skip: noTool }, async () => {
+test("a .gltf with files is downloaded as a folder, in which only changed data differ", { skip: noTool }, async () => {
   const path = join(shared, "models/assets/sofa_03/sofa_03_1k.gltf"), { unzipSync, zipSync } = await import("fflate");
   await withPage(async (tab) => {
     const others = { ...named(path), "LICENSE.txt": join(shared, "models/README.md") };
@@ -156,7 +156,7 @@ test("a .gltf that came in a folder goes out as a folder: only what changed has 
   }, { allowMessages: true });
 });
 
-test("an image that a mend changes goes into the folder under its own name", { skip: missing }, async () => {
+test("an image changed by a fix keeps its name in the folder", { skip: missing }, async () => {
   const folder = mkdtempSync(join(tmpdir(), "tspace-ring-")), { unzipSync } = await import("fflate");
   try {
     await withPage(async (tab) => {

@@ -59,7 +59,7 @@ test("an OBJ is shown as the GLB that it becomes", { skip: noShared }, async () 
   }, { allowMessages: true });
 });
 
-test("with 500k triangles the page answers while it works, and can be stopped", { skip: noShared || (!isLong && "only with --long"), timeout: 4 * kPatience }, async () => {
+test("with 500k triangles the page stays responsive, and can be stopped", { skip: noShared || (!isLong && "only with --long"), timeout: 4 * kPatience }, async () => {
   const path = join(shared, "models/perf/Market_495k.glb");
   if (!existsSync(path)) return;
   await withPage(async (tab) => {

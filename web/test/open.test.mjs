@@ -50,7 +50,7 @@ const shown = (tab) => tab.evaluate(() => ({
   codes: window.tspaceView.reports.check?.findings.map(({ code }) => code), maps: window.tspaceView.views.stage.viewport.scene.drawn.map(({ part }) => part.normalMap !== null),
 }));
 
-test("dropped files, folders and OBJs are shown and judged", { skip: missing }, async () => {
+test("dropped files, folders and OBJs are shown and checked", { skip: missing }, async () => {
   await withPage(async (tab) => {
     await openSample(tab, "ring-directx.glb");
     assert.equal(await drop(tab, at("crate.glb")), "ready");
@@ -67,7 +67,7 @@ test("dropped files, folders and OBJs are shown and judged", { skip: missing }, 
   });
 });
 
-test("what is no model, or lacks its files, gets a sentence", { skip: missing }, async () => {
+test("files that are not models, and missing files, are reported", { skip: missing }, async () => {
   await withPage(async (tab) => {
     assert.equal(await drop(tab, at("notes.txt")), "failed");
     assert.match(await tab.locator(".failure").textContent(), /notes\.txt is no file that this page reads/);
@@ -77,7 +77,7 @@ test("what is no model, or lacks its files, gets a sentence", { skip: missing },
   }, { allowMessages: true });
 });
 
-test("a .gltf and its files may come one after the other, and what is missing is listed", { skip: missing }, async () => {
+test("a .gltf and its files may be dropped one after the other, and missing files are listed", { skip: missing }, async () => {
   await withPage(async (tab) => {
     assert.equal(await drop(tab, at("box", "crate.gltf")), "failed");
     assert.match(await tab.locator(".failure").textContent(), /crate\.bin, maps\/side 0\.png, maps\/side 1\.png\. Drop them together with the model/);
@@ -88,7 +88,7 @@ test("a .gltf and its files may come one after the other, and what is missing is
   }, { allowMessages: true });
 });
 
-test("a zip is a folder, and of several models one is chosen", { skip: missing }, async () => {
+test("a zip is opened like a folder, with a choice of several models", { skip: missing }, async () => {
   await withPage(async (tab) => {
     const { zipSync } = await import("fflate");
     const files = ["crate.gltf", "crate.bin", "maps/side 0.png", "maps/side 1.png"];
@@ -127,7 +127,7 @@ const eye = (tab) => tab.evaluate(() => {
 });
 const degrees = (a, b) => (Math.acos(Math.min(1, a.reduce((sum, x, i) => sum + x * b[i], 0))) * 180) / Math.PI;
 
-test("one finger turns the model, and two come nearer", { skip: missing }, async () => {
+test("one finger rotates the model, and two fingers zoom", { skip: missing }, async () => {
   await withPage(async (tab) => {
     const session = await tab.context().newCDPSession(tab);
     const box = await tab.locator(".frame canvas").boundingBox();
@@ -156,7 +156,7 @@ test("one finger turns the model, and two come nearer", { skip: missing }, async
   }, { width: 390, height: 844, hasTouch: true });
 });
 
-test("a fault of the page is not blamed on the file, and its findings are there", { skip: missing }, async () => {
+test("a fault of the page is not attributed to the file, whose findings are still shown", { skip: missing }, async () => {
   await withPage(async (tab) => {
     const bytes = Buffer.from(await tab.evaluate(() => [...window.tspaceView.model.bytes]));
     await tab.evaluate(() => (window.tspaceView.views.stage.viewport.reset = () => undefined.parts));

@@ -14,7 +14,7 @@ test("the page is one file of at most 1.2 MB gzipped", () => {
   assert.ok(gzipSync(readFileSync(page), { level: 9 }).length <= 1_200_000);
 });
 
-test("the broken crate is shown at once: wrong signs are found, and its triangles are outlined", { skip: missing }, async (t) => {
+test("the faulty crate is shown immediately: wrong signs are found, and their triangles are outlined", { skip: missing }, async (t) => {
   await withPage(async (tab) => {
     // On a busy machine, a frame may be drawn after the findings.
     const ms = await tab.waitForFunction(() => performance.getEntriesByName("first picture")[0]?.startTime).then((mark) => mark.jsonValue());
@@ -77,7 +77,7 @@ test("signs, mirrored parts, errors and islands have the colors of their legends
   });
 });
 
-test("the sound crate has no findings, and the ring has no tangents", { skip: missing }, async () => {
+test("the correct crate has no findings, and the ring has no tangents", { skip: missing }, async () => {
   await withPage(async (tab) => {
     await openSample(tab, "crate.glb");
     assert.deepEqual(await codes(tab), []);
@@ -209,7 +209,7 @@ for (const scheme of ["light", "dark"]) {
   }
 }
 
-test("hostile names are text", { skip: missing }, async () => {
+test("hostile names are escaped", { skip: missing }, async () => {
   await withPage(async (tab) => {
     const name = '<img src=x onerror="document.title=1">.glb';
     await tab.evaluate((name) => {
@@ -222,7 +222,7 @@ test("hostile names are text", { skip: missing }, async () => {
   });
 });
 
-test("a stopped run says so, and the next model works", { skip: missing }, async () => {
+test("a stopped run is reported, and the next model works", { skip: missing }, async () => {
   await withPage(async (tab) => {
     await tab.evaluate(() => {
       const { model } = window.tspaceView;

@@ -80,7 +80,7 @@ for (const [width, height] of [[390, 844], [820, 1180]]) {
   });
 }
 
-test("difference of lighting is nothing where frames are the same, and a half turn where signs are lost", { skip: missing }, async () => {
+test("the difference of lighting is 0 for equal frames, and 180 degrees for lost signs", { skip: missing }, async () => {
   await withPage(async (tab) => {
     await choose(tab, "Difference");
     let seen = await shares(tab, { none: [41, 48, 89], some: [33, 120, 181], more: [237, 224, 64] }, aboveLegend);
@@ -106,7 +106,7 @@ const filled = async (tab) => {
 };
 
 for (const [width, height] of [[390, 844], [820, 1180], [1280, 800]]) {
-  test(`at ${width} pixels a model fills 85 % of the picture, nothing is squashed, and the pointer hits what it points at`, { skip: missing }, async () => {
+  test(`at ${width} pixels a model fills 85 % of the picture, without distortion, and the pointer selects the triangle under it`, { skip: missing }, async () => {
     await withPage(async (tab) => {
       for (const name of ["crate-signs-lost.glb", "ring-directx.glb"]) {
         await openSample(tab, name);
@@ -144,7 +144,7 @@ for (const [width, height] of [[390, 844], [820, 1180], [1280, 800]]) {
   });
 }
 
-test("surfaces look as their materials say: colors of vertices, what mirrors, what is unlit, and bones", { skip: noShared }, async () => {
+test("surfaces follow their materials: vertex colors, reflections, unlit materials, and bones", { skip: noShared }, async () => {
   await withPage(async (tab) => {
     const open = (name) => openFile(tab, join(shared, "models/khronos", name));
     await open("BoxVertexColors.glb");
@@ -169,7 +169,7 @@ test("surfaces look as their materials say: colors of vertices, what mirrors, wh
   }, { allowMessages: true });
 });
 
-test("surroundings are mirrored, and shadows only take light away", { skip: noShared }, async () => {
+test("the environment is reflected, and shadows only darken", { skip: noShared }, async () => {
   await withPage(async (tab) => {
     await openFile(tab, join(shared, "models/khronos/Lantern.glb"));
     await tab.locator(".split").fill("1000");
@@ -191,7 +191,7 @@ test("surroundings are mirrored, and shadows only take light away", { skip: noSh
   }, { allowMessages: true, width: 1000, height: 700 });
 });
 
-test("animations move what bones, nodes and weights move, and end where they began", { skip: noShared }, async () => {
+test("animations move bones, nodes and weights, and return to the start", { skip: noShared }, async () => {
   await withPage(async (tab) => {
     for (const [name, isSkin] of [["Fox.glb", true], ["AnimatedMorphCube.glb", false]]) {
       await openFile(tab, join(shared, "models/khronos", name));

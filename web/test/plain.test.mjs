@@ -18,7 +18,7 @@ const models = [
 ].map((name) => join(shared ?? "", "models", name));
 const shown = models.filter((_, i) => isLong || i % 5 === 1);
 
-test("models look as three.js alone shows them: 6 of 255 apart in the mean of their pixels, at most", { skip: noShared || (!plain && "the page of three.js alone is not built"), timeout: 3_600_000 }, async (t) => {
+test("models look like in three.js: mean difference of at most 6 of 255", { skip: noShared || (!plain && "the page of three.js alone is not built"), timeout: 3_600_000 }, async (t) => {
   const own = new Map();
   await withPage(async (tab) => {
     for (const path of shown) {
@@ -43,7 +43,7 @@ test("models look as three.js alone shows them: 6 of 255 apart in the mean of th
   }, { url: pathToFileURL(plain).href, allowMessages: true });
 });
 
-test("on a cat with inverted signs a quarter of the pixels differ between the file and what is right", { skip: noShared }, async (t) => {
+test("on a cat with inverted signs a quarter of the pixels differ from the correct picture", { skip: noShared }, async (t) => {
   await withPage(async (tab) => {
     // Its normal map is for DirectX and its signs are inverted, which cancels out; with corrected signs, the map is wrong.
     const glb = new Glb(readFileSync(join(shared, "models/assets/Cat.glb"))), seen = new Set();

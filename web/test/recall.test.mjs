@@ -40,7 +40,7 @@ class Tally {
   }
 }
 
-test("tool and page find 95 % of each damage, the same, and nothing on sound models", { skip: noTool || (!isLong && "only with --long"), timeout: 3_600_000 }, async (t) => {
+test("tool and page find the same 95 % of each damage, and nothing on correct models", { skip: noTool || (!isLong && "only with --long"), timeout: 3_600_000 }, async (t) => {
   const folder = mkdtempSync(join(tmpdir(), "tspace-recall-")), ofTool = new Tally(), ofPage = new Tally(), unlike = [], reworded = [];
   try {
     await withPage(async (tab) => {

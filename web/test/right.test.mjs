@@ -19,7 +19,7 @@ async function picture(tab, split) {
   return pixelsOf(tab);
 }
 
-test("where green points down, the right side is what the file with turned green looks like", { skip: missing }, async () => {
+test("if green points down, the right side shows the file with inverted green", { skip: missing }, async () => {
   await withPage(async (tab) => {
     await openSample(tab, "ring-directx.glb");
     assert.equal(await rightLabel(tab), "correct frames (mikktspace), green inverted");
@@ -39,7 +39,7 @@ test("where green points down, the right side is what the file with turned green
   });
 });
 
-test("a mend says what check says before and after it, and leads back by one key", { skip: missing }, async () => {
+test("a fix shows the findings before and after, and is undone by one key", { skip: missing }, async () => {
   await withPage(async (tab) => {
     await tab.locator(".mend > summary").click();
     await mended(tab);
@@ -56,7 +56,7 @@ test("a mend says what check says before and after it, and leads back by one key
   });
 });
 
-test("a mend that changes nothing says so and offers nothing to take", { skip: missing }, async () => {
+test("a fix that changes nothing is reported, without a download", { skip: missing }, async () => {
   await withPage(async (tab) => {
     await openSample(tab, "crate.glb");
     await tab.locator(".mend > summary").click();
@@ -71,7 +71,7 @@ test("a mend that changes nothing says so and offers nothing to take", { skip: m
   });
 });
 
-test("inverted signs and green that cancel out are mended both or not at all", { skip: noShared }, async () => {
+test("inverted signs and green that cancel out are fixed together or not at all", { skip: noShared }, async () => {
   await withPage(async (tab) => {
     await openFile(tab, cat());
     await tab.locator(".mend > summary").click();
@@ -119,7 +119,7 @@ test("findings of a kind are one entry, shown together and one after another", {
   }, { allowMessages: true });
 });
 
-test("a finding's own button sets Mend to what its remedy does", { skip: missing }, async () => {
+test("the button of a finding sets the fix panel to its remedy", { skip: missing }, async () => {
   await withPage(async (tab) => {
     await tab.locator(".finding").click();
     await tab.locator(".mend-this").click();
@@ -129,7 +129,7 @@ test("a finding's own button sets Mend to what its remedy does", { skip: missing
   });
 });
 
-test("without WebGL there are findings and mends, and a sentence where the picture was", { skip: missing }, async () => {
+test("without WebGL, findings and fixes work, and a message replaces the picture", { skip: missing }, async () => {
   await withPage(async (tab) => {
     assert.equal(await tab.evaluate(() => document.documentElement.dataset.picture), "none");
     assert.match(await tab.locator(".remark").textContent(), /does not support WebGL, so there is no picture/);
@@ -146,7 +146,7 @@ test("without WebGL there are findings and mends, and a sentence where the pictu
   }, { hasWebGl: false, allowMessages: true });
 });
 
-test("an image that cannot be drawn takes itself away, and not the model", { skip: missing }, async () => {
+test("an image that cannot be drawn is omitted, and the model is shown", { skip: missing }, async () => {
   const folder = mkdtempSync(join(tmpdir(), "tspace-images-"));
   try {
     await withPage(async (tab) => {
@@ -177,7 +177,7 @@ test("an image that cannot be drawn takes itself away, and not the model", { ski
   }
 });
 
-test("the address says what is seen, and shows it again", { skip: missing }, async () => {
+test("the address stores the view and restores it", { skip: missing }, async () => {
   let address;
   await withPage(async (tab) => {
     await openSample(tab, "crate-signs-inverted.glb");
@@ -199,7 +199,7 @@ test("the address says what is seen, and shows it again", { skip: missing }, asy
   }, { url: address });
 });
 
-test("the browser's Back and Forward go from model to model, each as it was seen, and an address that is typed is followed", { skip: missing }, async () => {
+test("Back and Forward switch between models and their views, and a typed address is followed", { skip: missing }, async () => {
   await withPage(async (tab) => {
     const look = () => tab.evaluate(() => window.tspaceView.views.stage.viewport.settings.look);
     const shows = async (name) => {

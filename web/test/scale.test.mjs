@@ -70,7 +70,7 @@ function applied(bytes, scale) {
   return glb.finish();
 }
 
-test("a uniform scale of the node changes no look on either side, with tangents and without", { skip: missing, timeout: 1_200_000 }, async () => {
+test("a uniform node scale changes no look on either side, with and without tangents", { skip: missing, timeout: 1_200_000 }, async () => {
   await withPage(async (tab) => {
     const bytes = await crate(tab);
     for (const hasTangents of [true, false]) {
@@ -85,7 +85,7 @@ test("a uniform scale of the node changes no look on either side, with tangents 
   }, small);
 });
 
-test("an uneven or mirroring scale of the node is lit as the same scale in the vertices is, by the page and by three.js", { skip: noPlain, timeout: 1_200_000 }, async (t) => {
+test("a nonuniform or mirroring node scale is lit like the same scale of the vertices, by the page and by three.js", { skip: noPlain, timeout: 1_200_000 }, async (t) => {
   const lit = [];
   await withPage(async (tab) => {
     const bytes = await crate(tab);
@@ -132,7 +132,7 @@ function boned(bytes, scale) {
   return glb.finish();
 }
 
-test("a bone that mirrors is lit as the same mirror in the vertices is", { skip: missing, timeout: 600_000 }, async () => {
+test("a mirroring bone is lit like mirrored vertices", { skip: missing, timeout: 600_000 }, async () => {
   await withPage(async (tab) => {
     const bytes = await crate(tab), wanted = ["lit", "clay", "normals", "difference"];
     for (const scale of [[1, 1, 1], [-1, 1, 1]]) {
@@ -145,7 +145,7 @@ test("a bone that mirrors is lit as the same mirror in the vertices is", { skip:
   }, small);
 });
 
-test("crates that their nodes scale look alike on both sides, and their sides differ by no degree", { skip: noShared, timeout: 600_000 }, async () => {
+test("crates with scaled nodes look equal on both sides, without any difference", { skip: noShared, timeout: 600_000 }, async () => {
   await withPage(async (tab) => {
     let first = null;
     for (const name of ["crate-scale-1", "crate-scale-10", "crate-tangents-scale-0.01"]) {

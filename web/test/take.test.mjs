@@ -78,7 +78,7 @@ test("the picture is saved with the file, both sides and the version below it", 
   });
 });
 
-test("a page that the tool made says when and by which command, and links to no lesson", { skip: noTool }, async () => {
+test("a page of the tool states its date and command, and has no link to the lesson", { skip: noTool }, async () => {
   const folder = mkdtempSync(join(tmpdir(), "tspace-view-"));
   try {
     const model = join(folder, "it's a crate.glb"), made = join(folder, "crate.html");

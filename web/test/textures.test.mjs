@@ -66,7 +66,7 @@ function ktx2(width, height, rgba, packing) {
   return Buffer.concat([head, descriptor, padding, level]);
 }
 
-test("the page reads the pixels of KTX2 and DDS that the tool reads", { skip: noTool }, async () => {
+test("the page decodes KTX2 and DDS to the pixels of the tool", { skip: noTool }, async () => {
   const lamp = join(shared, "models/khronos/AnisotropyBarnLamp"), map = join(folder, "map.png");
   await withPage(async (tab) => {
     const images = await tab.evaluate(() => {
@@ -94,7 +94,7 @@ test("the page reads the pixels of KTX2 and DDS that the tool reads", { skip: no
   });
 });
 
-test("a model with KTX2 is drawn with its images, and no sentence says that they are missing", { skip: noShared }, async () => {
+test("a model with KTX2 is drawn with its images, without a message about missing ones", { skip: noShared }, async () => {
   const lamp = join(shared, "models/khronos/AnisotropyBarnLamp"), names = readdirSync(lamp), gltf = names.find((name) => /\.(gltf|glb)$/.test(name));
   await withPage(async (tab) => {
     assert.equal(await openFile(tab, join(lamp, gltf), { others: Object.fromEntries(names.filter((name) => name !== gltf).map((name) => [name, join(lamp, name)])) }), "ready");
@@ -105,7 +105,7 @@ test("a model with KTX2 is drawn with its images, and no sentence says that they
   }, { allowMessages: true });
 });
 
-test("a KTX2 is drawn, and the image beside it only where the KTX2 is broken", { skip: noShared }, async () => {
+test("a KTX2 is drawn, and the alternative image only if the KTX2 is corrupt", { skip: noShared }, async () => {
   // The bottle is yellow, and the alternative to the KTX2 is a single blue texel.
   const bottle = join(shared, "models/assets/ycb_mustard_bottle.glb"), broken = readFileSync(bottle);
   broken.writeUInt32LE(0x7fffffff, broken.indexOf("KTX 20") - 1 + 12);
@@ -120,7 +120,7 @@ test("a KTX2 is drawn, and the image beside it only where the KTX2 is broken", {
   }, { allowMessages: true });
 });
 
-test("broken textures of hostile files end with a sentence", { skip: noTool }, async () => {
+test("corrupt textures of hostile files cause a message", { skip: noTool }, async () => {
   await withPage(async (tab) => {
     const path = join(shared, "models/khronos/AnisotropyBarnLamp/AnisotropyBarnLamp_normalbump.ktx2"), whole = readFileSync(path);
     const failed = (bytes) => tab.evaluate(async (text) => {

@@ -30,7 +30,7 @@ const middleOf = (tab, triangle) => tab.evaluate((t) => {
 }, triangle);
 
 for (const [width, height, scheme] of [[1280, 800, "light"], [390, 844, "light"], [820, 1180, "dark"], [1920, 1080, "dark"]]) {
-  test(`at ${width} pixels what is pointed at in the model is shown in the map, and the other way round`, { skip: missing }, async () => {
+  test(`at ${width} pixels the position under the pointer in the model is shown in the map, and vice versa`, { skip: missing }, async () => {
     await withPage(async (tab) => {
       await openMap(tab, true);
       await tab.locator(".frame canvas").scrollIntoViewIfNeeded();
@@ -95,7 +95,7 @@ test("the map is zoomed about the pointer, moved, and shown whole again, by mous
   });
 });
 
-test("triangles that share a place are all found, and each further click shows the next one", { skip: noShared }, async () => {
+test("overlapping triangles are all found, and each click shows the next one", { skip: noShared }, async () => {
   await withPage(async (tab) => {
     await openFile(tab, join(shared, "models/khronos/BoomBoxWithAxes.glb"));
     await openMap(tab, true);
@@ -132,7 +132,7 @@ test("triangles that share a place are all found, and each further click shows t
   }, { allowMessages: true });
 });
 
-test("each UV set of a file can be chosen, with what reads it and its own islands", { skip: noShared }, async () => {
+test("each UV set of a file can be chosen, with its users and islands", { skip: noShared }, async () => {
   await withPage(async (tab) => {
     const folder = join(shared, "models/khronos/MultiUVTest");
     const { readdirSync } = await import("node:fs");
@@ -155,7 +155,7 @@ test("each UV set of a file can be chosen, with what reads it and its own island
   }, { allowMessages: true });
 });
 
-test("of the next model nothing of the one before is marked", { skip: missing }, async () => {
+test("marks are cleared for the next model", { skip: missing }, async () => {
   await withPage(async (tab) => {
     await openMap(tab, true);
     const largest = await tab.evaluate(() => {

@@ -10,7 +10,7 @@ const materials = (tab) => tab.evaluate(() => window.tspaceView.views.stage.view
 const eye = (tab) => tab.evaluate(() => window.tspaceView.views.stage.viewport.camera.position.toArray());
 const shown = (tab, variant) => tab.waitForFunction((variant) => window.tspaceView.variant === variant && !document.querySelector(".progress.busy"), variant);
 
-test("each variant of a file is shown with its materials, from where the eye is, and the file's own come back", { skip: noShared }, async () => {
+test("each variant is shown with its materials from the same camera, and the file's own materials are restored", { skip: noShared }, async () => {
   await withPage(async (tab) => {
     const path = join(shared, "models/blender/18_variants/18_variants.gltf"), json = JSON.parse(readFileSync(path, "utf8"));
     const names = json.extensions.KHR_materials_variants.variants.map(({ name }) => name);
@@ -37,7 +37,7 @@ test("each variant of a file is shown with its materials, from where the eye is,
   }, { allowMessages: true });
 });
 
-test("a file without variants has no such choice, and one whose mappings name nothing keeps its materials", { skip: missing }, async () => {
+test("a file without variants has no choice, and one with empty mappings keeps its materials", { skip: missing }, async () => {
   await withPage(async (tab) => {
     assert.equal(await tab.locator(".look").getByLabel("Variant").isVisible(), false);
     await tab.evaluate(() => {
@@ -63,7 +63,7 @@ test("a file without variants has no such choice, and one whose mappings name no
   });
 });
 
-test("a variant whose materials are not in the file is said, and the model stays", { skip: noShared }, async () => {
+test("a variant with missing materials is reported, and the model is kept", { skip: noShared }, async () => {
   await withPage(async (tab) => {
     assert.equal(await openFile(tab, join(shared, "models/assets/MaterialsVariantsShoe_draco.glb")), "ready");
     const own = await materials(tab), choice = tab.locator(".look").getByLabel("Variant");

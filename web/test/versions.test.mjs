@@ -19,7 +19,7 @@ const inFolder = async (act) => {
   }
 };
 
-test("two versions stand left and right of the line, with the degrees between them", { skip: missing }, async () => {
+test("two versions are shown left and right of the line, with the angle between them", { skip: missing }, async () => {
   await inFolder((folder) => withPage(async (tab) => {
     const path = join(folder, "right.glb");
     await openSample(tab, "crate.glb");
@@ -50,7 +50,7 @@ async function halves(tab) {
 }
 const apart = (one, other) => shareOf(one, (i) => farApart(one.data, i, other.data, i) > 12);
 
-test("side by side both files have a picture of their own, seen by one camera, and both show the degrees between them", { skip: missing }, async () => {
+test("side by side, both files have a picture with the same camera and the angle between them", { skip: missing }, async () => {
   await inFolder((folder) => withPage(async (tab) => {
     const right = join(folder, "right.glb"), beside = tab.locator(".stage .check", { hasText: "Side by side" });
     await openSample(tab, "crate.glb");
@@ -96,7 +96,7 @@ test("side by side both files have a picture of their own, seen by one camera, a
   }));
 });
 
-test("one HTML page holds the model, its findings and what is seen", { skip: missing }, async () => {
+test("one HTML page contains the model, its findings and the view", { skip: missing }, async () => {
   await inFolder(async (folder) => {
     const saved = join(folder, "saved.html");
     await withPage(async (tab) => {
@@ -118,7 +118,7 @@ test("one HTML page holds the model, its findings and what is seen", { skip: mis
   });
 });
 
-test("a model of one's own is there again after a reload, until it is forgotten", { skip: missing }, async () => {
+test("the user's model is available after a reload, until it is deleted", { skip: missing }, async () => {
   const server = createServer((_, response) => response.writeHead(200, { "content-type": "text/html" }).end(readFileSync(page)));
   await new Promise((done) => server.listen(0, "127.0.0.1", done));
   try {

@@ -41,7 +41,7 @@ describe("the call of npm's mikktspace", () => {
     assert.ok(compared > 350);
   });
 
-  it("takes arrays of any numbers, as the package does", { skip: absent(npm, "mikktspace") }, () => {
+  it("accepts arrays of any number type, like the package", { skip: absent(npm, "mikktspace") }, () => {
     const wanted = ofNpm(...unindexed);
     assert.equal(differences(compat.generateTangents(...unindexed), wanted), 0);
     assert.equal(differences(compat.generateTangents(...unindexed.map((array) => [...array])), wanted), 0);
@@ -111,7 +111,7 @@ function gltf(core, attributes, indices) {
   return { document, primitive, make };
 }
 
-describe("a transform of glTF-Transform", { skip: absent(core, "glTF-Transform") }, () => {
+describe("the transform for glTF-Transform", { skip: absent(core, "glTF-Transform") }, () => {
   const attributes = { POSITION: mesh.positions, NORMAL: mesh.normals, TEXCOORD_0: mesh.uvs };
 
   it("splits, and gives each corner the tangent of the library", async () => {
@@ -124,7 +124,7 @@ describe("a transform of glTF-Transform", { skip: absent(core, "glTF-Transform")
     assert.equal(primitive.getAttribute("POSITION").getCount(), frames.sourceVertices.length);
   });
 
-  it("indexes what is not indexed", async () => {
+  it("adds missing indices", async () => {
     const { tspaceTangents } = await import("tspace/gltf-transform");
     const { document, primitive } = gltf(core, { POSITION: unindexed[0], NORMAL: unindexed[1], TEXCOORD_0: unindexed[2] });
     await document.transform(tspaceTangents());
@@ -135,7 +135,7 @@ describe("a transform of glTF-Transform", { skip: absent(core, "glTF-Transform")
     indices.forEach((v, c) => assert.deepEqual(tangents.slice(4 * v, 4 * v + 4), wanted.slice(4 * c, 4 * c + 4)));
   });
 
-  it("makes normals where there are none", async () => {
+  it("computes missing normals", async () => {
     const { tspaceTangents } = await import("tspace/gltf-transform");
     const { document, primitive } = gltf(core, { POSITION: mesh.positions, TEXCOORD_0: mesh.uvs }, mesh.indices);
     await document.transform(tspaceTangents());
@@ -143,7 +143,7 @@ describe("a transform of glTF-Transform", { skip: absent(core, "glTF-Transform")
       assert.equal(primitive.getAttribute(name).getCount(), primitive.getAttribute("POSITION").getCount());
   });
 
-  it("gives morph targets their tangents", async () => {
+  it("computes tangents of morph targets", async () => {
     const { tspaceTangents } = await import("tspace/gltf-transform");
     const { document, primitive, make } = gltf(core, attributes, mesh.indices);
     const moves = mesh.positions.map((x, i) => (i % 3 === 2 ? 0.3 * Math.sin(5 * mesh.positions[i - 2]) : 0));
@@ -164,7 +164,7 @@ describe("a transform of glTF-Transform", { skip: absent(core, "glTF-Transform")
 });
 
 describe("computeTangents for three.js", { skip: absent(three, "three") }, () => {
-  it("gives an indexed geometry with all that was there", async () => {
+  it("gives an indexed geometry with all attributes", async () => {
     const { computeTangents } = await import("tspace/three");
     const geometry = new three.TorusKnotGeometry(1, 0.3, 64, 8);
     geometry.morphAttributes.position = [geometry.attributes.position.clone()];
@@ -184,7 +184,7 @@ describe("computeTangents for three.js", { skip: absent(three, "three") }, () =>
     });
   });
 
-  it("indexes what is not indexed, and reads interleaved attributes", async () => {
+  it("adds missing indices, and reads interleaved attributes", async () => {
     const { computeTangents } = await import("tspace/three");
     const plain = new three.SphereGeometry(1, 12, 8).toNonIndexed();
     const result = computeTangents(plain, { convention: "opengl" });
@@ -206,7 +206,7 @@ describe("computeTangents for three.js", { skip: absent(three, "three") }, () =>
       assert.deepEqual(other.attributes[name].array, result.attributes[name].array);
   });
 
-  it("takes the geometry of a mesh, and needs no UVs for the method basis", async () => {
+  it("accepts a mesh, and needs no UVs for the method basis", async () => {
     const { computeTangents } = await import("tspace/three");
     const geometry = new three.SphereGeometry(1, 12, 8);
     const body = new three.SkinnedMesh(geometry, new three.MeshBasicMaterial());
@@ -278,7 +278,7 @@ describe("computeTangents for three.js", { skip: absent(three, "three") }, () =>
     assert.deepEqual([tint.data.isInstancedInterleavedBuffer, tint.data.meshPerAttribute, phase.getX(4)], [true, 3, 19]);
   });
 
-  it("asks for a convention and UVs", async () => {
+  it("requires a convention and UVs", async () => {
     const { computeTangents } = await import("tspace/three");
     assert.throws(() => computeTangents(new three.SphereGeometry(), {}), { code: "invalidOption" });
     assert.throws(() => computeTangents(new three.BufferGeometry(), { convention: "gltf" }), { code: "missingAttribute" });

@@ -27,7 +27,7 @@ function refuses(code, words, body, element) {
 }
 const tangentsOf = (changes, more = {}) => () => generateTangents({ ...mesh, ...changes }, { ...options, ...more });
 
-describe("refused", () => {
+describe("rejects", () => {
   it("no convention", () => {
     refuses("invalidOption", [/convention is missing/, /gltf/], () => generateTangents(mesh));
     refuses("invalidOption", [/convention/, /"maya"/, /gltf/], tangentsOf({}, { convention: "maya" }));
@@ -66,7 +66,7 @@ describe("refused", () => {
     refuses("invalidOption", [/weighting/], () => generateNormals(mesh, { weighting: "heavy" }));
   });
 
-  it("options that nobody knows, with those that are", () => {
+  it("unknown options, and lists the known ones", () => {
     const unknown = (words, body) => refuses("invalidOption", [/ is unknown; known names are /, ...words], body);
     const typo = { ...options, treshold: 90 };
     const words = [/^options\.treshold/, /method, threshold, pairing, ngons, convention, normalizeNormals, frame, refine/];
@@ -85,7 +85,7 @@ describe("refused", () => {
     unknown([/^options\.frame/], () => small.generateTangents(mesh, { ...options, frame: "symmetric" }));
   });
 
-  it("members that no mesh has", () => {
+  it("unknown members of a mesh", () => {
     const unknown = (member, body) => refuses("invalidOption", [new RegExp(`\\.${member} is unknown; known names are positions, normals, uvs, indices, faceSizes`)], body);
     for (const member of ["normal", "index", "faceSize", "uv", "position"]) {
       const typo = { ...mesh, [member]: mesh.normals };
@@ -108,7 +108,7 @@ describe("refused", () => {
     for (const threshold of [0, 360]) assert.equal(tangentsOf({}, { threshold })().length, good.length);
   });
 
-  it("by the names that callers know", () => {
+  it("with the names that callers use", () => {
     const messages = [];
     const told = (body) => assert.throws(body, ({ message }) => messages.push(message) > 0);
     const few = Uint32Array.of(0, 1, 2);
@@ -159,7 +159,7 @@ describe("refused", () => {
     refuses("detached", [/uvs/], tangentsOf({ uvs }));
   });
 
-  it("buffers that change while the call looks at them", () => {
+  it("buffers that change during the call", () => {
     const shrinking = mesh.positions.slice();
     const detaches = { ...mesh, positions: shrinking, get uvIndices() { structuredClone(shrinking.buffer, { transfer: [shrinking.buffer] }); } };
     assert.throws(() => generateTangents(detaches, options), TypeError);
@@ -181,8 +181,8 @@ describe("refused", () => {
   });
 });
 
-describe("taken as it is", () => {
-  it("what is not finite", () => {
+describe("accepts", () => {
+  it("values that are not finite", () => {
     const positions = mesh.positions.slice();
     positions[4] = NaN;
     positions[9] = Infinity;
@@ -209,7 +209,7 @@ describe("taken as it is", () => {
 });
 
 describe("running out of memory", () => {
-  it("is an error, after which the module works", () => {
+  it("is an error, and the module works afterwards", () => {
     const plan = new Plan(mesh, options);
     // An invalid argument does not invalidate plans.
     assert.throws(() => generateTangents(mesh, { ...options, report: 5 }), TypeError);

@@ -95,7 +95,7 @@ export default async function Page() {
 }
 `;
   for (const bundler of ["turbopack", "webpack"])
-    it(`answers with what server components compute, by ${bundler}, from its standalone folder`, { timeout: 400_000 }, () => inProject(async (folder) => {
+    it(`serves results of server components, built by ${bundler}, from its standalone folder`, { timeout: 400_000 }, () => inProject(async (folder) => {
       // A separate project, because Next uses the folder with the packages as its root.
       cpSync(join(installed, "package.json"), join(folder, "package.json"));
       writeFileSync(join(folder, "next.config.mjs"), `const root = ${JSON.stringify(installed)};

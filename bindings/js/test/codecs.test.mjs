@@ -54,7 +54,7 @@ describe("compressed models", { skip: skip || missing }, () => {
     });
   }
 
-  it("get the tangents that the tool gives them, and stay compressed", () => {
+  it("get the tangents of the tool, and stay compressed", () => {
     const folder = mkdtempSync(join(tmpdir(), "tspace-js-"));
     try {
       for (const name of compressed) {
@@ -73,7 +73,7 @@ describe("compressed models", { skip: skip || missing }, () => {
     }
   });
 
-  it("are unpacked where that is asked for, which takes no encoder", () => {
+  it("are decompressed on request, which needs no encoder", () => {
     for (const name of compressed.filter((path) => statSync(path).size < 60e3)) {
       const decoders = { meshopt: { decoder: meshopt.decoder }, draco: { decoder: draco.decoder } };
       const { bytes } = generate(readFileSync(name), { ...optionsOf(name), ...decoders, all: true, compress: "none" });
@@ -83,7 +83,7 @@ describe("compressed models", { skip: skip || missing }, () => {
     }
   });
 
-  it("are refused with a sentence where the codec, or a part of it, is missing", () => {
+  it("are rejected with a message if the codec or a part of it is missing", () => {
     const plainModel = gridModel().model;
     for (const [option, codec] of [["meshopt", meshopt], ["draco", draco]]) {
       const packed = generate(plainModel, { [option]: codec, compress: option }).bytes;
@@ -99,7 +99,7 @@ describe("compressed models", { skip: skip || missing }, () => {
     }
   });
 
-  it("give a report or an error where they are broken", () => {
+  it("give a report or an error if they are corrupt", () => {
     let refused = 0;
     for (const name of compressed.filter((path) => /\.glb$/.test(path) && statSync(path).size < 30e3)) {
       const model = readFileSync(name);
@@ -140,14 +140,14 @@ function domes({ size = 128, bits = 8, channels = 3, isDown = false } = {}) {
 describe("normal maps", { skip: missing }, () => {
   const codes = (model, options) => check(model, options).findings.map(({ code }) => code).filter((code) => /green|Unreadable/.test(code));
 
-  it("are looked at where decodeImage is given", () => {
+  it("are examined if decodeImage is given", () => {
     assert.deepEqual(codes(withMap(domes()), { decodeImage: decodePng }), []);
     assert.deepEqual(codes(withMap(domes({ isDown: true })), { decodeImage: decodePng }), ["greenFlipped"]);
     assert.deepEqual(codes(withMap(domes({ bits: 16, isDown: true })), { decodeImage: decodePng }), ["greenFlipped"]);
     assert.deepEqual(codes(withMap(domes()), {}), ["normalMapUnreadable"]);
   });
 
-  it("are looked at by decoders that give promises, before the call", async () => {
+  it("are examined with asynchronous decoders before the call", async () => {
     const model = withMap(domes({ isDown: true }));
     const asked = [];
     const decodeImage = await decodeImages(model, async (bytes, mimeType) => {
@@ -164,7 +164,7 @@ describe("normal maps", { skip: missing }, () => {
     refuses("wrongType", [/Promise/, /decodeImages/], () => check(model, { decodeImage: async () => undefined }));
   });
 
-  it("are inverted where green points down, with all of their bits", async () => {
+  it("are inverted without loss if green points down", async () => {
     for (const bits of [8, 16])
       for (const channels of [3, 4]) {
         const model = withMap(domes({ bits, channels, isDown: true }));
@@ -179,7 +179,7 @@ describe("normal maps", { skip: missing }, () => {
     assert.match(up.report.normalMaps[0].reason, /up already/);
   });
 
-  it("stay, and the report says why, where the caller's functions do not do their part", () => {
+  it("are kept, with a reason in the report, if the caller's functions fail", () => {
     const model = withMap(domes({ bits: 16, isDown: true }));
     const why = (options) => generate(model, { flipGreenAll: true, decodeImage: decodePng, encodeImage: encodePng, ...options }).report.normalMaps[0].reason;
     const eight = (bytes) => ({ ...decodePng(bytes), rgba: Uint8Array.from(decodePng(bytes).rgba, (x) => x >> 8) });
@@ -197,7 +197,7 @@ describe("normal maps", { skip: missing }, () => {
     refuses("wrongType", [/decodeImage/], () => why({ decodeImage: "png" }));
   });
 
-  it("of models of ../shared get the tool's verdicts", { skip }, () => {
+  it("of shared models get the tool's verdicts", { skip }, () => {
     const paths = filesIn(join(shared, "models"), /\.(glb|gltf)$/).filter((path) => (statSync(path).size < 300e3 || /Lantern|Sneaker|BoomBoxWithAxes_/.test(path)) && /(assets|derived|features|khronos|asset-generator.M)/.test(path));
     const wanted = ofTool("check", ...paths).files;
     let compared = 0;

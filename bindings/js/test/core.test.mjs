@@ -53,14 +53,14 @@ describe("calls", () => {
     assert.deepEqual(generateTangents(unindexed, options), wanted);
   });
 
-  it("keep the caller's tangents, which are repaired in a copy", () => {
+  it("repair tangents in a copy", () => {
     const broken = generateTangents(mesh, { convention: "gltf" });
     broken[0] = NaN;
     assert.ok(sanitizeTangents(mesh, broken).every(Number.isFinite));
     assert.ok(Number.isNaN(broken[0]));
   });
 
-  it("evaluate a plan in another pose as a call of its own would", () => {
+  it("evaluate a plan in another pose like a separate call", () => {
     const plan = new Plan(mesh, { convention: "gltf", method: "angle" });
     const pose = { positions: mesh.positions.map((x) => 2 * x), normals: mesh.normals };
     assert.deepEqual(plan.evaluate(pose), generateTangents({ ...mesh, ...pose }, { convention: "gltf", method: "angle" }));
@@ -91,7 +91,7 @@ describe("calls", () => {
     assert.deepEqual(made.report.ignoredOptions, ["normals.creaseAngle"]);
   });
 
-  it("give their memory back when asked", () => {
+  it("release their memory on request", () => {
     const options = { convention: "gltf" };
     const wanted = generateTangents(mesh, options);
     const plan = new Plan(mesh, options);
@@ -149,7 +149,7 @@ describe("indexed frames in one call", () => {
   const { makeIndexedFrames } = whole;
   const mesh = grid(8);
 
-  it("report each step as its own call does, and null for one that was left out", () => {
+  it("report each step like a separate call, and null for a skipped one", () => {
     const broken = { ...mesh, uvs: mesh.uvs.slice().fill(0.5, 0, 12), indices: mesh.indices.slice() };
     broken.indices[4] = broken.indices[3]; // a face without area
     const [tangents, sanitize, normals] = [{}, {}, {}];

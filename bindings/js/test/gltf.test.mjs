@@ -43,7 +43,7 @@ describe("models in memory", () => {
     assert.throws(() => expectReport("check", { ...check(good.bytes), findings: undefined }), /findings/);
   });
 
-  it("get the files that they name from an object, a Map or a function", () => {
+  it("get referenced files from an object, a Map or a function", () => {
     const { model: named, buffer } = gridModel({ uri: "data/a%20grid.bin" });
     const path = "data/a grid.bin";
     const asked = [];
@@ -65,7 +65,7 @@ describe("models in memory", () => {
     refuses("invalidOption", [/must not call/], () => check(named, { resources: () => check(model) }));
   });
 
-  it("are refused with a sentence where the call is wrong", () => {
+  it("are rejected with a message if the call is invalid", () => {
     refuses("wrongType", [/model must be a Uint8Array or an ArrayBuffer, not "model.glb"/], () => check("model.glb"));
     refuses("wrongType", [/model must be .* not undefined/], () => check());
     refuses("wrongType", [/options/], () => check(model, "all"));
@@ -84,7 +84,7 @@ describe("models in memory", () => {
     refuses("detached", [/model/], () => check(gone));
   });
 
-  it("know the options that their types have, and that the module knows", () => {
+  it("accept the options of their types and of the module", () => {
     const types = ["gltf", "file_options"].map((name) => readFileSync(new URL(`../node_modules/tspace/src/${name}.d.ts`, import.meta.url), "utf8")).join("");
     const membersOf = (name) => {
       const [, parents = "", body = ""] = types.match(new RegExp(`interface ${name}(?: extends (.*?))? \\{(?:\\n([\\s\\S]*?)\\n)?\\}`));
@@ -107,7 +107,7 @@ describe("models in memory", () => {
     }
   });
 
-  it("leave memory as it was, also where they are wrong", () => {
+  it("leak no memory, even if they fail", () => {
     const broken = model.subarray(0, model.length - 9);
     const round = () => {
       generate(model);
@@ -127,7 +127,7 @@ describe("the tool", { skip }, () => {
   const paths = hasModels ? filesIn(join(shared, "models"), /\.(glb|gltf)$/).filter((path) => statSync(path).size < 300e3) : [];
   const missing = /the option (draco|meshopt) is missing; it must be/;
 
-  it("inspects as this does", () => {
+  it("has the same output of inspect", () => {
     let compared = 0;
     ofTool("inspect", ...paths).files.forEach((file, i) => {
       const name = paths[i];
@@ -146,7 +146,7 @@ describe("the tool", { skip }, () => {
     assert.ok(compared > 40, String(compared));
   });
 
-  it("generates the same bytes, with other options than same.test.mjs", () => {
+  it("generates the same bytes with further options", () => {
     const folder = mkdtempSync(join(tmpdir(), "tspace-js-"));
     try {
       let compared = 0;
@@ -174,8 +174,8 @@ describe("the tool", { skip }, () => {
   });
 });
 
-describe("broken files", { skip: !(shared && existsSync(join(shared, "bad"))) && "no ../shared here" }, () => {
-  it("give a report or an error with one sentence, and the module works afterwards", () => {
+describe("corrupt files", { skip: !(shared && existsSync(join(shared, "bad"))) && "no ../shared here" }, () => {
+  it("give a report or a one-sentence error, and the module works afterwards", () => {
     let refused = 0, read = 0;
     for (const path of filesIn(join(shared, "bad"), /./)) {
       for (const call of [check, generate]) {

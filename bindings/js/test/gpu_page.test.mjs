@@ -26,7 +26,7 @@ function statisticsOf({ data, width }, { x, y, width: wide, height: high }) {
   return { share: covered / (wide * high), mean: sum.map((total) => Math.round(total / covered)), roughness: steps / covered };
 }
 
-it("shows a cloth and a morphing model beside derivative frames", { skip: missing || (!(folder && existsSync(folder)) && "no examples here") || (!pngjs && "pngjs is not installed"), timeout: 300_000 }, async (t) => {
+it("shows a cloth and a morphing model next to derivative frames", { skip: missing || (!(folder && existsSync(folder)) && "no examples here") || (!pngjs && "pngjs is not installed"), timeout: 300_000 }, async (t) => {
   const [html, page] = ["index.html", "page.js"].map((name) => readFileSync(join(folder, name), "utf8"));
   let picture, boxes;
   const { hasAdapter } = await runPage({

@@ -64,14 +64,14 @@ describe("tspace mcp", { skip: missing }, () => {
     assert.ok(!textOf(answer).includes("secret"));
   };
 
-  it("lists five tools, of which two write", async () => {
+  it("lists five tools, two of which write files", async () => {
     const { tools } = await client.listTools();
     assert.deepEqual(tools.map(({ name }) => name), ["inspect", "check", "identify", "generate", "bake"]);
     assert.deepEqual(tools.map(({ annotations }) => annotations.readOnlyHint), [true, true, true, false, false]);
     for (const { inputSchema } of tools) assert.equal(inputSchema.additionalProperties, false);
   });
 
-  it("gives the program's reports, and writes what it is asked for", async () => {
+  it("returns the program's reports, and writes the requested files", async () => {
     const { files: [inspected] } = JSON.parse(textOf(await good("inspect", { file: "grid.gltf" })));
     assert.equal(inspected.primitives.length, 1);
     const made = JSON.parse(textOf(await good("generate", { file: "deep/grid.gltf", output: "deep/out.glb", all: true, method: "best" })));
@@ -86,7 +86,7 @@ describe("tspace mcp", { skip: missing }, () => {
     rmSync(join(root, "deep/out.glb"));
   });
 
-  it("shows pictures of what check finds", async () => {
+  it("returns pictures of findings", async () => {
     await good("generate", { file: "grid.gltf", output: "wrong.glb", all: true });
     const bytes = readFileSync(join(root, "wrong.glb"));
     const json = JSON.parse(bytes.subarray(20, 20 + bytes.readUInt32LE(12)));
@@ -134,7 +134,7 @@ describe("tspace mcp", { skip: missing }, () => {
     assert.ok(!existsSync(join(home, "new.glb")));
   });
 
-  it("says what is wrong with a call", async () => {
+  it("reports invalid calls", async () => {
     await refused("inspect", {}, /file is missing/);
     await refused("inspect", { file: 5 }, /file must be of type string/);
     await refused("inspect", { file: "" }, /file is empty/);
@@ -148,7 +148,7 @@ describe("tspace mcp", { skip: missing }, () => {
     await refused("check", { file: "broken.gltf" }, /broken\.gltf/);
   });
 
-  it("bakes by the native tool, which follows no links to elsewhere either", { skip: !tool && "no tool here: build the preset release" }, async () => {
+  it("bakes with the native tool, which follows no links outside either", { skip: !tool && "no tool here: build the preset release" }, async () => {
     const other = await connected([root, "--tool", tool]);
     try {
       const bake = (given) => other.callTool({ name: "bake", arguments: { size: 32, ...given } });
@@ -163,7 +163,7 @@ describe("tspace mcp", { skip: missing }, () => {
     }
   });
 
-  it("ends the program of a call when it is ended itself, and leaves nothing behind", async () => {
+  it("ends running programs when it is terminated, and leaves no files", async () => {
     const own = () => readdirSync(tmpdir()).filter((name) => /^tspace-mcp-(?!test)/.test(name));
     const before = own();
     const other = await connected([root]);
@@ -186,7 +186,7 @@ describe("tspace mcp", { skip: missing }, () => {
     rmSync(join(root, "large.obj"));
   });
 
-  it("has a help, and refuses what is no folder", () => {
+  it("prints help, and rejects a path that is not a folder", () => {
     const run = (...words) => spawnSync(process.execPath, [program, "mcp", ...words], { encoding: "utf8" });
     assert.match(run("--help").stdout, /Usage: tspace mcp FOLDER/);
     assert.deepEqual([run().status, run("a", "b").status, run(join(home, "none")).status, run(program).status], [2, 2, 4, 4]);

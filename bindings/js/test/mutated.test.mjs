@@ -85,7 +85,7 @@ describe("files with random changes", { skip: skip || (!hasModels && "no ../shar
     assert.ok(sound > count / 10 && sound < count, `${sound} of ${count} are sound, so one side is not tried`);
   }
 
-  it("have the tool's findings", () => {
+  it("have the findings of the tool", () => {
     compareAll("check", ["--no-images"], (path, file) =>
       assert.deepEqual(ofPackage((model, options) => check(model, { ...options, noImages: true }), path), ofFile(file), path));
   });
@@ -94,7 +94,7 @@ describe("files with random changes", { skip: skip || (!hasModels && "no ../shar
     compareAll("identify", [], (path, file) => assert.deepEqual(ofPackage(identify, path), ofFile(file), path));
   });
 
-  it("become the tool's outputs", () => {
+  it("give the outputs of the tool", () => {
     const out = join(folder, "out");
     compareAll("generate", ["-o", out, "--container", "glb", "--all", "--overwrite"], (path, file) => {
       let made;

@@ -8,7 +8,7 @@ import * as whole from "tspace/normals";
 await Promise.all([plain.ready, whole.ready]);
 
 describe("options of \"tspace/normals\" alone", () => {
-  it("are refused by name in \"tspace\"", () => {
+  it("are rejected by name in \"tspace\"", () => {
     const mesh = { positions: new Float32Array(9) };
     for (const options of [{ denoise: "auto" }, { denoise: 2 }, { creaseAngle: "auto" }])
       assert.throws(() => plain.generateNormals(mesh, { weighting: "best", ...options }), /tspace\/normals/);
@@ -19,7 +19,7 @@ describe("options of \"tspace/normals\" alone", () => {
 describe("mendWinding", () => {
   const positions = new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]);
   const sound = [0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3];
-  it("gives indices in which faces are wound alike, and outwards", () => {
+  it("gives indices with consistent winding and the correct outside", () => {
     const indices = new Uint32Array([0, 2, 1, 0, 3, 1, 0, 3, 2, 1, 2, 3]);
     const mended = whole.mendWinding({ positions, indices });
     assert.deepEqual([...mended.indices], sound);

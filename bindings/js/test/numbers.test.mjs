@@ -71,7 +71,7 @@ describe("numbers beyond 32 bits", () => {
   // Data that does not affect frames is not validated: textures, images, scenes.
   const refused = numbersIn(fullModel()).filter((path) => !/normalTexture\/index|textures|mappings|\/scene|\/nodes/.test(path));
 
-  it("are not read as the numbers that their last 32 bits are", () => {
+  it("are not truncated to 32 bits", () => {
     assert.equal(check(Buffer.from(JSON.stringify(fullModel()))).ok, true);
     assert.ok(refused.length > 25, refused.join(" "));
     for (const path of refused)
@@ -80,7 +80,7 @@ describe("numbers beyond 32 bits", () => {
           assert.ok(["invalidFile", "unsupportedFile"].includes(verdict(() => call(withNumber(path, spell))).code), `${path} with ${way}`);
   });
 
-  it("are named as what they are", () => {
+  it("are printed correctly in messages", () => {
     for (const [path, words] of [
       ["/meshes/0/primitives/0/attributes/POSITION", /there is no accessor 4294967296; the file has/],
       ["/accessors/0/count", /the accessor has 4294967312 elements/],
@@ -108,7 +108,7 @@ describe("numbers beyond 32 bits", () => {
     }
   });
 
-  it("are not what a product of two numbers leaves of them", { skip: !codecs && "npm's codecs are not installed" }, () => {
+  it("are rejected if their product overflows", { skip: !codecs && "npm's codecs are not installed" }, () => {
     const packed = generate(gridModel().model, { ...codecs, compress: "draco", all: true }).bytes;
     assert.equal(check(packed, codecs).ok, true);
     const size = new DataView(packed.buffer, packed.byteOffset).getUint32(12, true);
@@ -120,7 +120,7 @@ describe("numbers beyond 32 bits", () => {
     assert.throws(() => check(Buffer.from(JSON.stringify(json)), codecs), { code: "invalidFile", message: /declare [0-9]{11} bytes/ });
   });
 
-  it("do not make large compressed data too small", { skip: !codecs && "npm's codecs are not installed" }, () => {
+  it("do not bypass the limit of compressed data", { skip: !codecs && "npm's codecs are not installed" }, () => {
     // Slightly more than 4 MiB of data for KHR_meshopt_compression: 1024 times as much is slightly more than 2^32.
     const noise = new Uint8Array(12 * 400_000);
     for (let i = 0, state = 1; i < noise.length; ++i) noise[i] = (state = (Math.imul(state, 1664525) + 1013904223) >>> 0) >>> 24;
@@ -144,7 +144,7 @@ describe("numbers beyond 32 bits", () => {
 describe("control characters", () => {
   const names = ["a\u0001b", "\u0000", "\u001f\u007f", "tab\tline\nquote\"\\", "\u0007é\u0008😀\u000b"];
 
-  it("in names come back in reports", () => {
+  it("in names are preserved in reports", () => {
     for (const name of names) {
       const json = JSON.parse(gridModel().model.toString());
       json.meshes[0].name = json.materials[0].name = name;
@@ -162,7 +162,7 @@ describe("control characters", () => {
     }
   });
 
-  it("in other texts of a model are kept, or refused with a sentence", () => {
+  it("in other texts of a model are kept, or rejected with a message", () => {
     const text = gridModel().model.toString();
     for (const [from, to] of [['"normal.png"', '"a\\u0001.png"'], ['"a test"', '"a\\u0002test"'], ['"VEC3"', '"VEC\\u00033"'], ['"POSITION"', '"POS\\u0004"']]) {
       for (const call of [check, generate, identify, inspect]) {

@@ -21,7 +21,7 @@ const options = { name: "quad.obj", resources: { "materials/one.mtl": mtl } };
 const jsonOf = (glb) => JSON.parse(Buffer.from(glb.buffer, glb.byteOffset + 20, new DataView(glb.buffer, glb.byteOffset).getUint32(12, true)).toString());
 
 describe("OBJ in memory", () => {
-  it("becomes glTF with the materials that it names", () => {
+  it("becomes glTF with its materials", () => {
     const { bytes, report } = generate(obj, options);
     assert.equal(report.primitives[0].action, "generated");
     assert.match(report.primitives[0].reason, /normal\.png/);
@@ -33,7 +33,7 @@ describe("OBJ in memory", () => {
     assert.equal(generate(obj, { ...options, resources: {} }).report.primitives[0].action, "notNeeded");
   });
 
-  it("is told by the name alone, and refused with a place where it is broken", () => {
+  it("is recognized by its name, and rejected with a location if it is malformed", () => {
     assert.throws(() => check(obj), { code: "invalidFile" });
     const broken = (line) => () => check(text(["v 0 0 0", "vt 0 0", line, ""]), { name: "a.OBJ" });
     assert.throws(broken("f 1 2 3"), (error) => error instanceof TspaceError && /vertex 2, but the number of vertices is 1/.test(error.message) && /line 3/.test(error.message));
@@ -42,7 +42,7 @@ describe("OBJ in memory", () => {
     assert.equal(generate(obj, options).report.ok, true);
   });
 
-  it("of ../shared gets the tool's bytes and reports", { skip }, () => {
+  it("of the shared data gets the tool's bytes and reports", { skip }, () => {
     const paths = hasModels ? filesIn(shared, /\.obj$/).filter((path) => /models|bad/.test(path) && statSync(path).size < 400e3) : [];
     const folder = mkdtempSync(join(tmpdir(), "tspace-js-"));
     try {

@@ -8,7 +8,7 @@ await ready;
 const normals = Float32Array.of(0, 0, 1, 0, 1, 0), tangents = Float32Array.of(1, 0, 0, 1, 1, 0, 0, -1);
 
 describe("packed frames", () => {
-  it("say what is wrong with their input, and go on", () => {
+  it("report invalid input, and work afterwards", () => {
     const refused = (body, code) => assert.throws(body, (error) => error instanceof TspaceError && error.code === code);
     refused(() => packFrames(normals, tangents, "frame31"), "invalidOption");
     refused(() => packFrames([0, 0, 1], tangents, "frame32"), "wrongType");

@@ -26,7 +26,7 @@ function inEmptyProject(body) {
 }
 
 describe("the archive", { skip: !archive && "run scripts/js" }, () => {
-  it("installs into an empty project, and the README's lines run", () => {
+  it("installs into an empty project, and the README's code runs", () => {
     inEmptyProject((folder) => {
       const readme = readFileSync(join(folder, "node_modules/tspace/README.md"), "utf8");
       const blocks = [...readme.matchAll(/```js\n([\s\S]*?)```/g)].map((match) => match[1]);
@@ -69,7 +69,7 @@ describe("the archive", { skip: !archive && "run scripts/js" }, () => {
     assert.ok(whole < 112_000 && small < 46_000 && files < 458_000 && textures < 66_800 && webgpu < 13_000);
   });
 
-  it("has modules that people can read: the sources", () => {
+  it("contains readable sources", () => {
     const modules = readdirSync(installed).filter((file) => file.endsWith(".js") && !file.endsWith("-inside.js"));
     assert.ok(modules.length > 20);
     for (const file of modules) {
@@ -78,7 +78,7 @@ describe("the archive", { skip: !archive && "run scripts/js" }, () => {
     }
   });
 
-  it("has types that fit its modules", async () => {
+  it("has types that match its modules", async () => {
     for (const entry of ["index", "mikktspace", "normals", "pack", "textures", "gltf", "compat", "webgpu"]) {
       const declared = readFileSync(join(installed, `${entry}.d.ts`), "utf8") + readFileSync(join(installed, "types.d.ts"), "utf8");
       for (const name of Object.keys(await import(join(installed, `${entry}.js`))))
@@ -87,7 +87,7 @@ describe("the archive", { skip: !archive && "run scripts/js" }, () => {
   });
 
   const tsc = join(project, "node_modules/typescript/bin/tsc");
-  it("has types that a program passes, and a wrong one does not", { skip: !existsSync(tsc) && "typescript is not installed" }, () => {
+  it("has types that accept a valid program and reject an invalid one", { skip: !existsSync(tsc) && "typescript is not installed" }, () => {
     const check = (name, code, lib = "dom") => {
       writeFileSync(join(project, name), code);
       execFileSync("node", [tsc, "--noEmit", "--strict", "--module", "nodenext", "--target", "es2022", "--lib", `es2022,${lib}`, "--skipLibCheck", "false", "--types", "", name], { cwd: project, stdio: "pipe" });

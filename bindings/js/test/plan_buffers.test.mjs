@@ -19,7 +19,7 @@ describe("planBuffers", () => {
     for (const array of [results, entries, triangles]) assert.equal(array.buffer, words.buffer);
   });
 
-  it("refuses what does not fit", () => {
+  it("rejects mismatching arguments", () => {
     const plan = new Plan(mesh, options);
     for (const [given, pattern] of [
       [{ indices: new Uint32Array(3) }, /indices must have one entry per corner/], [{ sourceCorners: Uint32Array.of(NO_CORNER - 1) }, /source corner/],

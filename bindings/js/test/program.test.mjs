@@ -63,39 +63,39 @@ const models = (folder, wanted = /\.(glb|gltf|obj|vrm)$/i) => filesIn(join(share
 const helmet = () => join(shared, "models/khronos/FlightHelmet/FlightHelmet.gltf");
 const grid = (folder, name = "grid.gltf") => writeFileSync(join(folder, name), gridModel({ image: "data:," }).model);
 
-describe("the program beside the native tool", { skip }, () => {
+describe("the program compared with the native tool", { skip }, () => {
   for (const folder of ["models", "bad", "reports"]) {
     const gone = !skip && !existsSync(join(shared, folder)) && `no ../shared/${folder} here`;
     for (const verb of ["check", "identify", "inspect"]) {
-      it(`${verb} says the same of ${folder}`, { skip: gone }, () => {
+      it(`${verb} gives the same report on ${folder}`, { skip: gone }, () => {
         expectDocument(JSON.parse(compare([verb, ...models(folder), "--json"]).stdout));
       });
     }
-    it(`generate makes the same of ${folder}`, { skip: gone }, () => {
+    it(`generate gives the same output for ${folder}`, { skip: gone }, () => {
       compare(["generate", join(shared, folder), "-o", "out", "--all", "--overwrite", "--json"]);
     });
   }
 
-  it("texts, SARIF, pages and pictures are the same", () => {
+  it("texts, SARIF, pages and pictures are equal", () => {
     const model = helmet();
     for (const words of [["check", model], ["check", model, "--sarif", "report.sarif"], ["check", model, "--html", "page.html"], ["inspect", model],
       ["identify", model], ["generate", model, "-o", "out.glb", "--all", "--overwrite"], ["diff", model, model], ["render", model, "-o", "picture.png"],
       ["check", "--help"], ["help", "generate"]]) compare(words);
   });
 
-  it("maps are the same: flipped, converted, compressed, from heights", () => {
+  it("maps are equal: flipped, converted, compressed, from heights", () => {
     const map = models("models", /Normal\.png$/)[0];
     for (const words of [["flip-green", map, "-o", "map.png"], ["compress-map", map, "-o", "map.ktx2"], ["height-to-normal", map, "-o", "map.png"]]) compare(words);
   });
 
-  it("geometry is packed and unpacked to the same bytes, by meshopt and by Draco", () => {
+  it("geometry is compressed and decompressed to equal bytes with meshopt and Draco", () => {
     for (const how of ["meshopt", "draco"]) {
       const made = compare(["generate", helmet(), "-o", "out.glb", "--overwrite", "--compress", how]);
       assert.equal(made.status, 0, how);
     }
   });
 
-  it("patterns, jobs, manifests and shards are the same", () => {
+  it("patterns, jobs, manifests and shards give equal results", () => {
     const prepare = (folder) => {
       for (const name of ["a1.gltf", "a2.gltf", "b.gltf"]) grid(folder, name);
     };
@@ -103,14 +103,14 @@ describe("the program beside the native tool", { skip }, () => {
       ["inspect", "[ab]?.gltf"]]) compare(words, { prepare });
   });
 
-  it("models go in and out by pipes", () => {
+  it("models are read from and written to pipes", () => {
     const { model } = gridModel({ image: "data:," });
     for (const words of [["generate", "-", "-o", "-", "--container", "glb"], ["check", "-"], ["check", "-", "--json"], ["identify", "-"]]) compare(words, { input: model });
     compare(["check", "-"], { input: "no model" });
     compare(["check", "-"], { input: "" });
   });
 
-  it("wrong command lines and broken files have the same words and codes", () => {
+  it("wrong command lines and corrupt files have equal messages and exit codes", () => {
     for (const words of [[], ["generat"], ["check"], ["check", "--no"], ["check", "nowhere.glb"], ["generate", "a.glb"], ["generate", "grid.gltf", "-o", "grid.gltf"],
       ["generate", "grid.gltf", "-o", "no\0"], ["check", "."]].filter((words) => !words.some((word) => word.includes("\0")))) compare(words, { prepare: grid });
     for (const file of ["empty.glb", "folder.glb"]) {
@@ -118,7 +118,7 @@ describe("the program beside the native tool", { skip }, () => {
     }
   });
 
-  it("no output takes the place of an input, by whatever name, and links stay links", () => {
+  it("no output replaces an input under any name, and links are kept", () => {
     const linked = (link) => (folder) => {
       grid(folder);
       link(join(folder, "grid.gltf"), join(folder, "other.gltf"));
@@ -141,7 +141,7 @@ describe("the program beside the native tool", { skip }, () => {
 });
 
 describe("the program", { skip: missing }, () => {
-  it("says in one line what it does not read or do", () => {
+  it("reports unsupported features in one line", () => {
     const cwd = newFolder();
     grid(cwd);
     for (const [words, what] of [[["check", "a.fbx"], /tspace-import/], [["bake", "grid.gltf", "--high", "grid.gltf", "-o", "map.png"], /Embree/]]) {
@@ -155,7 +155,7 @@ describe("the program", { skip: missing }, () => {
   });
 
   const unix = process.platform === "win32" && "Windows has no such signals";
-  it("ends by the signal that stops it, and leaves no temporary file", { skip: unix || skip }, async () => {
+  it("ends with the signal that it receives, and leaves no temporary file", { skip: unix || skip }, async () => {
     const market = join(shared, "models/perf/Market_495k.glb");
     for (const signal of ["SIGTERM", "SIGINT"]) {
       const cwd = newFolder();
@@ -169,7 +169,7 @@ describe("the program", { skip: missing }, () => {
     }
   });
 
-  it("ends quietly where nobody reads its output", { skip: unix || skip }, () => {
+  it("ends silently if its output is closed", { skip: unix || skip }, () => {
     const { status, stdout } = spawnSync("sh", ["-c", `"$0" "$1" inspect "$2" --json | head -c 10; echo`, process.execPath, program, helmet()], { encoding: "utf8" });
     assert.equal(status, 0);
     assert.equal(stdout.trim().length > 0, true);

@@ -32,13 +32,13 @@ describe("paths of Windows", { skip }, () => {
     assert.equal(systemPath(toolWord("\\\\server\\share")), "\\\\server\\share");
   });
 
-  it("are taken as they are where they begin with \\\\?\\ or \\\\.\\", () => {
+  it("are kept if they begin with \\\\?\\ or \\\\.\\", () => {
     assert.equal(systemPath(toolWord("\\\\?\\C:\\models\\chair.glb")), "C:\\models\\chair.glb");
     assert.equal(systemPath(toolWord("\\\\.\\C:\\chair.glb")), "C:\\chair.glb");
     assert.equal(systemPath(toolWord("\\\\?\\UNC\\server\\share\\a.glb")), "\\\\server\\share\\a.glb");
   });
 
-  it("stay relative where they are", () => {
+  it("stay relative", () => {
     assert.equal(toolWord("models\\chair.glb"), "models/chair.glb");
     assert.equal(systemPath("../models/chair.glb"), "../models/chair.glb");
     assert.equal(toolWord("*.glb"), "*.glb");
@@ -52,13 +52,13 @@ describe("paths of Windows", { skip }, () => {
     assert.equal(absolute("\\\\server\\share\\work", "a.glb"), "\\\\server\\share\\work\\a.glb");
   });
 
-  it("begin anew at a drive or a share, wherever the tool puts them", () => {
+  it("restart at a drive or a share in any position", () => {
     assert.equal(absolute("D:\\work", "C:\\models\\a.glb"), "C:\\models\\a.glb");
     assert.equal(absolute("D:\\work", "\\\\server\\share\\a.glb"), "\\\\server\\share\\a.glb");
     assert.equal(absolute("\\\\server\\share\\work", "E:\\a.glb"), "E:\\a.glb");
   });
 
-  it("do not take a colon or two slashes inside of a name for a drive or a share", () => {
+  it("do not treat a colon or two slashes inside a name as a drive or a share", () => {
     assert.equal(systemPath("models/a:b.glb"), "models/a:b.glb");
     assert.equal(systemPath("models//a.glb"), "models//a.glb");
   });

@@ -44,7 +44,7 @@ function ofPackage(call, name) {
   }
 }
 
-describe("beside the tool", { skip }, () => {
+describe("compared with the tool", { skip }, () => {
   for (const [folder, least] of [["bad", 400], ["reports", 35], ["models", 100]]) {
     const path = shared && join(shared, folder);
     const missing = !(path && existsSync(path)) && `no ../shared/${folder} here`;
@@ -56,16 +56,16 @@ describe("beside the tool", { skip }, () => {
       assert.ok(files.length >= least, `${files.length} files are compared`);
     }
 
-    it(`check says the same of ${folder}`, { skip: missing }, () => {
+    it(`check gives the same report on ${folder}`, { skip: missing }, () => {
       const call = (model, options) => check(model, { ...options, noImages: true });
       compareAll("check", ["--no-images"], (name, file) => assert.deepEqual(ofPackage(call, name), ofFile(file), name));
     });
 
-    it(`identify says the same of ${folder}`, { skip: missing }, () => {
+    it(`identify gives the same report on ${folder}`, { skip: missing }, () => {
       compareAll("identify", [], (name, file) => assert.deepEqual(ofPackage(identify, name), ofFile(file), name));
     });
 
-    it(`generate makes the same of ${folder}`, { skip: missing }, () => {
+    it(`generate gives the same output for ${folder}`, { skip: missing }, () => {
       const out = mkdtempSync(join(tmpdir(), "tspace-js-"));
       try {
         compareAll("generate", ["-o", out, "--container", "glb", "--overwrite"], (name, file) => {
@@ -93,7 +93,7 @@ describe("beside the tool", { skip }, () => {
       }
     });
 
-    it(`other formats of ${folder} are refused with a sentence`, { skip: missing }, () => {
+    it(`other formats of ${folder} are rejected with a message`, { skip: missing }, () => {
       for (const name of filesIn(path, isOther)) assert.deepEqual(ofPackage(check, name), { ok: false, code: "invalidFile" }, name);
     });
   }

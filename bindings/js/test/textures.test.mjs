@@ -89,7 +89,7 @@ const refuses = (code, words, body) =>
   });
 
 describe("compressMap", () => {
-  it("gives the tool's bytes and its report", { skip: noTool }, () => {
+  it("gives the bytes and the report of the tool", { skip: noTool }, () => {
     const cases = [
       [{}, [], 96, 64, 255], [{}, [], 37, 50, 65535], [{ quality: "quick" }, ["--quality", "quick"], 64, 64, 255],
       [{ quality: "best", signed: true }, ["--quality", "best", "--signed"], 32, 48, 65535],
@@ -107,7 +107,7 @@ describe("compressMap", () => {
       }
   });
 
-  it("widens roughness as the tool does", { skip: noTool }, () => {
+  it("increases roughness like the tool", { skip: noTool }, () => {
     const map = waves(64, 64), orm = roughness(32, 32);
     writePng("n.png", map);
     writePng("orm.png", orm);
@@ -119,7 +119,7 @@ describe("compressMap", () => {
     refuses("invalidOption", /the roughness: /, () => compressMap(map, { roughness: roughness(48, 32) }));
   });
 
-  it("takes files: textures, and others by decodeImage; and floats", () => {
+  it("accepts textures, other files with decodeImage, and floats", () => {
     const image = waves(32, 32), fine = waves(32, 32, 65535);
     const { bytes } = compressMap(image, { format: "rg8", noLevels: true });
     assert.equal(compressMap(bytes).report.warnings.length, 1); // reports how channels were read
@@ -131,7 +131,7 @@ describe("compressMap", () => {
     assert.deepEqual(compressMap(floats).bytes, compressMap(fine).bytes);
   });
 
-  it("says what is wrong", () => {
+  it("reports errors", () => {
     const image = waves(8, 8);
     refuses("unsupportedFile", /use the option decodeImage/, () => compressMap(Uint8Array.of(0x89, 0x50)));
     refuses("invalidOption", /a DDS cannot contain EAC/, () => compressMap(image, { format: "eac-rg11", container: "dds" }));
@@ -149,7 +149,7 @@ describe("compressMap", () => {
 });
 
 describe("convertMap", () => {
-  it("gives the numbers of the tool for layouts, curves and flips", { skip: noTool }, () => {
+  it("gives the values of the tool for layouts, curves and flips", { skip: noTool }, () => {
     const cases = [
       [{ channels: "rg" }, ["--channels", "rg"]], [{ channels: "bgr" }, ["--channels", "bgr"]], [{ channels: "rG" }, ["--channels", "rG"]],
       [{ curve: "srgb" }, ["--srgb"]], [{ curve: "linearized", channels: "rg" }, ["--linearized", "--channels", "rg"]],
@@ -168,7 +168,7 @@ describe("convertMap", () => {
     }
   });
 
-  it("reads x from alpha, two channels of textures, and refuses what cannot be", () => {
+  it("reads x from alpha and two-channel textures, and rejects invalid inputs", () => {
     const { width, height, rgba } = waves(16, 16), alpha = rgba.slice();
     for (let i = 0; i < rgba.length; i += 4) alpha.set([9, rgba[i + 1], 9, rgba[i]], i);
     const made = convertMap({ width, height, rgba: alpha }, { channels: "ag" });
@@ -184,7 +184,7 @@ describe("convertMap", () => {
 });
 
 describe("readTexture", () => {
-  it("gives the pixels that the tool reads", { skip: noTool }, () => {
+  it("gives the pixels of the tool", { skip: noTool }, () => {
     const files = { 71: 8, 74: 16, 77: 16, 80: 8, 81: 8, 83: 16, 84: 16, 98: 16 };
     const names = Object.entries(files).map(([format, block], i) => {
       writeFileSync(at(`f${format}.dds`), dds(Number(format), 20, 12, noise(15 * block, i + 1)));
@@ -204,7 +204,7 @@ describe("readTexture", () => {
     }
   });
 
-  it("reads each level, and says of two channels where they are", () => {
+  it("reads each level, and reports the layout of two channels", () => {
     const image = waves(20, 12);
     for (const container of ["ktx2", "dds"]) {
       const { bytes, report } = compressMap(image, { format: "rg8", container });
@@ -235,7 +235,7 @@ describe("readTexture", () => {
     assert.equal(readTexture(bytes).numbers, "uint16");
   });
 
-  it("finds x in alpha and y in green, and says that it is a guess", () => {
+  it("detects x in alpha and y in green, and reports that it is a guess", () => {
     const { width, height, rgba } = waves(16, 16);
     const packed = Buffer.alloc(rgba.length);
     for (let i = 0; i < rgba.length; i += 4) packed.set([255, rgba[i + 1], rgba[i + 1], rgba[i]], i);
@@ -245,7 +245,7 @@ describe("readTexture", () => {
     assert.match(read.howRead, /look as if/);
   });
 
-  it("unpacks what KTX2 is packed with by functions of the caller", { skip: noTool || (!zstddec && "three is not installed") }, async () => {
+  it("decompresses supercompressed KTX2 with functions of the caller", { skip: noTool || (!zstddec && "three is not installed") }, async () => {
     const image = waves(32, 32), plain = Buffer.from(compressMap(image).bytes), wanted = readTexture(plain);
     const byZlib = packedByZlib(plain);
     refuses("invalidFile", /zlib supercompression; use the option unzlib/, () => readTexture(byZlib));
@@ -261,7 +261,7 @@ describe("readTexture", () => {
     assert.deepEqual(readTexture(readFileSync(at("z.ktx2")), { unzstd: (data, size) => decoder.decode(data, size) }), wanted);
   });
 
-  it("is of the tool's mind on files that are broken, and works afterwards", { skip: noTool }, () => {
+  it("agrees with the tool on corrupt files, and works afterwards", { skip: noTool }, () => {
     const image = waves(20, 12);
     const good = [["ktx2", "bc5"], ["dds", "bc5"], ["ktx2", "rg8"]].map(([container, format]) => Buffer.from(compressMap(image, { container, format, quality: "quick" }).bytes));
     good.push(dds(98, 20, 12, noise(240)), Buffer.from("no texture"), Buffer.alloc(0));

@@ -81,7 +81,7 @@ describe("GpuFrames without a GPU", () => {
   }
   const buffer = (size, usage = 0x80) => ({ size, usage, destroy() {} });
 
-  it("binds ranges of the caller's buffers, and dispatches a thread for each result", async () => {
+  it("binds ranges of the caller's buffers, and dispatches one thread per result", async () => {
     await ready;
     const mesh = grid(30), calls = [], device = deviceOf(calls);
     const plan = new Plan(mesh, { convention: "gltf" });
@@ -100,7 +100,7 @@ describe("GpuFrames without a GPU", () => {
     assert.equal(out.size, 300000);
   });
 
-  it("refuses what the shader cannot read", async () => {
+  it("rejects buffers that the shader cannot read", async () => {
     await ready;
     const mesh = grid(3), device = deviceOf([]), plan = new Plan(mesh, { convention: "gltf" });
     const frames = await GpuFrames.create(device, planBuffers(plan));

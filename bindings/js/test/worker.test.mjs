@@ -12,7 +12,7 @@ await Promise.all([ready, files.ready]);
 const { model } = gridModel();
 
 describe("a worker", () => {
-  it("computes, hands its result over without a copy, tells how far it is, and stops", async () => {
+  it("computes, transfers its result without a copy, reports progress, and stops on request", async () => {
     const worker = new Worker(new URL("./worker.mjs", import.meta.url));
     try {
       const mesh = grid(6);
@@ -35,7 +35,7 @@ describe("calls", () => {
   const { model } = gridModel({ size: 40 });
   const verbs = Object.entries({ generate: files.generate, check: files.check });
 
-  it("tell how far they are, without going back", () => {
+  it("report increasing progress", () => {
     for (const [verb, call] of verbs) {
       const told = [];
       call(model, { onProgress: (progress) => told.push(progress) });
@@ -47,7 +47,7 @@ describe("calls", () => {
     }
   });
 
-  it("stop wherever they are, throw what the signal says, and work afterwards", () => {
+  it("stop at any point, throw the reason of the signal, and work afterwards", () => {
     for (const [verb, call] of verbs) {
       let looks = 0;
       call(model, { signal: { get aborted() { return ++looks < 0; } } });
