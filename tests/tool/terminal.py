@@ -129,7 +129,7 @@ def test_width():
     expect(70 < max(widths) <= 80, f"without a terminal the widest line has {max(widths)} columns, not 80")
 
 
-def test_commands_stay_whole():
+def test_commands_are_not_split():
     out = subprocess.run([tool, "help", "generate"], capture_output=True, text=True, env={**os.environ, "COLUMNS": "60"}).stdout
     example = "tspace generate scan.obj -o scan.glb --all --normals angle --crease 60"
     expect(example in out, "an example of help is broken")

@@ -175,7 +175,7 @@ internal static class Tests
         Check(Cases.RunAll(File.ReadAllText(cases)) > 60, "this binding has most calls on arrays");
     }
 
-    public static void TestWrongInputIsAnErrorThatSaysWhere()
+    public static void TestInvalidInputIsAnErrorWithItsLocation()
     {
         TangentOptions gltf = new TangentOptions(Convention.Gltf);
         TspaceException error = Fails(() =>

@@ -57,12 +57,12 @@ def expected():
 
 
 class Names(unittest.TestCase):
-    def test_conventions_are_those_that_the_library_finds(self):
+    def test_conventions_are_those_of_the_library(self):
         for name in _abi.CONVENTIONS:
             self.assertEqual(_abi.library.tspace_findConvention(name.encode(), _abi.Convention(), _abi.Error()), 0)
 
     @unittest.skipUnless(OPTIONS.exists(), "the sources are not there")
-    def test_options_of_files_are_those_that_the_library_knows(self):
+    def test_options_of_files_are_those_of_the_library(self):
         """Passes every option that any function has to every function, without Python's check of names."""
         names = set()
         for path in OPTIONS.rglob("*.cpp"):

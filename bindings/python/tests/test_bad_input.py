@@ -33,7 +33,7 @@ class BadInput(unittest.TestCase):
         self.refuses(kind, words, tspace.Plan, **self.arguments(**changed))
         return self.refuses(kind, words, tspace.tangents, **self.arguments(**changed))
 
-    def test_types_that_are_no_numbers(self):
+    def test_types_that_are_not_numbers(self):
         for name in ("positions", "normals", "uvs"):
             for value in (
                 "text",
@@ -107,7 +107,7 @@ class BadInput(unittest.TestCase):
         self.refuses_tangents(ValueError, "face_sizes", face_sizes=numpy.broadcast_to(numpy.uint32(3), (2**40,)))
         self.refuses(ValueError, "vertex_count", tspace.split, [0, 0, 0], 2**31, [numpy.zeros((3, 1))])
 
-    def test_numbers_that_do_not_fit_are_named(self):
+    def test_numbers_out_of_range_are_named(self):
         large = self.positions.astype(float)
         large[4, 1] = 1e300
         self.refuses_tangents(ValueError, "positions[4, 1] is 1e+300", positions=large)
@@ -146,7 +146,7 @@ class BadInput(unittest.TestCase):
         parts = tspace.Convention("sideways")
         self.refuses_tangents(ValueError, ["v_axis", "sideways"], convention=parts)
 
-    def test_arrays_for_results(self):
+    def test_output_arrays(self):
         good = numpy.zeros((36, 4), numpy.float32)
         for kind, word, out in (
             (TypeError, "float64", good.astype(float)),
@@ -176,7 +176,7 @@ class BadInput(unittest.TestCase):
             **self.arguments(positions=memory[:72].reshape(24, 3), out=out),
         )
 
-    def test_values_that_are_not_finite_are_no_error(self):
+    def test_values_that_are_not_finite_are_accepted(self):
         for bad in (numpy.nan, numpy.inf, -numpy.inf, 3e38):
             for name in ("positions", "normals", "uvs"):
                 array = getattr(self, name).copy()
@@ -217,7 +217,7 @@ class BadInput(unittest.TestCase):
         refuses(ValueError, "normals", plan.evaluate, self.positions, self.normals[1:])
         refuses(ValueError, "threads", plan.evaluate, self.positions, self.normals, threads=-2)
 
-    def test_arrays_that_lie_off_the_border_of_floats_are_read(self):
+    def test_unaligned_arrays_are_read(self):
         raw = numpy.zeros(self.positions.nbytes + 2, numpy.uint8)
         raw[2:] = numpy.frombuffer(self.positions.tobytes(), numpy.uint8)
         odd = raw[2:].view(numpy.float32).reshape(-1, 3)
@@ -226,7 +226,7 @@ class BadInput(unittest.TestCase):
         )
 
     @unittest.skipUnless(Path("/proc/self/statm").exists(), "memory is read from /proc")
-    def test_failures_and_results_leave_no_memory_behind(self):
+    def test_failures_and_results_leak_no_memory(self):
         shape = torus(60, 60)
         wrong = shape.indices.copy()
         wrong[-1] = 10**6

@@ -44,7 +44,7 @@ class Generate(Files):
         made = by_library(self.shape)
         self.assertTrue(same_bits(tangents, made.tangents[made.indices]))
 
-    def test_bytes_give_what_files_give(self):
+    def test_bytes_give_the_results_of_files(self):
         source, target = self.folder / "plain.glb", self.folder / "framed.glb"
         source.write_bytes(self.plain)
         tspace.generate_file(source, target, method="best", threads=2)
@@ -61,7 +61,7 @@ class Generate(Files):
         self.assertEqual(dry, b"")
         self.assertTrue(dry.report.changed)
 
-    def test_files_that_a_model_names_are_asked_for(self):
+    def test_referenced_files_are_requested(self):
         text, data = make_glb(self.shape, uri="parts/a%20b.bin")
         asked = []
 
@@ -78,7 +78,7 @@ class Generate(Files):
                 tspace.generate_bytes(text, name="m.gltf", find_file=missing)
             self.assertEqual(caught.exception.code, "invalidFile")
 
-    def test_what_find_file_raises_comes_out(self):
+    def test_exceptions_of_find_file_are_propagated(self):
         text, _ = make_glb(self.shape, uri="a.bin")
 
         class Mine(Exception):
@@ -94,7 +94,7 @@ class Generate(Files):
         with self.assertRaisesRegex(TypeError, "find_file"):
             tspace.check(text, find_file=7)
 
-    def test_green_is_inverted_and_comes_back(self):
+    def test_green_is_inverted_and_restored(self):
         needs_shared("models")
         image = next(path for path in sorted(needs_shared("models").rglob("*.png")) if path.stat().st_size < 300000)
         once = tspace.flip_green_bytes(image.read_bytes())
@@ -188,7 +188,7 @@ class Bakes(Files):
         tspace.bake_file(self.low, self.high, normal, size="32x16", bits=8, threads=2)
         self.assertEqual(normal.read_bytes(), content)
 
-    def test_a_bake_that_meets_nothing_says_why_and_writes_nothing(self):
+    def test_a_bake_without_hits_reports_the_cause_and_writes_nothing(self):
         self.need_rays()
         far = self.folder / "far.obj"
         far.write_text("".join(f"v {x} {y} 1000\n" for x, y in ((0, 0), (1, 0), (0, 1))) + "f 1 2 3\n")
@@ -217,7 +217,7 @@ class Bakes(Files):
         self.assertEqual(report.bake.high, str(self.high))
         self.assertTrue(all(Path(path).exists() for path in report.output_files))
 
-    def test_wrong_calls_say_what_is_wrong(self):
+    def test_invalid_calls_are_reported(self):
         out = self.folder / "out.png"
         with self.assertRaisesRegex(tspace.UnknownOptionError, "size"):
             tspace.bake_file(self.low, self.high, out, sise=32)
@@ -232,7 +232,7 @@ class Bakes(Files):
 
 
 class Failures(Files):
-    def test_what_is_not_there_is_a_file_not_found_error_with_its_name(self):
+    def test_a_missing_file_is_a_file_not_found_error_with_its_name(self):
         missing = str(self.folder / "none.glb")
         output = str(self.folder / "out.glb")
         calls = (
@@ -255,7 +255,7 @@ class Failures(Files):
             self.assertEqual((error.errno, error.filename), (errno.ENOENT, missing))
             self.assertIn("none.glb", str(error))
 
-    def test_a_folder_and_what_may_not_be_read_say_so(self):
+    def test_folders_and_unreadable_files_are_reported(self):
         with self.assertRaises(tspace.ReadWriteError) as caught:
             tspace.check(str(self.folder))
         self.assertEqual((caught.exception.errno, caught.exception.filename), (errno.EISDIR, str(self.folder)))
@@ -266,13 +266,13 @@ class Failures(Files):
             with self.assertRaises(PermissionError):
                 tspace.check(secret)
 
-    def test_reports_show_themselves_in_a_line(self):
+    def test_reports_have_a_one_line_repr(self):
         text = repr(tspace.check(self.framed))
         self.assertTrue(text.startswith("CheckReport(input=") and "\n" not in text and len(text) < 600, text)
 
 
 class Look(Files):
-    def test_bytes_of_an_obj_without_a_name_say_what_to_do(self):
+    def test_bytes_of_an_obj_without_a_name_are_rejected_with_advice(self):
         obj = b"# a triangle\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
         for name in (None, "model", "model.glb"):
             with self.assertRaisesRegex(tspace.FileError, 'name="model.obj"'):
@@ -326,12 +326,12 @@ class Look(Files):
         self.assertEqual(report.sign_changes, 0)
         self.assertEqual(report, tspace.diff(self.folder / "a.glb", self.folder / "b.glb", tolerance=1e-3))
 
-    def test_inspect_says_what_is_there(self):
+    def test_inspect_describes_the_file(self):
         report = tspace.inspect(self.plain, name="plain.glb")
         self.assertEqual(report.input, "plain.glb")
         self.assertIn("meshes", dir(report))
 
-    def test_reports_say_what_they_have(self):
+    def test_reports_list_their_members(self):
         with self.assertRaisesRegex(AttributeError, "no member .color.*verdict"):
             tspace.identify(self.framed).color
 
@@ -343,7 +343,7 @@ class Refused(Files):
         self.assertTrue(tspace.inspect(self.framed).ok)
         return caught.exception
 
-    def test_files_that_are_not_there_or_cannot_be_written(self):
+    def test_missing_and_unwritable_files(self):
         missing = self.folder / "missing.glb"
         error = self.refuses(OSError, "missing.glb", tspace.generate_file, missing, self.folder / "out.glb")
         self.assertIsInstance(error, tspace.FileError)
@@ -373,7 +373,7 @@ class Refused(Files):
         self.refuses(tspace.InputError, "treshold.*worst", tspace.diff, self.plain, self.plain, treshold=1)
         self.refuses(TypeError, "values of options", tspace.generate_bytes, self.plain, method=object())
 
-    def test_broken_bytes(self):
+    def test_malformed_bytes(self):
         error = self.refuses(tspace.FileError, "", tspace.check, b"no model")
         self.assertIn(error.code, ("invalidFile", "unsupportedFile"))
         self.refuses(tspace.FileError, "", tspace.check, b"")
@@ -392,7 +392,7 @@ class Refused(Files):
         self.assertTrue(tspace.generate_bytes(model, name="m.gltf", find_file=find))
         model.clear()
 
-    def test_the_collection_of_broken_files_raises_or_is_read(self):
+    def test_corrupt_files_raise_or_are_read(self):
         paths = [path for path in sorted(needs_shared("bad").rglob("*")) if path.suffix in (".glb", ".gltf", ".obj")]
         small = [path for path in paths if path.stat().st_size < 100000][::3]
         self.assertGreater(len(small), 50)
@@ -408,7 +408,7 @@ class Refused(Files):
         self.assertGreater(refused, 20)
 
     @unittest.skipUnless(Path("/proc/self/statm").exists(), "memory is read from /proc")
-    def test_nothing_is_left_behind(self):
+    def test_no_file_is_left_behind(self):
         def work():
             for _ in range(25):
                 tspace.check(tspace.generate_bytes(self.plain))

@@ -26,7 +26,7 @@ class Tangents(unittest.TestCase):
                     self.assertTrue(got == wanted if isinstance(got, tspace.TangentReport) else same_bits(got, wanted))
         self.assertEqual(tspace.tangents_of_meshes([]), [])
 
-    def test_of_many_meshes_come_with_the_error_of_each(self):
+    def test_of_many_meshes_include_the_error_of_each(self):
         good, bad = torus(4, 6), torus(4, 6)
         bad.indices[5] = 1000
         out = numpy.zeros((len(good.indices), 4), numpy.float32)
@@ -76,7 +76,7 @@ class Tangents(unittest.TestCase):
             array.setflags(write=False)
         self.assertTrue(same_bits(tspace.tangents(*shape, convention="gltf"), want))
 
-    def test_arrays_of_the_right_type_are_read_where_they_lie(self):
+    def test_arrays_of_a_supported_type_are_not_copied(self):
         vertex = numpy.zeros(9, [("p", "f4", 3), ("n", "f4", 3), ("uv", "f4", 2)])
         for kind in (numpy.uint8, numpy.uint16, numpy.uint32, numpy.int32):
             for vertices in (vertex, vertex[::3]):
@@ -96,7 +96,7 @@ class Tangents(unittest.TestCase):
             same_bits(tangents, tspace.tangents(shape.positions, dense, shape.uvs, shape.indices, convention="gltf"))
         )
 
-    def test_out_takes_the_result_also_inside_of_vertices(self):
+    def test_out_may_be_a_field_of_interleaved_vertices(self):
         shape = cube()
         arrays = (shape.positions[shape.indices], shape.normals[shape.indices], shape.uvs[shape.indices])
         want = tspace.tangents(*arrays, convention="gltf")
@@ -107,7 +107,7 @@ class Tangents(unittest.TestCase):
         self.assertTrue(same_bits(vertex["t"], want))
         self.assertTrue((vertex["p"] == arrays[0]).all() and (vertex["x"] == 7).all())
 
-    def test_memory_is_not_used_again_while_a_view_of_a_result_lives(self):
+    def test_memory_is_not_reused_while_a_view_of_a_result_exists(self):
         shape = torus(300, 300)  # its results are large enough for their memory to be reused
         want = tspace.tangents(*shape, convention="gltf").copy()
         view = tspace.tangents(*shape, convention="gltf")[::2, 3]
@@ -120,7 +120,7 @@ class Tangents(unittest.TestCase):
 
 
 class Plans(unittest.TestCase):
-    def test_evaluate_follows_a_pose_and_writes_where_it_is_told(self):
+    def test_evaluate_follows_a_pose_and_writes_to_out(self):
         shape = torus(20, 30)
         plan = tspace.Plan(*shape, convention="gltf")
         turned = numpy.float32([[0, 1, 0], [-1, 0, 0], [0, 0, 1]])

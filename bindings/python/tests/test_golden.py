@@ -59,7 +59,7 @@ class MikktspaceGolden(unittest.TestCase):
             with self.subTest(path.name):
                 self.assertTrue(golden.equals(tspace.tangents(*golden.arrays, **golden.options(full=True))))
 
-    def test_a_mesh_without_promise_gets_a_result_that_sanitize_makes_finite(self):
+    def test_a_mesh_without_promised_bits_gets_finite_tangents_after_sanitize(self):
         others = [(path, golden) for path, golden in goldens() if not golden.is_promised]
         self.assertGreater(len(others), 10)
         for path, golden in others:

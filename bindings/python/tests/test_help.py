@@ -34,7 +34,7 @@ class Help(unittest.TestCase):
         for shape in ("(vertices, 3)", "(vertices, 2)", "(corners, 4)", "(faces, k)"):
             self.assertIn(shape, text)
 
-    def test_every_argument_is_explained_and_has_a_type(self):
+    def test_every_argument_is_documented_and_typed(self):
         for name, function in functions():
             text = inspect.getdoc(tspace.tangents if name == "Plan" else function)
             hints = typing.get_type_hints(function)
@@ -45,7 +45,7 @@ class Help(unittest.TestCase):
                         self.assertIn(argument, hints)
             self.assertTrue(name == "Plan" or "return" in hints, name)
 
-    def test_type_checkers_are_told_that_there_are_types(self):
+    def test_the_package_is_marked_as_typed(self):
         self.assertTrue((Path(tspace.__file__).parent / "py.typed").exists())
 
     def test_the_version_is_that_of_the_library(self):

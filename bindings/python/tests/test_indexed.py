@@ -20,7 +20,7 @@ class IndexedFrames(unittest.TestCase):
             self.assertTrue(same_bits(made.normals[made.indices], shape.normals[shape.indices]))
             self.assertIsNone(made.report.normals)
 
-    def test_a_mesh_without_indices_comes_out_indexed(self):
+    def test_a_mesh_without_indices_becomes_indexed(self):
         shape = torus(10, 12)
         arrays = shape.positions[shape.indices], shape.normals[shape.indices], shape.uvs[shape.indices]
         made = tspace.make_indexed_frames(*arrays, convention="gltf")
@@ -30,7 +30,7 @@ class IndexedFrames(unittest.TestCase):
         apart = tspace.make_indexed_frames(*arrays, convention="gltf", keep_apart=[colors])
         self.assertEqual(apart.indices.tolist(), list(range(len(shape.indices))))
 
-    def test_wrong_input_is_refused(self):
+    def test_invalid_input_is_rejected(self):
         shape = cube()
         with self.assertRaisesRegex(TypeError, "keep_apart"):
             tspace.make_indexed_frames(*shape, convention="gltf", keep_apart=shape.normals)
@@ -84,7 +84,7 @@ class IndexLists(unittest.TestCase):
         self.assertTrue(same_bits(uvs[made.indices], self.shape.uvs[self.shape.indices]))
         self.assertEqual(len(made.source_vertices), len(self.shape.positions))
 
-    def test_wrong_lists_are_refused(self):
+    def test_invalid_lists_are_rejected(self):
         arrays = self.positions, self.normals, self.uvs, self.position_indices
         for name, value, kind, word in (
             ("normal_indices", "faces", ValueError, "corners"),

@@ -20,7 +20,7 @@ class PlanBuffers(unittest.TestCase):
         again = tspace.PlanBuffers(words.copy())
         self.assertTrue(same_bits(again.triangles.view(numpy.float32), buffers.triangles.view(numpy.float32)))
 
-    def test_wrong_arguments_are_refused(self):
+    def test_invalid_arguments_are_rejected(self):
         shape = cube()
         plan = tspace.Plan(*shape, convention="gltf")
         mesh = dict(positions=shape.positions, indices=shape.indices)

@@ -12,12 +12,12 @@ from support import torus
 
 @unittest.skipUnless(Draft202012Validator, "jsonschema is not installed")
 class Schema(unittest.TestCase):
-    def test_the_schemas_are_schemas(self):
+    def test_the_schemas_are_valid(self):
         self.assertGreater(len(schemas()), 10)
         for schema in schemas().values():
             Draft202012Validator.check_schema(schema)
 
-    def test_what_a_schema_does_not_allow_is_found(self):
+    def test_violations_of_a_schema_are_detected(self):
         document = {"schema": "tspace.inspect/1", "version": "1.0.0", "ok": True, "exitCode": 0}
         document["files"] = [tspace.inspect(make_glb(torus(4, 5)), name="a.glb").json.copy()]
         del document["files"][0]["exitCode"]
@@ -30,7 +30,7 @@ class Schema(unittest.TestCase):
 
 
 class Objects(unittest.TestCase):
-    def test_members_are_of_the_classes_that_type_checkers_are_told(self):
+    def test_members_have_their_annotated_classes(self):
         made = tspace.generate_bytes(make_glb(torus(4, 5)))
         self.assertIsInstance(made.report, tspace.GenerateReport)
         self.assertEqual(type(made.report.totals).__name__, "GenerateTotals")

@@ -66,7 +66,7 @@ LISTED = {"attribute": "attributes[0]", "keep": "keep_apart[0]"}
 
 
 class Shapes(unittest.TestCase):
-    def test_a_column_a_row_and_pairs_give_the_same_or_an_error_by_name(self):
+    def test_columns_rows_and_pairs_give_equal_results_or_a_named_error(self):
         for name, call, needed, further in calls():
             for argument, array in {**needed, **further}.items():
                 arguments = {**needed, argument: array}
@@ -105,7 +105,7 @@ class Shapes(unittest.TestCase):
             got = tspace.tangents(positions, normals, uvs, shape, uv_indices=faces, convention="gltf")
             self.assertTrue(same_bits(got, want))
 
-    def test_one_face_of_four_corners_is_one(self):
+    def test_one_face_of_four_corners_is_a_quad(self):
         square = numpy.float32([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
         self.assertEqual(len(tspace.triangulate(square, [[0, 1, 2, 3]]).corners), 2)
 

@@ -77,7 +77,7 @@ PYRIGHT = shutil.which("pyright") or shutil.which(
 
 class Types(unittest.TestCase):
     @unittest.skipUnless(PYRIGHT, "pyright is not installed: scripts/setup python-all, or npm install --global pyright")
-    def test_pyright_finds_wrong_calls_and_no_others(self):
+    def test_pyright_reports_only_invalid_calls(self):
         with tempfile.TemporaryDirectory() as folder:
             program = Path(folder) / "uses.py"
             program.write_text(USES + WRONG)
@@ -91,7 +91,7 @@ class Types(unittest.TestCase):
         self.assertEqual(wrong, [first + i for i, line in enumerate(WRONG.splitlines(), 1) if line], found)
 
     @unittest.skipUnless(shutil.which("mypy"), "mypy is not installed")
-    def test_the_package_agrees_and_wrong_calls_are_found(self):
+    def test_mypy_accepts_the_package_and_reports_invalid_calls(self):
         with tempfile.TemporaryDirectory() as folder:
             program = Path(folder) / "uses.py"
             program.write_text(USES + WRONG)

@@ -29,13 +29,13 @@ class MendWinding(unittest.TestCase):
         self.assertTrue((result.indices == self.sound.ravel()).all())
         self.assertTrue((flat != self.sound.ravel()).any())  # the caller's array is not changed
 
-    def test_makes_indices_where_there_are_none(self):
+    def test_creates_missing_indices(self):
         soup = self.positions[damaged(self.sound, [5]).ravel()]
         result = tspace.mend_winding(soup)
         self.assertEqual(result.indices.tolist()[15:18], [15, 17, 16])
         self.assertEqual(result.report.turned_count, 1)
 
-    def test_turns_polygons(self):
+    def test_flips_polygons(self):
         quads = numpy.array([[0, 1, 2, 3], [0, 4, 5, 1], [1, 5, 6, 2], [2, 6, 7, 3], [3, 7, 4, 0], [4, 7, 6, 5]])
         points = numpy.float32([[0, 0, 0], [0, 1, 0], [1, 1, 0], [1, 0, 0], [0, 0, 1], [0, 1, 1], [1, 1, 1], [1, 0, 1]])
         sound = tspace.mend_winding(points, quads).indices

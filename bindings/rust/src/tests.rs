@@ -180,7 +180,7 @@ impl<'a> Callbacks<'a> {
 }
 
 #[test]
-fn the_traits_of_both_bevy_mikktspace_give_the_reference_too() {
+fn both_bevy_mikktspace_traits_equal_the_reference() {
     for golden in goldens().iter().filter(|golden| golden.threshold == 180.0) {
         let mut old = Callbacks::new(golden);
         mikktspace::generate_tangents(&mut old);
@@ -199,7 +199,7 @@ fn the_traits_of_both_bevy_mikktspace_give_the_reference_too() {
 }
 
 #[test]
-fn no_mesh_is_no_error_for_the_new_trait() {
+fn an_empty_mesh_is_not_an_error_for_the_new_trait() {
     let golden = Golden { name: String::new(), threshold: 180.0, face_sizes: vec![], inputs: vec![], results: vec![] };
     let mut callbacks = Callbacks::new(&golden);
     assert!(!mikktspace::generate_tangents(&mut callbacks));
@@ -207,7 +207,7 @@ fn no_mesh_is_no_error_for_the_new_trait() {
 }
 
 #[test]
-fn wrong_input_is_an_error_that_says_where() {
+fn invalid_input_is_an_error_with_its_location() {
     let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
     let mesh = Mesh::new(&positions).normals(&[[0.0, 0.0, 1.0]; 3]).uvs(&[[0.0, 1.0]; 3]);
     let error = tangents(&mesh.indices(&[0u16, 1, 9]), &TangentOptions::new(gltf())).unwrap_err();
