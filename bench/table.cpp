@@ -34,7 +34,7 @@ std::string askedText(const Cell& cell) { return cell.asked ? fmt::format("{:g}"
 std::string verdict(const Cell& cell) {
     if (!cell.value || !cell.asked) return {};
     if (cell.pass()) return "pass";
-    return cell.busy ? "busy" : "short";
+    return cell.busy ? "busy" : "missed";
 }
 
 /// Joins the texts of two cells; empty if both are empty.
@@ -57,7 +57,7 @@ void printRow(const RowResult& row) {
 void printHead(const char* title) {
     fmt::print(
         "\n**{}**\n\n"
-        "| what | 1 thread | asked | | 2 threads | asked | | ns/triangle | middle half of rounds | |\n"
+        "| measurement | 1 thread | target | | 2 threads | target | | ns/triangle | middle half of rounds | |\n"
         "|---|---|---|---|---|---|---|---|---|---|\n",
         title);
 }

@@ -48,13 +48,13 @@ std::string targetText(const Study& study, const Target& target, const std::stri
     const double value = tangentFigure(target.key).value(study, method, false);
     if (asked == 0 || std::isnan(value)) return fmt::format(" {} | | |", text(value));
     return fmt::format(" {} | {}{:g} | {} |", text(value), target.is_least ? ">= " : "", asked,
-                       passes(value, asked, target.is_least) ? "pass" : "short");
+                       passes(value, asked, target.is_least) ? "pass" : "missed");
 }
 
 void printTargets(const Study& study) {
-    fmt::print("**What is asked**: degrees; means over the twelve surfaces\n\n");
+    fmt::print("**Targets** in degrees; means over the twelve surfaces\n\n");
     fmt::print(
-        "| what | mikktspace | area | fast | asked | | best | asked | |\n|---|---|---|---|---|---|---|---|---|\n");
+        "| figure | mikktspace | area | fast | target | | best | target | |\n|---|---|---|---|---|---|---|---|---|\n");
     for (const Target& target : kTargets) {
         const Figure& figure = tangentFigure(target.key);
         fmt::print("| {} | {} | {} |{}{}\n", figure.title, text(figure.value(study, "mikktspace", false)),

@@ -97,10 +97,10 @@ void printRow(const char* name, unsigned bits, const Means& exact, const Means& 
 
 void printTable(std::uint32_t size, bool held_out) {
     std::printf("%u x %u texels%s. Degrees, mean / p99; geometric means over the surfaces.\n\n", size, size,
-                held_out ? ", surfaces that nothing was tuned on" : "");
+                held_out ? ", held-out surfaces" : "");
     std::printf(
         "| case | bits | exact at centers (8 bits: rounded) | solved | mean | p99 | seams, exact | seams, solved | "
-        "asked |\n"
+        "target |\n"
         "|---|---|---|---|---|---|---|---|---|\n");
     double slowest = 0;
     const struct {
@@ -117,8 +117,8 @@ void printTable(std::uint32_t size, bool held_out) {
             const bool has_none = kind.charts == Charts::mirrored && relief;
             // One texel serves both halves, whose frames and triangles differ slightly.
             const bool is_shared = kind.charts == Charts::mirrored;
-            const char* const asked16 = has_none ? "" : is_shared ? "1.0, 1.0" : relief ? ".55, .70" : ".92, .70";
-            const char* const asked8 = has_none ? "" : is_shared ? "1.0, 1.0" : relief ? ".40, .95" : ".65, .95";
+            const char* const asked16 = has_none ? "" : is_shared ? "1.0, 1.0" : relief ? "0.55, 0.70" : "0.92, 0.70";
+            const char* const asked8 = has_none ? "" : is_shared ? "1.0, 1.0" : relief ? "0.40, 0.95" : "0.65, 0.95";
             printRow(name.c_str(), 16, means.exact16, means.solved16, asked16);
             printRow(name.c_str(), 8, means.plain8, means.solved8, asked8);
             slowest = std::max(slowest, means.slowest);
@@ -156,7 +156,7 @@ void printLevels(std::uint32_t size, bool held_out) {
         "%u x %u texels, relief, one chart%s. Degrees in the mean, geometric means over the surfaces: as shown, and of "
         "means of so many texels.\n\n| lengths | shown | 2 x 2 | 4 x 4 | 8 x 8 | 16 x 16 "
         "|\n|---|---|---|---|---|---|\n",
-        size, size, held_out ? ", surfaces that nothing was tuned on" : "");
+        size, size, held_out ? ", held-out surfaces" : "");
     LevelRow rows[] = {{"16 bits", 16},
                        {"16 bits, .9 or more", 16, TexelLengths::even, 0.9F},
                        {"16 bits, 1", 16, TexelLengths::even, 1},

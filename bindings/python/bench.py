@@ -58,7 +58,7 @@ def main():
     shape = cube()
     c, _ = c_call(shape)
     python, c = seconds([lambda: tspace.tangents(*shape, convention="gltf"), c], rounds, 2000)
-    print(f"cube, 12 triangles: {python * 1e6:.1f} us; the C call alone {c * 1e6:.1f} us (asked: at most 25 us)")
+    print(f"cube, 12 triangles: {python * 1e6:.1f} us; the C call alone {c * 1e6:.1f} us (target: at most 25 us)")
 
     shape = torus(500, 1000)
     c, out = c_call(shape)
@@ -75,7 +75,7 @@ def main():
     )
     print(
         f"torus, 1,000,000 triangles: the C call {c * 1e3:.1f} ms; Python with out= {reused * 1e3:.1f} ms "
-        f"({(reused / c - 1) * 100:+.1f} %, asked: at most +5 %), with a new array each time {fresh * 1e3:.1f} ms"
+        f"({(reused / c - 1) * 100:+.1f} %, target: at most +5 %), with a new array each time {fresh * 1e3:.1f} ms"
     )
 
 
