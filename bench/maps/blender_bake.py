@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Bakes a normal map with Blender (Cycles, selected to active), and prints the time of the bake alone.
+"""Bakes a normal map with Blender (Cycles, selected to active) and prints the time of the bake without import and export.
 
 blender -b --factory-startup --python blender_bake.py -- LOW.obj HIGH.obj CAGE.obj|- OUT.png SIZE BITS REACH
 """
@@ -17,7 +17,7 @@ def load(path):
     before = set(bpy.data.objects)
     bpy.ops.wm.obj_import(filepath=path, forward_axis="Y", up_axis="Z")
     (made,) = set(bpy.data.objects) - before
-    # The importer drops some normals. In these files each vertex has the normal with its own index.
+    # Blender's OBJ importer drops some normals. In the files of this benchmark, vertex i has normal i.
     made.data.polygons.foreach_set("use_smooth", [True] * len(made.data.polygons))
     made.data.use_auto_smooth = True
     with open(path, encoding="ascii") as file:

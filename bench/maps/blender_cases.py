@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: MIT
-"""Models as artists bring them for a bake, and Blender's bakes of them (Cycles, selected to active).
+"""Writes test models like those that artists bake, and bakes them with Blender (Cycles, selected to active).
 
 blender -b --factory-startup --python blender_cases.py -- FOLDER SIZE CASE...
-blender -b --factory-startup --python blender_cases.py -- --whole FOLDER: a million triangles, as low.glb, high.glb and whole.blend
+blender -b --factory-startup --python blender_cases.py -- --whole FOLDER: writes a model of a million triangles, as low.glb,
+  high.glb and whole.blend
 blender -b FOLDER/whole.blend --python blender_cases.py -- --bake FOLDER SIZE
-The first writes to FOLDER/CASE: low.gltf, whose materials name map.png or map.MATERIAL.png; high.glb; seen.glb, which is high.glb with the
-marks that low.gltf has, so that a camera frames both alike; cage.glb where the case has one; and Blender's maps, with its two
-ways of making rays: blender-no and blender-cage in the place of map.
+The first command writes these files to FOLDER/CASE:
+- low.gltf, whose materials refer to map.png or map.MATERIAL.png;
+- high.glb;
+- seen.glb, which is high.glb with the tiny marker triangles of low.gltf, so that a renderer frames both models equally;
+- cage.glb, for the cases that have a cage;
+- the maps that Blender bakes: blender-no without a cage, blender-cage with an automatic cage, blender-file with cage.glb.
 """
 import json
 import math
@@ -30,7 +34,7 @@ def active(thing):
 
 
 def made(mesh, name):
-    """A mesh of bmesh as an object."""
+    """Creates an object from a bmesh."""
     data = bpy.data.meshes.new(name)
     mesh.to_mesh(data)
     mesh.free()
@@ -111,7 +115,7 @@ def unwrapped(thing, degrees=66):
 
 
 def moved(thing, place):
-    """Every vertex to where place(position) says."""
+    """Moves every vertex to place(its position)."""
     for vertex in thing.data.vertices:
         vertex.co = place(vertex.co.copy())
     thing.data.update()
@@ -123,11 +127,11 @@ def lumps(at, height=0.05):
 
 
 def lifted(thing, height):
-    """Along the direction from the middle."""
+    """Moves vertices along the direction from the center of the model."""
     return moved(thing, lambda at: at + height(at) * at.normalized())
 
 
-# Cases: each returns a low poly and a high poly.
+# Each of the following functions creates one case and returns its low poly and its high poly.
 
 
 def rib(size, at):
@@ -135,7 +139,7 @@ def rib(size, at):
 
 
 def ribs():
-    """Shells of their own, sunk into the base."""
+    """Separate shells that are partly inside the base mesh."""
     top = [rib((0.1, 1.0, 0.1), (x, 0, 0.5)) for x in (-0.6, -0.3, 0, 0.3, 0.6)]
     side = [rib((1.4, 0.08, 0.08), (0, -0.7, z)) for z in (-0.25, 0, 0.25)]
     return top + side + [rib((0.09, 0.9, 0.6), (1, 0, 0))]
@@ -156,7 +160,7 @@ def monkey():
 
 
 def mirrored_x(thing, aside):
-    """The half with x > 0, and its mirror image on the same texels, or moved aside by 1."""
+    """Returns the half with x > 0 and its mirror image, which has the same UVs, or UVs that are moved by 1."""
     active(thing)
     mesh = bmesh.new()
     mesh.from_mesh(thing.data)
@@ -185,7 +189,7 @@ def all_smooth():
 def organic():
     low = smooth(lifted(ball(1, 4), lambda at: lumps(at, 0.25)))
     high = smooth(lifted(ball(1, 8), lambda at: lumps(at, 0.25) + 0.004 * noise.noise(40 * at)))
-    # Islands around the corners of an icosahedron, each rotated.
+    # One UV island around each vertex of an icosahedron, each rotated.
     corners = ball(1, 1)
     centers = [vertex.co.normalized() for vertex in corners.data.vertices]
     bpy.data.objects.remove(corners)
@@ -310,7 +314,7 @@ WITH_CAGE = ("b2", "d")
 
 
 def cage_of(low):
-    """The low poly with its vertices moved by the reach along the mean of the normals of their faces."""
+    """Creates a cage: the low poly with each vertex moved by the reach along the mean normal of its faces."""
     cage = low.copy()
     cage.data = low.data.copy()
     bpy.context.collection.objects.link(cage)
@@ -327,7 +331,7 @@ def cage_of(low):
 
 
 def marks(things):
-    """Triangles too small to be seen at the corners of a box around everything."""
+    """Adds triangles too small to be visible at the corners of a box around all models."""
     corners = [thing.matrix_world @ vertex.co for thing in things for vertex in thing.data.vertices]
     sides = [(min(at[i] for at in corners) - 0.01, max(at[i] for at in corners) + 0.01) for i in range(3)]
     mesh = bmesh.new()
@@ -354,7 +358,7 @@ def export(path, things):
 
 
 def name_maps(path):
-    """Gives each material its normal map."""
+    """Adds the normal map to each material of a glTF file."""
     with open(path, encoding="utf-8") as file:
         model = json.load(file)
     model["images"], model["textures"] = [], []
@@ -389,7 +393,7 @@ def bake(low, high, folder, size, word, **options):
 
 
 def begin(make):
-    """An empty scene with the low poly and the high poly of a case."""
+    """Creates an empty scene and adds the low poly and the high poly of a case."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     noise.seed_set(1)
     low, high = make()
@@ -404,7 +408,7 @@ def run(case, folder, size):
     low, high = begin(CASES[case])
     blender_cycles.set_up(1)
     os.makedirs(folder, exist_ok=True)
-    # before the marks, so that all files have them in the same order
+    # The cage is a copy without markers; they are added afterwards, in the same order for all files.
     cage = cage_of(low) if case in WITH_CAGE else None
     corners = marks([low, high])
     export(os.path.join(folder, "low.gltf"), [low, corners])
@@ -421,7 +425,7 @@ def run(case, folder, size):
 
 
 def million():
-    """A closed shape with detail of a few texels at 2048 x 2048."""
+    """Creates a closed shape with details a few texels wide in a map of 2048 x 2048."""
     mesh = bmesh.new()
     bmesh.ops.create_uvsphere(mesh, u_segments=1000, v_segments=501, radius=1)
     high = lifted(made(mesh, "high"), lambda at: lumps(at, 0.1) + 0.0006 * noise.noise(120 * at))

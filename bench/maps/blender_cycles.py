@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the scripts that bake with Blender have in common: Cycles on two threads, selected to active."""
+"""Functions shared by the scripts that bake with Blender: Cycles on two threads, selected to active."""
 import bpy
 
 
@@ -16,7 +16,7 @@ def set_up(samples):
 
 
 def target(material, image):
-    """Bakes of what has the material go into the image."""
+    """Makes the image the bake target of all objects that have the material."""
     material.use_nodes = True
     nodes = material.node_tree.nodes
     node = nodes.new("ShaderNodeTexImage")
@@ -32,7 +32,7 @@ def select(low, high):
 
 
 def save_numbers(image, path):
-    """As PNG of 16 bits. save_render goes through the view; Raw leaves numbers as they are."""
+    """Saves an image as a 16-bit PNG. save_render applies the view transform; the transform Raw does not change values."""
     scene = bpy.context.scene
     scene.render.image_settings.file_format = "PNG"
     scene.render.image_settings.color_mode = "RGB"

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Bakes maps beside the normal map with Blender (Cycles, selected to active), and prints the time of each bake alone.
+"""Bakes the other kinds of maps (occlusion, position, color) with Blender (Cycles, selected to active).
 
 blender -b --factory-startup --python blender_layers.py -- LOW.obj HIGH.obj FOLDER SIZE REACH SAMPLES
-writes FOLDER/blender_KIND.bin: rows from the top, three floats a texel
+writes FOLDER/blender_KIND.bin (rows from the top, three floats per texel) and prints the time of each bake without import.
 """
 import os
 import sys

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""What a map shows beside the high poly, as an eye sees both: seven cameras, pixel for pixel. Needs numpy and PIL.
+"""Compares renderings of a low poly with its normal map to renderings of the high poly, pixel by pixel, from seven cameras.
+
+Needs numpy and PIL.
 
 python3 eye_errors.py TSPACE LOW SEEN: prints the mean angle in degrees between `render --show mapped` of the low poly and
-`render --show normals` of the high poly, over pixels that show both. Parallax is in it, so none is zero. The pictures of the high
-poly stay beside it, as SEEN.N.png.
+`render --show normals` of the high poly, over pixels that show both. The surfaces differ in depth (parallax), so no result is
+zero. The pictures of the high poly are kept next to it, as SEEN.N.png.
 """
 import os
 import subprocess
@@ -18,7 +20,10 @@ PIXELS = 512
 
 
 def normals(tspace, model, show, view, out):
-    """Vectors, and which pixels show the model: a color that is a unit vector. A picture that is there is not drawn again."""
+    """Returns the vectors of a picture and a mask of the pixels that show the model: those whose color encodes a unit vector.
+
+    Renders the picture only if it does not exist.
+    """
     if not os.path.exists(out):
         command = [tspace, "render", "-q", model, "-o", out, "--show", show, "--view", f"{view[0]},{view[1]}"]
         subprocess.run(command + ["--size", str(PIXELS), "--samples", "1", "--no-legend", "--no-sync"], check=True)

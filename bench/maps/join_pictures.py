@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Joins pictures side by side, for docs/guides/compress-map.md. Needs numpy.
 
-python3 join_pictures.py OUT.png SIZE PICTURE...: each is made SIZE wide and high: smaller by means of light, larger by repeating texels
+python3 join_pictures.py OUT.png SIZE PICTURE...: each is scaled to SIZE x SIZE: down by means
+of linear light, up by repeating texels
 """
 
 import struct

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Errors of maps of the models of layer_models.py. Needs numpy.
+"""Prints the errors of maps that were baked from the models of layer_models.py. Needs numpy.
 
 python3 layer_errors.py ao MAP TRUTH | position MAP LEAST MOST | color MAP TEXTURE
-A map is a PNG, or rows of three floats a texel as blender_layers.py writes them (.bin).
+A map is a PNG, or a .bin file of blender_layers.py: rows of three floats per texel.
 """
 import struct
 import sys
@@ -12,7 +12,7 @@ import numpy as np
 
 
 def read_png(path):
-    """Numbers from 0 to 1, height x width x 3."""
+    """Reads a map as numbers from 0 to 1, in an array of height x width x 3."""
     data = open(path, "rb").read()
     at, packed, width, height, bits, kind = 8, b"", 0, 0, 8, 2
     while at < len(data):

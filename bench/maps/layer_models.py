@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Models for maps beside the normal map: a square as a low poly, and a relief with balls that lie in it as a high poly,
-with a texture.
+"""Writes models for baking occlusion, position and color maps.
+
+The low poly is a square. The high poly is a textured height field with balls that are partly below its surface.
 
 python3 layer_models.py FOLDER: writes low.obj, high.obj with high.mtl and color.png
 """
@@ -30,7 +31,7 @@ def png(path, width, height, rgb):
 
 
 def texture():
-    """Waves of many lengths, and tiles with sharp edges."""
+    """Writes the texture of the high poly: waves of many lengths, and tiles with sharp edges."""
     values = bytearray()
     for y in range(TEXELS):
         for x in range(TEXELS):

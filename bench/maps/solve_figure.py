@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: MIT
-"""The picture of docs/evidence/bake-theory.md: one row of texels, exact at their centers or solved, and the error in between. SVG."""
+"""Draws the figure of docs/evidence/bake-theory.md as SVG.
+
+It shows one row of texels that are exact at their centers or solved by least squares, and the errors between the centers.
+"""
 import math
 
-TEXELS, FIRST, LAST = 24, 6, 18  # the row repeats; these are shown
-GRID = 3  # samples of a texel
+TEXELS, FIRST, LAST = 24, 6, 18  # the row repeats; texels FIRST to LAST are drawn
+GRID = 3  # samples per texel
 WIDTH, HEIGHT, GAP = 760, 170, 40
 
 
 def truth(x):
-    """The angle of the normal in degrees, x in texels: waves of 6 texels."""
+    """Returns the true angle of the normal in degrees at x (in texels): waves with a length of 6 texels."""
     return 25 * math.sin(2 * math.pi * x / 6)
 
 
@@ -18,7 +21,7 @@ def direction(x):
 
 
 def filtered(texels, x):
-    """As a renderer mixes two texels, whose centers lie at i + 1/2."""
+    """Interpolates linearly between two texels as a renderer does; texel centers are at i + 1/2."""
     left = math.floor(x - 0.5)
     part = x - 0.5 - left
     a, b = texels[left % TEXELS], texels[(left + 1) % TEXELS]
@@ -31,7 +34,7 @@ def error(texels, x):
 
 
 def solved(start):
-    """Least squares of what lies across the wanted direction, texel after texel until nothing moves."""
+    """Minimizes the squared deviation from the wanted directions, one texel at a time, until no texel changes."""
     along = 0.02
     texels = [list(texel) for texel in start]
     for _ in range(200):

@@ -102,9 +102,9 @@ int main(int argc, char** argv) {
 
     const auto counts = tspace::shaders::countOperations(tspace::shaders::readSpirv("counted"));
     fmt::print(
-        "Degrees, of N and T, over {} random frames. ns a frame: one thread, the best of {} rounds; the formats of\n"
-        "tspace by lanes, with mending and their searches; the others plain C++, rounding. The cost of the decoder\n"
-        "in GLSL is counted in SPIR-V.\n\n",
+        "Errors of N and T in degrees, over {} random frames. Times in ns per frame: one thread, the best of {}\n"
+        "rounds. The formats of tspace use SIMD, replace invalid vectors and search for the best code; the others\n"
+        "are plain C++ that rounds. Costs of the decoders in GLSL are instructions counted in SPIR-V.\n\n",
         frames, rounds);
     fmt::print(
         "| code | bytes | worst N; T | mean N; T | wrong signs | encode; decode ns | in a shader |\n"
