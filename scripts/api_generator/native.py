@@ -17,7 +17,7 @@ class Python:
 # SPDX-License-Identifier: MIT
 """The C API of tspace, as ctypes: structs, numbers of enumerations, functions. Written by scripts/api.
 
-ctypes lets go of the interpreter's lock for the time of each call.
+ctypes releases the global interpreter lock during each call.
 """
 
 from ctypes import CFUNCTYPE, POINTER, Structure
