@@ -36,10 +36,13 @@ export interface WindingOptions {
 }
 
 /** Flips faces whose winding differs from their neighbors, and components that are inside out. UVs are ignored. */
-export function mendWinding(mesh: Mesh, options?: WindingOptions): {
+export function fixWinding(mesh: Mesh, options?: WindingOptions): {
   /** The mesh's indices, reordered within flipped faces. */
   indices: NewUint32Array;
   /** One per face: 1 if it was flipped. */
   turned: NewUint8Array;
   report: WindingReport;
 };
+
+/** The former name of fixWinding. */
+export const mendWinding: typeof fixWinding;

@@ -40,7 +40,7 @@ function turnedIndices({ indices, faceSizes, cornerCount }, turned) {
   return made;
 }
 
-export function mendWinding(mesh, options = {}) {
+export function fixWinding(mesh, options = {}) {
   optionsOf(options, ["useNormals", "weldPositions", "weldDistance", "convention"]);
   const given = [
     boolean(options.useNormals ?? true, "useNormals"),
@@ -61,3 +61,5 @@ export function mendWinding(mesh, options = {}) {
     return { indices: turnedIndices(checked, turned), turned, report };
   });
 }
+
+export const mendWinding = fixWinding; // the former name of fixWinding

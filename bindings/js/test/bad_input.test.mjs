@@ -92,7 +92,7 @@ describe("rejects", () => {
       const calls = [generateTangents, makeIndexedFrames, small.generateTangents];
       for (const call of calls) unknown(member, () => call(typo, options));
       unknown(member, () => new Plan(typo, options));
-      for (const call of [generateNormals, triangulate, whole.generateNormals, whole.mendWinding, whole.measurePositionNoise]) unknown(member, () => call(typo));
+      for (const call of [generateNormals, triangulate, whole.generateNormals, whole.fixWinding, whole.measurePositionNoise]) unknown(member, () => call(typo));
       unknown(member, () => sanitizeTangents(typo, good));
     }
     const plan = new Plan(mesh, options);

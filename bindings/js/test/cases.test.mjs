@@ -56,7 +56,7 @@ const calls = {
     const { report, ...made } = core.makeIndexedFrames(mesh, options);
     return { ...inSnakeCase(made), ...Object.fromEntries(Object.entries(report).map(([step, counts]) => [`${step}_report`, counts])) };
   },
-  mend_winding: (mesh, options) => normals.mendWinding(mesh, options),
+  mend_winding: (mesh, options) => normals.fixWinding(mesh, options),
   triangulate: (mesh) => core.triangulate(mesh),
   split: (_, { indices, vertexCount, attributes, tolerance }) => {
     const given = [{ indices: indices && Uint32Array.from(indices), vertexCount }, attributes.map(({ data, size }) => ({ data: Float32Array.from(data), size, tolerance }))];

@@ -16,17 +16,20 @@ describe("options of \"tspace/normals\" alone", () => {
   });
 });
 
-describe("mendWinding", () => {
+describe("fixWinding", () => {
   const positions = new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]);
   const sound = [0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3];
   it("gives indices with consistent winding and the correct outside", () => {
     const indices = new Uint32Array([0, 2, 1, 0, 3, 1, 0, 3, 2, 1, 2, 3]);
-    const mended = whole.mendWinding({ positions, indices });
-    assert.deepEqual([...mended.indices], sound);
-    assert.deepEqual([...mended.turned], [0, 1, 0, 0]);
-    assert.equal(mended.report.turnedCount, 1);
-    assert.equal(mended.report.conflictCountBefore, 3);
-    assert.equal(mended.report.byVolumeCount, 1);
+    const fixed = whole.fixWinding({ positions, indices });
+    assert.deepEqual([...fixed.indices], sound);
+    assert.deepEqual([...fixed.turned], [0, 1, 0, 0]);
+    assert.equal(fixed.report.turnedCount, 1);
+    assert.equal(fixed.report.conflictCountBefore, 3);
+    assert.equal(fixed.report.byVolumeCount, 1);
     assert.equal(indices[4], 3); // the caller's indices are not changed
+  });
+  it("has the former name mendWinding", () => {
+    assert.equal(whole.mendWinding, whole.fixWinding);
   });
 });

@@ -55,7 +55,7 @@ def make_indexed_frames(mesh, **options):
 
 def mend_winding(mesh, use_normals=True, **options):
     mesh = {name: array for name, array in mesh.items() if name != "uvs" and (use_normals or name != "normals")}
-    result = tspace.mend_winding(**mesh, **options)
+    result = tspace.fix_winding(**mesh, **options)
     return {"turned": result.turned, "report": result.report._asdict()}
 
 

@@ -63,7 +63,9 @@ pub use options::{Convention, Execution};
 pub use pack::{pack_frames, unpack_frames};
 pub use structs::{NormalOptions, NormalReport, SanitizeReport, TangentOptions, TangentReport, WindingOptions};
 pub use tangents::{tangents, tangents_full, tangents_into, Plan, Tangents};
-pub use winding::mend_winding;
+pub use winding::fix_winding;
+/// The former name of [`fix_winding`].
+pub use winding::fix_winding as mend_winding;
 
 /// Version of the library: 10000 * major + 100 * minor + patch.
 pub fn version() -> u32 {

@@ -7,7 +7,7 @@ use std::ptr::null_mut;
 
 /// Returns, for each face, whether to flip it (reverse its corners), so that neighbors have consistent winding and the
 /// outside is where the convention requires it.
-pub fn mend_winding(mesh: &Mesh<'_>, options: &WindingOptions) -> Result<Vec<bool>, Error> {
+pub fn fix_winding(mesh: &Mesh<'_>, options: &WindingOptions) -> Result<Vec<bool>, Error> {
     mesh.validate()?;
     let mut turned = vec![0u8; mesh.face_count()];
     let raw = options.fields();

@@ -23,9 +23,9 @@ The same in separate steps: compute tangents per corner, repair them, then split
 >>> tangents = tspace.tangents(positions, normals, uvs, indices, convention="gltf")
 >>> tangents.shape
 (6, 4)
->>> mended = tspace.sanitize(tangents, positions, normals, indices)
->>> mesh = tspace.split(indices, len(positions), [mended])
->>> positions[mesh.source_vertices].shape, mended[mesh.source_corners].shape
+>>> repaired = tspace.sanitize(tangents, positions, normals, indices)
+>>> mesh = tspace.split(indices, len(positions), [repaired])
+>>> positions[mesh.source_vertices].shape, repaired[mesh.source_corners].shape
 ((4, 3), (4, 4))
 
 A mesh that deforms:
@@ -41,7 +41,7 @@ Functions
     normals         computes one normal per corner, with crease angles and smoothing groups
     Plan            groups corners once, then computes tangents for every pose
     plan_buffers    exports a plan as arrays for compute shaders
-    mend_winding    flips faces with inconsistent winding
+    fix_winding     flips faces with inconsistent winding (former name: mend_winding)
     sanitize        repairs invalid tangents, and keeps all others bit for bit
     split           converts results per corner to an indexed mesh
     triangulate     splits quads and n-gons into triangles
@@ -110,7 +110,7 @@ from ._remedies import remedy_text
 from ._sanitize import SanitizeResult, sanitize
 from ._split import Split, Triangles, split, triangulate
 from ._tangents import MeshJob, Plan, TangentResult, tangents, tangents_of_meshes
-from ._winding import WindingResult, mend_winding
+from ._winding import WindingResult, fix_winding, mend_winding
 
 # Type checkers see each option of the file functions; at run time an unknown option raises an error that lists the
 # valid ones.
@@ -198,6 +198,7 @@ __all__ = [
     "compress_map_file",
     "diff",
     "finish_file",
+    "fix_winding",
     "flip_green_bytes",
     "flip_green_file",
     "generate_bytes",

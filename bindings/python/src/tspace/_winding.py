@@ -30,7 +30,7 @@ def _face_sizes(mesh: Mesh, face_sizes: Any) -> numpy.ndarray:
     return numpy.full(mesh.corner_count // size, size)
 
 
-def mend_winding(
+def fix_winding(
     positions: Rows,
     indices: Optional[Numbers] = None,
     *,
@@ -80,3 +80,6 @@ def mend_winding(
         corners = slice(first[face] + 1, first[face + 1])
         made[corners] = made[corners][::-1].copy()
     return WindingResult(made.reshape(given.shape), report(WindingReport, counts), turned.astype(bool))
+
+
+mend_winding = fix_winding  #: the former name of fix_winding

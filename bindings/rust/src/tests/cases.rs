@@ -166,7 +166,7 @@ fn run(call: &str, arrays: &Arrays, options: &Json) -> Result<Made, Error> {
         "mend_winding" => {
             let mut given = WindingOptions::new(convention(options));
             set!(given, options, use_normals: Json::is_true, weld_positions: Json::is_true);
-            let turned: Vec<u8> = mend_winding(&mesh, &given)?.into_iter().map(u8::from).collect();
+            let turned: Vec<u8> = fix_winding(&mesh, &given)?.into_iter().map(u8::from).collect();
             Ok(made.list("turned", &turned))
         }
         "triangulate" => {
