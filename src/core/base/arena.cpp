@@ -25,14 +25,15 @@ namespace tspace {
 
 namespace {
 
-/// Sizes are multiples of this, so that every block is aligned.
+/// Granularity of allocations: sizes are rounded up to multiples of it, so that every block is aligned.
 constexpr std::size_t kUnit = kMemoryAlignment;
-/// Memory is committed in steps of this.
+/// Granularity in which memory is committed.
 constexpr std::size_t kStep = kHugePage;
-/// More than the largest mesh needs, and little compared with the address space of a process.
+/// Reserved address space, in bytes: more than the largest mesh needs, but a small part of the address space of a
+/// process.
 constexpr std::size_t kReserved = sizeof(void*) < 8 ? std::size_t{1} << 28 : std::size_t{1} << 36;
 
-/// A smaller reservation may contain no aligned step: everything then comes from operator new.
+/// Minimum reservation, in bytes. A smaller one may contain no aligned step; all memory then comes from operator new.
 constexpr std::size_t kLeastReserved = 2 * kStep;
 
 std::size_t roundUp(std::size_t value, std::size_t unit) { return (value + unit - 1) / unit * unit; }
@@ -94,7 +95,7 @@ class Arena::Impl {
         if (space == nullptr) return;
         space_ = space;
         space_bytes_ = bytes;
-        // Huge pages are aligned to their size.
+        // Skips to the first aligned step, because huge pages are aligned to their size.
         const std::size_t skipped = -reinterpret_cast<std::uintptr_t>(space) % kStep;
         begin_ = space + skipped;
         room_ = (bytes - skipped) / kStep * kStep;

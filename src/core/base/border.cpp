@@ -90,7 +90,7 @@ Error makeError(ErrorCode code, std::uint64_t element, const char* format, ...) 
 void throwOutOfMemory() { throw OutOfMemory{}; }
 
 Error caughtError() {
-    // Strings of up to 15 characters need no allocation.
+    // Messages of up to 15 characters need no allocation: std::string stores them inline.
     try {
         throw;
     } catch (const OutOfMemory&) {
@@ -100,7 +100,7 @@ Error caughtError() {
     } catch (const Cancelled&) {
         return {ErrorCode::cancelled, "the call was canceled before it finished"};
     } catch (...) {
-        // A message of this length is allocated.
+        // This message is longer, so std::string allocates memory for it, which may fail.
         try {
             return {ErrorCode::internal, "internal error: an unexpected exception occurred"};
         } catch (...) {
@@ -111,7 +111,7 @@ Error caughtError() {
 
 #else
 
-// Defined by the program: bindings without exceptions abort the call there.
+// Defined by the program that links the library: bindings without exceptions abort the call there.
 extern "C" [[noreturn]] void tspace_endCallOutOfMemory(void);
 void throwOutOfMemory() { tspace_endCallOutOfMemory(); }
 
@@ -165,7 +165,7 @@ Error checkBelow(const IndexView& indices, std::size_t count, Parallel* parallel
     const auto limit = static_cast<std::uint32_t>(std::min(count, kMaxCorners + 1));
     std::atomic<bool> all{true};
     const auto check = [&](std::size_t begin, std::size_t end) {
-        constexpr std::size_t kPart = 1024;  // elements widened per step; 32-bit numbers are read in place
+        constexpr std::size_t kPart = 1024;  // indices widened per step; 32-bit indices are read in place
         std::uint32_t buffer[kPart];
         const std::size_t step = indices.type == IndexType::u32 ? end - begin : kPart;
         for (; begin < end; begin += step) {
@@ -174,7 +174,7 @@ Error checkBelow(const IndexView& indices, std::size_t count, Parallel* parallel
                 all.store(false, std::memory_order_relaxed);
         }
     };
-    constexpr std::size_t kGrain = 200'000;  // takes longer than starting a thread
+    constexpr std::size_t kGrain = 200'000;  // indices per task: checking them takes longer than starting a thread
     if (parallel == nullptr)
         check(0, indices.count);
     else
@@ -195,13 +195,13 @@ Error checkIndexSpan(const IndexView& indices, const char* name) {
         return fine();
     }
     const auto bytes = static_cast<std::size_t>(indices.type);
-    if (bytes != 1 && bytes != 2 && bytes != 4) {  // IndexType::corners is for attributes only
+    if (bytes != 1 && bytes != 2 && bytes != 4) {  // IndexType::corners is valid for attributes only
         return makeError(ErrorCode::invalidOption, kNoElement, "unknown index type %zu", bytes);
     }
     return checkSpan(indices.data, indices.count, bytes, bytes, kAnyCount, name);
 }
 
-/// Checks one attribute, as bytes: one entry per vertex, or any number with its own indices.
+/// Checks one attribute, viewed as bytes: one entry per vertex, or any number of entries with an index list of its own.
 Error checkAttribute(const StridedSpan<const std::byte>& span, std::size_t element_bytes, const IndexView& indices,
                      const MeshView& mesh, const char* name, const char* indices_name) {
     const std::size_t corner_count = mesh.cornerCount();
@@ -240,7 +240,8 @@ Error checkSpan(const void* data, std::size_t count, std::size_t stride_bytes, s
                          "%s has a stride of %zu bytes, which is less than its element size of %zu bytes", name,
                          stride_bytes, element_bytes);
     }
-    const std::size_t alignment = element_bytes % 4 == 0 ? 4 : element_bytes;  // floats and u32; or u16 and u8 indices
+    // 4 for floats and 32-bit indices; otherwise the size of the index
+    const std::size_t alignment = element_bytes % 4 == 0 ? 4 : element_bytes;
     if (reinterpret_cast<std::uintptr_t>(data) % alignment != 0 || (count > 1 && stride_bytes % alignment != 0)) {
         return makeError(ErrorCode::misaligned, kNoElement, "%s is not aligned to %zu bytes", name, alignment);
     }

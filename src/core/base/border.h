@@ -15,8 +15,8 @@ namespace tspace {
 
 class Parallel;
 
-/// Returns an error with a message in printf format (%s, %u and %zu only). Shared, because concatenating strings takes
-/// 2 KB of code each time.
+/// Returns an error with a message in printf format (%s, %u and %zu only). One function for all messages, because each
+/// concatenation of strings would take 2 KB of code.
 [[gnu::format(printf, 3, 4)]] Error makeError(ErrorCode code, std::uint64_t element, const char* format, ...);
 
 /// Returns the Error for the exception that is being handled. Never throws, even without free memory.
@@ -36,8 +36,8 @@ auto atBorder(Body&& body) -> std::invoke_result_t<Body> {
 #endif
 }
 
-/// Returns the result of `body`, or 0 or null if it runs out of memory. Other exceptions propagate. Without exceptions
-/// the program terminates there.
+/// Returns the result of `body`, or 0 or null if it runs out of memory. Other exceptions propagate. In builds without
+/// exceptions, a lack of memory terminates the program.
 template <class Body>
 auto withMemory(Body&& body) -> std::invoke_result_t<Body> {
 #ifdef __cpp_exceptions
@@ -55,7 +55,7 @@ auto withMemory(Body&& body) -> std::invoke_result_t<Body> {
 #endif
 }
 
-/// Value for checkSpan: any length is valid.
+/// Expected count of a span whose length checkSpan does not check.
 inline constexpr std::size_t kAnyCount = ~std::size_t{0};
 
 /// Checks pointer, stride, alignment and length of a span. `name` identifies it in messages. Returns an Error with code

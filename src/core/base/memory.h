@@ -39,7 +39,7 @@ inline std::size_t defaultAlignment([[maybe_unused]] std::size_t bytes) {
     return kMemoryAlignment;
 }
 
-/// Requests huge pages. Only a hint.
+/// Requests huge pages for a block. This is a hint, which the system may ignore.
 inline void askForHugePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
     if (bytes >= kHugePage) madvise(memory, bytes, MADV_HUGEPAGE);
@@ -47,7 +47,7 @@ inline void askForHugePages([[maybe_unused]] void* memory, [[maybe_unused]] std:
 }
 
 /// Populates a large block at once, with huge pages: page faults of fresh memory can cost as much as all computations
-/// on it (0.5 us and more for each 4 KB on a virtual machine). Only a hint, which may fail.
+/// on it (0.5 us and more for each 4 KB on a virtual machine). This is a hint, which the system may ignore.
 inline void askForPages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__) && defined(MADV_POPULATE_WRITE)
     constexpr std::size_t kPage = 4096, kWorthACall = 32 * kPage;
@@ -58,7 +58,8 @@ inline void askForPages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
 #endif
 }
 
-/// Never inlined, like releaseBytes: each use would add some hundred bytes of code.
+/// Allocates an array, or throws OutOfMemory. Never inlined, like releaseBytes: each inlined use would add some hundred
+/// bytes of code.
 [[gnu::noinline]] inline void* allocateArray(const Allocator* allocator, std::size_t count, std::size_t element_bytes) {
     std::size_t bytes;
     if (__builtin_mul_overflow(count, element_bytes, &bytes)) throwOutOfMemory();
@@ -126,8 +127,8 @@ class Buffer {
     std::size_t count_ = 0;
 };
 
-// Block of memory for the many small buffers of a short call, or for scratch memory that borrows an output. Requests
-// that do not fit are passed to the caller's allocator.
+// Block of memory for the many small buffers of a short call, or for scratch memory in the memory of an output.
+// Requests that do not fit into the block are passed to the caller's allocator.
 
 /// Allocator for the duration of a call: allocates from a block in order. Memory is reused if the most recent buffer is
 /// released first. For the calling thread only, like every allocator.

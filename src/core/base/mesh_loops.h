@@ -15,7 +15,7 @@ namespace tspace {
 /// Calls body(vertexOf), where vertexOf(c) is view[c]. Specialized for 32-bit indices.
 template <class Body>
 decltype(auto) withIndices(const IndexView& view, Body&& body) {
-#ifdef TSPACE_SMALL  // where other types do not exist
+#ifdef TSPACE_SMALL  // this build has 32-bit indices only
     const auto* data = view.type == IndexType::none ? nullptr : static_cast<const std::uint32_t*>(view.data);
     return body([data](std::size_t c) { return data == nullptr ? static_cast<std::uint32_t>(c) : data[c]; });
 #endif
@@ -24,7 +24,7 @@ decltype(auto) withIndices(const IndexView& view, Body&& body) {
     return body([view](std::size_t c) { return view[c]; });
 }
 
-/// Converts the indices [first, first + count) of a type other than 32-bit to `buffer`, and returns it.
+/// Converts the indices [first, first + count), which are not 32-bit, to 32-bit integers in `buffer`, and returns it.
 const std::uint32_t* widenIndices(const IndexView& view, std::size_t first, std::size_t count, std::uint32_t* buffer);
 
 /// Returns the indices [first, first + count) as 32-bit integers: in place, or in `buffer`.
@@ -42,7 +42,8 @@ inline std::uint32_t faceSize(const MeshView& mesh, std::size_t face) {
 template <class Body>
 void forEachFace(const MeshView& mesh, Body&& body) {
     const std::size_t faces = mesh.faceCount();
-    // Local copies, which stores of the body cannot alias.
+    // Local copies: unlike the members of `mesh`, they cannot be changed by stores of the body, so the compiler keeps
+    // them in registers.
     const std::uint32_t* const sizes = mesh.face_sizes.data();
     const bool one_size = mesh.face_sizes.empty();
     const std::uint32_t same_size = mesh.face_size;
@@ -54,7 +55,8 @@ void forEachFace(const MeshView& mesh, Body&& body) {
     }
 }
 
-// Half-edges grouped by edge: listed by their lower point, so that all halves of an edge are in one short list.
+// Half-edges grouped by edge. They are listed by the lower point of their edge, so that all half-edges of an edge are
+// in one short list.
 
 /// Higher point of an edge, and the corner of the face at which the half-edge starts.
 using HalfEdge = std::uint64_t;

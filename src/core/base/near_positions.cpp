@@ -20,8 +20,9 @@ namespace tspace {
 namespace {
 
 constexpr std::uint32_t kNoVertexNear = 0xffffffffu;
-/// weld_auto: the distance, in float spacings, and the minimum edge length, in distances. Meshes so far from the origin
-/// that their edges are shorter are not welded, to keep the remaining shape.
+/// Parameters of weld_auto: the weld distance, in float spacings, and the minimum edge length, in weld distances.
+/// Meshes so far from the origin that their edges are shorter are not welded, which preserves what is left of their
+/// shape.
 constexpr double kSpacings = 2, kLeastEdge = 32;
 constexpr double kCellWidth = 4;
 
@@ -40,7 +41,7 @@ double spacingAt(float value) {
     return std::isfinite(next) ? double{next} - value : 0;
 }
 
-/// Positions that were added, by cell.
+/// Hash table of the positions that were added, by grid cell.
 class PositionCells {
   public:
     PositionCells(const StridedSpan<const Vec3>& positions, double distance, std::size_t most,
@@ -82,7 +83,7 @@ class PositionCells {
         return {cellOf(coordinate - distance_), cellOf(coordinate + distance_)};
     }
     static std::uint32_t hashOf(const std::array<double, 3>& cell) {
-        // Adding +0 makes both zeros equal.
+        // Adding +0 converts -0 to +0, so that both zeros are equal.
         const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value + 0.0); };
         return static_cast<std::uint32_t>(mixBits(mixBits(mixBits(bits(cell[0])) ^ bits(cell[1])) ^ bits(cell[2])) >>
                                           32);

@@ -15,8 +15,9 @@ namespace tspace {
 /// equal positions and treats triangles with two equal corners as degenerate follows the rule automatically.
 class NearPositions {
   public:
-    /// Expected linear time; a distance much longer than the edges costs up to 125 comparisons per vertex. Memory: 24
-    /// bytes per vertex temporarily, 4 permanently; none if no two positions are close. Throws OutOfMemory.
+    /// Finds the pairs in expected linear time; a distance much longer than the edges costs up to 125 comparisons per
+    /// vertex. Memory: 24 bytes per vertex temporarily, 4 permanently; none if no two positions are close. Throws
+    /// OutOfMemory.
     NearPositions(const MeshView& mesh, float distance, const Allocator* allocator, Parallel& parallel);
 
     /// Returns whether no positions are welded.

@@ -15,7 +15,7 @@ namespace tspace {
 
 // Little-endian numbers, as in glTF, on machines of either byte order.
 
-/// Converts each number of `number_bytes` between native and little-endian byte order.
+/// Converts numbers of `number_bytes` bytes each from native to little-endian byte order, or back.
 inline void turnLittleEndian(std::span<std::uint8_t> bytes, std::size_t number_bytes) {
     if constexpr (std::endian::native == std::endian::little) return;
     for (std::size_t at = 0; at + number_bytes <= bytes.size(); at += number_bytes)
@@ -36,10 +36,10 @@ void storeLittleEndian(Number number, std::uint8_t* to) {
     turnLittleEndian({to, sizeof number}, sizeof number);
 }
 
-// Numbers in messages, with a decimal point in every locale. (Not std::to_chars: emscripten's library lacks it for
-// floats.)
+// Formatting of numbers for messages, with a decimal point in every locale. std::to_chars is not used, because
+// emscripten's library lacks it for floats.
 
-/// Formats with three significant digits, without trailing zeros: "0.125", "17", "1.2e+30".
+/// Returns a number with three significant digits, without trailing zeros: "0.125", "17", "1.2e+30".
 inline std::string shortNumber(double value) {
     if (!std::isfinite(value)) return std::isnan(value) ? "nan" : value < 0 ? "-inf" : "inf";
     if (value == 0) return "0";

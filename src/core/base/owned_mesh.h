@@ -15,7 +15,7 @@ namespace tspace {
 /// Arrays of a mesh, with tangents; used by all classes that own a mesh.
 struct OwnedMesh {
     std::vector<Vec3> positions = {};
-    std::vector<Vec3> normals = {};  ///< one per vertex, or empty (also tangents and uvs)
+    std::vector<Vec3> normals = {};  ///< one normal per vertex, or empty; also for tangents and uvs
     std::vector<Vec4> tangents = {};
     std::vector<Vec2> uvs = {};
     std::vector<std::uint32_t> indices = {};     ///< one per corner; empty: every corner has its own vertex

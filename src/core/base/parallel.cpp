@@ -12,8 +12,8 @@ namespace tspace {
 
 namespace {
 
-/// Time for which a thread spins, waiting for the next loop (or the last task of this one), before it sleeps. Waking a
-/// sleeping thread takes about this long, and the loops of a call follow each other quickly.
+/// Time for which a thread spins while it waits for the next loop (or the last task of this one), before it sleeps.
+/// Waking a sleeping thread takes about this long, and the loops of a call follow each other quickly.
 constexpr std::chrono::microseconds kLookOut{40};
 
 void pauseBriefly() {
@@ -24,8 +24,8 @@ void pauseBriefly() {
 
 }  // namespace
 
-/// Helpers may join a loop while its caller works on it. A helper that wakes up too late finds the loop closed; the
-/// caller does not wait for it.
+/// Pool of helper threads. Helpers may join a loop while its caller works on it. A helper that wakes up too late finds
+/// the loop closed; the caller does not wait for it.
 class Parallel::Pool {
   public:
     explicit Pool(bool looks_out) : look_out_(looks_out ? kLookOut : kLookOut.zero()) {}
@@ -45,7 +45,7 @@ class Parallel::Pool {
         try {
             start();
         } catch (...) {
-            // No more threads (or no memory for them): existing threads and the caller do the work.
+            // The system provides no more threads (or no memory for them): existing threads and the caller do the work.
         }
 #else
         start();
@@ -103,13 +103,13 @@ class Parallel::Pool {
 
     const std::chrono::microseconds look_out_;
     std::vector<std::thread> helpers_;
-    // Written only while the loop is closed.
+    // The current task and its argument, which are written only while the loop is closed.
     void (*task_)(void*, std::size_t) = nullptr;
     void* context_ = nullptr;
     std::size_t count_ = 0;
     std::atomic<bool> is_ending_{false};
-    std::atomic<std::uint32_t> calls_{0};  ///< number of times that helpers were called
-    /// Number of helpers in the loop, and a flag that tells whether it is closed.
+    std::atomic<std::uint32_t> calls_{0};  ///< number of times that helper threads were woken
+    /// Number of helpers in the loop, with a flag that is set while the loop is closed.
     std::atomic<std::uint32_t> inside_{kClosed};
     std::atomic<std::size_t> next_{0};
 };
@@ -123,7 +123,7 @@ Parallel::Parallel(const Execution& execution, std::uint64_t corners) {
         return;
     }
     const auto useful = static_cast<unsigned>(std::min<std::uint64_t>(corners / kWorthAThread, kMostThreads));
-    if (useful <= 1) return;  // avoids the system call for the number of cores
+    if (useful <= 1) return;  // skips the system call that counts the cores
     const unsigned wanted =
         execution.thread_count != kAllThreads ? execution.thread_count : std::thread::hardware_concurrency();
     width_ = std::clamp(wanted, 1u, useful);
@@ -136,7 +136,7 @@ void Parallel::runTasks(std::size_t count, void (*task)(void*, std::size_t), voi
         executor_->run(executor_->user, count, task, context);
         return;
     }
-    // More threads than cores would take time from each other while spinning.
+    // Threads spin only if each has its own core: otherwise spinning threads would take time from working ones.
     if (pool_ == nullptr) pool_ = new Pool(width_ <= std::thread::hardware_concurrency());
     pool_->startHelpers(std::min<std::size_t>(width_, count) - 1);
     pool_->run(count, task, context);
@@ -146,8 +146,8 @@ void Parallel::runTasks(std::size_t count, void (*task)(void*, std::size_t), voi
 
 namespace {
 
-/// Tasks that may throw. An exception on a helper's stack would terminate the program, and an exception on the caller's
-/// stack would leave the loop while helpers still work on it.
+/// Runs tasks that may throw, and keeps one of their exceptions. An exception on a helper's stack would terminate the
+/// program, and an exception on the caller's stack would leave the loop while helpers still work on it.
 struct ThrowingTasks {
     void (*task)(void*, std::size_t);
     void* context;

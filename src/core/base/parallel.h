@@ -21,11 +21,12 @@ class Parallel {
     /// Default minimum number of items per task.
     static constexpr std::size_t kGrain = 4096;
 
-    /// `corners`: amount of work, in corners of usual cost (about 20 ns); corners of a method that takes n times as
-    /// long count n times. A thread with less than its share would cost more than it gains, and is not started. An
+    /// `corners`: amount of work, in corners that take about 20 ns each; corners of a method that takes n times as long
+    /// count n times. A thread with less than its share would cost more than it gains, and is not started. An
     /// executor's threads already exist: work of any size is divided for them.
     ///
-    /// With TSPACE_SERIAL there are no threads, and loops are compiled for one thread: a third less code.
+    /// With TSPACE_SERIAL, no threads are started, and loops are compiled for one thread, which takes a third less
+    /// code.
 #ifdef TSPACE_SERIAL
     explicit Parallel(const Execution&, std::uint64_t = 0) {}
 #else
@@ -69,7 +70,7 @@ class Parallel {
 #ifndef TSPACE_SERIAL
   private:
     class Pool;
-    /// Never inlined, so that bodies are compiled once, not separately for one and several threads.
+    /// Never inlined, so that bodies are compiled once, rather than once for one thread and once for several.
     template <class Body>
     [[gnu::noinline]] static void call(void* context, std::size_t task) {
         (*static_cast<Body*>(context))(task);

@@ -93,7 +93,8 @@ RangeLists::RangeLists(const TriangleGroups& triangles, std::size_t block_size, 
     if (count_ <= 1) return;
     const std::size_t blocks = blockCount(triangles.count);
     const std::size_t tasks = std::clamp<std::size_t>(blocks / kBlocksPerTask, 1, parallel.width());
-    // First the number of entries per task and range, then positions: task after task within a range.
+    // Holds the number of entries per task and range, and later the positions of the entries: within a range, task
+    // after task.
     Buffer<std::size_t> places(allocator, tasks * count_, std::size_t{0});
     Buffer<std::uint32_t> range_of(allocator, blocks);
     const auto forEntries = [&](bool is_known, const auto& body) {
@@ -187,7 +188,7 @@ bool RangeLists::Batches::next(TriangleBatch& batch, bool wants_vertices) {
 
 namespace {
 
-// Size of the sums of a range: half of a typical L2 cache.
+// Size of the sums of a range, in bytes: half of a typical L2 cache.
 constexpr std::size_t kRangeBytes = std::size_t{512} << 10;
 constexpr std::size_t kTasksPerThread = 4;
 constexpr std::size_t kMostRows = 8;
@@ -233,7 +234,7 @@ class RangeOfRound {
     template <std::size_t kRows, bool kMaxima = false>
     void addRows() {
         constexpr std::size_t kSums = 4 * (kMaxima ? kRows - 1 : kRows);
-        // Local copies, so that the compiler need not assume aliasing.
+        // Local copies, which the compiler knows not to alias the arrays that are written.
         const GroupRange range = range_;
         std::uint32_t* const vertices_of = vertices_of_;
         float* const all_sums = sums_;
@@ -290,7 +291,7 @@ constexpr std::size_t kMostSamples = 1024;
 float largestOf(const Vec3& p) { return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}); }
 float largestOf(const Vec2& p) { return std::max(std::fabs(p.x), std::fabs(p.y)); }
 
-/// Mean magnitude of numbers, from their exponents: a single outlier has little influence.
+/// Mean magnitude of a set of numbers, from their exponents, so that a single outlier has little influence.
 class MeanSize {
   public:
     void count(float size) {
@@ -319,7 +320,7 @@ InputScale inputScale(const TriangleGroups& triangles, const StridedSpan<const V
         std::uint32_t vertices[3], groups[3];
         triangles.read(triangles.count * i / samples, 1, vertices, groups);
         const Vec3 &a = positions[vertices[0]], &b = positions[vertices[1]], &c = positions[vertices[2]];
-        if (a == b || b == c || c == a) continue;  // such triangles are excluded from plans
+        if (a == b || b == c || c == a) continue;  // plans exclude triangles with two equal vertices
         for (const std::uint32_t v : vertices) {
             of_positions.count(largestOf(positions[v]));
             if (!uvs.empty()) of_uvs.count(largestOf(uvs[v]));

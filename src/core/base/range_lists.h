@@ -42,8 +42,8 @@ class TriangleGroups {
     ~TriangleGroups() = default;
 };
 
-/// Kernels read whole groups of triangles: fills the last group with a valid vertex. Returns `vertices` if that is not
-/// necessary, otherwise `buffer`, which may be the same array.
+/// Pads a list of vertices to whole groups of triangles, which kernels read, with a valid vertex. Returns `vertices` if
+/// no padding is necessary, otherwise `buffer`, which may be the same array.
 inline const std::uint32_t* fillGroup(const std::uint32_t* vertices, std::size_t count, std::size_t group,
                                       std::uint32_t* buffer) {
     const std::size_t end = (count + group - 1) / group * group;
@@ -53,13 +53,13 @@ inline const std::uint32_t* fillGroup(const std::uint32_t* vertices, std::size_t
     return buffer;
 }
 
-/// Triangles that a kernel processes together. Entries of the own arrays beyond `count` are stale.
+/// Triangles that a kernel processes together. Entries of own_vertices and own_groups beyond `count` are stale.
 struct TriangleBatch {
     static constexpr std::size_t kMost = 64;
 
     std::size_t count = 0;
-    bool is_block = false;  ///< the triangles are consecutive
-    /// the triangles are consecutive, and all their groups are in the range (or there are no groups)
+    bool is_block = false;  ///< true: the triangles are consecutive
+    /// true: the triangles are consecutive, and all their groups are in the range (or there are no groups)
     bool is_whole = false;
     const std::uint32_t *vertices = own_vertices, *groups = own_groups;
     std::uint32_t numbers[kMost];  ///< triangle numbers; for a block only the first one
@@ -69,7 +69,7 @@ struct TriangleBatch {
         return is_block ? numbers[0] + static_cast<std::uint32_t>(t) : numbers[t];
     }
 
-    TriangleBatch() {}  // without zero initialization
+    TriangleBatch() {}  // leaves the arrays uninitialized
     TriangleBatch(const TriangleBatch&) = delete;
     TriangleBatch& operator=(const TriangleBatch&) = delete;
 };
@@ -83,9 +83,9 @@ struct GroupRange {
 
 class RangeLists {
   public:
-    /// Ranges of `range_size` groups, a power of two; blocks of `block_size` triangles, at most TriangleBatch::kMost.
-    /// Creates no lists: each range visits all triangles, which suits a single range, or a few ranges for triangles in
-    /// random order.
+    /// Divides the groups into ranges of `range_size` groups, a power of two, and the triangles into blocks of
+    /// `block_size`, at most TriangleBatch::kMost. Creates no lists: each range visits all triangles, which suits a
+    /// single range, or a few ranges for triangles in random order.
     RangeLists(std::size_t block_size, std::size_t group_count, std::size_t range_size)
         : block_size_(block_size),
           group_count_(group_count),
@@ -120,15 +120,15 @@ class RangeLists {
         /// Iterates over all triangles of some blocks, whatever their groups.
         Batches(const TriangleGroups& triangles, std::size_t block_size, std::size_t begin, std::size_t end)
             : triangles_(triangles), block_size_(block_size), next_(begin), end_(end) {}
-        /// Returns false at the end. `wants_vertices`: otherwise only groups are read.
+        /// Reads the next batch; returns false at the end. Reads only groups if `wants_vertices` is false.
         bool next(TriangleBatch& batch, bool wants_vertices = true);
 
       private:
         const TriangleGroups& triangles_;
         std::size_t block_size_;
-        const std::uint32_t* entries_ = nullptr;  ///< null: all blocks
-        bool are_whole_ = true;                   ///< true: the blocks are whole
-        std::size_t next_, end_;                  ///< positions in entries or blocks
+        const std::uint32_t* entries_ = nullptr;  ///< entries of the range; null: all blocks are visited
+        bool are_whole_ = true;                   ///< true: all triangles of a block are visited
+        std::size_t next_, end_;                  ///< positions of the next and the last batch, in entries or blocks
     };
 
     /// Returns the list of a range, ascending: blocks that contribute only to this range, with kBlock; single triangles
@@ -140,7 +140,7 @@ class RangeLists {
 
   private:
     std::size_t block_size_, group_count_, range_size_, count_;
-    Buffer<std::size_t> begin_;  ///< empty: no lists
+    Buffer<std::size_t> begin_;  ///< begin of each range's list; empty: no lists
     Buffer<std::uint32_t> entries_;
 };
 
@@ -148,12 +148,13 @@ class RangeLists {
 // Ranges of groups are processed one by one, so that their sums stay in the cache, and by all threads. Sums are
 // computed in the order of triangles: the same bits for any number of ranges and threads.
 
-/// A round: the rows that triangles add to groups, and the processing of the sums of a group. Works on blocks, for
-/// kernels.
+/// One round of sums: provides the rows that triangles add to groups, and processes the sums of each group. Works on
+/// blocks, as kernels do.
 class SumRound {
   public:
-    static constexpr std::size_t kTriangles = 32;  ///< triangles per block; their rows fit into the L1 cache
-    static constexpr std::size_t kGroups = 16;     ///< maximum number of lanes; kernels process whole multiples of it
+    static constexpr std::size_t kTriangles = 32;  ///< triangles per block, whose rows fit into the L1 cache
+    /// maximum number of SIMD lanes: kernels process multiples of this number of groups
+    static constexpr std::size_t kGroups = 16;
     static constexpr std::uint32_t kNoVertex = 0xffffffffu;
 
     /// `rows`: number of rows of four floats per group: 1, 2, 4 or 7, or 8 with `has_maxima`: the last one contains
@@ -166,8 +167,8 @@ class SumRound {
     /// triangle, followed by stale values up to the end of the block.
     virtual void add(const std::uint32_t* vertices, const std::uint32_t* groups, std::size_t count,
                      float* rows) const = 0;
-    /// Processes, in place, the sums of the groups from `first` on. There are kGroups of them; those from `count` on
-    /// are undefined. vertices: the vertex of any corner of each group, or kNoVertex.
+    /// Processes, in place, the sums of kGroups groups, starting with group `first`; groups from `count` on are
+    /// undefined. vertices: the vertex of any corner of each group, or kNoVertex.
     virtual void finish(float* sums, const std::uint32_t* vertices, std::size_t first, std::size_t count) const = 0;
 
     const std::size_t row_count;
@@ -192,8 +193,8 @@ class SumRounds {
     RangeLists lists_;
     std::size_t tasks_;
     Parallel& parallel_;
-    Buffer<float> sums_;              ///< sums of one range for each task
-    Buffer<std::uint32_t> vertices_;  ///< vertices of each group of the range
+    Buffer<float> sums_;              ///< sums of the current range of each task
+    Buffer<std::uint32_t> vertices_;  ///< a vertex of each group in the range
 };
 
 // Powers of four that bring coordinates close to 1, so that fourth powers of small UVs do not underflow. Multiplying by

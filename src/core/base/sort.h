@@ -17,7 +17,8 @@ namespace tspace {
 /// Returns whether row `a` is ordered before row `b`; `less` is the caller's comparison.
 using RowIsLess = bool (*)(const void* less, const void* a, const void* b);
 
-/// Merge sort for rows of any type, moved as bytes: stable, O(n log n), with scratch memory for as many rows.
+/// Sorts rows of any type, which are moved as bytes, by merging: stable, O(n log n), with scratch memory for as many
+/// rows.
 /// `row_bytes` is a multiple of 4.
 /// Runs of 1, 2, 4, ... rows are merged from one half of the memory into the other.
 inline void sortRows(void* rows, std::size_t count, std::size_t row_bytes, RowIsLess isLess, const void* less) {
@@ -36,7 +37,7 @@ inline void sortRows(void* rows, std::size_t count, std::size_t row_bytes, RowIs
             const unsigned char* b = from + middle * row_bytes;
             const unsigned char* const a_end = b;
             const unsigned char* const b_end = from + end * row_bytes;
-            // Runs that are already in order, as in most lists of a mesh, cost one comparison.
+            // Runs that are already in order, as in most lists of a mesh, are merged with one comparison.
             if (b != b_end && isLess(less, b, b - row_bytes)) {
                 while (a != a_end && b != b_end) copy(target, isLess(less, b, a) ? b : a, words);
             }
@@ -48,7 +49,8 @@ inline void sortRows(void* rows, std::size_t count, std::size_t row_bytes, RowIs
     if (from != rows) std::memcpy(rows, from, count * row_bytes);
 }
 
-/// Stable sort. One function for all element types, instead of the 1 to 2 KB of code per type in the standard library.
+/// Sorts stably, with one function for all element types, instead of the 1 to 2 KB of code per type in the standard
+/// library.
 template <class Iterator, class Less>
 void sortInLittleCode(Iterator begin, Iterator end, const Less& less) {
     using Element = std::remove_cvref_t<decltype(*begin)>;
@@ -80,7 +82,7 @@ void sortList(Iterator begin, Iterator end, const Less& less = {}) {
 #endif
 }
 
-/// Stable sort.
+/// Sorts stably: equal elements keep their order.
 template <class Iterator, class Less>
 void sortStably(Iterator begin, Iterator end, const Less& less) {
 #ifdef TSPACE_SMALL

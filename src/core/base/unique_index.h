@@ -30,7 +30,7 @@ inline std::uint64_t hashPosition(const Vec3& p) {
     return foldHash(mixBits(bits(p.x) | bits(p.y) << 32), bits(p.z));
 }
 
-// Numbers values in order of first occurrence, to find equal vertices, edges and materials.
+// Hash table that numbers values in order of first occurrence, to find equal vertices, edges and materials.
 
 /// Returns the bits of a float, with both zeros equal, so that -0 and 0 are welded.
 inline std::uint32_t weldBits(float value) { return std::bit_cast<std::uint32_t>(value == 0.0f ? 0.0f : value); }

@@ -11,8 +11,8 @@
 
 namespace tspace {
 
-/// withUnitLength of each normal. A view of the input if all normals are unit, or `is_wanted` is false; otherwise a
-/// copy. Throws OutOfMemory.
+/// Normals of unit length (withUnitLength): a view of the input if all normals are unit, or if `is_wanted` is false;
+/// otherwise a copy. Throws OutOfMemory.
 class UnitNormals {
   public:
     UnitNormals(StridedSpan<const Vec3> normals, bool is_wanted, const Allocator* allocator, Parallel& parallel)

@@ -34,7 +34,7 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
 inline float length(const Vec3& v) { return std::sqrt(dot(v, v)); }
 inline bool isFinite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-/// Double-precision counterpart, for results that must be correct for any float input (no overflow, no underflow).
+/// Vector in double precision, for results that must be correct for any float input, without overflow or underflow.
 struct DVec3 {
     double x = 0, y = 0, z = 0;
 };
@@ -51,7 +51,7 @@ inline DVec3 cross(const DVec3& a, const DVec3& b) {
 }
 inline double length(const DVec3& v) { return std::sqrt(dot(v, v)); }
 
-// Directions: tests, normalization that works for every finite vector, and a basis around a unit vector.
+// Functions for directions: tests, normalization that works for every finite vector, and a basis around a unit vector.
 
 inline bool isZero(const Vec3& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 inline bool isDirection(const Vec3& v) { return isFinite(v) && !isZero(v); }
@@ -67,7 +67,8 @@ inline bool normalize(DVec3& v) {
     return true;
 }
 
-/// Like normalize except for rounding, but with one division instead of four if the squared length is a normal number.
+/// Normalizes like normalize(), except for rounding, with one division instead of four if the squared length is a
+/// normal number.
 inline bool normalizeOrdinary(DVec3& v) {
     const double squared = dot(v, v);
     if (!(squared > 1e-280 && squared < 1e280)) return normalize(v);
@@ -132,10 +133,10 @@ inline UvFrame uvFrame(const Vec3& p0, const Vec3& p1, const Vec3& p2, const Vec
                    double{uv1.y} - double{uv0.y}, double{uv2.x} - double{uv0.x}, double{uv2.y} - double{uv0.y});
 }
 
-/// Returns whether dividing by the determinant is allowed.
+/// Returns whether a UV determinant is nonzero and finite, so that dividing by it is allowed.
 inline bool hasUvArea(double determinant) { return determinant != 0 && std::isfinite(determinant); }
 
-// Angles in double precision without libm, whose last bits differ between platforms: only + - * / and sqrt.
+// Angles in double precision without libm, whose last bits differ between platforms: only + - * / and sqrt are used.
 
 inline constexpr double kPi = 3.14159265358979323846;
 
@@ -177,7 +178,7 @@ inline SineCosine sineCosine(double angle) {
     const double rest = std::fmod(angle, 2 * kPi * (1 << 20));  // exact; usual angles are unchanged
     const double quarters = std::floor(rest / (0.5 * kPi) + 0.5);
     const double x = (rest - quarters * kHalfPiHigh) - quarters * kHalfPiLow;
-    // x| <= pi / 4: the first omitted terms are below 0.79^19 / 19! = 1e-19 and 0.79^18 / 18! = 2e-18.
+    // |x| <= pi / 4: the first omitted terms are below 0.79^19 / 19! = 1e-19 and 0.79^18 / 18! = 2e-18.
     const double q = x * x;
     double sine = 1, cosine = 1;
     for (int n = 17; n >= 3; n -= 2) sine = 1 - q / (n * (n - 1)) * sine;
@@ -196,11 +197,12 @@ inline double angleBetween(const DVec3& a, const DVec3& b) { return polarAngle(d
 // scalar code elsewhere. Every lane rounds like the scalar operation, so the bits are equal everywhere.
 
 using Float4 = float __attribute__((vector_size(16)));
-/// result of a comparison: all bits of a lane are set, or none
+/// Result of a comparison: in each lane, all bits are set or none.
 using Mask4 = std::int32_t __attribute__((vector_size(16)));
-using Double2 = double __attribute__((vector_size(16)));  ///< used to carry two pairs of floats
+using Double2 = double __attribute__((vector_size(16)));  ///< carries two pairs of floats
 
-// Unaligned Float4 (any multiple of 4 bytes) that may alias any type. Clang ignores `aligned` after the equals sign.
+// Unaligned Float4 (its address may be any multiple of 4 bytes) that may alias any type. Clang ignores `aligned` after
+// the equals sign.
 using Float4InMemory __attribute__((aligned(4), may_alias)) = Float4;
 
 inline Float4 splat(float f) { return Float4{f, f, f, f}; }
@@ -289,7 +291,7 @@ inline void transpose4(Float4& a, Float4& b, Float4& c, Float4& d) {
     d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
 }
 
-/// Loads four vectors from memory, with two loads each that stay inside its 12 bytes: x y and y z.
+/// Loads four vectors, each with two loads that stay inside its 12 bytes: x y and y z.
 inline Vec3x4 gatherVec3(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     Float4 x = joinPairs(&a.x, &a.y), y = joinPairs(&b.x, &b.y), y_again = joinPairs(&c.x, &c.y),
            z = joinPairs(&d.x, &d.y);
@@ -297,7 +299,7 @@ inline Vec3x4 gatherVec3(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3
     return {x, y, z};
 }
 
-// Additions used by all sums.
+// Additions of rows, which all sums over corners use.
 
 /// Performs to[0..3] += row[0..3]; both aligned to 16 bytes.
 inline void addRow(float* to, const float* row) {

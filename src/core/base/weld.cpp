@@ -19,9 +19,9 @@ namespace tspace {
 
 namespace {
 
-constexpr std::size_t kPrefetchAhead = 32;  // lookups in flight; their data must fit into the L1 cache
+constexpr std::size_t kPrefetchAhead = 32;  // lookups in flight, whose data must fit into the L1 cache
 
-constexpr std::size_t kGrain = 16384;  // vertices per task: with fewer, starting threads costs more than it saves
+constexpr std::size_t kGrain = 16384;  // vertices per task: for fewer, starting threads costs more than it saves
 
 /// Finds the few vertices that may have duplicates, without accessing most vertices: counts the occurrences of the
 /// hashes' upper bits as 0, 1, or more. Two bits per counter: bit 0 means at least once, bit 1 more than once.
@@ -42,7 +42,7 @@ class RepeatedHashes {
 
     void add(std::size_t range, const std::uint32_t* hashes, std::size_t count) {
         auto* table = reinterpret_cast<std::uint8_t*>(table_.data() + range * words_);
-        const unsigned shift = 32 - log2_;  // a copy: written bytes might alias the member
+        const unsigned shift = 32 - log2_;  // local copy: the bytes that are written might alias the member
         for (std::size_t i = 0; i < count; ++i) {
             const std::uint32_t place = hashes[i] >> shift;
             std::uint8_t& byte = table[place / kPlacesPerByte];
@@ -76,7 +76,7 @@ class RepeatedHashes {
             const std::size_t begin = count * range / ranges_, end = count * (range + 1) / ranges_;
             const unsigned shift = 32 - log2_;
             std::uint32_t* const mine = list + begin;
-            std::size_t n = 0;  // mine[n] is always written, but only kept if n is incremented
+            std::size_t n = 0;  // mine[n] is always written, but kept only if n is then incremented
             for (std::size_t v = begin; v < end; ++v) {
                 const std::uint32_t place = hashes[v] >> shift;
                 mine[n] = static_cast<std::uint32_t>(v);
@@ -141,7 +141,7 @@ class Welder {
     }
 
   private:
-    static constexpr std::size_t kFew = 4096;  // vertices; up to this number, all are looked up
+    static constexpr std::size_t kFew = 4096;  // maximum number of vertices that are all looked up
 
     struct Slot {
         std::uint32_t hash = 0, vertex = Weldable::kNoRoot;
@@ -283,15 +283,15 @@ class Welder {
     }
 
     Weldable& vertices_;
-    std::size_t count_, entry_count_ = 0;  // number of vertices, and of vertices that are looked up
+    std::size_t count_, entry_count_ = 0;  // number of vertices, and number of vertices that are looked up
     const Allocator *allocator_, *transient_;
     Parallel& parallel_;
     Buffer<std::uint32_t> hashes_;
     Buffer<std::uint32_t> list_;   // vertices to weld, ascending; empty: all
-    Buffer<std::uint32_t> roots_;  // roots of these vertices
+    Buffer<std::uint32_t> roots_;  // roots of the vertices in list_
 };
 
-std::uint32_t bitsOf(float f) { return std::bit_cast<std::uint32_t>(f + 0.0f); }  // treats -0 as +0
+std::uint32_t bitsOf(float f) { return std::bit_cast<std::uint32_t>(f + 0.0f); }  // adding +0 converts -0 to +0
 
 class Positions final : public Weldable {
   public:

@@ -10,7 +10,7 @@
 
 namespace tspace {
 
-/// Vertices to compare. A vertex that does not equal itself (a NaN) equals no other vertex.
+/// Vertices to compare. A vertex with a NaN does not equal itself, and equals no other vertex.
 class Weldable {
   public:
     static constexpr std::uint32_t kNoRoot = 0xffffffffu;

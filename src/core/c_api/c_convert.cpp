@@ -13,7 +13,7 @@ void appendMessage(std::string_view text, tspace_Error& to) noexcept {
     const std::size_t used = std::strlen(to.message), room = sizeof(to.message) - 1 - used;
     std::size_t length = std::min(text.size(), room);
     if (length < text.size()) {
-        // Bytes 10xxxxxx are continuation bytes of a character.
+        // Bytes 10xxxxxx continue a UTF-8 character, which must not be split.
         while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0u) == 0x80u) --length;
     }
     std::memcpy(to.message + used, text.data(), length);

@@ -78,7 +78,7 @@ Error checkSized(const Struct* sized, const char* name) {
     return checkStructSize(sized->struct_size, kSizes<Struct>, name);
 }
 
-/// Like checkSized, for a struct that must not be null.
+/// Checks the size of a struct, like checkSized, and that the struct is not null.
 template <class Struct>
 Error checkNeeded(const Struct* sized, const char* name) {
     if (sized == nullptr) return makeError(ErrorCode::nullData, kNoElement, "%s is null", name);
@@ -94,7 +94,7 @@ Struct orDefault(const Struct* given) {
     return whole;
 }
 
-/// Writes the fields of a report that the caller's struct has.
+/// Copies a report to the caller's struct: only the fields that the caller's version of the struct has.
 template <class Struct>
 void give(Struct report, Struct* to) {
     if (to == nullptr) return;
@@ -133,17 +133,17 @@ IndexView toIndices(const tspace_Indices& indices);
 /// Converts a mesh without checks; only its struct size must be valid.
 MeshView toMesh(const tspace_Mesh& mesh);
 
-/// Checks for null, the struct size, and null arrays with a count that C++ types cannot represent. validate() checks
-/// the rest.
+/// Checks what the conversion requires: a pointer that is not null, a known struct size, and no null array with a
+/// count, which C++ types cannot represent. validate() checks the rest.
 Error checkMesh(const tspace_Mesh* mesh);
 
 Error checkConvention(const tspace_Convention& convention);
 Convention toConvention(const tspace_Convention& convention);
 
-/// Null is valid: the default.
+/// Checks an execution. Null is valid and means the default.
 Error checkExecution(const tspace_Execution* execution);
 
-/// Null is valid: the defaults.
+/// Checks or converts options. Null is valid and means the defaults.
 Error checkOptions(const tspace_NormalOptions* given);
 NormalOptions toOptions(const tspace_NormalOptions& options);
 Error checkOptions(const tspace_TangentOptions* given);
@@ -155,7 +155,7 @@ Result<std::vector<CornerAttribute>> toAttributes(const tspace_CornerAttribute* 
 /// copied.
 class Hooks {
   public:
-    /// Null: the default.
+    /// Copies the callbacks of an execution. Null means the default execution.
     explicit Hooks(const tspace_Execution* execution);
     Hooks(const Hooks&) = delete;
     Hooks& operator=(const Hooks&) = delete;

@@ -177,7 +177,7 @@ namespace {
 
 // C API: packed frames.
 
-/// Checks that a span of these bytes is valid: null requires a count of 0.
+/// Checks a span of bytes: null is valid only with a count of 0.
 Error checkBytes(const void* bytes, std::size_t count) { return checkSpan(bytes, count, 1, 1, count, "bytes"); }
 
 }  // namespace

@@ -80,7 +80,7 @@ tspace_ErrorCode tspace_generateTangentsOfMeshes(const tspace_MeshJob* jobs, siz
     return atCBorder(error, [&]() -> Result<Done> {
         if (jobs == nullptr && job_count != 0) return Error{ErrorCode::nullData, "jobs is null"};
         if (Error e = checkExecution(execution); e.code != ErrorCode::ok) return e;
-        // A job that cannot be converted becomes an empty one, and keeps the error of its checks.
+        // A job that cannot be converted is replaced by an empty one, and its error is reported afterwards.
         std::vector<MeshJob> converted(job_count);
         std::vector<Error> errors(job_count, Error{ErrorCode::ok});
         for (std::size_t i = 0; i < job_count; ++i) {
@@ -193,7 +193,7 @@ namespace {
 
 // C API: an indexed mesh with frames in one call.
 
-/// The struct of the C API, as the first base, with the memory that its pointers refer to.
+/// Struct of the C API (the first base class), followed by the memory that its pointers refer to.
 struct OwnedFrames : tspace_IndexedFrames {
     explicit OwnedFrames(IndexedFrames&& made)
         : tspace_IndexedFrames(),
@@ -265,7 +265,7 @@ namespace {
 
 // C API: split and triangulate, whose results the library owns until the caller destroys them.
 
-/// The struct of the C API, as the first base, with the memory that its pointers refer to.
+/// Struct of the C API (the first base class), followed by the memory that its pointers refer to.
 struct OwnedSplit : tspace_SplitResult {
     SplitResult result;
 };
@@ -350,7 +350,7 @@ namespace {
 
 // C API: a plan as words for compute shaders.
 
-/// The struct of the C API, as the first base, with the memory that its pointer refers to.
+/// Struct of the C API (the first base class), followed by the memory that its pointer refers to.
 struct OwnedPlanBuffers : tspace_PlanBuffers {
     PlanBuffers buffers;
 };

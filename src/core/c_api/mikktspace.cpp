@@ -9,7 +9,7 @@
 
 namespace {
 
-/// Faces of the caller, as far as they affect results.
+/// Corners of the caller's faces that affect results.
 struct Corners {
     tspace::Buffer<tspace::Vec3> positions;
     tspace::Buffer<tspace::Vec3> normals;
@@ -31,9 +31,9 @@ bool hasGetters(const SMikkTSpaceInterface& calls) {
            calls.m_getTexCoord != nullptr;
 }
 
-/// Calls body(face, corners) for every face that affects results: the supported ones, with all their corners. The first
-/// corner of the mesh is always included, as a face of one corner if its face is not supported: the reference starts
-/// the bounding box of its welding grid there, which can affect the result. Stops if the body returns false.
+/// Calls body(face, corners) for every face that affects results: faces with 3 or 4 corners, with all their corners.
+/// The first corner of the mesh is always included, as a face of one corner if its face is not supported: the reference
+/// starts the bounding box of its welding grid there, which can affect the result. Stops if the body returns false.
 template <class Body>
 void forUsedFaces(const SMikkTSpaceContext* context, int face_count, Body&& body) {
     bool first = true;
@@ -47,7 +47,7 @@ void forUsedFaces(const SMikkTSpaceContext* context, int face_count, Body&& body
 }
 
 /// Lists the faces, and allocates memory for their corners; returns false if there is nothing to compute or too much.
-/// Counts first, so that absurd answers of callbacks allocate nothing.
+/// Counts first, so that invalid counts returned by callbacks cause no allocation.
 bool listFaces(const SMikkTSpaceContext* context, int face_count, const tspace::Allocator* allocator,
                Corners& corners) {
     std::size_t corner_count = 0;
@@ -65,7 +65,8 @@ bool listFaces(const SMikkTSpaceContext* context, int face_count, const tspace::
     std::size_t listed = 0, listed_corners = 0;
     forUsedFaces(context, face_count, [&](int face, std::uint32_t size) {
         listed_corners += size;
-        if (listed == used_count || listed_corners > corner_count) return false;  // the caller's answers changed
+        // the callbacks returned other counts than before
+        if (listed == used_count || listed_corners > corner_count) return false;
         corners.face_sizes[listed] = size;
         corners.face_numbers[listed++] = face;
         return true;
@@ -111,7 +112,7 @@ void writeCorners(const SMikkTSpaceContext* context, const Corners& corners, con
     }
 }
 
-/// Reads, computes, then writes: no setter is called if any step fails.
+/// Reads all corners, computes, and then writes all results: no setter is called if any step fails.
 bool generate(const SMikkTSpaceContext* context, float angular_threshold_deg, const tspace::Execution& execution) {
     const SMikkTSpaceInterface& calls = *context->m_pInterface;
     const int face_count = calls.m_getNumFaces(context);
@@ -142,7 +143,7 @@ bool generate(const SMikkTSpaceContext* context, float angular_threshold_deg, co
 
 }  // namespace
 
-// Exceptions of the caller's own C++ callbacks propagate; only out-of-memory is handled here.
+// Exceptions of the caller's C++ callbacks propagate; only a lack of memory is handled here.
 tbool tspace_genTangSpace(const SMikkTSpaceContext* pContext, const float fAngularThreshold,
                           const tspace_Execution* execution) {
     if (pContext == nullptr || pContext->m_pInterface == nullptr || pContext->m_pInterface->m_getNumFaces == nullptr ||

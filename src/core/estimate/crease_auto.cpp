@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::uint32_t kNoPair = ~std::uint32_t{0};
 constexpr double kLeastFilteredDeg = 3, kLoudDeg = 12, kLouderDeg = 30;
-/// Maximum angle, in degrees, by which noise of one edge length rotates edges.
+/// Maximum angle, in degrees, by which noise with a standard deviation of one edge length rotates edges.
 constexpr double kMostTurnOfNoise = 183;
 constexpr int kBins = 180;
 
@@ -60,7 +60,7 @@ class EdgePairs {
     [[nodiscard]] bool hasCrowdedEdges() const { return has_crowded_; }
 
     struct Ends {
-        std::uint32_t low, high;  ///< points
+        std::uint32_t low, high;  ///< points at the ends of the edge
     };
     [[nodiscard]] Ends endsOf(std::uint32_t corner) const {
         const std::uint32_t a = call_.items.pointOf(corner), b = call_.items.pointOf(call_.faces.next(corner));
@@ -90,7 +90,7 @@ Float4 decay(Float4 x) {
     return y;
 }
 
-/// Transposes four rows: three vector components, and the fourth components.
+/// Columns of four rows that are transposed: three vector components, and the fourth component.
 struct Columns {
     Vec3x4 vectors;
     Float4 fourths;
@@ -103,7 +103,7 @@ struct Columns {
 /// A face adjacent across an edge.
 struct Near {
     std::uint32_t face;
-    float weight;  ///< weight by the area and the proximity
+    float weight;  ///< weight of the face in the filter, by its area and proximity
 };
 
 /// Total edge length per degree of the dihedral angle.
@@ -112,7 +112,7 @@ struct Histogram {
     double all = 0;
 };
 
-/// The state of a search that its steps share.
+/// State that the steps of the search for creases share.
 struct CreaseFinder {
     const NormalsCall& call;
     const EdgePairs& pairs;
@@ -120,7 +120,7 @@ struct CreaseFinder {
     Buffer<float> normals = {}, angles = {};
 };
 
-/// Faces are stored in rows of four; entries after the last face are zero.
+/// Returns the number of faces, rounded up to rows of four; entries after the last face are zero.
 std::size_t paddedCount(const CreaseFinder& finder) { return (finder.call.mesh.faceCount() + 3) / 4 * 4; }
 
 template <class Body>
@@ -196,15 +196,15 @@ Histogram histogram(const CreaseFinder& finder) {
 /// of the edges by at least 126 s degrees: if half of them have angles below 2 degrees, no filtering is needed.
 bool mayBeNoisy(const Histogram& angles) { return angles.lengths[0] + angles.lengths[1] < angles.all / 2; }
 
-/// Returns true also for OBJ files, whose faces have individual sizes.
+/// Returns whether all faces are triangles, also if each face has its own size, as in OBJ files.
 bool areAllTriangles(const CreaseFinder& finder) {
     const auto& sizes = finder.call.mesh.face_sizes;
     return finder.call.are_triangles ||
            (!sizes.empty() && std::all_of(sizes.begin(), sizes.end(), [](std::uint32_t size) { return size == 3; }));
 }
 
-/// Like filterFaces, for four triangles at a time, one per lane, with identical bits: 62 instead of 149
-/// instructions per triangle and pass (callgrind, a torus of 32,000 triangles).
+/// Computes filterFaces for four triangles at a time, one per lane, with identical bits: 62 instead of 149 instructions
+/// per triangle and pass (callgrind, a torus of 32,000 triangles).
 template <class NearOf>
 void filterTriangles(CreaseFinder& finder, const NearOf& nearOf, float per_turn, int passes) {
     struct Around {
@@ -350,8 +350,8 @@ double angleInGap(const CreaseFinder& finder, const Histogram& angles) {
     const auto end = static_cast<int>(kMost);
     double least = density[static_cast<std::size_t>(first)];
     for (int bin = first; bin < end; ++bin) least = std::min(least, density[static_cast<std::size_t>(bin)]);
-    // Grid meshes cut the edges of shapes at all angles: there is no gap, and this angle was correct for all that
-    // were tried.
+    // Grid meshes cut the edges of shapes at all angles, so their histogram has no gap. This angle was correct for all
+    // grid meshes that were tried.
     constexpr double kAngleOfGrids = 30;
     if (finder.noise_deg <= kLeastFilteredDeg && least > 3e-4 * all)
         return isBentEverywhere(angles) ? kMost : kAngleOfGrids;
@@ -370,7 +370,7 @@ void markEdges(const CreaseFinder& finder, Creases& creases) {
     const std::size_t corners = finder.call.mesh.cornerCount();
     creases.edges = Buffer<EdgeKind>(finder.call.allocator, corners, EdgeKind::byAngle);
     Buffer<std::uint8_t> counts(finder.call.allocator, finder.call.mesh.vertexCount(),
-                                std::uint8_t{0});  // number of hard edges; 2 means two or more
+                                std::uint8_t{0});  // number of hard edges at each point; 2 means two or more
     const auto forPairs = [&](const auto& body) {
         for (std::uint32_t c = 0; c < corners; ++c) {
             if (finder.angles[c] >= 0 && finder.pairs.other(c) > c) body(c);

@@ -12,7 +12,7 @@ namespace tspace {
 
 struct Creases {
     float angle_deg = 180;
-    bool are_all_soft = true;     ///< no edge is hard or has more than two faces
+    bool are_all_soft = true;     ///< true: no edge is hard or has more than two faces
     Buffer<EdgeKind> edges = {};  ///< edge kind of each corner
 };
 

@@ -15,7 +15,8 @@ namespace tspace {
 
 std::size_t sampledPlace(std::size_t number, std::size_t count, std::size_t all) {
     if (count >= all) return number;
-    const std::uint32_t turn = static_cast<std::uint32_t>(number) * 2654435769u;  // golden ratio
+    // 2^32 divided by the golden ratio, which distributes consecutive numbers evenly
+    const std::uint32_t turn = static_cast<std::uint32_t>(number) * 2654435769u;
     const double within = (turn >> 8) * (1.0 / (1 << 24));
     return std::min(all - 1, static_cast<std::size_t>((static_cast<double>(number) + within) *
                                                       (static_cast<double>(all) / static_cast<double>(count))));
@@ -27,13 +28,13 @@ double medianOf(float* begin, float* end) {
     return *middle;
 }
 
-// Measurement of position noise on samples: distances of vertices from the quadratic surface through two rings around
+// Measures position noise on samples: the distances of vertices from the quadratic surface through the two rings around
 // them, and whether the normals along edges look like noise or like shape.
 
 namespace {
 
 constexpr std::size_t kEdgeSamples = 16384;
-// Samples a quarter of the vertices, within these limits.
+// Number of sampled vertices: a quarter of all vertices, within these limits.
 constexpr std::size_t kMostVertexSamples = 4096, kLeastVertexSamples = 1024;
 constexpr std::size_t kLeastFits = 200;
 
@@ -43,7 +44,7 @@ double smoothStep(double low, double high, double value) {
     return u * u * (3 - 2 * u);
 }
 
-/// Dihedral angles at the edges of up to 1,024 sampled groups.
+/// Returns the dihedral angles at the edges of up to 1,024 sampled groups.
 Dihedrals sampleDihedrals(const NormalGroups& groups, std::size_t all, const Allocator* allocator) {
     constexpr std::size_t kVertices = 1024;
     struct Edge {
@@ -90,13 +91,13 @@ constexpr double kTurnOfNoise = 126, kLeastTurnOfNoise = 90;
 }  // namespace
 
 double noisePart(double sigma, double kink_share, const Dihedrals& dihedrals) {
-    constexpr double kLeast = 1e-3;  // unit: edge length; below this, a fit costs more than it gains
+    constexpr double kLeast = 1e-3;  // minimum noise in edge lengths: below it, a fit costs more accuracy than it gains
     if (!(sigma > 0) || !(dihedrals.median > 0)) return 0;
-    // On a clean mesh both the kink share and sigma grow with curvature.
+    // On a mesh without noise, both the kink share and sigma grow with curvature.
     const double high = std::min(0.4, kNoisyShare + 3 * sigma);
     const double turn = dihedrals.median / (kTurnOfNoise * sigma);
-    // Noise leaves no edge flat: the lower quartile of its angles is 0.36 to 0.49 of the median. Decimated meshes have
-    // flat faces: at most 0.3, on eleven shapes.
+    // Noise leaves no edge flat: the lower quartile of its dihedral angles is 0.36 to 0.49 of their median. Decimated
+    // meshes have flat faces: there it is at most 0.3 (eleven shapes).
     const double part = std::min(sigma, dihedrals.median / kLeastTurnOfNoise) * smoothStep(high / 2, high, kink_share) *
                         smoothStep(0.25, 0.5, turn) * smoothStep(0.31, 0.36, dihedrals.quarter / dihedrals.median);
     return part >= kLeast ? part : 0;
@@ -133,9 +134,9 @@ PositionNoise sampleEdges(const NormalsCall& call) {
     return found;
 }
 
-/// Fits each vertex's neighborhood without the vertex itself: r = |z(0)| / sqrt(1 + (A^-1)_00) has the standard
-/// deviation of the noise, on every surface that is quadratic within two rings. Uses the median, so that edges and
-/// corners of the shape have no influence.
+/// Fits a surface to each vertex's neighborhood without the vertex itself: r = |z(0)| / sqrt(1 + (A^-1)_00) has the
+/// standard deviation of the noise, on every surface that is quadratic within two rings. Uses the median, so that edges
+/// and corners of the shape have no influence.
 Roughness measureRoughness(const NormalGroups& groups, std::size_t all, const Allocator* allocator) {
     const std::size_t samples = std::min(all, std::clamp(all / 4, kLeastVertexSamples, kMostVertexSamples));
     Buffer<float> distances(allocator, samples);
@@ -212,8 +213,8 @@ PositionNoise noiseOf(const MeshView& mesh, const Execution& execution, Parallel
 
 namespace {
 
-// In units of the mean edge. Above kRoughNoise, planes of fits are smoothed more; above kLoudNoise, the normal of a
-// single ring is too uncertain for comparisons.
+// Noise thresholds, in units of the mean edge. Above kRoughNoise, planes of fits are smoothed more; above kLoudNoise,
+// the normal of a single ring is too uncertain for comparisons.
 constexpr double kRoughNoise = 0.15, kLoudNoise = 0.12;
 constexpr int kBiasPasses = 8;
 constexpr double kFirstVariance = 1.15;  // variance of `best` relative to the area-weighted mean, measured
@@ -244,9 +245,9 @@ struct RingFit {
     [[nodiscard]] bool isThere() const { return std::isfinite(variance); }
 };
 
-/// The two fits of each group: over two rings and over three.
+/// Fits of a group: the first over two rings, the second over three.
 struct Fits {
-    float normals[2][4];  ///< the fourth component is the variance
+    float normals[2][4];  ///< normals of both fits; the fourth component is the variance
 };
 
 class Denoiser {
@@ -323,7 +324,7 @@ class Denoiser {
     }
 
     /// Computes the squared bias of the fits. The fits are nested least squares, so the variance of their difference
-    /// equals the difference of their variances: any excess is bias. NaN: no comparison is possible.
+    /// equals the difference of their variances; any excess is bias. NaN means that no comparison is possible.
     void compare(std::size_t group, Float4 first, const Fits& fits, float* bias) const {
         const bool is_loud = noise_ > kLoudNoise;
         const Float4 two = loadFloat4(fits.normals[0]), three = loadFloat4(fits.normals[1]);
@@ -394,7 +395,8 @@ void denoise(const NormalsCall& call, const CornerGroups& corner_groups, const N
     call.parallel.forRanges(corner_count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
             const std::uint32_t group = corner_groups.of(static_cast<std::uint32_t>(c));
-            if (!std::isfinite(groups.areaVariance(group))) continue;  // corners there have substitutes
+            // the corners of this group keep their substitute normals
+            if (!std::isfinite(groups.areaVariance(group))) continue;
             const float* const n = normals.data() + 4 * std::size_t{group};
             call.out[c] = {n[0], n[1], n[2]};
         }

@@ -18,7 +18,7 @@ namespace tspace {
 // A mesh that is split at its hard edges: all corners that share a normal are one vertex. Contains positions,
 // neighbors, and rings around each vertex.
 
-// Cross product of the first three components; the fourth is 0.
+// Returns the cross product of the first three components; the fourth component is 0.
 inline Float4 crossed(Float4 a, Float4 b) {
     const Float4 a_yzx = __builtin_shufflevector(a, a, 1, 2, 0, 3), b_yzx = __builtin_shufflevector(b, b, 1, 2, 0, 3);
     const Float4 c = a * b_yzx - a_yzx * b;
@@ -29,7 +29,7 @@ inline float dotted(Float4 a, Float4 b) {
     return (c[0] + c[1]) + c[2];
 }
 
-/// Group of each corner: its point, or a dense number.
+/// Maps each corner to its group: to its point, or to a dense number.
 class CornerGroups {
   public:
     /// `components`: the lowest corner of each corner's component; empty if all corners of a point belong together.
@@ -91,7 +91,7 @@ class NormalGroups {
             });
     }
 
-    /// Groups at the other ends of a corner's edges: after and before it on its face.
+    /// Groups of the next and the previous corner on a corner's face.
     struct Ends {
         std::uint32_t next, previous;
     };
@@ -106,10 +106,10 @@ class NormalGroups {
 
     const NormalsCall& call_;
     std::size_t count_;
-    std::size_t most_corners_ = 0;  ///< maximum corners of any group
+    std::size_t most_corners_ = 0;  ///< maximum number of corners in a group
     Buffer<float> positions_, normals_, variances_;
     Buffer<Ends> corners_;
-    Buffer<std::uint32_t> begins_, counts_, neighbors_;  ///< two neighbors per corner at most
+    Buffer<std::uint32_t> begins_, counts_, neighbors_;  ///< lists of neighbors, with at most two per corner
     mutable Buffer<std::uint32_t> marks_;                ///< marks for each task
 };
 
@@ -119,7 +119,7 @@ class RingWalk {
   public:
     static constexpr std::size_t kMost = 256, kFan = 32;
 
-    /// `marks`: the per-thread array that forSome hands out.
+    /// `marks`: the array that forSome passes to its body.
     RingWalk(const NormalGroups& groups, std::uint32_t* marks, std::uint32_t center)
         : groups_(groups), marks_(marks), center_(center) {
         add(center);
@@ -174,7 +174,8 @@ class RingSums {
         const std::size_t end = walk.size();
         const Float4 origin = groups.position(list[0]);
         count_ += end - begin;
-        for (std::size_t i = end; i < end + 3; ++i) list[i] = list[0];  // the padding adds zeros
+        // pads the list with the center, which adds zeros to the sums
+        for (std::size_t i = end; i < end + 3; ++i) list[i] = list[0];
         for (std::size_t i = begin; i < end; i += 4) {
             const Float4 a = groups.position(list[i]) - origin, b = groups.position(list[i + 1]) - origin;
             const Float4 c = groups.position(list[i + 2]) - origin, d = groups.position(list[i + 3]) - origin;
@@ -191,7 +192,7 @@ class RingSums {
         }
     }
 
-    /// Remaining equations of the last unknowns after elimination.
+    /// Equations of the last unknowns that remain after elimination.
     struct Rest {
         double matrix[2][2], right[2];
         bool is_sound = false;
@@ -255,7 +256,7 @@ RingSums::Rest RingSums::eliminate() const {
     constexpr double kLeastPivot = 1e-4;
     constexpr std::size_t kSize = 6, kLast = 4;
     constexpr std::size_t f = kHeightLast ? 5 : 3, d = kHeightLast ? 3 : 4, e = kHeightLast ? 4 : 5;
-    double m[kSize][kSize + 1];  // upper triangle, and right-hand sides
+    double m[kSize][kSize + 1];  // upper triangle, followed by the right-hand sides
     const auto set = [&](std::size_t row, std::size_t column, double value) {
         m[row < column ? row : column][row < column ? column : row] = value;
     };
@@ -308,7 +309,7 @@ inline constexpr double kNoisyShare = 0.15;
 /// of the mean edge.
 double measureNoise(const NormalGroups& groups, const Allocator* allocator, PositionNoise& noise);
 
-/// Converts to units of the mean edge without noise.
+/// Converts lengths from units of the mean edge of the noisy mesh to units of the mean edge without noise.
 PositionNoise withoutGrowth(PositionNoise noise);
 
 /// Like measureNoise, for a call without normals: measures the mesh that decides which edges are hard.

@@ -18,7 +18,8 @@ namespace tspace {
 
 namespace {
 
-/// Time of `best` and of creases relative to other weightings, approximately, because each point groups its faces.
+/// Time of `best`, and of creases, relative to other weightings, approximately. Both take longer because each point
+/// groups its faces.
 constexpr std::uint64_t kSlow = 4;
 
 Error checkOptions(const MeshView& mesh, const NormalOptions& options) {
@@ -41,8 +42,8 @@ Error checkOptions(const MeshView& mesh, const NormalOptions& options) {
     return {ErrorCode::ok, {}};
 }
 
-/// Corners of degenerate faces get the mean of the other normals at their point. Without degenerate faces, points need
-/// not be found.
+/// Computes the weighting `flat`. Corners of degenerate faces get the mean of the other normals at their point; points
+/// are searched only if there are degenerate faces.
 NormalReport flatNormals(const MeshView& mesh, const MeshView& posed, const Call<NormalOptions>& options,
                          StridedSpan<Vec3> out, Parallel& parallel) {
     Call<NormalOptions> means = options;

@@ -16,18 +16,18 @@ namespace tspace {
 namespace {
 
 constexpr std::size_t kEdges = 512;
-/// Two rings around this many edge ends contain 20,000 points on most meshes. More than kMostPoints points indicate
-/// triangle fans.
+/// Maximum number of points in the two rings around the sampled edge ends. Most meshes have 20,000 there; more than
+/// kMostPoints indicate triangle fans.
 constexpr std::size_t kMostPoints = 32768;
 
 /// Safety factors for the values that all vertices would give. For sigma: three standard errors, each 5.3 % for the
 /// median of 480 noisy distances and 1.8 % for the median of 4096.
 constexpr double kSigmaError = 1.17, kDihedralError = 1.25, kKinkError = 1.1;
-constexpr double kMostGrowth = 1.2;  // maximum growth by withoutGrowth
+constexpr double kMostGrowth = 1.2;  // maximum factor of withoutGrowth
 
 bool areEqual(const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-/// Set of positions from the mesh, numbered in order of insertion. A one-bit filter rejects nearly all other positions.
+/// Set of mesh positions, numbered in order of insertion. A one-bit filter rejects nearly all other positions.
 class SomePoints {
   public:
     static constexpr std::uint16_t kNone = 0xffff;
@@ -103,7 +103,7 @@ class NoiseScreen {
         if (kinks <= kFewKinks) return false;
         const std::optional<Roughness> roughness = roughnessAroundEdges();
         if (!roughness || !roughness->is_known) return true;
-        // A sample cannot estimate the share of flat edges.
+        // A sample of edges cannot estimate the share of flat edges.
         const double turned = kDihedralError * roughness->dihedrals.median;
         for (const double error : {1 / kSigmaError, 1.0, kSigmaError})
             if (kMostGrowth * noisePart(error * roughness->sigma, kKinkError * kinks, {turned, turned}) >= noise)
@@ -132,7 +132,7 @@ class NoiseScreen {
     void findPoints() {
         for (std::size_t v = 0; v < point_of_.size(); ++v) point_of_[v] = points_.numberOf(mesh_.positions[v]);
     }
-    /// Calls body(vertices) for each triangle with a corner that the last findPoints() found.
+    /// Calls body(vertices) for each triangle with a corner that the last call of findPoints() found.
     template <class Body>
     void forTrianglesThere(const Body& body) const {
         const std::size_t corners = mesh_.cornerCount();

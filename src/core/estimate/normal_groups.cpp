@@ -50,7 +50,7 @@ void NormalGroups::sortCorners(const CornerGroups& corner_groups, double length)
         origin = toDouble(positions[indices[c]]);
         break;
     }
-    // A corner is used if its triangle has three different groups.
+    // A corner contributes only if its triangle has three different groups.
     const auto read = [&](std::uint32_t corner, std::uint32_t(&groups)[3]) {
         if (!call_.are_triangles && !call_.faces.isUsed(call_.faces.of(corner))) return false;
         const MeshFaces::Around a = around(corner);
@@ -88,9 +88,9 @@ void NormalGroups::findNeighbors() {
     for (std::size_t g = 0; g <= count_; ++g) begins_[g] *= 2;
 }
 
-/// The vector area is half the sum of (p_j - p) x (p_j+1 - p). Moving p_j by d along the normal changes it by d times
-/// half the vector from the neighbor before p_j to the neighbor after it: the variance is the sum of the squares of
-/// these vectors over the square of the area.
+/// Computes the neighbors and the area normal of a group, with its variance. The vector area is half the sum of (p_j -
+/// p) x (p_j+1 - p). Moving p_j by d along the normal changes it by d times half the vector from the neighbor before
+/// p_j to the neighbor after it: the variance is the sum of the squares of these vectors over the square of the area.
 void NormalGroups::findNeighbors(std::uint32_t group, const Ends* begin, const Ends* end, std::uint32_t* places,
                                  float* turns) {
     std::uint32_t* const list = neighbors_.data() + 2 * std::size_t{begins_[group]};

@@ -20,7 +20,7 @@ Result<NormalReport> generatePoseNormals(const MeshView& mesh, const StridedSpan
 /// kNoSharedNormal if the corner does not contribute to the mean because its face visits the point twice. With
 /// weighting flat, every corner is separate.
 /// Errors: as generateNormals, and invalidOption for faces that are not triangles.
-inline constexpr std::uint32_t kNoSharedNormal = 0x80000000u;  ///< a flag, combined with the corner
+inline constexpr std::uint32_t kNoSharedNormal = 0x80000000u;  ///< flag that is combined with the number of the corner
 Result<std::vector<std::uint32_t>> findSharedNormals(const MeshView& mesh, const NormalOptions& options,
                                                      const Execution& execution = {});
 

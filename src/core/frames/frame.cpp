@@ -12,7 +12,7 @@ namespace tspace {
 
 namespace {
 
-// Below this sine the angle between two float directions (relative error 6e-8) is rounding noise.
+// Sine of an angle below which the angle between two float directions (relative error 6e-8) is rounding noise.
 constexpr double kParallelSine = 1e-6;
 
 Vec3 unitOr(DVec3 v, const Vec3& substitute) { return normalize(v) ? toFloat(v) : substitute; }
@@ -63,7 +63,8 @@ FaceFrame divided(const UvFrame& sums) {
 
 float fraction(double x) {
     const float f = static_cast<float>(x - std::floor(x));
-    return f >= 0 && f < 1 ? f : 0.0f;  // rounding can give 1; values that are not finite become 0
+    // rounding can give exactly 1, which becomes 0; so do values that are not finite
+    return f >= 0 && f < 1 ? f : 0.0f;
 }
 
 }  // namespace
@@ -112,7 +113,7 @@ bool objectToTangent(const Frame& frame, Mat3& out) {
     const DFrame f = toDouble(frame);
     const double d = determinant(f);
     if (d == 0 || !std::isfinite(d)) return false;
-    // Cramer's rule: the rows of the inverse are cross products of the other two columns.
+    // Computes the inverse by Cramer's rule: its rows are cross products of two columns.
     const Mat3 inverse{{toFloat((1 / d) * cross(f.bitangent, f.normal)), toFloat((1 / d) * cross(f.normal, f.tangent)),
                         toFloat((1 / d) * cross(f.tangent, f.bitangent))}};
     for (const Vec3& row : inverse.rows) {

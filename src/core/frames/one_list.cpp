@@ -51,7 +51,7 @@ Result<Done> useOneList(const MeshView& mesh, const Execution& execution, OneLis
                                               corner_count, attributes, execution);
     if (!split) return std::move(split).error();
     if (!welded.empty()) {
-        // Without indices a corner is a vertex, and the new vertex takes its other attributes.
+        // Without indices, each corner is a vertex, and the new vertex gets the other attributes of that vertex.
         for (std::size_t v = 0; v < split->vertexCount(); ++v) {
             if (split->source_corners[v] != kNoCorner) split->source_vertices[v] = split->source_corners[v];
         }

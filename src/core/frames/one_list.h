@@ -17,7 +17,8 @@ namespace tspace {
 /// A mesh with a vertex for each combination of position, normal and UV that corners use. Corners and faces are those
 /// of the input mesh, which must outlive it.
 struct OneListMesh {
-    OwnedMesh own = {};                               ///< normals are zero where no corner uses the vertex
+    /// arrays of the new vertices; normals are zero for vertices that no corner uses
+    OwnedMesh own = {};
     std::vector<std::uint32_t> source_vertices = {};  ///< one per vertex: the vertex of the input mesh
     std::vector<std::uint32_t> source_normals = {};  ///< index of the source normal, or kNoCorner if no corner uses one
     MeshView view = {};  ///< view of these arrays, with the faces of the input mesh; the struct must not be moved
@@ -49,8 +50,8 @@ void gather(const StridedSpan<const T>& values, std::span<const std::uint32_t> s
 Result<Done> useOneList(const MeshView& mesh, const Execution& execution, OneListMesh& made,
                         std::span<const std::uint32_t> welded = {}, std::span<const CornerAttribute> further = {});
 
-/// Returns body(view) for the mesh with a single list. For functions with one result per corner, which keep their
-/// order.
+/// Returns body(view), where view is the mesh with a single index list. For functions with one result per corner, whose
+/// order does not change.
 template <class Body>
 auto withOneList(const MeshView& mesh, const Execution& execution, Body&& body) -> decltype(body(mesh)) {
     if (Result<Done> valid = validate(mesh); !valid) return std::move(valid).error();

@@ -26,17 +26,17 @@ namespace {
 
 /// Tolerance of the glTF validator for the length of a tangent.
 constexpr double kUnitTolerance = 5e-4;
-/// The sine of one degree.
+/// Sine of one degree.
 constexpr double kOneDegree = 0.017452406437283512;
-/// orthogonalize_all leaves valid tangents this close to unit and orthogonal unchanged. Rounding to float leaves less
-/// than 1.5e-7, so written tangents are not written again.
+/// Tolerance of orthogonalize_all: valid tangents this close to unit and orthogonal are unchanged. Rounding to float
+/// leaves an error of less than 1.5e-7, so repaired tangents are not changed again.
 constexpr double kOrthogonalTolerance = 5e-7;
 
-/// Triangles per block of the scan. More would move more valid faces to the slow path.
+/// Triangles per block of the scan. With larger blocks, more valid faces would take the slow path.
 constexpr std::size_t kFacesPerBlock = 4;
 constexpr std::size_t kScanGrain = 1024;
 
-/// Counters of the report: defects of tangents, the sources of their repair, and others.
+/// Counters of the report: causes of invalid tangents, sources of their repair, and others.
 enum class Counted : std::uint8_t {
     notFinite,
     zero,
@@ -64,7 +64,7 @@ struct Counts {
 
 bool isSign(float w) { return w == 1.0f || w == -1.0f; }
 
-/// Returns N normalized; zero if it has no direction.
+/// Returns the normalized N; zero if it has no direction.
 DVec3 unitNormal(const Vec3& normal) {
     if (!isFinite(normal)) return {};
     const DVec3 n = toDouble(normal);
@@ -74,7 +74,7 @@ DVec3 unitNormal(const Vec3& normal) {
 
 bool isZero(const DVec3& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 
-/// Returns whether a tangent can be derived from this direction at a corner with this unit normal (zero: none).
+/// Returns whether a tangent can be derived from a direction at a corner with this unit normal (zero: no normal).
 bool isUsable(const Vec3& direction, const DVec3& n) {
     if (!isFinite(direction)) return false;
     const DVec3 t = toDouble(direction);
@@ -97,8 +97,8 @@ Cause causeOf(const Vec4& tangent, const DVec3& n) {
     return isSign(tangent.w) ? Cause::sound : Cause::badSign;
 }
 
-/// Returns the usable direction made unit and orthogonal to n. Orthogonalized twice: close to n the first pass loses
-/// digits by cancellation.
+/// Returns a usable direction made unit and orthogonal to n. Orthogonalizes twice, because close to n the first pass
+/// loses digits by cancellation.
 Vec3 orthonormal(const Vec3& direction, const DVec3& n) {
     DVec3 t = toDouble(direction);
     for (int pass = 0; pass < 2; ++pass) {
@@ -243,7 +243,7 @@ class Sanitizer {
             sound &= SurelySound::of({x, y, z}, w, gatherVec3(normal(0), normal(1), normal(2), normal(3)));
             signs |= laneBits(std::bit_cast<Mask4>(w)) << i;
         }
-        // A bit of `signs` equals the next one, except at the end of a triangle.
+        // Bit i of `signs` equals bit i + 1, except at the end of a triangle.
         return laneBits(sound) == 0b1111 && ((signs ^ signs >> 1) & kFirstTwoOfThree) == 0;
     }
 
@@ -269,12 +269,13 @@ class Sanitizer {
         return c;
     }
 
-    /// Detects the defects of a face's corners, and marks corners that need a valid tangent at their position.
+    /// Detects the defects of a face's corners, and counts corners that need the valid tangent of another corner at
+    /// their position.
     void detect(std::size_t first, std::uint32_t size, Counts& counts) {
         bool all_sound = true;
         for (std::size_t c = first; c < first + size; ++c) {
             if (SurelySound::of(tangents_[c], mesh_.normals[mesh_.indices[c]]))
-                continue;  // causes_ is initialized to this
+                continue;  // causes_ is initialized to Cause::sound
             const DVec3 n = normalAt(c);
             if (isZero(n)) counts.count(Counted::badNormal);
             causes_[c] = causeOf(tangents_[c], n);
@@ -319,9 +320,9 @@ class Sanitizer {
         return found.w != 0 ? &found : nullptr;
     }
 
-    /// Returns the sign of a face's corners: of its valid corners, first those whose N has a direction (without one a
-    /// sign is meaningless); else of invalid corners that have a sign; else of the first valid corner at one of the
-    /// face's positions; else +1.
+    /// Returns the common sign of a face's corners, from the first of these sources that exists: valid corners whose N
+    /// has a direction (without one, a sign is meaningless); other valid corners; invalid corners that have a sign; the
+    /// first valid corner at one of the face's positions; +1.
     [[nodiscard]] float signOf(std::size_t first, std::uint32_t size) const {
         const auto votes = [this](std::size_t c, int round) {
             if (round == 2) return isSign(tangents_[c].w);
@@ -394,11 +395,11 @@ class Sanitizer {
     Buffer<std::uint8_t> candidates_;      ///< one per block
     Buffer<std::uint32_t> block_corners_;  ///< first corner of each block; empty if all faces have the same size
     Buffer<Cause> causes_;
-    // Lookup for corners without a valid tangent: the point of each vertex (empty: its own index), and the first valid
-    // tangent at each point; a sign of 0 means none.
+    // Tangents for corners without a valid one: the point of each vertex (empty: the vertex itself), and the first
+    // valid tangent at each point; a sign of 0 means that there is none.
     Buffer<std::uint32_t> points_;
     Buffer<Vec4> found_;
-    /// Sums over all tasks; integer sums do not depend on the order.
+    /// Sums of the counters over all tasks; sums of integers do not depend on the order.
     std::array<std::atomic<std::uint64_t>, kCounted> counts_{};
 };
 

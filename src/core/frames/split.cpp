@@ -23,7 +23,7 @@ namespace {
 
 using AttributeSpan = std::span<const CornerAttribute>;
 
-/// Corners that are compared before the differing ones are processed.
+/// Number of corners that are compared before those that differ are processed.
 constexpr std::size_t kCompared = 64;
 
 const float* cornerValues(const CornerAttribute& attribute, std::uint32_t corner) {
@@ -45,16 +45,17 @@ const float* cornerValues(const CornerAttribute& attribute, std::uint32_t corner
     return true;
 }
 
-/// A vertex's first variants are compared one by one; only later ones justify an index.
+/// Number of variants of a vertex that are compared one by one; an index is built only for more.
 constexpr std::uint32_t kScannedVariants = 8;
 
-/// Cells are wider than the tolerance by more than the rounding of x / width, so that two values that are equal within
-/// the tolerance are never two cells apart.
+/// Width of a cell relative to the tolerance. It exceeds 1 by more than the rounding of x / width, so that two values
+/// that are equal within the tolerance are never two cells apart.
 constexpr double kCellMargin = 1.0 + 1.0 / (1 << 20);
 
 constexpr std::uint32_t kNoVariant = 0xffffffffu;  ///< larger than any node number
 
-/// Beyond this many cells from 0, adjacent floats are more than 100 tolerances apart: only equal values match.
+/// Maximum distance from 0, in cells: beyond it, adjacent floats are more than 100 tolerances apart, so only equal
+/// values match.
 constexpr double kMostCells = 4294967296.0;
 
 /// Returns the cell of a component; components that are equal within the tolerance are in the same or in adjacent
@@ -73,7 +74,8 @@ std::uint64_t cellOf(float value, float tolerance) {
     values.resize(count, value);
 }
 
-/// Variants of vertices: a vertex with its first corner, and the copies for later corners.
+/// Variants of vertices. The first variant of a vertex has the attributes of its first corner; later variants are
+/// copies for corners that differ.
 class Variants {
   public:
     /// result.source_corners must hold the first corner of each vertex; copies are appended. Until all corners are
@@ -109,11 +111,11 @@ class Variants {
         return static_cast<std::uint32_t>(corners_.size() - 1);
     }
 
-    // The index of later variants is a tree whose nodes are identified by hashes. The first level is the old vertex
-    // with the bits of all exact attributes; then one level for each component of the others, by its cell on a line
-    // divided into cells as wide as the tolerance. A leaf is a list of variants, linked by next_, that nearly always
-    // has one entry. A lookup follows the three adjacent cells on each level, if they exist; the number of variants
-    // around a point is bounded, and therefore also the cost per corner.
+    // Finds the cells of a corner in the index of variants, a tree whose nodes are identified by hashes. The first
+    // level is the old vertex with the bits of all exact attributes; then one level for each component of the others,
+    // by its cell on a line divided into cells as wide as the tolerance. A leaf is a list of variants, linked by next_,
+    // that nearly always has one entry. A lookup follows the three adjacent cells on each level, if they exist; the
+    // number of variants around a point is bounded, and therefore also the cost per corner.
 
     [[gnu::cold]] void findCells(std::uint32_t corner, std::uint32_t vertex) {
         root_ = mixBits(vertex);
@@ -166,10 +168,11 @@ class Variants {
 
     AttributeSpan attributes_;
     std::vector<std::uint32_t>& corners_;  ///< corners of each variant
-    /// Next variant of the vertex, for scanned ones; next variant of the leaf, for indexed ones.
+    /// Next variant of the vertex, for variants that are compared one by one; next variant in the leaf, for indexed
+    /// variants.
     std::vector<std::uint32_t>& next_;
     UniqueIndex<std::uint64_t> nodes_;
-    std::vector<std::uint32_t> firsts_;  ///< for each leaf node, the first variant of its list
+    std::vector<std::uint32_t> firsts_;  ///< first variant in the list of each leaf node
     std::uint64_t root_ = 0;             ///< root for the corner being looked up
     std::vector<std::uint64_t> cells_, reached_, further_;
 };
@@ -180,12 +183,13 @@ class Variants {
 template <std::uint32_t... Counts>
 std::size_t listDifferent(AttributeSpan attributes, std::uint32_t corner, std::size_t count,
                           const std::uint32_t* vertices, std::uint32_t* firsts, std::uint32_t* different) {
-    std::array<CornerAttribute, sizeof...(Counts)> exact;  // local copies, which stores cannot alias
+    // local copies, which the compiler knows not to alias the arrays that are written
+    std::array<CornerAttribute, sizeof...(Counts)> exact;
     std::copy_n(attributes.begin(), exact.size(), exact.begin());
     const auto at = [&](std::size_t i, std::uint32_t which) { return cornerValues(exact[i], which); };
     std::size_t different_count = 0;
     for (std::size_t k = 0; k < count; ++k) {
-        static_assert(kNoCorner == 0xffffffffu);  // greater than all corners
+        static_assert(kNoCorner == 0xffffffffu);  // greater than the number of any corner
         const std::uint32_t here = corner + static_cast<std::uint32_t>(k);
         const std::uint32_t first = std::min(firsts[vertices[k]], here);
         firsts[vertices[k]] = first;
@@ -217,7 +221,7 @@ decltype(&listDifferent<>) listerFor([[maybe_unused]] AttributeSpan attributes) 
 SplitResult split(const IndexView& view, std::size_t vertex_count, std::size_t corner_count, AttributeSpan attributes) {
     SplitResult result;
     resizeAtOnce(result.indices, corner_count, corner_count, 0);
-    // Capacity for some copies costs nothing until it is used.
+    // Reserves capacity for some copies, which takes no memory until it is used.
     resizeAtOnce(result.source_corners, vertex_count, vertex_count + vertex_count / 8, kNoCorner);
     Variants variants(attributes, result);
     const auto list = listerFor(attributes);

@@ -26,7 +26,7 @@ constexpr std::uint32_t kMaxTestedCorners = 1024;
 
 constexpr std::uint64_t kTaken = ~std::uint64_t{0};  // greater than the order of any remaining vertex
 
-/// Points closer to a line than this fraction of the polygon's extent are treated as on it. Coordinates in the plane
+/// Tolerance, as a fraction of the polygon's extent, within which a point counts as on a line. Coordinates in the plane
 /// have a rounding error of about 1e-15 of the extent; the original floats are a million times coarser than this
 /// tolerance.
 constexpr double kOnLine = 1e-12;
@@ -41,14 +41,15 @@ constexpr double kOnLine = 1e-12;
     return 0;
 }
 
-/// Treats a NaN or infinite length as longer than any other.
+/// Returns the squared length, or a value longer than any other for NaN and infinity.
 double orderedLength(double length2) { return length2 < std::numeric_limits<double>::infinity() ? length2 : HUGE_VAL; }
 
 struct Line {
     Line(PlanePoint from, PlanePoint to, double slack)
         : a(from), x(to.x - from.x), y(to.y - from.y), margin(slack * std::sqrt(x * x + y * y)) {}
 
-    /// Returns the distance of c, times the line's length; positive to its left. Up to the margin, c is on the line.
+    /// Returns the distance of c from the line, times the line's length; positive to its left. Within the margin, c
+    /// counts as on the line.
     [[nodiscard]] double across(PlanePoint c) const { return x * (c.y - a.y) - y * (c.x - a.x); }
 
     PlanePoint a;
@@ -57,7 +58,7 @@ struct Line {
 
 class Cutter {
   public:
-    /// The scratch memory contains the vertices with their values, corners and positions, from the canonical start on.
+    /// The scratch memory must contain the vertices in canonical order, with their values, corners and positions.
     explicit Cutter(PolygonScratch& scratch)
         : count_(static_cast<std::uint32_t>(scratch.vertices.size())), vertices_(scratch.vertices.data()) {
         scratch.reflex.resize(count_);
@@ -110,7 +111,7 @@ class Cutter {
             renew(before, orderOf(before));
             renew(after, orderOf(after));
         }
-        // Three vertices are left: the triangle starts with the first one in canonical order.
+        // Three vertices are left. Their triangle starts with the first of them in canonical order.
         writeEar(std::min({any_left, vertices_[any_left].previous, vertices_[any_left].next}));
     }
 
@@ -202,8 +203,8 @@ class Cutter {
         return v < w;
     }
 
-    // Tournament tree: leaf count_ + v is vertex v, an inner node is the vertex of its two children that is cut off
-    // first, and node 1 is the first of all.
+    // Tournament tree: leaf count_ + v is vertex v, and an inner node is the vertex of its two children that is cut off
+    // first. Node 1 is therefore the next vertex to cut off.
 
     /// Returns the sort key of a vertex: the squared length of its diagonal in space, as the bits of a double, which
     /// sort like the lengths. The highest bit marks vertices that are not ears, which are cut only if no ear is left.
@@ -233,7 +234,7 @@ class Cutter {
     [[nodiscard]] bool isTested() const { return count_ <= kMaxTestedCorners; }
 
     std::uint32_t count_, reflex_count_ = 0;
-    double on_line_ = 0;  // points farther than this are not on a line
+    double on_line_ = 0;  // maximum distance of points that count as on a line
     PolygonVertex* vertices_;
     std::uint32_t *reflex_, *tree_;
 };
@@ -245,7 +246,7 @@ void FaceCutter::cutOther(std::size_t first, std::uint32_t size, std::uint32_t* 
         for (std::size_t k = 0; k < 3; ++k) corners[k] = static_cast<std::uint32_t>(first + k);
         return;
     }
-#ifndef TSPACE_MIKKTSPACE_ONLY  // that build skips n-gons
+#ifndef TSPACE_MIKKTSPACE_ONLY  // this build ignores n-gons
     scratch_.vertices.resize(size);
     const auto gather = [&](std::uint32_t start) {
         for (std::uint32_t v = 0; v < size; ++v) {
@@ -259,7 +260,8 @@ void FaceCutter::cutOther(std::size_t first, std::uint32_t size, std::uint32_t* 
         }
     };
     gather(0);
-    // All sums start there, so that rounding does not depend on the caller's first corner.
+    // The polygon starts with its canonical first corner, so that the rounding of sums does not depend on the caller's
+    // first corner.
     gather(Cutter::canonicalStart(scratch_.vertices));
     Cutter(scratch_).cut(corners);
 #endif
@@ -293,7 +295,7 @@ Result<Triangulation> cutFaces(const MeshView& mesh) {
 
 Result<Triangulation> triangulate(const MeshView& mesh) {
     return atBorder([&] {
-        // Only the UVs of quads are read, and no normals.
+        // Only the UVs of quads are read; normals are not used.
         return mesh.hasOwnLists() ? withOneList(mesh, {}, cutFaces) : cutFaces(mesh);
     });
 }

@@ -17,7 +17,7 @@ struct PlanePoint {
 
 /// Vertex of a polygon during triangulation. Numbered in canonical order, whose start depends only on geometry.
 struct PolygonVertex {
-    float values[5];  ///< position and UV (zeros if there is none), by which corners are ordered
+    float values[5];  ///< position and UV (zeros without UVs), which determine the order of corners
     std::uint32_t corner;
     DVec3 position;
     PlanePoint point = {};
@@ -26,14 +26,14 @@ struct PolygonVertex {
     bool is_reflex = false;
 };
 
-/// Memory that is reused between faces.
+/// Scratch memory that is reused from face to face.
 struct PolygonScratch {
     std::vector<PolygonVertex> vertices;
     std::vector<std::uint32_t> reflex;  ///< vertices that may be inside an ear: those that are not convex
     std::vector<std::uint32_t> tree;    ///< tournament tree
 };
 
-/// Triangulates the faces of a mesh one by one, with the same memory.
+/// Triangulates the faces of a mesh one by one, reusing its scratch memory.
 class FaceCutter {
   public:
     explicit FaceCutter(const MeshView& mesh) : mesh_(mesh) {}
@@ -41,7 +41,7 @@ class FaceCutter {
     /// with the same winding.
     void cut(std::size_t first, std::uint32_t size, std::uint32_t* corners) {
         if (size != 4) return cutOther(first, size, corners);
-        const std::uint32_t b = quadIsCutAlong13(first) ? 1 : 0;  // (0,1,2),(0,2,3) or (0,1,3),(1,2,3)
+        const std::uint32_t b = quadIsCutAlong13(first) ? 1 : 0;  // cuts into (0,1,2),(0,2,3) or (0,1,3),(1,2,3)
         const std::uint32_t cut[6] = {0, 1, 2 + b, b, 2, 3};
         for (std::size_t i = 0; i < 6; ++i) corners[i] = static_cast<std::uint32_t>(first) + cut[i];
     }

@@ -125,13 +125,13 @@ class FramesMaker {
         }
     }
 
-    /// Returns an arbitrary orthonormal frame, for an unused vertex.
+    /// Returns the tangent of an arbitrary orthonormal frame, for an unused vertex.
     [[nodiscard]] Vec4 anyTangent(const Vec3& normal) const {
         const Vec3 t = orthonormalize({.tangent = {}, .bitangent = {}, .normal = normal}).tangent;
         return {t.x, t.y, t.z, signFactor(options_.tangents.convention)};
     }
 
-    MeshView mesh_;  ///< the input mesh, later with generated normals, later with one index list
+    MeshView mesh_;  ///< the input mesh, first as given, then with generated normals, then with one index list
     const IndexedFramesOptions& options_;
     const Execution& execution_;
     std::vector<Vec3> corner_normals_;

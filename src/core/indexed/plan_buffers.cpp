@@ -51,14 +51,15 @@ struct Lists {
     }
 };
 
-/// Sources of the corners' tangents. `sources` lists the parts of each source, and `parts` the half-edges of each part.
+/// Sources of tangents. A source is the tangent of one or more corners; `sources` lists the parts of each source, and
+/// `parts` the half-edges of each part.
 struct TangentSources {
     Lists parts, sources;
-    WordList of_corner;                                 ///< a source, or kNone
-    std::vector<std::uint8_t> is_positive, is_cleared;  ///< per source, and per corner
-    WordList vertices;                                  ///< per half-edge
-    WordList corners;                                   ///< per half-edge
-    std::vector<float> uvs;                             ///< PlanBuffers: coefficients of each triangle
+    WordList of_corner;                                 ///< source of each corner, or kNone
+    std::vector<std::uint8_t> is_positive, is_cleared;  ///< flags per source, and per corner
+    WordList vertices;                                  ///< vertex of each half-edge
+    WordList corners;                                   ///< corner of each half-edge
+    std::vector<float> uvs;                             ///< UV coefficients of each triangle (PlanBuffers)
 
     [[nodiscard]] std::size_t triangleCount() const { return vertices.size() / 3; }
 };
@@ -129,7 +130,8 @@ class GroupedSources {
                 if ((source & kTopBit) != 0) source = members_[source & kValue];
                 const std::uint32_t part = to_.sources.at(source)[0];
                 if (parts.size() != 1 || parts[0] != part)
-                    parts.push_back(part);  // the mean of equal results is the first of them
+                    // the mean of equal results equals the first of them, so other parts are omitted
+                    parts.push_back(part);
             }
             to_.of_corner[corner] = parts.size() == 1 ? source : addSource(parts, to_.is_positive[source] != 0);
         }
@@ -148,7 +150,7 @@ class GroupedSources {
     WordList members_;  // source of each member of a group that splits
 };
 
-/// Returns the sources of lengyel: each vertex is a source.
+/// Returns the sources of lengyel, where each vertex is a source.
 TangentSources indexedSources(const IndexedPlan& plan) {
     TangentSources to;
     const std::size_t half_edges = 3 * plan.triangleCount();
@@ -207,8 +209,8 @@ class BufferWriter {
   private:
     [[nodiscard]] Method method() const { return plan_.method(); }
 
-    /// Scales UVs, since only their ratios matter: typical values become about 1, which keeps products with edges in
-    /// range.
+    /// Scales UVs so that typical values are about 1, which keeps products with edges in range; only the ratios of UVs
+    /// matter.
     void scaleUvs() {
         std::vector<float> sizes;
         for (float& value : in_.uvs) {
@@ -246,7 +248,7 @@ class BufferWriter {
     void writeResults() {
         const std::size_t count = resultCount();
         WordList half_edges(plan_.cornerCount(),
-                            kNone);  // first half-edge of each corner; the corner itself without polygons
+                            kNone);  // first half-edge of each corner; without polygons, the corner itself
         for (std::uint32_t h = 0; h < in_.vertices.size(); ++h) {
             std::uint32_t& first = half_edges[in_.corners.empty() ? h : in_.corners[h]];
             first = std::min(first, h);
@@ -272,7 +274,7 @@ class BufferWriter {
         std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
             return std::tie(a.source, a.component, a.result) < std::tie(b.source, b.component, b.result);
         });
-        WordList first_like(count);  // first result with the same entries
+        WordList first_like(count);  // first result with the same entries as each result
         for (std::size_t i = 0, first = 0; i < count; ++i) {
             if (!keys[i].isLike(keys[first])) first = i;
             first_like[keys[i].result] = keys[first].result;
@@ -369,7 +371,7 @@ class BufferWriter {
     bool is_lengyel_, normalizes_;
     Convention convention_;
     TangentSources in_;
-    float fold_;  ///< sign for a positive orientation
+    float fold_;  ///< sign of the tangent for a positive orientation
     WordList shared_;
     Lists components_;
     WordList results_, entries_;

@@ -30,8 +30,8 @@ namespace tspace {
 
 namespace {
 
-/// Keeps the file's coordinate system: a convention may be an engine's preset, but the geometry is right-handed with
-/// counter-clockwise faces, in every supported format.
+/// Returns the options for the file's coordinate system: a convention may be an engine's preset, but in every supported
+/// format the geometry is right-handed, with counter-clockwise faces.
 FramesOptions inFileCoordinates(FramesOptions options) {
     for (Convention* convention : {&options.tangents.convention, &options.normals.convention}) {
         convention->handedness = Handedness::right;
@@ -53,7 +53,7 @@ void callProgress(const FramesOptions& options) {
     if (options.progress) options.progress("computing tangents", 0, 0);
 }
 
-/// The state of a call that its steps share.
+/// State that the steps of a call share.
 struct PoolComputation {
     [[nodiscard]] bool takesQuads() const { return options.tangents.method == Method::mikktspace; }
     [[nodiscard]] std::span<Vec4> tangents() { return {tangent_buffer.data(), tangent_buffer.size()}; }
@@ -70,21 +70,21 @@ struct PoolComputation {
     LocalMeshes local_meshes{pool, primitives.size()};
     MorphTangents morph_tangents{pool, options};
 
-    // The vertices of all corners of all primitives, their computed frames, and the corner count of each primitive.
+    // Vertices of all corners of all primitives, their computed frames, and the corner count of each primitive.
     std::span<const std::uint32_t> corners = {};
     std::vector<std::uint32_t> own_corners = {};
     std::vector<Vec3> normals = {};
-    // Allocated for all primitives from the start.
+    // Allocated at the start, for all primitives.
     Buffer<Vec4> tangent_buffer = {};
     Buffer<Vec3> bitangent_buffer = {};
     std::vector<std::size_t> corner_counts = {};
-    // For repaired tangents: whether morph offsets are new, per corner, and the number of tangents that differ from
-    // computed ones.
+    // Results of repairing tangents: whether morph offsets are new, per corner, and the number of tangents that differ
+    // from computed ones.
     std::vector<bool> has_new_offsets = {};
     std::uint64_t differing_count = 0;
 };
 
-// -- 1. primitives --
+// -- 1. frames of primitives --
 
 /// Computes normals per corner, and one per vertex of the mesh: vertices with several normals are split first, so
 /// that a per-vertex method uses the mesh that will be written.
@@ -125,7 +125,7 @@ Result<QuadFaces> chooseFaces(const PoolComputation& state, const LocalMesh& mes
     return tspace::chooseFaces(mesh.view(), stored, state.pool.is_blenders, faces, state.options.execution);
 }
 
-/// Converts triangles to quads if requested and possible; `polygons` are the file's own. Morph deltas of kept
+/// Converts triangles to quads if requested and possible; `polygons` are the polygons of the file. Morph deltas of kept
 /// tangents are computed on the faces that these tangents were computed on.
 Result<Done> chooseQuads(const PoolComputation& state, QuadFaces&& polygons, LocalMesh& mesh, FramesReport& report) {
     if (!state.takesQuads()) return Done{};
@@ -142,7 +142,7 @@ Result<Done> chooseQuads(const PoolComputation& state, QuadFaces&& polygons, Loc
     return Done{};
 }
 
-/// `bitangents` may be empty.
+/// Computes the tangents of one primitive. `bitangents` may be empty.
 Result<Done> computeTangents(const PoolComputation& state, const LocalMesh& mesh, std::span<Vec4> tangents,
                              std::span<Vec3> bitangents, FramesReport& report) {
     TangentOutput out{.tangents = tangents};
@@ -197,7 +197,8 @@ void mendTangents(PoolComputation& state, std::span<const std::uint32_t> vertice
     }
 }
 
-/// `vertices`: vertices of the primitive's corners. For a single primitive they are not copied.
+/// Appends the corners of a primitive to those of the pool. `vertices`: vertices of these corners, which are not copied
+/// if there is a single primitive.
 void append(PoolComputation& state, std::span<const std::uint32_t> vertices, bool is_cut, std::vector<Vec3>&& normals) {
     if (state.primitives.size() == 1 && !is_cut) {
         state.corners = vertices;
@@ -213,9 +214,9 @@ void append(PoolComputation& state, std::span<const std::uint32_t> vertices, boo
     state.corner_counts.push_back(vertices.size());
 }
 
-/// Computes the frames of one primitive and appends them for the split. Polygons are triangulated after the
-/// normals, which need whole faces, and before the tangents: readers of the result see triangles, and would compute
-/// with these.
+/// Computes the frames of one primitive and appends them for the split. Polygons are triangulated after the normals are
+/// computed, which need whole faces, and before the tangents are: readers of the result get triangles, and would
+/// compute tangents on these.
 Result<Done> computePrimitive(PoolComputation& state, const PrimitiveGeometry& primitive, FramesReport& report) {
     if (primitive.indices.empty()) {
         state.corner_counts.push_back(0);
@@ -256,7 +257,7 @@ Result<Done> computePrimitive(PoolComputation& state, const PrimitiveGeometry& p
     return Done{};
 }
 
-// -- 2. targets --
+// -- 2. frames of morph targets --
 
 Result<Done> computeMorphs(PoolComputation& state, SplitResult& split, bool may_split, PoolFrames& frames) {
     frames.morphs.resize(state.pool.targets.count);
@@ -271,7 +272,7 @@ Result<Done> computeMorphs(PoolComputation& state, SplitResult& split, bool may_
     return Done{};
 }
 
-// -- 3. vertices of the pool --
+// -- 3. vertices after the split --
 
 /// Splits the indices of all primitives into one list per primitive.
 void cutIndices(const PoolComputation& state, std::vector<std::uint32_t>&& indices, PoolFrames& frames) {
@@ -295,7 +296,7 @@ void writeUnused(const PoolComputation& state, std::uint32_t vertex, PoolFrames&
 }
 
 void writeTangents(const PoolComputation& state, const SplitResult& split, PoolFrames& frames) {
-    // Reserves first: growing would touch fresh pages one by one.
+    // Reserves memory first: while an array grows, fresh pages are mapped one by one.
     frames.tangents.reserve(split.vertexCount());
     askForPages(frames.tangents.data(), split.vertexCount() * sizeof(Vec4));
     if (state.generates_bitangents) frames.bitangents.reserve(split.vertexCount());
@@ -349,7 +350,7 @@ void write(PoolComputation& state, SplitResult&& split, PoolFrames& frames) {
     frames.source_vertices = std::move(split.source_vertices);
 }
 
-// -- 4. a pool --
+// -- 4. frames of a pool --
 
 Result<PoolFrames> splitPool(PoolComputation& state) {
     std::vector<CornerAttribute> attributes;
@@ -368,7 +369,7 @@ Result<PoolFrames> splitPool(PoolComputation& state) {
     return frames;
 }
 
-/// Keeps all vertices, and only compares the tangents of the base.
+/// Keeps all vertices, and only compares kept tangents with computed ones.
 Result<PoolFrames> keepPool(PoolComputation& state) {
     PoolFrames frames;
     frames.differing_count = countDiffering(state.tangents(), state.pool.kept_tangents, state.corners);
@@ -414,7 +415,7 @@ Result<PoolFrames> computePool(const PoolView& pool, std::span<const PrimitiveGe
     return computePool(state);
 }
 
-// -- 5. calls --
+// -- 5. entry points --
 
 Error checkPool(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
                 std::span<const FramesReport> reports) {
@@ -436,7 +437,8 @@ Error checkPool(const PoolView& pool, std::span<const PrimitiveGeometry> primiti
     return {ErrorCode::ok, {}};
 }
 
-/// Computes normals first, as a separate pool, so that tangents of every target use the vertices that will be written.
+/// Computes normals first, as a separate pool, so that the tangents of every target are computed on the vertices of the
+/// output.
 Result<PoolFrames> computeWithMorphedNormals(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
                                              const FramesOptions& options, std::span<FramesReport> reports) {
     PoolWithNormals made;
@@ -458,7 +460,7 @@ Result<PoolFrames> computeWithMorphedNormals(const PoolView& pool, std::span<con
     return frames;
 }
 
-/// If a split adds at least one in this many vertices, its causes are counted.
+/// The causes of splits are counted if a split adds at least one vertex per this many vertices.
 constexpr std::size_t kManySplit = 20;
 
 void countFaults(const PoolView& pool, const PoolFrames& frames, float weld_distance, std::span<FramesReport> reports) {

@@ -89,8 +89,9 @@ std::vector<Vec3> gatherNormals(const std::vector<Vec3>& normals, const std::vec
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
-/// A stored normal computed on its own side only differs from the common one by half of the bend at the border; a
-/// normal that differs by more is an intended hard edge.
+/// Maximum angle between a computed normal and a kept normal at the same position for the kept one to be used. A stored
+/// normal that was computed on its own side of the border only differs by half of the bend at the border; a normal that
+/// differs by more is an intended hard edge.
 constexpr double kMostTakenDeg = 30;
 
 }  // namespace
@@ -114,7 +115,7 @@ BorderedNormals::BorderedNormals(const LocalMesh& mesh, const Surroundings* arou
 
 Result<NormalReport> BorderedNormals::base(StridedSpan<Vec3> out) {
     if (around_ == nullptr) return generateNormals(mesh_.view(), options_, out, execution_);
-    // Triangles of the surroundings are excluded from counts.
+    // Counts exclude triangles of the surroundings.
     const MeshView others = around_->mesh.view();
     std::vector<Vec3> normals(others.cornerCount());
     NormalOptions flat = options_;
@@ -164,7 +165,7 @@ Result<NormalReport> BorderedNormals::pose(const StridedSpan<const Vec3>& positi
     return report;
 }
 
-/// Chooses which existing normals are used at which corners.
+/// Chooses the corners that use existing normals of surrounding vertices.
 void BorderedNormals::choose(std::span<const Vec3> normals) {
     if (around_->mesh.normals.empty()) return;
     Parallel parallel(execution_, whole_.indices.size());

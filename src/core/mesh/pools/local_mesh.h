@@ -15,10 +15,11 @@
 
 namespace tspace {
 
-// One primitive as a separate mesh. A pool is often shared by many primitives that each use a small part of it, and the
+// A primitive as a mesh of its own. A pool is often shared by many primitives that each use a small part of it, and the
 // cost of per-vertex operations should be proportional to that part.
 
-/// View of arrays of the pool, or of its own arrays. Moving it keeps the views valid.
+/// Mesh of one primitive, whose views refer to arrays of the pool, or to its own arrays. Moving it keeps the views
+/// valid.
 struct LocalMesh {
     StridedSpan<const Vec3> positions, normals;
     StridedSpan<const Vec2> uvs;
@@ -26,10 +27,10 @@ struct LocalMesh {
     std::span<const std::uint32_t> face_sizes;
 
     OwnedMesh own;  ///< arrays that are not borrowed from the pool
-    /// Pool vertex of each vertex at creation; empty: identity.
+    /// Vertex of the pool that each vertex was copied from; empty: the same vertex.
     std::vector<std::uint32_t> sources;
-    /// For quads that were paired from triangles: the face corner of each triangle corner. Empty: the faces are the
-    /// triangles.
+    /// For quads that were formed from pairs of triangles: the face corner of each triangle corner. Empty: all faces
+    /// are triangles.
     std::vector<std::uint32_t> face_corners;
 
     LocalMesh() = default;
@@ -43,7 +44,7 @@ struct LocalMesh {
         uvs = own.uvs;
     }
 
-    /// Returns the number of corners of its triangles.
+    /// Returns the number of corners of the triangles.
     [[nodiscard]] std::size_t triangleCornerCount() const {
         return face_corners.empty() ? indices.size() : face_corners.size();
     }
@@ -59,7 +60,7 @@ struct LocalMesh {
     }
 };
 
-/// Converts a triangle mesh to a mesh of these faces over the triangles.
+/// Replaces the faces of a triangle mesh by `faces`, which are formed from its triangles.
 void takeFaces(QuadFaces&& faces, LocalMesh& mesh);
 
 /// Sets of_triangles[c] to the value of the face corner of each triangle corner c.
@@ -84,7 +85,8 @@ class LocalMeshes {
 
     const PoolView& pool_;
     std::size_t primitive_count_;
-    std::vector<std::uint32_t> local_of_vertex_;  ///< all kNoSlot between primitives
+    /// local vertex of each vertex of the pool; all kNoSlot between primitives
+    std::vector<std::uint32_t> local_of_vertex_;
 };
 
 inline std::span<const std::uint32_t> spanOf(const std::vector<std::uint32_t>& values) { return values; }
@@ -109,16 +111,17 @@ std::vector<Vec3> gatherNormals(const std::vector<Vec3>& normals, const std::vec
 
 // Normals of a primitive that forms one surface with others: triangles of the others at the border also contribute.
 
-/// Triangles of other primitives around a primitive. Their normals are not computed here.
+/// Triangles of other primitives around a primitive, and their existing normals.
 struct Surroundings {
-    OwnedMesh mesh = {};               ///< normals that are kept, zero if none; may have no normals
+    /// vertices and triangles, with normals that are kept, or zero; may have no normals
+    OwnedMesh mesh = {};
     std::size_t triangles_before = 0;  ///< triangles of primitives that precede this one in the file
     std::uint64_t point_count = 0;     ///< positions that the primitive shares with the others
-    /// Like MorphTargets::read, for these vertices; empty if targets do not move them.
+    /// Reads the offsets of a target for these vertices, like MorphTargets::read; empty if targets do not move them.
     std::function<Result<MorphOffsets>(std::size_t)> read = {};
 };
 
-/// Normals of one primitive, on the base and in poses, one after the other.
+/// Computes the normals of one primitive, on the base mesh and in its poses, one after the other.
 class BorderedNormals {
   public:
     /// `around`: null if no triangles surround the mesh; required for meshes with polygons. All arguments must outlive
@@ -142,8 +145,9 @@ class BorderedNormals {
     const Surroundings* around_;
     const NormalOptions& options_;
     const Execution& execution_;
-    OwnedMesh whole_ = {};                   ///< vertices of the mesh, then surrounding ones; empty: none surround it
-    std::size_t first_corner_ = 0;           ///< number of the first corner in the mesh
+    /// vertices of the mesh, followed by surrounding ones; empty: no surroundings
+    OwnedMesh whole_ = {};
+    std::size_t first_corner_ = 0;           ///< number of the mesh's first corner among the corners of `whole_`
     std::vector<std::uint32_t> stays_ = {};  ///< per corner of the mesh: the surrounding vertex whose normal it uses
     std::uint64_t degenerate_around_ = 0;
 };

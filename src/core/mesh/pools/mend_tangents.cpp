@@ -14,7 +14,7 @@ namespace tspace {
 
 namespace {
 
-/// cosine of 10 degrees, the direction tolerance of `check`
+/// Cosine of 10 degrees, the direction tolerance of `check`.
 constexpr double kSameTangent = 0.98480775301220802;
 
 bool isNear(const Vec4& a, const Vec4& b) {
@@ -57,19 +57,20 @@ Vec4 mendedAlone(const Vec4& kept, const Vec4& computed, const Vec3& normal, std
     return tangent;
 }
 
-constexpr double kUnitTolerance = 5e-4;  // same tolerance as in sanitize
-constexpr double kOffPlane = 0.05;  // sine; normals with few bits are not unit, and tangents deviate by a degree there
+constexpr double kUnitTolerance = 5e-4;  // as in sanitize.cpp
+// sine of an angle; normals with few bits are not unit, which rotates tangents out of the plane by a degree
+constexpr double kOffPlane = 0.05;
 constexpr double kSameDirection = 0.99;  // cosine of 8 degrees
-// Minimum triple product: UVs sheared by 89.9 degrees have 0.0017.
+// Minimum triple product of a frame; the frame of UVs sheared by 89.9 degrees has 0.0017.
 constexpr double kSide = 1e-4;
 
-/// Returns the unit vector, or zero if v has no direction.
+/// Returns the unit vector of v, or zero if v has no direction.
 DVec3 unitOrZero(const DVec3& v) {
     const double size = length(v);
     return size > 0 && std::isfinite(size) ? (1 / size) * v : DVec3{};
 }
 
-// Formulated so that NaN is invalid.
+// Returns whether a bitangent is valid. The comparisons are written so that NaN is invalid.
 bool isSound(const DVec3& b, const DVec3& n, const Vec4& computed, const Vec4& mended) {
     const DVec3 t = toDouble(xyz(mended));
     if (!(std::fabs(length(b) - 1) <= kUnitTolerance)) return false;
@@ -136,7 +137,7 @@ std::vector<bool> mendCorners(const PoolView& pool, std::span<const std::uint32_
         if ((parts & mend::kSides) != 0 && hasSide(pool, corners, c)) {
             is_new = is_new || (stays.w > 0) != (computed.w > 0) || !isNear(stays, computed);
         }
-        // Deltas are only valid for the direction that they were computed for.
+        // Deltas are valid only for the direction that they were computed for.
         is_new = is_new || (wants_deltas && !isNear(stays, computed));
         tangents[c] = is_new ? computed : stays;
         has_new_deltas[c] = is_new || wants_deltas;

@@ -26,7 +26,7 @@ namespace tspace {
 namespace {
 
 constexpr double kCosineOfFiveDegrees = 0.99619469809174555;
-constexpr double kTenthOfADegree = 0.0017453283658983088;  // sine of the angle
+constexpr double kTenthOfADegree = 0.0017453283658983088;  // sine of 0.1 degrees
 
 Vec3 sum(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 
@@ -48,15 +48,15 @@ bool liesAcross(const Vec4& tangent, const Vec3& normal) {
     return hasDirection(tangent) && std::fabs(dot(t, n)) <= kTenthOfADegree * length(t) * length(n);
 }
 
-/// Returns whether it points out of the plane of a unit normal. Sums of vectors in the plane do not, unless they cancel
-/// out and only rounding errors are left.
+/// Returns whether the tangent points out of the plane of a unit normal. Sums of vectors in the plane do not, unless
+/// they cancel out and only rounding errors remain.
 bool leansOut(const Vec4& tangent, const Vec3& normal) {
     constexpr double kAboutUnit = 1e-3, kSineOfFiveDegrees = 0.08715574274765817;
     const DVec3 t = toDouble(xyz(tangent)), n = toDouble(normal);
     return std::fabs(dot(n, n) - 1) < kAboutUnit && std::fabs(dot(t, n)) > kSineOfFiveDegrees * length(t);
 }
 
-/// Returns the tangent of the base, made orthogonal to another normal that has a direction.
+/// Returns a tangent of the base, made orthogonal to another normal if that has a direction.
 Vec4 carried(const Vec4& tangent, const Vec3& from, const Vec3& to) {
     if (from == to || !isFinite(to) || isZero(to)) return tangent;
     const Vec3 t = orthonormalize({.tangent = xyz(tangent), .bitangent = {}, .normal = to}).tangent;
@@ -83,7 +83,7 @@ bool move(const StridedSpan<const Vec3>& values, const LocalMesh& mesh, const st
     return moves;
 }
 
-/// Compares bits, so that NaN equals itself; both zeros are equal.
+/// Returns whether two vectors have equal bits, where both zeros are equal. NaN therefore equals itself.
 bool areOne(const Vec3& a, const Vec3& b) {
     return weldBits(a.x) == weldBits(b.x) && weldBits(a.y) == weldBits(b.y) && weldBits(a.z) == weldBits(b.z);
 }
@@ -138,7 +138,7 @@ bool MorphPose::take(const LocalMesh& mesh, const MorphOffsets& offsets) {
 }
 
 Vec3 offsetBetween(const Vec3& from, const Vec3& to) {
-    // Adding +0 removes the sign of -0.
+    // Adding +0 converts -0 to +0.
     const Vec3 offset{to.x - from.x + 0.0f, to.y - from.y + 0.0f, to.z - from.z + 0.0f};
     return isFinite(offset) ? offset : Vec3{};
 }
@@ -182,7 +182,7 @@ Result<Done> MorphTangents::compute(std::span<const Vec4> tangents, MorphSplit& 
     return Done{};
 }
 
-/// `base` and `offsets` are per triangle corner.
+/// Computes the tangent offsets of a piece on its quads. `base` and `offsets`: one per triangle corner.
 Result<Done> MorphTangents::evaluateFaces(const Piece& piece, std::span<const Vec4> base, std::span<Vec3> offsets) {
     const std::vector<std::uint32_t>& face_corners = piece.mesh.face_corners;
     if (face_corners.empty()) return evaluate(piece, base, offsets);
@@ -203,13 +203,14 @@ Result<Done> MorphTangents::evaluate(const Piece& piece, std::span<const Vec4> b
         evaluateTangents(piece.plan, {posed.positions, posed.normals}, {.tangents = tangents_}, options_.execution);
     if (!made) return made.error();
     if (piece.classes.findApart(piece.mesh.indices, pose_.positions(), pose_.normals(), apart_)) {
-        // A refinement step reads the results of neighbors.
+        // A refinement step reads the results of neighbors, so their classes are regrouped too.
         piece.classes.spread(piece.mesh, stepsOf(options_.tangents), apart_);
         if (Result<Done> done = regroup(piece, posed); !done) return done;
     }
     stays_.assign(base.size(), false);
     if (options_.sanitize) {
-        // Sanitizing reads other corners at a position: movement elsewhere must not change corners that do not move.
+        // Sanitizing reads other corners at the same position. Corners that do not move must not change if a corner
+        // elsewhere moves.
         for (std::size_t c = 0; c < base.size(); ++c) stays_[c] = staysAt(piece, c);
         carryOver(piece, base);
         const Result<SanitizeReport> mended =
@@ -246,7 +247,7 @@ Result<Done> MorphTangents::regroup(const Piece& piece, const MeshView& posed) {
     return Done{};
 }
 
-/// Returns whether the corner has the bits of the base, before any repair.
+/// Returns whether the corner's tangent has the bits of the base, before any repair.
 bool MorphTangents::staysAt(const Piece& piece, std::size_t corner) const {
     const std::uint32_t v = piece.mesh.indices[corner];
     return std::memcmp(&tangents_[corner], &piece.unmended[corner], sizeof(Vec4)) == 0 &&

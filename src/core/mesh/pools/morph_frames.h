@@ -15,7 +15,7 @@
 
 namespace tspace {
 
-// Common split for a mesh and all its morph targets: a vertex whose corners differ in any target is split for all.
+// Split that a mesh and all its morph targets share: a vertex whose corners differ in any target is split for all.
 
 /// Returns offsets after a further split: each vertex from `old_count` on has the offset of its source, an earlier
 /// vertex.
@@ -38,13 +38,13 @@ class MorphSplit {
   private:
     struct Target {
         VertexOffsets offsets = {};
-        std::size_t vertex_count = 0;  ///< number of vertices before splitting
+        std::size_t vertex_count = 0;  ///< number of vertices before the split
     };
     [[nodiscard]] bool agree(std::span<const Vec3> offsets, float tolerance) const;
     Result<Done> refine(std::span<const Vec3> offsets, float tolerance, const Execution& execution);
     SplitResult split_;
     bool may_split_;
-    std::vector<std::uint32_t> parents_;  ///< the vertex that each was split from by a target, or the vertex itself
+    std::vector<std::uint32_t> parents_;  ///< vertex that each vertex was split from by a target, or the vertex itself
     std::vector<Target> targets_ = {};
 };
 
@@ -54,17 +54,17 @@ class MorphSplit {
 /// Classes of vertices with equal position, normal and UV, across which groups extend.
 class WeldClasses {
   public:
-    /// Expected linear time; keeps 4 bytes per vertex.
+    /// Finds the classes in expected linear time; keeps 4 bytes per vertex.
     explicit WeldClasses(const LocalMesh& mesh) : classes_(findEqualVertices(mesh.positions, mesh.normals, mesh.uvs)) {}
 
     [[nodiscard]] std::uint32_t of(std::uint32_t vertex) const { return classes_.class_of[vertex]; }
 
     /// Marks the classes whose vertices, among those used by `corners`, have different positions or normals in a pose.
-    /// Returns whether there is any. Linear.
+    /// Returns whether there are any such classes. Linear.
     bool findApart(std::span<const std::uint32_t> corners, std::span<const Vec3> positions,
                    std::span<const Vec3> normals, std::vector<bool>& apart) const;
 
-    /// Marks all classes of a triangle that has a marked one, `rounds` times. Linear in each round.
+    /// Marks all classes of each triangle that has a marked class, `rounds` times. Linear in each round.
     void spread(const LocalMesh& mesh, unsigned rounds, std::vector<bool>& apart) const;
 
   private:
@@ -74,7 +74,7 @@ class WeldClasses {
 /// Reads target `i` of a pool. Fails with countMismatch if its counts differ from those of the pool.
 Result<MorphOffsets> readTarget(const PoolView& pool, std::size_t i);
 
-/// A mesh moved by a target. Its arrays are reused for the next target.
+/// Mesh moved by a morph target. Its arrays are reused for the next target.
 class MorphPose {
   public:
     /// Returns false, without a pose, if no vertex of the mesh moves.
@@ -90,7 +90,7 @@ class MorphPose {
 /// Returns to - from, without negative zeros; zero if it is not finite.
 Vec3 offsetBetween(const Vec3& from, const Vec3& to);
 
-/// For repair: corners whose offsets from the file are kept, in targets that have offsets.
+/// Corners whose offsets are read from the file and kept while tangents are repaired, in targets that have offsets.
 struct KeptOffsets {
     std::span<const std::uint32_t> vertices = {};  ///< vertex of the pool for each corner
     const std::vector<bool>& is_new;               ///< one per corner
@@ -100,7 +100,8 @@ class MorphTangents {
   public:
     MorphTangents(const PoolView& pool, const FramesOptions& options) : pool_(pool), options_(options) {}
 
-    /// Adds the next primitive as computed: triangles or quads, with normals. `report` receives its counts later.
+    /// Adds the next primitive, with the faces that its tangents were computed on, and normals. compute() fills counts
+    /// of `report`.
     Result<Done> add(LocalMesh&& mesh, FramesReport& report);
 
     /// Processes all targets. `tangents`: tangents of the base, one per corner of all primitives. Continues the split.
@@ -134,7 +135,7 @@ class MorphTangents {
 std::uint64_t countDiffering(std::span<const Vec4> computed, std::span<const Vec4> of_vertices,
                              std::span<const std::uint32_t> vertices);
 
-/// Counts corners where the two differ in direction by more than 5 degrees.
+/// Counts corners at which two lists of tangents differ in direction by more than 5 degrees.
 std::uint64_t countDiffering(std::span<const Vec4> computed, std::span<const Vec4> written);
 
 // Normals for a pool without normals, and for its morph targets.
@@ -142,10 +143,12 @@ std::uint64_t countDiffering(std::span<const Vec4> computed, std::span<const Vec
 /// The pool with computed normals, split where corners differ, on the base or in a target.
 struct PoolWithNormals {
     OwnedMesh vertices = {};
-    MorphTargets targets = {};                        ///< read from the original pool, which must outlive it
-    std::vector<PrimitiveGeometry> primitives = {};   ///< primitives with the same corners
-    std::vector<std::uint32_t> source_vertices = {};  ///< new vertex -> old vertex, identity first
-    std::vector<VertexOffsets> offsets = {};  ///< one per target: its offsets for the normals of the new vertices
+    /// targets read from the original pool, which must outlive this struct
+    MorphTargets targets = {};
+    std::vector<PrimitiveGeometry> primitives = {};  ///< primitives with the same corners
+    /// old vertex of each new vertex; the first vertices are unchanged
+    std::vector<std::uint32_t> source_vertices = {};
+    std::vector<VertexOffsets> offsets = {};  ///< offsets of each target for the normals of the new vertices
 };
 
 /// Computes normals with options.normals. The base determines hard edges; the offsets of a target give the normals of
@@ -154,7 +157,7 @@ Result<Done> generatePoolNormals(const PoolView& pool, std::span<const Primitive
                                  const FramesOptions& options, std::span<FramesReport> reports,
                                  PoolWithNormals& result);
 
-// Morph offsets for normals that are kept.
+// Morph offsets for normals that are kept: the offsets rotate them like the surface.
 
 class TurnedNormals {
   public:
@@ -162,7 +165,7 @@ class TurnedNormals {
     TurnedNormals(const PoolView& pool, std::span<const PrimitiveGeometry> primitives);
 
     /// Returns, per vertex, the offset that rotates its normal like the surface around it if a target adds `positions`
-    /// (one per vertex, or none). Zero where nothing rotates, and where triangles collapse.
+    /// (one per vertex, or none). The offset is zero if the surface does not rotate, or if triangles collapse.
     [[nodiscard]] std::vector<Vec3> offsets(std::span<const Vec3> positions) const;
 
   private:

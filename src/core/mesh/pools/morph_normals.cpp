@@ -13,7 +13,8 @@ namespace tspace {
 
 namespace {
 
-/// Tolerance for corners whose normals a target rotates equally, except for rounding. For unit vectors; 0.0006 degrees.
+/// Tolerance within which corners share an offset, for unit vectors: 0.0006 degrees. It covers the rounding of normals
+/// that a target rotates equally.
 constexpr float kTolerance = 1e-5f;
 
 class PoolNormals {
@@ -41,7 +42,8 @@ class PoolNormals {
   private:
     Result<Done> computeBase() {
         LocalMeshes local(pool_, primitives_.size());
-        meshes_.reserve(primitives_.size());  // the makers keep references to the elements and their options
+        // reserved, because the elements of makers_ refer to the meshes and their options
+        meshes_.reserve(primitives_.size());
         for (std::size_t p = 0; p < primitives_.size(); ++p) options_of_.push_back(optionsOf(p));
         for (std::size_t p = 0; p < primitives_.size(); ++p) {
             const std::vector<std::uint32_t>& corners = primitives_[p].indices;
@@ -76,7 +78,7 @@ class PoolNormals {
         std::vector<Vec3> offsets(normals_.size());
         std::size_t first = 0;
         for (std::size_t p = 0; p < meshes_.size(); first += primitives_[p++].indices.size()) {
-            // The surroundings of a primitive may move even if it does not.
+            // The surroundings of a primitive may move even if the primitive does not.
             if (!pose_.take(meshes_[p], *moved) && !primitives_[p].around) continue;
             const std::span<Vec3> own = std::span(offsets).subspan(first, primitives_[p].indices.size());
             const Result<NormalReport> made = makers_[p].pose(StridedSpan<const Vec3>(pose_.positions()), target, own);
@@ -124,9 +126,10 @@ class PoolNormals {
     std::vector<LocalMesh> meshes_ = {};
     std::vector<NormalOptions> options_of_ = {};
     std::vector<BorderedNormals> makers_ = {};
-    std::vector<std::uint32_t> indices_ = {};  ///< corners of all primitives
+    std::vector<std::uint32_t> indices_ = {};  ///< vertices of the corners of all primitives
     std::vector<Vec3> normals_ = {};           ///< normals of the base, one per corner
-    std::vector<Vec3> written_ = {};  ///< normals of the base as stored in the file; if nothing moves, offsets are 0
+    /// normals of the base as stored in the file, to which offsets refer: they are 0 where nothing moves
+    std::vector<Vec3> written_ = {};
     MorphPose pose_ = {};
 };
 
@@ -138,7 +141,8 @@ Result<Done> generatePoolNormals(const PoolView& pool, std::span<const Primitive
     return PoolNormals(pool, primitives, options, reports).compute(result);
 }
 
-// Base normals chosen by an artist (of bevels, of foliage) rotate with the surface; they are not computed from it.
+// Rotates base normals that an artist chose (on bevels, on foliage) with the surface; they are not computed from the
+// surface.
 
 TurnedNormals::TurnedNormals(const PoolView& pool, std::span<const PrimitiveGeometry> primitives) {
     for (std::size_t v = 0; v < pool.positions.count; ++v) {
