@@ -23,32 +23,34 @@ using namespace simd::TSPACE_LANES;
 
 namespace {
 
-// Values of each doubt at which the blend is half and half, tuned on analytic surfaces with and without noise and on
-// bevels (docs/evidence/accuracy.md).
-constexpr double kNoise = 0.45;  // share of the edge bend that is not explained by any normal
-constexpr double kKink = 1.5;    // misfit of the sharp normals relative to the robust ones, for large faces
-// Like kNoise, for short edges. A flat cap triangulated as a fan from a vertex of its rim has no edge that
+// Values of each doubt at which both inputs of the blend have equal weights. They were tuned on analytic surfaces with
+// and without noise and on bevels (docs/evidence/accuracy.md).
+constexpr double kNoise = 0.45;  // share of the edge bend that no normal explains
+constexpr double kKink = 1.5;    // ratio of the misfit of the sharp normals to that of the robust ones, for large faces
+// Like kNoise, for short edges. A flat cap that is triangulated as a fan from a vertex of its rim has no edge that
 // distinguishes it from a dome; its neighbors, the edges of a fillet, do.
 constexpr double kFillet = 1.3;
-constexpr double kBent = 1.25;    // bend (as in kJump, in radians) from which kKink and kFillet apply fully. In fine
-                                  // meshes both misfits are small, and their ratio is random.
-constexpr double kJump = 2.5;     // angle over the longest edge if all of it bent like the most bent edge, in radians,
-                                  // times the sine between the two means
+// bend (as in kJump, in radians) from which kKink and kFillet apply fully: in fine meshes both misfits are small, and
+// their ratio is random
+constexpr double kBent = 1.25;
+// angle over the longest edge if all of it bent like the most bent edge, in radians, times the sine between the two
+// means
+constexpr double kJump = 2.5;
 constexpr double kTurn = 0.8;     // twice the sine of half the angle between the sharp normals at an edge's ends
 constexpr double kSpread = 0.42;  // sine between fit and robust mean
 
-// Ridge regularization, relative to the quadratic part: enough for rings with too few edges, negligible elsewhere. It
-// weights second derivatives by their Frobenius norm, as in the method `best`
+// Ridge regularization relative to the quadratic part: enough for rings with too few edges, and negligible elsewhere.
+// It weights second derivatives by their Frobenius norm, as the method `best` for tangents does
 // (tangents/estimators/quadratic_recovery_kernel.h).
 constexpr double kFitRidge = 3e-4, kFitRidgeShare = 0.3;
 
-constexpr double kNoTrust = 1e12;  // large enough that a blend has exactly the bits of one of its inputs
+constexpr double kNoTrust = 1e12;  // maximum doubt, large enough that a blend has exactly the bits of one of its inputs
 
 constexpr std::size_t kFitStep = 12 * kFitRows;  // floats per triangle
 
-// Values at which the trust in a step is one half, tuned in the same way.
-constexpr double kStepLeft = 0.5;          // ratio of unexplained to explained change of the normal
-constexpr double kStepNoise = 1.0 / 30.0;  // part of the step's residual relative to the edge angles
+// Values at which a refinement step has half of its effect, tuned like the doubts above.
+constexpr double kStepLeft = 0.5;          // ratio of the unexplained to the explained change of the normal
+constexpr double kStepNoise = 1.0 / 30.0;  // part of the step's residual relative to the angles of the edges
 
 constexpr std::size_t kStepStride = 12 * kStepRows;  // floats per triangle
 
@@ -56,11 +58,11 @@ inline Vectors gatherNormals(const Vec3* normals, const std::uint32_t* points) {
     return gatherVectors(reinterpret_cast<const std::byte*>(normals), sizeof(Vec3), points, false);
 }
 
-/// Edge k goes from corner k to corner k + 1. All values of an ignored triangle are zero.
+/// Edges of triangles: edge k goes from corner k to corner k + 1. All values of an ignored triangle are zero.
 struct Edges {
     Vectors edge[3];
     Floats square[3];
-    Vectors turn;  ///< twice the area times the normal
+    Vectors turn;  ///< normal times twice the area
 
     Edges(const BestSource& source, const std::uint32_t* vertices) {
         const bool exact = namesLast(vertices, source.faces.last_vertex);
@@ -112,7 +114,7 @@ void finishSharp(float* rows, const float*, const float*, std::size_t count) {
     }
 }
 
-/// Edge terms that are equal at both ends. The edge counts if both ends have a `max` normal.
+/// Terms of an edge that are equal at both ends. The edge counts if both ends have a `max` normal.
 struct EdgeDoubt {
     Floats misfit;  ///< misfit of the sharp normals along the edge
     Floats bend, count, sharp_misfit, robust_misfit, sharp_bend, robust_bend, square;
@@ -135,7 +137,7 @@ struct EdgeDoubt {
     }
 };
 
-/// An edge in the plane perpendicular to the sharp normal of its first end.
+/// An edge projected to the plane perpendicular to the sharp normal of its first end.
 struct Seen {
     Floats x, y, slope, b0, b1, b2, misfit, curvature;
 
@@ -212,7 +214,7 @@ void addFit(const BestSource& source, const std::uint32_t* vertices, const std::
 struct PointSums {
     Floats xx, xy, yy, xs, ys;
     Floats xb[3], yb[3], bs[3];
-    Floats bb[6];  ///< 00 01 02 11 12 22
+    Floats bb[6];  ///< symmetric matrix: 00 01 02 11 12 22
     Floats xm, ym, mm, bend, count, sharp_misfit, robust_misfit, sharp_bend, robust_bend, curvature, square;
 
     explicit PointSums(const float* at) {
@@ -232,12 +234,12 @@ struct PointSums {
     }
 };
 
-/// Linear part of the fit, and of other fits to the same edges.
+/// Linear part of the fit, which is shared by other fits to the same edges.
 struct Slopes {
     Mask spanned;  ///< lanes whose edges point in more than one direction
     Floats xx, xy, yy;
 
-    /// Arguments: sums of squares and products of the two coordinates of the edges.
+    /// Inverts the matrix of the linear part: the sums of squares and products of the two coordinates of the edges.
     Slopes(Floats sum_xx, Floats sum_xy, Floats sum_yy) {
         const Floats determinant = sum_xx * sum_yy - sum_xy * sum_xy, all = sum_xx + sum_yy;
         spanned = determinant > broadcast(1e-6f) * (all * all);
@@ -249,7 +251,7 @@ struct Slopes {
     [[nodiscard]] Flat solve(Floats x, Floats y) const { return {xx * x + xy * y, xy * x + yy * y}; }
 };
 
-/// Solves for the three second derivatives, with the ridge.
+/// Solves for the three second derivatives, with ridge regularization.
 inline void solveCurvature(const PointSums& s, const Slopes& slopes, Floats (&q)[3]) {
     const Floats ridge = broadcast(static_cast<float>(kFitRidge * kFitRidgeShare)) * (s.bb[0] + s.bb[3] + s.bb[5]);
     Floats m[6], p[3];
@@ -272,21 +274,22 @@ inline Vectors fittedNormal(const Plane& plane, const PointSums& s, const Slopes
     }
     const Flat slope = slopes.solve(x, y);
     const Vectors n = plane.n - plane.raise(slope);
-    const Floats square = dot(n, n);  // at least 1; NaN for rings that are too large
+    const Floats square = dot(n, n);  // at least 1; NaN for rings whose sums overflow
     const Mask sound = slopes.spanned & (square < broadcast(1e12f));
     const Floats inverse = broadcast(1.0f) / squareRoot(square);
     return {select(sound, inverse * n.x, plane.n.x), select(sound, inverse * n.y, plane.n.y),
             select(sound, inverse * n.z, plane.n.z)};
 }
 
-/// Limits x to kNoTrust. 0/0 is a plane, where all normals are equal; an overflow is certain doubt.
+/// Limits x to kNoTrust. 0/0 occurs on a plane, where all normals are equal and trust does not matter; an overflow is
+/// certain doubt.
 inline Floats bounded(Floats x) {
     const Floats most = broadcast(static_cast<float>(kNoTrust));
     return select(x < most, x, keep(absolute(x) > zero(), most));
 }
 inline Floats squared(Floats x) { return x * x; }
 
-/// Returns the doubt, from 0 without limit; 1 means that trust and doubt are equal.
+/// Returns the doubt in the fit: 0 or more, without limit; at 1, trust and doubt are equal.
 inline Floats doubtIn(const PointSums& s, const Slopes& slopes, Vectors robust, Vectors sharp, Vectors fit) {
     const auto per = [](double limit) { return broadcast(static_cast<float>(1 / (limit * limit))); };
     const Flat turned = slopes.solve(s.xm, s.ym);
@@ -317,7 +320,7 @@ void finishFit(float* sums, const float* robust_rows, const float* sharp_rows, s
         const Slopes slopes(s.xx, s.xy, s.yy);
         const Vectors fit = fittedNormal(Plane(sharp), s, slopes);
         const Floats share = one / (one + doubtIn(s, slopes, robust, sharp, fit));
-        // Both point to the same side, so the sum does not vanish.
+        // Both vectors point to the same side, so their sum does not vanish.
         const Vectors mixed = unit(share * fit + (one - share) * robust);
         const Mask has = dot(sharp, sharp) > zero();
         storeRows<kStep>(sums + kStep * g, select(has, mixed.x, robust.x), select(has, mixed.y, robust.y),
@@ -325,11 +328,11 @@ void finishFit(float* sums, const float* robust_rows, const float* sharp_rows, s
     }
 }
 
-// -- refinement step: the normal, interpolated along an edge, must be perpendicular to it. On any circle dot(e, m + n)
-// is 0. --
+// -- refinement step: the normal, interpolated along an edge, must be perpendicular to the edge. On any circle dot(e, m
+// + n) is 0. --
 
-/// An edge from the viewpoint of its first end: projected to the plane perpendicular to the normal there, divided by
-/// its length.
+/// An edge as seen from its first end: projected to the plane perpendicular to the normal there, and divided by its
+/// length.
 struct Pull {
     Floats x, y, misfit, turn;
 
@@ -369,8 +372,8 @@ void addStep(const BestSource& source, const std::uint32_t* vertices, const std:
     }
 }
 
-/// A step rotates the normal by at most 14 degrees, even if the edges barely span the plane: its tangent is x / (1 +
-/// x^2) / 2.
+/// Finishes a refinement step. It rotates the normal by at most 14 degrees, even if the edges barely span the plane:
+/// the tangent of the rotation is x / (1 + x^2) / 2.
 void finishStep(float* sums, const float* normals, const float*, std::size_t count) {
     constexpr std::size_t kStep = 4 * kStepRows;
     const Floats one = broadcast(1.0f), half = broadcast(0.5f);
@@ -386,7 +389,7 @@ void finishStep(float* sums, const float* normals, const float*, std::size_t cou
         const Slopes slopes(xx, xy, yy);
         const Flat lean = minus(one) * slopes.solve(xm, ym);
         const Floats explained = minus(lean.x * xm + lean.y * ym), left = larger(mm - explained, zero());
-        // NaN if the edges leave no residual to explain.
+        // This is NaN if the edges leave no residual to explain.
         const Floats share =
             half / (trust(kStepLeft, left / explained) * trust(kStepNoise, left / turn) * (one + dot(lean, lean)));
         const Plane plane(n);

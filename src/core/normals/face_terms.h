@@ -12,34 +12,37 @@
 
 namespace tspace::smooth {
 
-// Terms of a block of triangles: the face normal times the angle at the corner, which is added to the corner's point.
-// Implemented once (face_terms_kernel.h), compiled for several CPUs, with equal bits.
+// Terms of a block of triangles: the face normal times the angle at each corner, which is added to the corner's point.
+// They are implemented once (face_terms_kernel.h) and compiled for several CPUs, with equal bits.
 
 struct FaceSource {
     const std::byte* positions = nullptr;
     std::size_t stride = 0;
-    std::uint32_t last_vertex = 0;  ///< the memory directly after its position must not be read
-    double factor = 1;              ///< normalFactor(convention)
+    /// vertex whose position is the last in memory: the bytes after it must not be read
+    std::uint32_t last_vertex = 0;
+    double factor = 1;  ///< normalFactor(convention)
     bool by_angle = false, by_area = false;
 };
 
-inline constexpr std::size_t kTermTriangles = 64;  ///< triangles per block; its arrays fit into the L1 cache
-inline constexpr std::size_t kTermGroup = 16;      ///< triangles; vertices are read in whole groups
+inline constexpr std::size_t kTermTriangles = 64;  ///< triangles per block, whose arrays fit into the L1 cache
+inline constexpr std::size_t kTermGroup = 16;      ///< triangles per group: vertices are read in whole groups
 
-// Fractions of the weights. Below kVanished, a sum consists of rounding errors of normals that cancel. Below kDoubtful,
-// the rounding of single-precision angles matters: the sum is recomputed with angles in double precision.
+// Thresholds for sums, as fractions of their weights. Below kVanished, a sum consists of rounding errors of normals
+// that cancel. Below kDoubtful, the rounding of single-precision angles matters, so the sum is recomputed with angles
+// in double precision.
 inline constexpr double kVanished = 1e-10, kDoubtful = 1e-2;
 
 struct FaceTerms {
-    /// Unit normal times `size`, and `size`: twice the area if it is a weight, otherwise 1. Zeros if degenerate.
+    /// Unit normal times `size`, followed by `size`: twice the area if it is a weight, otherwise 1. Zeros for a
+    /// degenerate triangle.
     alignas(64) double normal[kTermTriangles][4];
     alignas(64) double angle[3][kTermTriangles];  ///< angle at each corner, or 1 if it is not used as a weight
 };
 
-/// The functions for one CPU.
+/// Functions of the kernel, compiled for one CPU.
 struct FaceKernel {
-    /// `vertices`: three per triangle, valid up to the end of the last group. count <= kTermTriangles. Returns the
-    /// number of degenerate triangles.
+    /// Computes the terms of `count` triangles, at most kTermTriangles. `vertices`: three per triangle, valid up to the
+    /// end of the last group. Returns the number of degenerate triangles.
     std::size_t (*compute)(const FaceSource& source, const std::uint32_t* vertices, std::size_t count,
                            FaceTerms& terms);
     /// Adds angle * normal to rows of four doubles, one row per point, at sums[4 * (point - begin)], for points in
@@ -57,11 +60,12 @@ inline FaceKernel faceKernelFor(SimdTarget wish) { return simd::choose(wish, TSP
 
 // Sums of NormalWeighting::best: the contributions of each triangle corner to its point, and the result of a point.
 // There are two rounds, since the second one needs the `max` normals of the first at both ends of an edge, and one per
-// step of NormalOptions::refine. Implemented once (best_sums_kernel.h), compiled for several CPUs, with equal bits.
+// step of NormalOptions::refine. They are implemented once (best_sums_kernel.h) and compiled for several CPUs, with
+// equal bits.
 
-/// Input of a round. Points have a normal of each kind, or zero.
+/// Input of a round. Each point has a normal of each kind, which may be zero.
 struct BestSource {
-    FaceSource faces;  ///< without weights
+    FaceSource faces;  ///< faces, whose weights are not used
     float scale = 1;   ///< scale factor of positions: a power of four that brings them close to 1
     /// Means by angle * area, and by `max`; four bytes after each are also read. A step reads the normals of the
     /// previous round as `robust`; zero normals remain zero, and edges to them are ignored.
@@ -69,20 +73,21 @@ struct BestSource {
 };
 
 inline constexpr std::size_t kBestTriangles = 32;  ///< triangles per block
-inline constexpr std::size_t kBestGroup = 16;      ///< lanes; vertices and points are read in whole groups
-inline constexpr std::size_t kFitRows = 8;         ///< rows of four floats; the last one has maxima instead of sums
-inline constexpr std::size_t kStepRows = 2;        ///< rows of four floats
+inline constexpr std::size_t kBestGroup = 16;      ///< SIMD lanes: vertices and points are read in whole groups
+/// rows of four floats in the fit; the last row contains maxima instead of sums
+inline constexpr std::size_t kFitRows = 8;
+inline constexpr std::size_t kStepRows = 2;  ///< rows of four floats in a step
 
 /// Function of one round, compiled for one CPU.
 struct BestKernel {
-    std::size_t row_count;  ///< rows of four floats per corner and point
-    /// `vertices` and `points`: three per triangle, valid up to the end of the last group. Corner k of triangle t
-    /// writes to rows + 4 * row_count * (3 * t + k). Triangles without area, or with values that are not finite, write
-    /// zeros.
+    std::size_t row_count;  ///< number of rows of four floats per corner and point
+    /// Writes the rows of `count` triangles: corner k of triangle t to rows + 4 * row_count * (3 * t + k). `vertices`
+    /// and `points`: three per triangle, valid up to the end of the last group. Triangles without area, or with values
+    /// that are not finite, write zeros.
     void (*add)(const BestSource& source, const std::uint32_t* vertices, const std::uint32_t* points, std::size_t count,
                 float* rows);
-    /// Replaces the first row of each point by its unit normal, or zero. robust, sharp: four floats per point, from the
-    /// source. `count` is a multiple of kBestGroup.
+    /// Replaces the first row of each point by its unit normal, or zero. robust, sharp: the normals of the source, four
+    /// floats per point. `count` is a multiple of kBestGroup.
     void (*finish)(float* sums, const float* robust, const float* sharp, std::size_t count);
 };
 

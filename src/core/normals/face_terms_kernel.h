@@ -13,8 +13,8 @@ using namespace simd::TSPACE_LANES;
 namespace {
 
 /// Replaces cotangents by angles in [0, pi], with a relative error of 2e-7. The polynomial is (atan(t) - t) / t^3 in
-/// t^2, interpolated at the Chebyshev points of [0, 1]; its error is 2e-9. Three at a time, interleaved, because each
-/// step depends on the previous one.
+/// t^2, interpolated at the Chebyshev points of [0, 1]; its error is 2e-9. Computes three at a time, interleaved,
+/// because each step depends on the previous one.
 inline void anglesOfCotangents(Floats (&c)[3]) {
     constexpr float kPolynomial[] = {1.350777142e-02f, -3.587153898e-02f, 6.250169444e-02f, -8.656880430e-02f,
                                      1.103376412e-01f, -1.427856875e-01f, 1.999973933e-01f, -3.333333173e-01f};
@@ -46,8 +46,8 @@ inline DoubleVectors cross(DoubleVectors a, DoubleVectors b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Writes normals and computes cotangents; returns the bits of the triangles that have a normal. In double precision:
-/// differences of floats are exact or nearly so, without overflow or underflow.
+/// Writes normals and computes cotangents; returns the bits of the triangles that have a normal. Uses double precision,
+/// in which differences of floats are exact or nearly so, without overflow or underflow.
 template <bool kByArea>
 inline unsigned faceNormals(DoubleVectors o, DoubleVectors p1, DoubleVectors p2, double factor, double* rows,
                             Doubles (&cotangents)[3]) {
@@ -68,8 +68,8 @@ inline unsigned faceNormals(DoubleVectors o, DoubleVectors p1, DoubleVectors p2,
 /// Intermediate results of a block. Each step is a separate loop: a single long loop body would be one chain of
 /// dependent operations, while a processor overlaps the iterations of short loops.
 struct Steps {
-    alignas(64) float position[3][3][kTermTriangles];  ///< position of each corner: x, y, z
-    alignas(64) float angle[3][kTermTriangles];        ///< angle at each corner; initially its cotangent
+    alignas(64) float position[3][3][kTermTriangles];  ///< x, y and z of each corner
+    alignas(64) float angle[3][kTermTriangles];        ///< first the cotangent, then the angle at each corner
 };
 
 inline void readPositions(const FaceSource& source, const std::uint32_t* vertices, std::size_t t, Steps& steps) {
@@ -83,7 +83,8 @@ inline void readPositions(const FaceSource& source, const std::uint32_t* vertice
     }
 }
 
-/// Computes the terms. The angles are equal for a corner of a face and of its reverse, so that the two cancel.
+/// Computes the terms of a block. The angles at a corner are equal for a face and for its reverse, so that the two
+/// cancel.
 template <bool kByArea>
 std::size_t computeTerms(const FaceSource& source, const std::uint32_t* vertices, std::size_t count, FaceTerms& terms) {
     constexpr std::size_t kPart = kWidth / kDoubleParts;

@@ -47,7 +47,7 @@ const std::uint32_t* PointItems::inPlace(std::size_t first, std::size_t) const {
     if (in_place_ == nullptr || points_.empty()) return in_place_ == nullptr ? nullptr : in_place_ + 3 * first;
     constexpr std::size_t kBlock = TriangleBatch::kMost;
     std::uint8_t* const block = &blocks_[first / kBlock];
-    // benign race: concurrent threads store equal values
+    // This data race is benign: concurrent threads store equal values.
     std::uint8_t known = __atomic_load_n(block, __ATOMIC_RELAXED);
     if (known == unknown) {
         const std::size_t begin = first / kBlock * kBlock, end = std::min(begin + kBlock, count);
@@ -98,7 +98,7 @@ void PointItems::readSome(const std::uint32_t* numbers, std::size_t size, std::u
     readEach([numbers](std::size_t i) { return std::size_t{numbers[i]}; }, size, vertices, points);
 }
 
-/// Computes Newell's sum relative to the first corner: the same value, without cancellation far from the origin.
+/// Computes Newell's sum relative to the first corner, which avoids cancellation far from the origin.
 FaceRow faceRow(const MeshView& mesh, std::uint32_t first, std::uint32_t past, double factor, bool by_area) {
     const DVec3 origin = toDouble(mesh.positions[mesh.indices[first]]);
     DVec3 sum;

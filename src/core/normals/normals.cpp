@@ -21,13 +21,13 @@ NormalReport averageNormals(const NormalsCall& call) {
 
 namespace tspace::smooth {
 
-// NormalWeighting::best: rounds of sums at groups of corners that share a normal.
+// Computes NormalWeighting::best: rounds of sums at groups of corners that share a normal.
 
 namespace {
 
 static_assert(kBestTriangles == SumRound::kTriangles && kBestGroup == SumRound::kGroups);
 
-/// Vectors of a block of groups, starting with group `first`.
+/// Vectors of a block of groups, as four floats each, starting with group `first`.
 struct Fours {
     alignas(64) float floats[4 * SumRound::kGroups] = {};
 
@@ -38,7 +38,7 @@ struct Fours {
 
 class BestRound final : public SumRound {
   public:
-    /// to: the result of each group; must not be read by the source, except for the means by `max` in their own round.
+    /// `to`: the result of each group. The source must not read it, except for the means by `max` in their own round.
     BestRound(const BestKernel& kernel, const BestSource& source, StridedSpan<Vec3> to)
         : SumRound(kernel.row_count, kernel.row_count == kFitRows), kernel_(kernel), source_(source), to_(to) {}
 
@@ -83,7 +83,7 @@ void refine(const NormalsCall& call, const TriangleGroups& triangles, std::size_
 
     if (!has_sharp) run(kernels.sharp, {sharp.data(), count});
     run(kernels.fit, normals);
-    // Groups without both means are excluded from the steps.
+    // Groups without both means take no part in the refinement steps.
     forGroups(
         [&](std::size_t i) { robust[i] = robust[i] == Vec3{} || sharp[i] == Vec3{} ? Vec3{} : Vec3{normals[i]}; });
     for (unsigned step = 0; step < call.options.refine; ++step) {

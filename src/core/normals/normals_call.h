@@ -20,14 +20,15 @@ namespace tspace {
 
 /// Kind of the edge from a corner to the next one on its face.
 enum class EdgeKind : std::uint8_t {
-    byAngle,  ///< an edge that does not have exactly two faces
+    byAngle,  ///< decided by the dihedral angle, for edges that do not have exactly two faces
     soft,
     hard,
 };
 
-// Arguments and faces of a call, and the smoothing algorithms.
+// Arguments and faces of a call, and the algorithms that smooth normals.
 
-/// Faces of a mesh by their corners. Faces of equal size need no table; otherwise 4 bytes per corner and face.
+/// Maps corners of a mesh to faces, and faces to corners. Faces of equal size need no table; otherwise it takes 4 bytes
+/// per corner and face.
 class MeshFaces {
   public:
     MeshFaces(const MeshView& mesh, const Allocator* allocator);
@@ -41,7 +42,7 @@ class MeshFaces {
     }
     [[nodiscard]] std::uint32_t past(std::uint32_t face) const { return first(face + 1); }
     struct Around {
-        std::uint32_t corners[3];  ///< a corner, the next one on the border of its face, and the previous one
+        std::uint32_t corners[3];  ///< a corner, followed by the next and the previous corner on the border of its face
     };
     [[nodiscard]] Around around(std::uint32_t corner) const {
         const std::uint32_t face = of(corner), begin = first(face), end = past(face);
@@ -49,17 +50,17 @@ class MeshFaces {
     }
     [[nodiscard]] std::uint32_t next(std::uint32_t corner) const { return around(corner).corners[1]; }
     [[nodiscard]] std::uint32_t previous(std::uint32_t corner) const { return around(corner).corners[2]; }
-    /// Faces of fewer than 3 corners are ignored everywhere.
+    /// Returns whether a face has at least 3 corners; all others are ignored everywhere.
     [[nodiscard]] bool isUsed(std::uint32_t face) const { return past(face) - first(face) >= 3; }
     [[nodiscard]] std::uint64_t usedCount() const { return used_count_; }
 
   private:
-    std::uint32_t size_ = 0;  ///< size of every face; 0: sizes differ
+    std::uint32_t size_ = 0;  ///< number of corners of every face; 0: sizes differ
     std::uint64_t used_count_ = 0;
     Buffer<std::uint32_t> first_corners_, corner_faces_;
 };
 
-/// Items that range lists sort by points: triangles, or single corners of other faces.
+/// Items of a mesh that range lists sort by points: triangles, or single corners of other faces.
 class PointItems final : public TriangleGroups {
   public:
     /// `points`: point of each vertex; empty if each vertex is its own point.
@@ -83,7 +84,7 @@ class PointItems final : public TriangleGroups {
     template <class NumberOf>
     void readEach(NumberOf numberOf, std::size_t size, std::uint32_t* vertices, std::uint32_t* points) const;
 
-    enum Block : std::uint8_t { unknown, own, shared };  // own: each vertex is its own point
+    enum Block : std::uint8_t { unknown, own, shared };  // own: each vertex of the block is its own point
 
     const MeshView& mesh_;
     const MeshFaces& faces_;
@@ -94,7 +95,7 @@ class PointItems final : public TriangleGroups {
     mutable Buffer<std::uint8_t> blocks_;
 };
 
-/// Normal of a face times `size`, and `size`; zeros if it is degenerate.
+/// Normal of a face times `size`, followed by `size`; zeros for a degenerate face.
 struct FaceRow {
     double x, y, z, size;
 
@@ -106,7 +107,7 @@ struct FaceRow {
 /// otherwise 1. `factor` is normalFactor(convention).
 FaceRow faceRow(const MeshView& mesh, std::uint32_t first, std::uint32_t past, double factor, bool by_area);
 
-/// A call with a validated mesh and options.
+/// Arguments of a call, with a validated mesh and options.
 struct NormalsCall {
     NormalsCall(const MeshView& m, const MeshView& p, const Call<NormalOptions>& o, StridedSpan<Vec3> to,
                 Parallel& threads)
@@ -137,7 +138,8 @@ struct NormalsCall {
                 areas};
     }
 
-    const MeshView &mesh, &posed;  ///< the mesh determines equal points and hard edges, the pose everything else
+    /// the mesh determines equal points and hard edges, the posed mesh all other results
+    const MeshView &mesh, &posed;
     const Call<NormalOptions>& options;
     StridedSpan<Vec3> out;
     const Allocator* allocator;
@@ -154,31 +156,31 @@ struct NormalsCall {
     Buffer<std::uint32_t>* components = nullptr;
     /// Output of smoothFaces: the lowest corner that shares the normal of each corner. Null: not needed.
     std::uint32_t* shared = nullptr;
-    const EdgeKind* edges = nullptr;  ///< per corner; null: all edges by their angle
+    const EdgeKind* edges = nullptr;  ///< edge kind of each corner; null: all edges are decided by their angle
 };
 
 /// Fast path for the common case: triangles, all weightings except max, and one normal per point. Scratch memory: 4
 /// bytes per vertex, core/base/range_lists.h and 1 MB, or up to 4 MB for each of several threads; if consecutive
-/// triangles are far apart, 36 bytes per vertex; for `best` 60, and SumRounds. While welding 10 to 24 bytes per vertex.
-/// Throws OutOfMemory.
+/// triangles are far apart, 36 bytes per vertex; for `best` 60, and SumRounds. Welding temporarily takes 10 to 24 bytes
+/// per vertex. Throws OutOfMemory.
 NormalReport smoothTriangles(const NormalsCall& call);
 
 /// General path: faces of any size, hard edges, all weightings. Processes ranges of points, with a list of the corners
 /// around each point. Scratch memory: 4 bytes per vertex, core/base/range_lists.h, MeshFaces if faces differ in size,
 /// and for each task 150 bytes per triangle of a range (an eighth of a small mesh, about 8000 triangles of a large
-/// one); for `best` also 28 bytes per corner. While welding 10 to 24 bytes per vertex. Throws OutOfMemory.
+/// one); for `best` also 28 bytes per corner. Welding temporarily takes 10 to 24 bytes per vertex. Throws OutOfMemory.
 NormalReport smoothFaces(const NormalsCall& call);
 
 /// Calls smoothTriangles or smoothFaces.
 NormalReport averageNormals(const NormalsCall& call);
 
-/// Writes normals of the weighting `flat`; corners of degenerate faces are not written and count as substitutes. Does
-/// not read points.
+/// Writes the normals of the weighting `flat`. Corners of degenerate faces are not written, and are counted as
+/// substitutes. Does not read points.
 NormalReport writeFaceNormals(const NormalsCall& call);
 
 namespace smooth {
 
-/// Padding: kernels read up to two vectors past the last group.
+/// Number of vectors of padding after an array: kernels read up to two vectors past the last group.
 inline constexpr std::size_t kBehind = 2;
 
 /// Converts the means by angle * area to the normals of `best`, in place; then performs options.refine steps.
@@ -196,12 +198,12 @@ void refine(const NormalsCall& call, const TriangleGroups& triangles, std::size_
 
 // Search for the corners around a point that share a normal.
 
-/// A triangle in local memory; for other faces, a corner with its two neighbors, as one entry.
+/// A triangle, copied to local memory; for faces that are not triangles, a corner with its two neighbors, as one entry.
 struct LocalTriangle {
-    /// points of the corners, then the first two again; a point is identified by its lowest vertex
+    /// points of the corners, followed by the first two again; a point is identified by its lowest vertex
     std::uint32_t points[5];
     std::uint32_t corner;  ///< index of the first corner in the mesh
-    double weights[3];     ///< weights of the face's row
+    double weights[3];     ///< weight of the face at each corner
 };
 
 /// Corners at a point, ascending: entries are 4 * triangle + corner of the triangle.
@@ -213,13 +215,13 @@ struct PointCorners {
     [[nodiscard]] std::uint32_t triangle(std::uint32_t slot) const { return entries[slot] >> 2; }
     [[nodiscard]] const LocalTriangle& at(std::uint32_t slot) const { return triangles[entries[slot] >> 2]; }
     [[nodiscard]] std::uint32_t corner(std::uint32_t slot) const { return at(slot).corner + (entries[slot] & 3); }
-    /// Returns the next point on the border of its face; previous(): the point before it.
+    /// next(): returns the next point on the border of the face; previous(): returns the point before it.
     [[nodiscard]] std::uint32_t next(std::uint32_t slot) const { return at(slot).points[(entries[slot] & 3) + 1]; }
     [[nodiscard]] std::uint32_t previous(std::uint32_t slot) const { return at(slot).points[(entries[slot] & 3) + 2]; }
     [[nodiscard]] double weight(std::uint32_t slot) const { return at(slot).weights[entries[slot] & 3]; }
 };
 
-/// Decides which faces may be smoothed together: creases and smoothing groups.
+/// Rule for the faces that may be smoothed together: creases and smoothing groups.
 struct SmoothingRule {
     explicit SmoothingRule(const NormalsCall& c);
 
@@ -229,24 +231,24 @@ struct SmoothingRule {
     [[nodiscard]] bool connectsAll() const { return anyAngle() && groups.empty(); }
 
     const NormalsCall& call;
-    double crease_rad, crease_cosine;       ///< with creases: maximum angle between connected faces
-    std::span<const std::uint32_t> groups;  ///< one per face, or empty
+    double crease_rad, crease_cosine;       ///< maximum angle between connected faces, if there are creases
+    std::span<const std::uint32_t> groups;  ///< smoothing group of each face, or empty
     bool groups_are_masks;
 };
 
-/// A corner around a point, by its slot, and its component.
+/// A corner around a point, identified by its slot, with its component.
 struct Link {
     std::uint32_t key, slot;
 };
 
-/// Finds the components of the corners at a point: returns all corners, sorted by component, then by slot. `links` has
-/// room for 2 * count entries, `parents` for count. O(n log n), also if all faces share one edge.
+/// Finds the components of the corners at a point, and returns all corners, sorted by component, then by slot. `links`
+/// has room for 2 * count entries, `parents` for count. O(n log n), also if all faces share one edge.
 ///
 /// Below 180 degrees two faces are connected over a shared edge. If more than two faces meet at an edge, each is
 /// compared with the next one of its smoothing group by angle around the edge; for flat faces this connects the same
 /// faces as comparing all pairs.
 ///
-/// rows   rows of the local triangles, from the mesh, not from a pose
+/// rows   rows of the local triangles, computed from the mesh, not from a pose
 const Link* findComponents(const SmoothingRule& rule, const FaceRow* rows, const PointCorners& at, Link* links,
                            std::uint32_t* parents);
 

@@ -22,18 +22,19 @@ namespace {
 
 using smooth::FaceTerms, smooth::kDoubtful, smooth::kTermTriangles, smooth::kVanished;
 
-constexpr std::size_t kMostRange = 4096, kLeastRange = 64, kRanges = 8;  // points; number of ranges of a small mesh
+// maximum and minimum number of points per range, and number of ranges of a small mesh
+constexpr std::size_t kMostRange = 4096, kLeastRange = 64, kRanges = 8;
 constexpr std::uint32_t kNoPoint = ~std::uint32_t{0};
 constexpr std::size_t kItemsPerTask = 1024;
 
-/// For `best`: each corner with the next and the previous one, as a triangle in which only that corner contributes, to
-/// its component.
+/// Corners as triangles for `best`: each corner forms a triangle with the next and the previous corner, in which only
+/// that corner contributes, to its component.
 class ComponentCorners final : public TriangleGroups {
   public:
-    /// flag: the corner's face is degenerate and contributes nothing
+    /// flag of a corner whose face is degenerate and contributes nothing
     static constexpr std::uint32_t kAside = 0x80000000u;
 
-    /// `components`: for each corner the lowest corner of its component, with kAside.
+    /// `components`: the lowest corner of each corner's component, with the flag kAside for excluded corners.
     ComponentCorners(const MeshView& mesh, const MeshFaces& faces, const Buffer<std::uint32_t>& components)
         : TriangleGroups(components.size()), mesh_(mesh), faces_(faces), components_(components) {}
 
@@ -59,9 +60,9 @@ class ComponentCorners final : public TriangleGroups {
     const Buffer<std::uint32_t>& components_;
 };
 
-/// Weighted sum of normals.
+/// Weighted sum of normals at a point.
 struct Sum {
-    static constexpr double kLeastExact = 1e-140;  ///< squares of shorter lengths are rounded coarsely
+    static constexpr double kLeastExact = 1e-140;  ///< length below which squares are rounded coarsely
     using Pair = double __attribute__((vector_size(16)));
     Pair xy = {}, z_weights = {};
 
@@ -97,7 +98,7 @@ double maxWeight(const DVec3& e1, const DVec3& e2) {
     return lengths > 0 ? length(cross(e1, e2)) / lengths : 0;
 }
 
-/// Arguments shared by all ranges.
+/// Arguments that all ranges share.
 struct Setting {
     explicit Setting(const NormalsCall& c) : call(c), rule(c) {}
 
@@ -109,7 +110,7 @@ struct Setting {
         if (row.isDegenerate() || call.items.pointOf(previous) == point) return 0;
         if (by != NormalWeighting::angle && by != NormalWeighting::angleArea && by != NormalWeighting::max) return 1;
         std::uint32_t next = call.faces.next(corner);
-        // terminates, because `previous` is another point
+        // This loop ends, because `previous` is another point.
         while (call.items.pointOf(next) == point) next = call.faces.next(next);
         const auto position = [&](std::uint32_t c) { return toDouble(call.posed.positions[call.mesh.indices[c]]); };
         const DVec3 here = position(corner), e1 = position(next) - here, e2 = position(previous) - here;
@@ -119,18 +120,20 @@ struct Setting {
 
     const NormalsCall& call;
     SmoothingRule rule;
-    // For `best`, per corner: the means by `max` (zero where one vanishes), and ComponentCorners.
+    // Arrays for `best`, one entry per corner: the means by `max` (zero for a mean that vanished), and components for
+    // ComponentCorners.
     Vec3* sharp = nullptr;
     std::uint32_t* components = nullptr;
 };
 
-/// Memory for one range.
+/// Scratch memory for one range of points.
 struct Room {
-    FaceRow* rows;      ///< row of each triangle, from the pose
-    FaceRow* deciding;  ///< rows from the mesh, which determine hard edges; may be `rows`
+    FaceRow* rows;      ///< row of each triangle, computed from the pose
+    FaceRow* deciding;  ///< rows of the mesh, which determine hard edges; equal to `rows` without a pose
     LocalTriangle* triangles;
     Link* links;
-    std::uint32_t *entries, *parents, *begins;  ///< entries of PointCorners by point, and the first entry of each point
+    /// entries of PointCorners, grouped by point, and the first entry of each point
+    std::uint32_t *entries, *parents, *begins;
 };
 
 class RangeWork {
@@ -149,7 +152,7 @@ class RangeWork {
         return degenerate_;
     }
 
-    /// Writes means or their substitutes; returns the number of corners with a substitute.
+    /// Writes the means of a range, or their substitutes; returns the number of corners with a substitute.
     std::uint64_t average() {
         std::uint64_t substitutes = 0;
         for (std::uint32_t p = 0; p < count_; ++p) {
@@ -170,7 +173,8 @@ class RangeWork {
   private:
     /// Returns the index of a point in `begins`; all points of other ranges share one index.
     [[nodiscard]] std::uint32_t placeOf(std::uint32_t point) const { return std::min(point - first_, count_); }
-    /// Counting sort: `begins` counts two entries ahead; after summation and filling it contains the begins.
+    /// Counting sort of entries by point: `begins` counts two entries ahead, so that after summing and filling it
+    /// contains the begin of each point.
     void countAt(std::uint32_t point) { ++room_.begins[placeOf(point) + 2]; }
     void enter(std::uint32_t point, std::uint32_t entry) { room_.entries[room_.begins[placeOf(point) + 1]++] = entry; }
 
@@ -195,8 +199,8 @@ class RangeWork {
         size_ += static_cast<std::uint32_t>(count);
     }
 
-    /// Handles cases that the kernel skips: degenerate triangles, weights of `max`, and rows of the mesh in addition to
-    /// rows of the pose.
+    /// Computes the cases that the kernel skips: degenerate triangles, weights of `max`, and rows of the mesh in
+    /// addition to rows of the pose.
     void mend() {
         for (std::size_t t = size_; t < size_ + batch_.count; ++t) {
             LocalTriangle& triangle = room_.triangles[t];
@@ -212,7 +216,7 @@ class RangeWork {
         }
     }
 
-    /// For faces that are not triangles, the items are corners.
+    /// Adds the corners of faces that are not triangles, which are items of their own.
     void addCorners() {
         for (std::size_t i = 0; i < batch_.count; ++i) {
             const std::uint32_t corner = batch_.number(i), point = batch_.groups[3 * i], face = call_.faces.of(corner);
@@ -289,8 +293,8 @@ class RangeWork {
         return sum.write(kVanished, normal);
     }
 
-    /// Writes the substitute of corners without a mean: the normal of their face, or the mean of the others at their
-    /// point.
+    /// Writes the substitute for corners without a mean: the normal of their face, or the mean of the other corners at
+    /// their point.
     [[gnu::noinline]] void writeSubstitutes(const PointCorners& at, const Link* links, std::uint32_t count) {
         for (std::uint32_t i = 0; i < count; ++i) {
             const std::uint32_t corner = at.corner(links[i].slot);
@@ -299,7 +303,7 @@ class RangeWork {
                 call_.out[corner] = toFloat(row.unit());
                 continue;
             }
-            if (others_point_ != at.point) {  // computed once, however many components vanish
+            if (others_point_ != at.point) {  // computed once per point, however many components vanish
                 others_point_ = at.point;
                 const Link* const all = oneComponent(at.count, room_.links + at.count);
                 if (!mean(at, all, at.count, of_others_)) of_others_ = {0, 0, 1};
@@ -316,7 +320,7 @@ class RangeWork {
     std::uint32_t last_face_ = 0;
     std::uint64_t degenerate_ = 0;
     std::uint32_t others_point_ = kNoPoint;
-    Vec3 of_others_;  ///< mean of all corners at others_point_
+    Vec3 of_others_;  ///< mean of all corners at point others_point_
     TriangleBatch batch_;
     FaceTerms terms_;
 };

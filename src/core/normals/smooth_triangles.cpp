@@ -24,26 +24,26 @@ using smooth::FaceTerms, smooth::FaceSource, smooth::kTermGroup, smooth::kTermTr
     smooth::kVanished;
 
 static_assert(kTermTriangles == TriangleBatch::kMost && kTermTriangles % kTermGroup == 0);
-constexpr std::size_t kNearPoints = 32768;   ///< their sums, 1 MB, fit into typical L2 caches
-constexpr std::size_t kRangesPerThread = 4;  ///< minimum
+constexpr std::size_t kNearPoints = 32768;   ///< number of points whose sums, 1 MB, fit into typical L2 caches
+constexpr std::size_t kRangesPerThread = 4;  ///< minimum number of ranges per thread
 
-/// Weighted sum of the unit normals at a point. It is later replaced by four floats: the normal, and a mark whose sign
-/// is set if there is none.
+/// Weighted sum of the unit normals at a point. It is later replaced by four floats: the unit normal, and a mark whose
+/// sign bit is set if there is no normal.
 struct PointSum {
-    double x, y, z, weights;  ///< `weights` is negative if the sum must be computed again
+    double x, y, z, weights;  ///< `weights` is negative if the sum must be recomputed
 
-    // Accessors for the functions of Float4.
+    // Accessors for functions that operate on Float4.
     [[nodiscard]] float* floats() { return reinterpret_cast<float*>(this); }
     [[nodiscard]] const float* floats() const { return reinterpret_cast<const float*>(this); }
 
-    /// Returns whether it has the mark although it has contributions.
+    /// Returns whether the result has the mark although triangles contribute to it.
     [[nodiscard]] bool isDoubtful() const { return isMarked(loadFloat4(floats())) && weights > 0; }
     static bool isMarked(Float4 normal) { return (laneBits(std::bit_cast<Mask4>(normal)) & 8) != 0; }
 
     void takeAgain() { *this = {0, 0, 0, -0.0}; }
     [[nodiscard]] bool isTakenAgain() const { return std::signbit(weights); }
     void add(double weight, const DVec3& term) { *this = {x + term.x, y + term.y, z + term.z, weights - weight}; }
-    /// Replaces the sum by the unit mean, or the mark.
+    /// Replaces the sum by the unit mean, or sets the mark.
     void finish() {
         const double length = std::sqrt(x * x + y * y + z * z);
         const bool has_mean = length > kVanished * -weights;
@@ -53,10 +53,10 @@ struct PointSum {
     }
 };
 
-/// Sums of a range of points.
+/// Sums of a range of points, as rows in memory.
 struct RangeSums {
     GroupRange range;
-    PointSum* rows;  ///< rows of the points from range.begin to the end of a group
+    PointSum* rows;  ///< rows of the points from range.begin on, up to the end of a group
 
     [[nodiscard]] PointSum& at(std::uint32_t point) const { return rows[point - range.begin]; }
 };
@@ -65,9 +65,10 @@ class TriangleSmoother {
   public:
     explicit TriangleSmoother(const NormalsCall& call) : call_(call), lists_(makeLists()) {}
 
-    /// Each range is written after it is summed, with memory for one range per task, which stays in the cache. If
-    /// triangles are not stored close together, and for `best`, which processes all sums in between, vertices get
-    /// copies of the sums of their points, so that corners need not look up points, and all are written at the end.
+    /// Computes the normals. Each range is written after it is summed, with memory for one range per task, which stays
+    /// in the cache. If triangles are not stored close together, and for `best`, which processes all sums in between,
+    /// vertices get copies of the sums of their points, so that corners need not look up points, and all corners are
+    /// written at the end.
     NormalReport run() {
         const bool is_near = is_near_ && !call_.is_best;
         const std::size_t ranges = lists_.count(), size = lists_.range(0).size() + kTermGroup;
@@ -102,8 +103,8 @@ class TriangleSmoother {
     }
 
   private:
-    /// Uses small ranges if blocks of triangles are compact. Otherwise they would only be read more often: there is one
-    /// range per thread.
+    /// Creates the ranges. Small ranges are used if blocks of triangles are compact. Otherwise each thread has one
+    /// range, because more ranges would only read the triangles more often.
     [[nodiscard]] RangeLists makeLists() {
         const std::size_t points = call_.mesh.vertexCount();
         const std::size_t width = call_.items.count < Parallel::kGrain ? 1 : call_.parallel.width();
@@ -131,13 +132,13 @@ class TriangleSmoother {
                 degenerate += terms.normal[t][3] == 0.0 && range.has(batch.groups[3 * t]) ? 1u : 0u;
             call_.kernel.add(terms, batch.groups, batch.count, sums, range.begin, range.end);
         }
-        // Sums of products of floats neither overflow nor underflow when squared.
+        // Squares of sums of products of floats neither overflow nor underflow.
         if (call_.kernel.finish(sums, size, kDoubtful) != 0) [[unlikely]]
             sumDoubtful(index, place);
         return degenerate;
     }
 
-    /// Computes the marked sums again, with angles in double precision.
+    /// Recomputes the marked sums, with angles in double precision.
     void sumDoubtful(std::size_t index, const RangeSums& place) const {
         PointSum* const end = place.rows + place.range.size();
         for (PointSum* row = place.rows; row != end; ++row) {
@@ -180,7 +181,7 @@ class TriangleSmoother {
     /// Writes a block. Returns false if a normal has the mark.
     bool writeBlock(const TriangleBatch& batch, const RangeSums& place) const {
         auto* to = reinterpret_cast<std::byte*>(&call_.out[std::size_t{3} * batch.numbers[0]]);
-        // Local copies, so that the compiler need not assume aliasing.
+        // Local copies, which the compiler knows not to alias the arrays that are written.
         const RangeSums sums = place;
         const std::uint32_t* const points = batch.groups;
         const auto normalAt = [&](std::size_t i) __attribute__((always_inline)) {

@@ -14,12 +14,14 @@ namespace tspace {
 namespace {
 
 constexpr std::uint32_t kNoSlot = ~std::uint32_t{0};
-constexpr std::uint32_t kFew = 8;  ///< corners at a point: sufficient nearly everywhere
+/// number of corners at a point that are processed without allocation; few points have more
+constexpr std::uint32_t kFew = 8;
 
-// Slack for float positions: an intended right angle may exceed 90 degrees by some 1e-7 rad.
+// Tolerance for the rounding of float positions: an intended right angle may exceed 90 degrees by some 1e-7 rad.
 constexpr double kCreaseSlackRad = 1e-6;
 
-/// Position of a normal in the rotation about an edge: monotonic in the angle, in [0, 4), without trigonometry.
+/// Position of a normal in the rotation about an edge: a value in [0, 4) that is monotonic in the angle, computed
+/// without trigonometry.
 class Turn {
   public:
     explicit Turn(const DVec3& edge) {
@@ -47,10 +49,10 @@ class Turn {
 [[gnu::noinline]] bool isSmoothByAngle(const SmoothingRule& rule, const FaceRow& a, const FaceRow& b) {
     return angleBetween(a.unit(), b.unit()) <= rule.crease_rad;
 }
-/// Mostly decided by cosines. For nearly equal cosines the angle is computed, since the cosine is inaccurate near 0 and
-/// 180 degrees.
+/// Returns whether two faces are smooth across their edge. Mostly decided by cosines; for nearly equal cosines the
+/// angle is computed, because the cosine is inaccurate near 0 and 180 degrees.
 inline bool isSmooth(const SmoothingRule& rule, const FaceRow& a, const FaceRow& b) {
-    constexpr double kClear = 1e-12;  // rounding is below 1e-15
+    constexpr double kClear = 1e-12;  // minimum difference of cosines that decides; rounding is below 1e-15
     const double cosine = a.x * b.x + a.y * b.y + a.z * b.z, sizes = a.size * b.size;
     const double above = cosine - rule.crease_cosine * sizes, clear = kClear * sizes;
     if (above > clear) [[likely]]
@@ -58,12 +60,12 @@ inline bool isSmooth(const SmoothingRule& rule, const FaceRow& a, const FaceRow&
     return !(above < -clear) && isSmoothByAngle(rule, a, b);
 }
 
-/// Points of up to kFew corners.
+/// Points of up to kFew corners, as SIMD vectors.
 struct FewPoints {
     Mask4 four[kFew / 4] = {Mask4{} - 1, Mask4{} - 1};
 
     void set(std::uint32_t slot, std::uint32_t point) { four[slot / 4][slot % 4] = static_cast<std::int32_t>(point); }
-    /// Returns the corners that have a point, as bits.
+    /// Returns the corners that have a given point, as bits.
     [[nodiscard]] std::uint32_t with(std::uint32_t point) const {
         const Mask4 wanted = Mask4{} + static_cast<std::int32_t>(point);
         return laneBits(four[0] == wanted) | laneBits(four[1] == wanted) << 4;
@@ -189,7 +191,7 @@ class PointComponents {
         joinGroups(run, past);
     }
 
-    /// `edge`: the corner at the start of their edge.
+    /// Joins two faces at their common edge if they are smooth. `edge`: the corner at the start of the edge.
     void joinTwo(std::uint32_t a, std::uint32_t b, std::uint32_t edge) {
         const std::uint32_t g = group(a), h = group(b);
         if (rule_.groups_are_masks ? (g & h) == 0 : g != h) return;
@@ -198,7 +200,7 @@ class PointComponents {
         if (kind == EdgeKind::soft) join(a, b);
     }
 
-    /// Joins each smoothing group separately. Links are sorted by group, unless groups are masks.
+    /// Joins the faces of each smoothing group separately. Links are sorted by group, unless groups are masks.
     void joinGroups(const Link* run, const Link* past) {
         std::uint32_t masks = 0;
         for (const Link* link = run; rule_.groups_are_masks && link != past; ++link) masks |= group(link->slot);

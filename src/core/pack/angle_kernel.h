@@ -9,7 +9,8 @@ namespace tspace::pack::TSPACE_LANES {
 
 // -- encoding --
 
-/// The grid of N is 2 * half + 1 wide in both directions; a quarter turn of T has `quarter` steps (a power of two).
+/// Grid of the angle formats: the grid of N is 2 * half + 1 wide in both directions; a quarter turn of T has `quarter`
+/// steps (a power of two).
 struct AngleGrid {
     std::int32_t half, quarter;
 };
@@ -17,11 +18,11 @@ struct AngleGrid {
 inline constexpr AngleGrid kOct32Grid{511, 512}, kFrame48Grid{23169, 16384}, kFrame64Grid{1048575, 524288};
 
 // Warps barycentric coordinates b on a face of the octahedron as b (2.5 - b), which makes its cells more uniform: for
-// the same grid the maximum error of N decreases from 0.159 to 0.134 degrees. Similarly x (2.75 - x) for the angle
+// the same grid the maximum error of N decreases from 0.159 to 0.134 degrees. Similarly, x (2.75 - x) warps the angle
 // along the side of a diamond, whose speed then varies by less than 1 %.
 inline constexpr double kFaceWarp = 2.5, kAngleWarp = 2.75;
 
-/// N of a grid point, and the sign of its z from the integer coordinates.
+/// Decoded N of grid points, with the sign of its z from the integer coordinates.
 struct GridNormals {
     Vectors normal;
     Floats z_sign;
@@ -49,7 +50,8 @@ inline Bases basesOf(const GridNormals& g) {
     return {{one + s * n.x * n.x * h, s * d, minus(s) * n.x}, {d, s + n.y * n.y * h, minus(n.y)}};
 }
 
-/// Returns T after a number of quarter turns (the lowest two bits) and `step` of the steps of a quarter.
+/// Returns T after a number of quarter turns (the lowest two bits of `quarters`), followed by `step` steps of a quarter
+/// turn.
 inline Vectors tangentsAt(const AngleGrid& grid, const Bases& basis, Bits quarters, Floats step) {
     const Floats whole = broadcast(static_cast<float>(kAngleWarp) * static_cast<float>(grid.quarter));
     const Floats x = step, y = broadcast(static_cast<float>(grid.quarter)) - step;
@@ -66,7 +68,8 @@ inline Vectors tangentsAt(const AngleGrid& grid, const Bases& basis, Bits quarte
 
 namespace {
 
-/// i and j in [0, 2 * half], k in [0, 4 * quarter). The sign is the lowest bit of word 0 in all three formats.
+/// Decoded integers: i and j in [0, 2 * half], k in [0, 4 * quarter). The sign is the lowest bit of word 0 in all three
+/// formats.
 struct AngleFields {
     Bits i, j, k;
 };
@@ -86,7 +89,7 @@ struct Oct32 {
 struct Frame48 {
     static constexpr AngleGrid kGrid = kFrame48Grid;
     static constexpr std::uint32_t kColumns = 2 * kGrid.half + 1;
-    /// Words beyond the last grid point are read as the last one.
+    /// Reads the integers of words. Words beyond the last grid point are read as the last one.
     static AngleFields read(const WordBlock& words, std::size_t at) {
         const Bits low = load(words.word[0] + at), high = load(words.word[1] + at);
         const Bits ij = smaller(shiftLeft<15>(high) | shiftRight<17>(low), broadcastBits(kColumns * kColumns - 1));
@@ -139,19 +142,19 @@ void decodeAngles(const WordBlock& words, std::size_t count, const FrameRows& ro
 
 // ---- encoding: first the nearest N, then the angle of T in the basis of the decoded N. The error of T is therefore
 // the hypotenuse of a right-angled spherical triangle whose legs are the error of N and half a step of the angle.
-// Positions are computed in double precision, since floats hardly hold the 21 bits of frame64; codes are compared by
-// their decoded values.
+// Positions are computed in double precision, because floats have too few bits for the 21 bits of frame64; codes are
+// compared by their decoded values.
 
-/// Intermediate results of a block, between steps.
+/// Intermediate results of a block, which are passed from step to step.
 struct AngleSteps {
-    alignas(64) float i[kBlockFrames], j[kBlockFrames];        ///< cell of N; later the grid point of N
+    alignas(64) float i[kBlockFrames], j[kBlockFrames];        ///< cell of N, later replaced by the grid point of N
     alignas(64) float p[3][kBlockFrames], q[3][kBlockFrames];  ///< basis at that grid point
-    alignas(64) float k[kBlockFrames];                         ///< last step that is not after T
+    alignas(64) float k[kBlockFrames];                         ///< last step that is not after the angle of T
 };
 
-/// Position of a unit vector on the unfolded octahedron, [-1, 1] in both directions: the b_i with b_i (2.5 - b_i) = L
-/// |n_i| and sum 1. Newton's method for b and L together, starting with b_i proportional to |n_i|, which has an error
-/// of at most 0.062: three steps leave 9e-4, 3e-7 and 2e-14.
+/// Position of a unit vector on the unfolded octahedron, [-1, 1] in both directions: it solves b_i (2.5 - b_i) = L
+/// |n_i| with sum(b_i) = 1. Newton's method is used for b and L together, starting with b_i proportional to |n_i|,
+/// which has an error of at most 0.062: three steps leave errors of 9e-4, 3e-7 and 2e-14.
 struct OctahedronPoints {
     Doubles x, y;
 
@@ -166,7 +169,7 @@ struct OctahedronPoints {
                 value[m] = b[m] * (warp - b[m]);
                 slope[m] = warp - (b[m] + b[m]);
             }
-            // Products of the other two slopes: reciprocals of the slopes, up to a common factor.
+            // Products of the other two slopes, which are the reciprocals of the slopes up to a common factor.
             const Doubles inverse[3] = {slope[1] * slope[2], slope[2] * slope[0], slope[0] * slope[1]};
             const Doubles factor = one / (slope[0] * inverse[0]);
             const Doubles length = (value[0] * inverse[0] + value[1] * inverse[1] + value[2] * inverse[2]) /
@@ -188,7 +191,7 @@ void findCells(const AngleGrid& grid, const FrameBlock& frames, std::size_t coun
     }
 }
 
-/// Finds for each frame the corner of its cell whose decoded N is closest.
+/// Finds, for each frame, the corner of the grid cell whose decoded N is closest.
 void findNormals(const AngleGrid& grid, const FrameBlock& frames, std::size_t count, AngleSteps& steps) {
     const auto last = static_cast<float>(2 * grid.half - 1);
     for (std::size_t at = 0; at < count; at += kWidth) {
@@ -216,8 +219,8 @@ void findNormals(const AngleGrid& grid, const FrameBlock& frames, std::size_t co
     }
 }
 
-/// Returns the last step that is not after this angle. Within a quarter, s y (2.75 - y) = c x (2.75 - x) with y = 1 - x
-/// is a quadratic equation, solved here in the form that does not divide by a difference.
+/// Returns the last step that is not after the angle with this cosine and sine. Within a quarter, s y (2.75 - y) = c x
+/// (2.75 - x) with y = 1 - x is a quadratic equation, solved here in the form that does not divide by a difference.
 inline Doubles stepsBefore(Doubles c, Doubles s, std::int32_t quarter) {
     const auto number = [](double x) { return broadcastDouble(x); };
     const Doubles zero = number(0.0);

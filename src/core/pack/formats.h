@@ -13,15 +13,15 @@ struct Format {
     std::size_t bytes;  ///< bytes per frame
     FrameErrorBound bound;
     FrameKernel (*kernel)(SimdTarget wish);
-    /// Convert `count` frames from bytes to words, and back; count <= kBlockFrames.
+    /// Functions that convert `count` frames, at most kBlockFrames, from bytes to words, and back.
     void (*read)(const std::byte* bytes, std::size_t count, WordBlock& words);
     void (*write)(const WordBlock& words, std::size_t count, std::byte* bytes);
 };
 
-/// Returns null if it is not an enumerator.
+/// Returns the format; null if `format` is not an enumerator.
 const Format* formatOf(FrameFormat format);
 
-/// packFrames and unpackFrames without checks, for a given SIMD target.
+/// Functions that perform packFrames and unpackFrames without checks, for a given SIMD target.
 PackReport pack(const Format& format, SimdTarget wish, const StridedSpan<const Vec3>& normals,
                 const StridedSpan<const Vec4>& tangents, std::byte* bytes);
 void unpack(const Format& format, SimdTarget wish, const std::byte* bytes, const StridedSpan<Vec3>& normals,

@@ -10,34 +10,34 @@
 
 namespace tspace::pack {
 
-inline constexpr std::size_t kBlockFrames = 64;  ///< a multiple of all vector widths; a block fits into the L1 cache
+inline constexpr std::size_t kBlockFrames = 64;  ///< a multiple of all SIMD widths; a block fits into the L1 cache
 
-/// Bytes of frames as little-endian 32-bit words: word w of frame i is word[w][i].
+/// Block of packed frames as little-endian 32-bit words: word w of frame i is word[w][i].
 struct WordBlock {
     alignas(64) std::uint32_t word[4][kBlockFrames];
 };
 
-/// Frames to encode, by component: N and T unit and orthogonal within 5e-7, also in unused entries; `mirrored` is 1 if
-/// the sign is -1, otherwise 0.
+/// Block of frames to encode, by component: N and T are unit and orthogonal within 5e-7, also in unused entries;
+/// `mirrored` is 1 if the sign is -1, otherwise 0.
 struct FrameBlock {
     alignas(64) float normal[3][kBlockFrames], tangent[3][kBlockFrames];
     alignas(64) std::uint32_t mirrored[kBlockFrames];
 };
 
-/// Output of decoding: three numbers per normal, and one more after the last; four per tangent, the fourth of which is
-/// the sign.
+/// Output of decoding: three numbers per normal, followed by one more after the last normal; four numbers per tangent,
+/// the fourth of which is the sign.
 struct FrameRows {
     float *normals, *tangents;
 };
 
-/// Functions of one format for one CPU. They process the first `count` frames, or all frames of the block.
+/// Functions of one format, compiled for one CPU. They process the first `count` frames, or all frames of the block.
 struct FrameKernel {
     void (*encode)(const FrameBlock& frames, std::size_t count, WordBlock& words) = nullptr;
     void (*decode)(const WordBlock& words, std::size_t count, const FrameRows& rows) = nullptr;
 };
 
-/// Frames this close to unit (their squares within twice as much) and orthogonal are encoded unchanged, so that
-/// unpacked frames are reproduced exactly.
+/// Tolerance within which frames count as unit (their squares within twice as much) and orthogonal. They are encoded
+/// unchanged, so that unpacked frames are reproduced exactly.
 inline constexpr double kSoundTolerance = 5e-7;
 TSPACE_DECLARE_KERNEL(std::uint64_t soundFrames(const FrameBlock& frames, std::size_t count))
 

@@ -18,29 +18,29 @@ struct Frames {
     Vectors normal, tangent;
 };
 
-/// Returns the sign bit of a float, set where bit kBit is set.
+/// Returns words whose sign bit is bit kBit of the argument.
 template <int kBit>
 inline Bits signFrom(Bits bits) {
     return shiftLeft<31 - kBit>(bits) & broadcastBits(0x80000000u);
 }
 inline Floats flipped(Floats a, Bits signs) { return asFloats(asBits(a) ^ signs); }
-/// Returns whether bit kBit is set.
+/// Returns a mask of the lanes in which bit kBit is set.
 template <int kBit>
 inline Mask isSet(Bits bits) {
     return toFloats(shiftRight<kBit>(bits) & broadcastBits(1)) > zero();
 }
 
-/// Return the nearest integer, and the next lower one, for |x| < 2^22: sums with 1.5 2^23 are rounded to integers.
+/// Return the nearest integer, and the integer below, for |x| < 2^22: adding 1.5 * 2^23 rounds to an integer.
 inline Floats nearestWhole(Floats x) { return (x + broadcast(12582912.0f)) - broadcast(12582912.0f); }
 inline Floats wholeBelow(Floats x) {
     const Floats near = nearestWhole(x);
     return near - select(near > x, broadcast(1.0f), zero());
 }
 inline Doubles wholeBelow(Doubles x) {
-    const Doubles magic = broadcastDouble(6755399441055744.0), near = (x + magic) - magic;  // 1.5 2^52
+    const Doubles magic = broadcastDouble(6755399441055744.0), near = (x + magic) - magic;  // 1.5 * 2^52
     return near - keepWhere(near > x, broadcastDouble(1.0));
 }
-/// Converts an integral value in [0, 2^23): its bits are the lower bits of its sum with 2^23.
+/// Converts an integral value in [0, 2^23) to bits: these are the lower bits of its sum with 2^23.
 inline Bits wholeBits(Floats x) { return asBits(x + broadcast(8388608.0f)) ^ asBits(broadcast(8388608.0f)); }
 inline Floats clamped(Floats x, float low, float high) { return smaller(larger(x, broadcast(low)), broadcast(high)); }
 
@@ -56,7 +56,7 @@ inline Vectors select(Mask m, Vectors yes, Vectors no) {
     return {select(m, yes.x, no.x), select(m, yes.y, no.y), select(m, yes.z, no.z)};
 }
 
-/// Half of the lanes, in double precision.
+/// Number of lanes in each half of a vector, which is processed in double precision.
 inline constexpr std::size_t kPart = kWidth / kDoubleParts;
 struct DoubleVectors {
     Doubles x, y, z;
@@ -80,7 +80,7 @@ inline Frames framesOf(Floats x, Floats y, Floats z, Floats w) {
 /// x and y move N, y and z move T.
 inline Floats squaredReach(Vectors turn) { return turn.y * turn.y + larger(turn.x * turn.x, turn.z * turn.z); }
 
-/// `signs`: the sign bit is set if the frame is mirrored.
+/// Stores frames as rows. `signs`: the sign bit is set if the frame is mirrored.
 inline void storeFrames(const FrameRows& rows, std::size_t at, const Frames& f, Bits signs) {
     storeRows<3>(rows.normals + 3 * at, f.normal.x, f.normal.y, f.normal.z, zero());
     storeRows<4>(rows.tangents + 4 * at, f.tangent.x, f.tangent.y, f.tangent.z, flipped(broadcast(1.0f), signs));

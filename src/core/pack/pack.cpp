@@ -42,8 +42,8 @@ void writeWord(std::uint32_t word, std::byte* out) {
 
 template <std::size_t kBytes>
 void readWords(const std::byte* in, std::size_t count, WordBlock& words) {
-    // Words in native layout are copied in bulk: single ones would have to reach the cache before they can be loaded as
-    // vectors.
+    // Words in native layout are copied in bulk: words written one by one would have to reach the cache before they can
+    // be loaded as vectors.
     if (kBytes == 4 && std::endian::native == std::endian::little) {
         std::memcpy(words.word[0], in, 4 * count);
         return;
@@ -71,7 +71,7 @@ constexpr Format formatWith(FrameErrorBound bound, FrameKernel (*kernel)(SimdTar
 
 #define TSPACE_KERNEL_FOR(kernel) [](SimdTarget wish) { return simd::choose(wish, TSPACE_KERNEL_TABLE(kernel))(); }
 
-/// Indexed by enumerator value.
+/// Table of formats, indexed by the value of the enumerator.
 constexpr Format kFormats[] = {
     formatWith<4>({0.135, 0.135}, TSPACE_KERNEL_FOR(frame32Kernel)),
     formatWith<6>({0.0037, 0.0042}, TSPACE_KERNEL_FOR(frame48Kernel)),
@@ -93,13 +93,13 @@ const Format* formatOf(FrameFormat format) {
 
 namespace {
 
-/// Tolerances of sanitize: the tolerance of the glTF validator, and the sine below which T has no direction
+/// Tolerances of sanitize: the tolerance of the glTF validator for lengths, and the sine below which T has no direction
 /// perpendicular to N.
 constexpr double kCountedTolerance = 5e-4, kOneDegree = 0.017452406437283512;
 
 // ---- repair of input frames
 
-/// Returns why T cannot be used with this unit N; null if it can.
+/// Returns the counter of the reason why T cannot be used with this unit N; null if it can.
 std::uint64_t PackReport::*causeAgainst(const Vec3& tangent, const DVec3& n) {
     if (!isFinite(tangent)) return &PackReport::not_finite_count;
     DVec3 t = toDouble(tangent);
@@ -109,8 +109,8 @@ std::uint64_t PackReport::*causeAgainst(const Vec3& tangent, const DVec3& n) {
 
 bool isCounted(double size) { return !(std::fabs(size - 1) <= kCountedTolerance); }
 
-/// Returns T, which is not parallel to n, made unit and orthogonal to it; twice, since close to n the first pass loses
-/// digits by cancellation.
+/// Returns T made unit and orthogonal to n, which T must not be parallel to. Orthogonalizes twice, because close to n
+/// the first pass loses digits by cancellation.
 DVec3 orthogonalized(DVec3 t, const DVec3& n) {
     for (int pass = 0; pass < 2; ++pass) {
         normalize(t);
@@ -120,7 +120,7 @@ DVec3 orthogonalized(DVec3 t, const DVec3& n) {
     return t;
 }
 
-/// Makes N and T unit and orthogonal. Returns the counter of the cause, or null.
+/// Makes N and T unit and orthogonal. Returns the counter of the cause, or null if they were valid.
 std::uint64_t PackReport::*mend(Vec3& normal, Vec3& tangent) {
     std::uint64_t PackReport::*cause = nullptr;
     const auto because = [&](std::uint64_t PackReport::*next) {

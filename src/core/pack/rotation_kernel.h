@@ -9,15 +9,16 @@ namespace tspace::pack::TSPACE_LANES {
 
 // -- encoding --
 
-// Steps along x and z (rotations about T and N) range from -kSide to kSide; there are kRows along y (rotations about B,
-// which move both N and T, so these steps are finer). Columns with odd x + z are shifted by half a step. 24 charts of
-// kColumns * kRows * kColumns codes: all but 176,672 of 2^31.
+// The steps along x and z (rotations about T and N) range from -kSide to kSide. There are kRows along y (rotations
+// about B, which move both N and T, so these steps are finer). Columns with odd x + z are shifted by half a step. The
+// 24 charts have kColumns * kRows * kColumns codes each, which is all but 176,672 of 2^31.
 inline constexpr std::int32_t kSide = 226, kColumns = 2 * kSide + 1, kRows = 436, kCharts = 24;
 inline constexpr std::uint32_t kCodes = static_cast<std::uint32_t>(kCharts) * kColumns * kRows * kColumns;
 static_assert(kCodes < 0x80000000u);
 
-// p = u (kLinear + kCubic u^2): tan(22.5 degrees) at the faces of the cube, where its slope is 1.13 times that of a
-// straight line; 0.935 times in the center, since rotations are denser far from the center of a chart.
+// The warp p = u (kLinear + kCubic u^2) reaches tan(22.5 degrees) at the faces of the cube, where its slope is 1.13
+// times that of a straight line. In the center its slope is 0.935 times as large, because rotations are denser far from
+// the center of a chart.
 inline constexpr double kHalfEdge = 0.41421356237309503;
 inline constexpr double kWarp = 0.065;
 inline constexpr double kLinear = kHalfEdge * (1 - kWarp), kCubic = kHalfEdge * kWarp;
@@ -25,13 +26,13 @@ inline constexpr double kLinear = kHalfEdge * (1 - kWarp), kCubic = kHalfEdge * 
 inline Floats warped(Floats u) {
     return u * (broadcast(static_cast<float>(kLinear)) + broadcast(static_cast<float>(kCubic)) * (u * u));
 }
-/// Return p of a column x or z, and of a row: twice y, plus 1 in shifted columns.
+/// Return p of a column (x or z), and of a row: twice y, plus 1 in shifted columns.
 inline Floats atColumn(Floats x) { return warped((x - broadcast(kSide)) * broadcast(1.0f / kSide)); }
 inline Floats atRow(Floats twice_y) { return warped((twice_y - broadcast(kRows)) * broadcast(1.0f / (kRows - 1))); }
 
-/// Rows of the small rotation in the order and with the signs of chart g = 4 * order + signs: first three cyclic
-/// permutations of x, y, z, then the three swaps, which are cyclic permutations of x, z, y. Two signs are free, the
-/// third keeps the determinant at +1.
+/// Charts: rows of the small rotation in the order and with the signs of chart g = 4 * order + signs. The orders are
+/// first three cyclic permutations of x, y, z, then the three swaps, which are cyclic permutations of x, z, y. Two
+/// signs are free, and the third keeps the determinant at +1.
 struct Charts {
     Mask is_swap, is_turned_once, is_turned_twice;
     Bits signs[3];
@@ -65,7 +66,7 @@ inline Frames rotationFrames(const Charts& charts, Floats x, Floats twice_y, Flo
 
 namespace {
 
-/// Words that no chart uses are read as the last one.
+/// Decodes the rotations of a block. Words that no chart uses are read as the last valid word.
 void decodeRotations(const WordBlock& words, std::size_t count, const FrameRows& rows) {
     for (std::size_t at = 0; at < count; at += kWidth) {
         const Bits word = load(words.word[0] + at), code = smaller(shiftRight<1>(word), broadcastBits(kCodes - 1));
@@ -78,10 +79,10 @@ void decodeRotations(const WordBlock& words, std::size_t count, const FrameRows&
     }
 }
 
-// ---- encoding: searches every chart that contains the rotation, not just the one around the nearest of the 24: the
-// corners of a cube are in other charts too, and each word must be reproduced from its decoded frame.
+// ---- encoding: searches every chart that contains the rotation, not just the one around the nearest of the 24
+// rotations: the corners of a cube are in other charts too, and each word must be reproduced from its decoded frame.
 
-/// Rotations T, N x T, N: rows and columns.
+/// Matrices of rotations with columns T, N x T, N: at[row][column][frame].
 struct Matrices {
     alignas(64) float at[3][3][kBlockFrames];
 };
@@ -98,7 +99,7 @@ void findMatrices(const FrameBlock& frames, std::size_t count, Matrices& rotatio
     }
 }
 
-/// Candidate encodings: for each, a frame and a chart that contains its rotation.
+/// Candidate encodings: for each one, a frame and a chart that contains its rotation.
 struct Places {
     static constexpr std::size_t kMost = 4 * kBlockFrames;
     alignas(64) float p[3][kMost], scale[kMost];  ///< the Rodrigues vector is p / scale
@@ -106,15 +107,16 @@ struct Places {
     std::size_t count = 0;
 };
 
-/// Row of a chart's rotation for each row of the small rotation: see Charts.
+/// For each of the 6 orders, the row of a chart's rotation for each row of the small rotation (see Charts).
 constexpr std::size_t kRowAt[6][3] = {{0, 1, 2}, {2, 0, 1}, {1, 2, 0}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
 
-/// Half a step beyond the cube: a code of its face may still be the nearest there.
+/// Half of the cube's side, and half a step more: a code on the cube's face may be the nearest one for a rotation
+/// outside.
 constexpr float kReach = static_cast<float>(kHalfEdge * (1 + 0.6 / kSide));
-/// Lower bound of the trace of all rotations within reach: it is 1.640 in the corners of the cube.
+/// Lower bound of the trace of all rotations within kReach: in the corners of the cube it is 1.640.
 constexpr float kLeastTrace = 1.63f;
 
-/// Adds those of the first `count` rotations that are in chart g.
+/// Adds candidates for the rotations, among the first `count`, that are in chart g.
 void addPlaces(const Matrices& rotations, std::size_t count, std::uint32_t g, Places& places) {
     const bool minus_0 = (g & 1) != 0, minus_1 = (g >> 1 & 1) != 0, minus_2 = (minus_0 != minus_1) != (g >= 12);
     const Floats signs[3] = {broadcast(minus_0 ? -1.0f : 1.0f), broadcast(minus_1 ? -1.0f : 1.0f),
@@ -156,10 +158,10 @@ inline Floats unwarped(Floats p) {
     return u;
 }
 
-/// Returns the largest code not above x, from 0 to last - 1, so that there is a code above it.
+/// Returns the largest code not above x, limited to the range from 0 to last - 1, so that there is a code above it.
 inline Floats codeBelow(Floats x, std::int32_t last) { return clamped(wholeBelow(x), 0, static_cast<float>(last - 1)); }
 
-/// A code of a chart, and its squared distance from the frame.
+/// Codes of a chart, each with its squared distance from the frame.
 struct Cells {
     Floats error, x, twice_y, z;
 };
@@ -175,7 +177,7 @@ inline Cells bestAround(Vectors p) {
     const Floats x[2] = {x0, x0 + one}, z[2] = {z0, z0 + one};
     const Floats dx[2] = {atColumn(x[0]) - p.x, atColumn(x[1]) - p.x};
     const Floats dz[2] = {atColumn(z[0]) - p.z, atColumn(z[1]) - p.z};
-    // In columns x0, z0 and x1, z1, which may be shifted, and in the other two, which are not shifted then.
+    // Shifts of the columns: x0, z0 and x1, z1 have one shift, the other two columns have the other.
     const Floats half_sum = (x0 + z0) * half, is_odd = (half_sum - wholeBelow(half_sum)) * broadcast(2.0f);
     const Floats shift[2] = {is_odd, one - is_odd};
     Floats twice_y[2][2], dy[2][2];
@@ -197,8 +199,8 @@ inline Cells bestAround(Vectors p) {
     return best;
 }
 
-/// Below this, errors are rounding noise: adjacent charts share codes except for the last bits, and only decoding shows
-/// which one the frame came from.
+/// Maximum difference of errors that is rounding noise: adjacent charts share codes except for the last bits, and only
+/// decoding shows which one the frame came from.
 constexpr float kTwinError = 1e-11f;
 
 /// Returns the errors of codes against frames, by decoding.
@@ -221,7 +223,7 @@ struct Codes {
     float error[kBlockFrames];
 };
 
-/// Searches and then clears `places`.
+/// Searches the best codes of all candidates in `places`, and then clears it.
 void searchPlaces(Places& places, const FrameBlock& frames, Codes& best) {
     alignas(64) float errors[Places::kMost];
     alignas(64) std::uint32_t codes[Places::kMost];

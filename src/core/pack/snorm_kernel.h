@@ -9,7 +9,8 @@ namespace tspace::pack::TSPACE_LANES {
 
 namespace {
 
-/// Returns signed kBits integer number `which` of a frame. The minimum value is clamped to its successor, as for SNORM.
+/// Returns number `which` of a frame, a signed integer of kBits bits. The minimum value is clamped to its successor, as
+/// for SNORM.
 template <int kBits, int which>
 inline Floats numberAt(const WordBlock& words, std::size_t at) {
     constexpr int kPerWord = 32 / kBits, kUnused = (kPerWord - 1 - which % kPerWord) * kBits;
@@ -69,8 +70,8 @@ inline Quaternions quaternionsOf(Vectors t, Vectors n) {
     return {scale * q.x, scale * q.y, scale * q.z, scale * q.w};
 }
 
-/// Returns the squared distance of N or T, whichever is farther, from rotation q: the rotation between them, in the
-/// frame's axes, is about the vector of conj(q) * code. In arbitrary units that are equal for all codes.
+/// Returns the squared distance of N or T, whichever is farther, from rotation q. The rotation between the two, in the
+/// frame's axes, is about the vector of conj(q) * code. The unit is arbitrary, but equal for all codes.
 inline Floats errorOf(const Quaternions& code, const Quaternions& q) {
     const Vectors v{q.x, q.y, q.z}, c{code.x, code.y, code.z};
     return squaredReach(q.w * c - code.w * v - cross(v, c));
@@ -89,8 +90,8 @@ struct BestQuaternions {
 };
 
 /// Returns the code around q with the smallest error, not the one with the nearest components. Sixteen candidates
-/// suffice; but w must not be 0, and if it becomes 1, larger x, y and z compensate for it: docs/concepts/pack.md has
-/// the bounds.
+/// suffice, with two exceptions: w must not be 0, and if it becomes 1, larger x, y and z compensate for it.
+/// docs/concepts/pack.md has the bounds.
 inline Quaternions bestCode(const Quaternions& q) {
     const Floats most = broadcast(32767.0f), one = broadcast(1.0f);
     const auto beside = [&](Floats below, unsigned up) {
@@ -139,8 +140,8 @@ void decodeQuaternions(const WordBlock& words, std::size_t count, const FrameRow
 
 // ---- vectors
 
-/// Encodes T, then N from number 4 on; kSignAt is the number that holds the sign. Unused numbers are set to the
-/// maximum; numbers beyond the bytes of a format are not written.
+/// Encodes T in numbers 0 to 2, and N from number 4 on; kSignAt is the number that contains the sign. Unused numbers
+/// are set to the maximum; numbers beyond the bytes of a format are not written.
 template <int kBits, int kSignAt>
 void encodeVectors(const FrameBlock& frames, std::size_t count, WordBlock& words) {
     const Floats most = broadcast((1 << (kBits - 1)) - 1);
@@ -166,8 +167,8 @@ inline Vectors firstAxes(Vectors n) {
     return {join(axis[0]), join(axis[1]), join(axis[2])};
 }
 
-/// Decodes T, then N from number 4 on; kSignAt is the number that holds the sign. A zero N is read as (0, 0, 1), a zero
-/// T as a basis from N.
+/// Decodes T from numbers 0 to 2, and N from number 4 on; kSignAt is the number that contains the sign. A zero N is
+/// read as (0, 0, 1), a zero T as a basis from N.
 template <int kBits, int kSignAt>
 void decodeVectors(const WordBlock& words, std::size_t count, const FrameRows& rows) {
     for (std::size_t at = 0; at < count; at += kWidth) {

@@ -10,10 +10,12 @@ namespace tspace::simd {
 
 namespace {
 
-/// Equivalent to __builtin_cpu_supports on x86-64, without the names of all CPUs, which add 5 KB to each program.
+/// Returns the best target of this CPU. Equivalent to __builtin_cpu_supports on x86-64, but without the names of all
+/// CPUs, which add 5 KB to each program.
 SimdTarget bestOfCpu() {
 #if defined(TSPACE_SIMD_X86)
-    constexpr std::uint32_t kYmm = 0x6, kZmm = 0xe6;  // registers that the operating system saves for threads (XCR0)
+    // bits of XCR0: registers that the operating system saves for threads
+    constexpr std::uint32_t kYmm = 0x6, kZmm = 0xe6;
     std::uint32_t a = 0, b = 0, c = 0, d = 0, kept = 0;
     if (__get_cpuid(1, &a, &b, &c, &d) == 0 || (c & bit_OSXSAVE) == 0) return SimdTarget::sse2;
     __asm__("xgetbv" : "=a"(kept), "=d"(d) : "c"(0));
@@ -33,7 +35,7 @@ SimdTarget bestOfCpu() {
 SimdTarget resolve(SimdTarget wish) {
     static const SimdTarget best = bestOfCpu();
     if (wish == SimdTarget::best || wish > best) return best;
-    // The values in between are x86-64 targets.
+    // Targets whose value is between that of `scalar` and that of `neon` are for x86-64.
     return best == SimdTarget::neon && wish < best ? SimdTarget::scalar : wish;
 }
 

@@ -15,7 +15,7 @@
 #elif defined(__ELF__)
 #define TSPACE_SCALAR_LINKAGE [[gnu::weak]]
 #define TSPACE_SCALAR_OR_NULL(function, other) scalar::function
-#else  // platforms on which a function that is not linked would be an error
+#else  // on this platform, a reference to a function that is not linked would be an error
 #define TSPACE_SCALAR_LINKAGE
 #define TSPACE_SCALAR_OR_NULL(function, other) static_cast<decltype(&other::function)>(nullptr)
 #endif
@@ -33,7 +33,8 @@
     TSPACE_IN_NAMESPACE(neon, __VA_ARGS__)                         \
     TSPACE_IN_NAMESPACE(wasm, __VA_ARGS__)
 
-/// Table of a kernel's functions in this build, for simd::choose. NOT_AVX512: AVX2 is equally fast.
+/// Table of a kernel's functions in this build, for simd::choose. With NOT_AVX512, the AVX2 function, which is equally
+/// fast, is used for AVX-512.
 #if defined(TSPACE_SIMD_X86)
 #define TSPACE_KERNEL_TABLE(function) \
     { TSPACE_SCALAR_OR_NULL(function, sse2), sse2::function, avx2::function, avx512::function }
@@ -80,7 +81,8 @@ struct VertexArrays {
     const std::byte* normals = nullptr;
     const std::byte* uvs = nullptr;
     std::size_t position_stride = 0, normal_stride = 0, uv_stride = 0;
-    /// The memory directly after this vertex's position and normal must not be read; all bits set: no such vertex.
+    /// Last vertex in memory, after whose position and normal no memory may be read. If all bits are set, there is no
+    /// such vertex.
     std::uint32_t last_vertex = 0;
 };
 

@@ -6,7 +6,7 @@
 using FloatVector = float __attribute__((vector_size(4 * kWidth)));
 using WordVector = std::uint32_t __attribute__((vector_size(4 * kWidth)));
 using WholeVector = decltype(FloatVector{} < FloatVector{});
-using DoubleVector = double __attribute__((vector_size(4 * kWidth)));  // half of the lanes
+using DoubleVector = double __attribute__((vector_size(4 * kWidth)));  // doubles for half of the lanes
 using LongVector = decltype(DoubleVector{} < DoubleVector{});
 using FloatsInMemory = float __attribute__((vector_size(4 * kWidth), may_alias));
 using WordsInMemory = std::uint32_t __attribute__((vector_size(4 * kWidth), may_alias));
@@ -23,7 +23,7 @@ inline Floats operator/(Floats a, Floats b) { return {a.v / b.v}; }
 inline void store(float* to, Floats a) { *reinterpret_cast<FloatsInMemory*>(to) = a.v; }
 inline Floats load(const float* p) { return {*reinterpret_cast<const FloatsInMemory*>(p)}; }
 
-/// Integers, for flags and words.
+/// Integer lanes, for flags and words.
 struct Bits {
     WordVector v;
 };
@@ -45,7 +45,7 @@ inline Bits shiftRight(Bits a) {
 inline Bits smaller(Bits a, Bits b) {
     return {reinterpret_cast<WholeVector>(a.v) < reinterpret_cast<WholeVector>(b.v) ? a.v : b.v};
 }
-/// Returns the lower half of the product.
+/// Returns the lower half of the product of each lane.
 inline Bits product(Bits a, std::uint32_t k) { return {a.v * k}; }
 /// Divides numbers below 2^31 by a constant. Compilers multiply instead; for even numbers the factor fits into 32 bits.
 template <std::uint32_t kBy>
@@ -60,7 +60,7 @@ inline Floats absolute(Floats a) { return asFloats({asBits(a).v & 0x7fffffffu});
 inline void store(std::uint32_t* to, Bits b) { *reinterpret_cast<WordsInMemory*>(to) = b.v; }
 inline Bits load(const std::uint32_t* p) { return {*reinterpret_cast<const WordsInMemory*>(p)}; }
 
-/// Result of a comparison: all bits of a lane are set, or none. Compilers keep it in mask registers if available.
+/// Result of a comparison: in each lane, all bits are set or none. Compilers keep it in mask registers if available.
 struct Mask {
     WholeVector v;
 };
@@ -130,7 +130,7 @@ inline void storeTwo(void* to, double two) { std::memcpy(to, &two, sizeof two); 
 inline Quad twoPairs(const void* a, const void* b) {
     return reinterpret_cast<Quad>(TwoDoubles{loadTwo(a), loadTwo(b)});
 }
-/// Loads three floats. `exact` reads no more; otherwise the following four bytes are also read.
+/// Loads three floats. With `exact`, reads no other memory; otherwise also reads the following four bytes.
 inline Quad loadVector(const std::byte* p, bool exact) {
     if (!exact) return loadQuad(p);
     float z;
@@ -149,7 +149,7 @@ inline void addDoubleRow(double* to, double k, const DoubleRow& row) {
     *reinterpret_cast<DoubleRowInMemory*>(to) += k * row.v;
 }
 
-// A vector of lanes consists of 1, 2 or 4 quads.
+// Indices of the quads of a vector: it consists of 1, 2 or 4 quads.
 
 inline constexpr std::make_index_sequence<kWidth / 4> kQuads;
 template <std::size_t kWhich>

@@ -6,7 +6,7 @@
 #define TSPACE_ROWS
 #endif
 
-/// Returns the vectors with the quads at(i), at(4 + i), ...: row i of each quad.
+/// Returns a vector that consists of the quads at(i), at(4 + i), ...: row i of each quad.
 template <class At, std::size_t... kQuad>
 inline FloatVector quadsAt(const At& at, std::size_t i, std::index_sequence<kQuad...>) {
     return joinQuads(at(4 * kQuad + i)...);
@@ -16,7 +16,7 @@ inline FloatVector highPairs(FloatVector a, FloatVector b) { return inFours<2, 3
 inline FloatVector mixLow(FloatVector a, FloatVector b) { return inFours<0, 4, 1, 5>(a, b); }
 inline FloatVector mixHigh(FloatVector a, FloatVector b) { return inFours<2, 6, 3, 7>(a, b); }
 
-/// Transposes each quad.
+/// Transposes the 4 x 4 matrix in each quad.
 inline void transpose(FloatVector (&r)[4]) {
     const FloatVector ab_low = mixLow(r[0], r[1]), ab_high = mixHigh(r[0], r[1]);
     const FloatVector cd_low = mixLow(r[2], r[3]), cd_high = mixHigh(r[2], r[3]);
@@ -81,33 +81,33 @@ TSPACE_ROWS inline void gather2(const std::byte* base, std::size_t stride, const
 TSPACE_ROWS inline void loadPairs(const float* pairs, Floats& x, Floats& y) {
     splitPairsAt([&](std::size_t i) { return loadQuad(pairs + 2 * i); }, x, y);
 }
-/// Writes lane i's four values to rows[kStep * i ...], by default row 3 * i of an array of rows of four floats. Any
-/// address that is valid for floats. Rows are written in order: with a step of 3, all but the last row hold three
-/// values, and one more value is written after them.
+/// Writes lane i's four values to rows[kStep * i ...], by default row 3 * i of an array of rows of four floats. `rows`
+/// may be any address that is valid for floats. Rows are written in order: with a step of 3, all but the last row
+/// contain three values, and one more value is written after them.
 template <std::size_t kStep = 12>
 TSPACE_ROWS inline void storeRows(float* rows, Floats x, Floats y, Floats z, Floats w) {
     FloatVector r[4] = {x.v, y.v, z.v, w.v};
     transpose(r);
     storeQuads<kStep>(rows, r, kQuads);
 }
-/// Inverse of storeRows.
+/// Loads the rows that storeRows wrote.
 template <std::size_t kStep>
 TSPACE_ROWS inline void loadRows(const float* rows, Floats& x, Floats& y, Floats& z, Floats& w) {
     columnsAt([&](std::size_t i) { return loadQuad(rows + kStep * i); }, x, y, z, w);
 }
-/// Like storeRows, for rows of two values.
+/// Writes rows of two values, otherwise like storeRows.
 template <std::size_t kStep>
 TSPACE_ROWS inline void storePairs(float* rows, Floats x, Floats y) {
     storeQuadPairs<kStep>(rows, mixLow(x.v, y.v), mixHigh(x.v, y.v), kQuads);
 }
 
-/// Writes lane i's four values to row i of an array of rows of four doubles: half of the lanes.
+/// Writes lane i's four values to row i of an array of rows of four doubles, for half of the lanes.
 inline void storeDoubleRows(double* rows, Doubles x, Doubles y, Doubles z, Doubles w) {
     const FloatVector r[4] = {lowPairs(pairsOf(x), pairsOf(y)), lowPairs(pairsOf(z), pairsOf(w)),
                               highPairs(pairsOf(x), pairsOf(y)), highPairs(pairsOf(z), pairsOf(w))};
     storeQuads<4>(reinterpret_cast<float*>(rows), r, kQuads);
 }
-/// Inverse of storeDoubleRows.
+/// Loads the rows that storeDoubleRows wrote.
 inline void loadDoubleRows(const double* rows, Doubles& x, Doubles& y, Doubles& z, Doubles& w) {
     const auto at = [&](std::size_t i) { return reinterpret_cast<const AlignedQuad*>(rows)[i]; };
     FloatVector r[4];

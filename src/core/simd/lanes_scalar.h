@@ -33,7 +33,8 @@ inline Floats squareRoot(Floats a) {
 inline DoubleMask operator>(Doubles a, Doubles b) { return {a.v > b.v}; }
 inline unsigned bitsOf(DoubleMask m) { return (m.v[0] != 0 ? 1u : 0u) | (m.v[1] != 0 ? 2u : 0u); }
 inline Doubles squareRoot(Doubles a) { return {DoubleVector{std::sqrt(a.v[0]), std::sqrt(a.v[1])}}; }
-/// Convert between floats in memory and doubles: half of the lanes. All addresses are aligned to the vector's size.
+/// Convert between floats in memory and doubles, for half of the lanes. All addresses are aligned to the size of the
+/// vector.
 inline Doubles loadAsDoubles(const float* p) { return {DoubleVector{p[0], p[1]}}; }
 inline void storeAsFloats(float* to, Doubles a) {
     for (std::size_t i = 0; i < 2; ++i) to[i] = static_cast<float>(a.v[i]);

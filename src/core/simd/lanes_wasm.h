@@ -10,8 +10,8 @@
 
 #include "core/simd/lanes.h"
 
-// Programs are compiled for size, and Clang then calls even functions of one instruction. Functions that move rows have
-// many long instructions: they are not inlined, except in kernels that are compiled for speed.
+// WebAssembly programs are compiled for size, and Clang then calls even functions of one instruction. Functions that
+// move rows consist of many long instructions: they are not inlined, except in kernels that are compiled for speed.
 #ifdef TSPACE_FAST_KERNELS
 #define TSPACE_ROWS [[gnu::always_inline]]
 #else

@@ -19,21 +19,22 @@ inline Vectors cross(Vectors a, Vectors b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// true: reading past the end of an array is forbidden. With TSPACE_SMALL arrays are copies, with padding.
+/// true: reading past the end of an array is forbidden. With TSPACE_SMALL, arrays are copies with padding, so reading
+/// past the end is allowed.
 #ifdef TSPACE_SMALL
 inline constexpr bool kEndsMatter = false;
 #else
 inline constexpr bool kEndsMatter = true;
 #endif
 
-/// Rarely called, and long: kept out of the loops.
+/// Gathers vectors without reading past the end of the array. Kept out of line, because it is long and rarely called.
 [[gnu::noinline]] inline Vectors gatherExactly(const std::byte* base, std::size_t stride, const std::uint32_t* index) {
     Vectors v;
     gather3(base, stride, index, true, v.x, v.y, v.z);
     return v;
 }
 
-/// `exact`: bytes after a vector must not be read.
+/// Gathers vectors. With `exact`, the bytes after a vector are not read.
 [[gnu::always_inline]] inline Vectors gatherVectors(const std::byte* base, std::size_t stride,
                                                     const std::uint32_t* index, bool exact) {
     if (kEndsMatter && exact) [[unlikely]]
@@ -47,7 +48,7 @@ inline constexpr bool kEndsMatter = true;
     return v;
 }
 
-/// Returns whether any vertex is the last one, after which no memory may be read.
+/// Returns whether any vertex is the last one in memory, after which nothing may be read.
 inline bool namesLast(const std::uint32_t* vertices, std::uint32_t last) {
     if (!kEndsMatter) return false;
     std::uint32_t named = 0;
@@ -55,7 +56,7 @@ inline bool namesLast(const std::uint32_t* vertices, std::uint32_t last) {
     return named != 0;
 }
 
-// Directions and planes on lanes. Included after lanes_*.h, with TSPACE_LANES set to its namespace.
+// Directions and planes on SIMD lanes. Included after lanes_*.h, with TSPACE_LANES set to their namespace.
 
 inline Mask isFinite(Floats a) { return absolute(a) < broadcast(__builtin_huge_valf()); }
 inline Floats keep(Mask m, Floats a) { return select(m, a, zero()); }
@@ -77,14 +78,14 @@ inline Floats dot(Flat a, Flat b) { return a.x * b.x + a.y * b.y; }
 
 inline Flat keep(Mask m, Flat a) { return {keep(m, a.x), keep(m, a.y)}; }
 
-/// Returns the unit vectors; zero where a vector has no direction.
+/// Returns the unit vectors; a vector without a direction becomes zero.
 template <class Vector>
 inline Vector unit(Vector v) {
     const Floats square = dot(v, v), scale = broadcast(1.0f) / squareRoot(square);
     return keep((square > zero()) & isFinite(square) & isFinite(scale), scale * v);
 }
 
-/// Returns the unit normal, with -0 replaced by +0; the z axis if a normal has no direction.
+/// Returns the unit normals, with -0 replaced by +0; a normal without a direction becomes the z axis.
 inline Vectors unitNormal(Vectors n) {
     const Vectors u = unit(n);
     const Mask none = !(dot(u, u) > zero());
@@ -106,8 +107,8 @@ struct Plane {
     [[nodiscard]] Vectors raise(Flat f) const { return f.x * x + f.y * y; }
 };
 
-/// Solves three equations by LDL^T decomposition. m: 00 01 02 11 12 22; `ridge`, twice that, and `ridge` are added to
-/// its diagonal, which keeps the pivots positive, except for rounding.
+/// Solves three equations by LDL^T decomposition. m: 00 01 02 11 12 22. `ridge`, twice `ridge`, and `ridge` are added
+/// to its diagonal, which keeps the pivots positive, except for rounding.
 template <class Right>
 inline void solveRidged(const Floats (&m)[6], Floats ridge, const Right (&p)[3], Right (&q)[3]) {
     const Floats one = broadcast(1.0f), least = broadcast(0.5f) * ridge, two = ridge + ridge;
@@ -122,7 +123,7 @@ inline void solveRidged(const Floats (&m)[6], Floats ridge, const Right (&p)[3],
     q[0] = i0 * p[0] - l1 * q[1] - l2 * q[2];
 }
 
-// Arc cosine on lanes. Included after lanes_*.h, with TSPACE_LANES set to its namespace.
+// Arc cosine on SIMD lanes. Included after lanes_*.h, with TSPACE_LANES set to their namespace.
 
 /// Computes acos of three cosines, rounded to float: the bits of the C library's double acos rounded to float (compared
 /// for every float). Three at a time, interleaved, because each step depends on the previous one.

@@ -460,7 +460,7 @@ Result<PoolFrames> computeWithMorphedNormals(const PoolView& pool, std::span<con
     return frames;
 }
 
-/// The causes of splits are counted if a split adds at least one vertex per this many vertices.
+/// The causes of splits are counted if a split adds more than one vertex per this many vertices.
 constexpr std::size_t kManySplit = 20;
 
 void countFaults(const PoolView& pool, const PoolFrames& frames, float weld_distance, std::span<FramesReport> reports) {

@@ -24,29 +24,32 @@
 
 namespace tspace {
 
-// Repair: vertices of a primitive whose tangents are repaired, and the extent of the repair.
+// Selection of the vertices of a primitive whose tangents are repaired, and of the parts that are repaired.
 
 /// Parts of a vertex's frame to repair, as bits.
 namespace mend {
-inline constexpr std::uint8_t kValues = 1;      ///< invalid values: not finite, not unit, parallel to N, w not +1 or -1
-inline constexpr std::uint8_t kStraighten = 2;  ///< made perpendicular to N; keeps its direction in the surface
-inline constexpr std::uint8_t kTurnSign = 4;    ///< w is negated
-inline constexpr std::uint8_t kSides = 8;    ///< recomputed at corners whose triangle needs the other sign or direction
-inline constexpr std::uint8_t kWhole = 16;   ///< recomputed at all its corners
-inline constexpr std::uint8_t kDeltas = 32;  ///< recompute offsets of morph targets
+/// invalid values are replaced: not finite, not unit, parallel to N, or w other than +1 and -1
+inline constexpr std::uint8_t kValues = 1;
+/// the tangent is made perpendicular to N, and keeps its direction in the surface
+inline constexpr std::uint8_t kStraighten = 2;
+inline constexpr std::uint8_t kTurnSign = 4;  ///< w is negated
+/// the tangent is recomputed at corners whose triangle needs the other sign or direction
+inline constexpr std::uint8_t kSides = 8;
+inline constexpr std::uint8_t kWhole = 16;   ///< the tangent is recomputed at all corners of the vertex
+inline constexpr std::uint8_t kDeltas = 32;  ///< offsets of morph targets are recomputed
 }  // namespace mend
 
 struct VertexMend {
-    std::uint32_t vertex = 0;  ///< vertex of the pool
-    std::uint8_t parts = 0;    ///< bits of namespace mend, not 0
+    std::uint32_t vertex = 0;  ///< vertex in the pool
+    std::uint8_t parts = 0;    ///< combination of the bits of namespace mend; not 0
 
     friend bool operator==(const VertexMend&, const VertexMend&) = default;
 };
 
 /// Repairs of one primitive. Invalid values are repaired at every vertex of the pool, listed or not.
 struct Mends {
-    std::vector<VertexMend> vertices = {};  ///< ascending
-    /// The signs remain inverted, and recomputed tangents get inverted signs too.
+    std::vector<VertexMend> vertices = {};  ///< vertices to repair, ascending
+    /// true: the signs remain inverted, and recomputed tangents get inverted signs too.
     bool inverted_signs = false;
 
     friend bool operator==(const Mends&, const Mends&) = default;
@@ -58,8 +61,9 @@ struct Mends {
 /// attribute.
 struct MorphOffsets {
     std::vector<Vec3> positions = {};
-    std::vector<Vec3> tangents = {};  ///< tangents of the file; read only if tangents are repaired
-    std::vector<Vec3> normals = {};   ///< added before normalizing the sum; ignored if normals are generated
+    std::vector<Vec3> tangents = {};  ///< offsets of the tangents in the file; read only if tangents are repaired
+    /// offsets of the normals, added before the sum is normalized; ignored if normals are generated
+    std::vector<Vec3> normals = {};
 };
 
 /// Targets of a pool. They are read one by one, because a face model has hundreds.
@@ -69,31 +73,32 @@ struct MorphTargets {
     std::function<Result<MorphOffsets>(std::size_t)> read = {};
 };
 
-/// Offsets of some vertices, ascending by vertex; all others are zero.
+/// Offsets of some vertices, in ascending order of vertices; all other vertices have the offset zero.
 struct VertexOffsets {
     std::vector<std::uint32_t> vertices = {};
-    std::vector<Vec3> offsets = {};  ///< finite
+    std::vector<Vec3> offsets = {};  ///< one per entry of `vertices`, finite
 };
 
 /// Offsets of one target for the frames of the new vertices.
 struct MorphFrames {
-    VertexOffsets normals = {};   ///< only if normals were generated
-    VertexOffsets tangents = {};  ///< to xyz; the sign cannot be morphed
+    VertexOffsets normals = {};   ///< offsets of normals; only if normals were generated
+    VertexOffsets tangents = {};  ///< offsets of the tangents' x, y and z; the sign cannot be morphed
 };
 
-// Core of the pipeline: geometry in, frames of an indexed mesh out, independent of file formats. Readers fill
-// PrimitiveGeometry, writers apply PoolFrames.
+// Interface of the core for model files: geometry in, frames of an indexed mesh out, independent of file formats.
+// Readers of files fill PrimitiveGeometry, and writers apply PoolFrames.
 
 /// Options of computeFrames.
 struct FramesOptions {
     TangentOptions tangents{.convention = conventions::gltf};
-    /// For pools without normals. weld_distance also applies to winding.
+    /// Options for pools without normals. weld_distance also applies to winding.
     NormalOptions normals{.weighting = NormalWeighting::flat, .weld_distance = NormalOptions::weld_auto};
-    bool sanitize = true;                         ///< repair tangents that no viewer can use
-    SanitizeOptions sanitize_options = {};        ///< options of the repair, with `sanitize`
-    bool bitangents = false;                      ///< compute PoolFrames::bitangents too
-    VectorFormat format = VectorFormat::float32;  ///< generated normals are rounded to it before tangents are computed
-    Faces faces = Faces::triangles;               ///< the faces that `mikktspace` is computed on
+    bool sanitize = true;                   ///< true: repair tangents that no viewer can use
+    SanitizeOptions sanitize_options = {};  ///< options of the repair, with `sanitize`
+    bool bitangents = false;                ///< true: compute PoolFrames::bitangents too
+    /// format to which generated normals are rounded before tangents are computed
+    VectorFormat format = VectorFormat::float32;
+    Faces faces = Faces::triangles;  ///< faces that `mikktspace` is computed on
     Execution execution = {};
     Progress progress = {};
 };
@@ -110,14 +115,15 @@ struct FramesReport {
     bool bitangents_generated = false;
     NormalReport normals = {};
     std::uint64_t normals_behind_count = 0;  ///< corners whose generated normal points to the back of their triangle
-    /// Triangles wound against most of their connected neighbors. Like two_sided_triangle_count, counted if normals are
-    /// generated, or if many vertices were split; otherwise 0.
+    /// Triangles wound against most of their connected neighbors. Counted, like two_sided_triangle_count, if normals
+    /// are generated or many vertices were split; otherwise 0.
     std::uint64_t turned_triangle_count = 0;
-    std::uint64_t two_sided_triangle_count = 0;  ///< triangles with a twin of the opposite winding
+    /// triangles with the positions of another triangle of the opposite winding
+    std::uint64_t two_sided_triangle_count = 0;
     TangentReport tangents = {};
     std::uint64_t negative_uv_count = 0;  ///< triangles with negative UV area
     SanitizeReport sanitize = {};
-    Faces faces = Faces::triangles;  ///< the faces that tangents were computed on
+    Faces faces = Faces::triangles;  ///< faces that tangents were computed on
     std::uint64_t quad_count = 0;    ///< number of these faces with four or more corners
 };
 
@@ -126,9 +132,9 @@ struct Surroundings;
 /// Drawable primitive over a pool of vertices: its corners, and per-face data.
 struct PrimitiveGeometry {
     std::vector<std::uint32_t> indices = {};     ///< one per corner, into the pool; not empty for a used primitive
-    std::vector<std::uint32_t> face_sizes = {};  ///< empty: triangles
-    std::vector<std::uint32_t> smoothing_groups = {};  ///< one per face, or empty
-    Mends mends = {};                                  ///< see PoolView::mends_tangents
+    std::vector<std::uint32_t> face_sizes = {};  ///< number of corners of each face; empty: triangles
+    std::vector<std::uint32_t> smoothing_groups = {};  ///< group of each face, or empty
+    Mends mends = {};                                  ///< repairs of this primitive (PoolView::mends_tangents)
     /// Triangles of other primitives that contribute to its normals; null: none. Only for triangles.
     std::shared_ptr<const Surroundings> around = {};
 };
@@ -137,17 +143,17 @@ struct PrimitiveGeometry {
 /// a mesh or a file's bytes.
 struct PoolView {
     StridedSpan<const Vec3> positions = {};
-    StridedSpan<const Vec3> normals = {};  ///< empty: to be generated
+    StridedSpan<const Vec3> normals = {};  ///< one per vertex; empty: normals are generated
     StridedSpan<const Vec2> uvs = {};      ///< UV set for the tangents; empty: none
-    UvMatrix uv_matrix = {};               ///< tangents use uv_matrix * uvs
+    UvMatrix uv_matrix = {};               ///< matrix that UVs are multiplied by before tangents are computed
     MorphTargets targets = {};
     /// If not empty: these tangents are kept and no vertex is split. Only tangent deltas of morph targets are computed;
     /// requires normals.
     std::span<const Vec4> kept_tangents = {};
-    /// Old values of tangents that are recomputed, one per vertex, or empty: evidence of the faces that they were
+    /// Stored values of tangents that are recomputed, one per vertex, or empty. They indicate the faces that they were
     /// computed on.
     std::span<const Vec4> old_tangents = {};
-    bool is_blenders = false;  ///< Blender wrote the file
+    bool is_blenders = false;  ///< true: Blender wrote the file
     /// Tangents are kept except at the vertices in each primitive's `mends`. There, vertices are split where corners
     /// require different tangents, and morph targets get new offsets where tangents are new.
     bool mends_tangents = false;
@@ -160,18 +166,18 @@ struct PoolView {
 /// Frames for all primitives of one pool after splitting it.
 struct PoolFrames {
     bool normals_generated = false;  ///< rounded to FramesOptions::format; tangents fit the rounded normals
-    /// New vertex -> old vertex, identity first (SplitResult::source_vertices).
+    /// Old vertex of each new vertex; the first vertices are unchanged (SplitResult::source_vertices).
     std::vector<std::uint32_t> source_vertices = {};
     std::vector<Vec3> normals = {};     ///< one per new vertex when normals_generated, else empty
     std::vector<Vec4> tangents = {};    ///< one per new vertex; empty if tangents are not requested or not possible
     std::vector<Vec3> bitangents = {};  ///< one per new vertex where FramesOptions::bitangents is set, else empty
-    /// Per primitive: triangles after triangulation, three new vertices each, in face order.
+    /// Triangles of each primitive after triangulation: three new vertices per triangle, in face order.
     std::vector<std::vector<std::uint32_t>> indices = {};
-    /// One per morph target. Kept tangents: empty if they differ from computed ones. Repaired tangents: this applies to
-    /// targets that had no tangents.
+    /// One entry per morph target. If tangents are kept, it is empty unless they equal computed ones; if tangents are
+    /// repaired, this applies to targets that had no tangents.
     std::vector<MorphFrames> morphs = {};
-    /// Kept tangents, repaired or not: corners whose tangent differs from the computed one (by sign, or by over 5
-    /// degrees).
+    /// Number of corners whose kept tangent, repaired or not, differs from the computed one by its sign or by over 5
+    /// degrees.
     std::uint64_t differing_count = 0;
 
     [[nodiscard]] bool wasSplit(std::size_t old_vertex_count) const {
@@ -209,7 +215,7 @@ void countFaults(std::span<const Vec3> positions, std::span<const Vec3> normals,
 /// the direction of `instead` (which must be valid) if `kept` has none. Valid values keep their bits.
 Vec4 withSoundValues(const Vec4& kept, const Vec4& instead, const Vec3& normal);
 
-/// Returns a unit tangent perpendicular to N.
+/// Returns a unit tangent perpendicular to N, with the given sign.
 Vec4 tangentFromNormal(const Vec3& normal, float sign);
 
 /// Applies withSoundValues to all vertices of a mesh whose tangents are kept, used by triangles or not: a tangent
@@ -228,7 +234,7 @@ Result<Done> mendValues(const TangentView& mesh, bool along_normals, std::span<V
 std::vector<bool> mendCorners(const PoolView& pool, std::span<const std::uint32_t> corners, const Mends& mends,
                               std::span<Vec4> tangents);
 
-/// Returns sign * cross(N, T), unit. If N has no direction: a unit vector perpendicular to T.
+/// Returns the unit vector sign * cross(N, T). If N has no direction, returns a unit vector perpendicular to T.
 Vec3 bitangentOf(const Vec4& tangent, const Vec3& normal);
 
 /// Repairs bitangents. A bitangent keeps its bits if it and its tangent are valid: it is unit, within 3 degrees of the

@@ -25,11 +25,11 @@ namespace tspace {
 namespace {
 
 struct WindingCounts {
-    /// Triangles connected over edges that exactly two share: in each component, the minority winding. A whole
-    /// component that is inside out has none.
+    /// Triangles with the minority winding of their component, where components consist of triangles connected over
+    /// edges that exactly two triangles share. A component that is inside out as a whole has none.
     std::uint64_t turned_count = 0;
-    /// Triangles of two-sided sheets: another triangle, or two of a flat quad, have the same positions and the opposite
-    /// winding.
+    /// Triangles of two-sided sheets: another triangle, or two triangles of a flat quad, have the same positions and
+    /// the opposite winding.
     std::uint64_t two_sided_count = 0;
 };
 
@@ -77,7 +77,7 @@ template <std::size_t count>
 struct Side {
     std::array<std::uint32_t, count> points = {};
     std::array<std::uint32_t, 2> triangles = {};
-    bool is_even = false;  ///< the order is a rotation of the face's own, not of its reverse
+    bool is_even = false;  ///< true: the order is a rotation of the face's own order; false: of its reverse
 
     Side(std::array<std::uint32_t, count> p, std::array<std::uint32_t, 2> of) : points(p), triangles(of) {
         std::rotate(points.begin(), std::min_element(points.begin(), points.end()), points.end());
@@ -101,7 +101,7 @@ void markTwoSided(std::vector<Side<count>>& sides, std::vector<bool>& marked) {
     }
 }
 
-/// Two-sided sheets: triangle by triangle, or quad by quad, whose sides may have different diagonals.
+/// Finds two-sided sheets: triangle by triangle, or quad by quad if the two sides have different diagonals.
 class Sheets {
   public:
     Sheets(const StridedSpan<const Vec3>& positions, std::span<const std::uint32_t> corners,
@@ -141,7 +141,8 @@ class Sheets {
         return at(t, 0) == at(t, 1) || at(t, 1) == at(t, 2) || at(t, 2) == at(t, 0);
     }
 
-    /// `from` runs from the lower point to the higher one. A tetrahedron looks like a flat quad except for its volume.
+    /// Adds a quad if it is flat: a tetrahedron looks like a flat quad except for its volume. `from` runs from the
+    /// lower point to the higher one.
     void addQuad(const EdgeUse& from, const EdgeUse& back, std::vector<Side<4>>& quads) const {
         constexpr double kFlat = 1e-6;
         if (isCollapsed(from.triangle) || isCollapsed(back.triangle)) return;
@@ -201,7 +202,7 @@ WindingCounts countWinding(const StridedSpan<const Vec3>& positions, std::span<c
 
 namespace {
 
-/// `positions`: from NearMesh, since neighbors are found by equal positions.
+/// Counts the faults of one primitive. `positions` come from NearMesh, because neighbors are found by equal positions.
 void countFaultsOf(const StridedSpan<const Vec3>& positions, std::span<const Vec3> normals,
                    std::span<const std::uint32_t> corners, FramesReport& report) {
     for (std::size_t c = 0; !normals.empty() && c + 2 < corners.size(); c += 3) {
@@ -221,7 +222,7 @@ void countFaultsOf(const StridedSpan<const Vec3>& positions, std::span<const Vec
 void countFaults(std::span<const Vec3> positions, std::span<const Vec3> normals,
                  std::span<const std::vector<std::uint32_t>> corner_lists, float weld_distance,
                  std::span<FramesReport> reports) {
-    // Close positions are found once for all primitives, since each may use a small part of the vertices.
+    // Close positions are searched once for all primitives, because each may use a small part of the vertices.
     std::vector<std::uint32_t> corners;
     for (const std::vector<std::uint32_t>& list : corner_lists) corners.insert(corners.end(), list.begin(), list.end());
     Parallel parallel(Execution{}, corners.size());

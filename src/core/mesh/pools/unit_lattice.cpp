@@ -25,7 +25,7 @@ std::int32_t clampedRound(double value, std::int32_t steps) {
 LatticePoint cornerOf(const Vec3& vector, std::int32_t steps, unsigned corner) {
     const auto component = [&](float value, unsigned bit) {
         const double at = static_cast<double>(value) * steps;
-        // A value within rounding of a lattice point has that point as its only bound.
+        // A value within rounding distance of a lattice point has that point as both bounds.
         const double nearest = std::round(at);
         const double bound = std::abs(at - nearest) < 1e-3 ? nearest
                              : (corner & bit) != 0         ? std::ceil(at)

@@ -14,9 +14,9 @@ namespace tspace {
 /// Returns the number of steps from 0 to 1; 0 for floats.
 std::int32_t latticeSteps(VectorFormat format);
 
-/// Lattice point for a unit vector, with decoded length close to 1: among the corners of the cell around the vector,
-/// the one with the nearest direction whose length deviates by at most 0.006 (the glTF validator allows 0.0067),
-/// otherwise the one with the best length. Vectors that are not unit are rounded directly, NaN to 0.
+/// Lattice point for a unit vector, with a decoded length close to 1. Among the corners of the cell around the vector,
+/// it is the one with the nearest direction whose length deviates by at most 0.006 (the glTF validator allows 0.0067),
+/// or, if there is none, the one with the best length. Vectors that are not unit are rounded directly; NaN becomes 0.
 struct LatticePoint {
     std::int32_t x = 0, y = 0, z = 0;
 };

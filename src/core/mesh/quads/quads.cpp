@@ -14,7 +14,8 @@
 
 namespace tspace {
 
-// Candidates are found triangle by triangle; quads are selected along each run to maximize the gain.
+// Search for pairs of triangles that form quads: candidates are found triangle by triangle, and quads are selected
+// along each run of candidates to maximize the total gain.
 
 namespace {
 
@@ -41,7 +42,7 @@ Corners verticesOf(const MeshView& mesh, std::size_t triangle) {
     return {mesh.indices[3 * triangle], mesh.indices[3 * triangle + 1], mesh.indices[3 * triangle + 2]};
 }
 
-/// Returns the unit normal, or zero if the triangle has no area.
+/// Returns the unit normal of a triangle, or zero if it has no area.
 DVec3 normalOf(const MeshView& mesh, const Corners& v) {
     const DVec3 a = toDouble(mesh.positions[v[0]]);
     DVec3 normal = cross(toDouble(mesh.positions[v[1]]) - a, toDouble(mesh.positions[v[2]]) - a);
@@ -53,16 +54,17 @@ std::uint8_t seamOf(const MeshView& mesh, const SameVertex& same, const Corners&
     for (unsigned i = 0; i < 3; ++i) {
         for (unsigned k = 0; k < 3; ++k) {
             if (!same(a[i], b[(k + 1) % 3]) || !same(a[(i + 1) % 3], b[k])) continue;
-            if (seam != 0) return 0;  // both triangles have the same corners, or one has no area
+            if (seam != 0) return 0;  // both triangles have the same corners, or one triangle has no area
             seam = static_cast<std::uint8_t>(1 + 3 * i + k);
         }
     }
     if (seam == 0) return 0;
-    // Triangles without area cannot fold back.
+    // Triangles without area cannot fold back on each other.
     return dot(normalOf(mesh, a), normalOf(mesh, b)) < 0 ? std::uint8_t{0} : seam;
 }
 
-/// Returns 1 for a rectangle, 0 if all corners are straight or collapsed.
+/// Returns how closely the corners of a quad are right angles: 1 for a rectangle, 0 if all corners are straight or
+/// collapsed.
 double squareness(const MeshView& mesh, const std::uint32_t quad[4]) {
     std::array<DVec3, 4> edges;
     for (unsigned k = 0; k < 4; ++k) {
@@ -98,8 +100,8 @@ QuadPairs choosePairs(const QuadCandidates& candidates, std::span<const float> g
     const std::size_t count = candidates.triangleCount();
     QuadPairs pairs(count, PairKind::none);
     if (count < 2) return pairs;
-    // From the end, so that among equal sums the earlier pair wins: most[t] is the maximum gain of triangles t and
-    // later.
+    // Computes sums from the end, so that the earlier pair wins among equal sums: most[t] is the maximum gain of
+    // triangles t and later.
     std::vector<double> most(count + 1, 0);
     for (std::size_t t = count - 1; t-- > 0;) {
         most[t] = most[t + 1];
@@ -162,7 +164,7 @@ QuadFaces facesOfPairs(const QuadCandidates& candidates, const QuadPairs& pairs)
         std::array<std::uint32_t, 4> quad;
         candidates.cornersOf(t, pairs[t] == PairKind::turned, quad.data());
         for (const std::uint32_t corner : quad) add(corner);
-        // The ends of the diagonal in the other triangle.
+        // Ends of the diagonal, as corners of the second triangle.
         const std::size_t i = candidates.patternOf(t) / 3, k = candidates.patternOf(t) % 3, second = 3 * (t + 1);
         faces.face_corners[second + k] = faces.face_corners[3 * t + (i + 1) % 3];
         faces.face_corners[second + (k + 1) % 3] = faces.face_corners[3 * t + i];
@@ -173,21 +175,25 @@ QuadFaces facesOfPairs(const QuadCandidates& candidates, const QuadPairs& pairs)
     return faces;
 }
 
-// Selection by evidence: compares what each pair explains in a mesh with the pair and in a mesh without it.
+// Selection of pairs by the stored tangents: compares how many corners a pair explains in a mesh with the pair and in a
+// mesh without it.
 
 namespace {
 
-/// Share of the corners unexplained by triangles that quads must explain. Selected pairs explain up to 6 % of them in
-/// meshes of other programs, and over 70 % if the quads are the original ones.
+/// Minimum share of the corners unexplained by triangles that quads must explain. Selected pairs explain up to 6 % of
+/// them in meshes of other programs, and over 70 % if the tangents were computed on quads.
 constexpr double kExplainedPart = 0.4;
-/// Minimum share of all corners.
+/// Minimum share of all corners that quads must explain in addition to triangles.
 constexpr double kExplainedShare = 0.01;
-/// Faces that explain less than half of the corners are not the faces that the tangents were computed on.
+/// Minimum share of the corners that the faces must explain: faces that explain fewer are not the faces that the
+/// tangents were computed on.
 constexpr double kMakerShare = 0.5;
-/// If the first two pairings explain less than this share, no other pairing will explain half.
+/// Share of the corners that the first two pairings must explain: if they explain less, no other pairing will explain
+/// half.
 constexpr double kHopelessShare = 0.25;
 
-/// The corners that a pair explains depend on its neighbors, so pairs are selected again while that explains more.
+/// Maximum number of rounds. Which corners a pair explains depends on the neighboring pairs, so pairs are selected
+/// again while that explains more.
 constexpr int kRounds = 4;
 
 double shareOf(std::uint64_t count, std::uint64_t total) {
@@ -256,8 +262,8 @@ class Fitter {
         return Done{};
     }
 
-    /// Returns the pairs that explain most according to the recorded results. A pair without influence is accepted,
-    /// since quads are being searched.
+    /// Returns the pairs that explain most according to the recorded results. A pair that makes no difference is
+    /// accepted, because quads are being searched.
     [[nodiscard]] QuadPairs bestPairs() const {
         constexpr float kTie = 1e-3F;
         std::vector<float> gains(paired_.size(), 0);
@@ -274,7 +280,8 @@ class Fitter {
     QuadFit& fit() { return fit_; }
 
   private:
-    /// Returns how well the triangle's corners are explained: highest for equal tangents, at least half for near ones.
+    /// Returns how well the triangle's corners are explained: highest for equal tangents, at least half for near
+    /// tangents.
     [[nodiscard]] float fitOf(const std::vector<float>& degrees, std::size_t t) const {
         if (votes_[t] == 0) return 0;
         float sum = 0;
@@ -303,8 +310,8 @@ class Fitter {
     const Execution& execution_;
     std::vector<std::uint8_t> votes_;
     std::vector<float> alone_,
-        paired_;            ///< explained corners, in the last computation, by single triangles and by pairs
-    QuadPairs best_kinds_;  ///< kind of the pair when it explained most
+        paired_;            ///< corners that were explained in the last computation, by single triangles and by pairs
+    QuadPairs best_kinds_;  ///< kind of each pair when it explained most
     QuadFit fit_ = {};
 };
 
@@ -374,15 +381,16 @@ Result<QuadFit> fitQuads(const MeshView& triangles, std::span<const Vec4> stored
     return std::move(fitter.fit());
 }
 
-// Evidence, in this order: the tangents, then the program that wrote the file.
+// Choice of the faces by evidence: first the stored tangents, then the program that wrote the file.
 
 namespace {
 
-/// In a quad mesh from Blender nearly all triangles have one of its two edge patterns; in a triangle mesh few do.
+/// Maximum share of unpaired triangles in a quad mesh from Blender: nearly all of its triangles have one of its two
+/// edge patterns, but few triangles of a triangle mesh do.
 constexpr double kMostTriangles = 0.6;
 
-/// Blender cuts a quad along its first and third corner (or, if this would flip a triangle, along the others), and
-/// writes the corners of both triangles in the order of the quad.
+/// Returns whether the pattern is one that Blender writes. Blender cuts a quad along its first and third corner (or, if
+/// this would flip a triangle, along the others), and writes the corners of both triangles in the order of the quad.
 bool isBlendersCut(unsigned pattern) {
     constexpr unsigned kFan = 3 * 2 + 0, kOther = 3 * 1 + 2;
     return pattern == kFan || pattern == kOther;
@@ -419,7 +427,7 @@ Result<QuadFaces> chooseFaces(const MeshView& triangles, std::span<const Vec4> s
 QuadFaces facesOfPolygons(std::span<const std::uint32_t> face_sizes, const Triangulation& triangles) {
     constexpr std::uint32_t kSkipped = 0xffffffffU;
     QuadFaces faces;
-    std::vector<std::uint32_t> face_corner_of;  // per corner of a polygon
+    std::vector<std::uint32_t> face_corner_of;  // corner of the polygon's face for each corner of a polygon
     for (const std::uint32_t size : face_sizes) {
         for (std::uint32_t k = 0; k < size; ++k) {
             face_corner_of.push_back(size < 3 ? kSkipped : static_cast<std::uint32_t>(faces.corners.size()));

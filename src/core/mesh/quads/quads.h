@@ -12,8 +12,8 @@
 
 namespace tspace {
 
-// Exporters cut a polygon into triangles that are consecutive in the list, so a quad can only consist of triangles t
-// and t + 1, across a shared edge. Candidates depend on topology and shape, not on tangents.
+// Candidates for quads. Exporters cut a polygon into triangles that are consecutive in the list, so a quad can only
+// consist of triangles t and t + 1, across a shared edge. Candidates depend on topology and shape, not on tangents.
 
 /// Finds triangles that can form a quad with the next triangle. Linear in the triangles; one byte per triangle.
 class QuadCandidates {
@@ -36,7 +36,8 @@ class QuadCandidates {
     [[nodiscard]] unsigned patternOf(std::size_t t) const { return seams_[t] - 1u; }
 
   private:
-    std::vector<std::uint8_t> seams_;  ///< 0: none; 1 + 3 * edge of t + edge of t + 1
+    /// pattern of triangles t and t + 1: 0 for no candidate, otherwise 1 + 3 * edge of t + edge of t + 1
+    std::vector<std::uint8_t> seams_;
     std::size_t count_ = 0;
 };
 
@@ -44,23 +45,25 @@ class QuadCandidates {
 /// third corner, so the first corner matters: an end of the shared edge, as Blender writes since 2.80, or another
 /// corner.
 enum class PairKind : std::uint8_t {
-    none = 0,    ///< a triangle, or the second triangle of a quad
-    quad = 1,    ///< forms a quad with triangle t + 1
-    turned = 2,  ///< forms a quad with triangle t + 1, starting one corner later
+    none = 0,    ///< the triangle is not paired, or is the second triangle of a quad
+    quad = 1,    ///< the triangle forms a quad with triangle t + 1
+    turned = 2,  ///< the triangle forms a quad with triangle t + 1, which starts one corner later
 };
 using QuadPairs = std::vector<PairKind>;
 
 /// Quads and triangles over the corners of a triangle list, in its order.
 struct QuadFaces {
-    std::vector<std::uint32_t> sizes = {};    ///< 3 or 4 per face
-    std::vector<std::uint32_t> corners = {};  ///< for each corner of a face: its corner in the list
-    /// For each corner of the list: its corner of a face. Each end of a quad's diagonal is two corners of the list.
+    std::vector<std::uint32_t> sizes = {};    ///< number of corners of each face, 3 or 4
+    std::vector<std::uint32_t> corners = {};  ///< for each corner of a face: the corner of the triangle list
+    /// For each corner of the triangle list: the corner of a face. At each end of a quad's diagonal, two corners of the
+    /// list belong to one corner of the face.
     std::vector<std::uint32_t> face_corners = {};
     std::size_t quad_count = 0;
 };
 
-/// Selects disjoint pairs with the largest sum of gains. `gains`: one per triangle t, for forming a quad of t and t +
-/// 1; 0 or less: never. Among equal sums earlier pairs win. Returns no turned pairs. Linear.
+/// Selects disjoint pairs with the largest sum of gains. `gains`: gain of forming a quad of triangles t and t + 1, for
+/// each t; pairs with a gain of 0 or less are never selected. Among equal sums earlier pairs win. Returns no turned
+/// pairs. Linear.
 QuadPairs choosePairs(const QuadCandidates& candidates, std::span<const float> gains);
 
 /// Selects the pairs that look most like modeled quads: the maximum number of pairs, and among these selections the one
@@ -70,7 +73,7 @@ QuadPairs pairsByShape(const MeshView& triangles, const QuadCandidates& candidat
 /// Returns whether turning any of these quads changes the diagonal that MikkTSpace cuts.
 bool hasTies(const MeshView& triangles, const QuadCandidates& candidates, const QuadPairs& pairs);
 
-/// Builds the faces. `pairs`: one per triangle.
+/// Builds the faces. `pairs`: one entry per triangle.
 QuadFaces facesOfPairs(const QuadCandidates& candidates, const QuadPairs& pairs);
 
 // Detection of tangents that MikkTSpace computed on quads that were triangulated later, as in Blender, and of the pairs

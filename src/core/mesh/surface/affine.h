@@ -36,7 +36,7 @@ inline Vec3 normalAt(const Affine& place, const Vec3& normal) {
     return turnedVector(normal, place.normal(toDouble(normal)));
 }
 
-/// Transforms a tangent so that the bitangent follows the surface, also under a mirroring transform.
+/// Transforms a tangent. Its sign changes under a mirroring transform, so that the bitangent follows the surface.
 inline Vec4 tangentAt(const Affine& place, const Vec4& tangent) {
     const Vec3 direction = turnedVector(xyz(tangent), place.direction(toDouble(xyz(tangent))));
     return {direction.x, direction.y, direction.z, place.determinant() < 0 ? -tangent.w : tangent.w};

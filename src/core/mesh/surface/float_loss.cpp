@@ -76,7 +76,7 @@ DVec3 roundMiddle(const VisitEdges& edges, std::size_t parts) {
         size = std::max(size, middles[k].high - middles[k].low);
     }
     const auto middle = [&](std::size_t k) {
-        // x + 0.0 removes the sign of a zero.
+        // Adding +0 converts -0 to +0.
         return roundedBySize(middles[k].low + (middles[k].high - middles[k].low) / 2, size) + 0.0;
     };
     return {middle(0), middle(1), middle(2)};
@@ -86,7 +86,8 @@ DVec3 offsetForFloats(const VisitEdges& edges) {
     const FloatLoss before = floatLoss(edges, {});
     if (!before.isNoticeable()) return {};
     const auto isLost = [&](std::size_t k) { return before.isNoticeable(before.changed_along[k]); };
-    // Robust against stray faces, and against a part that is far away from most faces.
+    // Excluding the ends makes the center robust against stray faces, and against a part that is far away from most
+    // faces.
     for (const std::size_t parts : {20, 4}) {
         const DVec3 middle = roundMiddle(edges, parts);
         const DVec3 offset{isLost(0) ? middle.x : 0, isLost(1) ? middle.y : 0, isLost(2) ? middle.z : 0};

@@ -11,16 +11,16 @@
 
 namespace tspace {
 
-/// Calls back with both ends of every edge of every face; each corner of a face is `from` once. May be called several
-/// times. Ends that are not finite are skipped.
+/// Visits edges: calls back with both ends of every edge of every face; each corner of a face is `from` once. May be
+/// called several times. Ends that are not finite are skipped.
 using VisitEdges = std::function<void(const std::function<void(const DVec3& from, const DVec3& to)>&)>;
 
 /// Counts edges that rounding changes by more than a thousandth of their length along an axis. If many change, normals
 /// are off by 0.1 degrees or more.
 struct FloatLoss {
-    std::uint64_t edge_count = 0;  ///< edges with a length above 0
+    std::uint64_t edge_count = 0;  ///< number of edges with a length above 0
     std::uint64_t changed_count = 0;
-    std::array<std::uint64_t, 3> changed_along = {};  ///< x, y, z
+    std::array<std::uint64_t, 3> changed_along = {};  ///< number of changed edges along x, y and z
 
     /// Returns whether `changed` is at least one in twenty of the edges.
     [[nodiscard]] bool isNoticeable(std::uint64_t changed) const { return changed > 0 && 20 * changed >= edge_count; }

@@ -16,7 +16,8 @@ namespace tspace {
 namespace {
 
 constexpr std::uint32_t kNoPiece = 0xffffffffu;
-/// If one in this many triangles of the smaller piece coincides, the pieces coincide.
+/// Two pieces coincide if at least one in this many triangles of the smaller piece coincides with a triangle of the
+/// other.
 constexpr std::size_t kOverlap = 10;
 
 }  // namespace
@@ -83,7 +84,8 @@ std::vector<JoinedPieces::EdgeUse> JoinedPieces::sharedEdges() const {
     return edges;
 }
 
-/// Counts votes by edges. Edges of more than two triangles are ignored: their neighbors are ambiguous.
+/// Counts the votes of shared edges. Edges of more than two triangles are ignored, because their neighbors are
+/// ambiguous.
 void JoinedPieces::voteByEdges(const std::vector<EdgeUse>& edges, std::map<Pair, Votes>& votes) {
     for (std::size_t i = 0, past = 0; i < edges.size(); i = past) {
         while (past < edges.size() && edges[past].low == edges[i].low && edges[past].high == edges[i].high) ++past;

@@ -19,12 +19,12 @@ namespace tspace {
 
 namespace {
 
-// -- lattice that positions were rounded to before conversion to float --
+// -- decimal or integer lattice that positions were rounded to before conversion to float --
 
 double valueAt(const Vec3& p, std::size_t axis) { return static_cast<double>(axis == 0 ? p.x : axis == 1 ? p.y : p.z); }
 
-/// Returns the greatest common divisor of distances with an error of `slack` each; 0: none. They are sorted, so that
-/// each longer one refines the step before larger multiples of it occur.
+/// Returns the greatest common divisor of distances that have an error of `slack` each; 0 if there is none. The
+/// distances are sorted first, so that each longer one refines the step before larger multiples of it occur.
 double commonStep(std::vector<double>& distances, double slack, double least) {
     std::sort(distances.begin(), distances.end());
     double step = 0;
@@ -44,7 +44,7 @@ double commonStep(std::vector<double>& distances, double slack, double least) {
 }
 
 /// Returns the step of which all values of an axis are integer multiples, relative to one of them, except for float
-/// rounding; 0 if there is none, or if it is close to that rounding. `axis`: 0 to 2. far: the largest magnitude of a
+/// rounding; 0 if there is none, or if it is close to that rounding. `axis`: 0 to 2. `far`: the largest magnitude of a
 /// value. Linear.
 double latticeStep(StridedSpan<const Vec3> positions, std::size_t axis, double far) {
     constexpr std::size_t kFew = 256, kMostTries = 16;
@@ -70,11 +70,11 @@ double latticeStep(StridedSpan<const Vec3> positions, std::size_t axis, double f
     return 0;
 }
 
-/// dP/du of a triangle, and the sine of its rotation by rounding (root mean square).
+/// Direction of dP/du of a triangle, and the sine of its rotation by rounding (root mean square).
 struct TurnedDirection {
-    DVec3 direction = {};  ///< unit; zero if it was lost in rounding
+    DVec3 direction = {};  ///< unit vector; zero if the direction was lost in rounding
     double size = 0;
-    double sine = 0;  ///< 0: the triangle is not usable
+    double sine = 0;  ///< sine of the rotation; 0: the triangle is not usable
 };
 
 TurnedDirection directionOf(StridedSpan<const Vec3> positions, StridedSpan<const Vec2> uvs, const std::uint32_t* v,
@@ -83,8 +83,9 @@ TurnedDirection directionOf(StridedSpan<const Vec3> positions, StridedSpan<const
     const UvFrame frame = uvFrame(positions[v[0]], positions[v[1]], positions[v[2]], a, b, c);
     const double area = std::fabs(frame.determinant), length_of_tangent = length(frame.tangent);
     if (!(area > 0) || !std::isfinite(length_of_tangent)) return {};
-    // t2 (P1 - P0) - t1 (P2 - P0) is linear in the corners, and the two coordinates of each corner perpendicular to it
-    // rotate it. The mean square is a third of the square of half a step, and that is a third of the square of `error`.
+    // dP/du is proportional to t2 (P1 - P0) - t1 (P2 - P0), which is linear in the corners; the two coordinates of each
+    // corner perpendicular to it rotate it. The mean square of each is a third of the square of half a step, which is a
+    // third of the square of `error`.
     const double t1 = double{b.y} - a.y, t2 = double{c.y} - a.y;
     const double off = std::sqrt(2.0 / 9 * (t1 * t1 + t2 * t2 + (t2 - t1) * (t2 - t1))) * error;
     TurnedDirection result{.size = length_of_tangent / area,
@@ -101,7 +102,8 @@ TurnedDirection directionOf(StridedSpan<const Vec3> positions, StridedSpan<const
 bool scattersByRounding(StridedSpan<const Vec3> positions, StridedSpan<const Vec2> uvs,
                         std::span<const std::span<const std::uint32_t>> corner_lists, double error,
                         const std::array<bool, 3>& may_be_raster, const Allocator* allocator) {
-    // Fractions of the expected values. Lengths change less if all edges are about the same number of steps long.
+    // Minimum values, as fractions of the expected ones. Lengths change less if all edges are about the same number of
+    // steps long.
     constexpr double kLeastSine = 0.17, kLeastTurn = 0.25, kLeastStretch = 0.07;
     constexpr std::size_t kLeastCount = 32;
     std::size_t most = 0, told = 0;
@@ -151,7 +153,7 @@ bool scattersByRounding(StridedSpan<const Vec3> positions, StridedSpan<const Vec
     return count >= kLeastCount && isMuch(turned, kLeastTurn) && isMuch(stretched, kLeastStretch);
 }
 
-// -- steps of floats --
+// -- spacing of floats --
 
 /// Returns the exponent of the largest power of two that divides a float.
 int lowestBit(float value) {
@@ -161,12 +163,12 @@ int lowestBit(float value) {
     return std::max(exponent, 1) - 150 + std::countr_zero(digits);
 }
 
-/// Steps along one axis.
+/// Distribution of the positions along one axis.
 struct Axis {
     float low = std::numeric_limits<float>::max(), high = -std::numeric_limits<float>::max();
     int lowest_bit = 128;
     bool is_finite = true, is_fine = false;
-    double spacing = 0;  // the only nonzero distance along it between ends of an edge
+    double spacing = 0;  // the only nonzero distance along the axis between the ends of an edge
     bool is_even = true;
     std::uint64_t triangles = 0, flat = 0;
 
@@ -198,7 +200,8 @@ struct Axis {
     void lookAtBits() { is_fine = high >= low && far() > 0 && lowest_bit <= std::ilogb(far()) - 23; }
     [[nodiscard]] double far() const { return std::max(std::fabs(double{low}), std::fabs(double{high})); }
     [[nodiscard]] double step() const {
-        // Models near the origin may be on a grid by design. Offsets with this many bits are not.
+        // Minimum magnitude for offsets from the origin: models near the origin may be on a grid by design, but not at
+        // coordinates with this many bits.
         constexpr double kFar = 1 << 18;
         if (!(high >= low) || far() == 0 || isRaster()) return 0;
         const double finest = std::ldexp(1.0, std::ilogb(far()) - 23), common = std::ldexp(1.0, lowest_bit);

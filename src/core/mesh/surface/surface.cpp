@@ -15,7 +15,7 @@ namespace tspace {
 
 namespace {
 
-/// The reference treats smaller determinants as zero.
+/// Determinants below this value are treated as zero, as in the reference.
 constexpr double kSmallestDeterminant = 1.17549435e-38;
 
 /// Returns whether the sign of the determinant survives rounding: of the UVs when stored as floats, and of a reader's
@@ -53,7 +53,7 @@ SurfaceFrame describeFace(const std::array<Vec3, 3>& positions, const std::array
     if (!(std::fabs(frame.determinant) > kSmallestDeterminant) || !hasUvArea(frame.determinant)) return face;
     DVec3 tangent = (frame.determinant < 0 ? -1.0 : 1.0) * frame.tangent;
     if (position_error > 0) {
-        // t2 (P1 - P0) - t1 (P2 - P0) is linear in the positions.
+        // dP/du is proportional to t2 (P1 - P0) - t1 (P2 - P0), which is linear in the positions.
         const double t1 = double{ub.y} - ua.y, t2 = double{uc.y} - ua.y;
         const double off = position_error * (std::fabs(t2 - t1) + std::fabs(t2) + std::fabs(t1));
         const double size = length(tangent);
@@ -130,14 +130,14 @@ EqualVertices findEqualVertices(const TangentView& mesh, bool with_uvs) {
 
 namespace {
 
-/// A mean below this fraction of its weights has no direction: the triangles cancel out.
+/// Minimum length of a mean relative to its weights: a shorter mean has no direction, because the triangles cancel out.
 constexpr double kVanished = 1e-3;
-/// Ratio of areas below which a triangle has collapsed: a hundredth of each side.
+/// Ratio of areas below which a triangle has collapsed: each of its sides shrank to about a hundredth.
 constexpr double kCollapsed = 1e-4;
 /// Cosine of 150 degrees. A triangle that rotates further nearly collapses on the way, since vertices move along lines,
 /// and may have been flipped: then no sum of base and offset is its normal at all weights.
 constexpr double kFlipped = -0.86602540378443865;
-/// Area / longest edge^2 below which the area is rounding noise.
+/// Ratio of the area to the squared longest edge below which the area is rounding noise.
 constexpr double kThin = 1e-6;
 
 struct Fan {
@@ -148,7 +148,7 @@ struct Fan {
 
 struct Triangle {
     std::array<DVec3, 3> positions;
-    DVec3 normal = {};  ///< twice the area long, then unit
+    DVec3 normal = {};  ///< normal of the triangle: first with twice the area as its length, then unit
     double area = 0;
     bool is_thin = false;
 
@@ -183,7 +183,7 @@ void add(const Triangle& triangle, std::size_t k, DVec3& sum, double& weight) {
 Vec3 VertexTurn::apply(const Vec3& normal) const {
     const DVec3 a = toDouble(from), b = toDouble(to), n = toDouble(normal), v = cross(a, b);
     const double c = dot(a, b);
-    constexpr double kOpposite = 1e-6;  // no unique rotation axis
+    constexpr double kOpposite = 1e-6;  // threshold for opposite vectors, which have no unique rotation axis
     if (!isKnown() || from == to || 1 + c < kOpposite) return normal;
     return toFloat(c * n + cross(v, n) + (dot(v, n) / (1 + c)) * v);
 }

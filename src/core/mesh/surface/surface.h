@@ -20,18 +20,18 @@
 
 namespace tspace {
 
-// Arrays of one triangle mesh for checks, from a file of any format.
+// Arrays of one triangle mesh, as input of checks, from a file of any format.
 
-/// All arrays but `corners` have one entry per vertex.
+/// View of a triangle mesh. All arrays except `corners` have one entry per vertex.
 struct TangentView {
     std::span<const Vec3> positions = {};
     std::span<const Vec3> normals = {};           ///< may be empty only if a function allows it
-    std::span<const Vec4> tangents = {};          ///< w: the sign
+    std::span<const Vec4> tangents = {};          ///< tangents; w is the sign
     std::span<const Vec2> uvs = {};               ///< UVs that the texture uses, after its transform
     std::span<const std::uint32_t> corners = {};  ///< three per triangle, all smaller than positions.size()
     double position_step = 0;  ///< quantization step of positions stored as integers, in their units; 0: floats
 
-    /// Returns its triangles as a MeshView.
+    /// Returns the triangles as a MeshView.
     [[nodiscard]] MeshView triangles() const {
         MeshView view;
         view.positions = positions;
@@ -42,7 +42,7 @@ struct TangentView {
     }
 };
 
-/// Makes a view of triangles with indices, or of unindexed vertices.
+/// Returns a view of the triangles of a mesh with indices, or of unindexed vertices.
 inline TangentView tangentView(const OwnedMesh& mesh) {
     return {.positions = mesh.positions,
             .normals = mesh.normals,
@@ -51,10 +51,11 @@ inline TangentView tangentView(const OwnedMesh& mesh) {
             .corners = mesh.indices};
 }
 
-// Valid values of a stored tangent, whatever the UVs: finite, unit, a sign of +1 or -1, and not parallel to N.
+// Validity of the values of a stored tangent, independent of UVs: finite, unit, a sign of +1 or -1, and not parallel to
+// N.
 
-/// A tangent within 5 degrees of N or -N forms no frame: cross(N, T) is nearly zero, and a shader that normalizes it
-/// gets NaN or a random direction.
+/// Angle between a tangent and N or -N below which they form no frame: cross(N, T) is nearly zero, and a shader that
+/// normalizes it gets NaN or a random direction.
 inline constexpr double kParallelDeg = 5;
 inline constexpr double kParallelCosine = 0.99619469809174555;  ///< cosine of kParallelDeg
 
@@ -77,8 +78,8 @@ inline bool hasSoundValues(const Vec4& tangent) {
 struct PositionRounding {
     double step = 0;          ///< distance of adjacent representable numbers, along the coarsest axis; 0: negligible
     double error = 0;         ///< maximum distance of a position from its value before rounding
-    double far = 0;           ///< the largest coordinate
-    bool was_before = false;  ///< they had been rounded before the conversion to float
+    double far = 0;           ///< largest coordinate, as a magnitude
+    bool was_before = false;  ///< true: positions had been rounded before the conversion to float
 };
 
 /// Estimates the rounding of positions. `stored_step`: step of an integer format, in position units; 0 for floats. The
@@ -95,23 +96,23 @@ struct TurnedTriangles {
     std::uint64_t count = 0, total = 0;
     double share = 0;  ///< share of the surface in triangles rotated by more than the limit
     double worst_deg = 0;
-    std::uint32_t first = 0;  ///< one corner of the first such triangle
+    std::uint32_t first = 0;  ///< a corner of the first triangle that is rotated by more than the limit
 };
 /// Computes how much rounding rotates the plane of each triangle (root mean square). Linear.
 TurnedTriangles turnedBy(const PositionRounding& rounding, StridedSpan<const Vec3> positions,
                          std::span<const std::uint32_t> corners, double limit_deg);
 
-/// Minimum share of the surface that is not just a few slivers.
+/// Minimum share of the surface: a smaller share may consist of a few slivers.
 inline constexpr double kSomeTurned = 0.01;
 
-// Per-triangle properties: normal, area, direction of dP/du, and UV orientation.
+// Properties of a triangle: normal, area, direction of dP/du, and UV orientation.
 
 struct SurfaceFrame {
-    Vec3 normal = {};   ///< unit, by the right-hand rule; zero if the triangle has no area
-    Vec3 tangent = {};  ///< unit dP/du; zero if the UVs have no area
+    Vec3 normal = {};   ///< unit normal by the right-hand rule; zero if the triangle has no area
+    Vec3 tangent = {};  ///< unit vector along dP/du; zero if the UVs have no area
     float area = 0;
-    /// Sine of the maximum angle by which rounding of the positions can have rotated `tangent`; from 1 on any direction
-    /// is possible.
+    /// Sine of the maximum angle by which rounding of the positions can have rotated `tangent`; from 1 on, any
+    /// direction is possible.
     float tangent_error = 0;
     /// Sign of the UV determinant; 0 if the UVs have no area, or so little that rounding decides. In the latter case
     /// `tangent` may also point in the opposite direction.
@@ -119,8 +120,8 @@ struct SurfaceFrame {
 };
 
 struct Surface {
-    std::vector<SurfaceFrame> faces = {};   ///< one per triangle
-    std::vector<double> vertex_areas = {};  ///< a third of each triangle around the vertex
+    std::vector<SurfaceFrame> faces = {};   ///< properties of each triangle
+    std::vector<double> vertex_areas = {};  ///< area of each vertex: a third of each triangle around it
     std::vector<double> known_areas = {};   ///< area per vertex of the triangles that have an orientation
     double area = 0;
     double known_area = 0;  ///< area of the triangles that have an orientation
@@ -139,20 +140,20 @@ SurfaceFrame describeFace(const std::array<Vec3, 3>& positions, const std::array
 /// view. Triangles that are not finite have no area. Linear.
 Surface describeSurface(const TangentView& mesh);
 
-// Triangles whose UVs determine a tangent direction.
+// Test for triangles whose UVs determine a tangent direction.
 
 /// Returns one byte per triangle: 1 if its UVs have an orientation; 0 if they have no area, or so little that rounding
 /// decides, or if the triangle has no area. Normals are ignored. Linear.
 std::vector<std::uint8_t> uvVotes(const MeshView& triangles);
 
-// Vertices with equal position and normal, or equal position, normal and UV.
+// Equality of vertices: by position and normal, or by position, normal and UV.
 
 /// Returns a key for UniqueIndex: equal positions have equal keys, with both zeros equal.
 inline std::array<std::uint32_t, 3> positionKey(const Vec3& p) { return {weldBits(p.x), weldBits(p.y), weldBits(p.z)}; }
 
 struct EqualVertices {
-    std::vector<std::uint32_t> class_of = {};  ///< one per vertex
-    std::size_t class_count = 0;               ///< numbered in order of their first vertices
+    std::vector<std::uint32_t> class_of = {};  ///< class of each vertex
+    std::size_t class_count = 0;               ///< number of classes, in order of their first vertices
 };
 
 /// Finds equal vertices. One entry per vertex in each array; `uvs` may be empty. Compares bits, but both zeros are
@@ -161,12 +162,12 @@ EqualVertices findEqualVertices(const StridedSpan<const Vec3>& positions, const 
                                 const StridedSpan<const Vec2>& uvs);
 EqualVertices findEqualVertices(const TangentView& mesh, bool with_uvs);
 
-// Rotation of a moved surface around its vertices, and of the artist's normals there.
+// Rotation of a surface around its vertices when it moves, which also rotates the normals that an artist chose there.
 
 /// Mean normals of the triangles around a vertex before and after a movement, weighted by their angles.
 struct VertexTurn {
-    Vec3 from = {}, to = {};  ///< unit; both are zero if one is undefined
-    /// Whether no triangle around the vertex collapses, expands from nothing or is flipped (rotated by more than 150
+    Vec3 from = {}, to = {};  ///< unit normals; both are zero if one of them is undefined
+    /// true: no triangle around the vertex collapses, expands from nothing or is flipped (rotated by more than 150
     /// degrees), and none deviates by more than 40 degrees from the mean, before or after. Otherwise the mean depends
     /// on the weights, and exporters differ.
     bool is_certain = false;
@@ -176,11 +177,12 @@ struct VertexTurn {
     [[nodiscard]] Vec3 apply(const Vec3& normal) const;
 };
 
-/// Rotations of a surface. The triangles around a vertex include those of all vertices with the same position, normal
-/// and, for a movement, offset: UV seams do not separate them, but hard edges do.
+/// Rotations of a surface at its vertices. The triangles around a vertex include those of all vertices with the same
+/// position, normal and, for a movement, offset: UV seams do not separate them, but hard edges do.
 class SurfaceTurns {
   public:
-    /// One normal per position. `corners`: three per triangle. All arguments must outlive the object.
+    /// Prepares the search for a mesh with one normal per position. `corners`: three per triangle. All arguments must
+    /// outlive the object.
     SurfaceTurns(std::span<const Vec3> positions, std::span<const Vec3> normals,
                  std::span<const std::uint32_t> corners);
 
@@ -212,13 +214,14 @@ struct PieceTriangle {
 /// NormalOptions::weld_distance. O(n log n) in the triangles at borders, otherwise linear.
 class JoinedPieces {
   public:
-    /// Edge shared by two pieces of one surface.
+    /// Edge that two pieces of one surface share.
     struct Border {
-        std::array<PieceTriangle, 2> triangles = {};  ///< triangles[0] belongs to the piece with the lower index
+        /// triangles at the edge; triangles[0] belongs to the piece with the lower index
+        std::array<PieceTriangle, 2> triangles = {};
         std::array<std::uint32_t, 2> points = {};
     };
 
-    /// All arguments must outlive the object.
+    /// Finds the groups. All arguments must outlive the object.
     JoinedPieces(std::span<const std::span<const Vec3>> vertex_lists, std::span<const SurfacePiece> pieces,
                  float weld_distance);
 
@@ -234,12 +237,12 @@ class JoinedPieces {
 
     /// Returns the points of a piece that other pieces of its surface share.
     [[nodiscard]] std::vector<std::uint32_t> sharedPoints(std::uint32_t piece) const;
-    /// Returns the triangles of the other pieces within `rings` rings of those points, ascending.
+    /// Returns the triangles of the other pieces within `rings` rings of the shared points, ascending.
     [[nodiscard]] std::vector<PieceTriangle> around(std::uint32_t piece, unsigned rings) const;
 
   private:
     struct EdgeUse {
-        std::uint32_t low, high;  // points
+        std::uint32_t low, high;  // points at the ends of the edge
         PieceTriangle at;
         bool is_forward;
     };
@@ -260,9 +263,9 @@ class JoinedPieces {
     }
 
     std::span<const SurfacePiece> pieces_;
-    std::vector<std::size_t> first_vertex_ = {};  ///< first vertex of each list
-    std::vector<std::uint32_t> points_ = {};      ///< points of the vertices of all lists
-    std::vector<bool> is_shared_ = {};            ///< points shared by several pieces
+    std::vector<std::size_t> first_vertex_ = {};  ///< index of the first vertex of each vertex list
+    std::vector<std::uint32_t> points_ = {};      ///< point of each vertex of all lists
+    std::vector<bool> is_shared_ = {};            ///< flags of points that several pieces share
     std::vector<std::uint32_t> group_ = {};
     std::vector<std::vector<std::uint32_t>> groups_ = {};
     std::vector<Border> borders_ = {};

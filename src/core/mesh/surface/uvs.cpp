@@ -14,7 +14,7 @@
 namespace tspace {
 namespace {
 
-/// Returns, per vertex, the number of its combination of position and UV.
+/// Returns, for each vertex, the number of its combination of position and UV.
 std::vector<std::uint32_t> weldVertices(std::span<const Vec3> positions, std::span<const Vec2> uvs) {
     UniqueIndex<std::array<std::uint32_t, 5>> points(positions.size());
     std::vector<std::uint32_t> welded(positions.size());
@@ -25,7 +25,7 @@ std::vector<std::uint32_t> weldVertices(std::span<const Vec3> positions, std::sp
     return welded;
 }
 
-/// Returns the parents of triangles (disjoint_sets.h).
+/// Returns the parents of triangles in a forest of disjoint sets (disjoint_sets.h), one set per UV island.
 std::vector<std::uint32_t> joinIslands(std::span<const std::uint32_t> corners,
                                        const std::vector<std::uint32_t>& welded) {
     std::vector<std::uint32_t> islands(corners.size() / 3);
@@ -76,7 +76,8 @@ double signedUvArea(const Vec2& a, const Vec2& b, const Vec2& c, bool v_runs_dow
 
 namespace {
 
-/// Files store a quarter turn as a float, or with a few digits.
+/// Returns a sine or cosine, rounded to -1, 0 or 1 if it is close: files store a quarter turn as a float, or with a few
+/// digits.
 double snapped(double value) {
     constexpr double kClose = 1e-6;
     if (std::fabs(value) < kClose) return 0;
@@ -99,7 +100,7 @@ UvMatrix uvMatrix(double rotation, double scale_u, double scale_v) {
         scale_u /= common;
         scale_v /= common;
     }
-    // + 0.0 removes negative zeros, which would differ between equal matrices.
+    // Adding +0 converts -0 to +0, so that equal matrices have equal bits.
     return {cosine * scale_u, sine * scale_v + 0.0, -sine * scale_u + 0.0, cosine * scale_v};
 }
 

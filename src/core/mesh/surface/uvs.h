@@ -10,10 +10,10 @@
 
 namespace tspace {
 
-// Connected components of a UV map.
+// Islands of a UV map: its connected components.
 
 struct UvIslands {
-    std::vector<std::uint32_t> island_of = {};  ///< one per triangle
+    std::vector<std::uint32_t> island_of = {};  ///< island of each triangle
     std::uint32_t count = 0;                    ///< number of islands, in order of their first triangles
 };
 
@@ -23,16 +23,16 @@ struct UvIslands {
 UvIslands findUvIslands(std::span<const std::uint32_t> corners, std::span<const Vec3> positions,
                         std::span<const Vec2> uvs);
 
-/// Returns twice the signed area with v upward. In double, so that finite float UVs never overflow and float
-/// differences are exact.
+/// Returns twice the signed area, with v upward. In double precision, finite float UVs never overflow, and differences
+/// of floats are exact.
 double signedUvArea(const Vec2& a, const Vec2& b, const Vec2& c, bool v_runs_down);
 
-// Effect of a texture transform on frames: a 2x2 matrix on UVs, without factors that do not change directions.
+// Effect of a texture transform on frames: a 2x2 matrix for UVs, without factors that do not change directions.
 
-/// uv' = matrix * uv.
+/// Matrix for UVs: uv' = matrix * uv.
 struct UvMatrix {
-    double uu = 1, uv = 0;  ///< u' = uu * u + uv * v
-    double vu = 0, vv = 1;  ///< v' = vu * u + vv * v
+    double uu = 1, uv = 0;  ///< row of u: u' = uu * u + uv * v
+    double vu = 0, vv = 1;  ///< row of v: v' = vu * u + vv * v
 
     friend bool operator==(const UvMatrix&, const UvMatrix&) = default;
     [[nodiscard]] bool isIdentity() const { return *this == UvMatrix{}; }
@@ -48,7 +48,7 @@ struct UvMatrix {
 /// which shows one row of texels everywhere and has no frame, counts as 1.
 UvMatrix uvMatrix(double rotation, double scale_u, double scale_v);
 
-/// Multiplies each UV by the matrix, in double, rounded once.
+/// Multiplies each UV by the matrix, in double precision, and rounds the result once.
 ///
 /// Triangles with collinear UVs, not parallel to an axis, may get a tiny UV area from rounding if the matrix is not a
 /// quarter turn.
