@@ -15,39 +15,42 @@ struct TriangleSource {
     const std::byte* positions = nullptr;
     const std::byte* uvs = nullptr;
     std::size_t position_stride = 0, uv_stride = 0;
-    std::uint32_t last_vertex = 0;  ///< the memory directly after its position must not be read
+    /// vertex whose position is the last in memory: the bytes after it must not be read
+    std::uint32_t last_vertex = 0;
 };
 
-inline constexpr std::size_t kTermTriangles = 64;  ///< triangles per block, one per bit of a mask
-inline constexpr std::size_t kTermGroup = 16;      ///< triangles and vertices are read in whole groups
+inline constexpr std::size_t kTermTriangles = 64;  ///< triangles per block: one per bit of a mask
+inline constexpr std::size_t kTermGroup = 16;      ///< triangles and vertices per group: kernels read whole groups
 
-/// Six floats per triangle and vertex, in two arrays for vertices.
+/// Terms of a block of triangles, which are added to the sums of their vertices: six floats per triangle and vertex.
 struct DerivativeTerms {
-    alignas(64) float rows[kTermTriangles][8];  ///< s.x s.y s.z t.x t.y t.z, s = dP/du, t = dP/dv; s.x is never -0
-    std::uint64_t safe = 0;                     ///< bits of the triangles for which single precision is exact enough
-    std::uint64_t mirrored = 0;                 ///< safe triangles with negative UV area
+    /// s.x s.y s.z t.x t.y t.z, with s = dP/du and t = dP/dv; s.x is never -0
+    alignas(64) float rows[kTermTriangles][8];
+    std::uint64_t safe = 0;      ///< bits of the triangles for which single precision is accurate enough
+    std::uint64_t mirrored = 0;  ///< safe triangles with negative UV area
 };
 
-/// Arrays of the sums.
+/// Sums of all vertices, six floats per vertex in two arrays.
 struct SumArrays {
     float* heads = nullptr;  ///< s.x s.y s.z t.x of each vertex
-    float* tails = nullptr;  ///< t.y t.z
+    float* tails = nullptr;  ///< t.y t.z of each vertex
 };
 
-/// The functions for one CPU.
+/// Functions of the kernel, compiled for one CPU.
 struct DerivativeKernel {
-    /// `vertices`: three per triangle, valid up to the end of the last group. count <= kTermTriangles.
+    /// Computes the terms of `count` triangles, at most kTermTriangles. `vertices`: three per triangle, valid up to the
+    /// end of the last group.
     void (*compute)(const TriangleSource& source, const std::uint32_t* vertices, std::size_t count,
                     DerivativeTerms& terms);
     /// Adds the rows of the triangles in [begin, end) to the sums of their vertices.
     void (*add)(const DerivativeTerms& terms, const std::uint32_t* vertices, std::size_t begin, std::size_t end,
                 SumArrays sums);
-    /// Like `add`, only for the vertices in [first, past).
+    /// Adds rows like `add`, but only for the vertices in [first, past).
     void (*add_some)(const DerivativeTerms& terms, const std::uint32_t* vertices, std::size_t begin, std::size_t end,
                      SumArrays sums, std::uint32_t first, std::uint32_t past);
-    /// Finishes `count` vertices, a multiple of kTermGroup and at most 64: replaces heads by tangents with the sign
-    /// times `sign_factor` if single precision is sufficient, and returns the bits of these vertices. Also reads the
-    /// four bytes after each normal.
+    /// Finishes `count` vertices, a multiple of kTermGroup and at most 64. If single precision is sufficient for a
+    /// vertex, replaces its head by the tangent with the sign times `sign_factor`. Returns the bits of these vertices.
+    /// Also reads the four bytes after each normal.
     std::uint64_t (*finish)(SumArrays sums, const std::byte* normals, std::size_t stride, float sign_factor,
                             std::size_t count);
 };

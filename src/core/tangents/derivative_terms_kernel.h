@@ -12,12 +12,13 @@ using namespace simd::TSPACE_LANES;
 
 namespace {
 
-constexpr float kLeast = 1e-30f, kGreatest = 1e30f;  // far enough from the limits of float for all following operations
-// A determinant a - b is computed in single precision if |a - b| > (|a| + |b|) / 32. Its terms have an error of 3
-// roundings each, so its error is at most 100 roundings (6e-6) and its sign is certain.
+// limits that are far enough from those of float for all following operations
+constexpr float kLeast = 1e-30f, kGreatest = 1e30f;
+// Minimum difference |a - b|, relative to |a| + |b|, for computing a determinant a - b in single precision. Its terms
+// have an error of 3 roundings each, so its error is at most 100 roundings (6e-6) and its sign is certain.
 constexpr float kLeastShare = 1.0f / 32;
-// Single precision is sufficient if Gram-Schmidt leaves at least a sixteenth of the length, and if the volume that
-// decides the sign exceeds rounding noise (about 2^-18 of the product of lengths).
+// Minimum values for single precision: Gram-Schmidt must leave at least a sixteenth of the length, and the volume that
+// decides the sign must exceed rounding noise (about 2^-18 of the product of lengths).
 constexpr float kLeastRest2 = 1.0f / 256;
 constexpr float kLeastVolume = 1.0f / 16384;
 
@@ -28,12 +29,12 @@ struct Group {
     Floats u[3], v[3];
 };
 
-/// With constant strides, addresses need no multiplication.
+/// Loads kWidth triangles. With kTight, strides are constants, so that addresses need no multiplication.
 template <bool kTight>
 inline Group load(const TriangleSource& source, const std::uint32_t* vertices, bool exact) {
     const std::size_t position_stride = kTight ? 12 : source.position_stride, uv_stride = kTight ? 8 : source.uv_stride;
     Group g;
-#pragma GCC unroll 3  // otherwise the indexed arrays are kept in memory
+#pragma GCC unroll 3  // otherwise the indexed arrays would be kept in memory
     for (std::size_t k = 0; k < 3; ++k) {
         g.p[k] = gatherVectors(source.positions, position_stride, vertices + k, exact);
         gather2(source.uvs, uv_stride, vertices + k, g.u[k], g.v[k]);
@@ -55,21 +56,21 @@ struct GroupBits {
                 (size < broadcast(kGreatest));
 
     const Vectors e1 = g.p[1] - g.p[0], e2 = g.p[2] - g.p[0];
-    // Two corners at the same position have equal x, which is rare.
+    // Excludes degenerate triangles. Two corners at the same position have equal x, which is rare.
     if (bitsOf((e1.x == zero) | (e2.x == zero) | (g.p[1].x == g.p[2].x)) != 0) [[unlikely]]
         safe = safe & !(equal(g.p[0], g.p[1]) | equal(g.p[0], g.p[2]) | equal(g.p[1], g.p[2]));
-    // Quotients first: products of edges and UV differences can exceed the range of float, these cannot.
+    // Divides first: products of edges and UV differences can exceed the range of float, but quotients cannot.
     const Vectors s = (t2 * r) * e1 - (t1 * r) * e2, t = (s1 * r) * e2 - (s2 * r) * e1;
-    // 0 * x is 0 unless x is infinite or NaN.
+    // 0 * x is 0 unless x is infinite or NaN, so this excludes triangles whose results overflow.
     safe = safe & (zero * ((s.x + s.y + s.z) + (t.x + t.y + t.z)) == zero);
     storeRows<8>(rows, s.x + zero, s.y, s.z, t.x);
     storePairs<8>(rows + 4, t.y, t.z);
     return {bitsOf(safe), bitsOf(safe & (determinant < zero))};
 }
 
-/// Returns whether any vertex is the last one, after which no memory may be read.
+/// Returns whether any vertex is the last one in memory, after which nothing may be read.
 inline bool namesLastVertex(const std::uint32_t* vertices, std::size_t count, std::uint32_t last) {
-    std::uint32_t others = ~std::uint32_t{0};  // set to 0 by the last vertex
+    std::uint32_t others = ~std::uint32_t{0};  // set to 0 if a vertex is the last one
     for (std::size_t i = 0; i < 3 * count; ++i) others &= vertices[i] == last ? 0 : ~std::uint32_t{0};
     return others == 0;
 }
@@ -97,12 +98,12 @@ void compute(const TriangleSource& source, const std::uint32_t* vertices, std::s
     }
 }
 
-// Unaligned float vectors (any multiple of 4 bytes) that may alias any type. Clang ignores `aligned` after the equals
-// sign.
+// Unaligned float vectors (their address may be any multiple of 4 bytes) that may alias any type. Clang ignores
+// `aligned` after the equals sign.
 using Head __attribute__((aligned(4), may_alias)) = float __attribute__((vector_size(16)));
 using Tail __attribute__((aligned(4), may_alias)) = float __attribute__((vector_size(8)));
 
-/// Row that a triangle adds at a vertex.
+/// Row that a triangle adds to the sums of a vertex.
 struct Addend {
     Head head;
     Tail tail;
@@ -115,7 +116,7 @@ inline void addAt(SumArrays sums, std::size_t v, const Addend& a) {
     *reinterpret_cast<Head*>(sums.heads + 4 * v) += a.head;
     *reinterpret_cast<Tail*>(sums.tails + 2 * v) += a.tail;
 }
-/// Adds a, then b.
+/// Adds row a, then row b, to the sums of a vertex.
 inline void addAt(SumArrays sums, std::size_t v, const Addend& a, const Addend& b) {
     auto* const head = reinterpret_cast<Head*>(sums.heads + 4 * v);
     auto* const tail = reinterpret_cast<Tail*>(sums.tails + 2 * v);
@@ -123,8 +124,8 @@ inline void addAt(SumArrays sums, std::size_t v, const Addend& a, const Addend& 
     *tail = *tail + a.tail + b.tail;
 }
 
-/// Most of the time is spent writing sums. Two triangles from one quad, in the order in which most programs cut it,
-/// therefore write their two shared vertices once.
+/// Adds rows to sums. Writing sums takes most of the time. If two triangles form a quad, in the order in which most
+/// programs cut it, their two shared vertices are therefore written once.
 void add(const DerivativeTerms& terms, const std::uint32_t* vertices, std::size_t begin, std::size_t end,
          SumArrays sums) {
     for (std::size_t i = begin; i < end; ++i) {

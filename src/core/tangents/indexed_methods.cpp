@@ -33,7 +33,7 @@ void cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* allocator, Ind
     plan.face_begins[mesh.faceCount()] = static_cast<std::uint32_t>(mesh.cornerCount());
 }
 
-/// Copies an array for a plan that is kept.
+/// Copies an array for a plan that outlives the call.
 template <class View, class T>
 void keep(const View& from, Buffer<T>& kept, const Allocator* allocator, Parallel& parallel) {
     kept = Buffer<T>(allocator, from.count);
@@ -123,7 +123,8 @@ TangentReport evaluateIndexed(const IndexedPlan& plan, const Pose& pose, const T
         evaluateBasis(plan, pose, out, execution.allocator, parallel, report);
     else
         evaluateFlat(plan, pose, out, parallel, report);
-    clearUnusedCorners(plan, out);  // last: lengyel uses the memory of the outputs for its sums
+    // Unused corners are cleared last, because lengyel uses the memory of the outputs for its sums.
+    clearUnusedCorners(plan, out);
     return report;
 }
 
@@ -161,7 +162,8 @@ void writeExtras(const TangentOutput& out, std::size_t entry, const CornerFrame&
     if (!out.has_tangent.empty()) out.has_tangent[entry] = frame.has_tangent ? 1 : 0;
 }
 
-// The method `flat`: one dP/du and dP/dv per face, orthogonalized against the normal of each of its corners.
+// Method `flat`: each face has one dP/du and one dP/dv, which are orthogonalized against the normal of each of its
+// corners.
 //
 // For a polygon they are the mean over its UV area, sum(t2 E1 - t1 E2) / sum(determinant) over any fan of triangles: by
 // Green's theorem this depends only on the border, not on the choice of diagonals.
@@ -207,7 +209,7 @@ void evaluateFlat(const IndexedPlan& plan, const Pose& pose, const TangentOutput
         });
 }
 
-// The method `basis`: an orthonormal basis from the normal, without UVs.
+// Method `basis`: an orthonormal basis from the normal, without UVs.
 // Based on: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
 
 namespace {

@@ -11,7 +11,7 @@
 
 namespace tspace {
 
-// Plan of the methods without groups: lengyel, flat and basis.
+// Plan of the methods that do not group corners: lengyel, flat and basis.
 
 /// View of the data that the methods read, and derived arrays. A plan that is kept also owns copies of indices and UVs;
 /// a plan that is used within a single call refers to the mesh itself.
@@ -21,17 +21,17 @@ struct IndexedPlan {
     float sign_factor = 1.0f;  ///< signFactor(convention)
     std::size_t vertex_count = 0;
     std::size_t face_count = 0;
-    IndexView corner_vertices;    ///< one per corner of the mesh
-    IndexView triangle_vertices;  ///< three per triangle, after triangulation; in face order
+    IndexView corner_vertices;    ///< vertex of each corner of the mesh
+    IndexView triangle_vertices;  ///< three vertices per triangle, after triangulation; in face order
     StridedSpan<const Vec2> uvs;  ///< one per vertex; empty for basis
-    /// first corner of each face, and one past the last; empty: all faces are triangles
+    /// First corner of each face, and the corner after the last face; empty: all faces are triangles.
     Buffer<std::uint32_t> face_begins;
-    /// one per corner: 1 if its face is used, otherwise outputs are 0; empty: all are used
+    /// One per corner: 1 if its face is used; outputs of other corners are 0. Empty: all are used.
     Buffer<std::uint8_t> corner_used;
     Buffer<std::uint32_t> cut_triangles;  ///< corners of the triangles, if not all faces are triangles
     Buffer<std::uint32_t> kept_vertices;  ///< storage of corner_vertices if the plan is kept
     Buffer<Vec2> kept_uvs;                ///< storage of uvs if the plan is kept
-    TangentReport report;                 ///< counts that do not depend on the pose
+    TangentReport report;                 ///< counts of the report that do not depend on the pose
 
     [[nodiscard]] std::size_t cornerCount() const { return corner_vertices.count; }
     [[nodiscard]] std::size_t triangleCount() const { return triangle_vertices.count / 3; }
@@ -46,17 +46,17 @@ struct IndexedPlan {
     [[nodiscard]] std::size_t memoryBytes() const;
 };
 
-/// Creates the plan; the mesh has been validated and has the attributes that the method needs. With PlanUse::once it
-/// uses no memory for a triangle mesh. Throws OutOfMemory.
+/// Creates the plan. Requires a validated mesh with the attributes that the method needs. With PlanUse::once it uses no
+/// memory for a triangle mesh. Throws OutOfMemory.
 IndexedPlan planIndexed(const MeshView& mesh, const Call<TangentOptions>& options, Parallel& parallel,
                         PlanUse use = PlanUse::kept);
 
-/// Evaluates one pose into validated outputs; returns the plan's report plus the counts that depend on the pose. Throws
-/// OutOfMemory.
+/// Evaluates one pose into validated outputs, and returns the plan's report with the counts that depend on the pose.
+/// Throws OutOfMemory.
 TangentReport evaluateIndexed(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out,
                               const Execution& execution, Parallel& parallel);
 
-// Contains one function for each method without groups, and shared code.
+// Functions of the methods that do not group corners, and code that they share.
 
 /// All outputs for one corner.
 struct CornerFrame {
@@ -67,7 +67,7 @@ struct CornerFrame {
     bool has_tangent = false;  ///< false: no face contributes to it
 };
 
-/// dP/du and dP/dv at a corner, before conversion to a frame. Zero: no face contributes.
+/// Values of dP/du and dP/dv at a corner, before their conversion to a frame. Zero: no face contributes.
 struct Derivatives {
     DVec3 s, t;
 };
@@ -81,11 +81,11 @@ CornerFrame makeCornerFrame(const Derivatives& derivatives, const Vec3& normal, 
 /// Returns the length of sum / count as a float, which a mean of floats can exceed only by its rounding.
 float meanLength(const DVec3& sum, double count);
 
-/// Write the requested outputs; writeExtras writes all except the tangent.
+/// Write the requested outputs; writeExtras writes all of them except the tangent.
 void writeFrame(const TangentOutput& out, std::size_t entry, const CornerFrame& frame);
 void writeExtras(const TangentOutput& out, std::size_t entry, const CornerFrame& frame);
 
-/// Write the used outputs, and set the counts of `report` that depend on the pose.
+/// Evaluate a method: write the used outputs, and set the counts of `report` that depend on the pose.
 void evaluateLengyel(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out, const Execution& execution,
                      Parallel& parallel, TangentReport& report);
 void evaluateFlat(const IndexedPlan& plan, const Pose& pose, const TangentOutput& out, Parallel& parallel,

@@ -21,20 +21,20 @@ namespace tspace {
 
 namespace {
 
-/// Counts for a range of vertices: defects of triangles whose first vertex is in it.
+/// Counts for a range of vertices: triangles are counted in the range of their first vertex.
 struct RangeCounts {
     std::uint64_t degenerate = 0;          ///< triangles with two corners at the same position
     std::uint64_t degenerate_uv = 0;       ///< triangles without UV area
     std::uint64_t mirrored = 0;            ///< triangles with negative UV area
-    std::uint64_t used = 0, defaults = 0;  ///< numbers of vertices
+    std::uint64_t used = 0, defaults = 0;  ///< number of used vertices, and of vertices with a default tangent
 };
 
-/// Sums of all vertices, in single precision and in triangle order: six floats each, since memory traffic dominates.
-/// Two arrays, since either may be in memory of outputs that are written later.
+/// Sums of all vertices, in single precision and in triangle order: six floats each, because memory traffic dominates
+/// the time. They are stored in two arrays, because either may be in the memory of outputs that are written later.
 struct VertexSums : derivatives::SumArrays {
     [[nodiscard]] float* head(std::size_t vertex) const { return heads + 4 * vertex; }
     [[nodiscard]] float* tail(std::size_t vertex) const { return tails + 2 * vertex; }
-    /// Marks vertices as untouched. -0 + x is x for all x, including 0, and addends of s.x are never -0.
+    /// Marks all sums of a range as empty by -0: -0 + x is x for all x, including 0, and addends of s.x are never -0.
     void clear(GroupRange range) const {
         fill(head(range.begin), head(range.end), -0.0f);
         fill(tail(range.begin), tail(range.end), -0.0f);
@@ -43,7 +43,7 @@ struct VertexSums : derivatives::SumArrays {
 
   private:
     static void fill(float* begin, float* end, float value) {
-        constexpr std::ptrdiff_t kFloats = 16;  // cache line
+        constexpr std::ptrdiff_t kFloats = 16;  // number of floats in a cache line
         for (; end - begin >= kFloats; begin += kFloats) {
             prefetchLines<true>(begin, kFloats * sizeof(float));
             std::fill_n(begin, kFloats, value);
@@ -59,7 +59,7 @@ static_assert(TriangleBatch::kMost == derivatives::kTermTriangles);
 static_assert(TriangleBatch::kMost % derivatives::kTermGroup == 0);
 constexpr std::uint32_t kGroup{derivatives::kTermGroup};
 
-/// Triangles whose groups are their vertices.
+/// Triangles of a plan, as groups: the groups of a triangle are its vertices.
 class IndexedTriangles final : public TriangleGroups {
   public:
     explicit IndexedTriangles(const IndexView& vertices) : TriangleGroups(vertices.count / 3), vertices_(vertices) {}
@@ -77,8 +77,8 @@ class IndexedTriangles final : public TriangleGroups {
     const IndexView& vertices_;
 };
 
-/// Sums triangles, in ranges of vertices that may be processed in parallel: blocks in single precision, and in double
-/// precision those for which rounding, overflow or degeneracy matters.
+/// Sums triangles, in ranges of vertices that may be processed in parallel: blocks are summed in single precision, and
+/// triangles for which rounding, overflow or degeneracy matters in double precision.
 class FaceSums {
   public:
     /// `visits`, one per vertex, counts the triangles that were added; it may be null. `wanted`: maximum number of
@@ -151,8 +151,8 @@ class FaceSums {
         }
     }
 
-    /// Adds one triangle in double. A triangle without derivatives adds nothing, but marks its vertices as used. Not
-    /// inlined, because it would take registers from the surrounding loop.
+    /// Adds one triangle, computed in double precision. A triangle without derivatives adds nothing, but marks its
+    /// vertices as used. Not inlined, because it would take registers from the surrounding loop.
     [[gnu::noinline]] void addUnsafe(const std::uint32_t* v, GroupRange range, RangeCounts& counts) const {
         const Vec3 &p0 = positions_[v[0]], &p1 = positions_[v[1]], &p2 = positions_[v[2]];
         const UvFrame frame = uvFrame(p0, p1, p2, plan_.uvs[v[0]], plan_.uvs[v[1]], plan_.uvs[v[2]]);
@@ -188,8 +188,8 @@ class FaceSums {
     RangeLists ranges_;
 };
 
-/// Converts sums to frames, one entry per vertex. Tangents overwrite the heads of the sums; if `out` stores them
-/// elsewhere, they are copied.
+/// Converts sums to frames, one entry per vertex. Tangents overwrite the heads of the sums, and are copied if `out`
+/// stores them elsewhere.
 class VertexFrames {
   public:
     /// out.has_tangent must be empty or all 1 before the call.
@@ -203,7 +203,7 @@ class VertexFrames {
     void write(GroupRange range, RangeCounts& counts) const {
         for (std::uint32_t v = range.begin; v != range.end;) {
             const std::uint32_t left = std::min(kMost, range.end - v);
-            // Whole groups, without the very last vertex: the kernel would read past its normal.
+            // Finishes whole groups, without the very last vertex: the kernel would read past its normal.
             const auto most = static_cast<std::uint32_t>(std::min<std::size_t>(left, normals_.count - 1 - v));
             const std::uint32_t whole = has_extras_ ? 0 : most / kGroup * kGroup;
             whole != 0 ? finishInPlace(v, whole, counts) : finishCopy(v, left, counts);
@@ -213,7 +213,7 @@ class VertexFrames {
     }
 
   private:
-    static constexpr std::uint32_t kMost = 64;  ///< vertices per iteration
+    static constexpr std::uint32_t kMost = 64;  ///< maximum number of vertices per iteration
 
     void finishInPlace(std::uint32_t first, std::uint32_t count, RangeCounts& counts) const {
         const auto* normals = reinterpret_cast<const std::byte*>(&normals_[first]);
@@ -225,7 +225,7 @@ class VertexFrames {
         finishOthers(first, count, safe, counts);
     }
 
-    /// Finishes any vertices, in a copy, with all outputs.
+    /// Finishes any vertices in a copy, and writes all outputs.
     [[gnu::noinline]] void finishCopy(std::uint32_t first, std::uint32_t count, RangeCounts& counts) const {
         float heads[4 * kMost] = {}, tails[2 * kMost] = {};
         Vec3 normals[kMost + 1] = {};
@@ -241,7 +241,7 @@ class VertexFrames {
         }
     }
 
-    /// Finishes the vertices that are not `done` in double, and counts all vertices.
+    /// Finishes the vertices that are not `done`, in double precision, and counts all vertices.
     void finishOthers(std::uint32_t first, std::uint32_t count, std::uint64_t done, RangeCounts& counts) const {
         counts.used += static_cast<unsigned>(std::popcount(done & lowBits(count)));
         for (std::uint64_t rest = ~done & lowBits(count); rest != 0; rest &= rest - 1)
@@ -316,12 +316,12 @@ void copyToCorners(const IndexedPlan& plan, const T* from, const StridedSpan<T>&
 std::uint64_t copyTangents(const IndexedPlan& plan, const float* from, const std::uint8_t* has_tangent,
                            const StridedSpan<Vec4>& out, std::size_t begin, std::size_t end) {
     const std::uint8_t* const used = plan.corner_used.data();
-    constexpr std::size_t kAhead = 2048;  // bytes
+    constexpr std::size_t kAhead = 2048;  // prefetch distance in bytes
     return withIndices(plan.corner_vertices, [&](const auto& vertexOf) {
         auto* to = reinterpret_cast<std::byte*>(&out[begin]);
         std::uint64_t defaults = 0;
         for (std::size_t c = begin; c < end; ++c, to += out.stride_bytes) {
-            // A store waits for its cache line unless it was prefetched.
+            // A store waits for its cache line unless the line was prefetched.
             prefetchLines<true>(to, 1, kAhead);
             if (used != nullptr && used[c] == 0) continue;
             const std::size_t vertex = vertexOf(c);
@@ -332,8 +332,9 @@ std::uint64_t copyTangents(const IndexedPlan& plan, const float* from, const std
     });
 }
 
-/// Memory for the sums. Page faults of fresh memory cost time, so a part is stored in the outputs until these are
-/// written: the tails, or, if outputs are per vertex, the heads, which are then replaced by the tangents in place.
+/// Memory for the sums. Page faults of fresh memory cost time, so one of the two arrays is stored in outputs that are
+/// written later: the tails, or, if outputs are per vertex, the heads, which are then replaced by the tangents in
+/// place.
 struct SumPlaces {
     Buffer<float> head_buffer, tail_buffer;
     VertexSums sums;

@@ -14,14 +14,14 @@ namespace tspace {
 
 namespace {
 
-/// Wrapper that serializes calls of the caller's allocator.
+/// Wrapper that serializes the calls of the caller's allocator.
 class LockedAllocator {
   public:
     explicit LockedAllocator(const Allocator* locked) : locked_(locked) {}
     LockedAllocator(const LockedAllocator&) = delete;
     LockedAllocator& operator=(const LockedAllocator&) = delete;
 
-    /// Null if the caller provided none: operator new needs no lock.
+    /// Returns the wrapper, or null if the caller provided no allocator: operator new needs no lock.
     [[nodiscard]] const Allocator* allocator() const { return locked_ == nullptr ? nullptr : &allocator_; }
 
   private:
@@ -47,7 +47,7 @@ Result<std::vector<Result<TangentReport>>> generateTangents(std::span<const Mesh
     using Results = std::vector<Result<TangentReport>>;
     return atBorder([&]() -> Result<Results> {
         constexpr std::size_t kScratchBytes = 128 * 1024;
-        constexpr std::size_t kJobsPerTask = 16;  // adjacent results share cache lines
+        constexpr std::size_t kJobsPerTask = 16;  // jobs per task: adjacent results share cache lines
         const auto workOf = [](const MeshJob& job) { return tangentWork(job.options.method, job.mesh.cornerCount()); };
         Results results(jobs.size(), TangentReport{});
         std::uint64_t total_work = 0;

@@ -9,7 +9,8 @@ namespace tspace {
 #ifdef TSPACE_MIKKTSPACE_ONLY
 
 inline constexpr Method kLastMethod = Method::mikktspace;
-inline constexpr bool kHasOnePass = false;  ///< a plan for each call: half the speed, and half the code size
+/// In this build every call creates a plan, which takes half of the code size and twice the time.
+inline constexpr bool kHasOnePass = false;
 constexpr bool isMikktspace(Method) { return true; }
 constexpr bool isEstimated(Method) { return false; }
 constexpr bool isGrouped(Method) { return true; }
@@ -19,7 +20,7 @@ constexpr bool isGrouped(Method) { return true; }
 inline constexpr Method kLastMethod = Method::best;
 inline constexpr bool kHasOnePass = true;
 constexpr bool isMikktspace(Method method) { return method == Method::mikktspace; }
-/// Methods computed by tangents/estimators instead of sums.
+/// Returns whether a method is computed by tangents/estimators rather than by sums.
 constexpr bool isEstimated(Method method) { return method == Method::fast || method == Method::best; }
 /// Returns whether a method is implemented by tangents/mikktspace; the others have one result per vertex or face.
 constexpr bool isGrouped(Method method) {
@@ -34,7 +35,8 @@ constexpr std::uint64_t tangentWork(Method method, std::uint64_t corners) {
     return (isEstimated(method) ? 4 : 1) * corners;
 }
 
-/// Use of a plan. kept: it outlives its mesh, and may be used for other poses; once: it is used once within a call.
+/// Use of a plan. kept: the plan outlives its mesh, and may be used for other poses; once: it is used once, within a
+/// call.
 enum class PlanUse { kept, once };
 
 }  // namespace tspace

@@ -385,8 +385,8 @@ Result<QuadFit> fitQuads(const MeshView& triangles, std::span<const Vec4> stored
 
 namespace {
 
-/// Maximum share of unpaired triangles in a quad mesh from Blender: nearly all of its triangles have one of its two
-/// edge patterns, but few triangles of a triangle mesh do.
+/// Minimum share of the triangles that must be in pairs with one of Blender's two edge patterns for a mesh to count as
+/// a quad mesh from Blender: nearly all triangles of such a mesh are, but few triangles of a triangle mesh.
 constexpr double kMostTriangles = 0.6;
 
 /// Returns whether the pattern is one that Blender writes. Blender cuts a quad along its first and third corner (or, if

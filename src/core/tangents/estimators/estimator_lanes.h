@@ -12,12 +12,12 @@ using namespace simd::TSPACE_LANES;
 
 namespace {
 
-/// kWidth triangles. Edge k goes from corner k to corner k + 1. If a value is not finite, all edges are zero.
+/// Edges of kWidth triangles. Edge k goes from corner k to corner k + 1. If a value is not finite, all edges are zero.
 struct TriangleEdges {
     Vectors edge[3];
     Floats u[3], v[3];   ///< UV edges
     Floats square[3];    ///< squared lengths of the edges
-    Floats double_area;  ///< in space
+    Floats double_area;  ///< twice the area of the triangle in space
 
     TriangleEdges(const VertexSource& source, const std::uint32_t* vertices, bool exact) {
         const Floats scale = broadcast(source.position_scale), uv_scale = broadcast(source.uv_scale);
@@ -57,7 +57,7 @@ struct Triangles : TriangleEdges {
 
     Triangles(const VertexSource& source, const std::uint32_t* vertices, bool exact)
         : TriangleEdges(source, vertices, exact) {
-        // Relative to corner 0: edges 0 and -2.
+        // Edges relative to corner 0 are edge 0 and the negative of edge 2.
         determinant = u[2] * v[0] - u[0] * v[2];
         const Floats facing = select(determinant < zero(), broadcast(-1.0f), broadcast(1.0f));
         const Floats v2 = minus(facing * v[2]), v0 = facing * v[0], u2 = minus(facing * u[2]), u0 = facing * u[0];

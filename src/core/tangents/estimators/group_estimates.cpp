@@ -25,8 +25,8 @@ struct Setting {
 
 class EstimateRound final : public SumRound {
   public:
-    /// `from`, for a step: for all groups, and zeros for the dummy group. `next`: output for the next step; null: there
-    /// is none.
+    /// `from`: input of a refinement step, for all groups, with zeros for the dummy group; null for the first round.
+    /// `next`: output for the next step; null if there is none.
     EstimateRound(const Setting& setting, const float* from, float* next)
         : SumRound(from != nullptr ? kStepRows : setting.estimator.row_count),
           setting_(setting),
@@ -36,7 +36,7 @@ class EstimateRound final : public SumRound {
     void add(const std::uint32_t* vertices, const std::uint32_t* groups, std::size_t count,
              float* rows) const override {
         if (from_ == nullptr) return setting_.estimator.add(setting_.source, vertices, count, rows);
-        std::uint32_t known[3 * kTriangles];  // groups, or the dummy group after all others
+        std::uint32_t known[3 * kTriangles];  // group of each corner, or the dummy group, which follows all others
         for (std::size_t i = 0; i < 3 * kTriangles; ++i) known[i] = std::min(groups[i], setting_.group_count);
         setting_.estimator.add_step(setting_.source, vertices, known, from_, count, rows);
     }

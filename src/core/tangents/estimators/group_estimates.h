@@ -10,11 +10,11 @@
 
 namespace tspace::estimators {
 
-/// Bitangent and lengths of a group, or their sums, for outputs beyond tangents.
+/// Bitangent and lengths of a group, or their sums, for outputs in addition to tangents.
 struct GroupRest {
-    float t[4] = {0, 0, 0, 0};  ///< bitangent, |dP/du|
+    float t[4] = {0, 0, 0, 0};  ///< bitangent, followed by |dP/du|
     float length_t = 0;         ///< |dP/dv|
-    float weight = 0;           ///< weight of a sum
+    float weight = 0;           ///< weight of the sum
 };
 
 /// Output for `count` groups: for group g, three floats at tangents + g * tangent_stride, and bitangent and lengths in

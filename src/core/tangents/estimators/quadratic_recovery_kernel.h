@@ -37,9 +37,11 @@ namespace tspace::estimators::TSPACE_LANES {
 
 namespace {
 
-constexpr float kLongestArc = 2.0f;  // an edge at more than 60 degrees to the tangent plane is not an arc in it
+// maximum factor by which a vector in the tangent plane is lengthened: an edge at more than 60 degrees to the plane is
+// not an arc in it
+constexpr float kLongestArc = 2.0f;
 constexpr float kSmallestDeterminant = 1e-6f;
-constexpr float kLeftWeight = 2.0f;  // the 2 before left: tuned (docs/evidence/accuracy.md)
+constexpr float kLeftWeight = 2.0f;  // the factor 2 of `left`, which was tuned (docs/evidence/accuracy.md)
 
 /// Returns the ratio of arc length to edge length, given the normals at the ends; symmetric in the ends.
 inline Floats arcLengthOf(Vectors a, Vectors b, Vectors e, Floats square) {
@@ -56,7 +58,7 @@ inline Flat arcOf(const Plane& here, Vectors e, Floats square, Floats arc_length
     return keep(isFinite(factor), factor) * p;
 }
 
-/// Returns a vector rotated into the plane, with the same length.
+/// Returns a vector rotated into the plane, with its length unchanged.
 inline Flat laidInto(const Plane& here, Vectors v) {
     const Flat p = here.flatten(v);
     const Floats stretch = smaller(squareRoot(dot(v, v) / dot(p, p)), broadcast(kLongestArc));
@@ -71,14 +73,15 @@ inline Floats lengthOf(Flat v, Floats factor) {
 constexpr float kRidge = 3e-4f;  // k0: small enough to have no effect on smooth surfaces
 constexpr float kBendWeight = 512.0f;
 constexpr float kMissWeight = 5.0f, kMissLimit = 3.0f, kSmallBend = 1e-3f;
-constexpr float kMixAt = 2.0f;  // ridge at which fit and mean have equal weights
+constexpr float kMixAt = 2.0f;  // ridge at which the fit and the mean have equal weights
 constexpr float kMostRidge = 1e6f;
-// Sums have rounding errors of about 1e-7. If the edges do not determine the quadratic part (few triangles), such
-// errors alone explain 1e-7^2 / k0, or 3e-11, of the energy. A surface of 512 squared cells has 1e-7.
+// Share of the energy that rounding may explain. Sums have rounding errors of about 1e-7. If the edges do not determine
+// the quadratic part (few triangles), such errors alone explain 1e-7^2 / k0, or 3e-11, of the energy. On a smooth
+// surface of 512 x 512 cells, the quadratic part explains 1e-7 of it.
 constexpr float kRoundingShare = 1e-9f;
-// The ridge weights second derivatives like their Frobenius norm: uu, uv, vv as 1, 2, 1. This is the share of trace(Q)
-// of Q's entries for uu and vv if edges point in all directions. Q's own diagonal is unsuitable: if four edges form a
-// cross, which leaves uv undetermined, it hardly damps uv, and u^2 v^2 would explain too much.
+// The ridge weights second derivatives like their Frobenius norm: uu, uv, vv as 1, 2, 1. kRidgeShare is the share that
+// Q's entries for uu and vv have in trace(Q) if edges point in all directions. Q's own diagonal is unsuitable: if four
+// edges form a cross, which leaves uv undetermined, it hardly damps uv, and u^2 v^2 would explain too much.
 constexpr float kRidgeShare = 0.3f;
 
 constexpr std::size_t kFitRows = 7;
@@ -167,13 +170,13 @@ void addRecovery(const VertexSource& source, const std::uint32_t* vertices, std:
 
 // -- results of a group --
 
-/// Sums of kWidth groups, in UVs scaled so that the diagonal of M is 1.
+/// Sums of kWidth groups, with UVs scaled so that the diagonal of M is 1.
 struct Fit {
     Floats scale_u, scale_v;
-    Floats m0, m1, m2;  ///< M
-    Floats c[2][3];     ///< C
-    Floats q[6];        ///< Q: 00 01 02 11 12 22
-    Flat r[2], p[3];    ///< R, P
+    Floats m0, m1, m2;  ///< matrix M
+    Floats c[2][3];     ///< matrix C
+    Floats q[6];        ///< matrix Q: 00 01 02 11 12 22
+    Flat r[2], p[3];    ///< R and P
     Flat robust_u, robust_v;
     Floats energy;  ///< L
 
@@ -187,7 +190,7 @@ struct Fit {
         loadRows<kStep>(at + 16, p[0].x, p[0].y, p[1].x, p[1].y);
         loadRows<kStep>(at + 20, p[2].x, p[2].y, robust_u.x, robust_u.y);
         loadRows<kStep>(at + 24, robust_v.x, robust_v.y, energy, unused);
-        // One UV direction may be missing; it must not be scaled up to pure noise.
+        // Limits the scale factors: a missing UV direction must not be scaled up to pure noise.
         const Floats least = broadcast(kSmallestDeterminant) * larger(m0, m2), one = broadcast(1.0f);
         const Floats s = one / squareRoot(larger(m0, least)), t = one / squareRoot(larger(m2, least));
         const Floats ss = s * s, st = s * t, tt = t * t;
@@ -221,12 +224,12 @@ struct Fit {
     }
 };
 
-/// Normal equations after elimination of J.
+/// Normal equations after J was eliminated.
 struct Reduced {
     Floats i0, i1, i2;  ///< M^-1
-    Flat linear[2];     ///< M^-1 R: J of a fit without quadratic part
+    Flat linear[2];     ///< M^-1 R, which is J of a fit without quadratic part
     Floats s[6];        ///< Q - C^T M^-1 C
-    Floats ridge;       ///< factor of k on the diagonal of s; twice that for its middle entry
+    Floats ridge;       ///< factor of k on the diagonal of s, and half of the factor for its middle entry
     Flat p[3];          ///< P - C^T M^-1 R
 
     explicit Reduced(const Fit& f) {
@@ -263,10 +266,10 @@ struct Solution {
     }
 };
 
-/// Doubt about the quadratic part.
+/// Doubt about the quadratic part, by cause.
 struct Doubt {
-    Floats shape;     ///< because it is large, or explains little
-    Floats rounding;  ///< because it is so small that it may be rounding noise
+    Floats shape;     ///< doubt because the quadratic part is large, or explains little
+    Floats rounding;  ///< doubt because the quadratic part is so small that it may be rounding noise
 };
 
 inline Doubt doubtIn(const Fit& f, const Reduced& m, const Solution& s) {
@@ -278,7 +281,7 @@ inline Doubt doubtIn(const Fit& f, const Reduced& m, const Solution& s) {
         m.ridge * dot(s.q[0], s.q[0]) + (m.ridge + m.ridge) * dot(s.q[1], s.q[1]) + m.ridge * dot(s.q[2], s.q[2]);
     const Floats explained = dot(s.q[0], m.p[0]) + dot(s.q[1], m.p[1]) + dot(s.q[2], m.p[2]) + broadcast(kRidge) * held;
     const Floats left = f.energy - dot(f.r[0], m.linear[0]) - dot(f.r[1], m.linear[1]) - explained;
-    // A NaN becomes the limit; then only the second doubt matters.
+    // If this is NaN, it becomes the limit; only the second doubt then matters.
     const Floats miss = smaller(larger(left, zero()) / explained, broadcast(kMissLimit));
     const Floats doubt = broadcast(kBendWeight) * (bend * bend) +
                          broadcast(kMissWeight) * miss * (bend / (bend + broadcast(kSmallBend)));
@@ -312,7 +315,8 @@ void finishRecovery(float* sums, const float* normals, std::size_t count) {
         const Vectors t = directionOf(plane, best.j[1], fit.robust_v, share);
         storeRows<kStep>(at, s.x, s.y, s.z, lengthOf(best.j[0], fit.scale_u));
         storeRows<kStep>(at + 4, t.x, t.y, t.z, lengthOf(best.j[1], fit.scale_v));
-        storeRows<kStep>(at + 8, share, zero(), zero(), zero());  // `share`: for the steps
+        // the share of the robust mean, for the refinement steps
+        storeRows<kStep>(at + 8, share, zero(), zero(), zero());
     }
 }
 
@@ -331,11 +335,11 @@ void finishRecovery(float* sums, const float* normals, std::size_t count) {
 // The factor 1/2 accounts for the change at the other end. A residual that no change of J explains is noise or a kink.
 // The last factor limits the effect of edges that barely span the plane: T rotates by at most atan(1/4), 14 degrees.
 
-/// An edge, and its prediction by J at both ends.
+/// Edges, and their predictions by J at both ends.
 struct Edge {
     Vectors e;
     Floats square, arc_length, u, v, weight;
-    Vectors along[2];  ///< J d at the first and the second end
+    Vectors along[2];  ///< J d at the first and at the second end
     Mask counts;
 
     Edge(const TriangleEdges& t, std::size_t k, const Plane& first, const Plane& second, const Vectors (&first_j)[2],
@@ -350,7 +354,7 @@ struct Edge {
           counts(is_known) {}
 };
 
-/// Term that an edge adds at one of its ends; equal for both directions of the edge.
+/// Terms that an edge adds at one of its ends; they are equal for both directions of the edge.
 struct Residual {
     Floats weight;
     Flat r;
@@ -416,7 +420,7 @@ void finishEdgeStep(float* sums, const float* normals, const float* from, std::s
         loadRows<kStepFloats>(from + kStepFloats * g, ju.x, ju.y, ju.z, m);
         loadRows<kStepFloats>(from + kStepFloats * g + 4, jv.x, jv.y, jv.z, unused);
         const Plane plane(n);
-        // UVs are scaled as for the fit: the diagonal of M is 1.
+        // Scales UVs as for the fit, so that the diagonal of M is 1.
         const Floats least = broadcast(kSmallestDeterminant) * larger(uu, vv);
         const Floats s = one / squareRoot(larger(uu, least)), t = one / squareRoot(larger(vv, least));
         const Floats m0 = uu * s * s, m1 = uv * s * t, m2 = vv * t * t, product = m0 * m2;
@@ -427,7 +431,7 @@ void finishEdgeStep(float* sums, const float* normals, const float* from, std::s
         const Flat u = plane.flatten(ju), v = plane.flatten(jv), du = s * a0, dv = t * a1;
         const Floats turn = dot(du, du) / dot(u, u) + dot(dv, dv) / dot(v, v);
         const Floats doubt = broadcast(kLeftWeight) * (left / explained);
-        // NaN if the edges leave no residual to explain.
+        // This is NaN if the edges leave no residual to explain.
         const Floats f = half * (one - m) / ((one + doubt * doubt) * (one + turn));
         const Flat new_u = u + f * du, new_v = v + f * dv;
         const Vectors x = unit(plane.raise(unit(new_u))), y = unit(plane.raise(unit(new_v)));

@@ -21,7 +21,8 @@ namespace tspace::estimators::TSPACE_LANES {
 
 namespace {
 
-constexpr float kMixSquare = 0.00351691f;  // sin^2(3.4 degrees): both sums have equal weights
+// sin^2(3.4 degrees): the angle between both sums at which they have equal weights
+constexpr float kMixSquare = 0.00351691f;
 
 template <bool kTangentsOnly>
 inline void addTwoWeightsOf(const VertexSource& source, const std::uint32_t* vertices, bool exact, float* rows) {
@@ -62,7 +63,7 @@ void addTwoWeights(const VertexSource& source, const std::uint32_t* vertices, st
     }
 }
 
-/// Blends both means; if one has no direction, returns the other.
+/// Blends both means. If one of them has no direction, returns the other.
 inline Vectors mixed(Vectors n, Vectors accurate, Vectors robust) {
     const Vectors a = unit(accurate - dot(n, accurate) * n), b = unit(robust - dot(n, robust) * n);
     const Vectors across = cross(a, b);

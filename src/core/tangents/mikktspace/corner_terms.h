@@ -13,14 +13,14 @@
 namespace tspace::mikk {
 
 enum class Weighting : std::uint32_t {
-    projected_angle,  ///< angle between the corner's two edges after projection perpendicular to N (mikktspace)
+    projected_angle,  ///< angle between the two edges at the corner after projection perpendicular to N (mikktspace)
     one,
-    angle,  ///< interior angle
+    angle,  ///< interior angle of the triangle
     area,   ///< area of the triangle
-    none,   ///< only marks are written (estimators compute their own sums)
+    none,   ///< no weights: only marks are written, because estimators compute their own sums
 };
 
-inline constexpr std::size_t kTermTriangles = 64;  ///< triangles per block; the block's arrays fit into the L1 cache
+inline constexpr std::size_t kTermTriangles = 64;  ///< triangles per block, whose arrays fit into the L1 cache
 inline constexpr std::size_t kTermCorners = 3 * kTermTriangles;
 inline constexpr std::size_t kTermGroup = 16;  ///< maximum number of triangles that a kernel reads at once
 
@@ -30,24 +30,26 @@ struct CornerDirections {
     alignas(64) float unit_s[3][3][kTermTriangles], projected_t[3][3][kTermTriangles];
 };
 
-/// Vertex data of a call.
+/// Vertex data of a call, with the requested terms.
 struct CornerSource : VertexArrays {
     Weighting weighting = Weighting::projected_angle;
-    bool tangents_only = false;  ///< omit `t` and `lengths_t`
-    /// Rows of triangles that are degenerate or have no UV area are not read: the kernel may skip them.
+    bool tangents_only = false;  ///< true: omit `t` and `lengths_t`
+    /// true: the caller does not read rows of triangles that are degenerate or have no UV area, so the kernel may skip
+    /// them
     bool adding_only = false;
-    CornerDirections* directions = nullptr;  ///< written too, unless it is null
+    CornerDirections* directions = nullptr;  ///< output of directions; null: not requested
 };
 
-/// Marks of a corner. A threshold of 180 degrees separates only opposite tangents or bitangents, whose cosine rounds to
-/// -1. If all tangents of a node have a component above kSideMargin on one axis, or all have one below -kSideMargin,
-/// then any two of them have a cosine of at least 2 * kSideMargin^2 - 1, and rounding is far smaller than that margin.
-/// Therefore, if all corners of a node share a mark of tangents, and a mark of bitangents, its group cannot split. A
-/// NaN sets no mark.
+/// Marks of a corner, which prove that a group does not split. A threshold of 180 degrees separates only opposite
+/// tangents or bitangents, whose cosine rounds to -1. If all tangents of a node have a component above kSideMargin on
+/// one axis, or all have one below -kSideMargin, then any two of them have a cosine of at least 2 * kSideMargin^2 - 1,
+/// and rounding is far smaller than that margin. Therefore, if all corners of a node share a mark of tangents, and a
+/// mark of bitangents, its group cannot split. A NaN sets no mark.
 inline constexpr std::uint32_t kFacesUp = 0x01;    ///< positive UV area
 inline constexpr std::uint32_t kFacesDown = 0x02;  ///< negative UV area
 inline constexpr std::uint32_t kFacing = kFacesUp | kFacesDown;
-/// For the projected tangent and the projected bitangent: above the margin on x, below it on x, then y and z.
+/// Marks of the projected tangent and of the projected bitangent: x above the margin, x below it, and the same for y
+/// and z.
 inline constexpr std::uint32_t kTangentSides = 0x3f << 2, kBitangentSides = 0x3f << 8;
 inline constexpr std::uint32_t kAllMarks = kFacing | kTangentSides | kBitangentSides;
 inline constexpr unsigned kFlagShift = 16;
@@ -55,20 +57,21 @@ inline constexpr std::uint32_t kNoUvArea = 1u << kFlagShift;  ///< the triangle 
 /// Two corners are at the same position; all other marks are then undefined.
 inline constexpr std::uint32_t kDegenerateMark = 2u << kFlagShift;
 inline constexpr std::uint32_t kMirroredMark = 4u << kFlagShift;  ///< no positive UV area
-/// Tangents whose squared length is below kSmallestSquare may not be unit after normalization and set no marks.
-/// Bitangents are tested before normalization; they set marks if their squared length is below kLargestSquare.
+/// Margin of the marks, and limits of squared lengths. Tangents whose squared length is below kSmallestSquare may not
+/// be unit after normalization and set no marks. Bitangents are tested before normalization; they set marks if their
+/// squared length is below kLargestSquare.
 inline constexpr float kSideMargin = 1.0f / 128, kSmallestSquare = 1e-30f, kLargestSquare = 4;
 
-/// Rows of four: row 3 * t + k belongs to corner k of triangle t.
+/// Terms of a block of triangles: row 3 * t + k, of four floats, belongs to corner k of triangle t.
 struct CornerTerms {
-    alignas(64) float s[kTermCorners][4];            ///< weight * projected tangent, weight
-    alignas(64) float t[kTermCorners][4];            ///< weight * projected bitangent, weight * |dP/du|
+    alignas(64) float s[kTermCorners][4];            ///< weight * projected tangent, followed by the weight
+    alignas(64) float t[kTermCorners][4];            ///< weight * projected bitangent, followed by weight * |dP/du|
     alignas(64) float lengths_t[3][kTermTriangles];  ///< weight * |dP/dv| of corner k of triangle t
     alignas(64) std::uint32_t marks[3][kTermTriangles];
 };
 
-/// `vertices`: three per triangle; whole groups of 16 triangles are read, so the rest of the last group must contain
-/// valid indices. count <= kTermTriangles.
+/// Computes the terms of `count` triangles, at most kTermTriangles. `vertices`: three per triangle. Whole groups of 16
+/// triangles are read, so the rest of the last group must contain valid indices.
 TSPACE_DECLARE_KERNEL(void cornerTerms(const CornerSource& source, const std::uint32_t* vertices, std::size_t count,
                                        CornerTerms& terms))
 

@@ -21,7 +21,7 @@ inline Vectors select(Mask m, Vectors yes, Vectors no) {
     return {select(m, yes.x, no.x), select(m, yes.y, no.y), select(m, yes.z, no.z)};
 }
 
-/// Like unit() of evaluate.h, for a vector whose square is known. If the square is positive, some component is above
+/// Computes unit() of evaluate.h for a vector whose square is known. If the square is positive, some component is above
 /// the smallest normal number (squares of smaller ones are zero), so notZero is tested only if the square is zero or
 /// NaN.
 inline Vectors unitByRules(Vectors v, Floats square) {
@@ -35,7 +35,7 @@ inline Vectors unitByRules(Vectors v) { return unitByRules(v, dot(v, v)); }
 inline Vectors alongPlane(Vectors n, Vectors v) { return v - dot(n, v) * n; }
 inline Vectors flatten(Vectors n, Vectors v) { return unitByRules(alongPlane(n, v)); }
 
-/// One group of kWidth triangles.
+/// Vertex data of one group of kWidth triangles.
 struct Group {
     Vectors position[3];
     Floats u[3], v[3];
@@ -56,7 +56,7 @@ struct Group {
     }
 };
 
-/// dP/du and dP/dv of triangles.
+/// Values of dP/du and dP/dv of triangles.
 struct Shape {
     Vectors s, t;
     Floats length_s, length_t;
@@ -91,8 +91,8 @@ inline Bits appendSides(Bits marks, Vectors v) {
     return marks;
 }
 
-/// Returns the marks of a corner: for its projected bitangent, its unit tangent, whose square was `square`, and
-/// `facing`.
+/// Returns the marks of a corner: `facing`, the marks of its unit tangent s, whose square was `square` before it was
+/// normalized, and the marks of its projected bitangent t.
 inline Bits sidesOf(Vectors s, Floats square, Vectors t, Bits facing) {
     static_assert(kFacing == 0x3 && kTangentSides == 0x3f << 2 && kBitangentSides == 0x3f << 8);
     const Bits sides = appendSides(appendSides(broadcastBits(0), t), s);
@@ -100,9 +100,9 @@ inline Bits sidesOf(Vectors s, Floats square, Vectors t, Bits facing) {
     return shiftLeft<2>(keepWhere(sides, are_sure)) | facing;
 }
 
-/// Returns the weight of a corner; for the two weightings by angles, the cosine of the weight. projected_angle is
-/// MikkTSpace's: the two edges at the corner are projected perpendicular to N and normalized, and the angle between
-/// them is the weight.
+/// Returns the weight of a corner, or, for the two weightings by angles, the cosine of the weight. projected_angle is
+/// the weighting of MikkTSpace: the two edges at the corner are projected perpendicular to N and normalized, and the
+/// angle between them is the weight.
 inline Floats weightOrCosine(Weighting weighting, const Vectors& normal, const Vectors& previous, const Vectors& next) {
     if (weighting == Weighting::projected_angle) return dot(flatten(normal, previous), flatten(normal, next));
     if (weighting == Weighting::angle) return dot(unitByRules(previous), unitByRules(next));

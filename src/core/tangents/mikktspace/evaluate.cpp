@@ -19,7 +19,8 @@ namespace {
 
 constexpr std::size_t kGroupGrain = 8192, kWriteGrain = 8192;
 
-constexpr std::size_t kGroupsPerTask = 4096;  // minimum: below, another thread costs more than it saves
+// minimum number of groups per task: for fewer, another thread costs more than it saves
+constexpr std::size_t kGroupsPerTask = 4096;
 
 /// Triangles of a plan, for range lists and estimators. A group with kTopBit counts as no group: the triangle does not
 /// contribute to it.
@@ -38,7 +39,7 @@ class PlanTriangles final : public TriangleGroups {
 /// Computes the sums of a range of groups, in the order of triangles.
 void sumRange(const EvaluationPlan& plan, const CornerSource& source, CornerTermsFunction termsOf, GroupRange range,
               RangeLists::Batches triangles, GroupSums& sums) {
-    const bool are_known = !plan.terms.empty();  // if so, triangles are read in whole blocks
+    const bool are_known = !plan.terms.empty();  // true: terms are stored, so triangles are read in whole blocks
     std::fill_n(sums.groups.data() + range.begin, range.size(), Vec3{});
     if (!sums.rest.empty()) std::fill_n(sums.rest.data() + range.begin, range.size(), GroupRest{});
     TriangleBatch batch;
@@ -73,7 +74,7 @@ GroupSums sumGroups(const EvaluationPlan& plan, const CornerSource& source, Corn
     const std::size_t tasks =
         std::clamp<std::size_t>(groups / kGroupsPerTask, 1, std::max<std::size_t>(1, parallel.width()));
     const std::size_t size = std::bit_ceil((groups + tasks - 1) / tasks);
-    // A single range needs no lists; without threads the compiler then omits the listing.
+    // A single range needs no lists. In builds without threads, the compiler then omits the code that creates them.
     const RangeLists lists = plan.terms.empty() && tasks > 1
                                  ? RangeLists(triangles, kTermTriangles, groups, size, allocator, parallel)
                                  : RangeLists(kTermTriangles, groups, size);
@@ -99,7 +100,7 @@ class Evaluation {
           allocator_(execution.allocator),
           parallel_(parallel) {}
 
-    /// `estimates`: null, or results of the estimators, which are moved from.
+    /// Evaluates the plan. `estimates`: null, or results of the estimators, which are moved from.
     TangentReport run(GroupSums* estimates) {
         TangentReport report = plan_.report;
         if (plan_.vertex_count == 0) return report;
@@ -140,7 +141,7 @@ class Evaluation {
             bool any_zero = false, all_finite = true;
             for (std::size_t g = begin; g < end; ++g) {
                 Tangents r = finished(g);
-                // A sum that vanishes remains zero in the reference, and in mikktspace; other methods write a default.
+                // If a sum vanishes, the reference and mikktspace write zero; other methods write a default.
                 if (replaces && !notZero(r.s) && r.s.x == r.s.x) {
                     r = Tangents{};
                     replaced_[g] = 1;
@@ -174,7 +175,7 @@ class Evaluation {
 
     void writeCorners() {
         parallel_.forRanges(plan_.triangle_count, kWriteGrain, [&](std::size_t begin, std::size_t end) {
-            // Local copies, which stores through `tangents` cannot alias.
+            // Local copies, which the compiler knows not to alias `tangents`.
             const std::uint32_t *const groups = plan_.groups.data(), *const slots = plan_.slots.data();
             const std::uint32_t* const triangles = plan_.triangles.data();
             const std::uint8_t* const positive = plan_.group_positive.data();
@@ -205,8 +206,8 @@ class Evaluation {
         std::uint32_t vertices[kTermCorners] = {};
     };
 
-    /// Evaluates groups that split. Results of corners with several results are kept in members_, all others are
-    /// written. Quadratic in the size of a group, which the planner limits (kLargestSplitGroup).
+    /// Evaluates groups that split. Results of corners with several results are stored in members_; all other results
+    /// are written. Quadratic in the size of a group, which the planner limits (kLargestSplitGroup).
     void evaluateSplits() {
         const std::size_t count = plan_.splits.size(), blocks = plan_.largest_split / kTermTriangles + 1;
         if (count == 0) return;
@@ -269,8 +270,8 @@ class Evaluation {
         }
     }
 
-    /// Merges the results of corners that have several: two in the reference (at a quad's diagonal), more in n-gons,
-    /// merged one by one.
+    /// Merges the results of corners that have several: two in the reference (at a quad's diagonal), and more in
+    /// n-gons, which are merged one by one.
     void mergeConflicts() {
         const auto result = [&](const Conflict& c) {
             return (c.source & kTopBit) != 0 ? members_[c.source & kValue] : resultOf(c.source);
@@ -284,7 +285,7 @@ class Evaluation {
                 for (++i; i < conflicts.size() && conflicts[i].corner == corner; ++i)
                     merge(merged, result(conflicts[i]));
                 if (!isFinite(merged.s)) finite_ = false;
-                // otherwise the thread that owns the corner's first conflict writes it
+                // otherwise the thread that processes the corner's first conflict writes it
                 if (is_first) sink_.write(corner, merged);
             }
         });
@@ -309,7 +310,7 @@ class Evaluation {
             const std::uint32_t slot = plan_.slotOf(h);
             if (isReplaced(plan_.groups[h] & kValue) && (slot & kTopBit) == 0) defaults_.add(slot);
         }
-        // A corner with several results has a default only if all of them are defaults.
+        // A corner with several results counts as a default only if all of them are defaults.
         const Buffer<Conflict>& conflicts = plan_.conflicts;
         for (std::size_t i = 0; i < conflicts.size();) {
             const std::uint32_t corner = conflicts[i].corner;
@@ -342,8 +343,9 @@ class Evaluation {
     const Allocator* allocator_;
     Parallel& parallel_;
     GroupSums sums_;
-    Buffer<Tangents> members_;       // results of members of groups that split; empty if no corner has several results
-    Buffer<std::uint8_t> replaced_;  // one per group: 1 if its sum vanished and was replaced by a default
+    // results of the members of groups that split; empty if no corner has several results
+    Buffer<Tangents> members_;
+    Buffer<std::uint8_t> replaced_;  // 1 for each group whose sum vanished and was replaced by a default
     std::atomic<bool> zero_{false}, finite_{true};
 };
 

@@ -16,17 +16,18 @@
 
 namespace tspace::mikk {
 
-// Plan of a method with groups: the location of each corner's data, the sum it contributes to, and the result of each
-// corner of the mesh. plan.cpp has a table of its lists.
+// Plan of a method with groups. For each corner of a triangle, it contains the location of its data and the sum that it
+// contributes to, and for each corner of the mesh its result. plan.cpp has a table of its lists.
 
-/// Group whose members do not all share one result (angular threshold).
+/// Group whose members do not all share one result, because of the angular threshold.
 struct EvaluatedSplit {
     std::uint32_t begin = 0, count = 0;  ///< range in EvaluationPlan::members
-    std::size_t rows = 0;                ///< first word in split_rows: `count` rows of (count + 63) / 64 words
+    /// index of the first word in split_rows, which contains `count` rows of (count + 63) / 64 words
+    std::size_t rows = 0;
     bool positive = false;
 };
 
-/// One of several results for a corner of the mesh, which are averaged if they differ.
+/// One of several results for a corner of the mesh, which are merged if they differ.
 struct Conflict {
     std::uint32_t corner = 0;
     std::uint32_t source = 0;  ///< a group, or kTopBit | an index in EvaluationPlan::members
@@ -41,32 +42,34 @@ struct EvaluationPlan {
     std::size_t vertex_count = 0;
     std::size_t corner_count = 0;
     std::size_t triangle_count = 0;
-    std::uint32_t group_count = 0;  ///< split groups are counted, but no half-edge refers to them
+    std::uint32_t group_count = 0;  ///< number of groups; it includes split groups, which no half-edge refers to
 
     /// One per half-edge: the vertex that provides the data of its corner. A plan that is kept uses the corner's own
     /// vertex, because vertices that are equal on the mesh may differ in a pose. Some additional valid vertices follow
     /// at the end, so that kernels can read whole blocks.
     Buffer<std::uint32_t> vertices;
-    /// One per half-edge: its group, with kTopBit if it does not contribute to it; kNone without a group, and for
-    /// members of groups that split.
+    /// One per half-edge: its group, with kTopBit if the half-edge does not contribute to it. kNone for a half-edge
+    /// without a group, and for members of groups that split.
     Buffer<std::uint32_t> groups;
-    /// One per half-edge: its corner of the mesh, with kTopBit if that has conflicts. Empty: half-edges are corners.
+    /// One per half-edge: its corner of the mesh, with kTopBit if the corner has conflicts. Empty: half-edges are
+    /// corners.
     Buffer<std::uint32_t> slots;
     Buffer<std::uint32_t> triangles;      ///< triangles of the mesh, ascending; empty: the plan includes all nodes
-    Buffer<std::uint8_t> group_positive;  ///< one per group: its orientation
+    Buffer<std::uint8_t> group_positive;  ///< one per group: 1 for a positive orientation
     Buffer<Vec2> uvs;                     ///< one per vertex; empty in a plan that is used once
-    Buffer<CornerTerms> terms;            ///< in a plan that is used once: contributions of its triangles
+    Buffer<CornerTerms> terms;            ///< contributions of the triangles; only in a plan that is used once
 
     Buffer<EvaluatedSplit> splits;
-    Buffer<std::uint32_t> members;     ///< half-edges of these groups
+    Buffer<std::uint32_t> members;     ///< half-edges of the groups that split
     Buffer<std::uint64_t> split_rows;  ///< bit b of row a: member b contributes to member a
     std::uint32_t largest_split = 0;
 
-    Buffer<Conflict> conflicts;  ///< conflicts by corner, then in the order in which the reference writes them
-    Buffer<std::uint32_t> default_corners;  ///< corners that no group reaches
-    Buffer<std::uint32_t> skipped_corners;  ///< corners of ignored faces: all outputs are 0
-    Buffer<Copy> copies;                    ///< corners of degenerate triangles
-    TangentReport report;                   ///< counts that do not depend on the pose
+    /// conflicts, sorted by corner, then in the order in which the reference writes the results
+    Buffer<Conflict> conflicts;
+    Buffer<std::uint32_t> default_corners;  ///< corners that belong to no group
+    Buffer<std::uint32_t> skipped_corners;  ///< corners of ignored faces, whose outputs are 0
+    Buffer<Copy> copies;                    ///< copies for corners of degenerate triangles
+    TangentReport report;                   ///< counts of the report that do not depend on the pose
 
     [[nodiscard]] std::uint32_t slotOf(std::uint32_t half_edge) const {
         if (!slots.empty()) return slots[half_edge];
@@ -80,21 +83,22 @@ struct EvaluationPlan {
 EvaluationPlan planGrouped(const MeshView& mesh, const Call<TangentOptions>& options, Parallel& parallel,
                            PlanUse use = PlanUse::kept);
 
-/// Evaluates one pose into validated outputs and completes the plan's report. `uvs`: one per vertex. Scratch memory: 12
-/// bytes per group if only tangents are requested, otherwise 36, and core/base/range_lists.h if several threads compute
-/// sums. `estimates`: null, or the estimators' results for the groups (roomForSums), which are moved from. Throws
-/// OutOfMemory.
+/// Evaluates one pose into validated outputs, and returns the completed report. `uvs`: one per vertex. Scratch memory:
+/// 12 bytes per group if only tangents are requested, otherwise 36, and core/base/range_lists.h if several threads
+/// compute sums. `estimates`: null, or the estimators' results for the groups (roomForSums), which are moved from.
+/// Throws OutOfMemory.
 TangentReport evaluateGroups(const EvaluationPlan& plan, const Pose& pose, const StridedSpan<const Vec2>& uvs,
                              const TangentOutput& out, const Execution& execution, Parallel& parallel,
                              GroupSums* estimates = nullptr);
 
-/// Equals planGrouped and evaluateGroups on the mesh's own pose, bit for bit, in one call. Throws OutOfMemory.
+/// Computes planGrouped and evaluateGroups on the mesh's own pose, with identical bits, in one call. Throws
+/// OutOfMemory.
 TangentReport generateGrouped(const MeshView& mesh, const Call<TangentOptions>& options, const TangentOutput& out,
                               Parallel& parallel);
 
-// Sums of a group, their result, merging of several results of a corner, and the outputs.
+// Sums of a group, the result of a group, merging of several results of a corner, and writing of outputs.
 
-// The reference's rules for "not zero" and for normalization, which determine the bits for tiny, zero and non-finite
+// Rules of the reference for "not zero" and for normalization, which determine the bits for tiny, zero and non-finite
 // vectors.
 
 /// Returns whether x is not zero. Subnormal numbers and NaN count as zero; infinity does not.
@@ -114,8 +118,8 @@ inline bool wantsTangentsOnly(const TangentOutput& out) {
     return out.bitangents.empty() && out.magnitudes_s.empty() && out.magnitudes_t.empty();
 }
 
-/// Returns the weighting of a method. Estimators compute their own sums (estimators/); for `fast` and `best` these
-/// kernels write only marks.
+/// Returns the weighting of a method. For `fast` and `best`, which compute their own sums (estimators/), the kernels
+/// write only marks.
 inline Weighting weightingOf(Method method) {
     switch (method) {
         case Method::fast:
@@ -132,7 +136,7 @@ inline Weighting weightingOf(Method method) {
     }
 }
 
-/// `uvs` must be nonempty, with one entry per vertex of the pose.
+/// Returns the vertex data of a call. `uvs` must be nonempty, with one entry per vertex of the pose.
 inline CornerSource cornerSource(const Pose& pose, const StridedSpan<const Vec2>& uvs, Method method,
                                  bool tangents_only) {
     return {vertexArrays(pose, uvs), weightingOf(method), tangents_only};
@@ -152,7 +156,7 @@ struct Tangents {
 /// Returns the bitangent and both magnitudes of a result, in the struct that otherwise holds the sums of a group.
 inline GroupRest restOf(const Tangents& r) { return {{r.t.x, r.t.y, r.t.z, r.mag_s}, r.mag_t}; }
 
-/// Returns the result of a group whose members' rows (corner_terms.h) sum up to s and `rest`.
+/// Returns the result of a group. s and `rest` are the sums of its members' rows (corner_terms.h).
 inline Tangents meanOf(const Vec3& s, const GroupRest& rest, float weight, bool positive) {
     Tangents r{unit(s), unit(vectorOf(rest.t)), rest.t[3], rest.length_t, positive};
     if (weight > 0) {
@@ -180,7 +184,8 @@ inline void merge(Tangents& first, const Tangents& second) {
 /// Writes the requested outputs.
 class Sink {
   public:
-    /// The UV determinant refers to the side to which cross(P1-P0, P2-P0) points; the sign must refer to N's side.
+    /// Prepares writing. The UV determinant refers to the side to which cross(P1-P0, P2-P0) points, whereas the sign
+    /// must refer to N's side.
     Sink(const TangentOutput& out, Convention convention)
         : out_(out),
           sign_factor_(signFactor(convention) * normalFactor(convention)),
@@ -216,13 +221,14 @@ class Sink {
     float sign_factor_, bitangent_factor_;
 };
 
-/// Corners that get the default because no face contributes to them: counts each once, and clears its entry of
+/// Corners that get the default because no face contributes to them. Counts each of them once, and clears its entry of
 /// TangentOutput::has_tangent, which must be all 1 initially.
 class DefaultCorners {
   public:
     explicit DefaultCorners(const TangentOutput& out) : has_tangent_(out.has_tangent) {}
 
-    /// Required before `has`, and before corners are added that may have been added already.
+    /// Makes corners distinguishable. Required before `has`, and before corners are added that may have been added
+    /// already.
     void distinguish(std::size_t corner_count, const Allocator* allocator) {
         if (!has_tangent_.empty()) return;
         own_ = Buffer<std::uint8_t>(allocator, corner_count, std::uint8_t{1});
@@ -245,26 +251,26 @@ class DefaultCorners {
     std::uint64_t count_ = 0;
 };
 
-/// Adds corner k of triangle t.
+/// Adds the bitangent and lengths of corner k of triangle t to a sum.
 inline void addRest(GroupRest& sum, const CornerTerms& terms, std::size_t t, std::size_t k) {
     storeFloat4(sum.t, loadFloat4(sum.t) + loadFloat4(terms.t[3 * t + k]));
     sum.length_t += terms.lengths_t[k][t];
 }
 
 struct GroupSums {
-    Buffer<Vec3> groups;     ///< weighted tangents: most of the memory of an evaluation
+    Buffer<Vec3> groups;     ///< weighted tangents, which take most of the memory of an evaluation
     Buffer<GroupRest> rest;  ///< empty if tangents_only
 };
 
-/// Conflicts need bitangents and lengths too: whether two results of a corner are merged depends on all their
-/// components.
+/// Returns whether the sums of bitangents and lengths can be omitted. Conflicts need them: whether two results of a
+/// corner are merged depends on all their components.
 inline bool wantsOnlyTangents(const EvaluationPlan& plan, const TangentOutput& out) {
     return wantsTangentsOnly(out) && plan.conflicts.empty();
 }
 
 /// Allocates memory for the sums or estimates of a plan's groups.
 GroupSums roomForSums(const EvaluationPlan& plan, bool tangents_only, const Allocator* allocator);
-/// Returns that memory in the form that estimators write to.
+/// Returns the memory of `sums` in the form that estimators write to.
 estimators::GroupEstimates estimatesIn(GroupSums& sums);
 
 }  // namespace tspace::mikk

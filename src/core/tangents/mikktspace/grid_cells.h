@@ -13,20 +13,20 @@
 
 namespace tspace::mikk {
 
-/// An entry of the corner list that is in one cell of the reference's grid.
+/// Entry of the corner list in one cell of the reference's grid.
 struct alignas(16) CellElement {
     Vec3 position;
-    std::uint32_t entry;  ///< kTopBit is set if the representative of its node is requested
+    std::uint32_t entry;  ///< index of the entry; kTopBit is set if the representative of its node is requested
 };
 
 inline float component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-/// Loads x, y, z, z.
+/// Loads a vector as x, y, z, z.
 inline Float4 loadVec3(const Vec3& v) {
     const Float4 xyyz = joinPairs(&v.x, &v.y);
     return __builtin_shufflevector(xyyz, xyyz, 0, 1, 3, 3);
 }
 
-/// A bounding box; the fourth lanes are unused. As in the reference, a NaN never changes a bound, and a bound that
+/// Bounding box, whose fourth lanes are unused. As in the reference, a NaN never changes a bound, and a bound that
 /// starts as NaN remains NaN.
 struct Box {
     Float4 low, high;
@@ -47,7 +47,7 @@ struct Box {
     }
 };
 
-/// The cells of the reference's grid along the longest axis of its box.
+/// Cells of the reference's grid along the longest axis of its box.
 struct Grid {
     static constexpr int kCells = 2048;
     int axis;
@@ -74,7 +74,7 @@ class Cell {
         : elements_(elements.data()), count_(elements.size()), found_(found) {}
 
     void run() {
-        Range waiting[64];  // each at most half the size of the previous one
+        Range waiting[64];  // each waiting range has at most half the size of the previous one
         std::size_t depth = 0;
         Range range{0, count_};
         while (true) {
@@ -95,7 +95,7 @@ class Cell {
         std::size_t begin, end;
     };
 
-    /// Partitions the range, or finishes it and returns false.
+    /// Partitions a range into `left` and `right`; if that is impossible, finishes it and returns false.
     bool divide(Range range, Range& left, Range& right) {
         const auto at = [&](std::size_t i) { return loadFloat4(&elements_[i].position.x); };
         Box box(at(range.begin));
@@ -108,7 +108,7 @@ class Cell {
         const int axis = box.longestAxis();
         const float low = box.low[axis], high = box.high[axis], middle = 0.5f * (high + low);
         if (middle >= high || middle <= low) {
-            // The first corner of a node is kept; in reverse order it is the last to be reported.
+            // The first corner of a node is its representative; in reverse order it is the last to be reported.
             for (std::size_t i = range.end; i-- > range.begin;) found_(elements_[i].entry & kValue);
             return false;
         }
@@ -118,8 +118,8 @@ class Cell {
         return true;
     }
 
-    /// Partitions like the reference, which swaps the first element that belongs to the right with the last one that
-    /// belongs to the left, and so on.
+    /// Partitions a range like the reference, which swaps the first element that belongs to the right with the last one
+    /// that belongs to the left, and repeats this with the elements between them.
     std::size_t partition(Range range, int axis, float middle) {
         const auto goesLeft = [&](std::size_t n) { return component(elements_[n].position, axis) < middle; };
         std::size_t i = range.begin, j = range.end - 1;

@@ -19,11 +19,11 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr std::size_t kVertexGrain = 16384;  // a multiple of 4
+constexpr std::size_t kVertexGrain = 16384;  // vertices per task, a multiple of 4
 // Mark of a vertex: 1-based number of its cell among the cells of requested vertices, or 0; and flags for vertices at
 // either end of the grid.
 constexpr std::uint16_t kNumber = 0x0fff, kAtLow = 0x4000, kAtHigh = 0x8000;
-constexpr std::uint32_t kWanted = kNone - 1;  // placeholder for a requested representative that is not known yet
+constexpr std::uint32_t kWanted = kNone - 1;  // placeholder for a requested representative that was not found yet
 
 struct GridOrder {
     const WeldedMesh& in;
@@ -42,7 +42,7 @@ struct GridOrder {
         if (in.triangles.corner(0) != 0 || !findIn(boxOfVertices(), true, found)) findIn(boxOfList(), false, found);
         for (const std::uint32_t v : wanted) {
             std::uint32_t& representative = representatives[in.nodes.ofVertex(v)];
-            if (representative == kWanted) representative = kNone;  // no corners
+            if (representative == kWanted) representative = kNone;  // no corner was found for the node
         }
         return found;
     }
@@ -68,7 +68,8 @@ struct GridOrder {
         return whole;
     }
 
-    /// `if_listed`: returns false if vertices at either end of the box are not in the corner list.
+    /// Finds the representatives. If `if_listed` is set, returns false if vertices at either end of the box are not in
+    /// the corner list.
     bool findIn(const Box& box, bool if_listed, Buffer<std::uint32_t>& found) {
         const Grid grid(box);
         std::array<std::uint16_t, Grid::kCells> numbers = {};
@@ -101,9 +102,10 @@ struct GridOrder {
         return true;
     }
 
-    /// Divides each cell independently, because each node is in one cell.
+    /// Finds the representatives of each cell. Cells are independent, because each node is in one cell.
     void followCells(const Buffer<std::uint32_t>& found, const std::uint16_t* marks, std::size_t cells) {
-        // Counting sort of entries by cell: first the counts, then the start of each cell. Number 0 means no cell.
+        // Counting sort of entries by cell: `begin` contains first the counts, then the start of each cell. Number 0
+        // means no cell.
         std::array<std::uint32_t, Grid::kCells + 2> begin;
         std::fill_n(begin.data(), cells + 2, 0u);
         std::uint32_t buffer[3];
@@ -124,7 +126,8 @@ struct GridOrder {
             }
         }
         const auto name = [&](std::uint32_t entry) { representatives[in.nodeAt(entry)] = in.triangles.corner(entry); };
-        constexpr std::size_t kElements = 4096;  // per thread; fewer are faster without another thread
+        // elements per thread: fewer are processed faster without another thread
+        constexpr std::size_t kElements = 4096;
         const std::size_t grain = 1 + cells * kElements / (elements.size() + 1);
         parallel.forRanges(cells, grain, [&](std::size_t first, std::size_t last) {
             for (std::size_t cell = first; cell < last; ++cell) {

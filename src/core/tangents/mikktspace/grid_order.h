@@ -11,8 +11,9 @@
 
 namespace tspace::mikk {
 
-// The representative of a node: the corner that the reference keeps when welding. It depends on the order in which the
-// reference's spatial search leaves corners; that order is reproduced here, for the nodes where it matters.
+// Representatives of nodes: the representative is the corner that the reference keeps when it welds a node. It depends
+// on the order in which the reference's spatial search leaves corners. This code reproduces that order for the nodes
+// for which it matters.
 
 /// Sets representatives[node] to the corner that the reference keeps, for the nodes of `vertices`; kNone if a node has
 /// no corners. Other nodes in the same cells (of 2048) may also be set, correctly. Returns the triangles that have a

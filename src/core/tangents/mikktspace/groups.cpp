@@ -25,7 +25,7 @@ bool areOneFan(std::span<const NodeCorner> around) {
     return fan.isOne();
 }
 
-/// Spreads a group from its first corner in both directions. joins(i): whether corner i may join it.
+/// Extends a group from its first corner in both directions. joins(i): returns whether corner i may join the group.
 template <class Joins>
 void spread(std::uint32_t seed, const CornerLinks& links, std::uint32_t* group, const Joins& joins) {
     for (const std::uint32_t* link : {links.left, links.right}) {
@@ -58,8 +58,8 @@ void linkSmall(std::span<const NodeCorner> around, const CornerLinks& links) {
     }
 }
 
-/// Sort keys: the neighbor in the high word; 2 * corner in the low word, plus 1 for the leaving edge. All waiting
-/// half-edges of one neighbor have the same direction, so the oldest is the partner of the next opposite one.
+/// Sort keys of half-edges: the neighbor in the high word; 2 * corner in the low word, plus 1 for the leaving edge. All
+/// waiting half-edges of one neighbor have the same direction, so the oldest is the partner of the next opposite one.
 void linkLarge(std::span<const NodeCorner> around, const CornerLinks& links, std::uint64_t* half_edges) {
     const std::size_t count = 2 * around.size();
     for (std::size_t i = 0; i < around.size(); ++i) {
@@ -97,7 +97,7 @@ Grouping::Grouping(const VertexPath& path, VertexCorners& corners)
     if (!contested_.empty()) spreadContested(allocator);
 }
 
-/// In a node without contested triangles, those without UV area join any group.
+/// Groups the corners of a node. If no triangle of the node is contested, triangles without UV area join any group.
 NodeGroups Grouping::groupsOf(std::size_t place) {
     const std::span<const NodeCorner> around = corners_.around(place);
     if (!contested_of_.empty() && contested_of_[place] != kNone) {
@@ -143,8 +143,8 @@ void Grouping::applyBucket(std::span<const NodeCorner> around, const CornerLinks
     };
     for (std::size_t i = 0; i < around.size(); ++i) {
         const std::uint32_t h = corners_.halfEdgeOf(around[i].half_edge);
-        // A partner has the opposite direction: across the leaving edge it arrives here, across the arriving edge it
-        // leaves.
+        // A partner has the opposite direction: the partner of the leaving edge arrives at the node, and the partner of
+        // the arriving edge leaves it.
         if (const std::uint32_t* partner = bucket_.partnerOf(h))
             links.left[i] = *partner == kNone ? kNone : placeOf(turn(*partner, 1));
         if (const std::uint32_t* partner = bucket_.partnerOf(turn(h, 2)))
@@ -152,8 +152,8 @@ void Grouping::applyBucket(std::span<const NodeCorner> around, const CornerLinks
     }
 }
 
-/// Marks contested triangles and their nodes. (A node of such a triangle that is not selected has no groups, or its
-/// triangles are known to have equal orientations.)
+/// Marks contested triangles and their nodes. If a node of such a triangle is not selected, it has no groups, or its
+/// triangles are known to have equal orientations.
 void Grouping::findContested(const Allocator* allocator) {
     const auto add = [&](std::uint32_t place) {
         if (corners_.facing[place] == 0 || contested_of_[place] != kNone) return;
@@ -172,8 +172,8 @@ void Grouping::findContested(const Allocator* allocator) {
     }
 }
 
-/// Groups the nodes of contested triangles: first links them, then processes all triangles in the reference's order.
-/// Each node has a cursor that moves along its corners.
+/// Groups the nodes of contested triangles: first links their corners, then processes all triangles in the reference's
+/// order. Each node has a cursor that moves along its corners.
 void Grouping::spreadContested(const Allocator* allocator) {
     std::size_t size = 0;
     for (Contested& node : contested_) {
@@ -201,8 +201,8 @@ void Grouping::spreadContested(const Allocator* allocator) {
     }
 }
 
-/// A triangle that is not contested joins any group; a contested one adopts the orientation of the first group that
-/// reaches it.
+/// Returns whether a triangle joins a group. A triangle that is not contested joins any group; a contested one adopts
+/// the orientation of the first group that reaches it.
 bool Grouping::joinsContested(std::uint32_t triangle, std::uint32_t facing) {
     std::uint8_t& flags = corners_.flags[triangle];
     if ((flags & (kAny | kContested)) == kAny) return true;
@@ -210,18 +210,19 @@ bool Grouping::joinsContested(std::uint32_t triangle, std::uint32_t facing) {
     return (flags & kFacing) == facing;
 }
 
-// Angular threshold: fast tests that nothing splits, and the comparison of all pairs of members.
+// Angular threshold: fast tests which prove that nothing splits, and the comparison of all pairs of members.
 
 namespace {
 
-/// Margins far above the rounding of a projection and three dot products: the sine of an angle to a plane, and a
-/// difference of cosines.
+/// Margins of the fast tests, far above the rounding of a projection and three dot products: the sine of an angle to a
+/// plane, and a difference of cosines.
 constexpr float kOffPlane = 0.02f, kMargin = 1e-3f;
-constexpr float kLeastWeight = 1e-4f;    // below this, rounding determines the direction of a corner's row
-constexpr std::size_t kFewMembers = 64;  // largest group for which the fast test compares all pairs
+// minimum weight: below it, rounding determines the direction of a corner's row
+constexpr float kLeastWeight = 1e-4f;
+constexpr std::size_t kFewMembers = 64;  // number of members up to which the fast test compares all pairs
 
-/// If all members are within half the threshold of one direction, all pairs are within the threshold: the cosine of the
-/// half angle is sqrt((1 + c) / 2).
+/// Returns the minimum cosine between a member and the common direction. If all members are within half the threshold
+/// of one direction, all pairs are within the threshold. The cosine of the half angle is sqrt((1 + c) / 2).
 float halfAngleLimit(float threshold_cosine) { return std::sqrt((1.0f + threshold_cosine) * 0.5f) + kOffPlane; }
 
 /// Returns whether all members are close to the direction of their sum.
@@ -261,7 +262,7 @@ bool areNearEachOther(Members members, float limit) {
     return true;
 }
 
-/// Computes the directions of dP/du and dP/dv (zero if they have none).
+/// Computes the unit directions of dP/du and dP/dv, or zero for one that has no direction.
 void triangleDirections(const Vec3 (&p)[3], const Vec2 (&uv)[3], Vec3& s, Vec3& t) {
     const Vec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
     const Vec3 d1 = p[1] - p[0], d2 = p[2] - p[0];
@@ -275,7 +276,7 @@ void triangleDirections(const Vec3 (&p)[3], const Vec2 (&uv)[3], Vec3& s, Vec3& 
     if (notZero(length_t)) t = (facing / length_t) * along_v;
 }
 
-/// Computes the sine by Taylor series; for |r| <= pi/4 the error is below 2^-56.
+/// Computes the sine by its Taylor series; for |r| <= pi/4 the error is below 2^-56.
 double sine(double r) {
     const double z = r * r;
     double p = 1.0 / 355687428096000.0;
@@ -298,12 +299,13 @@ double cosine(double r) {
 
 }  // namespace
 
-/// Does not use the C library, so that it has the same bits everywhere. Based on: Cody and Waite, "Software Manual for
-/// the Elementary Functions", 1980: pi/2 as two summands, so that the subtraction from the angle is exact.
+/// Computes the cosine without the C library, so that it has the same bits everywhere.
+/// Based on: Cody and Waite, "Software Manual for the Elementary Functions", 1980: pi/2 as two summands, so that the
+/// subtraction from the angle is exact.
 float thresholdCosine(float degrees) {
-    if (degrees == 180.0f) return -1.0f;  // the default; the formula below gives this value too
+    if (degrees == 180.0f) return -1.0f;  // the default, for which the formula below gives the same value
     const double angle = std::fabs((degrees * 3.14159274f) / 180.0f);
-    if (!(angle < 1e6)) return std::nanf("");  // no two directions are within this threshold
+    if (!(angle < 1e6)) return std::nanf("");  // no two directions are within such a threshold
     const auto quarter_turns = static_cast<unsigned>(angle * 0x1.45f306dc9c883p-1 + 0.5);
     const double r = (angle - quarter_turns * 0x1.921fb544p+0) - quarter_turns * 0x1.0b4611a626331p-34;
     return static_cast<float>(std::array{cosine(r), -sine(r), -cosine(r), sine(r)}[quarter_turns % 4]);
@@ -371,7 +373,7 @@ bool SplitFinder::splits(Members members, const Vec3& normal) {
     for (std::uint32_t a = 0; a < count; ++a) {
         const Direction& da = directions_[a];
         for (std::uint32_t b = 0; b < count; ++b) {
-            if (members[b].facing == 0) continue;  // it contributes to no subset
+            if (members[b].facing == 0) continue;  // this member contributes to no subset
             const Direction& db = directions_[b];
             const bool together = members[a].facing == 0 || (dot(da.s, db.s) > cosine_ && dot(da.t, db.t) > cosine_) ||
                                   face(a) == face(b);

@@ -27,11 +27,11 @@
 
 namespace tspace::mikk {
 
-/// Nodes of up to this many corners are linked by comparing all pairs, on the stack.
+/// Maximum number of corners of a node that is linked by comparing all pairs, on the stack.
 inline constexpr std::uint32_t kSmallNode = 64;
 
-/// For each corner of a node: the corner across the edge that leaves the node, and across the edge that arrives, as an
-/// index in the node's list of corners, or kNone.
+/// Links of each corner of a node: the corner across the edge that leaves the node, and the corner across the edge that
+/// arrives, as indices in the node's list of corners, or kNone.
 struct CornerLinks {
     std::uint32_t* left;
     std::uint32_t* right;
@@ -55,11 +55,11 @@ struct NodeGroups {
 
 class Grouping {
   public:
-    /// Sets the orientation of contested triangles (no UV area, and groups of both orientations may claim them) in
-    /// corners.flags. The arguments must outlive the object.
+    /// Determines the orientation of contested triangles, and stores it in corners.flags. A triangle is contested if it
+    /// has no UV area, and groups of both orientations may claim it. The arguments must outlive the object.
     Grouping(const VertexPath& path, VertexCorners& corners);
 
-    /// The result is valid until the next call.
+    /// Returns the groups of a node. The result is valid until the next call.
     NodeGroups groupsOf(std::size_t place);
 
   private:
@@ -77,16 +77,16 @@ class Grouping {
     std::span<const std::uint32_t> chosen_;
     const LastBucket& bucket_;
     VertexCorners& corners_;
-    Buffer<std::uint32_t> scratch_;       // links and groups of one node
-    Buffer<std::uint64_t> half_edges_;    // scratch memory of linkLarge
-    Buffer<std::uint32_t> contested_of_;  // one per chosen node, and one more: its number in contested_, or kNone;
-                                          // empty where no triangle is contested
+    Buffer<std::uint32_t> scratch_;     // memory for the links and groups of one node
+    Buffer<std::uint64_t> half_edges_;  // memory for linkLarge
+    // number of each chosen node in contested_, or kNone, with one additional entry; empty if no triangle is contested
+    Buffer<std::uint32_t> contested_of_;
     Growing<Contested> contested_;
     Buffer<std::uint32_t> contested_groups_;
 };
 
-// Splits. Only members of a group whose tangents and bitangents differ by less than the angular threshold are averaged;
-// each member has its own subset of the group.
+// Groups that split. Only members whose tangents and bitangents differ by less than the angular threshold are averaged,
+// so each member has its own subset of the group.
 
 /// Returns the cosine of an angular threshold of 0 to 360 degrees, in the reference's arithmetic.
 float thresholdCosine(float degrees);
@@ -94,12 +94,11 @@ float thresholdCosine(float degrees);
 /// Corners of one group, ascending, including those that do not contribute.
 using Members = std::span<const NodeCorner>;
 
-/// Fast test: returns true only if every two members are within the threshold. False may also mean that this is
-/// unknown.
+/// Tests quickly whether every two members are within the threshold. If the test returns false, this is unknown.
 bool areTogether(Members members, float threshold_cosine);
 
-/// Subsets are quadratic in the size of a group by definition: each member may have a different one, and float sums
-/// cannot be shared. Above this size, groups that might split would also take quadratic time here.
+/// Maximum number of members of a group that may be split. Subsets take quadratic time and memory: each member may have
+/// a different one, and float sums cannot be shared.
 inline constexpr std::uint32_t kLargestSplitGroup = 4096;
 
 /// Compares all members of a group with each other, as the reference does.
@@ -108,7 +107,7 @@ class SplitFinder {
     SplitFinder(const WeldedMesh& welded, const VertexCorners& corners, float threshold_cosine,
                 const Allocator* allocator);
 
-    /// Returns whether the group splits; the rows of its members have then been added. Groups of more than
+    /// Returns whether the group splits; if so, the rows of its members have been added. Groups of more than
     /// kLargestSplitGroup members that might split are not split.
     bool splits(Members members, const Vec3& normal);
 

@@ -48,8 +48,8 @@ namespace tspace::mikk {
 namespace {
 
 constexpr std::uint32_t kSeed = 39871946;
-/// Maximum number of steps of the replayed sort, per element. A random order needs about 4, because only the side with
-/// the last bucket is followed; only inputs constructed against the fixed seed come close to the limit.
+/// Maximum number of steps of the replayed sort, per element. A random order needs about 4 steps, because only the side
+/// with the last bucket is followed. Only inputs constructed against the fixed seed come close to the limit.
 constexpr std::uint64_t kStepsPerElement = 64;
 
 /// An element of the replayed sort.
@@ -97,18 +97,19 @@ struct BucketEdge {
     std::uint32_t high = 0;  // representative of the higher end
     std::uint32_t high_node = 0;
     std::uint32_t half_edge = 0;
-    std::uint32_t usual = kNone, partner = kNone;  // other half-edge: by normal pairing, and as in the reference
-    bool ascending = false;                        // goes from the lower to the higher end
+    // other half-edge of the edge: with the normal pairing, and as in the reference
+    std::uint32_t usual = kNone, partner = kNone;
+    bool ascending = false;  // true: the half-edge goes from the lower to the higher end
 };
 
-/// Sorts by half-edge; `by_ends`: by higher end first, then by half-edge.
+/// Sorts edges by half-edge, or, with `by_ends`, by higher end first and then by half-edge.
 [[gnu::cold]] void sortEdges(BucketEdge* begin, BucketEdge* end, bool by_ends) {
     sortList(begin, end, [=](const BucketEdge& a, const BucketEdge& b) {
         return by_ends && a.high != b.high ? a.high < b.high : a.half_edge < b.half_edge;
     });
 }
 
-/// Returns the largest key of a triangle's edges: the middle one of its nodes' representatives.
+/// Returns the largest key of a triangle's edges: the median of the representatives of its nodes.
 inline std::uint32_t keyOf(const std::uint32_t* nodes, const std::uint32_t* representatives) {
     const std::uint32_t a = representatives[nodes[0]], b = representatives[nodes[1]], c = representatives[nodes[2]];
     return std::max(std::min(a, b), std::min(std::max(a, b), c));
@@ -123,7 +124,7 @@ class BucketFinder {
           representatives_(allocator, welded.nodes.count),
           bucket_(allocator) {}
 
-    /// Returns the changed links. `kept`: allocator of the result.
+    /// Returns the links that the bucket changes. `kept`: allocator of the result.
     LastBucket run(const Allocator* kept) {
         LastBucket result;
         if (!mayMatter()) return result;
@@ -138,7 +139,7 @@ class BucketFinder {
     }
 
   private:
-    /// Vertices and nodes of a triangle: pointers into the mesh if possible, otherwise to its own arrays.
+    /// Vertices and nodes of a triangle: pointers into the mesh if possible, otherwise to arrays of this object.
     struct Triangle {
         Triangle(const WeldedMesh& in, std::size_t t)
             : vertices(readTriangles(in.mesh, in.triangles, t, 1, own_vertices)),
@@ -154,12 +155,12 @@ class BucketFinder {
         return !(at(0) == at(1) || at(1) == at(2) || at(2) == at(0));
     }
 
-    /// Returns whether three edges of the bucket may share a node. All edges of the bucket share one node, and a
+    /// Returns whether three edges of the last bucket may share a node. All edges of the bucket share one node, and a
     /// triangle has at most one of these edges: if it had two, the edge between their higher ends would have a larger
     /// key. Counts the edges per node of triangles that may have the largest key.
     [[nodiscard]] bool mayMatter() {
         const std::size_t count = in_.triangles.count;
-        std::uint32_t* const edges = representatives_.data();  // edge counts; the memory is reused later
+        std::uint32_t* const edges = representatives_.data();  // edge counts per node; the memory is reused later
         forgetAll();
         std::uint32_t room[kBlockCorners], last[kBlockCorners], known = 0;
         for (std::size_t first = 0; first < count; first += kCollectBlock) {
@@ -180,31 +181,31 @@ class BucketFinder {
 
     void forgetAll() { std::memset(representatives_.data(), 0, in_.nodes.count * sizeof(std::uint32_t)); }
 
-    /// Returns a lower bound of V in a small mesh: each representative is between the first and the `last` corner of
-    /// its node.
+    /// Returns a lower bound of V, the largest key, in a small mesh: each representative is between the first and the
+    /// `last` corner of its node.
     std::uint32_t leastKey(const std::uint32_t* nodes, std::uint32_t* last) const {
         std::uint32_t first[kBlockCorners], least = 0;
         const auto count = static_cast<std::uint32_t>(3 * in_.triangles.count);
         for (std::uint32_t i = 0; i < count; ++i) last[nodes[i]] = i;
         for (std::uint32_t i = count; i-- > 0;) first[nodes[i]] = i;
-        for (std::uint32_t i = count; i > least; i -= 3) {  // a triangle's key is at most its last corner
+        for (std::uint32_t i = count; i > least; i -= 3) {  // the key of a triangle is at most its last corner
             const std::uint32_t key = keyOf(nodes + i - 3, first);
             if (key > least && isGood({in_, i / 3 - 1})) least = key;
         }
         return least;
     }
 
-    /// Returns the start of the last `length` triangles, or a few earlier, so that no face is split.
+    /// Returns the start of the last `length` triangles, or a few triangles earlier, so that no face is split.
     [[nodiscard]] std::size_t beginOfLast(std::size_t length) const {
         std::size_t begin = length < in_.triangles.count ? in_.triangles.count - length : 0;
         while (begin > 0 && in_.triangles.face(begin) == in_.triangles.face(begin - 1)) --begin;
         return begin;
     }
 
-    /// Finds V and the edges that have it.
+    /// Finds the largest key V, and the edges that have it.
     void findBucket() {
-        // Initial numbers of triangles at the end of the list, and the factor by which they grow; see the table at the
-        // top of this file for the gains.
+        // Initial numbers of triangles at the end of the list, and the factor by which they grow. The table at the top
+        // of this file lists the gains.
         constexpr std::size_t kSmallMesh = 4096, kLastOfSmall = 5, kLast = 10, kLastOfRandom = 24, kLonger = 4;
         const std::size_t count = in_.triangles.count;
         std::size_t length = count < kSmallMesh ? kLastOfSmall : kLastOfRandom;
@@ -224,10 +225,11 @@ class BucketFinder {
             }
             const Buffer<std::uint32_t> around = findRepresentatives(in_, {vertices.begin(), vertices.size()},
                                                                      representatives_.data(), allocator_, parallel_);
-            // In reverse order, because keys are mostly ascending and each larger key empties the bucket.
+            // Processes triangles in reverse order, because keys are mostly ascending and each larger key empties the
+            // bucket.
             for (std::size_t i = around.size(); i-- > 0;) addEdges(around[i]);
-            // Triangles from the corner of the largest key to the end are sufficient. The limit is needed because
-            // skipped faces have corners too.
+            // The triangles from the corner of the largest key to the end of the list are sufficient. The limit is
+            // needed because skipped faces have corners too.
             length = std::max(2 * length, std::min(kLonger * length, in_.triangles.count - key_ / 3));
         }
     }
@@ -306,7 +308,7 @@ class BucketFinder {
     [[gnu::cold]] void pairUp(std::uint32_t BucketEdge::*partner) {
         for (std::size_t begin = 0, end = 0; begin < bucket_.size(); begin = end) {
             end = endOfRun(begin);
-            std::size_t waiting = begin;  // all half-edges before it are paired
+            std::size_t waiting = begin;  // all half-edges before this one are paired
             for (std::size_t i = begin; i < end; ++i) {
                 while (waiting < i && bucket_[waiting].*partner != kNone) ++waiting;
                 if (waiting == i || bucket_[waiting].ascending == bucket_[i].ascending) continue;
@@ -336,8 +338,8 @@ class BucketFinder {
     const WeldedMesh& in_;
     const Allocator* allocator_;
     Parallel& parallel_;
-    Buffer<std::uint32_t> representatives_;  // one per node; 0: not known yet
-    std::uint32_t key_ = 0;                  // V, which is never 0
+    Buffer<std::uint32_t> representatives_;  // representative of each node; 0: not known yet
+    std::uint32_t key_ = 0;                  // the largest key V, which is never 0
     std::uint32_t low_node_ = 0;             // the node that V represents
     Growing<BucketEdge> bucket_;
 };

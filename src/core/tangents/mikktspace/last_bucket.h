@@ -13,25 +13,25 @@ namespace tspace::mikk {
 
 // The defect of the reference's edge list. A bucket consists of the edges with the same lower end. The reference sorts
 // all edges by their lower end, and then each bucket by the higher end and by triangle; but the loops of the second and
-// third sort never reach the last bucket, which has the largest lower end. In that bucket equal edges may be separated,
-// and the reference does not pair separated edges. This almost never changes the result, which last_bucket.cpp can
-// prove without building a list of edges or corners.
+// third sort never reach the last bucket, which has the largest lower end. In that bucket, edges with equal ends may
+// not be adjacent, and the reference does not pair them then. This almost never changes the result, which
+// last_bucket.cpp can prove without building a list of edges or corners.
 
 /// The half-edges of the last bucket that the reference pairs differently than a sorted list would. Empty for most
 /// meshes.
 struct LastBucket {
     struct Link {
-        std::uint32_t half_edge;  ///< 3 * triangle + k, in the triangle list
-        std::uint32_t partner;    ///< kNone: no neighbor
+        std::uint32_t half_edge;  ///< number of the half-edge in the triangle list: 3 * triangle + k
+        std::uint32_t partner;    ///< half-edge that the reference pairs it with; kNone: no neighbor
     };
     Buffer<Link> links;           ///< ascending by half-edge
-    Buffer<std::uint32_t> nodes;  ///< ends of these edges, ascending; some are repeated
+    Buffer<std::uint32_t> nodes;  ///< nodes at the ends of these edges, ascending, with some repetitions
     bool abandoned = false;       ///< the input makes the reference's sort quadratic: no links were computed
 
     [[nodiscard]] bool concerns(std::uint32_t node) const {
         return !nodes.empty() && std::binary_search(nodes.begin(), nodes.end(), node);
     }
-    /// Returns null if the half-edge keeps its usual link.
+    /// Returns the partner of a half-edge, or null if the half-edge keeps its usual link.
     [[nodiscard]] const std::uint32_t* partnerOf(std::uint32_t half_edge) const {
         const Link* at = std::lower_bound(links.begin(), links.end(), half_edge,
                                           [](const Link& link, std::uint32_t h) { return link.half_edge < h; });
@@ -39,17 +39,17 @@ struct LastBucket {
     }
 };
 
-/// All nodes must be finite. Uses about two bytes per vertex, four per node, and 16 per corner in a few cells of the
-/// reference's grid; usually reads all vertices and indices once. If the order of the bucket matters, uses up to 60
-/// bytes per triangle. `transient`: allocator of everything except the result.
+/// Finds the last bucket. All nodes must be finite. Uses about two bytes per vertex, four per node, and 16 per corner
+/// in a few cells of the reference's grid; usually reads all vertices and indices once. If the order of the bucket
+/// matters, uses up to 60 bytes per triangle. `transient`: allocator of everything except the result.
 LastBucket findLastBucket(const WeldedMesh& welded, const Allocator* transient, const Allocator* allocator,
                           Parallel& parallel);
 
-/// A mesh of at most 64 triangles, which are its faces, none of them degenerate; valid after listVertices.
+/// Triangles of a mesh of at most 64 faces, which are all triangles, and not degenerate; valid after listVertices.
 struct FewTriangles {
     const WeldedMesh& welded;
-    const std::uint32_t* nodes;   ///< three per triangle; fewer than 192 in all
-    const std::uint64_t* around;  ///< one per node: the set of its triangles, which may be empty
+    const std::uint32_t* nodes;   ///< three nodes per triangle; fewer than 192 nodes in total
+    const std::uint64_t* around;  ///< set of the triangles at each node, which may be empty
 };
 
 /// Returns whether findLastBucket may find links: a fast and nearly exact test (small_bucket.cpp).

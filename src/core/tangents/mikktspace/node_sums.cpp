@@ -17,21 +17,23 @@ namespace tspace::mikk {
 
 namespace {
 
-constexpr unsigned kTaskShift = 12;  // minimum number of nodes per task: below, another thread costs more than it saves
-/// Measured for triangles in random order: 8192 nodes 97 ns per triangle, 4096 99, 16384 102, 65536 117, 1024 137.
+// log2 of the minimum number of nodes per task: for fewer, another thread costs more than it saves
+constexpr unsigned kTaskShift = 12;
+/// log2 of the nodes per range for triangles in random order. Measured: 8192 nodes take 97 ns per triangle, 4096 nodes
+/// 99, 16384 nodes 102, 65536 nodes 117, and 1024 nodes 137.
 constexpr unsigned kScatteredShift = 13;
 constexpr std::size_t kScatteredRange = std::size_t{1} << kScatteredShift;
 constexpr std::size_t kTasksPerThread = 4;
-/// Locality argument of __builtin_prefetch. The prefetched data of a block do not fit into the L1 cache together with
-/// the data of the kernel. Measured: 120 ns per triangle with L1, 67 with L2.
+/// Locality argument of __builtin_prefetch: the L2 cache, because the prefetched data of a block do not fit into the L1
+/// cache together with the data of the kernel. Measured: 120 ns per triangle with L1, 67 with L2.
 constexpr int kSecondCache = 2;
 
-/// Arguments of a sum over all triangles.
+/// Arguments of a pass over all triangles.
 struct Sweep : WeldedMesh {
     const CornerSource& source;
     CornerTermsFunction terms;
     NodeSums& sums;
-    bool prefetches = false;  // node data exceed the L2 cache
+    bool prefetches = false;  // true: the data of the nodes exceed the L2 cache
 };
 
 /// Computes the sums of the ranges of one task.
@@ -62,7 +64,7 @@ class Summer {
         return true;
     }
 
-    /// Forced inline: GCC 12 considers a function that only prefetches to have no effect, and drops the call.
+    /// Always inlined: GCC 12 considers a function that only prefetches to have no effect, and drops the call.
     [[gnu::always_inline]] void prefetch(const TriangleBatch& batch) const {
         const CornerSource& source = sweep_.source;
         for (std::size_t i = 0; i < 3 * batch.count; ++i) {
@@ -93,7 +95,7 @@ class Summer {
 
     enum class Sums { none, tangents, all };
 
-    /// Pointers to the sums: a local copy, so that they stay in registers.
+    /// Pointers to the sums, copied to a local struct so that they stay in registers.
     struct Target {
         NodeSum* nodes;
         std::uint16_t* marks;
@@ -113,7 +115,7 @@ class Summer {
             const std::uint32_t a = n[0], b = n[1], c = n[2];
             const auto addCorner = [&](std::size_t k, std::uint32_t node, std::uint32_t next, std::uint32_t previous) {
                 if constexpr (kSums != Sums::none)
-                    addRow(to.nodes[node].s, terms_.s[3 * t + k]);  // includes the weight
+                    addRow(to.nodes[node].s, terms_.s[3 * t + k]);  // the fourth number of the row is the weight
                 if constexpr (kSums == Sums::all) addRest(sums_.rest[node], terms_, t, k);
                 to.marks[node] = static_cast<std::uint16_t>(to.marks[node] & terms_.marks[k][t]);
                 to.nodes[node].fan.add(next, previous, fan_room_);
@@ -124,8 +126,8 @@ class Summer {
         }
     }
 
-    /// Handles a triangle that adds nothing to the sums: a degenerate one makes its nodes complex, one without UV area
-    /// extends fans.
+    /// Adds a triangle that contributes nothing to the sums: a degenerate triangle makes its nodes complex, and a
+    /// triangle without UV area extends fans.
     void addUnusual(const std::uint32_t* n, bool degenerate) {
         for (std::size_t k = 0; k < 3; ++k) {
             if (!range_.has(n[k])) continue;
@@ -144,8 +146,8 @@ class Summer {
     CornerTerms terms_;
 };
 
-/// Returns log2 of the number of nodes per range. Small ranges are beneficial if triangles are scattered but the nodes
-/// of each are in one range.
+/// Returns log2 of the number of nodes per range. Small ranges are faster if triangles are scattered but the nodes of
+/// each triangle are in one range.
 unsigned rangeShift(const Sweep& sweep, const MeshTriangles& by_node, unsigned width) {
     const std::size_t nodes = sweep.nodes.count;
     if (sweep.sums.scattered && RangeLists::areCompact(by_node, 1, nodes, kScatteredRange)) return kScatteredShift;
@@ -195,7 +197,7 @@ void MeshTriangles::finish(const std::uint32_t* found, std::size_t size, const N
 }
 
 void finishInRanges(std::size_t count, const FinishNodes& finish, Parallel& parallel) {
-    constexpr std::size_t kStep = 64, kGrain = 128;  // nodes; steps
+    constexpr std::size_t kStep = 64, kGrain = 128;  // nodes per step, and steps per task
     parallel.forRanges((count + kStep - 1) / kStep, kGrain, [&](std::size_t begin, std::size_t end) {
         finish(begin * kStep, std::min(end * kStep, count));
     });
@@ -219,7 +221,8 @@ void sumNodes(const WeldedMesh& welded, const CornerSource& source, CornerTermsF
                            parallel);
     const std::size_t ranges = lists.count(), tasks = std::min<std::size_t>(ranges, parallel.width());
     const std::size_t fans_each = std::min(lists.range(0).size(), lists.mostTriangles(welded.triangles.count));
-    Buffer<ManyPaths> many_paths(transient.allocator(), tasks * fans_each);  // most of its pages are never touched
+    // most pages of this memory are never touched
+    Buffer<ManyPaths> many_paths(transient.allocator(), tasks * fans_each);
     std::atomic<std::size_t> next{0};
     parallel.forTasks(tasks, [&](std::size_t task) {
         Summer summer(sweep);

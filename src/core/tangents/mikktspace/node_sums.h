@@ -17,7 +17,8 @@
 
 namespace tspace::mikk {
 
-// Detects whether the triangles around a node form one connected fan, while they are visited in ascending order.
+// Detection of fans: determines whether the triangles around a node form one connected fan, while they are visited in
+// ascending order.
 //
 // The rule of groups.h links a triangle's leaving half-edge (to the next node) with the oldest waiting arriving
 // half-edge from that node, and vice versa. As long as no two half-edges of one direction wait for the same neighbor,
@@ -34,7 +35,7 @@ struct ManyPaths {
     } paths[kMost];
 };
 
-/// Pool of ManyPaths, numbered from 1. It needs one for each fan of three triangles or more.
+/// Pool of ManyPaths, numbered from 1. Its size is one entry for each fan of three triangles or more.
 class FanRoom {
   public:
     explicit FanRoom(ManyPaths* places) : places_(places) {}
@@ -53,8 +54,8 @@ class FanRoom {
 
   private:
     ManyPaths* places_;
-    std::uint32_t used_ = 0;  // number of entries ever used
-    std::uint32_t free_ = 0;  // head of the free list, linked through paths[0].leaves
+    std::uint32_t used_ = 0;  // number of entries that were ever used
+    std::uint32_t free_ = 0;  // first entry of the free list, which is linked through paths[0].leaves
 };
 
 class Fan {
@@ -63,8 +64,8 @@ class Fan {
     /// Returns the second path; 0 if there is at most one.
     [[nodiscard]] std::uint32_t secondPath() const { return ends_[2]; }
 
-    /// Adds the triangle whose corner at this node is followed by the node `next` and preceded by `previous`.
-    /// Branchless: for unordered meshes branches would be unpredictable.
+    /// Adds a triangle. Its corner at this node is followed by the node `next` and preceded by `previous`. Branchless,
+    /// because branches would be unpredictable for unordered meshes.
     void add(std::uint32_t next, std::uint32_t previous, FanRoom& room) {
         const Four own = Four{next, previous, next, previous} | kTopBit;
         const Four extended = std::bit_cast<Four>(ends_ == __builtin_shufflevector(own, own, 1, 0, 3, 2));
@@ -73,8 +74,8 @@ class Fan {
         const bool is_complex = laneBits(std::bit_cast<Mask4>(ends_ == own)) != 0;
         if (is_complex || (laneBits(std::bit_cast<Mask4>(other == 0)) & 5) == 0) [[unlikely]]
             return addToMany({own[0], own[1]}, room);
-        // A triangle that extends a path replaces the end of the path that it touches by its other end. The ends of a
-        // closed ring are stale, but match no triangle.
+        // A triangle that extends a path replaces the end of the path that it touches by its other end. The stored ends
+        // of a closed ring are stale, but match no triangle.
         const Four changes = ((ends_ ^ own) | extended) & kept;
         const Four grown = own ^ changes ^ turned(changes);
         ends_ = __builtin_shufflevector(grown, other | turned(other), 0, 1, 4, 5);
@@ -108,7 +109,7 @@ class Fan {
         for (std::uint32_t i = 0; i < count; ++i) {
             const ManyPaths::Path path = many.paths[i];
             const bool meets_end = path.leaves == previous, meets_start = path.arrives == next;
-            if (meets_end && meets_start) return 0;  // a ring in addition to other paths
+            if (meets_end && meets_start) return 0;  // the path closes a ring in addition to other paths
             if (path.leaves == next || path.arrives == previous) return 0;
             if (meets_end) grown.arrives = path.arrives;
             if (meets_start) grown.leaves = path.leaves;
@@ -119,36 +120,36 @@ class Fan {
         return kept;
     }
 
-    /// Path i leaves toward node ends_[2 * i], where a triangle may follow, and arrives from ends_[2 * i + 1]; nodes
-    /// are combined with kTopBit, and 0 means no path. A fan with ManyPaths is {1, 0, its number, count of paths}; a
-    /// complex one is kComplex.
+    /// Ends of the paths. Path i leaves toward node ends_[2 * i], where a triangle may follow, and arrives from ends_[2
+    /// * i + 1]. Nodes are combined with kTopBit, and 0 means no path. A fan with ManyPaths is stored as {1, 0, its
+    /// number, count of paths}, and a complex one as kComplex.
     Four ends_{};
 };
 
-// Sums of all nodes, in one pass over the triangles.
+// Computation of the sums of all nodes, in one pass over the triangles.
 
-/// Weighted sum of a node, and its fan: half a cache line.
+/// Weighted sum of a node, and its fan; takes half a cache line.
 struct alignas(32) NodeSum {
-    float s[4] = {0, 0, 0, 0};  ///< sum of weighted tangents, and of weights
+    float s[4] = {0, 0, 0, 0};  ///< sum of the weighted tangents, followed by the sum of weights
     Fan fan;
 };
 
 /// Flags of a triangle in NodeSums::kinds, from the marks of corner_terms.h.
 enum TriangleKind : std::uint8_t {
-    kDegenerateUv = kNoUvArea >> kFlagShift,  ///< adds nothing and clears no marks, but links its neighbors in the fan
+    /// the triangle adds nothing and clears no marks, but links its neighbors in the fan
+    kDegenerateUv = kNoUvArea >> kFlagShift,
     kDegenerateTriangle = kDegenerateMark >> kFlagShift,
     kMirrored = kMirroredMark >> kFlagShift,
 };
 
 struct NodeSums {
     Buffer<NodeSum> nodes;
-    /// one per node: marks shared by all its corners (corner_terms.h); 0 for nodes of degenerate triangles, which are
-    /// complex
+    /// Marks that all corners of a node share (corner_terms.h); 0 for nodes of degenerate triangles, which are complex.
     Buffer<std::uint16_t> marks;
     Buffer<GroupRest>
         rest;  ///< one per node: bitangents and lengths; their weight is in `nodes`. Empty when tangents_only
-    Buffer<TriangleKind> kinds;  ///< one per triangle, transient
-    bool scattered = false;      ///< nodes of consecutive triangles are far apart in memory
+    Buffer<TriangleKind> kinds;  ///< one per triangle; valid only during the call
+    bool scattered = false;      ///< true: the nodes of consecutive triangles are far apart in memory
     TangentReport report;        ///< counts of triangles
 
     /// Returns the sum of a node.
@@ -162,8 +163,8 @@ struct NodeSums {
     }
 };
 
-/// Triangles of the mesh for range lists and estimators: each node is a group. `kinds`: null, or NodeSums::kinds; then
-/// triangles without UV area contribute nothing.
+/// Triangles of the mesh for range lists and estimators, where each node is a group. `kinds`: null, or NodeSums::kinds;
+/// with kinds, triangles without UV area contribute nothing.
 class MeshTriangles final : public TriangleGroups {
   public:
     MeshTriangles(const WeldedMesh& welded, const TriangleKind* kinds)
@@ -174,7 +175,7 @@ class MeshTriangles final : public TriangleGroups {
     [[nodiscard]] const std::uint32_t* inPlace(std::size_t first, std::size_t size) const override;
 
   private:
-    /// Fills `vertices` and `groups` from the triangles' vertices.
+    /// Fills `vertices` and `groups` from the vertices of the triangles.
     template <class NumberOf>
     void finish(const std::uint32_t* found, std::size_t size, const NumberOf& numberOf, std::uint32_t* vertices,
                 std::uint32_t* groups) const;
@@ -183,16 +184,16 @@ class MeshTriangles final : public TriangleGroups {
     const TriangleKind* kinds_;
 };
 
-/// Calls finish(first, end) when the sums of these nodes are complete. `first` is a multiple of 64. Called by all
-/// threads.
+/// Callback finish(first, end), which is called when the sums of these nodes are complete. `first` is a multiple of 64.
+/// Called by all threads.
 using FinishNodes = std::function<void(std::size_t, std::size_t)>;
 
-/// Calls `finish` for all nodes.
+/// Calls `finish` for all nodes, in ranges.
 void finishInRanges(std::size_t count, const FinishNodes& finish, Parallel& parallel);
 
-/// Computes `sums`, and finishes all nodes, range by range. nodes.vertex() must be valid. `transient`: scratch memory
-/// that is not read after tangents are written. `range_shift`: log2 of the number of nodes per range; 0: chosen for the
-/// mesh.
+/// Computes `sums`, and finishes all nodes, range by range. Requires that nodes.vertex() is valid. `transient`: scratch
+/// memory that is not read after tangents are written. `range_shift`: log2 of the number of nodes per range; 0: chosen
+/// for the mesh.
 void sumNodes(const WeldedMesh& welded, const CornerSource& source, CornerTermsFunction terms, ScratchBlock& transient,
               const Allocator* allocator, Parallel& parallel, NodeSums& sums, const FinishNodes& finish,
               unsigned range_shift = 0);

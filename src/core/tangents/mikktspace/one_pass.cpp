@@ -33,7 +33,7 @@ namespace {
 constexpr std::size_t kCornerGrain = 16384;
 constexpr std::uint16_t kReplaced = 0x8000;  ///< flag in NodeSums::marks: the node has a default instead of an estimate
 
-/// State of a call, shared by its steps.
+/// State of a call, which its steps share.
 struct OnePass {
     OnePass(const NodeSetting& setting, const TangentOutput& output, ScratchBlock& scratch, Parallel& threads)
         : in(setting),
@@ -48,7 +48,7 @@ struct OnePass {
 
     [[nodiscard]] bool isComplex(std::size_t n) const { return (complex[n / 64] >> (n % 64) & 1) != 0; }
 
-    /// Leaves a node to the vertex path, even if it was finished. (A node without groups was not counted.)
+    /// Leaves a node to the vertex path, even if it was finished. (If it had no groups, it was not counted.)
     void makeComplex(std::uint32_t node) {
         std::uint64_t& word = complex[node / 64];
         const std::uint64_t bit = std::uint64_t{1} << (node % 64);
@@ -63,7 +63,7 @@ struct OnePass {
     ScratchBlock& transient;
     Parallel& parallel;
     const Allocator* allocator;
-    bool estimates;  ///< fast and best: the sums come from estimators; this pass only forms groups
+    bool estimates;  ///< true: `fast` or `best`, whose sums come from estimators; this pass only forms groups
     Sink sink;
     DefaultCorners defaults;
 
@@ -76,10 +76,11 @@ struct OnePass {
 // -- 2. simple nodes --
 
 struct FourKinds {
-    unsigned complex, empty;  ///< one bit per node
+    unsigned complex, empty;  ///< one bit for each of the four nodes
 };
 
-/// Finishes the nodes n to n + 3, one per lane. If only `left` of them exist, the last one fills the missing lanes.
+/// Finishes the nodes n to n + 3, one per lane. If only `left` of them exist, the last one is repeated in the remaining
+/// lanes.
 FourKinds finishFour(OnePass& pass, std::size_t n, std::size_t left) {
     const auto nodeOf = [=](std::size_t i) { return n + std::min(i, left - 1); };
     const std::size_t at[4] = {n, nodeOf(1), nodeOf(2), nodeOf(3)};
@@ -100,7 +101,7 @@ FourKinds finishFour(OnePass& pass, std::size_t n, std::size_t left) {
            w = loadFloat4(nodes[at[3]].s);
     transpose4(x, y, z, w);
     const Float4 square = dot(Vec3x4{x, y, z}, Vec3x4{x, y, z});
-    // Sums that vanish are left to the vertex path.
+    // If a sum vanishes, its node is left to the vertex path.
     simple &= (square > splat(0)) & (square < splat(__builtin_huge_valf()));
     if (pass.in.maySplit()) simple &= has(kTangentSides) & has(kBitangentSides);
     for (std::size_t i = 0; !pass.sums.rest.empty() && i < std::min<std::size_t>(left, 4); ++i) {
@@ -142,10 +143,10 @@ void finishNodes(OnePass& pass, std::size_t first, std::size_t end) {
     pass.group_count += groups_here;
 }
 
-// -- 3. nodes that are complex because of whole triangles --
+// -- 3. nodes that are complex because of properties of whole triangles --
 
-/// Marks nodes of faces whose triangles differ as complex: all triangles of a face use the same orientation, and
-/// degenerate ones copy results, which the vertex path implements.
+/// Marks nodes of faces whose triangles differ as complex. All triangles of a face use the same orientation, and
+/// degenerate ones copy results; only the vertex path implements this.
 void checkPolygons(OnePass& pass) {
     const Buffer<std::uint32_t>& faces = pass.in.triangles.faces;
     for (std::size_t first = 0, end = 0; first < faces.size(); first = end) {
@@ -181,15 +182,16 @@ void forEachDegenerateUv(const OnePass& pass, const Body& body) {
     }
 }
 
-/// Avoids counting corners twice: several triangles of a polygon may share a corner of the mesh.
+/// Prepares counting of default corners, so that no corner is counted twice: several triangles of a polygon may share a
+/// corner of the mesh.
 void distinguishDefaults(OnePass& pass) {
     if (pass.in.hasPolygons()) pass.defaults.distinguish(pass.in.mesh.cornerCount(), pass.allocator);
 }
 
-/// A triangle without UV area uses the orientation of the first group that reaches it, at any of its nodes. If all
-/// other triangles at its three nodes have the same orientation, it uses that one, in any order, and only links its
-/// neighbors in the fan. Nodes of other such triangles become complex, unless they have no other triangle and so no
-/// group. Corners there are counted as defaults.
+/// Marks nodes at which triangles without UV area need the vertex path. Such a triangle uses the orientation of the
+/// first group that reaches it, at any of its nodes. If all other triangles at its three nodes have the same
+/// orientation, it uses that one, in any order, and only links its neighbors in the fan. Nodes of other such triangles
+/// become complex, unless they have no other triangle and so no group. Corners there are counted as defaults.
 void checkDegenerateUvs(OnePass& pass) {
     if (pass.sums.report.degenerate_uv_count == 0) return;
     distinguishDefaults(pass);
@@ -197,7 +199,7 @@ void checkDegenerateUvs(OnePass& pass) {
         std::uint32_t facing = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t here = pass.sums.marks[nodes[k]] & kFacing;
-            // Marks of 0: the node's triangles may have any orientation.
+            // If the marks are 0, the node's triangles may have any orientation.
             facing |= here == 0 ? kFacing : here == kFacing ? 0 : here;
             if (here == kFacing) pass.defaults.add(pass.in.triangles.corner(3 * triangle + k));
         }
@@ -209,11 +211,11 @@ void checkDegenerateUvs(OnePass& pass) {
 
 // -- 4. estimates --
 
-/// Triangles whose groups are the nodes, or, for complex nodes, the groups of their plan, numbered from the node count
-/// on: all groups of a mesh are estimated together.
+/// Triangles whose groups are the nodes, or, for complex nodes, the groups of their plan, whose numbers follow those of
+/// the nodes: all groups of a mesh are estimated together.
 class JoinedTriangles final : public TriangleGroups {
   public:
-    /// `is_planned`: one bit per node.
+    /// `is_planned`: one bit per node, set for complex nodes.
     JoinedTriangles(const TriangleGroups& by_node, std::size_t node_count, const EvaluationPlan& plan,
                     std::span<const std::uint64_t> is_planned)
         : TriangleGroups(by_node.count),
@@ -288,7 +290,7 @@ void countReplaced(OnePass& pass) {
     }
 }
 
-/// Step 4. Returns the results of the plan's groups.
+/// Computes estimates (step 4), and returns the results of the plan's groups.
 GroupSums estimate(OnePass& pass, const EvaluationPlan& plan) {
     GroupSums planned = estimateWithPlan(pass, plan);
     std::atomic<bool> any_replaced{false};
@@ -376,8 +378,8 @@ TangentReport evaluateInOnePass(const NodeSetting& setting, const TangentOutput&
         if (!pass.sums.isEmpty(node)) pass.makeComplex(node);
     }
     TangentReport report = pass.sums.report;
-    // Sums are released before the corners of complex nodes are listed; but estimates need the groups of all nodes
-    // first.
+    // The sums are released before the corners of complex nodes are listed, except for estimates, which need the groups
+    // of all nodes first.
     if (!pass.estimates) {
         writeCorners(pass);
         pass.sums = {};

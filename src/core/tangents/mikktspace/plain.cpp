@@ -31,13 +31,14 @@ float component(Vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v
 /// The reference's test for zero: denormal numbers and NaN count as zero.
 bool isNotZero(float x) { return std::fabs(x) > 1.17549435e-38f; }
 
-/// A vector whose components all count as zero is returned unchanged.
+/// Returns v divided by its length. A vector whose components all count as zero is returned unchanged.
 Vec3 unit(Vec3 v) {
     if (!isNotZero(v.x) && !isNotZero(v.y) && !isNotZero(v.z)) return v;
     return (1.0f / length(v)) * v;
 }
 
-/// The direction of v in the plane perpendicular to n. n is used as given; its length is not corrected.
+/// Returns the unit vector along the projection of v onto the plane perpendicular to n. n is used as given; its length
+/// is not corrected.
 Vec3 unitInPlane(Vec3 n, Vec3 v) { return unit(v - dot(n, v) * n); }
 
 // ------------------------------------------------------------------------------------------------------------------- Data
@@ -67,17 +68,18 @@ int next(int k) { return k == 2 ? 0 : k + 1; }
 int previous(int k) { return k == 0 ? 2 : k - 1; }
 
 struct Triangle {
-    std::uint32_t face = 0;                  ///< the first corner of its face
+    std::uint32_t face = 0;                  ///< first corner of the triangle's face
     std::array<std::uint32_t, 3> corners{};  ///< corners of the mesh, which receive the results
-    std::array<std::uint32_t, 3> nodes{};    ///< for each corner, the corner that represents all corners welded to it
-    bool has_degenerate_half = false;        ///< the other triangle of the same quad is degenerate
+    std::array<std::uint32_t, 3> nodes{};    ///< representative of the corners that each corner is welded to
+    bool has_degenerate_half = false;        ///< true: the other triangle of the same quad is degenerate
 
-    Vec3 s{}, t{};                        ///< unit directions of dP/du and dP/dv
-    float length_s = 0, length_t = 0;     ///< lengths of dP/du and dP/dv
-    float uv_area = 0;                    ///< twice the signed area in UV space
-    bool faces_up = false;                ///< false: the UVs are mirrored
-    bool has_no_direction = true;         ///< no UV area: the triangle takes the orientation of a group that reaches it
-    std::array<HalfEdge, 3> neighbors{};  ///< across the edge from corner k to the next corner
+    Vec3 s{}, t{};                     ///< unit directions of dP/du and dP/dv
+    float length_s = 0, length_t = 0;  ///< lengths of dP/du and dP/dv
+    float uv_area = 0;                 ///< twice the signed area in UV space
+    bool faces_up = false;             ///< true: positive UV area; false: the UVs are mirrored
+    /// true: no UV area, so the triangle takes the orientation of the first group that reaches it
+    bool has_no_direction = true;
+    std::array<HalfEdge, 3> neighbors{};  ///< half-edge across the edge from corner k to the next corner
     std::array<std::uint32_t, 3> groups{kNone, kNone, kNone};
 };
 
@@ -88,7 +90,7 @@ struct Group {
     std::vector<HalfEdge> members = {};
 };
 
-/// The result of one corner. The initial values are what a corner gets that no group reaches.
+/// Result of one corner, initialized with the values for a corner that no group reaches.
 struct Frame {
     Vec3 s{1, 0, 0}, t{0, 1, 0};
     float length_s = 1, length_t = 1;
@@ -112,7 +114,7 @@ bool isCutFrom1To3(const Corners& data, std::uint32_t c) {
            distanceSquared(data.position(c), data.position(c + 2));
 }
 
-/// Faces with neither 3 nor 4 corners are ignored.
+/// Cuts faces into triangles. Faces with neither 3 nor 4 corners are ignored.
 std::vector<Triangle> cutFaces(const Corners& data) {
     std::vector<Triangle> triangles;
     const MeshView& mesh = data.mesh;
@@ -183,8 +185,8 @@ class Welding {
         }
     };
 
-    /// Converts to int32 as on x86-64, where NaN and out-of-range values become the smallest integer and therefore the
-    /// first cell.
+    /// Returns the cell of a coordinate. Converts to int32 as x86-64 does, where NaN and out-of-range values become the
+    /// smallest integer and therefore the first cell.
     static int cellOf(float q) { return q > 0 && q < 2147483648.0f ? std::min(static_cast<int>(q), 2047) : 0; }
 
     /// Splits the entries in place at the center of their longest axis, until positions do not differ or are not finite.
