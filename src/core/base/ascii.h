@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ASCII letters of file formats, independent of the locale.
+// Conversion of ASCII letters, as file formats use them, independent of the locale.
 #pragma once
 
 #include <string>

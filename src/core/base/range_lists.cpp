@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lists of ranges, rounds of sums over them, and input scaling.
+// Implements lists of the triangles of each range, rounds of sums over these lists, and input scaling.
 #include "core/base/range_lists.h"
 
 #include <algorithm>

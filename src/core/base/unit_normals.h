@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// TangentOptions::normalize_normals: the normals of a call, normalized.
+// Normals of a call, normalized if TangentOptions::normalize_normals requests it.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Normals, tangents, sanitizing and splitting, in this order.
+// makeIndexedFrames: computes normals and tangents, sanitizes the tangents, and splits vertices, in this order.
 #include "tspace/indexed_frames.h"
 
 #include <utility>

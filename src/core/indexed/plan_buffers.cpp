@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Plan as words. Corners take their tangents from sources (groups, members of groups that split, conflicts, vertices of
-// lengyel), each a list of half-edges, and their normals from components; a result lists the corners of both.
+// Converts a plan to words. Corners take their tangents from sources (groups, members of groups that split, conflicts,
+// vertices of lengyel), each a list of half-edges, and their normals from components; a result lists the corners of
+// both.
 #include "tspace/plan_buffers.h"
 
 #include <algorithm>

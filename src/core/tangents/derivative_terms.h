@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // dP/du and dP/dv of blocks of triangles, their sums at vertices, and frames from these sums, in single precision, for
-// input where that is exact enough; other input is left to the caller. Implemented once (derivative_terms_kernel.h),
-// compiled for several CPUs, with equal bits.
+// input for which that is accurate enough; the caller processes other input. The kernel is implemented once
+// (derivative_terms_kernel.h) and compiled for several CPUs, with equal bits.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Lengyel's method: sums of unnormalized dP/du and dP/dv per vertex index, then Gram-Schmidt. Both steps run in single
-// precision in kernels (derivative_terms.h); triangles and vertices for which that is not exact enough are recomputed
-// in double. Memory traffic dominates, so sums are stored in the memory of the outputs if they fit.
+// precision in kernels (derivative_terms.h); triangles and vertices for which that is not accurate enough are
+// recomputed in double precision. Memory traffic dominates, so sums are stored in the memory of the outputs if they
+// fit.
 // Based on: Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", 2001.
 #include <algorithm>
 #include <array>

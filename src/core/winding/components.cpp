@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pairing of faces at edges, and components: consistent winding by traversing the pairs, then a decision as a whole.
+// Pairs faces at edges, and finds components: makes their winding consistent by traversing the pairs, and computes the
+// sums by which the outside of a component is decided.
 #include "core/winding/components.h"
 
 #include <algorithm>

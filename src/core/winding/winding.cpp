@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Boxes for rays and points, nesting of closed components, and mendWinding.
+// Implements the bounding box tree, the nesting of closed components, and mendWinding.
 #include "core/winding/components.h"
 
 #include <bit>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Classification of the cells between texel centers. In smooth cells the map follows from the vectors wanted at the
+// Classification of the cells between texel centers. In smooth cells the map follows from the target vectors at the
 // centers; other cells need rays: at creases of the low poly, edges and small detail of the high poly, and rims of
 // charts.
 #pragma once

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ray tracing for the texels of a map: the vector wanted at each texel center, and samples between centers.
+// Ray tracing for the texels of a map: the target vector at each texel center, and samples between centers.
 #pragma once
 
 #include "maps/bake/texel_plan.h"

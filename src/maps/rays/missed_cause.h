@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds out why most rays of a low poly hit no high poly.
+// Diagnoses why most rays of a low poly hit no high poly.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shading reference: converts a texel and the frames of a triangle to the normal that a renderer shades, and back. In
-// double precision, so that its rounding does not affect measured errors. See MapReading.
+// Shading reference: converts a texel and the frames of a triangle to the normal that a renderer shades, and back.
+// Computes in double precision, so that its rounding does not affect measured errors. See MapReading.
 #pragma once
 
 #include <array>

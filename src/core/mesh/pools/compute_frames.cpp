@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Normals, tangents, sanitizing and splitting for all primitives of one vertex pool. The steps, in the order of this file:
+// Normals, tangents, sanitizing and splitting for all primitives of one vertex pool. The steps, in the order of this
+// file:
 //
 //   1. computePrimitive: normals and tangents of the corners of each primitive
-//   2. computeMorphs: what targets add to tangents
+//   2. computeMorphs: offsets that morph targets add to tangents
 //   3. write: the vertices of the pool, their frames, and the reports
-//   4. computePool: all of this; splitPool splits vertices, keepPool keeps all
-//   5. computeFrames: the pool as it is given, and with normals of its own where targets move them
+//   4. computePool: steps 1 to 3 for one pool; splitPool splits vertices, keepPool keeps all of them
+//   5. computeFrames: computes a pool as given, or, if targets move generated normals, computes these first
 #include <algorithm>
 #include <cstring>
 #include <numeric>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A primitive copies the parts of its pool that it uses. The mesh and the triangles around it become one mesh for the
-// call.
+// Creates meshes of single primitives, which copy the parts of the pool that they use. To compute normals, a mesh and
+// the triangles around it become one mesh for the duration of the call.
 #include "core/mesh/pools/local_mesh.h"
 
 #include <algorithm>

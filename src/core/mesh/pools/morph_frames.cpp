@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Each target is evaluated on the plan of the base, repaired like the base, and compared with the base corner by
-// corner. If nothing near a corner moves, the evaluation has the bits of the base, so the offset is exactly zero. If a
-// target makes faces collapse (an eye that closes), the corner has no tangent of its own and keeps the tangent of the
-// base.
+// Computes the frames of morph targets. Each target is evaluated on the plan of the base, repaired like the base, and
+// compared with the base corner by corner. If nothing near a corner moves, the evaluation has the bits of the base, so
+// the offset is exactly zero. If a target makes faces collapse (an eye that closes), the corner has no tangent of its
+// own and keeps the tangent of the base.
 //
 // A group of the base extends over equal vertices. If a target gives these different normals, as flat shading does when
 // a plane bends, a common tangent would point out of every face; the moved shape is then regrouped.

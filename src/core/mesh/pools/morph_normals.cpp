@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Normals of the base split the vertices first; then each target does, where it bends faces that are coplanar on the
-// base and not smooth.
+// Computes the normals of a pool and of its morph targets. Vertices are first split where the normals of the base
+// differ, and then where a target bends faces that are coplanar, but not smooth, on the base.
 #include "core/mesh/pools/morph_frames.h"
 
 #include <utility>

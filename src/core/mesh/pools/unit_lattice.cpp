@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Selection among the eight corners of a lattice cell.
+// Rounds unit vectors to a lattice, by selecting among the eight corners of a lattice cell.
 #include "core/mesh/pools/unit_lattice.h"
 
 #include <algorithm>

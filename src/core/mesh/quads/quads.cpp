@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pairs of triangles, selection of quads by evidence, and the choice of faces, in this order.
+// Implements quads.h in this order: pairs of triangles, selection of quads by stored tangents, and the choice of faces.
 #include "core/mesh/quads/quads.h"
 
 #include <algorithm>

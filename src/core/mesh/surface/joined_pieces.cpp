@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds points, then votes of pairs of pieces from their shared edges and triangles, then groups.
+// Finds the pieces that form one surface: first equal points, then votes for pairs of pieces from their shared edges
+// and triangles, and finally groups of pieces.
 #include "core/mesh/surface/surface.h"
 
 #include <algorithm>

@@ -10,10 +10,10 @@
 // If the order of the bucket can change a link, the reference's first sort (a quicksort with a fixed seed, not stable) is
 // replayed.
 //
-// Every step ends as soon as the rest cannot matter. Gains in instructions of a whole call, on 355 primitives of real
-// models:
+// Every step ends as soon as the remaining work cannot change the result. Gains in instructions of a whole call, on 355
+// primitives of real models:
 //
-// step                    ends if                                        gain
+// step                    the step ends if                               gain
 // mayMatter               no node has three edges that may be in the     no grid is read for most primitives of up to 50
 //                         bucket: the order of two edges is irrelevant   triangles
 // leastKey (small mesh)   the same, for a lower bound of V: corners      77 of 98 primitives of up to 50 triangles end
@@ -21,9 +21,9 @@
 // findBucket, 5 or 10     a key of at least F is among the last          5 and 10 instead of 6 and 12: 0.3 % up to 50
 // triangles               triangles, as in natural order                 triangles, 0.7 % above 5,000
 //   24 if unordered       one in 36 edges of a late triangle has its     20,000 shuffled triangles: 6.8 % more with 10,
-//                         key there                                      0.2 % more with 24
-//   as far as V / 3       the largest key so far is the corner to        up to 50 triangles 1.4 %, up to 500 6.8 %, above
-//                         start from                                     0.5 % (with shared counters)
+//                         key among these triangles                      0.2 % more with 24
+//   as far as V / 3       the triangles reach back to the largest key    up to 50 triangles 1.4 %, up to 500 6.8 %, above
+//                         so far, which is a corner                      0.5 % (with shared counters)
 // orderMatters            fewer than three half-edges, or no edge in     no replay for nearly all meshes that get this
 //                         both directions                                far
 // sortRecords             follows only the side of each partition that   about 4 steps per element of a random order,

@@ -6,8 +6,8 @@
 // if that list is empty.
 //
 // list             how many               an entry is                                its top bit (kTopBit) means
-// vertices         one per h              the vertex whose data stand for the corner  -
-// groups           one per h              the group that takes its result            it adds nothing to the sum (no UV area)
+// vertices         one per h              the vertex with the data of its corner      -
+// groups           one per h              its group                                  it adds nothing to the sum (no UV area)
 // slots            one per h, or empty    its corner of the mesh                     the corner has several results: conflicts
 // triangles        one per t, or empty    its number in the mesh                     -
 // group_positive   one per group          1: positive UV area                        -
@@ -15,11 +15,11 @@
 // splits           one per split group    a range of `members`, its first row        -
 // members          members of these       an h                                       -
 // split_rows       one row per member     bit b: member b counts for this member     -
-// conflicts        two or more a corner   a corner of the mesh, and a source:        source is a place in `members`, not
+// conflicts        two or more per corner  a corner of the mesh, and a source:        source is a place in `members`, not
 //                                         a group whose result it takes              a group
-// default_corners  corners without group  a corner of the mesh                       -
-// skipped_corners  of ignored faces       a corner of the mesh                       -
-// copies           of degenerate t        a corner that copies, and the one copied   -
+// default_corners  one per corner         a corner of the mesh without a group       -
+// skipped_corners  one per corner         a corner of an ignored face                -
+// copies           one per corner         a corner of a degenerate triangle, and the corner that it copies
 //
 // groups[h] is kNone for half-edges without a group, and for members of groups that split: `splits` contains their
 // results. While the planner processes a node, groups[h] is a source as in conflicts.
