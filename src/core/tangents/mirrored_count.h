@@ -9,8 +9,8 @@
 
 namespace tspace {
 
-/// Returns whether triangles with positive UV area show the image mirrored, as seen from outside. Independent of
-/// handedness: the winding is the visible order of corners.
+/// Returns whether triangles with positive UV area show the image mirrored, as seen from outside. This does not depend
+/// on handedness, because the winding is the visible order of corners.
 constexpr bool positiveUvsAreMirrored(const Convention& convention) {
     return (convention.v_axis == VAxis::down) != (convention.winding == Winding::clockwise);
 }

@@ -8,10 +8,10 @@
 namespace tspace {
 
 struct PlanParts {
-    const mikk::EvaluationPlan* grouped = nullptr;  ///< null for lengyel, flat and basis
-    const IndexedPlan* indexed = nullptr;           ///< null for all others
+    const mikk::EvaluationPlan* grouped = nullptr;  ///< plan of a method with groups; null for lengyel, flat and basis
+    const IndexedPlan* indexed = nullptr;           ///< plan of lengyel, flat or basis; null for all other methods
     bool is_symmetric = false, normalizes_normals = false;
-    bool has_own_lists = false;  ///< vertices of the plan differ from those of a pose
+    bool has_own_lists = false;  ///< true: the vertices of the plan differ from those of a pose
 };
 
 PlanParts partsOf(const TangentPlan& plan);

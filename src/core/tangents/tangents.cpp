@@ -28,13 +28,15 @@
 
 namespace tspace::mikk {
 
-// Entry points of mikktspace/: generateGrouped for a mesh in its own pose, planGrouped for plans for other poses.
+// Entry points of mikktspace/: generateGrouped computes a mesh in its own pose, planGrouped creates a plan for other
+// poses.
 
 namespace {
 
-/// Meshes of at most kSmallMesh corners allocate their scratch memory from one block: many small allocations would take
-/// a fifth of the time. Most need kBytesPerCorner; blocks above kLargestBlock are not used, because the system unmaps
-/// them after each call. The vertex path may need more memory, which comes from the caller's allocator.
+/// Sizes of scratch memory. Meshes of at most kSmallMesh corners allocate it from one block: many small allocations
+/// would take a fifth of the time. Most meshes need kBytesPerCorner; blocks above kLargestBlock are not used, because
+/// the system unmaps them after each call. The vertex path may need more memory, which comes from the caller's
+/// allocator.
 constexpr std::size_t kSmallMesh = 4096, kBytesPerCorner = 32, kLeastBlock = 4096, kLargestBlock = 98304,
                       kStackRoom = 8192;
 
@@ -44,8 +46,8 @@ std::span<std::byte> unwritten(const TangentOutput& out) {
     return {reinterpret_cast<std::byte*>(out.tangents.data), out.tangents.count * sizeof(Vec4)};
 }
 
-/// Finds the last bucket, for Pairing::reference and finite meshes: for other meshes the reference's order is not
-/// reproduced.
+/// Finds the last bucket of a finite mesh, for Pairing::reference. Returns an empty one for other meshes, for which the
+/// reference's order is not reproduced.
 LastBucket lastBucketOf(const WeldedMesh& welded, const Call<TangentOptions>& options, const Allocator* transient,
                         Parallel& parallel) {
     if (!isMikktspace(options.method) || options.pairing != Pairing::reference || !welded.nodes.all_finite) return {};
@@ -127,8 +129,8 @@ Vec3 symmetricTangent(const Vec3& tangent, const Vec3& bitangent, const Vec3& no
     const auto across = [&](const Vec3& v) { return toDouble(v) - dot(n, toDouble(v)) * n; };
     DVec3 t = across(tangent), b = across(bitangent);
     if (!normalize(t) || !normalize(b)) return tangent;
-    // Perpendicular to the bitangent, on the tangent's side: the opposite direction would belong to the opposite
-    // orientation of the UVs or of N.
+    // This is perpendicular to the bitangent, on the tangent's side: the opposite direction would belong to the
+    // opposite orientation of the UVs or of N.
     DVec3 p = cross(b, n);
     if (dot(p, t) < 0) p = -1.0 * p;
     DVec3 sum = t + p;
@@ -150,7 +152,7 @@ void makeSymmetric(const StridedSpan<Vec4>& tangents, const StridedSpan<Vec3>& b
     });
 }
 
-/// Memory for bitangents that only the symmetric frame reads.
+/// Memory for bitangents that the caller did not request, but that the symmetric frame needs.
 struct NeededBitangents {
     Buffer<Vec3> own;
     TangentOutput out;
@@ -183,9 +185,10 @@ struct TangentPlan::State {
     bool is_symmetric = false;
     bool normalizes_normals = false;
     bool positive_is_mirrored = false;
-    Buffer<std::uint32_t> corner_vertices;  ///< for a symmetric frame: one per corner; empty: outputs are per vertex
-    std::size_t normal_count = 0;           ///< number of normals of a pose
-    /// For a mesh with several index lists: index of the pose's position and normal for each vertex of the plan.
+    /// vertex of each corner, for a symmetric frame; empty: outputs are per vertex
+    Buffer<std::uint32_t> corner_vertices;
+    std::size_t normal_count = 0;  ///< number of normals in a pose
+    /// Indices of the pose's position and normal for each vertex of the plan, for a mesh with several index lists.
     std::vector<std::uint32_t> source_vertices, source_normals;
 
     [[nodiscard]] TangentReport evaluate(const Pose& pose, const TangentOutput& out, const Execution& execution,
@@ -313,7 +316,8 @@ Buffer<Vec3> gathered(const StridedSpan<const Vec3>& values, const std::vector<s
     return result;
 }
 
-/// With several index lists vertices are combinations unknown to the caller, so there are no results per vertex.
+/// Checks the domain for a mesh with several index lists. Its vertices are combinations that the caller does not know,
+/// so results per vertex are not possible.
 Error checkDomain(const TangentOptions& options) {
     if (options.domain == OutputDomain::corner) return {ErrorCode::ok, {}};
     return {ErrorCode::invalidOption, "results per vertex need a mesh with a single index list"};

@@ -14,11 +14,11 @@ namespace tspace::winding {
 
 namespace {
 
-/// A face at an edge where more than two faces meet.
+/// Face at an edge where more than two faces meet.
 struct FaceAtEdge {
     std::uint32_t corner;
-    std::uint32_t low, high;  ///< vertices, not points
-    std::uint32_t apex;       ///< opposite point of a triangle; for other faces a unique number
+    std::uint32_t low, high;  ///< vertices of the edge, not points
+    std::uint32_t apex;       ///< the opposite point of a triangle; for other faces a unique number
     double turn = 0;          ///< angle about the edge
 };
 
@@ -45,7 +45,7 @@ class Pairing {
 
   private:
     static constexpr std::uint32_t kForward =
-        0x80000000u;  // flag: the half-edge runs from its lower point to the higher one
+        0x80000000u;  // flag of a half-edge that runs from its lower point to the higher one
 
     /// Calls body(low, high, corner) for the edges of all used faces; the corner is combined with kForward.
     template <class Body>
@@ -61,8 +61,8 @@ class Pairing {
             }
         });
     }
-    /// Returns whether consecutive corners share a point: the face has no area there, and its edges would pair with
-    /// each other.
+    /// Returns whether consecutive corners of a face share a point. The face has no area there, and its edges would be
+    /// paired with each other.
     [[nodiscard]] bool touchesTwice(std::size_t first, std::uint32_t size) const {
         std::uint32_t before = surface_.pointOf(static_cast<std::uint32_t>(first) + size - 1);
         std::uint32_t next = 0;
@@ -83,7 +83,7 @@ class Pairing {
         pairs_.sure[a] = b | mark;
         pairs_.sure[b] = a | mark;
     }
-    /// Pairs faces that do not coincide.
+    /// Pairs two faces that do not coincide. Such pairs are doubtful.
     void pairDoubtfully(std::uint32_t a, std::uint32_t b, std::uint32_t mark) {
         if (pairs_.doubtful.empty())
             pairs_.doubtful = Buffer<std::uint32_t>(allocator_, pairs_.sure.size(), kNoPartner);
@@ -105,7 +105,7 @@ class Pairing {
         std::span<FaceAtEdge> rest{faces.data(), faces.size()};
         rest = pairTwos(rest, [](const FaceAtEdge& f) { return std::pair(f.low, f.high); });
         rest = pairTwos(rest, [](const FaceAtEdge& f) { return std::pair(f.apex, 0u); });
-        // Faces without area, and three or more coincident ones, get no neighbor.
+        // Faces without area, and three or more coincident faces, get no neighbor.
         std::size_t kept = 0;
         for (std::size_t i = 0, past = 0; i < rest.size(); i = past) {
             while (past < rest.size() && rest[past].apex == rest[i].apex) ++past;
@@ -119,7 +119,7 @@ class Pairing {
         return surface_.pointOf(corner) < surface_.pointOf(surface_.faces.next(corner));
     }
 
-    /// Pairs the faces whose kind occurs exactly twice, and returns the others, sorted.
+    /// Pairs the faces whose kind occurs exactly twice, and returns the other faces, sorted.
     template <class KindOf>
     std::span<FaceAtEdge> pairTwos(std::span<FaceAtEdge> faces, KindOf kindOf) {
         sortList(faces.begin(), faces.end(), [&](const FaceAtEdge& a, const FaceAtEdge& b) {
@@ -153,7 +153,8 @@ class Pairing {
             pairDoubtfully(faces[i % count].corner, faces[(i + 1) % count].corner, 0);
     }
 
-    /// The interior of a face is in the direction cross(normal, edge) of its edge, for either winding.
+    /// Computes the angles of faces about their common edge. The interior of a face is in the direction cross(normal,
+    /// edge) of its edge, for either winding.
     void setTurns(std::span<FaceAtEdge> faces) const {
         const std::uint32_t any = faces[0].corner, other = surface_.faces.next(any);
         const bool is_forward = runsForward(any);
@@ -173,7 +174,7 @@ class Pairing {
         }
     }
 
-    /// `faces` must be sorted by angle.
+    /// Pairs the two faces that continue each other most straightly. `faces` must be sorted by angle.
     void pairStraightest(std::span<const FaceAtEdge> faces) {
         std::size_t a = 0, b = 1;
         double least = 4 * kPi;
@@ -199,6 +200,7 @@ class Pairing {
 
 EdgePairs pairEdges(const Surface& surface, const Allocator* allocator) { return Pairing(surface, allocator).run(); }
 
+// Winding numbers of open surfaces.
 // Based on: Jacobson, Kavan & Sorkine-Hornung, "Robust Inside-Outside Segmentation using Generalized Winding Numbers",
 // 2013 (the winding number of an open surface); van Oosterom & Strackee, "The Solid Angle of a Plane Triangle", 1983;
 // Barill et al., "Fast Winding Numbers for Soups and Clouds", 2018 (far faces as dipoles).
@@ -232,18 +234,19 @@ double solidAngle(const DVec3& a, const DVec3& b, const DVec3& c) {
     return volume < 0 ? -2 * half : 2 * half;
 }
 
-/// Faces per block, so that sums do not depend on threads.
+/// Number of faces per block. Blocks are fixed, so that sums do not depend on the number of threads.
 constexpr std::size_t kBlock = 2048;
 constexpr std::uint32_t kPoints = 12;
 
-/// Solid angles of the faces of a block, as seen from each of the points.
+/// Sums of the solid angles of a block's faces, as seen from each of the points.
 struct OwnAngles {
     const WindingCall& call;
     double x[kPoints], y[kPoints], z[kPoints];
-    std::uint32_t own[kPoints];  ///< the face that contains a point, which is excluded for it
+    std::uint32_t own[kPoints];  ///< for each point, the face that contains it, which is excluded from its sum
 
     void add(std::uint32_t face, double (&sums)[kPoints]) const {
-        // Beyond this many squared edge lengths a face is approximated by a dipole, with an error of some percent.
+        // Distance, in squared edge lengths, beyond which a face is approximated by a dipole, with an error of some
+        // percent.
         constexpr double kFar = 25;
         const Surface& surface = call.surface;
         const DVec3 middle = center(surface, face), vector = call.areaVector(face);
@@ -293,7 +296,8 @@ namespace {
 
 class Flood {
   public:
-    /// at_border: for each point; empty, or pairs whose edge has both ends at a border are followed last.
+    /// `at_border`: one flag per point, or empty. If it is not empty, pairs whose edge has both ends at a border are
+    /// followed last.
     Flood(const WindingCall& call, std::uint32_t begin, Buffer<std::uint32_t>& order, Buffer<std::uint8_t>& reached,
           const Buffer<std::uint8_t>& at_border)
         : call_(call),
@@ -309,7 +313,8 @@ class Flood {
     Component run(std::uint32_t first) {
         Component component{.begin = end_};
         reach(first, false);
-        std::uint64_t before = 0, after = 0;  // each pair is visited from both sides
+        // conflicts before and after flipping; each pair is visited from both sides
+        std::uint64_t before = 0, after = 0;
         std::uint32_t at = component.begin;
         do {
             for (; at < end_; ++at) {
@@ -360,8 +365,8 @@ class Flood {
         return !at_border_.empty() && at_border_[call_.surface.pointOf(corner)] != 0 &&
                at_border_[call_.surface.pointOf(faces_.next(corner))] != 0;
     }
-    /// Reaches one more face over a deferred pair; returns false if there is none. There are none before late_, nor at
-    /// the first late_corners_ of its face, which may have very many.
+    /// Reaches one more face over a deferred pair; returns false if there is none. Faces before late_, and the first
+    /// late_corners_ corners of the face at late_, have been examined: a face may have very many corners.
     bool goOnLate() {
         for (; !at_border_.empty() && late_ < end_; ++late_, late_corners_ = 0) {
             const std::uint32_t face = order_[late_];
@@ -377,7 +382,7 @@ class Flood {
         }
         return false;
     }
-    /// Returns twice the number of sure pairs in conflict.
+    /// Returns twice the number of sure pairs that are in conflict.
     [[nodiscard]] std::uint64_t sureConflicts(const Component& component) const {
         std::uint64_t count = 0;
         for (std::uint32_t at = component.begin; at < end_; ++at) {
@@ -400,8 +405,8 @@ class Flood {
         }
         return true;
     }
-    /// Reaches one more face over a doubtful pair with this mark; returns false if there is none. There are none before
-    /// `at`.
+    /// Reaches one more face over a doubtful pair with this mark; returns false if there is none. Faces before `at`
+    /// have been examined.
     bool goOn(std::uint32_t& at, std::uint32_t mark) {
         for (; !call_.pairs.doubtful.empty() && at < end_; ++at) {
             const std::uint32_t face = order_[at];
@@ -434,7 +439,7 @@ class Flood {
     Buffer<std::uint32_t>& order_;
     Buffer<std::uint8_t>& reached_;
     const Buffer<std::uint8_t>& at_border_;
-    std::uint32_t end_;                ///< end of the reached part of the order
+    std::uint32_t end_;                ///< end of the faces in the order that have been reached
     std::uint32_t late_, even_, odd_;  ///< positions up to which deferred, even and odd pairs were examined
     std::uint32_t late_corners_ = 0;
 };
@@ -485,7 +490,7 @@ void measure(const WindingCall& call, const Buffer<std::uint32_t>& order, Compon
         if (!(area < 1e300)) continue;
         component.area += area;
         component.kept += is_turned ? -area : area;
-        // Newell's vector times any corner: for a flat face equal to the sum over its triangles.
+        // Adds Newell's vector times any corner, which for a flat face equals the sum over its triangles.
         component.volume += dot(vector, surface.position(surface.faces.first(face)) - origin);
         if (!has_normals) continue;
         const double side = dot(vector, normalSum(surface, face));

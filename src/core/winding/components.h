@@ -14,9 +14,9 @@
 
 namespace tspace::winding {
 
-// Search for faces that are connected by shared edges.
+// Faces of a call that are connected by shared edges.
 
-/// Faces of a call, and the points that they share.
+/// Faces of a call, and the points that their corners share.
 struct Surface {
     const MeshView& mesh;
     const MeshFaces& faces;
@@ -28,7 +28,7 @@ struct Surface {
     [[nodiscard]] DVec3 areaVector(std::uint32_t face) const {
         return areaVector(face, [](const Vec3&) {});
     }
-    /// Also calls see(position) for each corner.
+    /// Returns the area vector, and calls see(position) for each corner.
     template <class See>
     DVec3 areaVector(std::uint32_t face, const See& see) const {
         const std::uint32_t first = faces.first(face), past = faces.past(face);
@@ -49,22 +49,24 @@ struct Surface {
 };
 
 inline constexpr std::uint32_t kNoPartner = 0xffffffffu;
-/// Mark of a pair in conflict. A pair of coincident faces has none: their relative winding is kept.
+/// Flag of a pair that is in conflict. Pairs of coincident faces do not have it, because their relative winding is
+/// kept.
 inline constexpr std::uint32_t kAgainst = 0x80000000u;
 
-/// For each corner c: the corner at the start of the half-edge that is paired with c's half-edge.
+/// Pairs of half-edges: for each corner c, the corner at the start of the half-edge that is paired with the half-edge
+/// of c.
 struct EdgePairs {
-    /// Combined with kAgainst; kNoPartner at borders, and for faces that are ignored or touch a point twice. c itself:
-    /// see `doubtful`.
+    /// Sure partners, combined with kAgainst. kNoPartner: the half-edge is at a border, or its face is ignored or
+    /// touches a point twice. c itself: the partner is in `doubtful`.
     Buffer<std::uint32_t> sure;
-    /// Partners found by angle about an edge of more than two faces, with kOdd if their number is odd. Empty if there
-    /// are no such edges.
+    /// Partners found by the angle about an edge of more than two faces, with kOdd if the number of faces is odd. Empty
+    /// if there are no such edges.
     Buffer<std::uint32_t> doubtful;
 };
 inline constexpr std::uint32_t kOdd = 0x80000000u;
 EdgePairs pairEdges(const Surface& surface, const Allocator* allocator);
 
-// Bounding box tree, split at the median of the widest side: for queries with rays and points.
+// Bounding box tree for queries with rays and points, split at the median of the widest side.
 
 struct Box {
     float least[3] = {3e38f, 3e38f, 3e38f}, most[3] = {-3e38f, -3e38f, -3e38f};
@@ -92,10 +94,10 @@ struct Box {
 
 class BoxTree {
   public:
-    /// `boxes` must not move during the lifetime of the tree.
+    /// Builds the tree. `boxes` must not move during the lifetime of the tree.
     BoxTree(const Buffer<Box>& boxes, std::size_t count, const Allocator* allocator);
 
-    /// Calls body(number) for the boxes that are accepted by accepts(box), together with all their ancestors.
+    /// Calls body(number) for each box such that accepts(box) is true for it and for the boxes of all its ancestors.
     template <class Accepts, class Body>
     void visit(Accepts&& accepts, Body&& body) const {
         std::size_t stack[64], depth = 0;
@@ -119,8 +121,8 @@ class BoxTree {
     struct Range {
         std::size_t begin, end;
     };
-    /// Returns the range of a node. Nodes are numbered from 1, level by level; each level halves the ranges of the
-    /// previous one.
+    /// Returns the range of the boxes below a node. Nodes are numbered from 1, level by level; each level halves the
+    /// ranges of the previous one.
     [[nodiscard]] Range rangeOf(std::size_t node) const;
 
     const Buffer<Box>& boxes_;
@@ -129,27 +131,28 @@ class BoxTree {
     Buffer<Box> nodes_;
 };
 
-// Components of a surface: consistent winding by traversing pairs of faces, then a decision as a whole.
+// Components of a surface. Their winding is made consistent by traversing pairs of faces; then the outside of each
+// component is decided as a whole.
 
-/// Range of faces in the order in which they were reached; the faces of a component are contiguous.
+/// Component: a range of faces in the order in which they were reached, with sums over its faces.
 struct Component {
-    std::uint32_t begin = 0, end = 0;  ///< range in that order
+    std::uint32_t begin = 0, end = 0;  ///< range of the faces in the order of reaching
     Box box = {};
     bool is_closed = true;
     std::uint64_t conflicts_before = 0, conflicts_after = 0;
-    // Sums over its faces in their current winding, before the component is decided:
-    double area = 0;  ///< doubled, like all areas here
+    // Sums over the faces in their current winding, before the outside is decided:
+    double area = 0;  ///< sum of areas; all areas in this struct are doubled
     double kept = 0;  ///< area of faces wound as in the input, minus the area of others
-    /// area of faces whose normals are on their front side, minus the area of those on the back side
+    /// Area of faces whose normals are on their front side, minus the area of those whose normals are on the back side.
     double facing = 0;
-    double faced = 0;   ///< area of both kinds
+    double faced = 0;   ///< area of all faces that have normals
     double volume = 0;  ///< six times the volume
     std::uint32_t turned_count = 0;
 
     [[nodiscard]] std::uint32_t size() const { return end - begin; }
 };
 
-/// Input shared by all steps.
+/// Input that all steps share.
 struct WindingCall {
     const Surface& surface;
     const Call<WindingOptions>& options;
@@ -167,8 +170,8 @@ struct WindingCall {
 
 struct FloodMemory {
     Buffer<std::uint32_t> order;
-    Buffer<std::uint8_t> reached;    ///< one flag per face: it was reached
-    Buffer<std::uint8_t> at_border;  ///< one flag per point: it is at the border; empty until needed
+    Buffer<std::uint8_t> reached;    ///< one flag per face: 1 if it was reached
+    Buffer<std::uint8_t> at_border;  ///< one flag per point: 1 if it is at a border; empty until needed
 
     FloodMemory(const Allocator* allocator, std::size_t face_count)
         : order(allocator, face_count), reached(allocator, face_count, 0) {}
@@ -177,10 +180,10 @@ struct FloodMemory {
 /// Reaches the faces of a component from `first`, makes their winding consistent and writes them to order[begin...].
 /// Reached faces are marked in `reached`. Doubtful pairs are used only for faces that sure pairs do not reach, first
 /// those of an even number of faces. Doubtful pairs that contradict the others are ignored.
-/// If an edge had four faces and holes removed two, the others may not be neighbors. Such a pair puts all faces reached
-/// over it on the wrong side, and contradicts the surrounding pairs. A component that has borders and contradicts
-/// itself is therefore traversed again, first over pairs whose edge touches the border with at most one end; the result
-/// with fewer conflicts is kept.
+/// If an edge had four faces and two of them were removed by holes, the remaining two may not be neighbors. Such a pair
+/// puts all faces reached over it on the wrong side, and contradicts the surrounding pairs. A component that has
+/// borders and contradicts itself is therefore traversed again, first over pairs whose edge touches the border with at
+/// most one end; the result with fewer conflicts is kept.
 Component flood(const WindingCall& call, std::uint32_t first, std::uint32_t begin, FloodMemory& memory);
 
 /// Computes the sums of a component.

@@ -15,7 +15,7 @@ namespace tspace::winding {
 
 namespace {
 
-constexpr std::size_t kLeaf = 8;  // maximum number of boxes
+constexpr std::size_t kLeaf = 8;  // maximum number of boxes in a leaf
 
 }  // namespace
 
@@ -54,8 +54,8 @@ BoxTree::Range BoxTree::rangeOf(std::size_t node) const {
     return range;
 }
 
-// Finds closed components inside other ones: casts rays from points of their faces, and counts the intersections with
-// the faces of all others.
+// Finds closed components inside other components: casts rays from points of their faces, and counts the intersections
+// with the faces of all other components.
 
 namespace {
 
@@ -74,10 +74,10 @@ struct Ray {
             near = std::max(near, std::min(a, b));
             far = std::min(far, std::max(a, b));
         }
-        // Rounding makes boxes slightly too small.
+        // The margin compensates for rounding, which can make boxes slightly too small.
         return near <= far * (1 + 1e-12);
     }
-    /// Intersection test of Moeller and Trumbore 1997.
+    /// Returns whether the ray intersects a triangle, by the test of Moeller and Trumbore, 1997.
     [[nodiscard]] bool meets(const DVec3& a, const DVec3& b, const DVec3& c) const {
         const DVec3 ab = b - a, ac = c - a, across = cross(direction, ac);
         const double scale = dot(ab, across);
@@ -91,7 +91,7 @@ struct Ray {
     }
 };
 
-/// Returns the number of intersections of the ray with a face, over the triangles at its first corner.
+/// Returns the number of intersections of the ray with a face, which is divided into the triangles at its first corner.
 unsigned crossings(const Surface& surface, std::uint32_t face, const Ray& ray) {
     const std::uint32_t first = surface.faces.first(face), past = surface.faces.past(face);
     unsigned count = 0;
@@ -139,9 +139,9 @@ void findNested(const WindingCall& call, const Buffer<std::uint32_t>& order, con
         }
     }
     const BoxTree tree(boxes, face_count, call.allocator());
-    // Directions outside of axis and diagonal planes, to avoid hitting edges.
+    // Directions of rays. They avoid axes and diagonal planes, so that few rays hit edges.
     constexpr DVec3 kDirections[] = {{0.8129, 0.3571, 0.4603}, {-0.2887, 0.9013, -0.3233}, {0.1733, -0.4441, 0.8791}};
-    constexpr std::uint32_t kRays = 16;  // rays in each direction
+    constexpr std::uint32_t kRays = 16;  // number of rays in each direction
     constexpr double kClear = 0.7;
     call.parallel.forRanges(held_count, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t h = begin; h < end; ++h) {
@@ -150,7 +150,7 @@ void findNested(const WindingCall& call, const Buffer<std::uint32_t>& order, con
             for (std::uint32_t p = 0; p < kRays; ++p) {
                 const std::uint64_t place = (2 * std::uint64_t{p} + 1) * own.size() / (2 * kRays);
                 const std::uint32_t face = order[own.begin + static_cast<std::uint32_t>(place)];
-                // An off-center start: from centroids rays often hit edges.
+                // The ray starts off-center: from centroids, rays often hit edges.
                 const std::uint32_t c = surface.faces.first(face);
                 const DVec3 from =
                     0.46 * surface.position(c) + 0.33 * surface.position(c + 1) + 0.21 * surface.position(c + 2);
@@ -179,9 +179,11 @@ namespace {
 
 using winding::Component;
 
-/// Threshold between 0, the mean if there is no inside, and 1/2 for a nearly closed component.
+/// Minimum winding number of a component that has an inside: between 0, the mean without an inside, and 1/2 for a
+/// nearly closed component.
 constexpr double kLeastWindingNumber = 0.15;
-constexpr std::uint32_t kFewest = 4;  // minimum number of faces of a component that is decided: a tetrahedron has four
+// minimum number of faces of a component whose outside is decided: a tetrahedron has four
+constexpr std::uint32_t kFewest = 4;
 
 class Mending {
   public:
@@ -212,7 +214,8 @@ class Mending {
         if (component.conflicts_after != 0 && component.conflicts_after >= component.conflicts_before) {
             for (std::uint32_t i = component.begin; i < component.end; ++i) call_.turned[memory_.order[i]] = 0;
             component.conflicts_after = component.conflicts_before;
-            // A body with holes may have an edge that had four faces, of which two are left that are not neighbors.
+            // An open body with holes may have an edge that had four faces, of which the two that are left are not
+            // neighbors.
             const double number = component.is_closed ? 0 : ownWindingNumber(call_, memory_.order, component);
             return finish(component, number < -kLeastWindingNumber, report_.one_sided_count);
         }
@@ -220,7 +223,7 @@ class Mending {
         if (normalsAgree(component)) {
             finish(component, component.facing < 0, report_.by_normals_count);
         } else if (component.is_closed && hasVolume(component)) {
-            // Nesting can only be decided when all components are known.
+            // Nesting can be decided only when all components are known.
             closed_[closed_count_++] = component;
         } else {
             decideOpen(component);
@@ -232,7 +235,7 @@ class Mending {
         return component.faced > 0.5 * component.area && std::fabs(component.facing) > 0.6 * component.faced;
     }
 
-    /// Decides leaves and cards, whose outside only normals can show.
+    /// Decides small components, such as leaves and cards, whose outside only normals can indicate.
     void decideSmall(Component& component) {
         if (component.conflicts_after != 0) return leave(component, report_.small_count);
         measure(call_, memory_.order, component);
@@ -240,14 +243,14 @@ class Mending {
         finish(component, component.facing < 0, report_.by_normals_count);
     }
 
-    /// Flips no face.
+    /// Keeps the winding of a component: flips none of its faces.
     void leave(const Component& component, std::uint64_t& counter) {
         for (std::uint32_t i = component.begin; i < component.end; ++i) call_.turned[memory_.order[i]] = 0;
         ++counter;
         report_.conflict_count_after += component.conflicts_before;
     }
 
-    /// Counts a component, and flips all of its faces if it `is_inside_out`.
+    /// Counts a component, and flips all of its faces if `is_inside_out` is true.
     void finish(const Component& component, bool is_inside_out, std::uint64_t& counter) {
         std::uint32_t turned = component.turned_count;
         if (is_inside_out) {
@@ -260,8 +263,8 @@ class Mending {
         report_.conflict_count_after += component.conflicts_after;
     }
 
-    /// Returns whether a closed component has a volume; a two-sided sheet has none. The volume of a cube is 1/15 of its
-    /// area to the power of 3/2, of a box of 1 x 1 x 0.0001 still 1/30,000.
+    /// Returns whether a closed component encloses a volume, which a two-sided sheet does not. The volume of a cube is
+    /// 1/15 of its area to the power of 3/2; for a box of 1 x 1 x 0.0001 it is still 1/30,000.
     static bool hasVolume(const Component& component) {
         const double area = 0.5 * component.area, volume = component.volume / 6;
         return std::fabs(volume) > 1e-7 * area * std::sqrt(area);
@@ -276,8 +279,8 @@ class Mending {
         }
     }
 
-    /// Decides closed components. Cavities have the opposite winding, but a body inside a body has not: the predominant
-    /// winding of the input is kept, unless it is unclear.
+    /// Decides closed components. A cavity has the opposite winding, but a body inside another body does not. Therefore
+    /// the predominant winding of the input is kept, unless it is unclear.
     void decideClosed() {
         constexpr double kClear = 0.2;
         Buffer<std::uint8_t> inside(call_.allocator(), closed_count_, 0);
@@ -317,7 +320,7 @@ Buffer<std::uint32_t> pointsOfCorners(const MeshView& mesh, const Call<WindingOp
 
 Result<WindingReport> checkAndMend(const MeshView& given, const Call<WindingOptions>& options,
                                    StridedSpan<std::uint8_t> turned) {
-    // Takes about four times as long as a mean of normals.
+    // Amount of work: about four times the time of averaging normals.
     Parallel parallel(options.execution, 4 * given.cornerCount());
     if (Error e = checkMesh(given, &parallel); e.code != ErrorCode::ok) return e;
     if (Error e = checkSpan(turned, given.faceCount(), "turned"); e.code != ErrorCode::ok) return e;

@@ -148,7 +148,7 @@ class Planner {
     /// Returns whether any group of the node splits.
     bool splitGroups(std::size_t place, const NodeGroups& groups) {
         if (groups.group == nullptr) return splitGroup(place, groups.corners);
-        // Counting sort by group; ascending within each group.
+        // Counting sort of the members by group; members are ascending within each group.
         ends_.drop(ends_.size());
         std::fill_n(ends_.extend(groups.count + 1), groups.count + 1, 0u);
         for (std::size_t i = 0; i < groups.corners.size(); ++i)
@@ -181,7 +181,7 @@ class Planner {
         return true;
     }
 
-    /// A corner of the mesh, with one of its half-edges at this node.
+    /// A corner of the mesh, and one of its half-edges at this node.
     struct Repeat {
         std::uint32_t slot, group, index;
         auto operator<=>(const Repeat&) const = default;
@@ -240,11 +240,11 @@ class Planner {
     Grouping grouping_;
     EvaluationPlan to_;
     SplitFinder splits_;
-    // Scratch memory, reused for each node.
+    // Scratch memory, which is reused for each node.
     Growing<std::uint32_t> ends_;  // end of each group in members_
-    Growing<NodeCorner> members_;  // the node's corners, group by group
+    Growing<NodeCorner> members_;  // corners of the node, group by group
     Growing<Repeat> repeats_;
-    // Plan arrays under construction.
+    // Arrays of the plan, while it is built.
     Growing<std::uint8_t> positive_;
     Growing<EvaluatedSplit> split_groups_;
     Growing<std::uint32_t> split_members_;
@@ -264,8 +264,8 @@ std::size_t EvaluationPlan::memoryBytes() const {
            bytes(skipped_corners) + bytes(copies) + bytes(triangles);
 }
 
-// Corner lists of selected nodes: finds the triangles around them, computes their terms, unifies the orientation of
-// each face, sorts corners by node (a counting sort), and plans copies for corners of degenerate triangles.
+// Lists the corners of selected nodes: finds the triangles around them, computes their terms, unifies the orientation
+// of each face, sorts corners by node (a counting sort), and plans copies for corners of degenerate triangles.
 
 namespace {
 
@@ -333,7 +333,8 @@ class CornerReader {
             const auto nowhere = static_cast<std::uint32_t>(path_.chosen.size());
             for (std::size_t i = 0; i < 3 * count; ++i) places[i] = std::min(place_of_[nodes[i]], nowhere);
         }
-        // Kernels read whole blocks, so the rest of the block needs valid vertices. A block has at least one triangle.
+        // Kernels read whole blocks, so the rest of the last block needs valid vertices. A block has at least one
+        // triangle.
         std::fill(vertices + 3 * count, vertices + kTermCorners, vertices[0]);
         CornerTerms& terms = to_.terms[block];
         terms_(source_, vertices, count, terms);
@@ -360,7 +361,8 @@ class CornerReader {
             }
         }
         facing[chosen_count] = 0;
-        // begin[place + 1] becomes the start of the place; placeCorners moves it to the end of the place.
+        // After this loop, begin[place + 1] is the start of the list of a place; placeCorners moves it to the end of
+        // the list.
         for (std::size_t place = 0; place < chosen_count; ++place) begin[place + 2] += begin[place + 1];
         to_.corners = Buffer<NodeCorner>(allocator_, begin[chosen_count + 1]);
     }
@@ -398,8 +400,8 @@ class CornerReader {
 
     [[nodiscard]] std::uint32_t faceOf(std::size_t t) const { return in_.triangles.faces[to_.triangleOf(t)]; }
 
-    /// Unifies the orientation of all triangles of a face. For faces with different orientations, all triangles have
-    /// been collected.
+    /// Unifies the orientation of all triangles of a face, for every face. If the triangles of a face have different
+    /// orientations, all of them have been collected.
     void uniteFaces() {
         for (std::size_t t = 1; t < count_;) {
             if (to_.flags[t] == to_.flags[t - 1] || faceOf(t) != faceOf(t - 1)) {
@@ -413,7 +415,7 @@ class CornerReader {
         }
     }
 
-    /// Degenerate triangles are ignored.
+    /// Unifies the orientation of the triangles of one face; degenerate triangles are ignored.
     void uniteFace(std::size_t first, std::size_t end) {
         good_.drop(good_.size());
         std::uint32_t facing = 0;
@@ -432,8 +434,9 @@ class CornerReader {
 
     [[nodiscard]] bool isAny(std::size_t i) const { return (to_.flags[good_[i]] & kAny) != 0; }
 
-    /// Returns the triangle whose orientation the face uses. For a quad the first, unless the second has a usable UV
-    /// area and the first one's is not at least as large; for an n-gon the largest with a usable UV area.
+    /// Returns the triangle whose orientation the face uses. For a quad, it is the first triangle, unless the second
+    /// has a usable UV area and the area of the first is not at least as large; for an n-gon, it is the largest
+    /// triangle with a usable UV area.
     [[nodiscard]] std::size_t orientingTriangle() const {
         const auto area = [&](std::size_t i) { return std::fabs(uvArea(good_[i])); };
         if (good_.size() == 2) return good_[!isAny(1) && !(area(0) >= area(1)) ? 1 : 0];
@@ -444,12 +447,13 @@ class CornerReader {
         return good_[chosen];
     }
 
-    /// Plans copies for corners that only degenerate triangles have. If the face also has valid triangles, such a
-    /// corner copies the corner of the face at its own position; otherwise the first valid corner of its node. (The
-    /// reference searches the face's valid triangle for the position; in a quad there is only one such corner.) All
-    /// corners of degenerate triangles are at selected nodes.
+    /// Plans copies for corners that belong to degenerate triangles only. If the face also has valid triangles, such a
+    /// corner copies the corner of the face at its own position; otherwise it copies the first valid corner of its
+    /// node. (The reference searches the face's valid triangle for the position; in a quad there is only one such
+    /// corner.) All corners of degenerate triangles are at selected nodes.
     void planCopies() {
-        Buffer<std::uint8_t> done;  // one per corner of polygons: 1: has a valid triangle, 2: is planned
+        // one per corner of polygons: 1 if the corner belongs to a valid triangle, 2 if its copy is planned
+        Buffer<std::uint8_t> done;
         if (!in_.triangles.faces.empty()) {
             done = Buffer<std::uint8_t>(allocator_, in_.mesh.cornerCount(), std::uint8_t{0});
             for (std::size_t t = 0; t < count_; ++t) {
@@ -474,8 +478,8 @@ class CornerReader {
         }
     }
 
-    /// Returns another corner of the triangle at the same position, if a valid triangle of the face also has it;
-    /// otherwise kNone.
+    /// Returns another corner of the triangle at the same position that also belongs to a valid triangle of the face;
+    /// kNone if there is none.
     std::uint32_t copiedInFace(std::size_t t, std::uint32_t k, const Buffer<std::uint8_t>& done) const {
         const auto position = [&](std::uint32_t corner) { return in_.mesh.positions[in_.mesh.indices[corner]]; };
         for (std::uint32_t j = 1; j < 3; ++j) {
@@ -496,9 +500,9 @@ class CornerReader {
     const Allocator* allocator_;
     MeshTriangles by_node_;
     VertexCorners to_;
-    Buffer<std::uint32_t> place_of_;  // one per node: its position in `chosen`, or kNone
+    Buffer<std::uint32_t> place_of_;  // position in `chosen` of each node, or kNone
     std::size_t count_ = 0;           // number of triangles
-    Growing<std::uint32_t> good_;     // triangles of one face that are not degenerate
+    Growing<std::uint32_t> good_;     // triangles of the current face that are not degenerate
 };
 
 }  // namespace

@@ -53,10 +53,11 @@ class SmallBucket {
         return cornerOf(63 - static_cast<std::uint32_t>(std::countl_zero(in_.around[node])), node);
     }
 
-    /// Each representative is between the first and the last corner of its node, so V is at least the largest key
-    /// computed from first corners. Candidates are nodes whose last corner is at least that bound. The order can matter
-    /// only if three half-edges share the node of V; they belong to three triangles with two candidates each, because a
-    /// triangle has at most one half-edge in the bucket.
+    /// Finds the nodes that may be in the last bucket. Each representative is between the first and the last corner of
+    /// its node, so V, the largest key, is at least the largest key computed from first corners. Candidates are nodes
+    /// whose last corner is at least that bound. The order of the bucket can matter only if three half-edges share the
+    /// node of V; they belong to three triangles with two candidates each, because a triangle has at most one half-edge
+    /// in the bucket.
     void findCandidates() {
         const auto count = static_cast<std::uint32_t>(in_.welded.triangles.count);
         for (std::uint32_t triangle = count; triangle-- > 0 && 3 * triangle + 2 >= least_;) {
@@ -108,7 +109,8 @@ class SmallBucket {
                     is_divided |= laneBits(positions_[other] != positions_[node]) != 0;
                 }
             }
-            // A cell whose corners have one position is not divided, and the first corner of a node is kept.
+            // If all corners in a cell have one position, the reference does not divide the cell, and keeps the first
+            // corner of each node.
             if (!is_divided)
                 representatives_[node] = static_cast<std::uint8_t>(firstCorner(node));
             else
@@ -150,7 +152,7 @@ class SmallBucket {
             low_node = r[0] == key ? n[0] : r[1] == key ? n[1] : n[2];
         }
         if (largest == 0) return false;
-        std::uint64_t leaving = 0, arriving = 0;  // triangles with half-edges from the lower end, or to it
+        std::uint64_t leaving = 0, arriving = 0;  // triangles with half-edges from the lower end, and to the lower end
         for (std::uint64_t set = in_.around[low_node] & twice_; set != 0; set &= set - 1) {
             const auto t = static_cast<std::uint32_t>(std::countr_zero(set));
             const std::uint32_t k = cornerOf(t, low_node) - 3 * t;
@@ -172,10 +174,10 @@ class SmallBucket {
     std::uint32_t candidates_[kMostNodes];
     std::size_t candidate_count_ = 0;
     Float4 positions_[kMostNodes];              // positions of nodes; the fourth lanes are unused
-    Mask4 cells_[kMostNodes / 4];               // grid cells of nodes
-    std::uint32_t least_ = 1;                   // lower bound of V, which is never 0
+    Mask4 cells_[kMostNodes / 4];               // grid cell of each node
+    std::uint32_t least_ = 1;                   // lower bound of V, the largest key, which is never 0
     std::uint64_t twice_ = 0;                   // triangles with at least two candidates
-    std::uint8_t representatives_[kMostNodes];  // representatives of candidates; 0 for other nodes
+    std::uint8_t representatives_[kMostNodes];  // representative of each candidate; 0 for other nodes
 };
 
 }  // namespace

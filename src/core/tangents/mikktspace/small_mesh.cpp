@@ -14,7 +14,7 @@ namespace {
 
 static_assert(kTermTriangles == 64);
 
-/// A half-edge in 8 bits: 4 * t + k is half-edge k of triangle t.
+/// Half-edge in 8 bits: 4 * t + k is half-edge k of triangle t.
 using PackedEdge = std::uint8_t;
 constexpr PackedEdge kNoNeighbor = 255;
 constexpr unsigned kNext[] = {1, 2, 0}, kPrevious[] = {2, 0, 1};
@@ -57,7 +57,7 @@ class SmallMesh {
     }
 
   private:
-    // Steps 1 to 3.
+    // Steps 1 to 3 of plain.cpp.
 
     void readTriangles() {
         const unsigned count = count_;
@@ -86,7 +86,7 @@ class SmallMesh {
         report_.mirrored_count = sizeOf(adding_ & ~up_);
     }
 
-    // Step 4.
+    // Step 4 of plain.cpp: neighbors.
 
     /// Pairs each half-edge with the oldest unpaired one between the same nodes in the opposite direction; without one,
     /// it stays unpaired until a later one matches (groups.h).
@@ -111,7 +111,7 @@ class SmallMesh {
         });
     }
 
-    /// Links half-edges like the reference if the order of its last bucket matters.
+    /// Links half-edges as the reference does, if the order of its last bucket matters.
     void linkLastBucket() {
         if (isAllGood() && !lastBucketMayMatter({in_, nodes_, around_})) return;
         const LastBucket bucket = findLastBucket(in_, transient_, options_.execution.allocator, parallel_);
@@ -124,7 +124,8 @@ class SmallMesh {
 
     [[nodiscard]] bool isAllGood() const { return good_ == ~std::uint64_t{0} >> (64 - count_); }
 
-    // Steps 5 and 6. Means are numbered from 1; number 0 is the default tangent of corners that no group reaches.
+    // Steps 5 and 6 of plain.cpp: groups and means. Means are numbered from 1; number 0 is the default tangent of
+    // corners that no group reaches.
 
     void openGroup(unsigned t, unsigned k) {
         if ((adding_ & bitOf(t)) == 0 || mean_of_[3 * t + k] != 0) return;
@@ -142,8 +143,8 @@ class SmallMesh {
         is_alone || areNear(marks) ? addMean(adding, up) : separate(up, members);
     }
 
-    /// Adds the triangles that follow around the node, until one is missing, already in a group, or has the opposite
-    /// orientation.
+    /// Adds the triangles that follow around the node to the group, until one is missing, already in a group, or has
+    /// the opposite orientation.
     void walk(unsigned t, unsigned k, bool forward, bool up, std::uint64_t& members) {
         for (;;) {
             const PackedEdge across = neighbors_[4 * t + (forward ? k : kPrevious[k])];
@@ -229,7 +230,7 @@ class SmallMesh {
         return {directions[0][k][t], directions[1][k][t], directions[2][k][t]};
     }
 
-    /// Adds the sum over some triangles as the next mean.
+    /// Computes the sum over some triangles, which becomes the next mean.
     void addMean(std::uint64_t set, bool up) {
         Float4 sum{};
         forTriangles(set, [&](unsigned t) { sum += loadFloat4(terms_.s[rowOf(t)]); });
@@ -242,8 +243,7 @@ class SmallMesh {
         ++means_;
     }
 
-    /// Converts sums to means in place, four at a time, because single divisions and square roots would wait for each
-    /// other.
+    /// Converts sums to means in place, four at a time: single divisions and square roots would wait for each other.
     void finishMeans() {
         const Tangents none{};
         for (unsigned i = means_; i < means_ + 3; ++i) std::fill_n(sums_[i], 4, 1.0f);
@@ -256,7 +256,7 @@ class SmallMesh {
             transpose4(x, y, z, w);
             const Float4 inverse = splat(1) / sqrt4(dot(Vec3x4{x, y, z}, Vec3x4{x, y, z}));
             const auto counts = [](Float4 c) { return (c > splat(FLT_MIN)) | (c < splat(-FLT_MIN)); };
-            const Mask4 not_zero = counts(x) | counts(y) | counts(z);  // see unit()
+            const Mask4 not_zero = counts(x) | counts(y) | counts(z);  // components that count as nonzero, as in unit()
             x = select4(not_zero, inverse * x, x);
             y = select4(not_zero, inverse * y, y);
             z = select4(not_zero, inverse * z, z);
@@ -273,7 +273,7 @@ class SmallMesh {
         if (wants_rest_) rest_[0] = restOf(none);
     }
 
-    // Steps 7 and 8.
+    // Steps 7 and 8 of plain.cpp: degenerate triangles and signs.
 
     /// For each corner of a degenerate triangle, copies the result of the first other corner at its node.
     void copyToDegenerate() {
@@ -315,14 +315,14 @@ class SmallMesh {
     TangentReport report_;
     std::uint64_t good_ = 0;              // triangles that are not degenerate
     std::uint64_t adding_ = 0;            // triangles with UV area
-    std::uint64_t up_ = 0;                // triangles that face up
-    std::uint64_t around_[kTermCorners];  // one per node: the set of its triangles
+    std::uint64_t up_ = 0;                // triangles with positive UV area
+    std::uint64_t around_[kTermCorners];  // set of the triangles at each node
     std::uint32_t vertices_[kTermCorners], nodes_[kTermCorners];
     PackedEdge neighbors_[4 * kTermTriangles];
-    // for members of the current group: index of the corner at the group's node
+    // index of the corner at the group's node, for each member of the current group
     std::uint8_t corner_of_[kTermTriangles];
-    std::uint8_t mean_of_[kTermCorners] = {};  // number of the mean of each corner
-    // Data per mean.
+    std::uint8_t mean_of_[kTermCorners] = {};  // number of the mean that each corner gets
+    // Sums, means and properties of each mean.
     unsigned means_ = 1;
     float sums_[kTermCorners + 4][4];
     float signs_[kTermCorners + 4];

@@ -21,7 +21,7 @@
 
 namespace tspace::mikk {
 
-/// A welded mesh and the options of the call. nodes.vertex() must be valid.
+/// Welded mesh, and the options of the call. nodes.vertex() must be valid.
 struct NodeSetting : WeldedMesh {
     const Call<TangentOptions>& options;
     const LastBucket& bucket;
@@ -30,54 +30,57 @@ struct NodeSetting : WeldedMesh {
     [[nodiscard]] bool maySplit() const { return isMikktspace(options.method); }
 };
 
-/// The nodes to plan.
+/// Nodes to plan.
 struct VertexPath {
     const NodeSetting& setting;
-    /// Ascending. Must include all nodes of degenerate triangles, of contested triangles (unless a node has no other
-    /// triangle), and of faces whose triangles differ in orientation or degeneracy (checkPolygons in one_pass.cpp).
+    /// Selected nodes, ascending. They must include all nodes of degenerate triangles, of contested triangles (unless a
+    /// node has no other triangle), and of faces whose triangles differ in orientation or degeneracy (checkPolygons in
+    /// one_pass.cpp).
     std::span<const std::uint32_t> chosen;
     bool are_all;  ///< true: `chosen` contains all nodes
-    PlanUse use;   ///< once: the plan has the mesh's own terms, except for estimators
+    PlanUse use;   ///< once: the plan contains the terms of the mesh's own pose, except for estimators
     Parallel& parallel;
 };
 
 /// Flags of a triangle, in addition to kFacesUp or kFacesDown (shared by all triangles of a face: uniteFaces).
 enum TriangleFlag : std::uint8_t {
-    kAny = 4,        ///< no usable UV area: joins groups of either orientation, starts none, contributes nothing
-    kContested = 8,  ///< groups.h: uses the orientation of the first group that reaches it
+    /// the triangle has no usable UV area: it joins groups of either orientation, starts none, and contributes nothing
+    kAny = 4,
+    /// the triangle is contested (groups.h): it uses the orientation of the first group that reaches it
+    kContested = 8,
     kDegenerate = 16,
 };
 
-/// A corner of a triangle that is not degenerate. The corners of a node are contiguous.
+/// Corner of a triangle that is not degenerate. The corners of a node are contiguous.
 struct NodeCorner {
     const float* s;                ///< row of the corner in CornerTerms::s
-    std::uint32_t half_edge;       ///< 3 * the triangle's number in `found` + k
-    std::uint32_t next, previous;  ///< nodes
+    std::uint32_t half_edge;       ///< half-edge: 3 * the triangle's number in `found` + k
+    std::uint32_t next, previous;  ///< nodes of the next and the previous corner
     std::uint32_t facing;          ///< kFacesUp or kFacesDown; 0: its triangle has no UV area and contributes nothing
 
-    /// Returns its row of CornerTerms::t.
+    /// Returns the row of the corner in CornerTerms::t.
     [[nodiscard]] const float* t() const {
         return s + (offsetof(CornerTerms, t) - offsetof(CornerTerms, s)) / sizeof *s;
     }
 };
 
 struct VertexCorners {
-    // One per triangle around a chosen node.
-    Buffer<std::uint32_t> found;  ///< numbers in the mesh, ascending; empty: all triangles
+    // Arrays with one entry per triangle around a selected node:
+    Buffer<std::uint32_t> found;  ///< numbers of the triangles in the mesh, ascending; empty: all triangles
     Buffer<std::uint8_t> flags;
-    Buffer<CornerTerms> terms;  ///< kTermTriangles each
-    // Three per triangle.
+    Buffer<CornerTerms> terms;  ///< terms of the triangles, in blocks of kTermTriangles
+    // Arrays with three entries per triangle:
     Buffer<std::uint32_t> nodes;
-    Buffer<std::uint32_t> places;  ///< position of the node in `chosen`, or chosen.size(); empty: as `nodes`
+    Buffer<std::uint32_t> places;  ///< position of each node in `chosen`, or chosen.size(); empty: equal to `nodes`
     TangentReport report;          ///< counts of triangles
 
-    Buffer<NodeCorner> corners;  ///< node by node, ascending by triangle
-    // One per chosen node.
-    Buffer<std::uint32_t> begin;  ///< start of its corners in `corners`; they end at the start of the next node's
-    /// Orientations of the triangles that contribute to it: kFacesUp, kFacesDown, or both. An additional entry, 0,
-    /// represents nodes that are not selected.
+    Buffer<NodeCorner> corners;  ///< corners of the selected nodes, node by node, ascending by triangle
+    // Arrays with one entry per selected node:
+    Buffer<std::uint32_t> begin;
+    /// Orientations of the triangles that contribute to the node: kFacesUp, kFacesDown, or both. An additional entry,
+    /// 0, represents nodes that are not selected.
     Marks facing;
-    /// Corners of the mesh that only degenerate triangles have, with the corners that they copy, or kNone.
+    /// Corners of the mesh that belong to degenerate triangles only, with the corners that they copy, or kNone.
     Growing<Copy> copies;
 
     explicit VertexCorners(const Allocator* allocator) : copies(allocator) {}
@@ -88,7 +91,7 @@ struct VertexCorners {
     [[nodiscard]] std::uint32_t triangleOf(std::size_t t) const {
         return found.empty() ? static_cast<std::uint32_t>(t) : found[t];
     }
-    /// Returns the number of a half-edge in the mesh.
+    /// Returns the number in the mesh of a half-edge of these triangles.
     [[nodiscard]] std::uint32_t halfEdgeOf(std::uint32_t half_edge) const {
         return 3 * triangleOf(half_edge / 3) + half_edge % 3;
     }
@@ -104,16 +107,16 @@ VertexCorners readCorners(const VertexPath& path);
 EvaluationPlan planChosen(const VertexPath& path);
 
 /// Computes the tangents of the mesh's own pose: simple nodes in one pass (one_pass.cpp), complex ones by the vertex
-/// path. Not for angular thresholds below 180 degrees. `transient`: scratch memory for data that are not read after
-/// tangents are written, so that it may be in the output. `range_shift`: log2 of the number of nodes per range; 0:
-/// chosen for the mesh. Throws OutOfMemory.
+/// path. Does not support angular thresholds below 180 degrees. `transient`: scratch memory for data that are not read
+/// after tangents are written, so that it may be in the output. `range_shift`: log2 of the number of nodes per range;
+/// 0: chosen for the mesh. Throws OutOfMemory.
 TangentReport evaluateInOnePass(const NodeSetting& setting, const TangentOutput& out, ScratchBlock& transient,
                                 Parallel& parallel, unsigned range_shift = 0);
 
 /// Returns whether evaluateSmall applies: mikktspace, at most 64 triangular faces with few vertices and finite values.
 bool isSmall(const WeldedMesh& welded, Method method);
-/// The results of evaluateInOnePass, and of plans for any angular threshold, for a small mesh (small_mesh.cpp), after
-/// listVertices. `transient`: allocates what is released before tangents are written.
+/// Computes the results of evaluateInOnePass, or, for any angular threshold, of a plan, for a small mesh
+/// (small_mesh.cpp). Requires listVertices. `transient`: allocates memory that is released before tangents are written.
 TangentReport evaluateSmall(const WeldedMesh& welded, const Call<TangentOptions>& options, const TangentOutput& out,
                             const Allocator* transient, Parallel& parallel);
 

@@ -21,7 +21,8 @@ namespace tspace::mikk {
 
 namespace {
 
-/// Sizes of faces that are triangulated: 3 and 4, and those of n-gons if requested. All others are skipped.
+/// Sizes of faces that are triangulated: 3 and 4, and those of n-gons if requested. Faces of all other sizes are
+/// skipped.
 class UsedSizes {
   public:
     explicit UsedSizes(Ngons ngons) : count_(ngons == Ngons::triangulate ? 0u - kLeast : 5 - kLeast) {}
@@ -34,11 +35,11 @@ class UsedSizes {
 
 /// Counts of faces and corners. There are fewer than 2^31 corners.
 struct FaceCounts {
-    std::uint32_t triangles = 0;  // after triangulation
+    std::uint32_t triangles = 0;  // number of triangles after triangulation
     std::uint32_t faces_of_three = 0, skipped_faces = 0, skipped_corners = 0;
 };
 
-/// Counts by a branchless loop, which compilers vectorize: a size that is not used counts as 0.
+/// Counts faces from their sizes, by a branchless loop that compilers vectorize: a size that is not used counts as 0.
 FaceCounts countFaces(std::span<const std::uint32_t> sizes, Ngons ngons) {
     const UsedSizes used(ngons);
     std::uint32_t corners = 0, used_corners = 0, used_faces = 0, faces_of_three = 0;
@@ -53,7 +54,7 @@ FaceCounts countFaces(std::span<const std::uint32_t> sizes, Ngons ngons) {
     return {used_corners - 2 * used_faces, faces_of_three, faces - used_faces, corners - used_corners};
 }
 
-/// Counts the faces of a mesh, from their list of sizes, or from their common size.
+/// Counts the faces of a mesh, from the list of their sizes, or from their common size.
 FaceCounts countFaces(const MeshView& mesh, Ngons ngons) {
     if (!mesh.face_sizes.empty()) return countFaces(mesh.face_sizes, ngons);
     const std::uint32_t size = mesh.face_size;
@@ -93,16 +94,16 @@ TriangleList cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* alloca
     return list;
 }
 
-// The reference sorts corners into cells of a grid and compares those of a small cell with each other. Here the
-// vertices of the mesh are hashed (core/base/weld.h). Both find the same classes; grid_order.cpp finds the reference's
-// representatives where they matter.
+// Welding of vertices. The reference sorts corners into cells of a grid and compares the corners of each cell with each
+// other, whereas this code hashes the vertices of the mesh (core/base/weld.h). Both find the same classes;
+// grid_order.cpp finds the reference's representatives where they matter.
 
 namespace {
 
-/// The reference adds the bounds of intervals of positions: above this value the sum may overflow and its welding
-/// stops.
+/// Maximum position. The reference adds the bounds of intervals of positions: above this value the sum may overflow,
+/// and its welding stops.
 constexpr float kHugePosition = 1.6e38f;
-constexpr std::size_t kPrefetchAhead = 32;  // distance between the prefetch of a root and its comparison, in entries
+constexpr std::size_t kPrefetchAhead = 32;  // number of entries between the prefetch of a root and its comparison
 
 struct Vertex {
     Vec3 position, normal;
@@ -128,7 +129,7 @@ std::uint64_t pairAt(const void* at) {
     return pair;
 }
 
-/// Returns whether two vertices have equal bits. Words are read in place: a copy would be stored in small pieces and
+/// Returns whether two vertices have equal bits. Words are read in place: a copy would be stored in small parts and
 /// loaded in large ones, which defeats store forwarding.
 bool sameBits(const MeshView& mesh, std::size_t a, std::size_t b) {
     const Vec3 &p = mesh.positions[a], &q = mesh.positions[b], &m = mesh.normals[a], &n = mesh.normals[b];
@@ -138,12 +139,13 @@ bool sameBits(const MeshView& mesh, std::size_t a, std::size_t b) {
     return (xy | z | (pairAt(&mesh.uvs[a]) ^ pairAt(&mesh.uvs[b]))) == 0;
 }
 
-/// Four floats or words at once, as compiler vectors: scalar code if the target has none.
+/// Four floats or words, as compiler vectors, which compile to scalar code if the target has no SIMD.
 using Fours = float __attribute__((vector_size(16)));
 using Words = std::uint32_t __attribute__((vector_size(16)));
 using Pairs = std::uint64_t __attribute__((vector_size(16)));
 
-/// The eight floats of a vertex, reordered. Adding +0 changes -0 to +0, so vertices that compare equal have equal bits.
+/// The eight floats of a vertex, reordered. Adding +0 converts -0 to +0, so vertices that compare equal have equal
+/// bits.
 struct VertexWords {
     Fours a, b;
 
@@ -151,7 +153,7 @@ struct VertexWords {
         : a(std::bit_cast<Fours>(Pairs{pairAt(&p), pairAt(&n)}) + Fours{}),
           b(std::bit_cast<Fours>(Pairs{std::bit_cast<Pairs>(Fours{p.z, n.z, 0, 0})[0], pairAt(&uv)}) + Fours{}) {}
 
-    /// Large normals and UVs count as huge here.
+    /// Returns in which lanes the values are finite and not huge. Large normals and UVs count as huge too.
     [[nodiscard]] auto isFinite() const {
         const Fours limit = Fours{} + kHugePosition;
         const Words no_sign = Words{} + 0x7fffffffu;
@@ -159,7 +161,7 @@ struct VertexWords {
                (std::bit_cast<Fours>(std::bit_cast<Words>(b) & no_sign) < limit);
     }
     [[nodiscard]] std::uint32_t hash() const {
-        // Rotated, so that signs that change together (mirrored shapes) do not cancel.
+        // One half is rotated, so that signs that change together (mirrored shapes) do not cancel.
         const Words turned = std::bit_cast<Words>(b) << 13 | std::bit_cast<Words>(b) >> 19;
         const Pairs both = std::bit_cast<Pairs>(std::bit_cast<Words>(a) ^ turned);
         std::uint64_t h = both[0] * 0xbf58476d1ce4e5b9u ^ std::rotl(both[1] * 0x94d049bb133111ebu, 32);
@@ -187,7 +189,7 @@ bool hashVertices(const MeshView& mesh, std::size_t begin, std::size_t end, std:
     return (finite[0] & finite[1] & finite[2] & finite[3]) != 0;
 }
 
-/// Positions, normals and UVs, which are equal within a node.
+/// Positions, normals and UVs of vertices, which are compared for welding.
 class CornerData final : public Weldable {
   public:
     explicit CornerData(const MeshView& mesh) : mesh_(mesh) {}
@@ -232,7 +234,7 @@ class CornerData final : public Weldable {
         Words words{};
         std::size_t i = 0;
         for (const float x : {p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y})
-            words[i++] = std::bit_cast<std::uint32_t>(x + 0.0f);  // treats -0 as +0
+            words[i++] = std::bit_cast<std::uint32_t>(x + 0.0f);  // adding +0 converts -0 to +0
         return words;
     }
     void prefetch(std::uint32_t vertex) const {
@@ -250,7 +252,7 @@ void numberNodes(Buffer<std::uint32_t> root_of, Nodes& nodes) {
     std::uint32_t next = 0;
     for (std::size_t v = 0; v < root_of.size(); ++v) {
         const std::uint32_t root = root_of[v];
-        const std::uint32_t node = root_of[root];  // already a node, unless v is the root
+        const std::uint32_t node = root_of[root];  // the number of a node already, unless v is the root itself
         const std::uint32_t is_first = root == v ? 1 : 0;
         root_of[v] = node + is_first * (next - node);
         next += is_first;
@@ -260,15 +262,15 @@ void numberNodes(Buffer<std::uint32_t> root_of, Nodes& nodes) {
     nodes.of_vertex = std::move(root_of);
 }
 
-/// Like findRoots and numberNodes for a mesh of at most kFewVertices, with a hash table on the stack.
+/// Maximum number of vertices of a mesh for weldFew.
 constexpr std::size_t kFewVertices = 192;
 void weldFew(const MeshView& mesh, const Allocator* allocator, Nodes& nodes) {
     constexpr unsigned kLog2 = 9;
     constexpr std::size_t kPlaces = std::size_t{1} << kLog2;
     static_assert(kFewVertices < 256 && 2 * kFewVertices < kPlaces);
     alignas(VertexWords) std::byte room[kFewVertices * sizeof(VertexWords)];
-    auto* const known = reinterpret_cast<VertexWords*>(room);  // one per node
-    std::uint8_t table[kPlaces] = {};                          // nodes, from 1
+    auto* const known = reinterpret_cast<VertexWords*>(room);  // data of each node
+    std::uint8_t table[kPlaces] = {};                          // numbers of nodes, from 1
     Buffer<std::uint32_t> of_vertex(allocator, mesh.vertexCount()), vertices(allocator, mesh.vertexCount());
     auto finite = Fours{} == Fours{};
     std::uint32_t count = 0;

@@ -11,12 +11,12 @@ namespace tspace::mikk {
 
 TriangleList cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* allocator);
 
-/// Welds equal vertices. Memory: findRoots of core/base/weld.h; up to 4 bytes per vertex remain. `transient` allocates
-/// temporary memory; null: `allocator`.
+/// Welds equal vertices. Takes the memory of findRoots (core/base/weld.h), of which up to 4 bytes per vertex remain
+/// allocated. `transient` allocates temporary memory; null: `allocator`.
 Nodes weld(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator, Parallel& parallel,
            const Allocator* transient = nullptr);
 
-/// Makes nodes.vertex() valid.
+/// Fills nodes.vertices, if necessary, so that nodes.vertex() is valid.
 void listVertices(Nodes& nodes, const Allocator* allocator);
 
 }  // namespace tspace::mikk

@@ -15,13 +15,14 @@
 
 namespace tspace::mikk {
 
-// Triangulated faces.
+// List of the triangles of all faces, after triangulation.
 
-/// All triangles, including degenerate ones, in face order.
+/// Triangles of a mesh, including degenerate ones, in face order.
 struct TriangleList {
     std::size_t count = 0;
-    Buffer<std::uint32_t> corners;  ///< three corners of the mesh per triangle; empty: 3t, 3t+1, 3t+2
-    Buffer<std::uint32_t> faces;    ///< one per triangle; empty: triangle t is face t
+    /// three corners of the mesh per triangle; empty: triangle t has the corners 3t, 3t+1, 3t+2
+    Buffer<std::uint32_t> corners;
+    Buffer<std::uint32_t> faces;  ///< face of each triangle; empty: triangle t is face t
     Buffer<std::uint32_t> skipped_corners;
     std::uint64_t skipped_face_count = 0;
 
@@ -33,7 +34,7 @@ struct TriangleList {
     }
 };
 
-/// Like readTriangles, for triangulated polygons.
+/// Returns the vertices of triangles like readTriangles, for triangulated polygons.
 const std::uint32_t* readCutTriangles(const MeshView& mesh, const TriangleList& triangles, std::size_t first,
                                       std::size_t count, std::uint32_t* buffer);
 
@@ -45,27 +46,27 @@ inline const std::uint32_t* readTriangles(const MeshView& mesh, const TriangleLi
     return readCutTriangles(mesh, triangles, first, count, buffer);
 }
 
-// Welding: vertices with equal position, normal and UV become one node. A NaN equals its own bits, so that a file may
-// store such a vertex once or twice.
+// Welded vertices: vertices with equal position, normal and UV become one node. A NaN equals its own bits, so that a
+// file may store such a vertex once or twice.
 
-/// Nodes are numbered by their first vertices, ascending. An unused vertex also has a node, which may then have no
-/// corners.
+/// Nodes of a mesh, numbered by their first vertices, ascending. An unused vertex also has a node, which may then have
+/// no corners.
 struct Nodes {
     std::size_t count = 0;
     /// true: no corner has a NaN, an infinity or a huge position.
     bool all_finite = true;
-    /// true: some nodes mix -0 and +0: the node's data are then those of vertex(node), not of any of its vertices.
+    /// true: some nodes mix -0 and +0; the data of such a node are those of vertex(node), not those of an arbitrary
+    /// vertex.
     bool mixed = false;
     Buffer<std::uint32_t> of_vertex;  ///< node of each vertex; empty: no two vertices are equal, node == vertex
-    /// One per node: the vertex that provides its data. Available if `mixed`, and after listVertices; empty: node ==
-    /// vertex.
+    /// Vertex that provides the data of each node. Available if `mixed`, and after listVertices; empty: node == vertex.
     Buffer<std::uint32_t> vertices;
 
     [[nodiscard]] std::uint32_t ofVertex(std::uint32_t vertex) const {
         return of_vertex.empty() ? vertex : of_vertex[vertex];
     }
-    /// Returns the nodes of some vertices: `some` if each vertex is its own node, otherwise writes to `to` and returns
-    /// it.
+    /// Returns the nodes of some vertices: `some` itself if each vertex is its own node; otherwise writes the nodes to
+    /// `to` and returns it.
     const std::uint32_t* ofVertices(const std::uint32_t* some, std::size_t some_count, std::uint32_t* to) const {
         for (std::size_t i = 0; !of_vertex.empty() && i < some_count; ++i) to[i] = of_vertex[some[i]];
         return of_vertex.empty() ? some : to;
@@ -88,20 +89,20 @@ struct WeldedMesh {
     [[nodiscard]] std::uint32_t nodeAt(std::size_t half_edge) const { return nodes.ofVertex(vertexAt(half_edge)); }
 };
 
-// Multithreaded collection of the triangles that have a marked vertex or node.
+// Collection of the triangles that have a marked vertex or node, on several threads.
 
-inline constexpr std::size_t kCollectBlock = 64;                 ///< triangles, one bit each
-inline constexpr std::size_t kBlockCorners = 3 * kCollectBlock;  ///< corners of the mesh per block
+inline constexpr std::size_t kCollectBlock = 64;                 ///< triangles per block, one bit each
+inline constexpr std::size_t kBlockCorners = 3 * kCollectBlock;  ///< corners of the mesh in a block
 
-/// Returns 0, 1, 2, ...
+/// Returns the numbers 0, 1, 2, ... below `count`.
 inline Buffer<std::uint32_t> numbersBelow(std::size_t count, const Allocator* allocator) {
     Buffer<std::uint32_t> numbers(allocator, count);
     for (std::size_t i = 0; i < count; ++i) numbers[i] = static_cast<std::uint32_t>(i);
     return numbers;
 }
 
-/// Marks of vertices or nodes, one byte each: they are read in random order, where extracting a bit costs more than the
-/// memory.
+/// Marks of vertices or nodes, one byte each: they are read in random order, where extracting a bit would cost more
+/// than the additional memory.
 using Marks = Buffer<std::uint8_t>;
 inline Marks noMarks(const Allocator* allocator, std::size_t count) { return Marks(allocator, count, std::uint8_t{0}); }
 
@@ -128,7 +129,8 @@ Buffer<std::uint32_t> collectTriangles(const MeshView& mesh, const TriangleList&
     const std::size_t block_count = (triangles.count + kCollectBlock - 1) / kCollectBlock;
     if (block_count == 0) return {};
     Buffer<std::uint64_t> passed(allocator, block_count);
-    Buffer<std::uint32_t> ends(allocator, block_count);  // first counts, then the end of each block's triangles
+    // for each block, first the number of its triangles, then the end of its triangles
+    Buffer<std::uint32_t> ends(allocator, block_count);
     parallel.forRanges(block_count, kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t block = begin; block < end; ++block) {
             passed[block] = bitsOf(block);

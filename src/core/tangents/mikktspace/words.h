@@ -25,27 +25,27 @@
 namespace tspace::mikk {
 
 inline constexpr std::uint32_t kNone = 0xffffffffu;
-/// Flag bit that is unused in numbers of half-edges, corners and groups (table in plan.cpp).
+/// Flag bit, which numbers of half-edges, corners and groups do not use. plan.cpp has a table of its meanings.
 inline constexpr std::uint32_t kTopBit = 0x80000000u;
 inline constexpr std::uint32_t kValue = 0x7fffffffu;
-/// Maximum number of half-edges of a mesh: they share 32 bits with kTopBit.
+/// Maximum number of half-edges of a mesh, which share 32 bits with kTopBit.
 inline constexpr std::uint64_t kMaxHalfEdges = kValue;
 
 struct Copy {
-    std::uint32_t to = 0, from = 0;  ///< corners of the mesh
+    std::uint32_t to = 0, from = 0;  ///< corners of the mesh: `to` gets the result of `from`
 };
 
 /// Returns the number of triangles after triangulation.
 std::uint64_t countTriangles(const MeshView& mesh, Ngons ngons);
 
-// Growable list on the caller's allocator. For the calling thread only, like every Buffer.
+// List that grows, allocated by the caller's allocator. For the calling thread only, like every Buffer.
 
 template <class T>
 class Growing {
   public:
     explicit Growing(const Allocator* allocator) : allocator_(allocator) {}
 
-    /// `capacity` must not be less than size().
+    /// Reserves memory. `capacity` must not be less than size().
     [[gnu::noinline]] void reserve(std::size_t capacity) {
         Buffer<T> larger(allocator_, capacity);
         std::copy_n(buffer_.data(), count_, larger.data());
@@ -73,7 +73,7 @@ class Growing {
     /// Removes the last `count` elements.
     void drop(std::size_t count) { count_ -= count; }
 
-    /// Returns the elements in a Buffer of exactly their size.
+    /// Returns a copy of the elements, as a Buffer of exactly their size.
     [[nodiscard, gnu::noinline]] Buffer<T> exact() const {
         Buffer<T> result(allocator_, count_);
         std::copy_n(buffer_.data(), count_, result.data());
