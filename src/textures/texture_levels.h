@@ -17,22 +17,22 @@
 
 namespace tspace {
 
-/// A mip level as encoded bytes, and as decoded vectors.
+/// Mip level, as encoded bytes and as decoded vectors.
 struct PackedLevel {
     std::vector<std::uint8_t> bytes = {};
     std::vector<Vec3> texels = {};
 };
 
-/// Returns nothing if the library astcenc fails.
+/// Encodes a level. Returns nothing if the library astcenc fails.
 std::optional<PackedLevel> packLevel(const NormalLevel& level, const CompressMapFileOptions& options,
                                      Parallel& parallel);
 
 TexelKind textureKind(const CompressMapFileOptions& options);
 
-/// Returns the DDS file of a texture, with this header.
+/// Returns the DDS file of a texture, with the given type of header.
 std::vector<std::uint8_t> ddsFileOf(const Texture& texture, DdsHeader header);
 
-/// Returns why no texture is possible with these options, or nothing.
+/// Returns an error if a texture is not possible with these options; otherwise nothing.
 std::optional<Error> textureFault(const CompressMapFileOptions& options, bool is_dds);
 
 /// Records the size and bit depth of the image. A two-channel image is converted to vectors, with a warning that names
@@ -41,7 +41,8 @@ void beginReport(FloatImage& image, CompressMapFileReport& report);
 
 struct MapLevels {
     std::vector<NormalLevel> levels = {};  ///< with spreads if there is a roughness texture
-    NormalLevel truth = {};  ///< the first level before vectors were projected onto the horizon; empty if none were
+    /// the first level before vectors were projected onto the horizon; empty if none were projected
+    NormalLevel truth = {};
 };
 
 /// Computes all levels, or only the first if no others are needed. `has_three`: three channels are written, which can
@@ -55,8 +56,8 @@ void keepError(const FilteredError& error, CompressMapFileReport& report);
 std::optional<Texture> packLevels(const MapLevels& map, const CompressMapFileOptions& options, Parallel& parallel,
                                   CompressMapFileReport& report);
 
-/// Computes the levels of the roughness texture `first`, all or only the first according to the options. The result of
-/// whyGridsDiffer must be empty.
+/// Computes the levels of the roughness texture `first`: all levels, or only the first, according to the options.
+/// Requires that whyGridsDiffer returns an empty string.
 std::vector<RoughnessLevel> makeRoughness(const RoughnessLevel& first, const CompressMapFileOptions& options,
                                           const MapLevels& map, Parallel& parallel, CompressMapFileReport& report);
 /// Returns the texture in R8G8B8A8.

@@ -23,7 +23,7 @@ float effortOf(AstcEffort effort) {
                                         : ASTCENC_PRE_MEDIUM;
 }
 
-/// Decodes the blocks with the library.
+/// Decodes ASTC blocks of two channels with the image library.
 bool decodeTwoChannels(std::uint32_t width, std::uint32_t height, ByteSpan blocks, std::span<Vec2> texels) {
     TextureFile texture{.size = {width, height}, .format = texelFormat(TexelKind::astc)};
     std::vector<std::uint8_t> decoded(sizeof(Rgba) * texels.size());
@@ -68,8 +68,8 @@ std::optional<std::vector<std::uint8_t>> packAstc(std::uint32_t width, std::uint
     const std::size_t across = (width + kSide - 1) / kSide, down = (height + kSide - 1) / kSide;
     std::vector<std::uint8_t> blocks(kBlockBytes * across * down);
     std::atomic<bool> is_done{true};
-    // The library distributes the blocks over the tasks; a late task finds none, so the tasks need not run
-    // concurrently.
+    // The library distributes the blocks over the tasks. A task that starts late finds no blocks, so the tasks need not
+    // run concurrently.
     parallel.forTasks(tasks, [&](std::size_t task) {
         if (astc().compress(context.get(), &image, &swizzle, blocks.data(), blocks.size(),
                             static_cast<unsigned>(task)) != ASTCENC_SUCCESS)

@@ -15,11 +15,11 @@ namespace tspace {
 
 namespace {
 
-/// Properties of a format in the containers: Vulkan format number, Direct3D format number (DXGI), and color model of
-/// the Khronos Data Format.
+/// Properties of a format in KTX2 and DDS: Vulkan format number, Direct3D format number (DXGI), and color model of the
+/// Khronos Data Format.
 struct WrittenFormat {
     TexelKind kind;
-    std::uint32_t vulkan, dxgi;  ///< 0: not available
+    std::uint32_t vulkan, dxgi;  ///< format numbers; 0: the container does not support the format
     std::uint8_t model, samples, sample_bits;
 };
 constexpr std::uint8_t kPlainModel = 1, kBc5Model = 132, kEtc2Model = 161, kAstcModel = 162;
@@ -55,7 +55,7 @@ class TextureBytes {
     }
 };
 
-/// Returns the data format descriptor: color model, linear, and a sample per channel.
+/// Returns the Khronos data format descriptor: color model, linear transfer, and one sample per channel.
 std::vector<std::uint8_t> descriptionOf(const WrittenFormat& format) {
     constexpr std::uint32_t kUnknownPrimaries = 0, kLinear = 1, kSigned = 0x40, kAlpha = 15, kVersion = 2;
     const TexelFormat texels = texelFormat(format.kind);
@@ -118,7 +118,8 @@ const char* whyNotDds(TexelKind kind) {
 
 namespace {
 
-/// Adds the Direct3D 9 pixel format, 32 bytes: a FourCC for blocks, otherwise masks. V8U8 has masks of signed numbers.
+/// Adds the Direct3D 9 pixel format, 32 bytes: a FourCC for blocks, otherwise masks. For the signed format V8U8, these
+/// are masks of signed numbers.
 void addOldFormat(const TexelFormat& format, const char* four_cc, TextureBytes& out) {
     constexpr std::uint32_t kAlpha = 1, kHasCode = 4, kColors = 0x40, kSigned = 0x80000;
     out.add32(32);
@@ -185,7 +186,7 @@ std::optional<std::vector<std::uint8_t>> writeKtx2(const Texture& texture, int z
         packed.push_back(*std::move(level));
     }
     const std::vector<std::vector<std::uint8_t>>& stored = packed.empty() ? texture.levels : packed;
-    // Supercompressed levels need no alignment.
+    // Supercompressed levels are not aligned.
     const std::size_t aligned =
         packed.empty() ? std::lcm(std::size_t{texelFormat(texture.kind).block_bytes}, std::size_t{4}) : 1;
     const auto levels = static_cast<std::uint32_t>(texture.levels.size());
@@ -200,7 +201,7 @@ std::optional<std::vector<std::uint8_t>> writeKtx2(const Texture& texture, int z
         out.add32(number);
     out.add64(0);
     out.add64(0);
-    // The smallest level comes first.
+    // The smallest level is stored first.
     std::vector<std::uint64_t> begins(levels);
     std::uint64_t at = values_at + values.size();
     for (std::size_t i = levels; i-- > 0;) {

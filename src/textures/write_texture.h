@@ -15,24 +15,25 @@
 
 namespace tspace {
 
-/// Levels, largest first: each half as wide and high as the previous one, rounded down, but at least 1.
+/// Texture with its levels, largest first: each is half as wide and high as the previous one, rounded down, but at
+/// least 1.
 struct Texture {
     std::uint32_t width = 0, height = 0;
-    TexelKind kind = TexelKind::bc5;  ///< rg8, rgba8, bc5, eacRg and their signed variants; astc with 4 x 4 texels
+    TexelKind kind = TexelKind::bc5;  ///< rg8, rgba8, bc5, eacRg or their signed variants; or astc with 4 x 4 texels
     std::vector<std::vector<std::uint8_t>> levels = {};
 };
 
-/// Returns why DDS does not support the format, as half a sentence, or null if it does.
+/// Returns the reason why DDS does not support the format, as a sentence fragment; null if it does.
 const char* whyNotDds(TexelKind kind);
-/// Direct3D 9 header as an alternative to that of Direct3D 10. `four_cc`: FourCC of signed or unsigned BC5; texels are
-/// described by masks.
+/// Parameters of a Direct3D 9 header, as an alternative to the Direct3D 10 header. `four_cc`: FourCC of signed or
+/// unsigned BC5; texels of other formats are described by masks.
 struct OldDdsHeader {
     const char* four_cc = "ATI2";
 };
 /// Writes a DDS with a Direct3D 10 header, or with `old`. Requires whyNotDds(texture.kind) == nullptr.
 std::vector<std::uint8_t> writeDds(const Texture& texture, const OldDdsHeader* old = nullptr);
 
-/// Returns why this build cannot compress levels with Zstandard, as a sentence, or null if it can.
+/// Returns the reason why this build cannot compress levels with Zstandard, as a sentence; null if it can.
 const char* whyNotZstd();
 /// Writes a linear KTX2 with rows from the top. `zstd_level`: from 1 (fast) to 22 (small), applied to each level
 /// separately; 0: uncompressed. Returns nullopt if memory runs out.
@@ -40,7 +41,7 @@ std::optional<std::vector<std::uint8_t>> writeKtx2(const Texture& texture, int z
 
 enum class AstcEffort : std::uint8_t { quick, fast, best };
 
-/// Returns why ASTC cannot be written, as a sentence, or null if it can.
+/// Returns the reason why ASTC cannot be written, as a sentence; null if it can.
 const char* whyNoAstcWritten();
 /// Encodes x (in red, green and blue) and y (in alpha) as ASTC blocks of 4 x 4 texels, row by row. Replaces `texels`
 /// (-1 to 1) by the decoded values. Returns nullopt if the library fails. The result does not depend on the number of

@@ -12,16 +12,16 @@
 
 namespace tspace {
 
-/// Sequence of points in the unit square for one texel. Of its first 2^k points, each cell of 2^-i x 2^-(k - i)
-/// contains exactly one. Texels of one block use consecutive parts of one sequence, so that the points of a block, and
-/// of each quarter of it, are as evenly distributed as those of a single texel: a filter averages the errors out.
-/// Also based on: Ahmed & Wonka, "Screen-space blue-noise diffusion of Monte Carlo sampling error via hierarchical
-/// ordering of pixels", 2020.
+/// Sequence of points in the unit square for one texel. Each cell of 2^-i x 2^-(k - i) contains exactly one of its
+/// first 2^k points. Texels of one block use consecutive parts of one sequence, so that the points of a block, and of
+/// each quarter of it, are as evenly distributed as those of a single texel: a filter averages the errors out. Also
+/// based on: Ahmed & Wonka, "Screen-space blue-noise diffusion of Monte Carlo sampling error via hierarchical ordering
+/// of pixels", 2020.
 class ScrambledSobol {
   public:
-    static constexpr int kBlockLevels = 2;  // 4 x 4 texels
+    static constexpr int kBlockLevels = 2;  // log2 of the side of a block: 4 x 4 texels
 
-    /// `count`: number of points used for the texel at column x and row y, 1 to 2^16.
+    /// Selects the points of the texel at column x and row y. `count`: number of points that are used, 1 to 2^16.
     ScrambledSobol(std::uint32_t count, std::uint32_t x, std::uint32_t y) {
         const std::uint64_t seed = mixBits(std::uint64_t{y >> kBlockLevels} << 32 | x >> kBlockLevels);
         std::uint32_t place = 1;
@@ -49,8 +49,8 @@ class ScrambledSobol {
     }
 
   private:
-    /// Owen scrambling: flips each bit depending on the seed and on the higher bits, which swaps halves recursively.
-    /// The bits below those that distinguish points are a constant derived from the seed.
+    /// Scrambles bits by Owen's method: flips each bit depending on the seed and on the higher bits, which swaps halves
+    /// recursively. The bits below those that distinguish points are a constant derived from the seed.
     [[nodiscard]] double scrambled(std::uint32_t bits, std::uint64_t seed) const {
         std::uint64_t above = 1, result = 0;
         for (int level = 0; level < depth_; ++level) {

@@ -11,12 +11,12 @@
 namespace tspace {
 
 enum class TexelState : std::uint8_t {
-    empty,    ///< no triangle nearby
-    missing,  ///< covered by a triangle, but the ray hit nothing
+    empty,    ///< no triangle is near the texel
+    missing,  ///< a triangle covers the texel, but the ray hit nothing
     known
 };
 
-/// How missing texels are computed from their neighbors.
+/// Rule by which missing texels are computed from their neighbors.
 enum class Filling {
     mean,  ///< mean of the known neighbors
     copy   ///< copy of one known neighbor, for values that must not be mixed

@@ -22,13 +22,13 @@ namespace {
 
 constexpr std::uint32_t kMostSide = 16384;
 constexpr std::uint32_t kMostPadding = 256;
-/// Number of texels around a triangle that the bilinear filter reads for points inside it.
+/// Distance, in texels, within which the bilinear filter reads texels around a triangle for points inside it.
 constexpr std::uint32_t kFilterTexels = 2;
 
 class Baking {
   public:
     /// `layers`: layers to bake in addition to the normal map. `shared`: null, or receives the ray structure of the
-    /// high poly. If it is set, a map without any hit is empty; otherwise that is an error.
+    /// high poly. If it is null, a map without any hit is an error; otherwise the map is empty.
     Baking(const LowPoly& low, const HighPoly& high, const BakeOptions& options, const LayerOptions& layers,
            const Execution& execution, const Progress& progress, SharedRays* shared)
         : low_(low),
@@ -111,7 +111,7 @@ class Baking {
         if (work_.progress) work_.progress(what, done, total);
     }
 
-    /// Consumes the triangles: their memory is freed before the system is allocated.
+    /// Solves the texels. Releases the memory of `triangles` before the system is allocated.
     void solve(const MapSurfaces& surfaces, TexelTriangles& triangles) {
         const bool has_integers = options_.bits == 8;
         const CellSampling sampling = samplingOf(options_);
@@ -121,7 +121,7 @@ class Baking {
         tell("rounding");
         if (has_integers) return;
         const std::span<Vec3> texels(traced_.wanted.data(), traced_.wanted.size());
-        // Background texels are skipped here; writing rounds them.
+        // Background texels are skipped here, and rounded when the map is written.
         Buffer<bool> background(allocator_, texels.size(), false);
         for (std::size_t i = 0; i < texels.size(); ++i) background[i] = traced_.origins[i] == TexelOrigin::background;
         TellStep tell_row;
@@ -132,7 +132,7 @@ class Baking {
         if (options_.reading.two_channels) completeThirds(texels);
     }
 
-    /// Recomputes z from x and y, which may have become too long for a unit vector.
+    /// Recomputes z from x and y, which may be too long for a unit vector.
     void completeThirds(std::span<Vec3> texels) {
         for (Vec3& texel : texels) {
             const float flat = texel.x * texel.x + texel.y * texel.y;
@@ -244,13 +244,13 @@ Error checkBakeOptions(const BakeOptions& options, std::size_t low_triangles, st
 }
 
 std::uint64_t bakeBytes(std::uint64_t low_triangles, std::uint64_t high_triangles, const BakeOptions& options) {
-    // Texel triangles, vectors with votes, and the result; then the strip with its system and the memory for solving
-    // it.
+    // Bytes per texel: texel triangles, target vectors with votes, and the result; then the strip with its system and
+    // the memory for solving it.
     constexpr std::uint64_t kPlain = 26 + 16 + 13, kStrip = sizeof(TexelRow) + 60 + 24, kHeat = 6;
     const std::uint64_t texel = kPlain + (options.heat ? kHeat : 0);
     const std::uint64_t strip_rows = std::min(options.height, kStripRows + 2 * (kRowsAround + 1));
     const std::uint64_t strip = options.fit == MapFit::solve ? kStrip * options.width * strip_rows : 0;
-    // Ray directions, bounding boxes of Embree, and measured points.
+    // Bytes per triangle for ray directions and the bounding boxes of Embree, and bytes for measured points.
     constexpr std::uint64_t kLow = 120 + 400, kHigh = 200, kPoints = 100000 * 64;
     return texel * options.width * options.height + strip + kLow * low_triangles + kHigh * high_triangles + kPoints;
 }

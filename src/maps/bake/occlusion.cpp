@@ -8,7 +8,7 @@ namespace tspace {
 
 namespace {
 
-/// Offset of ray origins from the surface, relative to the size of the high poly: avoids hits on the triangle itself
+/// Offset of ray origins from the surface, relative to the size of the high poly. It avoids hits on the triangle itself
 /// and on adjacent ones.
 constexpr double kBegin = 1e-6;
 

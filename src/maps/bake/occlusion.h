@@ -19,9 +19,9 @@ struct Occlusion {
     double solid = 0;      ///< part of the inward rays that hit something
 };
 
-/// Computes occlusion with directions about the shading normal, distributed by the cosine. Directions below the plane
-/// of the hit triangle are ignored, so that a coarse, smoothly shaded sphere does not occlude itself. Triangles occlude
-/// from both sides, in every group. `x`, `y`: texel position, which selects the sample directions.
+/// Computes occlusion with directions about the shading normal, with a density proportional to the cosine. Directions
+/// below the plane of the hit triangle are ignored, so that a coarse, smoothly shaded sphere does not occlude itself.
+/// Triangles occlude from both sides, in every group. `x`, `y`: texel position, which selects the sample directions.
 Occlusion occlusionAt(const MapSurfaces& surfaces, const SurfaceHit& hit, const OcclusionOptions& options,
                       std::uint32_t x, std::uint32_t y);
 

@@ -14,12 +14,12 @@ namespace {
 
 constexpr unsigned kIntegerRounds = 3;
 /// Number of solved rows above a strip that stay fixed. Only one of them influences the strip; with two, strips begin
-/// at even rows, and integers are chosen in the order of a whole map: every second row, then the others.
+/// at even rows, so that integers are chosen in the same order as for a whole map: every second row, then the others.
 constexpr std::uint32_t kRowsStay = 2;
 
-/// Rows of the map that are solved, and rows of their system (`window`). The window also contains kRowsAround rows
-/// below, which are solved and discarded, and one fixed row after them. Rows above are fixed; above the first strip
-/// they are treated like the rows below.
+/// Strip: rows of the map that are solved, and the rows of their system (`window`). The window also contains
+/// kRowsAround rows below the strip, which are solved and discarded, and one fixed row after them. Rows above the strip
+/// are fixed; above the first strip they are treated like the rows below.
 struct Strip {
     std::uint32_t first = 0, end = 0;
     TexelWindow window = {};
@@ -129,8 +129,10 @@ class Solving {
     LowUvs uvs_;
     SampleBands bands_;
     PointsBetween points_;
-    Buffer<Vec3> texels_;                                 ///< initial texels; in solved rows, the result
-    std::vector<Vec3> first_row_ = {}, rows_above_ = {};  ///< rows of the initial texels
+    /// initial texels; after a strip is solved, its rows contain the result
+    Buffer<Vec3> texels_;
+    /// rows of the initial texels: the first row of the map, and the rows above the strip
+    std::vector<Vec3> first_row_ = {}, rows_above_ = {};
     ToldSteps steps_ = {};
 };
 

@@ -8,13 +8,13 @@
 
 namespace tspace {
 
-/// Number of rows of a strip (even), and number of rows on each side that are solved with it.
+/// Number of rows of a strip (even), and number of rows on each side that are solved together with it.
 inline constexpr std::uint32_t kStripRows = 512, kRowsAround = 8;
 
-/// Sets traced.wanted to the texels whose filtered map is closest to the ray samples: vectors that integers represent
-/// for 8 bits, otherwise vectors that are not rounded yet. On input traced.wanted holds the vectors wanted at texel
-/// centers, nonzero wherever a filter reads. Memory: 14 bytes per texel, and 216 bytes per texel of a strip and the
-/// rows around it.
+/// Sets traced.wanted to the texels whose filtered map is closest to the ray samples: for 8 bits, vectors that integers
+/// represent; otherwise vectors that are not rounded yet. On input, traced.wanted contains the target vectors at texel
+/// centers, which must be nonzero wherever a filter reads. Memory: 14 bytes per texel, and 216 bytes per texel of a
+/// strip and the rows around it.
 void solveInStrips(const MapSurfaces& surfaces, const TexelPlan& plan, std::uint32_t points, const BakeOptions& options,
                    const MapWork& work, TracedTexels& traced, std::uint32_t strip_rows = kStripRows);
 

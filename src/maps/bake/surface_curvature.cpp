@@ -44,14 +44,14 @@ class Curvature {
   private:
     struct Triangle {
         std::array<std::uint32_t, 3> vertices = {};
-        std::array<DVec3, 3> edges = {};  ///< from corner i to the following corner
-        DVec3 normal = {};                ///< unit
+        std::array<DVec3, 3> edges = {};  ///< edge from each corner to the next corner
+        DVec3 normal = {};                ///< unit normal
         double area = 0;
     };
 
     [[nodiscard]] std::uint32_t rootOf(std::uint32_t vertex) const { return roots_.empty() ? vertex : roots_[vertex]; }
 
-    /// Describes a triangle. Returns false if the triangle has no area.
+    /// Describes triangle `number`. Returns false if it has no area.
     bool describe(std::size_t number, Triangle& triangle) const {
         std::array<DVec3, 3> at{};
         for (std::size_t i = 0; i < 3; ++i) {

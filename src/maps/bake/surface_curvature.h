@@ -10,7 +10,7 @@ namespace tspace {
 
 /// Returns the mean curvature of each vertex, in 1 / length: 1 / r for a sphere of radius r, and 0 if all its triangles
 /// are degenerate. Uses the normals of the mesh, or triangle normals if it has none, averaged per position with angle
-/// weights: at a hard edge the surface then bends within the triangles on both sides. Linear time, except for the
+/// weights, so that at a hard edge the surface bends within the triangles on both sides. Linear time, except for the
 /// search for equal positions. weld_distance: distance up to which positions are welded (NormalOptions::weld_distance).
 Buffer<float> vertexCurvature(const HighPoly& mesh, float weld_distance, Parallel& parallel,
                               const Allocator* allocator);

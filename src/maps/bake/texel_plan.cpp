@@ -57,16 +57,16 @@ class Planning {
     }
 
   private:
-    /// The 4 x 4 texels around a texel, from one left of and above it to two right of and below it, with the wrap mode
-    /// applied.
+    /// The 4 x 4 texels around a texel, from one column left of it and one row above it to two columns right and two
+    /// rows below, with the wrap mode applied.
     struct Around {
         std::array<std::size_t, 4> columns = {}, rows = {};
-        /// true: the texel is at the edge of an image that does not repeat, where neighbors are missing.
+        /// true: the texel is at the edge of an image that does not repeat, so some of its neighbors do not exist.
         bool is_at_edge = false;
 
         [[nodiscard]] std::size_t at(std::size_t x, std::size_t y) const { return rows[y] + columns[x]; }
         [[nodiscard]] std::size_t own() const { return at(1, 1); }
-        /// The four texels of the cell whose upper left corner is this texel.
+        /// Returns the four texels of the cell whose upper left corner is this texel.
         [[nodiscard]] std::array<std::size_t, 4> corners() const { return {at(1, 1), at(2, 1), at(1, 2), at(2, 2)}; }
         /// Returns the cells that have the texel as a corner.
         [[nodiscard]] std::array<std::size_t, 4> cells() const { return {at(0, 0), at(1, 0), at(0, 1), at(1, 1)}; }
@@ -100,8 +100,8 @@ class Planning {
         return triangles_.kinds[texel] == TexelCoverage::inside || triangles_.is_read[texel];
     }
 
-    /// Bit 0: the row of four texels that starts at the left neighbor is nearly a parabola. Bit 1: the same for the
-    /// column that starts at the upper neighbor.
+    /// Returns two flags. Bit 0: the row of four texels that starts at the left neighbor is nearly a parabola. Bit 1:
+    /// the column that starts at the upper neighbor is.
     [[nodiscard]] std::uint8_t straightAt(const Around& around) const {
         const auto isNear = [&](const std::array<std::size_t, 4>& four) {
             for (const std::size_t texel : four) {
@@ -137,8 +137,8 @@ class Planning {
 CellSampling samplingOf(const BakeOptions& options) {
     constexpr std::uint64_t kLarge = std::uint64_t{1} << 20;
     const bool is_large = std::uint64_t{options.width} * options.height > kLarge;
-    // At 1/4 and 3/4 of a texel, the two sample points of large maps, a chord deviates from a parabola by half of its
-    // maximum deviation.
+    // Large maps have two sample points per texel and axis, at 1/4 and 3/4 of a texel. There a chord deviates from a
+    // parabola by half of its maximum deviation.
     if (options.bits == 8) return {.tolerance = 2e-3F, .points = is_large ? 2U : 3U};
     if (is_large) return {.tolerance = 6e-4F, .points = 2};
     return {};

@@ -14,9 +14,9 @@ namespace tspace {
 /// Square between the centers of four texels, identified by its upper left texel.
 enum class TexelCell : std::uint8_t {
     outside,  ///< contains no part of a triangle
-    smooth,   ///< targets between the centers follow from those at the centers
-    asked,    ///< smooth, but also sampled by rays because an adjacent cell is rough
-    rough     ///< rays determine the targets
+    smooth,   ///< targets between the centers follow from the targets at the centers
+    asked,    ///< smooth, but sampled by rays because an adjacent cell is rough
+    rough     ///< rays determine the targets between the centers
 };
 
 struct TexelPlan {
@@ -25,8 +25,8 @@ struct TexelPlan {
     Buffer<TexelRole> roles = {};
 };
 
-/// Rows of an image whose system is solved at once: `count` rows, starting at `first` and wrapping around after the
-/// last row.
+/// Rows of an image whose system is solved at once: `count` rows from `first` on, where the first row of the image
+/// follows the last.
 struct TexelWindow {
     std::uint32_t first = 0, count = 0, height = 0;
 
@@ -39,20 +39,20 @@ struct TexelWindow {
     [[nodiscard]] bool isWhole() const { return count == height; }
 };
 
-/// Density of samples between texel centers.
+/// Density of the samples between texel centers.
 struct CellSampling {
     /// Maximum deviation from a parabola of the vectors of four texels in a row, in radians, for a cell to be smooth. A
     /// crease between two texels then causes an error of at most a quarter of this value.
     float tolerance = 2e-5F;
-    std::uint32_t points = 3;  ///< number of points per texel and axis, in cells that are not smooth
+    std::uint32_t points = 3;  ///< number of points per texel and axis in cells that are not smooth
 };
 
-/// Returns the number of rays per cell. For 16 bits: as many as the precision of the texels justifies; fewer in maps of
-/// more than 1024 x 1024 texels, whose texels are small relative to the detail, and which take most of the time. For 8
-/// bits, whose rounding error is far larger: always fewer.
+/// Returns the density of samples. For 16 bits, it is as high as the precision of the texels justifies, but lower for
+/// maps of more than 1024 x 1024 texels, whose texels are small relative to the detail, and which take most of the
+/// time. For 8 bits, whose rounding error is far larger, it is always lower.
 CellSampling samplingOf(const BakeOptions& options);
 
-/// Length of the wanted vectors of real numbers: below 1, so that no channel of a nearby texel has to exceed 1.
+/// Length of target vectors in real numbers: below 1, so that no channel of a nearby texel has to exceed 1.
 inline constexpr float kWantedLength = 0.98F;
 
 /// Classifies all cells. `all_unknown`: if true, all texels that are read are unknown, and no cell is `asked`;
@@ -61,7 +61,7 @@ inline constexpr float kWantedLength = 0.98F;
 TexelPlan planTexels(const TracedTexels& traced, const TexelTriangles& triangles, float tolerance, bool all_unknown,
                      Parallel& parallel, const Allocator* allocator);
 
-/// Computes texels from the vectors wanted at their centers. Texels in smooth cells become the least-squares solution
+/// Computes texels from the target vectors at their centers. Texels in smooth cells become the least-squares solution
 /// for the filtered map: the chord between texels deviates from a parabola of second difference c by c/12 on average.
 Buffer<Vec3> sharpenedTexels(const TexelPlan& plan, std::span<const Vec3> wanted, Parallel& parallel,
                              const Allocator* allocator);

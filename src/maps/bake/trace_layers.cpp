@@ -59,10 +59,10 @@ struct GridPlace {
     std::uint32_t row = 0, column = 0;
 };
 
-/// The layers of one bake, as what they show until their range is known.
+/// Layers of one bake, with values in their own units until the range of each layer is known.
 struct LayerTracing {
     [[nodiscard]] bool has(MapLayer layer) const { return numbers[static_cast<std::size_t>(layer)] != kNoLayer; }
-    /// The values of a layer that is made.
+    /// Returns the values of a layer that is baked.
     [[nodiscard]] std::vector<float>& valuesOf(MapLayer layer) {
         return made[numbers[static_cast<std::size_t>(layer)]].values;
     }
@@ -89,12 +89,12 @@ struct LayerTracing {
     LowUvs uvs{surfaces.low(), work.allocator};
     std::array<std::size_t, kMapLayerCount> numbers = {};  ///< index of each layer in `made`
     std::vector<BakedLayer> made = {};
-    Buffer<TexelState> met = {};  ///< texel states by the ray of each center
+    Buffer<TexelState> met = {};  ///< state of each texel, by the ray of its center
     bool has_material = false;
     Buffer<std::uint16_t> sample_count = {};
     Buffer<TexelRole> roles = {};
     Buffer<float> curvature = {};
-    Buffer<float> solid = {};  ///< Occlusion::solid of each texel
+    Buffer<float> solid = {};  ///< Occlusion::solid of each texel, the share of inward rays that hit something
 };
 
 // -- 1. backgrounds --
@@ -117,9 +117,9 @@ void prepareLayers(LayerTracing& tracing) {
         tracing.has(MapLayer::color) || tracing.has(MapLayer::orm) || tracing.has(MapLayer::emission);
 }
 
-// -- 2. means --
+// -- 2. means of materials --
 
-/// Calls take(place, hit) for each point of a band whose ray hits something.
+/// Calls take(place, hit) for each point of a band whose ray hits the high poly.
 template <class Take>
 void forHits(const LayerTracing& tracing, const SampleBands& bands, std::size_t band, const Take& take) {
     double guess = 0;
@@ -171,7 +171,7 @@ void traceMeans(LayerTracing& tracing) {
     forTasksTold(tracing.work, bands.bandCount(), "colors", traceBand);
 }
 
-// -- 3. centers --
+// -- 3. texel centers --
 
 Vec3 told(const LayerTracing& tracing, const LowPoint& point, DVec3 direction) {
     if (tracing.options.space == MapSpace::tangent) {
@@ -243,9 +243,10 @@ void traceCenters(LayerTracing& tracing) {
     forTasksTold(tracing.work, (shape.height + kRows - 1) / kRows, "layers", trace);
 }
 
-// -- 4. fit --
+// -- 4. fit of materials --
 
-/// Unknown texels: those that a filter reads inside a triangle and whose center ray hit something.
+/// Returns the role of each texel. Unknown texels are those that a filter reads inside a triangle and whose center ray
+/// hit something.
 const Buffer<TexelRole>& rolesOf(LayerTracing& tracing) {
     if (!tracing.roles.empty()) return tracing.roles;
     tracing.roles = Buffer<TexelRole>(tracing.work.allocator, tracing.met.size(), TexelRole::apart);
@@ -284,7 +285,7 @@ void fitMaterial(LayerTracing& tracing, MapLayer layer) {
             system.add(x.texel, y.texel, x.part, y.part, {kEqual, shown});
         });
     };
-    // Adjacent bands share a row of texels, so they must not run at the same time.
+    // Adjacent bands share a row of texels, so they must not be processed at the same time.
     forApart(bands.bandCount(), [&](std::size_t begin, std::size_t number) {
         forTasksTold(tracing.work, number, "colors", [&](std::size_t i) { traceBand(begin + 2 * i); });
     });
@@ -293,7 +294,7 @@ void fitMaterial(LayerTracing& tracing, MapLayer layer) {
 
 // -- 5. ranges and missing texels --
 
-/// Returns the states of a layer's texels; means can include texels whose center ray hit nothing.
+/// Returns the states of a layer's texels. Texels that have a mean are known even if their center ray hit nothing.
 std::vector<TexelState> statesOf(const LayerTracing& tracing, const BakedLayer& layer) {
     std::vector<TexelState> states(tracing.met.begin(), tracing.met.end());
     for (std::size_t i = 0; i < states.size(); ++i) {
@@ -302,7 +303,7 @@ std::vector<TexelState> statesOf(const LayerTracing& tracing, const BakedLayer& 
     return states;
 }
 
-/// Maps the values from [0, range], or [-range, range] if signed, to [0, 1].
+/// Maps the values of a layer from [0, range], or [-range, range] if `is_signed`, to [0, 1].
 void spread(BakedLayer& layer, const std::vector<TexelState>& states, double range, bool is_signed) {
     const double least = is_signed ? -range : 0;
     layer.least = {least, least, least};
@@ -336,8 +337,8 @@ double usual(const BakedLayer& layer, const std::vector<TexelState>& states) {
     return *at > 0 ? *at : *std::max_element(sizes.begin(), sizes.end());
 }
 
-/// Assigns the full range as depth to rays that hit nothing. The default range is derived from the points where
-/// most rays hit something.
+/// Sets the depth of rays that hit nothing to the full range. The default range is derived from the points where most
+/// rays hit something.
 void completeThickness(const LayerTracing& tracing, BakedLayer& layer, const std::vector<TexelState>& states) {
     double range = tracing.layers.thickness_range;
     for (std::size_t i = 0; tracing.layers.thickness_range == 0 && i < states.size(); ++i) {
@@ -348,7 +349,7 @@ void completeThickness(const LayerTracing& tracing, BakedLayer& layer, const std
     for (std::size_t i = 0; i < states.size(); ++i)
         layer.values[i] = tracing.solid[i] * layer.values[i] + (1 - tracing.solid[i]) * deepest;
     spread(layer, states, range, false);
-    // A range of zero means that there is no solid part at all.
+    // A range of zero means that the high poly has no solid part.
     for (std::size_t i = 0; range == 0 && i < states.size(); ++i) {
         if (states[i] == TexelState::known) layer.values[i] = 1;
     }
@@ -374,7 +375,7 @@ void clampAll(BakedLayer& layer) {
     for (float& value : layer.values) value = value > 0 ? std::min(value, 1.0F) : 0.0F;
 }
 
-/// Encodes vectors like texels of a normal map, with all channels that a reader might use.
+/// Encodes vectors like texels of a normal map, with all three channels.
 void encode(const LayerTracing& tracing, BakedLayer& layer) {
     layer.least = {-1, -1, -1};
     MapReading reading = tracing.options.reading;
@@ -451,8 +452,8 @@ const char* layerName(MapLayer layer) {
 }
 
 Vec3 idColor(std::uint32_t id) {
-    // Distributes the bits of the number over the channels: the three lowest bits become the highest bits of the
-    // channels, and so on.
+    // Distributes the bits of the number over the channels: its three lowest bits become the highest bits of the
+    // channels, the next three bits the second highest, and so on.
     std::uint32_t number = (id + 1) & 0xffffff;
     std::array<std::uint32_t, 3> bytes{};
     for (int bit = 7; bit >= 0 && number != 0; --bit) {
@@ -496,14 +497,14 @@ Error checkLayers(const LayerOptions& layers, const BakeOptions& options, std::s
 }
 
 std::uint64_t layerBytes(std::uint64_t high_triangles, const BakeOptions& options, const LayerOptions& layers) {
-    // Values; states and sample counts; filling of one layer and its range; the system of one layer.
+    // Bytes per texel: values; states and sample counts; filling of one layer and its range; the system of one layer.
     std::uint64_t texel = layers.layers.empty() ? 0 : 1 + 2 + 12 + 4;
     const bool has_material = std::any_of(layers.layers.begin(), layers.layers.end(), isMaterial);
     if (has_material && options.fit == MapFit::solve) texel += sizeof(TexelRow) + 36 + sizeof(Vec3);
     for (const MapLayer layer : layers.layers) texel += sizeof(float) * channelsOf(layer);
     const bool has_curvature =
         std::find(layers.layers.begin(), layers.layers.end(), MapLayer::curvature) != layers.layers.end();
-    // Bytes per vertex; a triangle may have three vertices of its own.
+    // Bytes per vertex for curvature; a triangle may have three vertices of its own.
     constexpr std::uint64_t kCurvature = 3 * 64;
     return texel * options.width * options.height + (has_curvature ? kCurvature * high_triangles : 0);
 }

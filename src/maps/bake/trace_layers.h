@@ -13,7 +13,7 @@ namespace tspace {
 Error checkLayers(const LayerOptions& layers, const BakeOptions& options, std::size_t low_triangles,
                   std::size_t high_triangles);
 
-/// Meshes and options must be checked. Returns one entry per requested layer.
+/// Traces the layers; returns one entry per requested layer. Requires checked meshes and options.
 std::vector<BakedLayer> traceLayers(const MapSurfaces& surfaces, const TexelTriangles& triangles,
                                     const BakeOptions& options, const LayerOptions& layers, const MapWork& work);
 

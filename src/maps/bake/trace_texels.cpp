@@ -11,7 +11,7 @@ namespace tspace {
 
 namespace {
 
-/// Minimum length of the mean of two unit vectors that agree: the cosine of half of kApartDeg.
+/// Minimum length of the mean of two unit vectors that count as equal: the cosine of half of kApartDeg.
 constexpr float kAgreeing = 0.99985F;
 constexpr double kApartDeg = 2;
 /// Value of TracedTexels::owners for a texel whose center no triangle covers.
@@ -19,12 +19,12 @@ constexpr std::uint32_t kNobody = 0xffffffff;
 /// Weight of a length error relative to a direction error.
 constexpr float kAlong = 0.02F;
 
-/// Computes the vectors wanted at points of triangles.
+/// Computes the target vectors at points of triangles.
 class WantedVectors {
   public:
     WantedVectors(const MapSurfaces& surfaces, const BakeOptions& options) : surfaces_(surfaces), options_(options) {}
 
-    /// Calls take(i, is_hit, wanted) for each point; at most kLinesAtOnce points.
+    /// Calls take(i, is_hit, wanted) for each of at most kLinesAtOnce points, where `wanted` is the target vector.
     template <class Take>
     void at(std::span<const LowPoint> points, const Take& take) {
         std::array<DVec3, kLinesAtOnce> normals;
@@ -55,7 +55,7 @@ class WantedVectors {
 
 FitSample sampleOf(const BakeOptions& options, const Vec3& wanted) {
     if (options.reading.two_channels) return twoChannelSample(wanted);
-    // Integers are chosen with any length. Real numbers need a length term, otherwise the vectors would shrink.
+    // Integers may have any length. Real numbers need a term for the length, otherwise the vectors would shrink.
     return acrossSample(wanted, options.bits == 8 ? 0.0F : kAlong, kWantedLength);
 }
 
@@ -129,7 +129,7 @@ class Tracing {
         decideVotes();
     }
 
-    /// Returns whether a triangle contributes to a texel.
+    /// Returns whether a triangle contributes to a texel, by the rank of its UV island.
     [[nodiscard]] bool counts(std::size_t texel, std::uint32_t triangle) const {
         return traced_.ranks.size() == 0 || traced_.owners[texel] == traced_.ranks[triangle];
     }
@@ -162,7 +162,7 @@ class Tracing {
         traced_.conflict_max_deg = std::max(traced_.conflict_max_deg, degrees);
     }
 
-    /// Returns the angle in degrees between two unit vectors whose mean has the given length.
+    /// Returns the angle in degrees between two unit vectors, given the length of their mean.
     static double anglePairOf(float mean_length) {
         const double cosine = std::min(1.0, static_cast<double>(mean_length));
         return 2 * polarAngle(cosine, std::sqrt(1 - cosine * cosine)) * (180 / kPi);
@@ -202,7 +202,7 @@ class Tracing {
     TracedTexels& traced_;
     LowUvs uvs_;
     Buffer<std::uint16_t> votes_ = {};
-    Buffer<Vec3> others_ = {};  ///< with ranks: sums of the vectors wanted by UV islands that do not own the texel
+    Buffer<Vec3> others_ = {};  ///< with ranks: sums of the target vectors of UV islands that do not own the texel
 };
 
 }  // namespace
@@ -214,8 +214,9 @@ void traceTexels(const MapSurfaces& surfaces, const TexelTriangles& triangles, c
 
 namespace {
 
-/// If samples are at 1/4 and 3/4 between centers, the centers are sampled too, weighted so that the integral of the
-/// square of any linear function over a cell is exact: a corner has an eighth of the weight of such a sample.
+/// Weight of a sample at a texel center, relative to other samples. If samples are at 1/4 and 3/4 between centers, the
+/// centers are sampled too, and weighted so that the integral of the square of any linear function over a cell is
+/// exact: a corner has an eighth of the weight of such a sample.
 constexpr float kCornerOfCell = 0.125F;
 
 void addCenters(const TracedTexels& traced, const TexelPlan& plan, const TexelWindow& window,
@@ -253,7 +254,7 @@ std::vector<std::size_t> bandsOf(const TexelWindow& window) {
 void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const TexelPlan& plan,
                   const TexelWindow& window, const PointsBetween& points, const BakeOptions& options,
                   const MapWork& work, ToldSteps& steps, TexelSystem& system) {
-    // Samples nearest to a texel count as much as its center.
+    // Samples count for the texel that they are nearest to, like the sample at its center.
     const auto counts = [&](std::uint32_t triangle, const BetweenTexels& x, const BetweenTexels& y) {
         if (traced.ranks.size() == 0) return true;
         const std::size_t column = x.part < 0.5F ? x.texel : system.right(x.texel),
@@ -283,7 +284,7 @@ void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const
         });
     };
     const std::vector<std::size_t> bands = bandsOf(window);
-    // Adjacent bands share a row of texels, so they must not run at the same time.
+    // Adjacent bands share a row of texels, so they must not be processed at the same time.
     forApart(bands.size(), [&](std::size_t begin, std::size_t number) {
         forTasksTold(work, number, "solving", steps, [&](std::size_t i) { traceBand(bands[begin + 2 * i]); });
         steps.before += number;
@@ -323,8 +324,8 @@ void fillFromNeighbors(TracedTexels& traced, const TextureShape& shape) {
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         if (traced.origins[i] != TexelOrigin::background && isZero(wanted[i])) empty.push_back(i);
     }
-    // The first ring extrapolates from the two texels before it, because a filter reads it at the rim. Farther texels
-    // use the mean of their neighbors, which cannot grow.
+    // The first ring extrapolates from the two texels before it, because a filter reads it at the rim. Farther rings
+    // use the mean of their neighbors, which cannot exceed them.
     bool is_first_ring = true;
     const auto meanAround = [&](std::size_t texel) {
         const auto x = static_cast<std::int64_t>(texel % shape.width),
@@ -338,7 +339,7 @@ void fillFromNeighbors(TracedTexels& traced, const TextureShape& shape) {
             for (const int dx : {-1, 0, 1}) {
                 const DVec3 near = at(dx, dy), far = at(2 * dx, 2 * dy);
                 sum = sum + near;
-                // Do not extrapolate across a discontinuity.
+                // Extrapolation across a discontinuity is avoided.
                 if (dot(near, far) > 0.9) ahead = ahead + (2.0 * near - far);
             }
         }

@@ -10,16 +10,18 @@
 
 namespace tspace {
 
-/// Ray results per texel. All vectors are unit length, relative to T, B and N or in object space.
+/// Ray results per texel. All vectors have unit length, and are relative to T, B and N or in object space.
 struct TracedTexels {
-    Buffer<Vec3> wanted = {};  ///< at the center; the mean if several triangles cover it. Zero: unknown
+    /// target vector at the center of each texel; the mean if several triangles cover it; zero: unknown
+    Buffer<Vec3> wanted = {};
     Buffer<TexelOrigin> origins = {};
-    /// Number of texels whose triangles want vectors that differ by more than 2 degrees, with the sum and the maximum
-    /// of these angles.
+    /// Number of texels whose triangles require vectors that differ by more than 2 degrees, with the sum and the
+    /// maximum of these angles.
     std::uint64_t conflict_count = 0;
     double conflict_sum_deg = 0, conflict_max_deg = 0;
-    Buffer<std::uint32_t> ranks = {};  ///< result of ranksOfPieces; empty: all triangles of a texel contribute
-    /// with ranks: per texel, the smallest rank of the triangles that cover its center
+    /// priority of each triangle (ranksOfPieces); empty: all triangles of a texel contribute
+    Buffer<std::uint32_t> ranks = {};
+    /// For each texel, the smallest rank of the triangles that cover its center; only if `ranks` is not empty.
     Buffer<std::uint32_t> owners = {};
 };
 

@@ -31,7 +31,7 @@ MapReading readingOf(const MapSide& side) {
 
 bool hasFrames(const MapSide& side) { return side.space == MapSpace::tangent && !side.uvs.empty(); }
 
-/// Sums over a range of texels, added in order.
+/// Counts over a range of texels, and sums of angles, which are added in order.
 struct Sums {
     std::uint64_t converted = 0, changed = 0, background = 0, without_frame = 0, below_horizon = 0, unmatched = 0,
                   apart = 0;
@@ -50,7 +50,7 @@ struct Sums {
     }
 };
 
-// -- matching triangles of both sides --
+// -- matching of the triangles of both sides --
 
 struct HashedTriangle {
     std::uint64_t hash = 0;
@@ -90,7 +90,7 @@ DVec3 positionAt(const MapSide& side, const UvTriangles& triangles, const Textur
 
 /// Returns, for each triangle of `side`, the triangle of `other` with the same UVs and (if both sides have them) the
 /// same positions, or kNoTriangle. Corners may start at a different vertex but must have the same order around the
-/// triangle. Of several triangles with equal corners each is matched once, in order. O(n log n).
+/// triangle. If several triangles have equal corners, each is matched once, in order. O(n log n).
 Buffer<std::uint32_t> matchTriangles(const MapSide& side, const MapSide& other, const Allocator* allocator) {
     const bool with_positions = !side.positions.empty() && !other.positions.empty();
     const Buffer<HashedTriangle> mine = sorted(side, with_positions, allocator);
@@ -123,8 +123,8 @@ void forEachTexel(const UvTriangles& triangles, std::size_t triangle, const Text
     });
 }
 
-/// For texels inside triangles of both sides, where triangles may overlap: chooses the triangle of `other` that is
-/// closest in space to the texel's point on `side`, given by `places`. Both sides must have positions.
+/// Chooses triangles of `other` for texels inside triangles of both sides, where triangles may overlap: the triangle
+/// that is closest in space to the texel's point on `side`, given by `places`. Both sides must have positions.
 void chooseByPosition(const MapSide& side, const UvTriangles& triangles, const TexelTriangles& places,
                       const MapSide& other, const UvTriangles& other_triangles, TexelTriangles& other_places,
                       const Allocator* allocator) {
@@ -143,7 +143,7 @@ void chooseByPosition(const MapSide& side, const UvTriangles& triangles, const T
     }
 }
 
-// -- converting --
+// -- conversion of texels --
 
 class Conversion {
   public:
@@ -156,7 +156,7 @@ class Conversion {
           options_(options),
           allocator_(allocator),
           parallel_(parallel),
-          // If only one side has frames, both sides use them.
+          // If only one side has frames, they are used for both sides.
           one_mesh_(!(hasFrames(from) && hasFrames(to))),
           main_(from.uvs.empty() || (to.space == MapSpace::tangent && from.space == MapSpace::object) ? to : from),
           other_(&main_ == &from ? to : from),
@@ -197,7 +197,7 @@ class Conversion {
     /// Finds the triangle of each texel. Returns false if that takes too much work.
     bool findPlaces() {
         const UvTriangles triangles = main_corners_.triangles(map_);
-        // Texels that a filter reads are at most two texels away.
+        // Filters read texels that are at most two texels away from a triangle.
         const std::uint32_t padding = std::max<std::uint32_t>(options_.padding, 2);
         auto places = findTexelTriangles(triangles, map_.width, map_.height, padding, parallel_, allocator_);
         if (!places) return false;
@@ -216,14 +216,14 @@ class Conversion {
         return true;
     }
 
-    /// Returns whether integers are chosen jointly, so that neighbors compensate for rounding: useful if vectors lie
-    /// anywhere between integers (as after a change of space), and if there are few integers. z of two-channel maps
-    /// follows from x and y.
+    /// Returns whether integers are chosen jointly, so that neighboring texels compensate for rounding errors. This is
+    /// useful if vectors lie anywhere between integers (as after a change of space), and if there are few integers. It
+    /// is not done for 8-bit two-channel maps, whose z follows from x and y.
     [[nodiscard]] bool choosesTogether() const {
         return options_.bits == 16 ? from_.space != to_.space : options_.bits == 8 && !to_.reading.two_channels;
     }
 
-    /// `changed`: number of texels changed so far. Returns the number after the call.
+    /// Chooses integers jointly. `changed`: number of texels changed so far; returns the number after the call.
     std::uint64_t chooseTogether(std::uint64_t changed) {
         const std::span<Vec3> vectors(vectors_.data(), vectors_.size());
         const std::span<const bool> keeps(keeps_.data(), keeps_.size());
@@ -287,7 +287,7 @@ class Conversion {
         sums.most_change = std::max(sums.most_change, converted->change_deg);
     }
 
-    /// Must be called before any texel is written, because `out_` may be the input.
+    /// Counts conflicts. Must be called before any texel is written, because `out_` may be the input.
     void countConflicts() {
         constexpr double kApartDeg = 2;
         const UvTriangles triangles = main_corners_.triangles(map_);
@@ -317,7 +317,7 @@ class Conversion {
         return dot(apart, apart) > kFar * kFar * size_ * size_;
     }
 
-    /// Finds the frames of a texel on both sides. Returns false if the other side has no triangle there.
+    /// Finds the frames of a texel on both sides. Returns false if the other side has no triangle at the texel.
     [[nodiscard]] bool findFrames(std::size_t texel, ShadingFrame& from, ShadingFrame& to, Sums& sums) const {
         const TexelPlace& place = places_.places[texel];
         const std::array<double, 3> weights = weightsAt(main_corners_.triangles(map_), places_.shape, place);
@@ -379,11 +379,11 @@ class Conversion {
     const MapSide &main_, &other_;  ///< texel positions refer to the triangles of main_
     CornerTriangles main_corners_, other_corners_;
     TexelTriangles places_ = {}, other_places_ = {};
-    /// Vectors as computed, and which texels are unchanged so far; used if integers are chosen together.
+    /// Converted vectors, and flags of the texels that are unchanged so far; used if integers are chosen jointly.
     Buffer<Vec3> vectors_ = {};
     Buffer<bool> keeps_ = {};
     std::uint64_t conflict_count_ = 0;
-    double size_ = 0;                     ///< size of the mesh, if both sides have positions
+    double size_ = 0;                     ///< size of the mesh; only if both sides have positions
     Buffer<std::uint32_t> matches_ = {};  ///< matching triangle of the other side for each triangle of the main side
 };
 

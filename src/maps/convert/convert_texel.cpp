@@ -13,13 +13,13 @@ namespace tspace {
 
 namespace {
 
-/// Vectors that are closer count as equal: far below a step of 16 bits, far above the error of inverting a frame in
-/// double.
+/// Maximum distance of vectors that count as equal: far below a step of 16 bits, and far above the error of inverting a
+/// frame in double precision.
 constexpr double kSameVector = 1e-7;
 
 bool isOnGrid(float channel, unsigned most) {
     const double scaled = static_cast<double>(channel) * most;
-    // The error of a float n / most is half a unit in its last place, and slightly more after computing 1 - n / most.
+    // The error of a float n / most is half a unit in the last place, and slightly more after computing 1 - n / most.
     return std::fabs(scaled - std::nearbyint(scaled)) <= most * 1.5e-7;
 }
 
@@ -29,7 +29,7 @@ bool isOnGrid(const Vec3& texel, const TexelNumbers& numbers) {
     return isOnGrid(texel.x, most) && isOnGrid(texel.y, most) && isOnGrid(texel.z, most);
 }
 
-/// Returns the texel for a vector. The vector keeps its length if possible.
+/// Returns the texel for a vector, which keeps its length if possible.
 Vec3 storedTexel(const DVec3& vector, const MapReading& reading, const TexelNumbers& numbers) {
     const DVec3 encoded = encodeTexel(vector, reading);
     DVec3 stored{2 * encoded.x - 1, 2 * encoded.y - 1, 2 * encoded.z - 1};
@@ -118,7 +118,8 @@ CarriedError measureCarried(const MapImage& map, std::span<const Vec3> converted
     const TextureShape shape{map.width, map.height, map.wrap_u, map.wrap_v};
     const std::size_t triangles = from.uvs.count / 3, tasks = (triangles + kTrianglesOfTask - 1) / kTrianglesOfTask;
     std::vector<AngleSums> sums(tasks);
-    // Samples one of four points per texel, off its center, like the points that renderers filter.
+    // The error is sampled at one of four points per texel, away from its center, like the points that renderers
+    // filter.
     const auto isTaken = [](const UvSample& sample) {
         const double column = std::floor(sample.x), row = std::floor(sample.y);
         const int corner = (sample.x - column > 0.5 ? 1 : 0) + (sample.y - row > 0.5 ? 2 : 0);

@@ -16,16 +16,17 @@ namespace tspace {
 
 /// Numeric format of the output.
 struct TexelNumbers {
-    unsigned bits = 16;       ///< 8, 16, or 32 (no integers)
-    bool are_chosen = false;  ///< integers are chosen later: changed texels stay unrounded
-    [[nodiscard]] unsigned most() const { return (1U << bits) - 1; }  ///< largest integer value for 8 or 16 bits
+    unsigned bits = 16;       ///< 8, 16, or 32 (no rounding to integers)
+    bool are_chosen = false;  ///< true: integers are chosen later, so changed texels stay unrounded
+    [[nodiscard]] unsigned most() const { return (1U << bits) - 1; }  ///< largest integer for 8 or 16 bits
 };
 
 struct ConvertedTexel {
     Vec3 texel = {};
     double change_deg = 0;  ///< angle between the new normal and the one that the old texel would show on the new side
     bool is_below_horizon = false;
-    /// unchanged except for green: both sides interpret the texel alike, and integers represent it exactly
+    /// True: the texel is unchanged except for green, because both sides interpret it alike and integers represent it
+    /// exactly.
     bool stays = false;
 };
 
@@ -67,9 +68,11 @@ ShadingFrame sideFrame(const MapSide& side, std::size_t triangle, const std::arr
 
 /// Error angles at points of all triangles, one point per covered texel, filtered as renderers do.
 struct CarriedError {
-    double mean_deg = 0;              ///< between the new map with the new frames and the old map with the old frames
-    double mean_unconverted_deg = 0;  ///< between the old map with the new frames and the old map with the old frames
-    std::uint64_t count = 0;          ///< number of points; 0: no triangle has a sampled point with frames
+    /// mean angle between the new map with the new frames and the old map with the old frames
+    double mean_deg = 0;
+    /// mean angle between the old map with the new frames and the old map with the old frames
+    double mean_unconverted_deg = 0;
+    std::uint64_t count = 0;  ///< number of points; 0: no triangle contains a sampled point with frames
 };
 
 /// Measures the error of a converted map. `from` and `to` must have the same triangles in the same order, in tangent

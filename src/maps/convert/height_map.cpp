@@ -64,7 +64,7 @@ class Heights {
     Result<HeightToNormalReport> run() {
         const UvTriangles triangles = corners_.triangles(map_.wrap_u, map_.wrap_v);
         if (!mesh_.uvs.empty()) {
-            // Filtering reads texels up to two away from a triangle.
+            // Filtering reads texels that are up to two texels away from a triangle.
             auto places = findTexelTriangles(triangles, map_.width, map_.height, 2, parallel_, allocator_);
             if (!places)
                 return makeError(ErrorCode::tooLarge, kNoElement,
@@ -110,15 +110,15 @@ class Heights {
         return static_cast<double>(map_.heights[y * map_.width + x]);
     }
 
-    /// Returns whether the image ends at this column (or row): the values that a clamped sampler repeats beyond it are
-    /// not heights of the surface.
+    /// Returns whether the image ends at this column (or row). The values that a clamped sampler repeats beyond the end
+    /// are not heights of the surface.
     static bool isAtEnd(std::int64_t at, std::uint32_t size, TextureWrap wrap) {
         return wrap == TextureWrap::clamp && (at == 0 || at + 1 == size);
     }
 
-    /// Returns the derivative over one texel along a row (or column): the central difference; at an end the one-sided
-    /// difference of second order, or of first order if there are only two texels. All are exact for planes, the first
-    /// two also for parabolas.
+    /// Returns the derivative over one texel along a row (or column). It is the central difference; at an end of the
+    /// image it is the one-sided difference of second order, or of first order if there are only two texels. All are
+    /// exact for planes, the first two also for parabolas.
     [[nodiscard]] double derivativeAt(std::int64_t column, std::int64_t row, bool along_u) const {
         const std::int64_t at = along_u ? column : row;
         const std::uint32_t size = along_u ? map_.width : map_.height;
@@ -133,6 +133,7 @@ class Heights {
         return static_cast<double>(inward) * slope;
     }
 
+    /// Returns the slope at a texel.
     /// Based on: Scharr, "Optimale Operatoren in der Digitalen Bildverarbeitung", 2000: the weights 3, 10, 3 have the
     /// least dependence on the direction of the slope. At the ends of columns (rows) only the texel itself is used,
     /// because one-sided weights would give the derivative next to it.

@@ -55,7 +55,7 @@ Result<std::vector<MapError>> measureAll(const MapImage& map, const LowPoly& low
         const auto is_alike = [&](const MapCandidate& other) {
             return other.rays == candidates[i].rays && (other.rays == nullptr || other.reach == candidates[i].reach);
         };
-        // Candidates with the same ray settings share the points.
+        // Candidates with the same ray settings share their points, which are created once.
         if (std::any_of(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(i), is_alike)) continue;
         if (candidates[i].rays == nullptr) {
             measure(*surfaces, is_alike);

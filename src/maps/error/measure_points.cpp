@@ -70,7 +70,8 @@ MeasurePoints MeasurePoints::spread(const MapSurfaces& surfaces, std::uint32_t c
         double guess = 0;
         const std::size_t end = std::min<std::size_t>(count, (task + 1) * kPointsOfTask);
         for (std::size_t i = task * kPointsOfTask; i < end; ++i) {
-            // Evenly distributed over the area; the position within a triangle comes from a hash of the index.
+            // Points are distributed evenly over the area. The position within a triangle comes from a hash of the
+            // point's index.
             Point& point = made.points_[i];
             const double at = total * (static_cast<double>(i) + 0.5) / count;
             const auto triangle = std::upper_bound(ends.begin(), ends.end(), at) - ends.begin();
@@ -136,7 +137,7 @@ MapError MeasurePoints::measure(const MapImage& map, const MapSurfaces& surfaces
     error.cage_offset = surfaces.cageOffset();
     const LowPoly& low = surfaces.low();
     const StridedSpan<const Vec4>& tangents = candidate.tangents.empty() ? low.tangents : candidate.tangents;
-    // A point whose ray hit nothing counts as kMissedDeg, whatever the map contains there.
+    // A point whose ray hit nothing counts as kMissedDeg, whatever the map contains at that point.
     std::vector<float> angles(points_.size(), static_cast<float>(kMissedDeg));
     std::vector<std::uint8_t> near_border(points_.size());
     parallel.forRanges(points_.size(), kPointsOfTask, [&](std::size_t begin, std::size_t end) {
@@ -149,7 +150,7 @@ MapError MeasurePoints::measure(const MapImage& map, const MapSurfaces& surfaces
             if (!point.is_hit) continue;
             const DVec3 shaded = shadedAt(map, candidate, surfaces.corners(point.triangle, tangents), weights, uv);
             const double angle = degreesBetween(shaded, toDouble(point.normal));
-            // A point without a shaded direction counts as the largest error.
+            // A point without a shaded direction has the largest possible error.
             angles[i] = dot(shaded, shaded) > 0 && std::isfinite(angle) ? static_cast<float>(angle) : 180.0F;
         }
     });

@@ -14,8 +14,8 @@ namespace tspace {
 // Points of triangles on a grid of n x n per texel, divided into bands of texel rows. The points of a band are
 // processed in sequence, so sums do not depend on the number of threads.
 
-/// Column or row of a grid of n points per texel, as a texel and the fraction of the distance from its center to the
-/// next.
+/// Column or row of a grid of n points per texel, as a texel and a fraction of the distance from its center to the next
+/// center.
 struct BetweenTexels {
     std::uint32_t texel = 0;
     float part = 0;
@@ -24,8 +24,8 @@ struct BetweenTexels {
 inline BetweenTexels betweenTexels(std::uint32_t at, std::uint32_t n, std::uint32_t size, TextureWrap wrap) {
     const std::uint32_t shift = n / 2;
     const bool repeats = wrap == TextureWrap::repeat;
-    // Points before the first center belong to the last texel of an image that repeats; other images use the first
-    // texel alone there.
+    // Points before the first center belong to the last texel of an image that repeats. In other images only the first
+    // texel contributes to them.
     if (at < shift && !repeats) return {};
     const std::uint32_t from_center = at < shift ? at + size * n - shift : at - shift, texel = from_center / n;
     if (texel + 1 == size && !repeats) return {texel, 0};
@@ -33,19 +33,19 @@ inline BetweenTexels betweenTexels(std::uint32_t at, std::uint32_t n, std::uint3
     return {texel, first + static_cast<float>(from_center % n) / static_cast<float>(n)};
 }
 
-/// A point inside of a triangle or on its edge.
+/// Point of the grid inside a triangle or on its edge.
 struct BandSample {
     std::uint32_t triangle = 0;
     std::uint32_t row = 0, column = 0;  ///< row and column of the grid in the image
-    double x = 0, y = 0;                ///< in texels, relative to the placed triangle
+    double x = 0, y = 0;                ///< position in texels, relative to the placed triangle
     const ExactTriangle* exact = nullptr;
 
     [[nodiscard]] std::array<double, 3> weights() const { return exact->weights(x, y); }
 };
 
-/// Band b consists of the grid rows from b * kBandTexels * n + shift on, as many as kBandTexels texels have or as
-/// remain; the last row is followed by the first. Points outside a clamped image are skipped. Points are visited in
-/// blocks of 4 x 4, because nearby rays are traced faster together.
+/// Bands of rows of the sample grid. Band b consists of the grid rows of kBandTexels texels, or of the remaining
+/// texels, from row b * kBandTexels * n + shift on; the first row follows the last one. Points outside a clamped image
+/// are skipped. Points are visited in blocks of 4 x 4, because nearby rays are traced faster together.
 class SampleBands {
   public:
     static constexpr std::uint32_t kBandTexels = 16;
@@ -143,8 +143,8 @@ class SampleBands {
         }
     }
 
-    /// Calls visit(band) once for each band in which the triangle has rows. A triangle over three tiles covers one of
-    /// them completely.
+    /// Calls visit(band) once for each band in which the triangle has rows. A triangle that extends over three tiles
+    /// covers one of them completely.
     template <class Visit>
     void forBands(std::size_t triangle, Visit&& visit) {
         PlacedTriangle placed;
@@ -174,11 +174,11 @@ class SampleBands {
     std::uint32_t n_, shift_;
     Buffer<std::size_t> begin_;
     Buffer<std::uint32_t> entries_ = {};
-    Buffer<std::size_t> marks_;  ///< per band: the last triangle listed in it
+    Buffer<std::size_t> marks_;  ///< last triangle that was listed in each band
     std::size_t mark_ = 0;
 };
 
-/// Resources of a call.
+/// Resources of a call: allocator, threads and progress.
 struct MapWork {
     const Allocator* allocator;
     Parallel& parallel;
@@ -190,7 +190,7 @@ class MeasurePoints {
     /// Traces a ray for each of `count` points. Memory: 48 bytes per point.
     static MeasurePoints spread(const MapSurfaces& surfaces, std::uint32_t count, const MapWork& work);
 
-    /// Measures a map, without the heat map. `tangents`: see MapCandidate.
+    /// Measures a map, without the heat map. `tangents`: as in MapCandidate.
     [[nodiscard]] MapError measure(const MapImage& map, const MapSurfaces& surfaces, const MapCandidate& candidate,
                                    Parallel& parallel) const;
 
@@ -199,11 +199,11 @@ class MeasurePoints {
         std::uint32_t triangle = 0;
         std::array<float, 2> weights = {};  ///< weights of the second and the third corner
         bool is_hit = false, is_hidden = false, met_back = false, is_inward = false;
-        Vec3 normal = {};  ///< the true normal
+        Vec3 normal = {};  ///< true normal at the point
     };
     std::vector<Point> points_ = {};
     std::vector<std::uint8_t> borders_ =
-        {};  ///< per triangle: bit i is set if the edge that starts at corner i is a border of the UV map
+        {};  ///< flags per triangle: bit i is set if the edge that starts at corner i is a border of the UV map
 
     void findBorders(const LowPoly& low);
     void countPoints(MapError& error) const;
@@ -214,7 +214,8 @@ class MeasurePoints {
 DVec3 shadedAt(const MapImage& map, const MapCandidate& candidate, const CornerFrames& corners,
                const std::array<double, 3>& weights, const Vec2& uv);
 
-/// Error in degrees per texel: the mean of four samples; -1 if none is in a triangle or hits the high poly.
+/// Returns the error of each texel in degrees: the mean of four samples; -1 if none of them is in a triangle or hits
+/// the high poly.
 std::vector<float> heatOf(const MapImage& map, const MapSurfaces& surfaces, const MapCandidate& candidate,
                           const MapWork& work);
 

@@ -16,16 +16,17 @@ namespace tspace {
 namespace {
 
 constexpr std::uint32_t kBandRows = 64;
-/// Bilinear filtering inside a chart reads no texel that is farther away than sqrt(2).
+/// Distance, in texels, within which texels beside a triangle get the triangle: bilinear filtering inside a chart reads
+/// no texel that is farther away than sqrt(2).
 constexpr double kNearTexels = 1.5;
 constexpr std::int64_t kNearRows = 2;
-/// Triangles with more rows than this are remembered, as in uv_coverage: many cards of one tree share the same part of
-/// an image.
+/// Number of rows above which triangles are remembered, and limit of remembered triangles, as in uv_coverage: many
+/// cards of one tree share the same part of an image.
 constexpr std::int64_t kLargeTriangleRows = 64;
 constexpr std::size_t kMostLarge = std::size_t{1} << 16;
 /// Number of texels per work step.
 constexpr std::uint64_t kTexelsOfStep = 16;
-/// Temporary states during the search of rings: the texel gets a triangle in this ring, or is farther away than the
+/// Temporary states during the search of rings: the texel gets a triangle in this ring, or it is farther away than the
 /// padding.
 constexpr auto kPending = static_cast<TexelCoverage>(3), kRefused = static_cast<TexelCoverage>(4);
 
@@ -33,7 +34,7 @@ struct RowRange {
     std::int32_t first = 0, last = -1;
 };
 
-/// The state of a search that its steps share.
+/// State of a search, which its steps share.
 struct TriangleSearch {
     const UvTriangles& triangles;
     TexelTriangles& found;
@@ -42,7 +43,7 @@ struct TriangleSearch {
     Parallel& parallel;
     const Allocator* allocator;
     std::size_t band_count;
-    Buffer<RowRange> rows = {};  ///< rows near each triangle
+    Buffer<RowRange> rows = {};  ///< rows in or near each triangle
     Buffer<std::size_t> begin = {};
     Buffer<std::uint32_t> entries = {};
     Buffer<std::uint64_t> marks = {};
@@ -51,9 +52,10 @@ struct TriangleSearch {
     std::unordered_map<std::array<std::int64_t, 6>, std::uint32_t, HashPlacedKey> known = {};
 };
 
-// -- 1. bands --
+// -- 1. bands of rows --
 
-/// Returns whether two earlier triangles have the same position. The second one still counts as overlapping.
+/// Returns whether two earlier triangles have the same position as this one. The second of them still counts as
+/// overlapping.
 bool isThird(TriangleSearch& search, const PlacedTriangle& placed) {
     const std::array<std::int64_t, 6> key = placed.key();
     const auto known = search.known.find(key);
@@ -62,7 +64,7 @@ bool isThird(TriangleSearch& search, const PlacedTriangle& placed) {
     return false;
 }
 
-/// Sets the rows of a triangle. Returns its amount of work.
+/// Sets the rows of a triangle, and returns the amount of work for it.
 std::uint64_t placeRows(TriangleSearch& search, std::size_t i) {
     PlacedTriangle placed;
     const UvPlacing placing = placed.place(cornerUvs(search.triangles, i), search.shape);
@@ -86,7 +88,7 @@ std::uint64_t placeRows(TriangleSearch& search, std::size_t i) {
     return row_count + static_cast<std::uint64_t>(area) / (2 * kTexelParts * kTexelParts * kTexelsOfStep);
 }
 
-/// Calls visit(band) once for each band. A triangle over three tiles covers one of them completely.
+/// Calls visit(band) once for each band. A triangle that extends over three tiles covers one of them completely.
 template <class Visit>
 void forBands(TriangleSearch& search, RowRange rows, const Visit& visit) {
     if (rows.last < rows.first) return;
@@ -135,7 +137,7 @@ std::span<const std::uint32_t> entries(const TriangleSearch& search, std::size_t
     return {search.entries.data() + search.begin[band], search.begin[band + 1] - search.begin[band]};
 }
 
-// -- 2. texels inside --
+// -- 2. texels inside triangles --
 
 /// Calls visit(row, row in the image) for the rows of a triangle in a band.
 template <class Visit>
@@ -161,8 +163,8 @@ TexelPlace placeOf(std::uint32_t triangle, std::int64_t column, std::int64_t row
     return {triangle, static_cast<std::int32_t>(column), static_cast<std::int32_t>(row)};
 }
 
-/// Returns whether the texel center is strictly inside its triangle: a center on an edge that two triangles share
-/// is no overlap.
+/// Returns whether the texel center is strictly inside its triangle: a center on an edge that two triangles share is
+/// not an overlap.
 bool isInner(const TriangleSearch& search, const TexelPlace& place) {
     PlacedTriangle placed;
     placed.place(cornerUvs(search.triangles, place.triangle), search.shape);
@@ -188,7 +190,7 @@ void addInside(TriangleSearch& search, std::uint32_t triangle, std::size_t band)
     });
 }
 
-// -- 3. texels beside --
+// -- 3. texels next to triangles --
 
 ExactTriangle exact(const TriangleSearch& search, std::uint32_t triangle) {
     const std::array<Vec2, 3> uvs = cornerUvs(search.triangles, triangle);
@@ -239,7 +241,7 @@ void addNear(TriangleSearch& search, std::uint32_t triangle, std::size_t band) {
     });
 }
 
-// -- 4. rings --
+// -- 4. rings of padding --
 
 bool hasTriangle(const TriangleSearch& search, std::size_t texel) {
     return search.found.kinds[texel] == TexelCoverage::inside || search.found.kinds[texel] == TexelCoverage::beside;
@@ -275,7 +277,7 @@ void pushNeighbors(TriangleSearch& search, std::size_t texel, std::vector<std::s
     });
 }
 
-/// Converts a step in the image to a step in the infinite plane, where the texel is at `at`.
+/// Converts a step in the image to a step in the infinite plane, where `at` is the position of the texel.
 std::int64_t step(int in_image, std::int64_t at, std::uint32_t size, TextureWrap wrap) {
     return isFlipped(floorDiv(at, size), wrap) ? -in_image : in_image;
 }
@@ -339,7 +341,7 @@ void countTexels(TriangleSearch& search) {
     }
 }
 
-/// Returns false if the triangles would take too much work.
+/// Finds the triangles of all texels. Returns false if they would take too much work.
 bool findTriangles(TriangleSearch& search) {
     const std::size_t texels = std::size_t{search.shape.width} * search.shape.height;
     if (!listBands(search)) return false;
@@ -386,7 +388,7 @@ ExactTriangle::ExactTriangle(const std::array<Vec2, 3>& uvs, const PlacedTriangl
     double_area_ = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]);
 }
 
-/// Returns barycentric coordinates, which are not finite if the triangle has no area.
+/// Returns the barycentric coordinates of a point in the plane. They are not finite if the triangle has no area.
 std::array<double, 3> ExactTriangle::plane(double px, double py) const {
     const double at_1 = ((px - x[0]) * (y[2] - y[0]) - (py - y[0]) * (x[2] - x[0])) / double_area_;
     const double at_2 = ((x[1] - x[0]) * (py - y[0]) - (y[1] - y[0]) * (px - x[0])) / double_area_;
@@ -433,7 +435,7 @@ bool ExactTriangle::isReadAt(double px, double py) const {
     for (std::size_t a = 0; a < 3; ++a) {
         const std::size_t b = (a + 1) % 3;
         const double from_x = x[a] - px, from_y = y[a] - py, dx = x[b] - x[a], dy = y[b] - y[a];
-        // The maximum of both distances is smallest at an end of the edge, or where the distances are equal.
+        // The maximum of the two distances is smallest at an end of the edge, or where both distances are equal.
         for (const double part : {0.0, 1.0, (from_y - from_x) / (dx - dy), -(from_x + from_y) / (dx + dy)}) {
             if (!(part >= 0 && part <= 1)) continue;
             if (std::fabs(from_x + part * dx) < 1 && std::fabs(from_y + part * dy) < 1) return true;

@@ -12,13 +12,13 @@
 namespace tspace {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
-/// Unlimited padding: every texel gets a triangle, if there is any.
+/// Value for unlimited padding: every texel gets a triangle, if there is any triangle.
 inline constexpr std::uint32_t kAllTexels = 0xffffffffu;
 
 enum class TexelCoverage : std::uint8_t {
-    none,    ///< no triangle within the padding
+    none,    ///< no triangle is within the padding
     inside,  ///< the center is inside the triangle or on its edge
-    beside   ///< near the triangle, whose plane is extrapolated
+    beside   ///< the center is near the triangle, whose plane is extrapolated
 };
 
 struct TexelPlace {
@@ -30,20 +30,21 @@ struct TexelPlace {
 struct TexelTriangleCounts {
     std::uint64_t inside = 0, beside = 0;
     std::uint64_t overlapping = 0;  ///< texels whose center is inside several triangles; the first triangle is used
-    // Triangles that are skipped:
-    std::uint64_t without_area = 0;  ///< less than 1/256 texel wide
+    // Triangles that are skipped, by reason:
+    std::uint64_t without_area = 0;  ///< triangles that are less than 1/256 texel wide
     std::uint64_t not_finite = 0;
-    std::uint64_t too_far = 0;   ///< UvPlacing::tooFar
+    std::uint64_t too_far = 0;   ///< triangles with UvPlacing::tooFar
     std::uint64_t repeated = 0;  ///< large triangles whose corners equal those of two earlier ones
 };
 
 struct TexelTriangles {
     TextureShape shape = {};
-    Buffer<TexelPlace> places = {};  ///< width * height entries, like kinds
+    Buffer<TexelPlace> places = {};  ///< place of each texel, width * height entries, like `kinds`
     Buffer<TexelCoverage> kinds = {};
     Buffer<bool> overlaps = {};  ///< one flag per texel: several triangles cover it
-    Buffer<bool> is_read =
-        {};  ///< outside all triangles, but read by bilinear filtering inside one; requires a padding of 2
+    /// One flag per texel: it is outside all triangles, but bilinear filtering inside one reads it; requires a padding
+    /// of 2.
+    Buffer<bool> is_read = {};
     TexelTriangleCounts counts = {};
 };
 
@@ -67,19 +68,20 @@ inline std::array<Vec2, 3> cornerUvs(const UvTriangles& triangles, std::size_t t
     return {triangles.uvs[corners[0]], triangles.uvs[corners[1]], triangles.uvs[corners[2]]};
 }
 
-/// Triangle in unrounded texel coordinates, at the position given by PlacedTriangle.
+/// Triangle in unrounded texel coordinates, relative to the origin that PlacedTriangle chose.
 class ExactTriangle {
   public:
     ExactTriangle(const std::array<Vec2, 3>& uvs, const PlacedTriangle& placed, const TextureShape& shape);
 
     /// Returns the barycentric coordinates of a point, which sum to 1. Outside the triangle they are extrapolated, but
     /// none falls below -1: farther points use the coordinates of a closer point, because extrapolated frames are
-    /// meaningless at such distances (slivers). Always finite.
+    /// meaningless at such distances (slivers). The coordinates are always finite.
     [[nodiscard]] std::array<double, 3> weights(double x, double y) const;
     /// Returns the squared distance of a point from the triangle, in texels; 0 inside.
     [[nodiscard]] double squaredDistance(double x, double y) const;
 
-    /// Returns whether the triangle has a point that is less than one column and less than one row away.
+    /// Returns whether bilinear filtering inside the triangle reads the texel at a point: whether a point of the
+    /// triangle is less than one column and less than one row away.
     [[nodiscard]] bool isReadAt(double x, double y) const;
 
     std::array<double, 3> x = {}, y = {};
@@ -95,7 +97,7 @@ class ExactTriangle {
     double double_area_ = 0;
 };
 
-/// Returns ExactTriangle::weights of a texel center. `place` must have a triangle.
+/// Returns ExactTriangle::weights of the center of a texel, whose `place` must have a triangle.
 std::array<double, 3> weightsAt(const UvTriangles& triangles, const TextureShape& shape, const TexelPlace& place);
 
 /// Sample point of a triangle, in texels before wrapping.

@@ -105,7 +105,8 @@ std::uint64_t TexelMask::count(const TexelRect& rect) const {
 
 namespace {
 
-/// Triangles with more rows than this are remembered: many cards of one tree share the same large part of an image.
+/// Number of rows above which triangles are remembered, and limit of remembered triangles: many cards of one tree share
+/// the same large part of an image.
 constexpr std::int64_t kLargeRows = 64;
 constexpr std::size_t kMostRemembered = std::size_t{1} << 16;
 

@@ -11,10 +11,10 @@
 
 namespace tspace {
 
-// UDIM: UV layout in which each unit square has its own image, ten per row, numbered from 1001.
+// UDIM, a UV layout in which each unit square has its own image: ten squares per row, numbered from 1001.
 
-/// Returns the tile that contains the center of a triangle, given the UVs of its three corners; 0: none (not finite, or
-/// outside tiles 1001 to 9990).
+/// Returns the tile that contains the center of a triangle, given the UVs of its three corners. Returns 0 if there is
+/// none: the center is not finite, or outside tiles 1001 to 9990.
 inline std::uint32_t tileOf(const Vec2* uvs) {
     const double u = (static_cast<double>(uvs[0].x) + uvs[1].x + uvs[2].x) / 3;
     // Tile rows are counted upward, whereas v points down.
@@ -23,9 +23,9 @@ inline std::uint32_t tileOf(const Vec2* uvs) {
     return 1001 + static_cast<std::uint32_t>(u) + 10 * static_cast<std::uint32_t>(v);
 }
 
-// Set of texels of one image, with one bit per texel.
+// Set of the texels of one image, with one bit per texel.
 
-/// Texels `left` to `right` - 1 of rows `top` to `bottom` - 1; row 0 is at the top.
+/// Rectangle of texels: texels `left` to `right` - 1 of rows `top` to `bottom` - 1; row 0 is at the top.
 struct TexelRect {
     std::uint32_t left = 0, top = 0, right = 0, bottom = 0;
 
@@ -39,7 +39,7 @@ class TexelMask {
     TexelMask() = default;
     TexelMask(std::uint32_t width, std::uint32_t height);
 
-    /// Returns the memory of a mask of the given size, in bytes.
+    /// Returns the memory that a mask of the given size takes, in bytes.
     static std::uint64_t bytesOf(std::uint64_t width, std::uint64_t height) { return (width / 64 + 1) * 8 * height; }
 
     [[nodiscard]] std::uint32_t width() const { return width_; }
@@ -53,7 +53,7 @@ class TexelMask {
     void fillAll();
     /// Adds the texels of a mask of the same size.
     void add(const TexelMask& other);
-    /// Removes all texels. Time: proportional to the rows that had texels.
+    /// Removes all texels. The time is proportional to the rows that contained texels.
     void clear();
 
     /// Returns true if a single call of fill() covered the whole row.
@@ -61,9 +61,9 @@ class TexelMask {
     [[nodiscard]] bool isWhole() const { return height_ != 0 && whole_count_ == height_; }
     /// Returns whether the two masks, which must have the same size, share a texel.
     [[nodiscard]] bool meets(const TexelMask& other) const;
-    /// Number of masked texels in the rectangle, which must lie inside the image.
+    /// Returns the number of texels of the mask in a rectangle, which must lie inside the image.
     [[nodiscard]] std::uint64_t count(const TexelRect& rect) const;
-    /// Range of rows that may contain texels.
+    /// Return the range of rows that may contain texels.
     [[nodiscard]] std::uint32_t firstRow() const { return first_row_; }
     [[nodiscard]] std::uint32_t endRow() const { return end_row_; }
 

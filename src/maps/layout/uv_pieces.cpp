@@ -31,7 +31,7 @@ class Pieces {
     std::uint32_t firstOf(std::uint32_t triangle) { return rootOf(parents_.data(), triangle); }
 
   private:
-    /// Returns the orientation of a triangle's UVs: 1, -1, or 0 without area.
+    /// Returns the orientation of a triangle's UVs: 1 or -1, or 0 if the UVs have no area.
     [[nodiscard]] int turnOf(std::size_t triangle) const {
         const Vec2 a = low_.uvs[3 * triangle], b = low_.uvs[3 * triangle + 1], c = low_.uvs[3 * triangle + 2];
         const double area = (static_cast<double>(b.x) - a.x) * (static_cast<double>(c.y) - a.y) -

@@ -24,7 +24,7 @@ inline constexpr double kMostRepeats = 64;
 inline std::int64_t floorDiv(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
 inline std::int64_t ceilDiv(std::int64_t a, std::int64_t b) { return -floorDiv(-a, b); }
 
-/// Returns the position in the image of texel `at` of an infinite row; `size` if there is none.
+/// Returns the position in the image of texel `at` of an infinite row; `size` if the image has no such texel.
 inline std::uint32_t texelInImage(std::int64_t at, std::uint32_t size, TextureWrap wrap) {
     return wrap == TextureWrap::clamp && (at < 0 || at >= size) ? size : wrappedTexel(at, size, wrap);
 }
@@ -32,14 +32,14 @@ inline std::uint32_t texelInImage(std::int64_t at, std::uint32_t size, TextureWr
 enum class UvPlacing : std::uint8_t {
     placed,
     notFinite,
-    tooFar  ///< repeats the image more than kMostRepeats times, or is that far outside a clamped image
+    tooFar  ///< repeats the image more than kMostRepeats times, or is that many images outside a clamped image
 };
 
-/// One coordinate of the three corners of a triangle.
+/// One UV coordinate of the three corners of a triangle, in texels.
 struct PlacedAxis {
-    /// number of whole images subtracted, so that the first covered image has index 0
+    /// Number of whole images that were subtracted, so that the first covered image has index 0.
     double begin = 0;
-    std::array<std::int64_t, 3> at = {};  ///< in subdivisions of a texel
+    std::array<std::int64_t, 3> at = {};  ///< coordinate of each corner, in subdivisions of a texel
 
     UvPlacing place(const std::array<float, 3>& from, std::uint32_t size, TextureWrap wrap) {
         const double least = std::min({from[0], from[1], from[2]}), most = std::max({from[0], from[1], from[2]});
@@ -63,11 +63,11 @@ struct TexelRange {
     [[nodiscard]] bool isEmpty() const { return last < first; }
 };
 
-/// Returns whether a tile of the infinite plane shows the image mirrored.
+/// Returns whether an image of the infinite plane is shown mirrored.
 inline bool isFlipped(std::int64_t tile, TextureWrap wrap) { return wrap == TextureWrap::mirror && tile % 2 != 0; }
 
-/// Returns which of the rows `first` to `last` of an image are covered, in one tile, by a range of rows of the infinite
-/// plane.
+/// Returns the rows, among the rows `first` to `last` of an image, that a range of rows of the infinite plane covers in
+/// one of its images.
 inline TexelRange rowsOfTile(TexelRange rows, std::int64_t tile, std::uint32_t size, TextureWrap wrap,
                              std::int64_t first, std::int64_t last) {
     if (wrap == TextureWrap::clamp && tile != 0) return {};
@@ -82,7 +82,8 @@ inline TexelRange rowsOfTile(TexelRange rows, std::int64_t tile, std::uint32_t s
     return {std::max(from, first), std::min(to, last)};
 }
 
-/// Calls visit(column, column in the image) for a range of columns, limited to the image if it is clamped.
+/// Calls visit(column, column in the image) for a range of columns, which is limited to the image if the image is
+/// clamped.
 template <class Visit>
 void forColumnsInImage(TexelRange columns, std::uint32_t size, TextureWrap wrap, const Visit& visit) {
     const std::int64_t width = size;

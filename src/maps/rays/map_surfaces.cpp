@@ -13,13 +13,13 @@ namespace tspace {
 
 namespace {
 
-/// Size ratio above which two models are assumed to use different units.
+/// Ratio of the sizes of two models from which they are assumed to use different units.
 constexpr double kOtherUnit = 8;
-/// Maximum difference between sides of matching boxes, and minimum difference of boxes that do not match, relative to
-/// the diagonal.
+/// Maximum difference between the sides of matching boxes, and minimum difference of boxes that do not match, relative
+/// to their diagonal.
 constexpr double kFits = 0.02, kFitsNot = 0.1;
 
-/// Returns the bounding box of the transformed corners.
+/// Returns the bounding box of the transformed corners of a box.
 template <class Change>
 PositionBox changed(const PositionBox& box, const Change& change) {
     PositionBox result;
@@ -285,7 +285,7 @@ bool MapSurfaces::meetBeyond(const Ray& ray, RayHit& hit) const {
 }
 
 RayNeighborhood MapSurfaces::around(const Ray& ray, const RayHit* hit) const {
-    // A line through an edge hits both adjacent triangles.
+    // A line through an edge hits both triangles at the edge, so hits within this distance count as one.
     constexpr double kNearby = 1e-6;
     const double most = std::max(ray.height, reach_), least = -reach_;
     if (hit == nullptr) return {.met_back = rays_->crossings(ray.place, ray.outward, least, most, ray.group).backs > 0};
@@ -315,7 +315,7 @@ std::uint32_t MapSurfaces::meetTogether(std::span<const LowPoint> points, double
     for (std::size_t i = 0; i < points.size(); ++i) {
         Ray& ray = rays[i];
         if (!rayAt(points[i].triangle, points[i].weights, ray)) {
-            lines[i] = {.begin = 1, .end = 0};  // an empty range: hits nothing
+            lines[i] = {.begin = 1, .end = 0};  // an empty range, in which nothing is hit
             continue;
         }
         aimed |= 1U << i;

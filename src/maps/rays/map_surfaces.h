@@ -16,19 +16,19 @@
 
 namespace tspace {
 
-// Bounding box of points; and the reason why two meshes that should coincide do not.
+// Bounding boxes of points, and the diagnosis of meshes that should coincide but do not.
 
 struct PositionBox {
     DVec3 least{INFINITY, INFINITY, INFINITY}, most{-INFINITY, -INFINITY, -INFINITY};
 
     PositionBox() = default;
-    /// Ignores points that are not finite.
+    /// Creates the bounding box of the finite points.
     explicit PositionBox(const StridedSpan<const Vec3>& points);
 
     void add(const DVec3& point);
     [[nodiscard]] bool isEmpty() const { return !(least.x <= most.x); }
     [[nodiscard]] double diagonal() const { return isEmpty() ? 0 : length(most - least); }
-    /// Largest distance between corresponding sides of the two boxes.
+    /// Returns the largest distance between corresponding sides of the two boxes.
     [[nodiscard]] double difference(const PositionBox& other) const;
     [[nodiscard]] bool meets(const PositionBox& other, double margin) const;
 };
@@ -49,13 +49,13 @@ Error checkBakeOptions(const BakeOptions& options, std::size_t low_triangles, st
 /// Checks the ray options. Returns ErrorCode::ok if they are valid.
 Error checkRays(const RayOptions& rays, double reach);
 
-/// Surroundings of the point where a ray hit the high poly, or of a ray without a hit.
+/// Surroundings of the point where a ray hit the high poly, or properties of a ray without a hit.
 struct RayNeighborhood {
     bool has_front_further_out = false, met_back = false;
     bool normal_is_inward = false;  ///< the shading normal of the high poly points inward at the hit front face
 };
 
-/// Point on the low poly.
+/// Point on a triangle of the low poly.
 struct LowPoint {
     std::uint32_t triangle = 0;
     std::array<double, 3> weights = {};
@@ -72,13 +72,13 @@ struct SurfaceHit {
 
 class MapSurfaces {
   public:
-    /// Requires checked meshes and rays; the meshes and the image of the rays must outlive the result. `reach`: 0
-    /// chooses a value. Errors: unsupportedFile, outOfMemory, missingAttribute (the meshes are far apart). `surface`:
-    /// ray structure of the high poly if it exists already, or null.
+    /// Prepares the rays. Requires checked meshes and rays; the meshes and the image of the rays must outlive the
+    /// result. `reach`: 0 chooses a value. Errors: unsupportedFile, outOfMemory, missingAttribute (the meshes are far
+    /// apart). `surface`: existing ray structure of the high poly, or null.
     static Result<MapSurfaces> make(const LowPoly& low, const HighPoly& high, double reach, const RayOptions& rays,
                                     Parallel& parallel, const Allocator* allocator,
                                     std::shared_ptr<const RaySurface> surface = nullptr);
-    /// Returns these meshes with other rays. `reach`: 0 keeps the current one.
+    /// Returns the same meshes with other rays. `reach`: 0 keeps the current value.
     [[nodiscard]] MapSurfaces withRays(const RayOptions& rays, double reach, Parallel& parallel,
                                        const Allocator* allocator) const;
 
@@ -86,20 +86,20 @@ class MapSurfaces {
     [[nodiscard]] const HighPoly& high() const { return high_; }
     [[nodiscard]] const RayOptions& rays() const { return options_; }
     [[nodiscard]] double reach() const { return reach_; }
-    /// Returns 0 if the low poly has its own cage.
+    /// Returns the cage offset, or 0 if the low poly has its own cage.
     [[nodiscard]] double cageOffset() const { return low_.cage.empty() ? cage_offset_ : 0; }
     [[nodiscard]] std::size_t triangleCount() const { return low_.positions.count / 3; }
     [[nodiscard]] const std::shared_ptr<const RaySurface>& surface() const { return rays_; }
 
     /// Computes the unit shading normal of the high poly where the ray from a point of the low poly hits it. Returns
-    /// false if the ray hits nothing. `guess`: see RaySurface::nearest; initialize it with 0. `around`: null, or
-    /// receives the surroundings of the hit. Thread-safe.
+    /// false if the ray hits nothing. `guess`: as in RaySurface::nearest; initially 0. `around`: null, or receives the
+    /// surroundings of the hit. Thread-safe.
     bool truthAt(std::size_t triangle, const std::array<double, 3>& weights, double& guess, DVec3& normal,
                  RayNeighborhood* around = nullptr) const;
-    /// Calls truthAt for at most kLinesAtOnce points, which is faster if they are close together. The normal of a point
-    /// without a hit is zero.
+    /// Computes truthAt for at most kLinesAtOnce points, which is faster than single calls if they are close together.
+    /// The normal of a point without a hit is zero.
     void truthsAt(std::span<const LowPoint> points, double& guess, std::span<DVec3> normals) const;
-    /// Like truthsAt, but returns complete hits. Bit i of the result is set if hits[i] is valid.
+    /// Computes complete hits, otherwise like truthsAt. Bit i of the result is set if hits[i] is valid.
     [[nodiscard]] std::uint32_t hitsAt(std::span<const LowPoint> points, double& guess,
                                        std::span<SurfaceHit> hits) const;
 
@@ -132,11 +132,11 @@ class MapSurfaces {
     void aim(const RayOptions& rays, Parallel& parallel, const Allocator* allocator);
     [[nodiscard]] DVec3 normalOf(const RayHit& hit) const;
     [[nodiscard]] DVec3 faceOf(std::uint32_t triangle) const;
-    /// Returns the normal from the high poly's own normal map; zero if the map has no direction there.
+    /// Returns the normal from the high poly's own normal map, or zero if the map has no direction at the hit.
     [[nodiscard]] DVec3 mappedNormal(const RayHit& hit, const std::array<std::uint32_t, 3>& vertices) const;
 };
 
-/// Collects points, each with a tag, in batches of kLinesAtOnce: see askTogether.
+/// Collects points, each with a tag, and passes them to `ask` in batches of kLinesAtOnce (askTogether).
 template <class Tag, class Ask>
 class PointsTogether {
   public:

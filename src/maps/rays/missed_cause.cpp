@@ -18,10 +18,10 @@ namespace {
 
 constexpr std::size_t kSamples = 1000;
 constexpr double kMeets = 0.8;
-/// Relative to the size of the low poly.
+/// Reach of rays that is usually sufficient, relative to the size of the low poly.
 constexpr double kUsualReach = 0.05;
 
-/// Rotation by multiples of 90 degrees, as matrix rows.
+/// Rotation by multiples of 90 degrees, as the rows of its matrix.
 using Turn = std::array<DVec3, 3>;
 constexpr Turn kNone{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 

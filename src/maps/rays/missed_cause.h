@@ -12,24 +12,24 @@
 
 namespace tspace {
 
-/// Ray structure of a high poly, shared by bakes of several maps and the search for a cause. Empty until the first
-/// bake.
+/// Ray structure of a high poly, shared by bakes of several maps and by the diagnosis of misses. It is empty until the
+/// first bake.
 struct SharedRays {
     std::shared_ptr<const RaySurface> surface = {};
 };
 
-/// Returns the likely reason as part of a sentence about the high poly: inward faces, a reach that is too short, a
-/// different up axis, or a different unit. Each correction is tried, and named if at least four of five rays then hit.
-/// Returns an empty string if none helps. Requires checked meshes. `surface`: ray structure of the high poly; `reach`:
-/// the reach used by the rays.
+/// Returns the likely reason for the misses, as part of a sentence about the high poly: inward faces, a reach that is
+/// too short, a different up axis, or a different unit. Each correction is tried, and named if at least four of five
+/// rays then hit. Returns an empty string if none helps. Requires checked meshes. `surface`: ray structure of the high
+/// poly; `reach`: the reach used by the rays.
 std::string causeOfMisses(const LowPoly& low, const HighPoly& high, const RaySurface& surface, double reach);
 
-/// For a bake with hits in most places: returns the axes or unit for which nearly all of the high poly coincides with
-/// the low poly, if less than half of it does now. Returns an empty string if there is none.
+/// Diagnoses a bake with hits in most places: returns the axes or unit for which nearly all of the high poly coincides
+/// with the low poly, if less than half of it coincides without that change. Returns an empty string if there is none.
 std::string otherPlaceOf(const LowPoly& low, const HighPoly& high, const RaySurface& surface);
 
-/// Like bakeMaps, but a bake without any hit returns a map without texels instead of an error. `shared`: ray structure
-/// of this high poly; set if empty.
+/// Bakes like bakeMaps, but if there is no hit at all, returns a map without texels instead of an error. `shared`: ray
+/// structure of this high poly; set if it is empty.
 Result<BakedMaps> bakeEvenIfMissed(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
                                    const LayerOptions& layers, const Execution& execution, const Progress& progress,
                                    SharedRays& shared);

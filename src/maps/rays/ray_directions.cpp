@@ -66,7 +66,7 @@ class Search {
         if (sides.size() == 1) return;
         if (sides.size() == 2) {
             const DVec3 a = normalOf(cornerOf(sides[0])), b = normalOf(cornerOf(sides[1]));
-            // A degenerate triangle has no angle.
+            // A degenerate triangle has no normal, and so no angle.
             const bool has_angle = dot(a, a) > 0 && dot(b, b) > 0;
             if (!has_angle || dot(a, b) >= kCosine) {
                 for (const std::uint32_t end : {low, high})
@@ -107,11 +107,11 @@ class Search {
         }
     };
 
-    /// Propagates edges from corners to the other corners of their triangles, nearest first; a corner propagates the
-    /// first two edges that reach it.
+    /// Propagates hard edges from corners to the other corners of their triangles, nearest first. A corner propagates
+    /// the first two edges that reach it.
     void spread() {
         near_.assign(groups_.size(), {HardEdges::kNone, HardEdges::kNone});
-        // Linked list of the corners of each group.
+        // Linked lists of the corners of each group.
         std::vector<std::uint32_t> first(groups_.size(), HardEdges::kNone), next(groups_.size(), HardEdges::kNone);
         for (auto corner = static_cast<std::uint32_t>(groups_.size()); corner-- > 0;) {
             const std::uint32_t group = groupOf(corner);
@@ -141,8 +141,8 @@ class Search {
     std::span<const std::uint32_t> roots_;
     double far_;
     std::vector<std::uint32_t> groups_;  ///< disjoint sets of corners with equal positions whose faces meet smoothly
-    std::vector<std::array<std::uint32_t, 2>> at_edges_ = {};  ///< corners at hard edges, each with its edge
-    std::vector<std::array<std::uint32_t, 2>> near_ = {};      ///< neighbors of each group
+    std::vector<std::array<std::uint32_t, 2>> at_edges_ = {};  ///< pairs of a corner at a hard edge and that edge
+    std::vector<std::array<std::uint32_t, 2>> near_ = {};      ///< hard edges near each group
     HardEdges found_ = {};
 };
 
@@ -154,11 +154,11 @@ HardEdges findHardEdges(StridedSpan<const Vec3> positions, std::span<const std::
 
 namespace {
 
-/// Maximum ratio of the cage distance at a corner to that at its faces; without it, spikes would have an unlimited
-/// distance.
+/// Maximum ratio of the cage distance at a corner to that at its faces. Without this limit, the distance at spikes
+/// would be unbounded.
 constexpr double kMostFactor = 3;
-/// Minimum cosine between the mean normal and a corner's own normal; below it the corner is excluded from the mean,
-/// because both sides of a leaf share positions.
+/// Minimum cosine between the mean normal and a corner's own normal for the corner to use the mean: both sides of a
+/// leaf share positions.
 constexpr double kOwnPart = 0.05;
 
 /// Distance from a hard edge within which ray directions bend toward it, relative to the cage offset. On boxes with
@@ -168,7 +168,7 @@ constexpr double kBend = 0.5;
 
 DVec3 unitOr(DVec3 v, const DVec3& other) { return normalize(v) ? v : other; }
 
-/// Whole mesh: the triangles that the map covers, and the remaining ones. Close positions are welded.
+/// Whole mesh: the triangles that the map covers, followed by the others. Close positions are welded.
 struct WholeMesh {
     WholeMesh(const LowPoly& low, float weld_distance, const Allocator* allocator, Parallel& parallel)
         : positions(allocator, low.positions.count + low.rest_positions.count),
@@ -204,21 +204,21 @@ struct WholeMesh {
     }
 
     Buffer<Vec3> positions, normals;
-    Buffer<DVec3> faces;  ///< unit normals; zero for degenerate faces
+    Buffer<DVec3> faces;  ///< unit normal of each face; zero for degenerate faces
     Buffer<std::uint32_t> roots = {};
 };
 
 DVec3 ownOf(const WholeMesh& mesh, std::size_t corner) { return unitOr(toDouble(mesh.normals[corner]), {}); }
 
-/// Returns, at the first corner of each position, the offset to the cage along the mean of all normals there; zero if
-/// there is none.
+/// Returns, at the first corner of each position, the offset to the cage along the mean of all normals at that
+/// position; zero if there is none.
 Buffer<Vec3> meanWays(const WholeMesh& mesh, const Allocator* allocator) {
     const std::size_t count = mesh.positions.size();
     Buffer<DVec3> means(allocator, count, DVec3{});
     for (std::size_t i = 0; i < count; ++i)
         means[mesh.roots[i]] = means[mesh.roots[i]] + mesh.angleAt(i) * ownOf(mesh, i);
     for (std::size_t i = 0; i < count; ++i) means[i] = unitOr(means[i], {});
-    // Smallest cosine between the mean and any face normal there.
+    // smallest cosine between the mean and any face normal at the position
     Buffer<double> along(allocator, count, 1.0);
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t root = mesh.roots[i];
@@ -348,7 +348,8 @@ DVec3 RayField::bentAtEdges(std::size_t triangle, const DVec3& point, const DVec
         const DVec3 at = from + part * (to - from);
         const double away = length(point - at);
         if (!(away < bend_)) continue;
-        // On an edge use the edge's direction, at its ends the vertex's, so that adjacent faces agree.
+        // At an edge the direction of the edge is used, and at its ends that of the vertex, so that the directions of
+        // adjacent faces agree.
         const double size = length(to - from), near_end = std::min(bend_, size / 2);
         const double of_from = smooth(std::max(0.0, 1 - part * size / near_end)),
                      of_to = smooth(std::max(0.0, 1 - (1 - part) * size / near_end));

@@ -14,7 +14,7 @@
 
 namespace tspace {
 
-// Distance of a point from a line segment.
+// Nearest point of a line segment, and distance from it.
 
 /// Returns the parameter, from 0 at a to 1 at b, of the point of the segment that is nearest to `point`.
 inline double nearestPart(const DVec3& point, const DVec3& a, const DVec3& b) {
@@ -29,7 +29,7 @@ inline double squaredDistanceTo(const DVec3& point, const DVec3& a, const DVec3&
     return dot(away, away);
 }
 
-// Edges where the faces of a low poly meet at an angle, and the nearest such edges of each corner.
+// Hard edges of a low poly, at which faces meet at an angle, and the nearest hard edges of each corner.
 
 /// Angle between faces above which an edge is hard, in degrees: a cylinder with 12 sides is still smooth.
 inline constexpr float kHardDeg = 30.5F;
@@ -39,22 +39,23 @@ struct HardEdges {
 
     struct Edge {
         std::array<std::uint32_t, 2> corners = {};  ///< the two ends of the edge
-        DVec3 way = {};                             ///< unit mean of its face normals, or zero
+        DVec3 way = {};                             ///< unit vector along the mean of the normals of its faces, or zero
     };
     std::vector<Edge> edges = {};
-    // One entry per corner; empty if no edge is hard:
-    /// The two nearest hard edges, reached over faces that meet smoothly, at most `far` away.
+    // The two nearest hard edges of each corner, reached over faces that meet smoothly, at most `far` away. Empty, like
+    // the other arrays, if no edge is hard.
     std::vector<std::array<std::uint32_t, 2>> nearest = {};
-    /// equal for corners with the same position whose faces meet smoothly: one corner of the group
+    /// Group of each corner: corners with the same position whose faces meet smoothly have the same group, which is one
+    /// of the corners.
     std::vector<std::uint32_t> groups = {};
-    std::vector<bool> at_edge = {};  ///< flags: a hard edge starts or ends at a corner of the group
+    std::vector<bool> at_edge = {};  ///< flag of each group: a hard edge starts or ends at one of its corners
 };
 
 /// Finds hard edges. `positions`: three per triangle. `roots`: for each corner the first corner with the same position.
 /// Linear time, except for sorting the edges. The result does not depend on the number of threads.
 HardEdges findHardEdges(StridedSpan<const Vec3> positions, std::span<const std::uint32_t> roots, double far);
 
-/// Interpolates an attribute at a point of a triangle; three values per triangle.
+/// Interpolates an attribute, which has three values per triangle, at a point of a triangle.
 template <class T>
 DVec3 mixedAt(const StridedSpan<const T>& values, std::size_t triangle, const std::array<double, 3>& weights) {
     DVec3 sum{};
@@ -66,15 +67,15 @@ DVec3 mixedAt(const StridedSpan<const T>& values, std::size_t triangle, const st
 struct HardEdge {
     Vec3 from = {}, to = {};
     Vec3 way = {};                          ///< offset to the cage between its two faces, for a cage offset of 1
-    Vec3 way_of_from = {}, way_of_to = {};  ///< offsets at its ends, between all faces there
+    Vec3 way_of_from = {}, way_of_to = {};  ///< offsets to the cage at its ends, from all faces at each end
 };
 
-/// The rays of a low poly. Const calls are thread-safe.
+/// Rays of a low poly: the direction at each point, and the distance to the cage. Const calls are thread-safe.
 class RayField {
   public:
     RayField() = default;
-    /// `low` must be checked; its arrays and `rays`.skew must stay valid. `offset`: cage distance. Time: linear, except for a
-    /// sort of the edges.
+    /// Computes the directions at corners and hard edges. `low` must be checked; its arrays and `rays`.skew must stay
+    /// valid. `offset`: cage distance. Time: linear, except for a sort of the edges.
     RayField(const LowPoly& low, const RayOptions& rays, double offset, Parallel& parallel, const Allocator* allocator);
 
     /// Computes the unit outward direction at a point and the distance to the cage along it. Returns false if there is
@@ -83,7 +84,7 @@ class RayField {
 
   private:
     static constexpr std::uint32_t kNoEdge = 0xffffffffu;
-    /// The hard edges nearest to a corner, reached over faces that meet smoothly.
+    /// Hard edges nearest to a corner, reached over faces that meet smoothly.
     using NearEdges = std::array<std::uint32_t, 2>;
 
     [[nodiscard]] DVec3 faceOf(std::size_t triangle) const;
@@ -94,7 +95,7 @@ class RayField {
         const NearEdges* const corners = near_.data() + 3 * triangle;
         return corners[0][0] != kNoEdge || corners[1][0] != kNoEdge || corners[2][0] != kNoEdge;
     }
-    /// Returns the direction at a point near hard edges; `straight` is the direction of its face.
+    /// Returns the direction at a point near hard edges. `straight`: direction of the point's face.
     [[nodiscard]] DVec3 bentAtEdges(std::size_t triangle, const DVec3& point, const DVec3& straight) const;
 
     LowPoly low_ = {};
@@ -104,7 +105,7 @@ class RayField {
     /// Offset from a corner to the cage, for a cage offset of 1. It is longer than 1 if faces are inclined to the mean
     /// normal, so that the cage keeps its distance from the faces.
     Buffer<Vec3> averaged_ = {};
-    Buffer<Vec3> straight_ = {};   ///< mean over faces that meet smoothly; empty unless requested
+    Buffer<Vec3> straight_ = {};   ///< mean over the faces that meet smoothly at each corner; empty unless requested
     Buffer<NearEdges> near_ = {};  ///< one per corner; empty if no edge is hard
     Buffer<HardEdge> edges_ = {};
 };

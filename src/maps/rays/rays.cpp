@@ -28,9 +28,10 @@ namespace tspace {
 
 namespace {
 
-/// Functions of Embree that are used, from the library installed at run time.
+/// Functions of Embree that are used. The library is installed separately, and loaded at run time.
 struct Embree {
-    /// Embree 3 and TBB take 47 MB. Their constructors terminate the process if memory runs out.
+    /// Memory of Embree 3 and TBB after loading is 47 MB. Their constructors terminate the process if memory runs out,
+    /// so this much must be available.
     static constexpr std::size_t kLoadedBytes = std::size_t{64} << 20;
     LoadedLibrary library = LoadedLibrary(TSPACE_EMBREE_LIBRARY, kLoadedBytes);
     decltype(&rtcNewDevice) newDevice = library.find("rtcNewDevice");
@@ -71,7 +72,7 @@ using QueryContext = RTCIntersectContext;
 
 constexpr std::uint32_t kNothingSkipped = 0xffffffffu;
 
-/// Point of a triangle's plane.
+/// Intersection of a line with the plane of a triangle.
 struct PlanePoint {
     double distance = 0;
     std::array<double, 3> weights = {};
@@ -82,16 +83,16 @@ struct PlanePoint {
 struct RaySurface::State {
     StridedSpan<const Vec3> positions;
     std::span<const std::uint32_t> corners, groups;
-    // The surface is moved and scaled into the unit cube for Embree, which drops very large triangles and rounds
-    // bounding boxes.
+    // Coordinates for Embree: the surface is moved and scaled into the unit cube, because Embree drops very large
+    // triangles and rounds bounding boxes.
     DVec3 center = {};
-    double scale = 1, size = 1;     ///< size: 1 / scale
-    std::vector<Vec4> placed = {};  // 16 bytes each, as Embree requires
+    double scale = 1, size = 1;     ///< size of the surface: 1 / scale
+    std::vector<Vec4> placed = {};  // scaled positions, 16 bytes each, as Embree requires
     RTCDevice device = nullptr, second_device = nullptr;
     RTCScene scene = nullptr;
 
-    /// Leaks all Embree objects and reports a lack of memory. Embree devices share state whose locks stay locked after
-    /// a failed call: releasing the objects, or creating another device, would wait forever.
+    /// Leaks all Embree objects, and returns an out-of-memory error. Embree devices share state whose locks stay locked
+    /// after a failed call: releasing the objects, or creating another device, would wait forever.
     Error abandon() {
         has_embree_failed = true;
         scene = nullptr;
@@ -129,20 +130,20 @@ struct RaySurface::State {
 
 namespace {
 
-/// Which triangle to search for on a line.
+/// Triangles that a query searches on a line.
 enum class Wanted : std::uint8_t {
-    nearest,  ///< nearest to `from`, on either side
-    first,    ///< first along the direction
+    nearest,  ///< the triangle nearest to `from`, on either side
+    first,    ///< the first triangle along the direction
     last,
-    any,  ///< first along the direction, front or back face
-    all   ///< counts all front and back faces
+    any,  ///< the first triangle along the direction, with its front or its back
+    all   ///< all triangles, whose front and back faces are counted
 };
 
 /// A line and its best hit so far.
 struct Query {
     const RaySurface::State* surface;
     DVec3 from, direction;
-    double begin, end;  ///< along the direction
+    double begin, end;  ///< limits of the distance along the direction
     Wanted wanted;
     std::uint32_t group;
     std::uint32_t skipped;  ///< triangle to ignore; kNothingSkipped: none
@@ -150,7 +151,7 @@ struct Query {
     RayHit best;
     RayCrossings crossings;
 
-    /// Returns the rank of a hit; the hit with the lowest rank is the best.
+    /// Returns the rank of a hit at a distance: the hit with the lowest rank is the best.
     [[nodiscard]] double rank(double distance) const {
         return wanted == Wanted::nearest ? std::fabs(distance) : wanted == Wanted::last ? -distance : distance;
     }
@@ -160,8 +161,8 @@ struct Query {
     }
 };
 
-/// One call of Embree for one or more lines. The context must be the first member, because filter functions get a
-/// pointer to it.
+/// Arguments of one Embree call for one or more lines. The context must be the first member, because filter functions
+/// get a pointer to it.
 struct Shot {
     QueryContext context;
     Query* queries;
@@ -198,7 +199,7 @@ void countCrossing(Query& query, std::uint32_t triangle) {
     }
 }
 
-/// Intersects the line with the plane of a triangle, regardless of its orientation. Returns false if the line misses
+/// Intersects the line with the plane of a triangle, whichever way the triangle faces. Returns false if the line misses
 /// it.
 bool meetEitherSide(const Query& query, std::uint32_t triangle, PlanePoint& point) {
     if (query.surface->meet(triangle, query.from, query.direction, point)) return true;
@@ -207,7 +208,7 @@ bool meetEitherSide(const Query& query, std::uint32_t triangle, PlanePoint& poin
     return true;
 }
 
-/// Filter for triangles that may block a line; rejects triangles that do not, so that Embree continues.
+/// Filter for triangles that may block a line. Rejects other triangles, so that Embree continues its search.
 void acceptBlocking(const RTCFilterFunctionNArguments* arguments) {
     forLines(arguments, [](const Query& query, std::uint32_t triangle, int& valid) {
         PlanePoint point;
@@ -238,7 +239,7 @@ void takeHit(Query& query, std::uint32_t triangle) {
     query.best = {triangle, point.weights, point.distance};
 }
 
-/// Filter that records hits; rejects every triangle, so that Embree visits all others.
+/// Filter that records hits. Rejects every triangle, so that Embree visits all others.
 void collectHits(const RTCFilterFunctionNArguments* arguments) {
     forLines(arguments, [](Query& query, std::uint32_t triangle, int& valid) {
         valid = 0;
@@ -268,7 +269,7 @@ void findPlace(RaySurface::State& state) {
 /// can be created.
 bool makeDevices(RaySurface::State& state, unsigned threads) {
     char settings[96];
-    // Without this option each device reserves 128 MB for subdivision surfaces.
+    // Without this option, each device reserves 128 MB for subdivision surfaces.
     constexpr const char* kNoCache = "tessellation_cache_size=0";
     std::snprintf(settings, sizeof settings, "threads=%u,user_threads=%u,%s", threads, threads, kNoCache);
     state.device = embree().newDevice(settings);
@@ -282,7 +283,7 @@ RTCError buildScene(const RaySurface::State& state, Parallel& parallel) {
     std::atomic<RTCError> failure = RTC_ERROR_NONE;
     parallel.forTasks(parallel.width(), [&](std::size_t) {
         embree().joinCommitScene(state.scene);
-        // Each thread has its own error code.
+        // Embree stores error codes per thread.
         if (const RTCError error = embree().getDeviceError(state.device); error != RTC_ERROR_NONE) failure = error;
     });
     return failure;
@@ -310,8 +311,8 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
         const Vec3 at = toFloat(state->scale * (toDouble(positions[i]) - state->center));
         state->placed[i] = {at.x, at.y, at.z, 0};
     }
-    // Upper limit of the memory for devices, threads and the BVH. A failed allocation inside Embree may terminate the
-    // process.
+    // Upper limit of the memory for devices, threads and the BVH. It must be available, because a failed allocation
+    // inside Embree may terminate the process.
     constexpr std::size_t kDeviceBytes = std::size_t{16} << 20, kThreadBytes = std::size_t{1} << 20,
                           kTriangleBytes = 256;
     requireMemory(kDeviceBytes + kThreadBytes * parallel.width() + kTriangleBytes * (corners.size() / 3));
@@ -320,7 +321,7 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
     if (!makeDevices(*state, parallel.width())) {
         if (state->device == nullptr && api.getDeviceError(nullptr) == RTC_ERROR_UNSUPPORTED_CPU)
             return makeError(ErrorCode::unsupportedFile, kNoElement, "Embree does not support this CPU");
-        // the settings are valid, so this is a lack of memory, for which Embree has several codes
+        // The settings are valid, so memory ran out, for which Embree has several codes.
         return state->abandon();
     }
     state->scene = api.newScene(state->device);
@@ -405,7 +406,7 @@ void shoot(Query& query) {
 #endif
 }
 
-/// Traces up to kLinesAtOnce lines of one surface.
+/// Traces up to kLinesAtOnce lines of one surface in a single Embree call.
 void shootTogether(std::span<Query> queries) {
     RTCRayHit16 rays{};
     alignas(64) std::array<int, kLinesAtOnce> valid{};

@@ -17,8 +17,8 @@ namespace tspace {
 
 struct RayHit {
     std::uint32_t triangle = 0;
-    std::array<double, 3> weights = {};  ///< barycentric weights of the triangle's corners
-    double distance = 0;                 ///< along the direction; negative for the opposite side
+    std::array<double, 3> weights = {};  ///< barycentric weights of the corners
+    double distance = 0;                 ///< distance along the direction; negative on the opposite side
 };
 
 /// Number of triangles that a segment of a line crosses.
@@ -68,8 +68,8 @@ class RaySurface {
                    RayHit& hit) const;
     bool innermost(const DVec3& from, const DVec3& outward, double begin, double end, std::uint32_t group,
                    RayHit& hit) const;
-    /// Calls outermost for at most kLinesAtOnce lines, in half of the time if they are close together. Bit i of the
-    /// result is set if line i has a hit, which is stored in hits[i].
+    /// Finds the outermost hits of at most kLinesAtOnce lines, in half of the time of single calls if the lines are
+    /// close together. Bit i of the result is set if line i has a hit, which is stored in hits[i].
     [[nodiscard]] std::uint32_t outermost(std::span<const RayLine> lines, std::span<RayHit> hits) const;
 
     /// Counts the front and back faces that the line along `outward` (unit) crosses from `begin` to `end`.
@@ -80,7 +80,7 @@ class RaySurface {
     /// `begin` and `end`, regardless of orientation and group.
     [[nodiscard]] bool isBlocked(const DVec3& from, const DVec3& direction, double begin, double end,
                                  std::uint32_t skipped) const;
-    /// Finds the first triangle for which isBlocked returns true.
+    /// Finds the first triangle that would make isBlocked return true.
     bool firstOfAny(const DVec3& from, const DVec3& direction, double begin, double end, std::uint32_t skipped,
                     RayHit& hit) const;
 

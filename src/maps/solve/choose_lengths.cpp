@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t kRowsOfBand = 128;
 constexpr unsigned kRounds = 3;
 
-/// Consecutive rows of a map, with the row above and the row below, which are fixed.
+/// Consecutive rows of a map, with the row above and the row below, whose texels are fixed.
 class Band {
   public:
     Band(const VectorMap& map, std::uint32_t first, std::uint32_t rows, const Allocator* allocator)
@@ -46,7 +46,7 @@ class Band {
     }
 
   private:
-    /// Offset in the map of a row of the band.
+    /// Returns the offset in the map of a row of the band.
     [[nodiscard]] std::size_t inMap(std::uint32_t y) const {
         return std::size_t{(first_ + height_ + y - 1) % height_} * map_.width;
     }
@@ -55,7 +55,7 @@ class Band {
         return map_.wrap_v != TextureWrap::repeat && (first_ + y == 0 || first_ + y == height_);
     }
 
-    /// Loads a row. Returns whether some of its vectors are to be chosen.
+    /// Loads a row. Returns whether it contains vectors that have to be chosen.
     bool takeRow(std::uint32_t y) {
         const bool is_inside = y > 0 && y <= rows_;
         bool has_unknown = false;
@@ -92,7 +92,7 @@ class Band {
 
     /// Returns a sample that measures errors across a filtered vector, as angles.
     [[nodiscard]] FitSample sampleOf(const Vec3& mixed) const {
-        // Below this length the filtered direction is unreliable.
+        // minimum squared length: below it, the filtered direction is unreliable
         constexpr float kLeastSquare = 0.05F;
         const float scale = map_.scale;
         const Vec3 read{scale * mixed.x, scale * mixed.y, mixed.z};
@@ -105,9 +105,9 @@ class Band {
         return sample;
     }
 
-    /// Only directions matter for vectors whose length is in the requested range, so they become unit. Other vectors
-    /// keep their length, and so do vectors next to one that differs by more than 9 degrees, because filtering there
-    /// depends on the lengths.
+    /// Normalizes the vectors whose length is in the requested range: only their directions matter. Other vectors keep
+    /// their length, and so do vectors next to one that differs by more than 9 degrees, because filtering there depends
+    /// on the lengths.
     void makeUnit(const IntegerChoice& choice) {
         constexpr float kCosine = 0.98769F, kSlack = 1e-5F;
         const Buffer<float> lengths = lengthsOf();
@@ -145,7 +145,7 @@ class Band {
 }  // namespace
 
 IntegerChoice integerChoice(TexelLengths lengths) {
-    // Ranges narrower than that of `even` do not improve smaller levels, but cost the first level more (figures:
+    // Ranges narrower than that of `even` do not improve smaller mip levels, but cost the first level more (figures:
     // docs/evidence/bake-theory.md).
     if (lengths == TexelLengths::free) return {.least_length = 0.7F, .most_length = 1.1F};
     return {.least_length = 0.9F, .most_length = 1.0F};

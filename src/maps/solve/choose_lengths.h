@@ -13,13 +13,13 @@
 
 namespace tspace {
 
-/// Returns the choice of 8-bit integers for three channels with the requested lengths.
+/// Returns the parameters for choosing 8-bit integers for three channels with the requested lengths.
 IntegerChoice integerChoice(TexelLengths lengths);
 
 struct VectorMap {
-    /// vectors as stored: 2 c - 1 for channel values c. Zero: unknown, and unchanged
+    /// Vectors as stored: 2 c - 1 for channel values c. A zero vector is unknown, and stays unchanged.
     std::span<Vec3> vectors = {};
-    std::span<const bool> keeps = {};  ///< vectors that are already integers and must not change
+    std::span<const bool> keeps = {};  ///< flags of vectors that are already integers and must not change
     std::uint32_t width = 0;
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
     float scale = 1;  ///< factor by which readers multiply x and y

@@ -72,7 +72,7 @@ FitSample acrossSample(const Vec3& wanted, float along, float wanted_length) {
 }
 
 FitSample twoChannelSample(const Vec3& wanted) {
-    // Derivative of z with respect to x and y. It is unbounded at grazing angles, so it is clamped.
+    // The derivative of z with respect to x and y is unbounded at grazing angles, so it is clamped.
     const float z = std::max(wanted.z, 0.1f), x = wanted.x / z, y = wanted.y / z;
     const SymmetricBlock metric{1 + x * x, x * y, 0, 1 + y * y, 0, 0};
     return {metric, blockTimes(metric, wanted)};
@@ -80,7 +80,8 @@ FitSample twoChannelSample(const Vec3& wanted) {
 
 namespace {
 
-/// Rows per task. The sums of tasks are added in order, so the result does not depend on the number of threads.
+/// Number of rows per task. The sums of tasks are added in order, so the result does not depend on the number of
+/// threads.
 constexpr std::size_t kSystemRows = 2048;
 
 class TaskSums {
@@ -97,7 +98,7 @@ class TaskSums {
     Buffer<double> of_tasks_;
 };
 
-/// Returns the inverse of a texel's diagonal block, for the preconditioner.
+/// Returns the inverse of a texel's diagonal block, for preconditioning.
 SymmetricBlock inverseOf(SymmetricBlock m) {
     m[0] += kHold;
     m[3] += kHold;
@@ -112,7 +113,7 @@ SymmetricBlock inverseOf(SymmetricBlock m) {
             factor * (m[0] * m[3] - m[1] * m[1])};
 }
 
-/// Conjugate gradients for the changes of the texels, which are small enough for floats.
+/// Solves for the changes of the texels by conjugate gradients. The changes are small enough for floats.
 class Gradients {
   public:
     Gradients(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator)
@@ -128,7 +129,7 @@ class Gradients {
           second_(allocator, tasks_) {}
 
     void run(const TellStep& tell) {
-        // Each step halves the error, approximately; the remaining error is below the precision of 16 bits.
+        // Each step halves the error, approximately. After the last step the error is below the precision of 16 bits.
         constexpr int kMostSteps = 24;
         constexpr double kSmall = 1e-4;
         begin();
@@ -160,7 +161,7 @@ class Gradients {
         });
     }
 
-    /// Returns the sum of the products of the neighbors' blocks with their values, given by `of(row, texel)`.
+    /// Returns the sum of the products of the neighbors' blocks with their values, which `of(row, texel)` returns.
     template <class Of>
     Vec3 around(std::size_t row, const Of& of) const {
         const std::uint32_t texel = system_.texelOf(row);
@@ -183,7 +184,7 @@ class Gradients {
         });
     }
 
-    /// image = system * direction
+    /// Computes image = system * direction.
     void multiply() {
         forUnknowns(first_, [&](std::size_t row) {
             const Vec3& own = direction_[row];
@@ -213,7 +214,7 @@ class Gradients {
     std::span<Vec3> texels_;
     Parallel& parallel_;
     Buffer<Vec3> residual_, direction_, image_;
-    /// Inverse of the diagonal block of each row; recomputing it from the rows would take longer.
+    /// Inverse of the diagonal block of each row, which is stored because recomputing it would take longer.
     Buffer<SymmetricBlock> inverse_;
     std::size_t tasks_;
     TaskSums first_, second_;
@@ -239,7 +240,7 @@ void solveTexels(const TexelSystem& system, std::span<Vec3> texels, Parallel& pa
 
 namespace {
 
-/// Search for one texel: the q that minimizes q.Mq + 2 q.h.
+/// Search for the integers of one texel: for the vector q that minimizes q.Mq + 2 q.h.
 class IntegerTexel {
   public:
     IntegerTexel(const IntegerChoice& choice, const SymmetricBlock& m, const Vec3& h)
@@ -260,12 +261,12 @@ class IntegerTexel {
     Vec3 best(const Vec3& start) const { return choice_.is_two_channel ? bestOfTwo(start) : bestOfThree(start); }
 
   private:
-    /// Squared length of the surrounding texels, multiplied by their part in the mixture.
+    /// Squared length of the surrounding texels, multiplied by their part in the filtered value.
     static constexpr float kOthers = 0.4F;
 
     [[nodiscard]] int indexOf(float value) const { return static_cast<int>(std::floor((value + 1) / step_ + 0.5f)); }
     [[nodiscard]] bool isInside(float real) const { return real >= -1 && real <= 1; }
-    /// Returns the energy increase caused by errors dx and dy of the optimal real x and y.
+    /// Returns the increase of the error form if x and y deviate by dx and dy from the optimal real numbers.
     [[nodiscard]] float added(float dx, float dy) const { return dx * (m_[0] * dx + 2 * m_[1] * dy) + m_[3] * dy * dy; }
 
     /// Integers for a given z, in steps: the nearest x, and the y with the least error for that x.
@@ -287,22 +288,22 @@ class IntegerTexel {
     }
 
     [[nodiscard]] Vec3 bestOfThree(const Vec3& start) const {
-        // The value is a sum of squares, up to a constant that depends only on the neighbors. Its minimum over real
-        // numbers is assumed to be this small value (squared, for a sample of which the texel is half).
+        // Assumed minimum of the error form over real numbers: a small value (squared, for a sample of which the texel
+        // is half). The form is a sum of squares, up to a constant that depends only on the neighbors.
         constexpr float kLeftOver = 2e-6F;
         const float x = start_x_ + slope_x_ * start.z, y = start_y_ + slope_y_ * start.z;
         const float linear = 2 * (m_[2] * x + m_[4] * y + m_[5] * start.z + h_.z);
         const float square = m_[2] * slope_x_ + m_[4] * slope_y_ + m_[5];
         const float rest =
             kLeftOver * (m_[0] + m_[3] + m_[5]) / 8 + (square > 0 ? linear * linear / (4 * square) : 0.0F);
-        // Range of z for vectors that point like the start and have the least to the most length, with a margin of one
-        // step.
+        // Range of z of the vectors that point like the start and have the least to the most length, with a margin of
+        // one step.
         const float size = std::max(length(start), 1e-6F), slope = start.z / size;
         const float a = slope * choice_.least_length, b = slope * choice_.most_length;
         const int first = std::max(0, indexOf(std::min(a, b)) - 1);
         const int last = std::min(static_cast<int>(choice_.most), indexOf(std::max(a, b)) + 1);
 
-        // From here on lengths are in steps, and squared lengths in squared steps.
+        // From here on, lengths are in steps, and squared lengths in squared steps.
         const float squares = half_ * half_, start_z = (start.z + 1) * half_;
         const Eight least_square = choice_.least_length * choice_.least_length * squares,
                     most_square = choice_.most_length * choice_.most_length * squares;
@@ -316,7 +317,8 @@ class IntegerTexel {
                 at.error_x * (m_[0] * at.error_x + 2 * m_[1] * at.error_y) + m_[3] * (at.error_y * at.error_y);
             const Eight column = at.x - half_, row = at.y - half_, plane = z - half_;
             const Eight squared = column * column + row * row + plane * plane;
-            // Angles are errors relative to the length of the mixture of the texel and its neighbors.
+            // The score is the error as an angle: relative to the length of the filtered vector, to which the texel and
+            // its neighbors contribute.
             Eight score = (value + error) / (squared + kOthers * squares);
             score = whereLess(squared, least_square, 1e20F, score);
             score = whereLess(most_square, squared, 1e20F, score);
@@ -327,7 +329,8 @@ class IntegerTexel {
         return vectorOf(least, chosen, start);
     }
 
-    /// Returns the vector with the lowest score (for equal scores, the lowest z), or `start` if no vector is allowed.
+    /// Returns the vector with the lowest score (if scores are equal, the one with the lowest z), or `start` if no
+    /// vector is allowed.
     [[nodiscard]] Vec3 vectorOf(const Eight& scores, const Eight& planes, const Vec3& start) const {
         float least = 1e6F, z = -1;
         for (std::size_t lane = 0; lane < 8; ++lane) {
@@ -340,7 +343,7 @@ class IntegerTexel {
         return {at.x[0] * step_ - 1, at.y[0] * step_ - 1, z * step_ - 1};
     }
 
-    /// If z follows from x and y, only errors of x and y count.
+    /// Returns the best vector of a two-channel map: z follows from x and y, so only errors of x and y count.
     [[nodiscard]] Vec3 bestOfTwo(const Vec3& start) const {
         const float x = start_x_ + slope_x_ * start.z, y = start_y_ + slope_y_ * start.z;
         if (!isInside(x) || !isInside(y)) return start;
@@ -368,16 +371,16 @@ class IntegerTexel {
     float start_x_ = 0, slope_x_ = 0, start_y_ = 0, slope_y_ = 0;
 };
 
-/// Assumed length of texels that are not chosen yet.
+/// Returns the length that texels are assumed to have before they are chosen.
 float usualLength(const IntegerChoice& choice) { return (choice.least_length + choice.most_length) / 2; }
 
 bool keepsLength(const IntegerChoice& choice, const Vec3& wanted) {
-    // A unit vector may be longer by the rounding error of its components.
+    // Tolerance for unit vectors, which the rounding of their components may make longer.
     constexpr float kSlack = 1e-5F;
     return choice.keeps_lengths && std::fabs(length(wanted) - 1) > kSlack;
 }
 
-/// Chooses the integers plane by plane of z. If x or y is the longest component, the axes are exchanged first.
+/// Chooses the integers, plane by plane of z. If x or y is the longest component, the axes are exchanged first.
 Vec3 bestIntegers(IntegerChoice choice, const SymmetricBlock& m, const Vec3& h, Vec3 wanted) {
     if (keepsLength(choice, wanted)) {
         const float size = length(wanted);
@@ -399,7 +402,7 @@ Vec3 bestIntegers(IntegerChoice choice, const SymmetricBlock& m, const Vec3& h, 
 }
 
 /// Returns the integers for a texel whose system row has the diagonal block `own`; `rest` is the contribution of its
-/// neighbors. A weak pull to its own direction decides if no samples do.
+/// neighbors. If no sample constrains the texel, a weak pull to its own direction decides.
 Vec3 chosenFor(const IntegerChoice& choice, const SymmetricBlock& own, const Vec3& rest, const Vec3& wanted) {
     DVec3 unit_wanted = toDouble(wanted);
     if (!normalize(unit_wanted)) return wanted;
@@ -410,7 +413,8 @@ Vec3 chosenFor(const IntegerChoice& choice, const SymmetricBlock& own, const Vec
     return bestIntegers(choice, block, rest - kHold * hold.side, wanted);
 }
 
-/// Texels that take no part in the system are chosen independently. Most of them are background, and equal.
+/// Chooses the integers of texels that are not in the system, independently of each other. Most of them are background,
+/// and equal.
 void chooseApart(const TexelSystem& system, const IntegerChoice& choice, std::span<Vec3> texels, Parallel& parallel) {
     parallel.forRanges(system.height(), 4, [&](std::size_t begin, std::size_t end) {
         Vec3 last_wanted{}, last_chosen{};
@@ -433,7 +437,7 @@ void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std:
     chooseApart(system, choice, texels, parallel);
     Buffer<Vec3> wanted(allocator, texels.size());
     std::copy(texels.begin(), texels.end(), wanted.begin());
-    // Assumes that texels not chosen yet have the usual length.
+    // Texels that are not chosen yet are assumed to have the usual length.
     if (!choice.is_two_channel) {
         for (std::size_t i = 0; i < texels.size(); ++i) {
             if (!system.isUnknown(system.rowOf(i)) || keepsLength(choice, texels[i])) continue;
@@ -462,8 +466,8 @@ void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std:
 
 namespace {
 
-/// Rounds one texel. Vectors are in steps relative to the middle of the integer range: integers plus one half if the
-/// number of values is even.
+/// Rounding of one texel to integers. Vectors are in steps relative to the middle of the integer range: integers plus
+/// one half if the number of values is even.
 class StepRounding {
   public:
     explicit StepRounding(const TexelRounding& rounding)
@@ -473,8 +477,8 @@ class StepRounding {
 
     [[nodiscard]] Vec3 nearest(const Vec3& v) const { return {nearest(v.x), nearest(v.y), nearest(v.z)}; }
 
-    /// Returns, among lattice vectors near `wanted` that may be slightly longer or shorter, the one with the least
-    /// perpendicular error.
+    /// Returns the vector near `wanted`, among those that integers represent and that may be slightly longer or
+    /// shorter, with the least perpendicular error.
     [[nodiscard]] Vec3 nearestAcross(const Vec3& wanted) const {
         std::array<float, 3> v{wanted.x, wanted.y, wanted.z};
         std::size_t main = 0;
@@ -484,7 +488,7 @@ class StepRounding {
         const std::size_t second = (main + 1) % 3, third = (main + 2) % 3;
         const float sign = v[main] < 0 ? -1.0F : 1.0F, size = sign * v[main];
         const float slope_b = v[second] / size, slope_c = v[third] / size;
-        // The smaller the slopes, the more the length must change before other components round to different integers.
+        // The smaller the slopes, the more the length must change until other components round to different integers.
         const float steepest = std::max(std::fabs(slope_b), std::fabs(slope_c));
         const float stride =
             steepest * kMostStride > kMove ? std::floor(std::max(1.0F, kMove / steepest)) : kMostStride;
@@ -509,8 +513,8 @@ class StepRounding {
     }
 
   private:
-    /// Number of lengths tried. Their spacing moves one of the other components by a fraction of a step; the spacing
-    /// has a maximum, in steps.
+    /// Number of lengths that are tried. Their spacing moves one of the other components by a fraction of a step; the
+    /// spacing has a maximum, in steps.
     static constexpr int kLengths = 8;
     static constexpr float kMove = 0.4F, kMostStride = 40;
 
@@ -528,8 +532,8 @@ void roundTexels(std::span<Vec3> texels, std::uint32_t width, const TexelRoundin
                  const Allocator* allocator, const TellStep& tell) {
     const auto height = static_cast<std::uint32_t>(texels.size() / width);
     const StepRounding steps(rounding);
-    // Rounding errors so far, in steps; each texel is rounded with its neighbors fixed. An error along the vector does
-    // not change its direction and is ignored.
+    // Rounding errors so far, in steps. Each texel is rounded while its neighbors are fixed. An error along the vector
+    // does not change its direction, and is ignored.
     Buffer<Vec3> off(allocator, texels.size(), Vec3{});
     const auto roundRow = [&](std::uint32_t y) {
         const std::size_t here = std::size_t{y} * width, above = std::size_t{y > 0 ? y - 1 : height - 1} * width,
@@ -539,9 +543,10 @@ void roundTexels(std::span<Vec3> texels, std::uint32_t width, const TexelRoundin
             const std::size_t left = x > 0 ? x - 1 : width - 1, right = x + 1 < width ? x + 1 : 0;
             const Vec3 sides = (off[here + left] + off[here + right]) + (off[above + x] + off[below + x]);
             const Vec3 corners = (off[above + left] + off[above + right]) + (off[below + left] + off[below + right]);
-            // Integral of the product of two filters: 4/9 at the texel itself, 1/9 at its sides, 1/36 at its corners.
+            // Integral of the product of two bilinear filters: 4/9 at the texel itself, 1/9 at its sides, 1/36 at its
+            // corners.
             const Vec3 others = 0.25F * sides + 0.0625F * corners;
-            // Subtracts the rounding error of an earlier round.
+            // The rounding error of an earlier round is subtracted.
             const Vec3 wanted = steps.middle() * texels[here + x] - off[here + x];
             Vec3& error = off[here + x];
             Vec3 chosen;
@@ -557,7 +562,7 @@ void roundTexels(std::span<Vec3> texels, std::uint32_t width, const TexelRoundin
             texels[here + x] = (1 / steps.middle()) * chosen;
         }
     };
-    // If lengths are free, a second round gains almost nothing.
+    // If lengths may change, a second round gains almost nothing.
     const std::uint64_t rounds = rounding.keeps_lengths ? 2 : 1;
     for (std::uint64_t round = 0; round < rounds; ++round) {
         const TellStep tell_row = [&](std::uint64_t done, std::uint64_t total) {

@@ -15,14 +15,15 @@
 
 namespace tspace {
 
-/// Minimum width and height of an image that is solved: in smaller images texels would be their own neighbors.
+/// Minimum width and height of an image whose texels are solved: in smaller images texels would be their own neighbors.
 inline constexpr std::uint32_t kLeastSolved = 4;
 
-// Texels of a map as unknowns, and the equations of samples of the bilinearly filtered map: least squares, with one
-// symmetric 3 x 3 block for each pair of texels that a sample mixes. The image repeats; samples of images that do not
-// repeat mix no texels across the edge. Only texels that samples mix take memory.
+// System of equations for the texels of a map: each sample of the bilinearly filtered map adds an equation, and the
+// solution is by least squares, with one symmetric 3 x 3 block for each pair of texels that a sample mixes. The image
+// repeats; samples of images that do not repeat mix no texels across the edge. Only texels that samples mix take
+// memory.
 
-/// xx, xy, xz, yy, yz, zz
+/// Symmetric 3 x 3 matrix: xx, xy, xz, yy, yz, zz.
 using SymmetricBlock = std::array<float, 6>;
 
 inline Vec3 blockTimes(const SymmetricBlock& m, const Vec3& v) {
@@ -31,13 +32,14 @@ inline Vec3 blockTimes(const SymmetricBlock& m, const Vec3& v) {
 }
 
 /// Row of the normal equations for one texel: its diagonal block, the blocks with its right, lower left, lower and
-/// lower right neighbors (the other four neighbors store their blocks with it), and the right-hand side.
+/// lower right neighbors (the blocks with the other four neighbors are stored in the rows of these), and the right-hand
+/// side.
 struct TexelRow {
     std::array<SymmetricBlock, 5> blocks = {};
     Vec3 side = {};
 };
 
-/// Sample: the filtered map should be `target` at a point between four texels; `metric` defines the error.
+/// Sample: the filtered map should have the value `target` at a point between four texels; `metric` defines the error.
 struct FitSample {
     SymmetricBlock metric = {};
     Vec3 side = {};  ///< metric times target
@@ -45,14 +47,14 @@ struct FitSample {
 
 /// Role of a texel in the system.
 enum class TexelRole : std::uint8_t {
-    apart,   ///< not in the system: samples that mix it are skipped
-    fixed,   ///< fixed value that samples mix with unknown texels
+    apart,   ///< not in the system: samples that mix this texel are skipped
+    fixed,   ///< fixed value, which samples mix with unknown texels
     unknown  ///< to be solved; every sample that reads it mixes only texels with a row
 };
 
 class TexelSystem {
   public:
-    /// `roles`: one per texel.
+    /// Creates a system without samples. `roles`: one per texel.
     TexelSystem(const Allocator* allocator, std::uint32_t width, std::uint32_t height,
                 std::span<const TexelRole> roles);
 
@@ -63,7 +65,7 @@ class TexelSystem {
     [[nodiscard]] std::uint32_t below(std::uint32_t y) const { return y + 1 < height_ ? y + 1 : 0; }
     [[nodiscard]] std::uint32_t above(std::uint32_t y) const { return y > 0 ? y - 1 : height_ - 1; }
 
-    /// Row 0 is zero, and shared by all texels that are not in the system.
+    /// Returns the number of rows. Row 0 is zero, and shared by all texels that are not in the system.
     [[nodiscard]] std::size_t rowCount() const { return rows_.size(); }
     [[nodiscard]] std::uint32_t rowOf(std::uint32_t x, std::uint32_t y) const {
         return row_of_[std::size_t{y} * width_ + x];
@@ -109,9 +111,9 @@ FitSample twoChannelSample(const Vec3& wanted);
 /// samples constrain almost nothing: at the rim of a chart.
 inline constexpr float kHold = 0.004F;
 
-/// Visits elements of a ring such that no two adjacent ones are processed at the same time: some(first, number)
-/// processes `number` elements, every second one from `first` on: first the even elements, then the odd ones, then the
-/// last one of an odd count.
+/// Visits the elements of a ring such that adjacent ones are not processed at the same time. some(first, number)
+/// processes `number` elements, every second one from `first` on; it is called for the even elements, then for the odd
+/// ones, and then for the last one of an odd count.
 template <class Some>
 void forApart(std::size_t count, const Some& some) {
     some(std::size_t{0}, count / 2);
@@ -119,7 +121,7 @@ void forApart(std::size_t count, const Some& some) {
     some(count - 1, count % 2);
 }
 
-/// Called before step `done` of at most `total` steps; may throw, which ends the call.
+/// Callback before step `done` of at most `total` steps. It may throw, which ends the call.
 using TellStep = std::function<void(std::uint64_t done, std::uint64_t total)>;
 
 /// Calls row(y) for all rows of an image that repeats; adjacent rows never run at the same time. The steps of `tell` are
@@ -145,33 +147,34 @@ void forRowsApart(Parallel& parallel, std::uint32_t height, const Row& row, cons
 void solveLeastSquares(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel,
                        const Allocator* allocator, const TellStep& tell = {});
 
-/// Like solveLeastSquares, for vectors of at most unit length.
+/// Solves the unknown `texels` like solveLeastSquares, for vectors of at most unit length.
 void solveTexels(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator,
                  const TellStep& tell = {});
 
-/// Vectors represented by integers: n from 0 to `most` stands for 2 n / most - 1.
+/// Parameters for choosing vectors that integers represent: n from 0 to `most` represents 2 n / most - 1.
 struct IntegerChoice {
     unsigned most = 255;
     float least_length = 0.7F, most_length = 1.1F;  ///< range of vector lengths; no component may exceed 1
-    bool is_two_channel = false;                    ///< z is reconstructed from x and y (unit vector)
-    bool keeps_lengths = false;                     ///< a vector that is not unit keeps its length within 5 %
+    bool is_two_channel = false;                    ///< true: z is reconstructed from x and y (unit vectors)
+    bool keeps_lengths = false;                     ///< true: a vector that is not unit keeps its length within 5 %
 };
 
 /// Replaces unknown `texels`, one after the other, by vectors that integers represent and that minimize the error of
-/// the samples, given the surrounding texels; repeats this `rounds` times. Fixed texels are unchanged. The result does
-/// not depend on the number of threads.
+/// the samples, while the surrounding texels are fixed; repeats this `rounds` times. Fixed texels are unchanged. The
+/// result does not depend on the number of threads.
 void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std::span<Vec3> texels, unsigned rounds,
                     Parallel& parallel, const Allocator* allocator, const TellStep& tell = {});
 
 struct TexelRounding {
     unsigned most = 65535;
-    bool keeps_lengths = false;        ///< otherwise lengths may change by 0.5 % for better directions
+    /// true: lengths are kept; false: they may change by 0.5 % for better directions
+    bool keeps_lengths = false;
     std::span<const bool> keeps = {};  ///< texels that must not change; empty: none
 };
 
 /// Rounds each component of `texels` to a value that an integer from 0 to `most` represents, such that neighboring
-/// texels compensate for rounding errors under filtering. Like chooseIntegers, but for so many integers that all errors
-/// have equal weight. The image repeats. The result does not depend on the number of threads.
+/// texels compensate for rounding errors under filtering. Unlike chooseIntegers, it is for so many integers that all
+/// errors have equal weight. The image repeats. The result does not depend on the number of threads.
 void roundTexels(std::span<Vec3> texels, std::uint32_t width, const TexelRounding& rounding, Parallel& parallel,
                  const Allocator* allocator, const TellStep& tell = {});
 

@@ -16,7 +16,7 @@ struct Eight {
 
     Eight() = default;
     Eight(Four a, Four b) : low(a), high(b) {}
-    // NOLINT(google-explicit-constructor): implicit, like float
+    // NOLINT(google-explicit-constructor): implicit, like the conversion from float
     Eight(float all) : low{all, all, all, all}, high(low) {}
 
     [[nodiscard]] float operator[](std::size_t lane) const { return lane < 4 ? low[lane] : high[lane - 4]; }
@@ -37,7 +37,7 @@ inline Eight smaller(const Eight& a, const Eight& b) {
 inline Eight larger(const Eight& a, const Eight& b) {
     return {a.low > b.low ? a.low : b.low, a.high > b.high ? a.high : b.high};
 }
-/// a < b ? x : y
+/// Returns a < b ? x : y for each lane.
 inline Eight whereLess(const Eight& a, const Eight& b, const Eight& x, const Eight& y) {
     return {a.low < b.low ? x.low : y.low, a.high < b.high ? x.high : y.high};
 }

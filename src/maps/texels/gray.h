@@ -13,7 +13,8 @@ namespace tspace {
 /// constant.
 template <class TexelAt>
 std::array<double, 3> channelCorrelations(std::size_t count, const TexelAt& texelAt) {
-    constexpr double kConstant = 2.5;  // RMS deviation in units of 1/255: compression adds about as much
+    // RMS deviation of a constant channel, in units of 1/255: compression adds about as much
+    constexpr double kConstant = 2.5;
     std::array<double, 3> sum = {}, squares = {}, products = {};
     for (std::size_t i = 0; i < count; ++i) {
         const std::array<double, 3> texel = texelAt(i);
@@ -35,9 +36,9 @@ std::array<double, 3> channelCorrelations(std::size_t count, const TexelAt& texe
     return correlations;
 }
 
-/// Returns whether 98 % of the texels have equal channels within compression errors, or a weak tint with correlated
-/// channels. This rejects normal maps with one constant channel, whose other two channels are not correlated.
-/// `texelAt(i)`: values from 0 to 255.
+/// Returns whether an image is gray: 98 % of the texels have equal channels within compression errors, or a weak tint
+/// with correlated channels. This rejects normal maps with one constant channel, whose other two channels are not
+/// correlated. `texelAt(i)`: values from 0 to 255.
 template <class TexelAt>
 bool isGray(std::size_t count, const TexelAt& texelAt) {
     constexpr double kApart = 4.5, kTintApart = 6.5, kMostTint = 0.1, kMost = 0.98, kLeastCorrelation = 0.95;

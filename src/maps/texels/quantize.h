@@ -6,21 +6,21 @@
 
 namespace tspace {
 
-/// Vectors represented by integers: n from 0 to `most` stands for 2 n / most - 1.
+/// Set of the vectors that integers represent: n from 0 to `most` represents 2 n / most - 1.
 struct IntegerVectors {
     unsigned most = 255;
-    /// Minimum vector length. Shorter vectors lose weight under filters that mix texels.
+    /// Minimum vector length. Shorter vectors would have too little weight under filters that mix texels.
     double least_length = 0.7;
-    bool is_two_channel = false;  ///< z is reconstructed from x and y (unit vector)
+    bool is_two_channel = false;  ///< true: z is reconstructed from x and y (unit vectors)
     double scale = 1;             ///< factor by which readers multiply x and y
 };
 
-/// Rounds each component to the nearest value that an integer represents.
+/// Rounds each component of a vector to the nearest value that an integer represents.
 DVec3 roundedVector(unsigned most, const DVec3& vector);
 
 /// Returns the integer vector whose decoded direction is closest to `direction`, with any length from the minimum to
-/// the longest that fits. With two channels the length is 1 (z as close as possible), and z must not be negative.
-/// `direction`: unit, before division by the scale.
+/// the longest that fits. With two channels, the length is 1 (z is as close as possible), and z of `direction` must not
+/// be negative. `direction`: unit, before division by the scale.
 DVec3 nearestIntegers(const IntegerVectors& numbers, const DVec3& direction);
 
 }  // namespace tspace

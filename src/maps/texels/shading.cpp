@@ -14,7 +14,7 @@ DVec3 mixed(const std::array<DVec3, 3>& of, const std::array<double, 3>& weights
     return weights[0] * of[0] + weights[1] * of[1] + weights[2] * of[2];
 }
 
-/// Normalizes a vector. Zero and vectors that are not finite are returned unchanged; they shade nothing.
+/// Returns the normalized vector. Zero and vectors that are not finite are returned unchanged: they shade nothing.
 DVec3 unitOrSame(DVec3 v) {
     normalize(v);
     return v;
@@ -81,7 +81,7 @@ DVec3 encodeTexel(const DVec3& vector, const MapReading& reading) {
     const double scale = reading.scale;
     DVec3 stored{vector.x / scale, (reading.green == Green::down ? -vector.y : vector.y) / scale, vector.z};
     if (reading.two_channels) {
-        // The decoded z must be consistent with x and y after scaling.
+        // The decoded z must be consistent with the scaled x and y.
         const double wanted = std::sqrt(stored.x * stored.x + stored.y * stored.y + stored.z * stored.z);
         if (wanted > 0) stored = (1 / wanted) * stored;
     }
@@ -94,7 +94,7 @@ DVec3 shadedNormal(const ShadingFrame& frame, const DVec3& vector) {
 }
 
 DVec3 vectorFor(const ShadingFrame& frame, const DVec3& direction) {
-    // Rows of the inverse, multiplied by the determinant, whose magnitude does not matter for a direction.
+    // Rows of the inverse matrix, multiplied by the determinant, whose magnitude does not matter for a direction.
     const DVec3 row_x = cross(frame.bitangent, frame.normal);
     const double determinant = dot(row_x, frame.tangent);
     DVec3 vector{dot(row_x, direction), dot(cross(frame.normal, frame.tangent), direction),

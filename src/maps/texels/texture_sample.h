@@ -23,7 +23,7 @@ struct TextureShape {
 /// Returns the texel at column (or row) `at` of a texture that continues infinitely in all directions.
 inline std::uint32_t wrappedTexel(std::int64_t at, std::uint32_t size, TextureWrap wrap) {
     const std::int64_t count = size;
-    // Fast path for nearly all calls: a division would dominate the time.
+    // Fast path for nearly all calls, because a division would dominate the time.
     if (at >= 0 && at < count) return static_cast<std::uint32_t>(at);
     if (wrap == TextureWrap::clamp) return static_cast<std::uint32_t>(at < 0 ? 0 : at < count ? at : count - 1);
     const std::int64_t period = wrap == TextureWrap::mirror ? 2 * count : count;
@@ -32,7 +32,7 @@ inline std::uint32_t wrappedTexel(std::int64_t at, std::uint32_t size, TextureWr
     return static_cast<std::uint32_t>(inside < count ? inside : period - 1 - inside);
 }
 
-/// Indices (y * width + x) and weights of four texels; the weights sum to 1.
+/// Indices (y * width + x) and weights of the four texels of a bilinear sample; the weights sum to 1.
 struct BilinearTaps {
     std::array<std::size_t, 4> texels = {};
     std::array<float, 4> weights = {};

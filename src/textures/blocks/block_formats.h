@@ -11,9 +11,10 @@ struct NearestCode {
     Eight code, value;
 };
 
-/// BC4 palettes in steps of 1 / 255 (signed: 1 / 254): eight values between two integer ends if the first end is
-/// larger, otherwise six. `kind`: number of steps between the ends, 7 or 5. The extra values 0 and 1 of six-value
-/// palettes are not used: in normal maps with relief, fewer than one block in a hundred would gain from them.
+/// BC4 block format. Palettes are in steps of 1 / 255 (signed: 1 / 254), with eight values between two integer ends if
+/// the first end is larger, otherwise with six. `kind`: number of steps between the ends, 7 or 5. The extra values 0
+/// and 1 of six-value palettes are not used: in normal maps with relief, fewer than one block in a hundred would gain
+/// from them.
 class Bc4Format {
   public:
     explicit Bc4Format(bool is_signed) : is_signed_(is_signed), most_(is_signed ? 254.0F : 255.0F) {}
@@ -30,7 +31,7 @@ class Bc4Format {
         }
     };
     [[nodiscard]] static Values valuesOf(const Eight& origin, const Eight& step, const Eight& kind) {
-        // A step of 0 has a single value for all codes.
+        // With a step of 0, all codes have the same value.
         const Eight size = step * step, tiny = 1e-12F;
         return {origin, step, whereLess(tiny, size, 1.0F / whereLess(tiny, size, step, 1.0F), 0.0F), kind};
     }
@@ -38,12 +39,12 @@ class Bc4Format {
         return origin + code * step;
     }
 
-    /// Rounds to integer ends between 0 and the maximum, in the order that the kind requires.
+    /// Rounds the ends of palettes to integers between 0 and the maximum, in the order that the kind requires.
     void round(const Eight& origin, const Eight& step, const Eight& /*mean_code*/, const Eight& kind, Eight& new_origin,
                Eight& new_step) const {
         const Eight first = nearestWhole(between(origin, 0.0F, most_));
         const Eight last = nearestWhole(between(origin + kind * step, 0.0F, most_));
-        const Eight is_full = kind - 6.0F;  // above 0
+        const Eight is_full = kind - 6.0F;  // positive for palettes of eight values
         new_origin = whereLess(0.0F, is_full, larger(first, 1.0F), first);
         const Eight end = whereLess(0.0F, is_full, smaller(last, new_origin - 1.0F), larger(last, new_origin));
         new_step = (end - new_origin) / kind;
@@ -72,7 +73,7 @@ class Bc4Format {
             const Eight last(kParts[2 * group + 1][0], kParts[2 * group + 1][1]);
             tryRounded(most - first * range, least + last * range, 7.0F, tryPalettes);
         }
-        // A few evenly spaced values are often represented better by six values than by eight.
+        // A few evenly spaced values are often represented better by a palette of six values than by one of eight.
         if (!all) return;
         const Eight first(kParts[0][0], kParts[0][1]), last(kParts[1][0], kParts[1][1]);
         tryRounded(least + first * range, most - last * range, 5.0F, tryPalettes);
@@ -140,8 +141,8 @@ class Bc4Format {
     float most_;
 };
 
-/// EAC palettes in steps of 1 / 2047 (signed: 1 / 2046): a base in steps of 8, plus modifiers from one of 16 tables,
-/// multiplied by 8 and a multiplier of up to 15, or by 1. `kind`: index of the table.
+/// EAC block format. Palettes are in steps of 1 / 2047 (signed: 1 / 2046), with a base in steps of 8, plus the
+/// modifiers of one of 16 tables, multiplied by 8 and a multiplier of up to 15, or by 1. `kind`: index of the table.
 class EacFormat {
   public:
     explicit EacFormat(bool is_signed)
@@ -153,7 +154,7 @@ class EacFormat {
     struct Values {
         Eight origin, step, most;
         std::array<Eight, 8> modifiers;  ///< ascending
-        std::array<Eight, 7> borders;    ///< halfway between two values
+        std::array<Eight, 7> borders;    ///< midpoints between adjacent values
 
         [[nodiscard]] NearestCode nearest(const Eight& wanted) const {
             Eight code = modifiers[0];
@@ -175,7 +176,7 @@ class EacFormat {
         return between(origin + code * step, 0.0F, most_);
     }
 
-    /// Rounds the step and adjusts the origin so that the mean is preserved.
+    /// Rounds the step to the format, and adjusts the origin so that the mean is preserved.
     void round(const Eight& origin, const Eight& step, const Eight& mean_code, const Eight& /*kind*/, Eight& new_origin,
                Eight& new_step) const {
         const Eight multiplier = nearestWhole(between((1 / kBaseStep) * step, 0.0F, 15.0F));
@@ -226,7 +227,7 @@ class EacFormat {
         }
     }
 
-    /// EAC needs no pair search: every start tries all tables.
+    /// Tries no pairs: EAC needs no pair search, because every start tries all tables.
     template <class Try>
     void forPairs(float, float, const Try&) const {}
 

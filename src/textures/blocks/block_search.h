@@ -20,7 +20,7 @@ namespace tspace {
 
 /// Returns the slot of texel i of a block in a 6 x 6 grid: the block and a border of one texel.
 constexpr std::size_t slotOf(std::size_t i) { return (i / 4 + 1) * 6 + i % 4 + 1; }
-/// Offsets from a slot to the 3 x 3 slots around it, row by row.
+/// Offsets from a slot to the 3 x 3 slots around it, row by row, in the grid of slotOf.
 inline constexpr std::array<int, 9> kAround = {-7, -6, -5, -1, 0, 1, 5, 6, 7};
 
 using Stencil = std::array<float, 9>;
@@ -28,13 +28,13 @@ using Stencil = std::array<float, 9>;
 struct ChannelBlock {
     std::array<bool, 16> is_used = {};   ///< false: the texel lies beyond the edge of the image
     std::array<float, 16> targets = {};  ///< in steps of the format, 0 to `most`
-    /// rows of H; entries for texels outside the block are contained in `pull` only
+    /// Rows of H; entries for texels outside the block are contained in `pull` only.
     std::array<Stencil, 16> mix = {};
     std::array<float, 16> own_parts = {};  ///< for each row of H: the sum of its entries for texels inside the block
-    std::array<float, 16> pull = {};       ///< g
+    std::array<float, 16> pull = {};       ///< vector g of each texel
 };
 
-/// Palette values are origin + step * c, where c is the number that a code represents.
+/// Palette of a block: its values are origin + step * c, where c is the number that a code represents.
 struct Palette {
     float origin = 0, step = 0;
     float kind = 0;  ///< block kind in the encoding of the format
@@ -44,17 +44,17 @@ struct Palette {
 
 struct FittedChannel {
     Palette palette = {};
-    std::array<float, 16> codes = {};   ///< c
-    std::array<float, 16> errors = {};  ///< value - target
+    std::array<float, 16> codes = {};   ///< c of each texel
+    std::array<float, 16> errors = {};  ///< error of each texel: value - target
 };
 
 struct SearchEffort {
-    bool all_starts = true;   ///< start with palettes of all kinds; otherwise only of the most common kind
+    bool all_starts = true;   ///< true: start with palettes of all kinds; false: only of the most common kind
     int start_fits = 1;       ///< number of least-squares fits per start
     float near_range = 0;     ///< blocks with a smaller range try all palettes within it, in steps of 8 bits
     bool few_values = false;  ///< blocks with few distinct values try all palettes whose ends are near the extremes
     int sweeps = 1;
-    bool looks_around = false;  ///< also tries the neighbors of the best palette
+    bool looks_around = false;  ///< true: also try the neighbors of the best palette
 };
 
 template <class Format>
@@ -62,7 +62,7 @@ class BlockSearch {
   public:
     BlockSearch(const Format& format, const ChannelBlock& block) : format_(format), block_(block) {}
 
-    /// Returns the best encoding of each texel independently of its neighbors.
+    /// Returns the best encoding of each texel, chosen independently of its neighbors.
     FittedChannel alone(const SearchEffort& effort) {
         constexpr std::size_t kDescents = 3;
         chooseStarts(block_.targets, effort, kDescents);
@@ -137,7 +137,7 @@ class BlockSearch {
         return values;
     }
 
-    /// Returns the part of the gradient at texel i that other texels contribute.
+    /// Returns the part of the gradient at texel i that the other texels contribute.
     template <class Number>
     Number pullAt(std::size_t i, const Number* error) const {
         const Stencil& mix = block_.mix[i];
@@ -239,7 +239,7 @@ class BlockSearch {
         }
     }
 
-    // Finds start palettes: the best ones when texels are fitted independently.
+    // Finds start palettes: those that are best if texels are fitted independently.
 
     void chooseStarts(const std::array<float, 16>& values, const SearchEffort& effort, std::size_t wanted) {
         start_count_ = 0;
@@ -267,8 +267,8 @@ class BlockSearch {
         }
     }
 
-    /// Blocks with few distinct values, for example next to the edge of a flat area, have palettes that represent all
-    /// of them exactly; descent does not find these.
+    /// Tries palettes for blocks with few distinct values, for example next to the edge of a flat area. Palettes that
+    /// represent all of these values exactly exist, but descent does not find them.
     void tryFewValues(const std::array<float, 16>& values, float least, float most) {
         constexpr std::size_t kFew = 4;
         std::array<float, 16> sorted{};
@@ -279,7 +279,7 @@ class BlockSearch {
         std::sort(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(count));
         std::array<float, kFew> means{}, weights{};
         std::size_t groups = 0;
-        float scatter = 0;  // scatter of values around the means of their groups
+        float scatter = 0;  // sum of squared deviations of the values from the means of their groups
         for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
             float sum = 0;
             for (end = begin; end < count && (end == begin || sorted[end] - sorted[end - 1] < format_.stepsOfByte());
@@ -359,7 +359,7 @@ class BlockSearch {
         if (start_count_ == wanted_starts_ && !(error < start_errors_[start_count_ - 1])) return;
         std::size_t at = start_count_;
         while (at > 0 && error < start_errors_[at - 1]) --at;
-        // Equal palettes have equal errors, so only these need comparing.
+        // Equal palettes have equal errors, so only starts with the same error are compared.
         for (std::size_t i = at; i > 0 && start_errors_[i - 1] == error; --i) {
             if (starts_[i - 1] == palette) return;
         }

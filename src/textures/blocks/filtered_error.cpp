@@ -11,8 +11,8 @@ namespace tspace {
 
 namespace {
 
-/// Number of sample points per texel and axis, each in the middle of an equal part. None is at a texel center, where
-/// the error of fitted blocks is larger than between centers.
+/// Number of sample points per texel and axis. They are in the middle of equal parts of the distance between adjacent
+/// texel centers, so none is at a center, where the error of fitted blocks is larger than between centers.
 constexpr std::size_t kPoints = 3;
 
 class FilteredPair {

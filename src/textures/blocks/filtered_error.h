@@ -8,15 +8,15 @@
 
 namespace tspace {
 
-/// Error angles in degrees.
+/// Error angles of a texture, in degrees.
 struct FilteredError {
     double mean_deg = 0, p99_deg = 0, max_deg = 0;
-    double max_x = 0, max_y = 0;  ///< position of the maximum, in texels; centers lie at halves
+    double max_x = 0, max_y = 0;  ///< position of the maximum, in texels; texel centers are at halves
 };
 
 /// Compares the shading normals at 3 x 3 points per texel (in a subset of the rows for more than 4 million texels).
-/// `truth` is filtered and normalized; so is `texels`, or, with `makes_z`, x and y are filtered and z is computed from
-/// them. The map repeats. The result does not depend on the number of threads.
+/// `truth` is filtered and normalized, and so is `texels`; with `makes_z`, its x and y are filtered, and z is computed
+/// from them. The map repeats. The result does not depend on the number of threads.
 FilteredError measureFiltered(const NormalLevel& truth, std::span<const Vec3> texels, bool makes_z, Parallel& parallel);
 
 }  // namespace tspace

@@ -100,7 +100,7 @@ class FilteredForm {
             metric = (kUsual / (kUsual + std::sqrt(off_by))) * metric;
             metrics_[row + x] = metric;
             for (std::size_t point = 0; point < 4; ++point) {
-                // The form is scaled to 36 times the mean over the square.
+                // The form is scaled to 36 times the mean over the square of four texels.
                 const Vec2 side{9 * (metric.x * off[point].x + metric.y * off[point].y),
                                 9 * (metric.y * off[point].x + metric.z * off[point].y)};
                 for (std::size_t i = 0; i < 4; ++i) {
@@ -112,8 +112,8 @@ class FilteredForm {
         }
     }
 
-    /// Gauss-Seidel iteration, starting from x and y of the map. Three sweeps suffice: a fourth would reduce the error
-    /// of blocks by less than 0.03 %.
+    /// Solves for x and y by Gauss-Seidel iteration, starting from x and y of the map. Three sweeps suffice: a fourth
+    /// would reduce the error of blocks by less than 0.03 %.
     void solve(const std::vector<Vec2>& residuals, Parallel& parallel) {
         constexpr int kSweeps = 3;
         std::vector<Vec2> moved(best_.size());
@@ -150,7 +150,8 @@ class FilteredForm {
     std::vector<Vec2> best_;
 };
 
-/// State of a channel of a block between rounds; the errors of its texels are stored for the whole level.
+/// Palette of a channel of a block, which is kept between rounds. The errors of its texels are stored for the whole
+/// level.
 struct KeptChannel {
     Palette palette = {};
     std::array<std::int8_t, 16> codes = {};
@@ -280,7 +281,7 @@ class LevelFit {
         return fitted;
     }
 
-    /// Sets the quadratic error of the channel, given the errors around it.
+    /// Sets the quadratic error form of the channel, given the errors around the block.
     static void setForm(ChannelBlock& block, std::size_t channel, const std::array<std::array<Vec3, 9>, 16>& mixes,
                         const std::array<Vec2, 36>& errors) {
         std::array<bool, 36> is_inside{};
@@ -326,8 +327,8 @@ class LevelFit {
     Parallel& parallel_;
     std::size_t width_, height_, across_, down_;
     float half_;
-    std::vector<Vec2> targets_ = {};  ///< in steps of the format
-    std::vector<Vec2> errors_;        ///< decoded - target
+    std::vector<Vec2> targets_ = {};  ///< x and y of each texel, in steps of the format
+    std::vector<Vec2> errors_;        ///< decoded value - target, for each texel
     std::vector<KeptChannel> kept_;
 };
 

@@ -13,7 +13,7 @@ enum class BlockFormat : std::uint8_t { bc5, eacRg11 };
 
 enum class BlockQuality : std::uint8_t {
     quick,  ///< fits each channel of a block independently, by least squares over its texels
-    fast,   ///< minimizes the filtered error in one round
+    fast,   ///< minimizes the filtered error in two rounds
     best    ///< like `fast`, with three rounds and more palettes
 };
 
@@ -24,8 +24,8 @@ struct BlockOptions {
 };
 
 struct FittedLevel {
-    std::vector<std::uint8_t> blocks = {};  ///< 16 bytes each, row by row
-    std::vector<Vec2> texels = {};          ///< x and y as decoded
+    std::vector<std::uint8_t> blocks = {};  ///< blocks of 16 bytes each, row by row
+    std::vector<Vec2> texels = {};          ///< x and y of each texel, as decoded
 };
 
 /// Fits blocks to a level. The map repeats. Errors are approximately squared angles: x and y are weighted by the

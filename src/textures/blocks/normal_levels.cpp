@@ -14,8 +14,8 @@ using Moments = std::array<float, 5>;
 
 struct MeanLevel {
     std::uint32_t width = 0, height = 0;
-    std::vector<Vec3> means = {};       ///< mean normals, not normalized, multiplied by coverage
-    std::vector<Moments> moments = {};  ///< moments multiplied by coverage
+    std::vector<Vec3> means = {};       ///< mean normals, not normalized, each multiplied by the coverage
+    std::vector<Moments> moments = {};  ///< moments, each multiplied by the coverage
     std::vector<float> coverage = {};   ///< empty: fully covered
 };
 
@@ -24,7 +24,7 @@ struct MeanLevel {
 std::vector<Cover> coversOf(std::uint32_t from, std::uint32_t to) {
     std::vector<Cover> covers(to);
     for (std::uint32_t i = 0; i < to; ++i) {
-        // In units of 1 / to of a texel, so that edges are integers.
+        // Texel edges in units of 1 / to of a texel, in which they are integers.
         const std::uint64_t begin = std::uint64_t{i} * from, end = begin + from;
         covers[i].begin = static_cast<std::size_t>(begin / to);
         for (std::uint64_t texel = begin / to; texel * to < end; ++texel) {
@@ -79,7 +79,7 @@ MeanLevel shrink(const MeanLevel& from, std::uint32_t width, std::uint32_t heigh
     return to;
 }
 
-/// 1 - mean (n . along)^2
+/// Returns the spread of normals around a direction: 1 - mean((n . along)^2).
 float spreadOf(const Moments& m, const Vec3& along) {
     const DVec3 a = toDouble(along);
     const auto of = [&](std::size_t i) { return static_cast<double>(m[i]); };
@@ -107,7 +107,7 @@ NormalLevel unitOf(const MeanLevel& level) {
     return unit;
 }
 
-/// Texels without coverage get the normal of the smaller level.
+/// Sets the normal of texels without coverage to that of the smaller level.
 void fillUncovered(const NormalLevel& smaller, NormalLevel& level) {
     for (std::size_t i = 0; i < level.normals.size(); ++i) {
         if (level.coverage[i] > 0) continue;
@@ -137,8 +137,8 @@ std::vector<NormalLevel> makeNormalLevels(NormalLevel first, Parallel& parallel,
     while (levels.back().width > 1 || levels.back().height > 1) {
         const std::uint32_t width = std::max(levels.back().width / 2, 1U);
         const std::uint32_t height = std::max(levels.back().height / 2, 1U);
-        // The last level can be the source only if no texel edge of it cuts a texel of the whole map; its means then
-        // equal those of the first level.
+        // The last level can replace the first level as the source only if its texel edges cut no texel of the first
+        // level, and those of the new level cut no texel of the last level: the resulting means are then equal.
         const bool is_even = !last.means.empty() && whole.width % last.width == 0 && whole.height % last.height == 0 &&
                              last.width % width == 0 && last.height % height == 0;
         last = shrink(is_even ? last : whole, width, height, parallel);

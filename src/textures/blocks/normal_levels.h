@@ -12,7 +12,7 @@ namespace tspace {
 
 struct NormalLevel {
     std::uint32_t width = 0, height = 0;
-    std::vector<Vec3> normals = {};  ///< unit vectors
+    std::vector<Vec3> normals = {};  ///< unit normal of each texel
     /// Spread of the covered normals around the texel's normal n: 1 - mean (m . n)^2, the trace of their covariance
     /// perpendicular to it. Empty unless requested.
     std::vector<float> spreads = {};
@@ -20,8 +20,8 @@ struct NormalLevel {
     std::vector<float> coverage = {};
 };
 
-/// Texels in a row of `from` that a texel in a row of `to` covers: consecutive texels from `begin` on, with weights
-/// that sum to 1.
+/// Texels in a row of a level that one texel in a row of a smaller level covers: consecutive texels from `begin` on,
+/// with weights that sum to 1.
 struct Cover {
     std::size_t begin = 0;
     std::vector<double> weights = {};

@@ -10,14 +10,14 @@
 
 namespace tspace {
 
-/// Occlusion, roughness and metalness in the range 0 to 1.
+/// Level of a texture with occlusion, roughness and metalness in the range 0 to 1.
 struct RoughnessLevel {
     std::uint32_t width = 0, height = 0;
     std::vector<Vec3> texels = {};
 };
 
-/// Returns why the grids of a normal map and a roughness texture do not match, as half a sentence, or an empty string
-/// if they do: they must be equal, or one must be larger by the same power of two along both sides.
+/// Returns the reason why the sizes of a normal map and a roughness texture do not match, as a sentence fragment; an
+/// empty string if they match: they must be equal, or one must be larger by the same power of two along both sides.
 std::string whyGridsDiffer(const RoughnessLevel& roughness, std::uint32_t width, std::uint32_t height);
 
 /// Returns all levels down to 1 x 1. Channels are means, weighted by the coverage of the normals if there is any.
