@@ -36,44 +36,45 @@ enum class GreenSource : std::uint32_t {
 
 /// A normal map of the high poly that is included in the bake.
 struct BakedHighMap {
-    std::string image = {};     ///< its URI or name
+    std::string image = {};     ///< URI of the image, or its name
     std::string material = {};  ///< material of the first primitive that uses it; may be empty
-    double scale = 1;           ///< factor of x and y
+    double scale = 1;           ///< factor of x and y of the vectors
     Green green = Green::up;
     GreenSource green_is = GreenSource::assumed;
     std::uint64_t triangle_count = 0;
 };
 
-/// Items with separate IDs in MapLayer::id.
+/// Rule by which MapLayer::id assigns IDs.
 enum class BakeIds : std::uint32_t {
-    material = 0,  ///< materials, by name
-    object = 1,    ///< nodes of the high poly by name, or meshes if nodes have no names
-    shell = 2      ///< connected components by position
+    material = 0,  ///< one ID per material name
+    object = 1,    ///< one ID per node name of the high poly, or per mesh name if nodes have no names
+    shell = 2      ///< one ID per connected component by position
 };
 
 struct BakeFileOptions {
     /// Bake options. The wrap modes are replaced by those of the low poly's textures. The memory limit is that of
     /// `file`, or 16 GB if that is 0.
     BakeOptions map = {};
-    /// For missing frames of the low poly: as in GenerateOptions.
+    /// Options for computing missing tangents and normals of the low poly. The defaults are those of GenerateOptions.
     TangentOptions tangents{.convention = conventions::gltf};
     NormalOptions normals{.weighting = NormalWeighting::flat};
-    /// For high polys with noisy positions, such as scans: as NormalOptions::denoise. Normals of noisy meshes are
-    /// recomputed with `best`, without hard edges.
+    /// Denoising of high polys with noisy positions, such as scans, as in NormalOptions::denoise. Normals of noisy
+    /// meshes are recomputed with `best`, without hard edges.
     float denoise = 0;
     FileOptions file = {};
     std::string cage = {};  ///< model with the low poly's triangles, moved to the start of the rays; empty: none
     std::string skew = {};  ///< image for `map.rays.skew`; empty: none
-    /// Matching of objects: "names"; "all": every object sees everything; otherwise a file with lines LOW = HIGH, with
-    /// node or mesh names. Unmatched objects see, or are seen by, everything, and a warning names them.
+    /// Rule by which objects of the low poly are matched with objects of the high poly. "names": by node or mesh names;
+    /// "all": rays of every object hit every object; otherwise: path of a file with lines LOW = HIGH, with node or mesh
+    /// names. An object without a match is not restricted, and a warning names it.
     std::string match = "names";
     /// Ignore the normal maps of the high poly's materials: bake its vertex normals only.
     bool ignore_high_maps = false;
     /// Green direction of these maps. Unset: as declared in the file, otherwise as detected from their slopes,
     /// otherwise up.
     std::optional<Green> high_green = {};
-    std::string misses = {};  ///< path of an image of the texel states; empty: none
-    std::string heat = {};    ///< path of a heat map of the error; empty: none
+    std::string misses = {};  ///< path of an image that shows the state of each texel (TexelOrigin); empty: none
+    std::string heat = {};    ///< path of an image of the error as a heat map; empty: none
     /// Path for the low poly with the frames that were used and the maps as its textures: .glb (embeds them) or .gltf
     /// (refers to them). All files appear together, or none. Not with `udim`, object space or green down, which glTF
     /// does not support (invalidOption). Empty: not written.
@@ -108,19 +109,19 @@ struct BakedId {
     std::array<std::uint8_t, 3> color = {};
 };
 
-/// An image in addition to the normal map.
+/// Image of a layer that was written in addition to the normal map.
 struct BakedLayerFile {
     MapLayer layer = MapLayer::ao;
     std::string path = {};
     unsigned bits = 8;     ///< bits per channel
-    bool is_srgb = false;  ///< its values are sRGB-encoded
+    bool is_srgb = false;  ///< true: its values are sRGB-encoded
     /// Values of black and white for each channel, in model units.
     std::array<double, 3> least = {0, 0, 0}, most = {1, 1, 1};
-    std::uint64_t id_count = 0;     ///< for MapLayer::id: number of items of the high poly
-    std::vector<BakedId> ids = {};  ///< the first 256 items
+    std::uint64_t id_count = 0;     ///< number of IDs in the high poly, for MapLayer::id
+    std::vector<BakedId> ids = {};  ///< meaning of the first 256 IDs
 };
 
-/// The normal map of one material or tile, and its layers.
+/// Normal map of one material or tile, and its layers.
 struct BakedFile {
     std::string path = {};      ///< path of the normal map; empty if it was not requested
     std::string material = {};  ///< material name; may be empty
@@ -136,8 +137,10 @@ struct BakedFile {
 struct BakeFileReport {
     std::vector<BakedFile> files = {};
     std::vector<BakedHighMap> high_maps = {};  ///< normal maps that were included in the bake
-    bool frames_made = false;                  ///< tangents or normals of the low poly were computed, at least in part
-    bool matched_by_name = false;              ///< objects of the low poly saw only their matches in the high poly
+    /// true: tangents or normals of the low poly were computed, at least in part
+    bool frames_made = false;
+    /// true: rays of the objects of the low poly hit only the matching objects of the high poly
+    bool matched_by_name = false;
     std::uint64_t low_triangle_count = 0, high_triangle_count = 0;
     std::vector<std::string> output_files = {};  ///< all files that were written
     /// Defects that make maps useless, with causes: most rays hit nothing, normals of the high poly point inwards. An
@@ -147,9 +150,9 @@ struct BakeFileReport {
 };
 
 /// Bakes the maps of `low` from `high`; the normal map is `output`, a PNG. A low poly with several materials gets one
-/// file per material: NAME.MATERIAL.png. All files appear at once or not at all. Errors: those of bakeMap, but for rays
-/// that meet nothing, which are findings; and cannotRead, invalidFile, unsupportedFile (also a build that writes no
-/// PNG), forbiddenPath, tooLarge, cannotWrite.
+/// file per material: NAME.MATERIAL.png. All files appear at once or not at all. Errors: those of bakeMap, except that
+/// rays without a hit are reported as a finding; also cannotRead, invalidFile, unsupportedFile (also a build that
+/// writes no PNG), forbiddenPath, tooLarge, cannotWrite.
 Result<BakeFileReport> bakeFile(const std::string& low, const std::string& high, const std::string& output,
                                 const BakeFileOptions& options = {});
 
@@ -161,7 +164,7 @@ struct MapErrorFileOptions {
     std::string cage = {}, skew = {}, match = "names";  ///< as in BakeFileOptions
     bool ignore_high_maps = false;                      ///< as in BakeFileOptions
     std::optional<Green> high_green = {};               ///< as in BakeFileOptions
-    bool two_channels = false;  ///< z is computed from x and y: sets `map.reading.two_channels` for any reading
+    bool two_channels = false;  ///< true: z is computed from x and y; sets `map.reading.two_channels` for any reading
     std::string material = {};  ///< only triangles of the material with this name; empty: all
     std::uint32_t tile = 0;     ///< only triangles of this UDIM tile, from 1001; 0: all
     std::string heat = {};      ///< path of a heat map of the error; empty: none
@@ -169,11 +172,11 @@ struct MapErrorFileOptions {
     Progress progress = {};
 };
 
-/// An interpretation of the map, with its error.
+/// Interpretation of the map, with the error that it has under this interpretation.
 struct ExplainedReading {
-    std::string frames =
-        {};             ///< "file", a method, "quads" (mikktspace on quads), or "object" (no frames: object space)
-    MapAxes axes = {};  ///< axes of object space
+    /// "file", a method, "quads" (mikktspace on quads), or "object" (no frames: object space).
+    std::string frames = {};
+    MapAxes axes = {};  ///< axes of the map, in object space
     MapReading reading = {};
     MapError error = {};
 };
@@ -187,16 +190,16 @@ struct ExplainedRays {
 struct MapErrorFileReport {
     std::uint32_t width = 0, height = 0;
     unsigned bits = 8;
-    MapError error = {};  ///< error with the requested interpretation and rays; `heat` is empty
+    MapError error = {};  ///< error with the requested interpretation and rays; without `heat`
     /// All ray settings that were tried, best first; the first is how the map was probably baked. Measured at 20,000
     /// points with the best interpretation for the requested rays. With a cage mesh no other setting is tried.
     std::vector<ExplainedRays> rays = {};
-    /// all interpretations that were tried, best first; measured with the best rays
+    /// All interpretations that were tried, best first; measured with the best rays.
     std::vector<ExplainedReading> readings = {};
-    bool fits = false;         ///< no other interpretation and no other rays are much better
+    bool fits = false;         ///< true: no other interpretation and no other rays are much better
     std::string verdict = {};  ///< summary for artists
     bool frames_made = false, matched_by_name = false;
-    std::vector<BakedHighMap> high_maps = {};  ///< maps of the high poly that are included in the truth
+    std::vector<BakedHighMap> high_maps = {};  ///< normal maps of the high poly that are included in the true normals
     double heat_top_deg = 0;
     std::vector<std::string> warnings = {};
 };
@@ -223,14 +226,15 @@ BakeFileOptions allMaps();
 
 struct FinishOptions {
     FinishNormals normals = FinishNormals::missing;
-    /// For normals that are computed, by `best`: as in NormalOptions. Computed normals of the low poly have no hard
-    /// edges, which would require UV seams.
+    /// Crease angle and denoising of computed normals, as in NormalOptions; their weighting is `best`. Computed normals
+    /// of the low poly have no hard edges, which would require UV seams.
     float crease_angle_deg = NormalOptions::crease_auto;
     float denoise = NormalOptions::denoise_auto;
-    /// Weld distance for computing normals and flipping triangles: as NormalOptions::weld_distance.
+    /// Weld distance for computing normals and flipping triangles, as in NormalOptions::weld_distance.
     float weld_distance = NormalOptions::weld_auto;
-    /// As in GenerateOptions. A mesh keeps its winding if checkFile would otherwise find more normals against their
-    /// triangles than before: its normals match its triangles, and it renders correctly.
+    /// true: flip triangles that are wound the wrong way, as GenerateOptions::mend_winding does. A mesh keeps its
+    /// winding if checkFile would otherwise find more normals against their triangles than before: its normals match
+    /// its triangles, and it renders correctly.
     bool mend_winding = true;
     bool images = true;  ///< as CheckOptions::images and GenerateOptions::Maps::read; does not affect baking
     /// Model with UVs that replaces the input, which becomes its high poly: it is written to the output with all maps.
@@ -239,9 +243,9 @@ struct FinishOptions {
     /// Options for baking maps. The call sets its models, `out_mesh`, file, execution and progress.
     BakeFileOptions bake = allMaps();
     std::string page = {};  ///< path of an HTML report with pictures before and after; empty: none
-    std::string page_date = {},
-                /// command line of the run, as shown in the page: any text; empty: only the version
-        page_command = {};
+    std::string page_date = {};
+    /// Command line of the run, as shown in the page: any text; empty: only the version.
+    std::string page_command = {};
     FileOptions file = {};  ///< without `content`
     Execution execution = {};
     Progress progress = {};
@@ -250,10 +254,10 @@ struct FinishOptions {
 /// Changes to a model.
 struct FinishedModel {
     std::string path = {};
-    GenerateReport made = {};  ///< winding, normals and tangents; names no output
+    GenerateReport made = {};  ///< changes to winding, normals and tangents; names no output file
     CheckReport before = {};
     std::uint64_t without_uvs_count = 0;  ///< primitives with triangles and without UVs
-    /// Triangles that were not flipped, because their meshes keep their winding (see FinishOptions::mend_winding).
+    /// Triangles that were not flipped, because their mesh keeps its winding (FinishOptions::mend_winding).
     std::uint64_t left_winding_count = 0;
 };
 
@@ -262,9 +266,9 @@ struct FinishReport {
     std::optional<FinishedModel> low = {};
     std::optional<BakeFileReport> bake = {};
     CheckReport check = {};  ///< check of the output
-    std::vector<std::string> remarks =
-        {};  ///< actions that were not possible, with the tools that can do them: one sentence each
-    /// all written files, the model first; empty if no ray of an image hit anything
+    /// Actions that were not possible, with the tools that can do them: one sentence each.
+    std::vector<std::string> remarks = {};
+    /// All written files, the model first; empty if no ray of any image hit anything.
     std::vector<std::string> output_files = {};
     std::uint64_t output_bytes = 0;  ///< size of the model file
 };

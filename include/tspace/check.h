@@ -22,7 +22,7 @@ namespace tspace {
 
 /// Importance of a finding.
 enum class Severity : std::uint32_t {
-    note = 0,     ///< worth knowing; it renders correctly
+    note = 0,     ///< worth knowing, although it renders correctly
     warning = 1,  ///< it renders incorrectly in some renderers, in a small area, or only possibly
     error = 2,    ///< it certainly renders incorrectly
 };
@@ -37,13 +37,13 @@ enum class FindingCode : std::uint32_t {
     uvsDegenerate = 3,  ///< triangles without UV area, from which no direction can be computed
     normalsMissing = 4,
     normalsNotFinite = 5,
-    normalsNotUnit = 6,         ///< including normals of length 0
+    normalsNotUnit = 6,         ///< normals that are not of unit length, or have length 0
     normalsAgainstWinding = 7,  ///< normals point to the back side of their triangles
     tangentsMissing = 8,
-    tangentsUnused = 9,    ///< no material needs them
+    tangentsUnused = 9,    ///< tangents that no material needs
     tangentsIgnored = 10,  ///< tangents without normals, which glTF tells readers to ignore
     tangentsNotFinite = 11,
-    tangentsNotUnit = 12,          ///< including tangents of length 0
+    tangentsNotUnit = 12,          ///< tangents that are not of unit length, or have length 0
     tangentsNotOrthogonal = 13,    ///< tangents are not in the plane of the surface
     signsNotOne = 14,              ///< w is not +1 or -1
     signsMixed = 15,               ///< w differs between the corners of a triangle
@@ -111,8 +111,8 @@ struct RemedyCommand {
     std::string verb = {};                   ///< "generate", "convert-map", ...
     std::vector<std::string> inputs = {};    ///< files; empty: the model that was checked
     std::vector<RemedyOption> options = {};  ///< in the order of the command line
-    std::vector<std::string> placeholders =
-        {};  ///< placeholders among inputs and values, to be replaced by the user: "OUT.png", "HIGH"
+    /// Placeholders among inputs and values, to be replaced by the user: "OUT.png", "HIGH".
+    std::vector<std::string> placeholders = {};
 };
 
 /// Returns the command as typed, without the model, and without an output if the command has none: "tspace generate
@@ -129,14 +129,15 @@ struct Finding {
     std::string material_name = {};  ///< may be empty
     std::string unit = {};           ///< counted elements: "vertices", "triangles", "blocks" (of an image), ...
     std::uint64_t count = 0;         ///< number of elements with the fault
-    std::uint64_t total = 0;         ///< number of candidates
-    double surface_share = 0;        ///< their share of the primitive's surface, 0 to 1; 0 if not applicable
-    double worst_deg = 0;            ///< largest angle, for findings about angles; otherwise 0
-    double confidence = 1;           ///< 0 to 1; below 1 for findings based on statistics
+    std::uint64_t total = 0;         ///< number of elements that were examined
+    /// share of the primitive's surface that these elements cover, 0 to 1; 0 if not applicable
+    double surface_share = 0;
+    double worst_deg = 0;                      ///< largest angle, for findings about angles; otherwise 0
+    double confidence = 1;                     ///< 0 to 1; below 1 for findings based on statistics
     std::vector<std::uint32_t> vertices = {};  ///< first affected vertices, at most 8
     std::string message = {};                  ///< one sentence
     std::string remedy = {};                   ///< fix for this finding; usually findingRemedy(code)
-    std::vector<RemedyCommand> commands = {};  ///< commands that `remedy` contains, in the same order
+    std::vector<RemedyCommand> commands = {};  ///< commands that `remedy` mentions, in the same order
 };
 
 /// Tolerances and conventions of a check. Angles are in degrees; all numbers must be finite and not negative.
@@ -156,7 +157,7 @@ struct CheckOptions {
     double unit_tolerance = 0.00674;
     /// Errors become warnings if they affect less than this share of a primitive's surface, 0 to 1.
     double error_share = 0.001;
-    /// Sign convention of the data in the file. The default is that of glTF files.
+    /// Sign convention of the data in the file. Default: that of glTF files.
     Convention convention = conventions::gltf;
     /// Check normal maps: PNG, JPEG and WebP (if tspace was built with their decoders), KTX2 and DDS, and TGA (except
     /// in glTF).
@@ -183,16 +184,16 @@ struct PackedFramesInfo {
     std::uint32_t mesh = 0;
     std::uint32_t primitive = 0;  ///< index in its mesh
     std::uint64_t vertex_count = 0;
-    bool is_readable = false;  ///< if false, a finding states the reason
-    /// NORMAL and TANGENT exist, and the following values cover all vertices. They are compared after the repairs that
-    /// packing applies: unit length, right angles, and replacement of invalid vectors.
+    bool is_readable = false;  ///< false: the data are invalid, and a finding states the reason
+    /// true: NORMAL and TANGENT exist, and the following values cover all vertices. They are compared after the repairs
+    /// that packing applies: unit length, right angles, and replacement of invalid vectors.
     bool is_compared = false;
     double worst_normal_deg = 0;
     double worst_tangent_deg = 0;
     std::uint64_t differing_sign_count = 0;
 };
 
-/// The result of checking an image without a model.
+/// Result of checking an image without a model.
 struct CheckedImage {
     std::uint32_t width = 0, height = 0;
     /// "normals" (in tangent space, as in glTF), "twoChannels", "unsignedZ", "xInAlpha", "exchanged", "encoded" (sRGB),
@@ -202,12 +203,12 @@ struct CheckedImage {
     /// (DirectX), "mixed", or "unknown". A map with x and y both inverted shows the same surface with dents instead of
     /// bumps; images alone cannot distinguish the two.
     std::string green = {};
-    double green_confidence = 0;  ///< 0 to 1
+    double green_confidence = 0;  ///< confidence in `green`, 0 to 1
 };
 
 struct CheckReport {
-    std::string format =
-        {};  ///< as Inspection::format; for an image "png", "jpeg", "webp", "exr", "ktx2", "dds" or "tga"
+    /// As Inspection::format; for an image "png", "jpeg", "webp", "exr", "ktx2", "dds" or "tga".
+    std::string format = {};
     std::string generator = {};          ///< the program that wrote the file; may be empty
     std::vector<Finding> findings = {};  ///< errors first, then in file order, then by code
     std::uint64_t error_count = 0;

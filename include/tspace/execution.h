@@ -40,7 +40,7 @@ inline constexpr std::uint32_t kAllThreads = 0xffffffffu;
 /// Threads and memory of a call: the last argument of functions on arrays, a member of the options of functions on
 /// files. The objects it points to must outlive the call, and any plan made with it.
 struct Execution {
-    std::uint32_t thread_count = 1;  ///< 0 and 1: the calling thread only; kAllThreads
+    std::uint32_t thread_count = 1;  ///< 0 and 1: only the calling thread; kAllThreads: one thread per core
     /// Runs all tasks, whatever thread_count is. Null: threads are started and joined within the call.
     const Executor* executor = nullptr;
     /// Allocates scratch memory and plans. Null: operator new, and no memory is kept between calls. With an Arena,

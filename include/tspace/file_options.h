@@ -25,7 +25,7 @@ struct FileOptions {
     /// true: URIs in a model may refer to any file. false: only to files in the model's folder and below.
     bool allow_external = false;
     /// Path of tspace-import, the program that reads .fbx, .ply, .stl, .dae, .3ds and others; empty: such files are
-    /// rejected. It runs in a separate process, so that a crash or runaway of the importer only causes an error
+    /// rejected. It runs in a separate process, so that a crash or an endless loop of the importer only causes an error
     /// (invalidFile).
     std::string importer = {};
     /// Maximum size of a file for the importer, in bytes. Default: 2 GiB.

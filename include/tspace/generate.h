@@ -24,17 +24,18 @@ namespace tspace {
 
 /// Treatment of existing tangents that are needed.
 enum class ExistingTangents : std::uint32_t {
-    keep = 0,     ///< keep them; add only missing ones
+    keep = 0,     ///< keep existing tangents, and add missing ones
     replace = 1,  ///< recompute them
-    repair = 2,   ///< repair what `check` reports as an error, vertex by vertex; keep everything else
+    repair = 2,   ///< repair the tangents that `check` reports as errors, vertex by vertex; keep all others
 };
 
 /// Whether tangents use the UVs before or after KHR_texture_transform. It matters for rotations and negative scales;
 /// docs/reference/gltf.md describes what viewers do.
 enum class TextureTransform : std::uint32_t {
-    /// after it: T points along increasing u in the image, as required by viewers that use tangents unchanged
+    /// UVs after the transform: T points along increasing u in the image, as required by viewers that use tangents
+    /// unchanged.
     apply = 0,
-    ignore = 1,  ///< before it: for viewers that transform the tangents themselves
+    ignore = 1,  ///< UVs before the transform: for viewers that transform the tangents themselves
 };
 
 /// Compression of the geometry in a written glTF file.
@@ -208,9 +209,9 @@ struct PrimitiveReport {
     std::string mesh_name = {};      ///< may be empty
     std::string material_name = {};  ///< may be empty
     PrimitiveAction action = PrimitiveAction::notNeeded;
-    std::string reason = {};              ///< reason for this action, as one sentence
+    std::string reason = {};              ///< reason for the action, as one sentence
     std::vector<std::string> notes = {};  ///< further sentences: textures that need other tangents, transforms, repairs
-    std::int32_t uv_set = -1;             ///< n of the TEXCOORD_n used for the tangents, or -1
+    std::int32_t uv_set = -1;             ///< n of the TEXCOORD_n that was used for the tangents, or -1
     bool normals_generated = false;
     bool bitangents_generated = false;  ///< _BITANGENT was computed
     bool frames_packed = false;         ///< the output has packed frames (`pack`); if false, a note states the reason
@@ -225,8 +226,8 @@ struct PrimitiveReport {
     std::uint64_t mended_vertex_count = 0;    ///< vertices (of vertices_before) whose tangents were wrong (`repair`)
     std::uint32_t morph_target_count = 0;     ///< morph targets that the primitive has
     std::uint32_t morph_deltas_computed = 0;  ///< morph targets whose tangent deltas were computed
-    std::uint32_t morph_normals_computed =
-        0;  ///< morph targets whose normal deltas were computed, for normals that are kept
+    /// Morph targets whose normal deltas were computed, for normals that are kept.
+    std::uint32_t morph_normals_computed = 0;
     /// Corners, over all targets, at which the frame of the morphed shape has the opposite sign, which glTF cannot
     /// represent.
     std::uint64_t morph_sign_flip_count = 0;
@@ -266,26 +267,27 @@ struct NormalMapReport {
     std::uint32_t image = 0;  ///< index in the input's images; for OBJ a sequential number
     std::string name = {};    ///< name or URI; may be empty
     bool flipped = false;     ///< its green channel was inverted
-    /// It was rewritten, because glTF readers would misinterpret it (Maps::mend), or because it held heights (OBJ).
+    /// true: the image was rewritten, because glTF readers would misinterpret it (Maps::mend), or because it held
+    /// heights (OBJ).
     bool mended = false;
-    std::string reason = {};  ///< why nothing was done, or what it contained: half a sentence
+    std::string reason = {};  ///< why nothing was done, or what the image contained: a sentence fragment
 };
 
 /// Result for one normal map as used by some primitives (Maps::convert).
 struct ConvertedMapReport {
     std::uint32_t image = 0;                    ///< index in the input's images
     std::string name = {};                      ///< name or URI; may be empty
-    bool converted = false;                     ///< the primitives have a new image
-    std::uint32_t new_image = 0;                ///< index in the output's images, if it was converted
-    std::string reason = {};                    ///< reason, if it was not converted: half a sentence
+    bool converted = false;                     ///< true: the primitives got a new image
+    std::uint32_t new_image = 0;                ///< index in the output's images, if the map was converted
+    std::string reason = {};                    ///< reason, if the map was not converted: a sentence fragment
     std::vector<std::uint32_t> materials = {};  ///< materials of the input that use the map
-    std::uint32_t primitive_count = 0;          ///< number of primitives that use it
-    unsigned bits = 0;                          ///< bits per channel, if it was converted
+    std::uint32_t primitive_count = 0;          ///< number of primitives that use the map
+    unsigned bits = 0;                          ///< bits per channel, if the map was converted
     std::uint64_t changed = 0;                  ///< texels that changed
     /// Mean angles between the shading of the primitives before and after, at the texels of all their triangles: with
     /// the new map, and with the old map unchanged.
     double mean_error_deg = 0, mean_error_unconverted_deg = 0;
-    std::vector<std::string> notes = {};  ///< whole sentences
+    std::vector<std::string> notes = {};  ///< further remarks, as whole sentences
 };
 
 struct GenerateReport {

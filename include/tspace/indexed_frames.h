@@ -95,8 +95,8 @@ struct IndexedFrames {
     std::vector<std::uint32_t> source_vertices = {};  ///< one per new vertex: the entry of `positions` that it copies
     /// One per new vertex: the first corner that uses it, or kNoCorner if there is none.
     std::vector<std::uint32_t> source_corners = {};
-    std::vector<Vec3> normals =
-        {};  ///< one per new vertex: normals of the mesh (see TangentOptions::normalize_normals), or computed ones
+    /// One per new vertex: normals of the mesh (see TangentOptions::normalize_normals), or computed ones.
+    std::vector<Vec3> normals = {};
     std::vector<Vec4> tangents = {};  ///< one per new vertex: unit tangent and sign
     IndexedFramesReport report = {};
 

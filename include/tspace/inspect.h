@@ -25,13 +25,14 @@ struct TangentUseInfo {
     std::string place = {};      ///< JSON pointer of the texture reference or extension; empty for OBJ
     std::uint32_t material = 0;
     std::string material_name = {};  ///< may be empty
-    /// used by a KHR_materials_variants material only, not by the primitive's own material
+    /// True: only a KHR_materials_variants material uses it, not the primitive's own material.
     bool only_in_variant = false;
     std::int32_t uv_set = 0;       ///< n of TEXCOORD_n
-    double uv_offset[2] = {0, 0};  ///< KHR_texture_transform
+    double uv_offset[2] = {0, 0};  ///< offset of KHR_texture_transform
     double uv_rotation_rad = 0;
     double uv_scale[2] = {1, 1};
-    bool follows_first = true;  ///< tangents computed for the first use of the primitive also fit this one
+    /// true: tangents that are computed for the first use of the primitive also fit this use
+    bool follows_first = true;
 };
 
 /// Properties of one primitive that matter for generating tangents.
@@ -43,7 +44,8 @@ struct PrimitiveInfo {
     std::string mode = {};  ///< "triangles", "triangle strip", "points", ...
     std::uint64_t triangle_count = 0;
     std::uint64_t vertex_count = 0;
-    std::uint32_t vertex_list = 0;             ///< equal numbers mean shared vertices
+    /// number of the vertex list; primitives with equal numbers share vertices
+    std::uint32_t vertex_list = 0;
     std::string index_type = {};               ///< "u8", "u16", "u32" or "none"
     std::string compression = {};              ///< "meshopt", "draco" or "none"
     std::vector<std::string> attributes = {};  ///< "POSITION float3", "NORMAL snorm16x3", ...
@@ -53,19 +55,20 @@ struct PrimitiveInfo {
     bool has_normals = false;
     bool has_tangents = false;
     std::vector<FrameFormat> packed_frames = {};  ///< formats of its readable packed frames
-    /// has_tangents is false, but the file may have tangents that the importer cannot read
+    /// True: has_tangents is false, but the file may have tangents that the importer cannot read.
     bool tangents_not_read = false;
     bool needs_tangents = false;
-    std::string needed_by = {};  ///< "normalTexture", "anisotropy", ... or empty
-    /// everything that needs tangents; they are computed for the first use
+    std::string needed_by = {};  ///< "normalTexture", "anisotropy", ...; empty: nothing needs tangents
+    /// All uses that need tangents, which are computed for the first of them.
     std::vector<TangentUseInfo> tangent_uses = {};
-    std::uint32_t variant_material_count = 0;     ///< materials that KHR_materials_variants can assign to it
-    std::uint32_t node_count = 0;                 ///< nodes that draw its mesh
+    /// number of materials that KHR_materials_variants can assign to the primitive
+    std::uint32_t variant_material_count = 0;
+    std::uint32_t node_count = 0;                 ///< number of nodes that draw the primitive's mesh
     std::uint64_t instance_count = 0;             ///< instances drawn by these nodes, including EXT_mesh_gpu_instancing
     std::int32_t uv_set = -1;                     ///< the UV set that tangents would follow, or -1
     std::uint64_t degenerate_uv_count = 0;        ///< triangles without UV area in that set
     std::uint64_t degenerate_triangle_count = 0;  ///< triangles with two corners at one position
-    double position_noise = 0;  ///< PositionNoise::noise of its triangles: 0 if positions are not noisy
+    double position_noise = 0;                    ///< PositionNoise::noise of the triangles; 0: positions are not noisy
     /// Triangles that show the texture mirrored (given the V direction and KHR_texture_transform).
     std::uint64_t mirrored_triangle_count = 0;
     std::uint32_t uv_island_count = 0;        ///< connected components of the UV map
@@ -108,15 +111,16 @@ const char* signReadingName(SignReading reading);
 /// Agreement of one method with the stored tangents. Corners of triangles whose UVs determine no direction (without
 /// area, or with so little that rounding decides) are excluded: only undecided_count includes them.
 struct Explanation {
-    /// for `best`: with the number of refinement steps (TangentOptions::refine) that fits most corners
+    /// Method that was compared. For `best`, the number of refinement steps (TangentOptions::refine) is the one that
+    /// fits most corners.
     Method method = Method::mikktspace;
     /// quads: the method ran on quads formed from pairs of triangles (mikktspace only). Such an entry exists only if it
     /// explains clearly more corners than triangles do.
     Faces faces = Faces::triangles;
     /// Index n of the TEXCOORD_n used. -1 in results over several primitives: each uses the UV set of its texture.
     std::int32_t uv_set = -1;
-    bool is_textures_set = true;  ///< it is the UV set that the material's texture uses
-    /// true: with UVs after the texture's transform (KHR_texture_transform); false: with UVs as stored.
+    bool is_textures_set = true;  ///< true: `uv_set` is the UV set that the material's texture uses
+    /// True: UVs after the texture's transform (KHR_texture_transform); false: UVs as stored.
     bool is_transformed = false;
     std::uint64_t corner_count = 0;  ///< compared corners: those with a stored tangent that has a direction
     std::uint64_t near_count = 0;    ///< compared corners within the tolerance of the method's tangent
@@ -141,7 +145,8 @@ struct PrimitiveIdentity {
     std::uint32_t primitive = 0;     ///< index in its mesh
     std::string mesh_name = {};      ///< may be empty
     std::string material_name = {};  ///< may be empty
-    std::string skipped = {};        ///< reason why it was not examined, as a sentence; empty: it was examined
+    /// reason why the primitive was not examined, as a sentence; empty: it was examined
+    std::string skipped = {};
     /// Best first; every method with every UV set that has an area.
     std::vector<Explanation> explanations = {};
     /// The texture's transform changes frames, so its UV set has two interpretations, one of which explains more
@@ -185,7 +190,7 @@ inline constexpr std::array<double, 9> kAngleBins = {0.001, 0.01, 0.1, 1, 5, 10,
 /// Angles between two sets of directions, over pairs of corners.
 struct AngleStatistics {
     std::uint64_t count = 0;  ///< pairs in which both directions are finite and not zero
-    /// pairs in which one direction is zero or not finite, and the other is not the same
+    /// Pairs in which one direction is zero or not finite, and the other is not equal to it.
     std::uint64_t unusable_count = 0;
     double mean_deg = 0;
     double median_deg = 0;  ///< median: half of the pairs differ by at most this
@@ -194,7 +199,7 @@ struct AngleStatistics {
     std::array<std::uint64_t, kAngleBins.size()> histogram = {};  ///< pairs per bin of kAngleBins
 };
 
-/// One of the worst pairs.
+/// Pair of corners whose frames differ most.
 struct FrameDifference {
     std::uint32_t mesh_a = 0, primitive_a = 0, vertex_a = 0;
     std::uint32_t mesh_b = 0, primitive_b = 0, vertex_b = 0;
@@ -211,8 +216,8 @@ struct PrimitiveDiff {
     std::uint32_t mesh_a = 0, primitive_a = 0;
     std::uint32_t mesh_b = 0, primitive_b = 0;
     std::string mesh_name = {};  ///< mesh name in A, or in B if there is no A; may be empty
-    /// "geometry" (same triangles, in any order and with any splits), "name", "order" (by position in the file, with
-    /// equal counts), or "none": unpaired.
+    /// Rule by which the primitives were paired: "geometry" (same triangles, in any order and with any splits), "name",
+    /// "order" (by position in the file, with equal counts), or "none": unpaired.
     std::string paired_by = {};
     std::uint64_t triangle_count_a = 0, triangle_count_b = 0;
     std::uint64_t paired_triangle_count = 0;
@@ -241,7 +246,7 @@ struct FrameDiff {
     std::uint64_t sign_change_count = 0;
     std::uint64_t unpaired_triangle_count = 0;  ///< unpaired triangles of A and B
     std::uint64_t missing_count = 0;            ///< paired primitives of which only one has tangents
-    /// sorted by the largest angle of T, B or N, descending; equal vertices once
+    /// Pairs with the largest angle of T, B or N, in descending order; pairs of equal vertices are listed once.
     std::vector<FrameDifference> worst = {};
     std::vector<std::string> warnings = {};  ///< warnings about A, then B, one sentence each, with the file's name
 

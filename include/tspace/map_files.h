@@ -19,8 +19,8 @@
 namespace tspace {
 
 // Images of normal maps: file formats, channel layouts, and inversion of green. CMake target tspace::asset. Reads PNG
-// (8 and 16 bits), JPEG and WebP if tspace was built with their libraries, detected by content; always KTX2, DDS and
-// TGA (which is written as PNG).
+// (8 and 16 bits), JPEG and WebP if tspace was built with their libraries, and always KTX2, DDS and TGA (which is
+// written as PNG). The format is detected by content.
 //
 // All functions are thread-safe and deterministic.
 
@@ -44,7 +44,7 @@ enum class MapCurve : std::uint32_t {
 
 struct MapComponent {
     MapChannel channel = MapChannel::red;
-    bool is_inverted = false;  ///< the channel stores 1 - c
+    bool is_inverted = false;  ///< true: the channel stores 1 - c
 
     friend bool operator==(const MapComponent&, const MapComponent&) = default;
 };
@@ -79,9 +79,9 @@ struct FlipGreenOptions {
     /// Like FileOptions::memory_limit_bytes.
     std::uint64_t memory_limit_bytes = 0;
 
-    // For flipGreenFile only.
+    // Options of flipGreenFile only:
 
-    /// the image, instead of the file `input`; must stay valid during the call
+    /// The image, instead of the file `input`; must stay valid during the call.
     std::span<const std::uint8_t> content = {};
     /// Like GenerateOptions::sink: receives the bytes instead of the file `output`.
     Sink sink = {};
@@ -173,7 +173,7 @@ struct ConvertMapFileOptions {
     /// Options for reading models and the image. A memory limit also applies to the image; without one, images of up to
     /// 2^24 pixels are read regardless of their file size.
     FileOptions file = {};
-    /// the image, instead of the file `input`; must stay valid during the call
+    /// The image, instead of the file `input`; must stay valid during the call.
     std::span<const std::uint8_t> content = {};
     Sink sink = {};        ///< receives the output instead of a file
     bool dry_run = false;  ///< everything except writing
@@ -275,7 +275,7 @@ enum class TextureQuality : std::uint32_t {
 struct CompressMapFileOptions {
     TextureFormat format = TextureFormat::bc5;
     TextureQuality quality = TextureQuality::fast;
-    /// signed format: represents 0 exactly, which improves flat parts of maps with more than 8 bits
+    /// True: signed format, which represents 0 exactly. This improves flat parts of maps with more than 8 bits.
     bool is_signed = false;
     bool levels = true;  ///< also write all smaller mip levels
     /// A glTF texture of occlusion, roughness (green) and metalness; empty: none. Its levels are written to
@@ -286,7 +286,7 @@ struct CompressMapFileOptions {
     unsigned bits = 16;           ///< bits per channel of normal map PNGs: 8 or 16
     /// Limits for the image, as ConvertMapFileOptions::file.
     FileOptions file = {};
-    /// the image, instead of the file `input`; must stay valid during the call
+    /// The image, instead of the file `input`; must stay valid during the call.
     std::span<const std::uint8_t> content = {};
     Sink sink = {};        ///< receives the output, a KTX2, instead of a file; without roughness
     bool dry_run = false;  ///< everything except writing
@@ -323,7 +323,7 @@ Result<CompressMapFileReport> compressMapFile(const std::string& input, const st
 
 struct TextureErrorOptions {
     FileOptions file = {};  ///< limits for the images, as ConvertMapFileOptions::file
-    /// z is computed from red and green of the texture, whatever its format; blue is ignored
+    /// True: z is computed from red and green of the texture, whatever its format; blue is ignored.
     bool two_channels = false;
     Execution execution = {};
 };
@@ -331,7 +331,8 @@ struct TextureErrorOptions {
 struct TextureErrorReport {
     std::uint32_t width = 0, height = 0;
     std::string format = {};  ///< "BC5 in a DDS"; empty for other images
-    bool makes_z = false;     ///< two channels: z is computed after filtering, as in renderers
+    /// true: the texture has two channels, and z is computed after filtering, as in renderers
+    bool makes_z = false;
     double mean_error_deg = 0, p99_error_deg = 0, max_error_deg = 0;  ///< as in CompressMapFileReport
     double max_error_x = 0, max_error_y = 0;
     std::vector<std::string> warnings = {};  ///< one sentence each

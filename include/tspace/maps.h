@@ -269,13 +269,13 @@ struct ConvertMapReport {
     std::uint64_t background = 0;  ///< texels that no triangle covers: unchanged
     /// Unchanged texels without a solution: frames that are singular or not finite, texels without a direction.
     std::uint64_t without_frame = 0;
-    /// texels that would need z < 0, which two channels cannot represent; they get z = 0
+    /// Texels that would need z < 0, which two channels cannot represent; they get z = 0.
     std::uint64_t below_horizon = 0;
     std::uint64_t overlapping = 0;  ///< texels that several triangles cover; the first triangle is used
     /// From tangent to object space: overlapping texels whose triangles require directions over 2 degrees apart, as in
     /// mirrored halves. Only one direction can be stored.
     std::uint64_t conflicting = 0;
-    // Ignored triangles:
+    // Triangles that are ignored:
     std::uint64_t degenerate_uv_count = 0;  ///< triangles without UV area
     std::uint64_t bad_uv_count = 0;         ///< triangles whose UVs are not finite, or span over 64 texture repeats
     std::uint64_t unmatched = 0;  ///< texels of the source's triangles that the other side does not cover: unchanged
@@ -361,19 +361,20 @@ Result<HeightToNormalReport> heightToNormal(const HeightMap& map, const MapSide&
 
 /// Computation of texels.
 enum class MapFit : std::uint32_t {
-    /// Jointly, so that the bilinearly filtered map is also correct between texels: least squares, measured
-    /// perpendicular to the target direction; also chooses the rounding to integers. Rays at each texel's center, and
-    /// at 2 x 2 or 3 x 3 points per texel where values between centers cannot be interpolated.
+    /// All texels are computed jointly, so that the bilinearly filtered map is also correct between texels: least
+    /// squares, measured perpendicular to the target direction; also chooses the rounding to integers. Rays are traced
+    /// at each texel's center, and at 2 x 2 or 3 x 3 points per texel where values between centers cannot be
+    /// interpolated.
     solve = 0,
-    texel = 1,  ///< independently: exact at the center of each texel
+    texel = 1,  ///< each texel is computed independently: exact at its center
 };
 
 /// Normals to use if triangles share texels but require different normals, as mirrored halves of an asymmetric surface
 /// do. UV pieces are sets of triangles connected in UVs and in space, with equal UV orientation.
 enum class MapOverlap : std::uint32_t {
-    mean = 0,    ///< mean of all: equally wrong on each
-    first = 1,   ///< piece whose triangles come first in the mesh
-    larger = 2,  ///< piece with the larger surface
+    mean = 0,    ///< mean of all required normals: equally wrong on each surface
+    first = 1,   ///< normal of the UV piece whose triangles come first in the mesh
+    larger = 2,  ///< normal of the UV piece with the larger surface
 };
 
 struct BakeOptions {
@@ -395,12 +396,13 @@ struct BakeOptions {
     std::uint64_t memory_limit_bytes = 0;
 };
 
-/// The origin of a texel of a baked map.
+/// Origin of a texel of a baked map.
 enum class TexelOrigin : std::uint8_t {
-    background = 0,  ///< no triangle is near: flat
-    padding = 1,     ///< continues the nearest triangle
-    hit = 2,         ///< its center is in a triangle, and its ray hit the high poly
-    missed = 3,      ///< its center is in a triangle, and its ray hit nothing: filled from its neighbors
+    background = 0,  ///< no triangle is near the texel: flat
+    padding = 1,     ///< the texel continues the nearest triangle
+    hit = 2,         ///< the center of the texel is in a triangle, and its ray hit the high poly
+    /// the center of the texel is in a triangle, and its ray hit nothing: filled from neighboring texels
+    missed = 3,
 };
 
 struct BakedMap {
@@ -408,7 +410,7 @@ struct BakedMap {
     unsigned bits = 16;
     std::vector<Vec3> texels = {};          ///< channels n / (2^bits - 1), n an integer; row 0 is v = 0
     std::vector<TexelOrigin> origins = {};  ///< one per texel
-    std::vector<bool> overlaps = {};        ///< one per texel: its center is inside several triangles
+    std::vector<bool> overlaps = {};        ///< one flag per texel: its center is inside several triangles
     std::uint64_t hit_count = 0, missed_count = 0, padding_count = 0;  ///< numbers of texels
     std::uint64_t overlap_count = 0;  ///< texels whose center is inside several triangles
     /// Overlapping texels whose triangles require normals over 2 degrees apart; MapOverlap selects the result. Angles:
@@ -420,7 +422,7 @@ struct BakedMap {
     /// Error against the outermost front face of the high poly, as shaded, whatever the ray target of the map: the
     /// visible error.
     MapError error = {};
-    /// with RayTarget::nearest: error against the hits of its own rays; otherwise without samples
+    /// Error against the hits of the map's own rays, with RayTarget::nearest; otherwise without samples.
     MapError own_error = {};
 };
 
@@ -443,9 +445,9 @@ Result<BakedMap> bakeMap(const LowPoly& low, const HighPoly& high, const BakeOpt
 enum class MapLayer : std::uint32_t {
     ao = 0,    ///< visible part of the sky above the point, cosine-weighted: 1 is all of it
     bent = 1,  ///< mean of the unoccluded directions, unit, encoded like normals in BakeOptions
-    curvature =
-        2,       ///< mean curvature of the high poly in 1 / length (1 / r for a sphere of radius r); convex is positive
-    height = 3,  ///< distance from the low poly to the high poly along the ray, positive outwards
+    /// Mean curvature of the high poly, in 1 / length (1 / r for a sphere of radius r); positive where it is convex.
+    curvature = 2,
+    height = 3,    ///< distance from the low poly to the high poly along the ray, positive outwards
     position = 4,  ///< position on the high poly
     /// Mean depth at which rays into the solid leave it, cosine-weighted: for a slab its height, for a ball its radius.
     /// Rays that leave nothing (an open sheet) count as the depth of white.
@@ -460,9 +462,9 @@ inline constexpr std::uint32_t kMostLayerRays = 4096;
 
 /// Values of a material at a point.
 struct ShownMaterial {
-    Vec3 color{1, 1, 1};  ///< linear
+    Vec3 color{1, 1, 1};  ///< base color, linear
     float roughness = 1, metalness = 0;
-    Vec3 emission{0, 0, 0};  ///< linear
+    Vec3 emission{0, 0, 0};  ///< emitted color, linear
 };
 
 /// Returns the material at a point of a high-poly triangle, given as barycentric weights. Called by several threads at
@@ -494,7 +496,7 @@ struct BakedLayer {
 };
 
 struct BakedMaps {
-    /// Has no texels and no errors if no normal map was requested.
+    /// The normal map. Without texels and errors if no normal map was requested.
     BakedMap normal = {};
     std::vector<BakedLayer> layers = {};  ///< in the order of LayerOptions::layers
 };

@@ -60,7 +60,7 @@ struct PlanBuffers {
         makes_normals = 1,       ///< normals are computed from positions
         inward_normals = 2,      ///< normalFactor(convention) is -1
         normalizes_normals = 4,  ///< TangentOptions::normalize_normals
-        /// the result of an entry is 3 * triangle + corner; otherwise, the result of its vertex
+        /// The result of an entry is 3 * triangle + corner; otherwise it is the result of its vertex.
         results_are_corners = 8
     };
     enum ResultFlag : std::uint32_t {

@@ -87,8 +87,8 @@ struct RenderReport {
     /// For `error`: statistics over the samples that have both frames; 0 if there are none.
     std::uint64_t error_sample_count = 0;
     double mean_error_deg = 0, max_error_deg = 0;
-    std::vector<std::string> warnings =
-        {};  ///< one sentence each: textures that were not shown, and warnings about the file
+    /// One sentence each: textures that were not shown, and warnings about the file.
+    std::vector<std::string> warnings = {};
 };
 
 /// Draws the model into an 8-bit PNG. Pixels have the same bytes on every machine and for any number of threads.

@@ -41,7 +41,7 @@ enum class Method : std::uint32_t {
 /// Returns the name of a method as in the tool and the docs ("mikktspace"); "unknown" for other values.
 const char* methodName(Method method);
 
-/// How `mikktspace` finds neighboring faces.
+/// Rule by which `mikktspace` pairs neighboring faces.
 enum class Pairing : std::uint32_t {
     reference = 0,  ///< with the reference's bug: the last bucket of its edge list is not sorted
     corrected = 1,  ///< without the bug: grouping does not depend on the order of faces

@@ -224,7 +224,7 @@ enum {
  * In C: the structs it points to are read during the call only; a plan requires their functions and `user`. */
 typedef struct tspace_Execution {
     uint32_t struct_size;
-    uint32_t thread_count; /* 0 and 1: the calling thread only; TSPACE_ALL_THREADS */
+    uint32_t thread_count; /* 0 and 1: only the calling thread; TSPACE_ALL_THREADS: one thread per core */
     /* Runs all tasks, whatever thread_count is. Null: threads are started and joined within the call. */
     const tspace_Executor* executor;
     /* Allocates scratch memory and plans. Null: operator new, and no memory is kept between calls. With a
@@ -360,7 +360,7 @@ enum {
 /* Returns the name of a method as in the tool and the docs ("mikktspace"); "unknown" for other values. */
 const char* tspace_methodName(tspace_Method method) TSPACE_NOEXCEPT;
 
-/* How TSPACE_METHOD_MIKKTSPACE finds neighboring faces. */
+/* Rule by which TSPACE_METHOD_MIKKTSPACE pairs neighboring faces. */
 typedef uint32_t tspace_Pairing;
 enum {
     TSPACE_PAIRING_REFERENCE = 0, /* with the reference's bug: the last bucket of its edge list is not sorted */
@@ -1009,7 +1009,7 @@ typedef struct tspace_IndexedFrames {
     /* One per new vertex: the first corner that uses it, or TSPACE_NO_CORNER if there is none. */
     const uint32_t* source_corners;
     /* 3 floats each: one per new vertex: normals of the mesh (see tspace_TangentOptions.normalize_normals), or
-     * computed ones */
+     * computed ones. */
     const float* normals;
     const float* tangents; /* 4 floats each: one per new vertex: unit tangent and sign */
     size_t vertex_count;
@@ -1231,8 +1231,9 @@ typedef struct tspace_WindingReport {
     uint64_t by_volume_count;  /* closed: the volume must be positive */
     /* Closed, inside another component: keeps the winding of most of its area; if that is undecided, it is a cavity. */
     uint64_t by_nesting_count;
-    uint64_t by_winding_number_count; /* open, but with an inside: generalized winding number at its own faces */
-    uint64_t by_majority_count;       /* open, without an inside: keeps the winding of most of its area */
+    /* Open, but with an inside: decided by the generalized winding number at its own faces. */
+    uint64_t by_winding_number_count;
+    uint64_t by_majority_count; /* open, without an inside: keeps the winding of most of its area */
     /* Fewer than 4 faces, such as leaves and cards: never flipped, because nothing shows their outside. */
     uint64_t small_count;
     /* Flipping single faces would not reduce the number of conflicts, as on a Moebius band. No face is flipped, or

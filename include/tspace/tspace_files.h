@@ -174,8 +174,9 @@ tspace_ErrorCode tspace_compressMapBytes(const uint8_t* data, size_t size, const
 
 /* Bakes the maps of `low` from `high`; the normal map is `output`, a PNG. A low poly with several materials gets one
  * file per material: NAME.MATERIAL.png. All files appear at once or not at all. Errors: MISSING_ATTRIBUTE (a low
- * poly without UVs), INVALID_OPTION, OUT_OF_MEMORY; rays that meet nothing are findings. Also CANNOT_READ,
- * INVALID_FILE, UNSUPPORTED_FILE (also a build that writes no PNG), FORBIDDEN_PATH, TOO_LARGE, CANNOT_WRITE.
+ * poly without UVs), INVALID_OPTION, OUT_OF_MEMORY; rays that hit nothing are reported as a finding. Also
+ * CANNOT_READ, INVALID_FILE, UNSUPPORTED_FILE (also a build that writes no PNG), FORBIDDEN_PATH, TOO_LARGE,
+ * CANNOT_WRITE.
  * In C: options of `tspace bake`, report tspace.bake/1. tspace_Error.element identifies the file: 0 is the low poly, 1
  * the high poly, 2 the cage, 4 the skew image. */
 tspace_ErrorCode tspace_bakeFile(const char* low, const char* high, const char* output, const char* options,
@@ -184,8 +185,8 @@ tspace_ErrorCode tspace_bakeFile(const char* low, const char* high, const char* 
 /* Reads `input` (any format), and writes `output`, a GLB. Correct normals and tangents are kept; a GLB without
  * faults is copied byte for byte. Maps are written next to the output, as OUT_normal.png, OUT_ao.png and so on, and
  * those that glTF supports are also embedded. All files appear at once or not at all. Errors: those of
- * tspace_generateFile and tspace_bakeFile; tspace_Error.element is 1 where it is about the input, and 0 where about
- * the low poly.
+ * tspace_generateFile and tspace_bakeFile; tspace_Error.element is 1 for errors about the input, and 0 for errors
+ * about the low poly.
  * In C: options of `tspace finish`, report tspace.finish/1. */
 tspace_ErrorCode tspace_finishFile(const char* input, const char* output, const char* options, tspace_Bytes* report,
                                    tspace_Error* error) TSPACE_NOEXCEPT;

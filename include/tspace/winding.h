@@ -39,7 +39,7 @@ struct WindingReport {
     std::uint64_t by_volume_count = 0;   ///< closed: the volume must be positive
     /// Closed, inside another component: keeps the winding of most of its area; if that is undecided, it is a cavity.
     std::uint64_t by_nesting_count = 0;
-    /// open, but with an inside: generalized winding number at its own faces
+    /// Open, but with an inside: decided by the generalized winding number at its own faces.
     std::uint64_t by_winding_number_count = 0;
     std::uint64_t by_majority_count = 0;  ///< open, without an inside: keeps the winding of most of its area
     /// Fewer than 4 faces, such as leaves and cards: never flipped, because nothing shows their outside.

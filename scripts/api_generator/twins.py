@@ -58,10 +58,10 @@ PHRASES = {
     r"`?conventions::(\w+)`?": r'"\1"',
     r"those of convertMap and of readers of models": "those of readers of models",
     r"those of heightToNormal and of convertMapFile": "those of tspace_convertMapFile",
-    r"those of bakeMap, but for rays that meet nothing, which are findings; and": "MISSING_ATTRIBUTE (a low poly without "
-    "UVs), INVALID_OPTION, OUT_OF_MEMORY; rays that meet nothing are findings. Also",
-    r"Error::element is a BakeInput: `high` for the input and `low` for the low poly\.": "tspace_Error.element is 1 where "
-    "it is about the input, and 0 where about the low poly.",
+    r"those of bakeMap, except that rays without a hit are reported as a finding; also": "MISSING_ATTRIBUTE (a low poly without "
+    "UVs), INVALID_OPTION, OUT_OF_MEMORY; rays that hit nothing are reported as a finding. Also",
+    r"Error::element is a BakeInput: `high` for the input and `low` for the low poly\.": "tspace_Error.element is 1 for "
+    "errors about the input, and 0 for errors about the low poly.",
     r"`?(crease|denoise|weld)_auto`?": "-1",
     r"mesh\.vertexCount\(\)": "mesh->positions.count",
     r"Returns null for any other name\.": "INVALID_OPTION for any other name.",

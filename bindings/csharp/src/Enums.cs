@@ -76,7 +76,7 @@ namespace Tspace
         Best = 8,
     }
 
-    /// <summary>How `mikktspace` finds neighboring faces.</summary>
+    /// <summary>Rule by which `mikktspace` pairs neighboring faces.</summary>
     public enum Pairing : uint
     {
         /// <summary>With the reference's bug: the last bucket of its edge list is not sorted.</summary>

@@ -123,7 +123,7 @@ export interface WindingReport {
   byVolumeCount: number;
   /** Closed, inside another component: keeps the winding of most of its area; if that is undecided, it is a cavity. */
   byNestingCount: number;
-  /** Open, but with an inside: generalized winding number at its own faces. */
+  /** Open, but with an inside: decided by the generalized winding number at its own faces. */
   byWindingNumberCount: number;
   /** Open, without an inside: keeps the winding of most of its area. */
   byMajorityCount: number;

@@ -30,7 +30,7 @@ pub enum Method {
     Best = 8,
 }
 
-/// How `mikktspace` finds neighboring faces.
+/// Rule by which `mikktspace` pairs neighboring faces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Pairing {
     /// With the reference's bug: the last bucket of its edge list is not sorted.

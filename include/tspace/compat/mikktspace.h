@@ -6,8 +6,9 @@
  * and signatures are those of the reference (Morten S. Mikkelsen); the comments are tspace's. Only tspace_genTangSpace
  * is an addition.
  *
- * Differences, all on the safe side: linear time and no recursion for any mesh; missing pointers return 0 instead of
- * crashing; each corner is read once. Callbacks are called from the calling thread only, all getters before the first
+ * Differences from the reference: linear time and no recursion for any mesh; missing pointers make the call return 0
+ * instead of crashing; each corner is read once. Callbacks are called from the calling thread only, all getters before
+ * the first
  * setter. */
 #ifndef TSPACE_COMPAT_MIKKTSPACE_H
 #define TSPACE_COMPAT_MIKKTSPACE_H

@@ -112,7 +112,7 @@ class WindingReport(NamedTuple):
     by_volume_count: int
     #: Closed, inside another component: keeps the winding of most of its area; if that is undecided, it is a cavity.
     by_nesting_count: int
-    #: Open, but with an inside: generalized winding number at its own faces.
+    #: Open, but with an inside: decided by the generalized winding number at its own faces.
     by_winding_number_count: int
     #: Open, without an inside: keeps the winding of most of its area.
     by_majority_count: int
