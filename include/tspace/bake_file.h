@@ -124,7 +124,7 @@ struct BakedLayerFile {
 /// Normal map of one material or tile, and its layers.
 struct BakedFile {
     std::string path = {};      ///< path of the normal map; empty if it was not requested
-    std::string material = {};  ///< material name; may be empty
+    std::string material = {};  ///< name of the material; may be empty
     std::uint32_t tile = 0;     ///< UDIM number, from 1001, with `udim`; otherwise 0
     std::uint64_t triangle_count = 0;
     std::uint64_t outside_count = 0;  ///< ignored triangles of the material: see BakeFileOptions::wrap
@@ -146,7 +146,7 @@ struct BakeFileReport {
     /// Defects that make maps useless, with causes: most rays hit nothing, normals of the high poly point inwards. An
     /// image without any hits is not written.
     std::vector<std::string> findings = {};
-    std::vector<std::string> warnings = {};  ///< one sentence each
+    std::vector<std::string> warnings = {};  ///< one sentence per warning
 };
 
 /// Bakes the maps of `low` from `high`; the normal map is `output`, a PNG. A low poly with several materials gets one

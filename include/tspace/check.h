@@ -108,7 +108,7 @@ struct RemedyOption {
 
 /// A tspace command that a remedy refers to, in structured form: programs can format it for their users, or run it.
 struct RemedyCommand {
-    std::string verb = {};                   ///< "generate", "convert-map", ...
+    std::string verb = {};                   ///< subcommand: "generate", "convert-map", ...
     std::vector<std::string> inputs = {};    ///< files; empty: the model that was checked
     std::vector<RemedyOption> options = {};  ///< in the order of the command line
     /// Placeholders among inputs and values, to be replaced by the user: "OUT.png", "HIGH".
@@ -124,9 +124,9 @@ struct Finding {
     Severity severity = Severity::note;
     std::string place = {};  ///< JSON pointer (OBJ: "usemtl NAME"); empty: the whole file
     std::uint32_t mesh = 0;
-    std::uint32_t primitive = 0;     ///< index in its mesh
-    std::string mesh_name = {};      ///< may be empty
-    std::string material_name = {};  ///< may be empty
+    std::uint32_t primitive = 0;     ///< index of the primitive in its mesh
+    std::string mesh_name = {};      ///< name in the file; may be empty
+    std::string material_name = {};  ///< name in the file; may be empty
     std::string unit = {};           ///< counted elements: "vertices", "triangles", "blocks" (of an image), ...
     std::uint64_t count = 0;         ///< number of elements with the fault
     std::uint64_t total = 0;         ///< number of elements that were examined
@@ -182,7 +182,7 @@ struct PackedFramesInfo {
     std::string attribute = {};  ///< "_FRAME32"; the first one if two attributes hold one frame
     FrameFormat format = FrameFormat::frame32;
     std::uint32_t mesh = 0;
-    std::uint32_t primitive = 0;  ///< index in its mesh
+    std::uint32_t primitive = 0;  ///< index of the primitive in its mesh
     std::uint64_t vertex_count = 0;
     bool is_readable = false;  ///< false: the data are invalid, and a finding states the reason
     /// true: NORMAL and TANGENT exist, and the following values cover all vertices. They are compared after the repairs

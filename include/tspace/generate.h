@@ -206,8 +206,8 @@ inline constexpr std::size_t kMostMendedRanges = 256;
 struct PrimitiveReport {
     std::uint32_t mesh = 0;
     std::uint32_t primitive = 0;
-    std::string mesh_name = {};      ///< may be empty
-    std::string material_name = {};  ///< may be empty
+    std::string mesh_name = {};      ///< name in the file; may be empty
+    std::string material_name = {};  ///< name in the file; may be empty
     PrimitiveAction action = PrimitiveAction::notNeeded;
     std::string reason = {};              ///< reason for the action, as one sentence
     std::vector<std::string> notes = {};  ///< further sentences: textures that need other tangents, transforms, repairs
@@ -258,14 +258,14 @@ struct PrimitiveReport {
 /// Changes to the winding of one mesh (`mend_winding`), or of a whole OBJ file, whose objects are one surface.
 struct MendedWindingReport {
     std::uint32_t mesh = 0;
-    std::string mesh_name = {};  ///< may be empty
+    std::string mesh_name = {};  ///< name in the file; may be empty
     WindingReport winding = {};
 };
 
 /// Result for one image that is a normal map.
 struct NormalMapReport {
     std::uint32_t image = 0;  ///< index in the input's images; for OBJ a sequential number
-    std::string name = {};    ///< name or URI; may be empty
+    std::string name = {};    ///< name or URI of the image; may be empty
     bool flipped = false;     ///< its green channel was inverted
     /// true: the image was rewritten, because glTF readers would misinterpret it (Maps::mend), or because it held
     /// heights (OBJ).
@@ -276,7 +276,7 @@ struct NormalMapReport {
 /// Result for one normal map as used by some primitives (Maps::convert).
 struct ConvertedMapReport {
     std::uint32_t image = 0;                    ///< index in the input's images
-    std::string name = {};                      ///< name or URI; may be empty
+    std::string name = {};                      ///< name or URI of the image; may be empty
     bool converted = false;                     ///< true: the primitives got a new image
     std::uint32_t new_image = 0;                ///< index in the output's images, if the map was converted
     std::string reason = {};                    ///< reason, if the map was not converted: a sentence fragment
@@ -291,7 +291,7 @@ struct ConvertedMapReport {
 };
 
 struct GenerateReport {
-    std::vector<PrimitiveReport> primitives = {};         ///< in file order
+    std::vector<PrimitiveReport> primitives = {};         ///< one entry per primitive, in file order
     std::vector<NormalMapReport> normal_maps = {};        ///< with flip_green or Maps::mend; height maps of OBJ too
     std::vector<ConvertedMapReport> converted_maps = {};  ///< maps whose primitives got tangents (Maps::convert)
     std::vector<MendedWindingReport> windings = {};       ///< with mend_winding, for each mesh with triangles

@@ -24,7 +24,7 @@ struct TangentUseInfo {
     std::string needed_by = {};  ///< "normalTexture", "clearcoatNormalTexture" or "anisotropy"
     std::string place = {};      ///< JSON pointer of the texture reference or extension; empty for OBJ
     std::uint32_t material = 0;
-    std::string material_name = {};  ///< may be empty
+    std::string material_name = {};  ///< name in the file; may be empty
     /// True: only a KHR_materials_variants material uses it, not the primitive's own material.
     bool only_in_variant = false;
     std::int32_t uv_set = 0;       ///< n of TEXCOORD_n
@@ -87,7 +87,7 @@ struct Inspection {
     std::vector<std::string> extensions_used = {};
     std::vector<std::string> extensions_required = {};
     std::vector<std::string> variants = {};      ///< names of KHR_materials_variants
-    std::vector<PrimitiveInfo> primitives = {};  ///< in file order
+    std::vector<PrimitiveInfo> primitives = {};  ///< one entry per primitive, in file order
     std::vector<std::string> warnings = {};      ///< one sentence each, about the file as a whole
     double coordinate_offset[3] = {0, 0, 0};     ///< offset that generate would subtract, as in GenerateReport
 };
@@ -142,9 +142,9 @@ struct Explanation {
 struct PrimitiveIdentity {
     std::string place = {};  ///< JSON pointer (OBJ: "usemtl NAME")
     std::uint32_t mesh = 0;
-    std::uint32_t primitive = 0;     ///< index in its mesh
-    std::string mesh_name = {};      ///< may be empty
-    std::string material_name = {};  ///< may be empty
+    std::uint32_t primitive = 0;     ///< index of the primitive in its mesh
+    std::string mesh_name = {};      ///< name in the file; may be empty
+    std::string material_name = {};  ///< name in the file; may be empty
     /// reason why the primitive was not examined, as a sentence; empty: it was examined
     std::string skipped = {};
     /// Best first; every method with every UV set that has an area.
@@ -164,12 +164,12 @@ struct IdentifyOptions {
 
 struct Identification {
     std::string format = {};                 ///< "glb", "gltf", "obj"
-    std::string generator = {};              ///< may be empty
+    std::string generator = {};              ///< program that wrote the file; may be empty
     std::vector<std::string> warnings = {};  ///< warnings about the file, one sentence each
     /// Over all primitives, best first: every method, with the texture's UV set in the interpretation that explains
     /// more.
     std::vector<Explanation> explanations = {};
-    std::vector<PrimitiveIdentity> primitives = {};  ///< in file order
+    std::vector<PrimitiveIdentity> primitives = {};  ///< one entry per primitive, in file order
     std::string verdict = {};                        ///< two or three sentences
 };
 

@@ -96,7 +96,7 @@ struct FlipGreenReport {
     /// Every texel has exactly 255 - G (65535 - G with 16 bits), and all other channels are unchanged. false: a JPEG
     /// was written, whose texels are rounded again, or a PNG from a KTX2 or DDS with values between the integers.
     bool is_exact = true;
-    std::vector<std::string> warnings = {};  ///< one sentence each
+    std::vector<std::string> warnings = {};  ///< one sentence per warning
 };
 
 struct FlippedImage {
@@ -198,7 +198,7 @@ struct ConvertMapFileReport {
              bits = 16;  ///< bits per channel in the files: integers of 8 or 16 bits, or floats of 16 or 32 bits
     MapMeshReport from = {}, to = {};  ///< empty if there is no mesh
     ConvertMapReport texels = {};
-    std::vector<std::string> warnings = {};  ///< one sentence each
+    std::vector<std::string> warnings = {};  ///< one sentence per warning
 };
 
 /// Converts the image `input` (PNG, JPEG, WebP, EXR, KTX2, DDS, TGA) into `output` (.png or .exr), which is written
@@ -247,7 +247,7 @@ struct HeightToNormalFileReport {
     unsigned bits_before = 8, bits = 16;  ///< bits per channel
     MapMeshReport mesh = {};              ///< empty if there is none
     HeightToNormalReport texels = {};
-    std::vector<std::string> warnings = {};  ///< one sentence each
+    std::vector<std::string> warnings = {};  ///< one sentence per warning
 };
 
 /// Converts the height map `input` (PNG, JPEG, WebP, EXR, KTX2, DDS, TGA; the mean of color channels, unless `encoding`
@@ -311,7 +311,7 @@ struct CompressMapFileReport {
     std::uint64_t not_unit = 0;               ///< texels whose vectors deviate from unit length by at least a tenth
     /// Mean roughness of the last level, as averaged and as written; 0 without roughness.
     double mean_roughness = 0, mean_widened_roughness = 0;
-    std::vector<std::string> warnings = {};  ///< one sentence each
+    std::vector<std::string> warnings = {};  ///< one sentence per warning
 };
 
 /// Compresses a tangent-space normal map: x in red, y in green; readers reconstruct z. `output` ends in .dds or .ktx2,
@@ -335,7 +335,7 @@ struct TextureErrorReport {
     bool makes_z = false;
     double mean_error_deg = 0, p99_error_deg = 0, max_error_deg = 0;  ///< as in CompressMapFileReport
     double max_error_x = 0, max_error_y = 0;
-    std::vector<std::string> warnings = {};  ///< one sentence each
+    std::vector<std::string> warnings = {};  ///< one sentence per warning
 };
 
 /// Measures the error of any texture (its first level) against its source normal map. Errors: those of convertMapFile,

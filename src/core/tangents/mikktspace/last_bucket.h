@@ -24,7 +24,7 @@ struct LastBucket {
         std::uint32_t half_edge;  ///< number of the half-edge in the triangle list: 3 * triangle + k
         std::uint32_t partner;    ///< half-edge that the reference pairs it with; kNone: no neighbor
     };
-    Buffer<Link> links;           ///< ascending by half-edge
+    Buffer<Link> links;           ///< changed links, ascending by half-edge
     Buffer<std::uint32_t> nodes;  ///< nodes at the ends of these edges, ascending, with some repetitions
     bool abandoned = false;       ///< the input makes the reference's sort quadratic: no links were computed
 

@@ -290,12 +290,13 @@ void unifyQuads(std::vector<Triangle>& triangles) {
 // -------------------------------------------------------------------------------------------------------- Step 4. Neighbors
 
 struct Edge {
-    std::uint32_t low, high;  ///< nodes of its ends, the smaller number first
+    std::uint32_t low, high;  ///< nodes of its ends, with the smaller number first
     HalfEdge half_edge;
-    bool runs_up;  ///< from low to high
+    bool runs_up;  ///< true: the edge runs from `low` to `high`
 };
 
-/// The reference's quicksort by `low`. It is not stable, and the order that it leaves matters for the last bucket.
+/// Sorts edges by `low`, with the quicksort of the reference. It is not stable, and the order that it leaves matters
+/// for the last bucket.
 void sortByLow(std::vector<Edge>& edges) {
     struct Range {
         std::ptrdiff_t first, last;
@@ -375,7 +376,8 @@ void pairEdges(std::vector<Triangle>& triangles, Pairing pairing) {
 
 // ----------------------------------------------------------------------------------------------------------- Step 5. Groups
 
-/// Adds the triangles that follow `from` around the node, until one is missing, taken, or has the other orientation.
+/// Adds the triangles that follow `from` around the node to the group, until one is missing, belongs to a group
+/// already, or has the other orientation.
 void walk(std::vector<Triangle>& triangles, HalfEdge from, bool forward, std::uint32_t number, Group& group) {
     for (;;) {
         const HalfEdge& across = triangles[from.triangle].neighbors[forward ? from.k : previous(from.k)];
@@ -412,7 +414,8 @@ std::vector<Group> makeGroups(std::vector<Triangle>& triangles) {
 
 // ------------------------------------------------------------------------------------------------------------- Step 6. Mean
 
-/// The angle of a corner between its two edges in the plane perpendicular to n. The arc cosine is computed in double precision.
+/// Returns the angle of a corner between its two edges in the plane perpendicular to n. The arc cosine is computed in
+/// double precision.
 float projectedAngle(const Corners& data, const Triangle& triangle, int k, Vec3 n) {
     const Vec3 here = data.position(triangle.nodes[k]);
     const Vec3 back = unitInPlane(n, data.position(triangle.nodes[previous(k)]) - here);
@@ -423,7 +426,7 @@ float projectedAngle(const Corners& data, const Triangle& triangle, int k, Vec3 
     return static_cast<float>(std::acos(static_cast<double>(cosine)));
 }
 
-/// The mean of the corners in `members`, which are sorted by triangle, weighted by their angles.
+/// Returns the mean of the corners in `members`, which are sorted by triangle, weighted by their angles.
 Frame meanFrame(const Corners& data, const std::vector<Triangle>& triangles, const std::vector<HalfEdge>& members,
                 const Group& group) {
     Vec3 s{}, t{};
@@ -450,7 +453,8 @@ bool isAveraged(const Triangle& a, const Triangle& b, Vec3 n, float cosine) {
            dot(unitInPlane(n, a.t), unitInPlane(n, b.t)) > cosine;
 }
 
-/// The two triangles of a quad that meet at its diagonal both write the corner there: it gets the mean of the two.
+/// Writes the result of a corner. The two triangles of a quad that meet at its diagonal both write the corner there,
+/// which gets the mean of the two.
 void writeFrame(Frame& slot, const Frame& frame) {
     const bool is_equal =
         slot.length_s == frame.length_s && slot.length_t == frame.length_t && slot.s == frame.s && slot.t == frame.t;
@@ -468,7 +472,7 @@ void writeFrame(Frame& slot, const Frame& frame) {
 void averageGroup(const Corners& data, const std::vector<Triangle>& triangles, const Group& group, float cosine,
                   std::vector<Frame>& frames) {
     const auto comesFirst = [](const HalfEdge& a, const HalfEdge& b) { return a.triangle < b.triangle; };
-    std::vector<std::uint32_t> last;  // triangles of the subset that `mean` belongs to
+    std::vector<std::uint32_t> last;  // triangles of the subset to which `mean` belongs
     Frame mean;
     for (const auto& [number, k] : group.members) {
         std::vector<HalfEdge> subset;
@@ -485,15 +489,17 @@ void averageGroup(const Corners& data, const std::vector<Triangle>& triangles, c
     }
 }
 
-/// Computed in float except for the cosine itself, as in the reference. 180 degrees give exactly -1.
+/// Returns the cosine of the threshold. It is computed in float except for the cosine itself, as in the reference; 180
+/// degrees give exactly -1.
 float thresholdCosine(float degrees) {
     return static_cast<float>(std::cos(static_cast<double>(degrees * 3.14159274f / 180.0f)));
 }
 
 // --------------------------------------------------------------------------------------------- Step 7. Degenerate triangles
 
-/// A degenerate triangle copies, for each corner, the result of the first other corner at its node. A quad with one degenerate
-/// half has one corner that its other half lacks: that corner copies the corner of the other half at the same position.
+/// Copies results to the corners of degenerate triangles. Each corner gets the result of the first other corner at its
+/// node. A quad with one degenerate half has one corner that its other half lacks: that corner copies the corner of the
+/// other half at the same position.
 void copyToDegenerate(const Corners& data, const std::vector<Triangle>& triangles,
                       const std::vector<Triangle>& degenerate, std::vector<Frame>& frames) {
     std::unordered_map<std::uint32_t, std::uint32_t> first_corners;  // first corner of each node
@@ -521,7 +527,7 @@ void copyToDegenerate(const Corners& data, const std::vector<Triangle>& triangle
 
 // ------------------------------------------------------------------------------------------------------------- Step 8. Sign
 
-/// Ignored faces get zeros.
+/// Writes the frames of all corners; corners of ignored faces get zeros.
 void writeFrames(const MeshView& mesh, const std::vector<Frame>& frames, float sign_factor, const TangentOutput& out) {
     std::size_t corner = 0;
     for (std::size_t face = 0; face < mesh.faceCount(); ++face) {
