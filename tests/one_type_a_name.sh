@@ -6,7 +6,7 @@
 set -euo pipefail
 cd "${1:?usage: one_type_a_name.sh SOURCE_FOLDER}"
 if ! command -v python3 >/dev/null; then
-    echo "one_type_a_name: python3 is not there" >&2
+    echo "one_type_a_name: python3 is missing" >&2
     exit 77
 fi
 folder=$(mktemp -d)

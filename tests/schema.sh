@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "${1:?usage: schema.sh SOURCE_FOLDER}"
 if ! command -v python3 >/dev/null; then
-    echo "schema: python3 is not there" >&2
+    echo "schema: python3 is missing" >&2
     exit 77
 fi
 scripts/schema --check

@@ -43,7 +43,7 @@ fn sources(out: &Path) -> PathBuf {
     let root = here.join("../..");
     let script = root.join("scripts/amalgamate");
     if !script.exists() {
-        fail("native/tspace.cpp is not there: it is part of the package, and scripts/rust of the repository makes it");
+        fail("native/tspace.cpp is missing: it is part of the package, and scripts/rust of the repository makes it");
     }
     for inside in ["src/core", "include/tspace", "scripts/amalgamate"] {
         println!("cargo:rerun-if-changed={}", root.join(inside).display());

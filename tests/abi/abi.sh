@@ -7,7 +7,7 @@
 set -euo pipefail
 headers=$1 library=$2 dump=$3
 if ! command -v abidiff >/dev/null; then
-    echo "abi: abidiff is not there (Debian: abigail-tools)" >&2
+    echo "abi: abidiff is missing (Debian: abigail-tools)" >&2
     exit 77
 fi
 if [ "${4:-}" = --record ]; then

@@ -1,11 +1,12 @@
-# The dynamic symbols of LIBRARY are exactly the functions that HEADERS declare.
+# Checks that the dynamic symbols of LIBRARY are exactly the functions that HEADERS declare.
 cmake_minimum_required(VERSION 3.22)
 set(declared "")
 foreach(header ${HEADERS})
     file(READ "${header}" text)
     string(REGEX REPLACE "/\\*([^*]|\\*+[^*/])*\\*+/" "" text "${text}")
     string(REGEX REPLACE "inline [^{;]*{[^}]*}" "" text "${text}")
-    # A function's name stands before a bracket, and after its type: not in a macro, and not a pointer to a function.
+    # A function declaration is a type, the function's name and a parenthesis. This excludes macros and function
+    # pointers.
     string(REGEX MATCHALL "[a-zA-Z_0-9*] \\*?(tspace_[a-zA-Z]+|genTangSpace[a-zA-Z]*)\\(" names "${text}")
     string(REGEX REPLACE "[^;]* \\*?([a-zA-Z_]+)\\(" "\\1" names "${names}")
     list(APPEND declared ${names})

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Compiling for IBM Z, which keeps numbers with their high byte first, by Debian's compiler. Nothing of this machine is found but
-# what lies in TSPACE_HEADERS: libraries that are headers alone.
+# CMake's toolchain for IBM Z, a big-endian machine, with Debian's cross compiler. Of this machine, only the header-only
+# libraries in TSPACE_HEADERS are found.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR s390x)
 set(CMAKE_C_COMPILER s390x-linux-gnu-gcc)
@@ -10,5 +10,5 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 foreach(kind LIBRARY INCLUDE PACKAGE)
     set(CMAKE_FIND_ROOT_PATH_MODE_${kind} ONLY)
 endforeach()
-# The emulator needs no libraries then.
+# Programs are linked statically, so that the emulator needs no shared libraries.
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-static")

@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "${1:?usage: reference.sh SOURCE_FOLDER}"
 if ! command -v doxygen >/dev/null; then
-    echo "reference: doxygen is not there (Debian: doxygen)" >&2
+    echo "reference: doxygen is missing (Debian: doxygen)" >&2
     exit 77
 fi
 folder=$(mktemp -d)
@@ -23,5 +23,5 @@ grep -q 'paramname.>execution</td>' "$pages/namespacetspace.html" || fail "param
 
 sed -i 's|^/// mesh       positions; unit normals|/// meshes     positions; unit normals|' "$folder/include/tspace/tangents.h"
 ! cmp -s include/tspace/tangents.h "$folder/include/tspace/tangents.h" || fail "tangents.h has no such line any more"
-! "$folder/scripts/reference" >"$folder/printed" 2>&1 || fail "a parameter that is not there is no error"
+! "$folder/scripts/reference" >"$folder/printed" 2>&1 || fail "a parameter that is missing is no error"
 grep -q meshes "$folder/printed" || fail "it fails for another reason: $(<"$folder/printed")"

@@ -1,13 +1,14 @@
-# What every consumer builds and runs: both quick starts and an engine with the MikkTSpace interface. LINK is what the
-# targets link to; COMPAT_DIR is the folder of mikktspace.h; a third argument is what the program in C++ links instead.
-enable_testing()  # in the function it would be forgotten at its end
+# Programs that every consumer builds and runs: both quick starts, and an engine with the MikkTSpace interface. LINK is
+# the library that targets link to; COMPAT_DIR is the folder of mikktspace.h; a third argument is the library that the
+# C++ program links instead of LINK.
+enable_testing()  # not in the function, whose scope would end its effect
 function(tspace_add_consumers link compat_dir)
     get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)
     add_executable(quickstart_c "${TSPACE_SOURCE_DIR}/examples/quickstart.c")
     add_executable(engine "${TSPACE_SOURCE_DIR}/tests/core/c_api/c_mikktspace_test.c")
     target_include_directories(engine PRIVATE "${compat_dir}")
     set(programs quickstart_c engine)
-    # The reference's own name as a target, with both ways to include its header.
+    # A target with the name of the reference implementation, and both ways to include its header.
     if(TARGET mikktspace)
         set(by_folder "${CMAKE_CURRENT_BINARY_DIR}/by_folder.c")
         file(WRITE "${by_folder}" "#include \"mikktspace/mikktspace.h\"\n#include <mikktspace.h>\n"

@@ -1,5 +1,6 @@
-# Installs COMPONENTS of BUILD into an empty PREFIX and looks whether the headers are there, and no others; with tspace_tool
-# also whether all PROGRAMS, the documentation, man pages and completions are, of PAGES (TRUE: this build makes them).
+# Installs COMPONENTS of BUILD into an empty PREFIX and checks that exactly the expected headers are installed; with
+# tspace_tool also that all PROGRAMS, the documentation, and, if PAGES is TRUE, the man pages and completions are
+# installed.
 cmake_minimum_required(VERSION 3.22)
 file(REMOVE_RECURSE "${PREFIX}")
 foreach(component IN LISTS COMPONENTS)

@@ -1,5 +1,6 @@
-# Configures SOURCE into FOLDER without libraries: what needs them is left out and named in one line, and the core stays.
-# Then with all of them, where programs that were not built are left out of an installation.
+# First configures SOURCE into FOLDER without any third-party library: parts that need one are omitted and named in one
+# line, and the core is built. Then configures it with all libraries: an installation omits programs that were not
+# built.
 cmake_minimum_required(VERSION 3.22)
 file(REMOVE_RECURSE "${FOLDER}")
 
@@ -33,7 +34,7 @@ if(NOT core_alone_CMAKE_BUILD_TYPE STREQUAL "Release")
     message(FATAL_ERROR "without a build type it is ${core_alone_CMAKE_BUILD_TYPE}")
 endif()
 
-# What is demanded must be there.
+# Parts that are explicitly enabled must be available; otherwise configuration fails.
 execute_process(COMMAND "${CMAKE_COMMAND}" -S "${SOURCE}" -B "${FOLDER}/demanded" -G "${GENERATOR}" -DTSPACE_BUILD_TESTS=ON
                         "-DCMAKE_CXX_COMPILER=${CXX}" "-DCMAKE_C_COMPILER=${C}" -DCMAKE_DISABLE_FIND_PACKAGE_GTest=ON
                 OUTPUT_QUIET ERROR_QUIET RESULT_VARIABLE failed)
@@ -41,7 +42,7 @@ if(failed EQUAL 0)
     message(FATAL_ERROR "tests were demanded, and left out without an error")
 endif()
 
-# Installs all of BUILD, anew, into prefix.
+# Installs all of BUILD into an empty prefix.
 function(install_all build)
     file(REMOVE_RECURSE "${FOLDER}/prefix")
     execute_process(COMMAND "${CMAKE_COMMAND}" --install "${build}" --prefix "${FOLDER}/prefix"
@@ -49,7 +50,7 @@ function(install_all build)
     set(output "${output}" PARENT_SCOPE)
 endfunction()
 
-# find_package(tspace COMPONENTS ...) from there: what it says where it fails, else "found".
+# Runs find_package(tspace COMPONENTS ...) with that prefix; returns its error message, or "found".
 file(WRITE "${FOLDER}/consumer/CMakeLists.txt" "cmake_minimum_required(VERSION 3.22)
 project(consumer C CXX)
 find_package(tspace REQUIRED COMPONENTS \${PARTS})
@@ -75,7 +76,7 @@ function(expect_said regex)
     endif()
 endfunction()
 
-# What is not there must not be named either: linkers and pkg-config would look for it.
+# Libraries that are absent must not be referenced: otherwise linkers and pkg-config would search for them.
 function(expect_none)
     foreach(pattern ${ARGN})
         file(GLOB_RECURSE found "${FOLDER}/prefix/${pattern}")
@@ -100,7 +101,7 @@ if(HAS_TOOL)
     if(NOT output MATCHES "Left out, because it was not built: tspace\n")
         message(FATAL_ERROR "nothing says that the tool was not installed: ${output}")
     endif()
-    # What scripts/demo builds; here the files are empty.
+    # Empty files in place of the output of scripts/demo.
     file(TOUCH "${FOLDER}/all/libtspace.a" "${FOLDER}/all/bin/tspace")
     foreach(wing mesh images maps model commands)
         file(TOUCH "${FOLDER}/all/libtspace_${wing}.a")
@@ -117,7 +118,7 @@ if(HAS_TOOL)
     expect_said("installed without tspace::asset")
 endif()
 
-# A missing component is named with its reason.
+# If a component is missing, the message states the reason.
 configure(shared -DTSPACE_BUILD_TESTS=OFF -DTSPACE_BUILD_TOOL=OFF -DTSPACE_BUILD_EXAMPLES=OFF -DTSPACE_BUILD_ASSET=OFF -DBUILD_SHARED_LIBS=ON)
 load_cache("${FOLDER}/shared" READ_WITH_PREFIX shared_ TSPACE_BUILD_SHARED)
 if(NOT shared_TSPACE_BUILD_SHARED)
@@ -138,7 +139,7 @@ expect_said("since libraries were not found, as Debian packages: nlohmann-json3-
 find_parts(shared)
 expect_said("since TSPACE_BUILD_SHARED was OFF")
 
-# Without TSPACE_INSTALL, the default where another project has this one in its tree, nothing is installed.
+# Without TSPACE_INSTALL, which is the default for a subproject, nothing is installed.
 configure(no_install -DTSPACE_BUILD_TESTS=OFF -DTSPACE_INSTALL=OFF)
 file(TOUCH "${FOLDER}/no_install/libtspace.a" "${FOLDER}/no_install/bin/tspace")
 install_all("${FOLDER}/no_install")

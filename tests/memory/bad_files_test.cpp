@@ -34,7 +34,7 @@ std::uint64_t bytesWithNamedFiles(const fs::path& model) {
 
 TEST(MemoryCeiling, HoldsForEveryBadFile) {
     const fs::path folder = fs::path(TSPACE_SHARED_DIR) / "bad";
-    if (!fs::is_directory(folder)) GTEST_SKIP() << folder << " is not there";
+    if (!fs::is_directory(folder)) GTEST_SKIP() << folder << " is missing";
     std::size_t count = 0;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
         const std::string extension = entry.path().extension().string();

@@ -292,7 +292,7 @@ TEST(DracoHostile, NamesTheLocationOfEveryWrongMember) {
     expectRefused("no view", [](GltfBuilder& b) { extension(b).erase("bufferView"); });
     expectRefused("view out of range", [](GltfBuilder& b) { extension(b)["bufferView"] = 1; });
     expectRefused("no attributes", [](GltfBuilder& b) { extension(b).erase("attributes"); });
-    expectRefused("an id that is not there", [](GltfBuilder& b) { extension(b)["attributes"]["NORMAL"] = 77; });
+    expectRefused("an id that is missing", [](GltfBuilder& b) { extension(b)["attributes"]["NORMAL"] = 77; });
     expectRefused("an id out of range", [](GltfBuilder& b) { extension(b)["attributes"]["NORMAL"] = 4294967296u; });
     expectRefused("another attribute's id", [](GltfBuilder& b) { extension(b)["attributes"]["NORMAL"] = 2; });
     expectRefused("fewer vertices", [](GltfBuilder& b) {

@@ -19,7 +19,7 @@ using test::TempFolder;
 class Models : public testing::TestWithParam<std::string> {
   protected:
     void SetUp() override {
-        if (GetParam().empty()) GTEST_SKIP() << "test data " << shared("models") << " is not there";
+        if (GetParam().empty()) GTEST_SKIP() << "test data " << shared("models") << " is missing";
         input_ = shared("models") / GetParam();
     }
 
@@ -218,7 +218,7 @@ INSTANTIATE_TEST_SUITE_P(Shared, Models, testing::ValuesIn(test::modelFiles("mod
 class BadFiles : public testing::TestWithParam<std::string> {};
 
 TEST_P(BadFiles, GiveAnErrorOrAValidFile) {
-    if (GetParam().empty()) GTEST_SKIP() << "test data " << shared("bad") << " is not there";
+    if (GetParam().empty()) GTEST_SKIP() << "test data " << shared("bad") << " is missing";
     const std::string input = (shared("bad") / GetParam()).string();
     for (const char* name : {"out.glb", "out.gltf"}) {
         const TempFolder folder;

@@ -131,7 +131,7 @@ TEST(ReadScene, ReadsTheBytesOfNormalMapsOnlyWhenAsked) {
     EXPECT_EQ(text(1), "from a view");
     EXPECT_EQ(text(2), std::string(3, 0));
     EXPECT_EQ(scene.images[2].uri, "");
-    EXPECT_EQ(text(3), "") << "an image that is not there is no error";
+    EXPECT_EQ(text(3), "") << "an image that is missing is no error";
     EXPECT_EQ(text(4), "") << "nothing needs tangents for it";
     for (const SceneImage& image : readScene(file, {}, false).images) EXPECT_TRUE(image.bytes.empty());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The cases of cases.cpp as a compute shader: see compute.glsl. Stands behind tspace.wgsl.
+// The cases of cases.cpp as a compute shader (see compute.glsl). It is appended to tspace.wgsl.
 @group(0) @binding(0) var<storage, read> words: array<u32>;
 @group(0) @binding(1) var<storage, read_write> results: array<vec4f>;
 fn wordAt(at: u32) -> u32 { return words[at]; }

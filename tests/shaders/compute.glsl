@@ -1,7 +1,7 @@
 #version 450
 // SPDX-License-Identifier: MIT
-// The cases as a Vulkan compute shader. The buffer of words begins with the case, the count of items, and the words of
-// an item.
+// Runs the cases as a Vulkan compute shader. The buffer contains the case number, the number of items, and then the
+// words of each item.
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Words { uint words[]; };

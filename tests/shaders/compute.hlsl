@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The cases as a compute shader: see compute.glsl.
+// Runs the cases as a compute shader; see compute.glsl.
 StructuredBuffer<uint> words : register(t0);
 RWStructuredBuffer<float4> results : register(u1);
 uint wordAt(uint at) { return words[at]; }

@@ -24,7 +24,7 @@ std::vector<PosedMesh> meshesOfSharedModels() {
 
 TEST(PlanBuffers, GiveTheTangentsOfSharedModels) {
     const std::vector<PosedMesh> meshes = meshesOfSharedModels();
-    if (meshes.empty()) GTEST_SKIP() << "the shared test data are not there";
+    if (meshes.empty()) GTEST_SKIP() << "the shared test data are missing";
     for (const Method method : kMethods) {
         Differences found = evaluateAll(meshes, {.method = method}, evaluateByLoop).tangents;
         // Where a triangle without usable UV area dominates, the sum of dP/du is parallel to that of dP/dv within rounding.
@@ -35,7 +35,7 @@ TEST(PlanBuffers, GiveTheTangentsOfSharedModels) {
 
 TEST(PlanBuffers, GiveTheNormalsOfSharedModels) {
     const std::vector<PosedMesh> meshes = meshesOfSharedModels();
-    if (meshes.empty()) GTEST_SKIP() << "the shared test data are not there";
+    if (meshes.empty()) GTEST_SKIP() << "the shared test data are missing";
     Outcome outcome = evaluateAll(meshes, {.makes_normals = true}, evaluateByLoop);
     expectNear(outcome.normals, "normals");
     expectNear(outcome.tangents, "tangents with these normals");

@@ -42,7 +42,7 @@ TEST(PlanBuffers, GiveTheTangentsOfThePlan) { expectTangents(generatedMeshes(), 
 TEST(PlanBuffers, GiveTheFramesOfVertices) { expectFrames(generatedMeshes(), evaluateByLoop); }
 TEST(PlanBuffers, GiveTheTangentsOfSharedMeshes) {
     const std::vector<PosedMesh> meshes = sharedMeshes();
-    if (meshes.empty()) GTEST_SKIP() << "the shared test data are not there";
+    if (meshes.empty()) GTEST_SKIP() << "the shared test data are missing";
     for (const Method method : {Method::mikktspace, Method::uniform, Method::angle, Method::area})
         expectNear(evaluateAll(meshes, {.method = method}, evaluateByLoop).tangents, methodName(method));
     // These meshes have nearly collinear UVs and needles, whose derivatives and weights are dominated by rounding.

@@ -17,8 +17,8 @@ inline std::filesystem::path shared(const std::string& relative) {
 }  // namespace tspace::test
 
 /// Skips the current test if the shared data does not contain `relative`.
-#define TSPACE_NEEDS_SHARED(relative)                                                      \
-    if (!std::filesystem::exists(tspace::test::shared(relative))) {                        \
-        GTEST_SKIP() << "test data " << tspace::test::shared(relative) << " is not there"; \
-    }                                                                                      \
+#define TSPACE_NEEDS_SHARED(relative)                                                    \
+    if (!std::filesystem::exists(tspace::test::shared(relative))) {                      \
+        GTEST_SKIP() << "test data " << tspace::test::shared(relative) << " is missing"; \
+    }                                                                                    \
     static_assert(true)

@@ -87,7 +87,7 @@ constexpr const char* kMade = "made/";
 class Advice : public testing::TestWithParam<std::string> {
   public:
     void SetUp() override {
-        if (GetParam().empty()) GTEST_SKIP() << "test data is not there";
+        if (GetParam().empty()) GTEST_SKIP() << "test data is missing";
         input_ = std::filesystem::absolute(shared(GetParam())).string();
         for (const FaultyModel& model : faultyModels()) {
             if (GetParam() == kMade + std::string(model.name)) input_ = writeFaulty(folder_, model);

@@ -438,7 +438,7 @@ std::vector<std::string> badModels(std::size_t wanted) {
 
 TEST_F(BakeCommand, AMalformedModelCausesOneLineAndNoFile) {
     const std::vector<std::string> models = badModels(12);
-    if (models.empty()) GTEST_SKIP() << "the bad models are not there";
+    if (models.empty()) GTEST_SKIP() << "the bad models are missing";
     for (const std::string& model : models) {
         for (const std::string& inputs : {"'" + model + "' --high high.obj", "low.obj --high '" + model + "'",
                                           "low.obj --high high.obj --cage '" + model + "'"}) {

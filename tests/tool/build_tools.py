@@ -126,7 +126,7 @@ for command, more in (("check", []), ("inspect", []), ("identify", []), ("genera
         writer.join()
         os.remove("pipe")
     expect(run(command, *more, "--files-from", "-").returncode == 0, f"{command}: an empty list is an error")
-    expect(run(command, *more, "--files-from", "nothing.txt").returncode == 4, f"{command}: a list that is not there")
+    expect(run(command, *more, "--files-from", "nothing.txt").returncode == 4, f"{command}: a list that is missing")
     expect(run(command, *more).returncode == 2, f"{command}: without inputs")
     expect(run(command, *more, "-", "--files-from", "-").returncode == 2, f"{command}: two want stdin")
 expect(os.path.exists("made/two.glb") or os.path.exists("made/two.gltf"), "generate with a list writes into a folder")

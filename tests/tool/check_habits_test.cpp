@@ -73,7 +73,7 @@ TEST(CheckColors, FollowTheUsersSettings) {
     EXPECT_FALSE(is_colored(""));
     EXPECT_EQ(runTool(folder, "check a.glb --color sometimes").exit_code, 2);
     // script(1) provides a terminal.
-    if (std::system("command -v script > /dev/null") != 0) GTEST_SKIP() << "script is not there";
+    if (std::system("command -v script > /dev/null") != 0) GTEST_SKIP() << "script is missing";
     const auto on_terminal = [&](const std::string& environment) {
         const std::string command = "cd '" + folder.path().string() + "' && " + environment +
                                     " TERM=xterm script -qec '" +

@@ -86,7 +86,7 @@ TEST(Completions, KnowEveryOptionOfHelp) {
 TEST(Completions, HaveTheSyntaxOfTheirShells) {
     const TempFolder folder;
     EXPECT_EQ(outputOf(folder, "bash -n " + kBash), (std::pair<int, std::string>{0, ""}));
-    if (!isThere("zsh") || !isThere("fish")) GTEST_SKIP() << "zsh or fish is not there";
+    if (!isThere("zsh") || !isThere("fish")) GTEST_SKIP() << "zsh or fish is missing";
     EXPECT_EQ(outputOf(folder, "zsh -n " + kZsh), (std::pair<int, std::string>{0, ""}));
     EXPECT_EQ(outputOf(folder, "fish -n " + kFish), (std::pair<int, std::string>{0, ""}));
     const std::string complete = "fish -c \"source " + kFish + "; complete -C 'tspace generate --method mi'\"";
@@ -94,7 +94,7 @@ TEST(Completions, HaveTheSyntaxOfTheirShells) {
 }
 
 TEST(ManPages, AreReadWithoutAWarning) {
-    if (!isThere("groff")) GTEST_SKIP() << "groff is not there";
+    if (!isThere("groff")) GTEST_SKIP() << "groff is missing";
     const TempFolder folder;
     std::vector<std::string> pages;
     for (const auto& page : std::filesystem::directory_iterator(kPages + "/man/man1")) pages.push_back(page.path());

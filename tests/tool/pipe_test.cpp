@@ -90,7 +90,7 @@ TEST(Pipe, AcceptsNeitherSeveralModelsNorATerminal) {
         EXPECT_EQ(run.exit_code, 2) << wrong;
         EXPECT_EQ(run.out, "");
     }
-    if (std::system("command -v script > /dev/null") != 0) GTEST_SKIP() << "script is not there";
+    if (std::system("command -v script > /dev/null") != 0) GTEST_SKIP() << "script is missing";
     const std::string command = "cd '" + folder.path().string() +
                                 "' && script -qec '" TSPACE_TOOL
                                 " generate plain.glb -o -; echo code $?' typescript > /dev/null < /dev/null";
@@ -179,7 +179,7 @@ TEST(UnreadablePaths, ReportsTheReason) {
     std::filesystem::permissions(folder.path("file.glb"), std::filesystem::perms::none);
     // Root may read everything, so the test switches to another user.
     const bool is_root = std::system("test $(id -u) = 0") == 0;
-    if (is_root && std::system("command -v setpriv > /dev/null") != 0) GTEST_SKIP() << "setpriv is not there";
+    if (is_root && std::system("command -v setpriv > /dev/null") != 0) GTEST_SKIP() << "setpriv is missing";
     std::filesystem::permissions(folder.path(), std::filesystem::perms::all);
     const ToolRun run = runTool(folder, "inspect file.glb", is_root ? "setpriv --reuid 65534 --clear-groups" : "");
     if (run.exit_code > 125) GTEST_SKIP() << "another user cannot start the tool here: " << run.err;

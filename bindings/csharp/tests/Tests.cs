@@ -96,7 +96,7 @@ internal static class Tests
         string folder = shared == null ? null : Path.Combine(shared, "golden", "mikktspace");
         if (folder == null || !Directory.Exists(folder))
         {
-            Console.WriteLine("  skipped: the golden meshes are not there");
+            Console.WriteLine("  skipped: the golden meshes are missing");
             return new List<Golden>();
         }
         string[] paths = Directory.GetFiles(folder, "*.tsg");

@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Compiles the tool and the libraries that it reads files by into one WebAssembly module: build.sh OUT. OUT/bin and OUT/share, with
-# completions for shells, are then parts of the package. The libraries' sources are fetched from Debian, in the versions that are installed here.
+# build.sh OUT: compiles the tool, with the libraries that it uses to read files, into one WebAssembly module. The package contains
+# OUT/bin, and OUT/share with completions for shells. The sources of the libraries are downloaded from Debian, in the versions that are
+# installed on this machine.
 set -euo pipefail
 here=$(dirname "$(readlink -f "$0")")
 root=$(readlink -f "$here/../../..")
@@ -71,7 +72,7 @@ rm -rf "$out/share"
 cp -r "$out/build/tools/tspace/made/share" "$out/share" # completions
 # These texts must be distributed with the programs.
 {
-    echo "tspace.wasm has parts of these libraries in it; tspace's own license is beside package.json."
+    echo "tspace.wasm contains parts of these libraries; tspace's own license is next to package.json."
     for library in "$out"/prefix/licenses/*; do
         printf '\n==== %s ====\n\n' "$(basename "$library")"
         cat "$library"

@@ -1,5 +1,5 @@
-# What CMake would get wrong: WebAssembly is never position-independent here, and programs are linked by wasm-ld. They import their
-# memory, which threads share, and what bindings/js/bin/system.js gives them.
+# Corrects what CMake assumes wrongly for WebAssembly: programs here are never position-independent, and wasm-ld links
+# them. They import their memory, which threads share, and functions of bindings/js/bin/system.js.
 set(CMAKE_C_COMPILE_OPTIONS_PIC "")
 set(CMAKE_CXX_COMPILE_OPTIONS_PIC "")
 set(CMAKE_C_COMPILE_OPTIONS_PIE "")

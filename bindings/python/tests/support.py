@@ -16,7 +16,7 @@ def needs_shared(path):
     """Returns a folder or file of the test data; skips the test if it does not exist."""
     found = SHARED / path
     if not found.exists():
-        raise unittest.SkipTest(f"{found} is not there: name the folder of test data with TSPACE_SHARED_DIR")
+        raise unittest.SkipTest(f"{found} is missing: name the folder of test data with TSPACE_SHARED_DIR")
     return found
 
 

@@ -61,7 +61,7 @@ class Names(unittest.TestCase):
         for name in _abi.CONVENTIONS:
             self.assertEqual(_abi.library.tspace_findConvention(name.encode(), _abi.Convention(), _abi.Error()), 0)
 
-    @unittest.skipUnless(OPTIONS.exists(), "the sources are not there")
+    @unittest.skipUnless(OPTIONS.exists(), "the sources are missing")
     def test_options_of_files_are_those_of_the_library(self):
         """Passes every option that any function has to every function, without Python's check of names."""
         names = set()
@@ -93,7 +93,7 @@ class Names(unittest.TestCase):
         return "unknown option" not in str(caught.exception)
 
 
-@unittest.skipUnless(INCLUDE.exists(), "the C headers are not there")
+@unittest.skipUnless(INCLUDE.exists(), "the C headers are missing")
 class Abi(unittest.TestCase):
     @unittest.skipUnless(shutil.which("cc"), "no C compiler")
     def test_structs_and_numbers_are_those_of_the_headers(self):

@@ -66,7 +66,7 @@ fn goldens() -> Vec<Golden> {
     let mut paths: Vec<PathBuf> = match std::fs::read_dir(&folder) {
         Ok(entries) => entries.map(|entry| entry.unwrap().path()).collect(),
         Err(_) => {
-            eprintln!("skipped: {} is not there", folder.display());
+            eprintln!("skipped: {} is missing", folder.display());
             return Vec::new();
         }
     };

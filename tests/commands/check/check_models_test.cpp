@@ -80,7 +80,7 @@ TEST(CheckModels, HasNoErrorOnCorrectExports) {
 class Models : public testing::TestWithParam<std::string> {};
 
 TEST_P(Models, HaveNoErrorAfterGenerate) {
-    if (GetParam().empty()) GTEST_SKIP() << "test data " << shared("models") << " is not there";
+    if (GetParam().empty()) GTEST_SKIP() << "test data " << shared("models") << " is missing";
     const std::string input = (shared("models") / GetParam()).string();
     const TempFolder folder;
     const std::string output = folder.path("out.glb").string();

@@ -101,7 +101,7 @@ TEST(CheckPacked, FindsNothingInOutputsOfGenerate) {
     for (const char* name : {"khronos/NormalTangentTest.glb", "derived/NormalTangentTest_quantized.glb",
                              "blender/01_morphed_cube/01_morphed_cube.gltf", "khronos/CesiumMan.glb"}) {
         const auto model = shared("models") / name;
-        if (!std::filesystem::exists(model)) GTEST_SKIP() << "test data " << model << " is not there";
+        if (!std::filesystem::exists(model)) GTEST_SKIP() << "test data " << model << " is missing";
         const TempFolder folder;
         const std::string output = folder.path("out.glb").string();
         GenerateOptions options;

@@ -6,7 +6,7 @@ set -euo pipefail
 cd "${1:?usage: api.sh SOURCE_FOLDER [PAGES]}"
 pages=(--pages "${2-}")
 if ! python3 -c ''; then
-    echo "api.sh: python3 is not there" >&2
+    echo "api.sh: python3 is missing" >&2
     exit 77
 fi
 scripts/api --check "${pages[@]}"

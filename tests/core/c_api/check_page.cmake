@@ -1,4 +1,4 @@
-# The page PAGE shows the file SOURCE, whole and unchanged, as a code block of LANGUAGE.
+# Checks that the page PAGE contains the complete file SOURCE, unchanged, as a code block of LANGUAGE.
 file(READ "${PAGE}" page)
 file(READ "${SOURCE}" code)
 string(FIND "${page}" "```${LANGUAGE}\n${code}```" position)

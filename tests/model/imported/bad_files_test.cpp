@@ -41,7 +41,7 @@ void expectLittleMemory() {
 
 TEST(ImportBadFiles, OfOtherProjectsUnderAnyNameGiveModelsOrErrors) {
     const fs::path folder = shared("bad");
-    if (!fs::is_directory(folder)) GTEST_SKIP() << folder << " is not there";
+    if (!fs::is_directory(folder)) GTEST_SKIP() << folder << " is missing";
     std::vector<fs::path> files;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
         constexpr std::uintmax_t kSmall = 100'000;
