@@ -8,7 +8,7 @@
 //     +-----+-----+-----------+
 //     | top |under|           |     top, front, under, back: half a side each. u is the distance from the plane
 //     |     |     |   right   |     x = 0, so the halves x > 0 and x < 0 share it, the second one mirrored.
-//     +-----+-----+-----------+     top runs on into front, under into back; right and left stand alone.
+//     +-----+-----+-----------+     top continues into front, under into back; right and left are separate.
 //     |front| back|           |
 //     |     |     |   left    |
 //     +-----+-----+-----------+

@@ -35,7 +35,7 @@ double segment(Point p, Point a, Point b, double radius) {
     return length(p.x - a.x - t * x, p.y - a.y - t * y) - radius;
 }
 
-// Heights in meters, from distances.
+// The following functions return heights in meters for distances from an outline.
 
 double plate(double distance, double height) { return height * smoothstep(0.006, -0.006, distance); }
 

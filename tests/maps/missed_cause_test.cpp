@@ -78,7 +78,8 @@ TEST_F(MissedCause, TheReportedRotationRestoresTheHighPoly) {
                 for (std::sregex_iterator at(cause.begin(), cause.end(), step), end; at != end; ++at)
                     steps.emplace_back(std::stoi((*at)[1]), (*at)[2].str()[0]);
                 ASSERT_FALSE(steps.empty()) << cause;
-                // Half a turn about the vertical does not change a saddle.
+                // A saddle is symmetric under a rotation by 180 degrees about the vertical axis, so x and y may have
+                // either sign.
                 const Vec3 probe = low_.positions[7];
                 Vec3 back = move(probe);
                 for (const auto& [degrees, axis] : steps) back = turned(back, degrees, axis);

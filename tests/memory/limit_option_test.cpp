@@ -66,7 +66,8 @@ TEST_F(LongStrip, UsesNoMoreThanTheLimit) {
     }
 }
 
-/// A user who passes the limit in the message is asked for more only a few times, as the work progresses.
+/// A user who passes the limit named in an error message needs only a few attempts, although later steps may need more
+/// memory.
 TEST_F(LongStrip, IsAcceptedWithTheLimitFromTheMessage) {
     int exit_code = run("generate").exit_code;
     for (int tries = 0; exit_code == 3 && tries < 4; ++tries) {

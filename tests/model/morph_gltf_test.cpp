@@ -87,7 +87,8 @@ TEST(MorphGltf, GivesDeltasToTargetsThatMoveTheSurfaceOnly) {
     EXPECT_EQ(outcome.report.primitives[0].morph_target_count, 4u);
     EXPECT_EQ(outcome.report.primitives[0].morph_deltas_computed, 3u);
     EXPECT_EQ(outcome.report.primitives[0].vertices_after, 30u);
-    // Everything is flat in v, and u is 0.25 per unit of x: so is T, whatever is lifted with y.
+    // All triangles are flat in v, and u is 0.25 per unit of x, so T does not change, although points are displaced by
+    // an amount that depends on y.
     for (const Vec3& offset : offsetsOf(outcome, 0, "TANGENT")) EXPECT_LT(lengthOf(offset), 1e-6);
 }
 

@@ -88,7 +88,8 @@ TEST(NormalLevels, StoreTheSpreadOfTheirNormals) {
     }
 }
 
-/// Texels are covered by a quarter, or not at all, in which case they contain an unrelated direction.
+/// Texels have a coverage of a quarter or 0; those with 0 contain an unrelated direction, which must not affect the
+/// means.
 TEST(NormalLevels, AreMeansOfCoveredTexels) {
     NormalLevel first = noiseLevel(13, 8);
     NormalLevel foreign = first;

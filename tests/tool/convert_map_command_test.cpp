@@ -136,7 +136,7 @@ TEST(ConvertMapCommand, ChoosesTheTrianglesOfAMaterial) {
 TEST(ConvertMapCommand, TakesTheTrianglesOfATile) {
     const TempFolder folder;
     writeSheet(folder);
-    // The right half again, by itself and in the tile above the next one.
+    // A copy of the right half: once as a separate model, and once in the UV tile above the next one.
     const std::string points =
         "v 1 0 0\nv 2 0 -1\nv 1 1 0\nv 2 1 -1\nvn 0.3 0 0.95\nvn 0.7 0 0.7\nvn 0.4 0.1 0.9\nvn 0.7 0.2 0.7\n";
     const std::string uvs = "vt 0.4 0\nvt 1 0\nvt 0.6 1\nvt 1 1\n", moved = "vt 1.4 1\nvt 2 1\nvt 1.6 2\nvt 2 2\n";

@@ -98,7 +98,7 @@ describe("models in memory", () => {
         assert.deepEqual(error.message.split("known names are ")[1].split(", ").sort(), wanted, name);
         return true;
       });
-      for (const option of wanted) // a wrong value is rejected by the module, if at all, and never as an unknown name
+      for (const option of wanted) // the module may reject a wrong value, but never as an unknown name
         try {
           call(model, { [option]: "?" });
         } catch (error) {

@@ -86,7 +86,7 @@ void encodeOctahedral(double& x, double& y, double z) {
     y /= sum;
 }
 
-/// Octahedral maps fit x and y well, too. Both readings stand.
+/// Octahedral maps also fit x and y well. Both interpretations remain possible.
 TEST(MapSlopes, DoubtTwoChannelsThatFitBetterAsOctahedral) {
     for (const Height& relief : kReliefs) {
         for (const double scale : {1.0, 2.0, 4.0}) {

@@ -55,7 +55,7 @@ struct TestModel {
         builder.json()["meshes"][0]["name"] = "patch";
     }
 
-    /// Lets the texture name its image by an extension, such as KHR_texture_basisu.
+    /// Makes the texture refer to its image through an extension, such as KHR_texture_basisu.
     void setTextureExtension(const char* name) {
         gltf::Json texture = gltf::Json::object();
         texture["extensions"][name]["source"] = 0;

@@ -165,7 +165,7 @@ void addNormals(const Mesh& mesh, NormalWeighting weighting, const Execution& ex
     results.hashes["normals " + std::to_string(static_cast<unsigned>(weighting))].add(normals);
 }
 
-/// Packs frames as rough as the mesh: most are repaired first.
+/// Packs frames that are built from the positions of a rough mesh: most of them are invalid, and are repaired first.
 void addPacked(const Mesh& mesh, FrameFormat format, Results& results) {
     const std::size_t count = mesh.normals.size();
     std::vector<Vec4> tangents;

@@ -117,7 +117,8 @@ TEST(CApi, RejectsNormalOptionsOfZeros) {
     ASSERT_EQ(TSPACE_OK, tspace_initNormalOptions(&options, sizeof options, nullptr));
     options.weighting = TSPACE_NORMAL_WEIGHTING_FLAT;
     EXPECT_EQ(TSPACE_OK, tspace_generateNormals(&c_mesh, &options, out, nullptr, nullptr, nullptr));
-    // No combination is lost: with 0 for each of the other options alone, the result equals that of zeros.
+    // Every combination of options is possible: with each other option set to 0 separately, the result equals that of
+    // zeros.
     ASSERT_TRUE(generateNormals(mesh.view(), {NormalWeighting::flat, {}, 0, {}, false, false, 0}, flat));
     EXPECT_TRUE(sameBits(flat, made));
 }

@@ -146,8 +146,8 @@ class BruteForce {
     std::vector<double> areas_;
 };
 
-/// Returns triangles between points of a small grid: shared, duplicated and crowded edges, collapsed faces, copies of
-/// vertices.
+/// Returns triangles between points of a small grid: shared and duplicated edges, edges with many faces, collapsed
+/// faces, copies of vertices.
 SimpleMesh randomGridMesh() {
     SimpleMesh mesh;
     const int vertex_count = randomInt(4, 16);

@@ -145,7 +145,7 @@ RC_GTEST_PROP(RefinedNormals, WithHardEdgesAreTheStepOfEachSide, ()) {
     RC_ASSERT(areClose(normalsOf(mesh.view(), grouped, 1), one));
 }
 
-/// Triangles of arbitrary values, or of a small grid: collapsed, crowded, double-sided, not finite.
+/// Triangles of arbitrary values, or of a small grid: collapsed, double-sided, not finite, or many at one edge.
 RC_GTEST_PROP(RefinedNormals, OfGarbageRotateByAtMostFourteenDegreesAndStayUnit, ()) {
     SimpleMesh mesh;
     const bool is_grid = test::randomInt(0, 2) == 0;

@@ -150,7 +150,8 @@ std::vector<Vec4> tangents(const MeshView& mesh, Pairing pairing) {
     return result;
 }
 
-/// Returns sheets, soups of random triangles and quads, books and fans; in natural order and shuffled.
+/// Returns one of several meshes: sheets, random triangles and quads, triangles around one edge, or fans; in natural
+/// order or shuffled.
 SimpleMesh someShape(std::uint32_t seed) {
     std::mt19937 random(seed);
     SimpleMesh shape;

@@ -333,7 +333,8 @@ TEST(FixWinding, FixesGridsWithEdgesOfFourFacesAndHoles) {
         for (const double share : {0.0, 0.3, 1.0}) {
             const Bodies damaged = turnedByChance(body.bodies, share, 1);
             const Mended mended = mend(damaged.view());
-            // Conflicts of islands of two and three faces, and of an edge that had four faces and lost two.
+            // Remaining conflicts: islands of two and three faces, and an edge that had four faces before two were
+            // removed.
             EXPECT_LE(mended.report.conflict_count_after, 4u) << name << ' ' << share;
             EXPECT_GE(shareRight(body.bodies, damaged, mended), 0.99) << name << ' ' << share;
         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tangents of other formats: those of FBX are read, with their signs; if a format or the importer cannot provide them,
-// nothing claims that there are none.
+// Tangents of other formats: those of FBX are read, with their signs. If a format or the importer cannot provide
+// tangents, no report states that the file has none.
 #include <gtest/gtest.h>
 
 #include <cmath>
