@@ -77,9 +77,9 @@ export class App {
   /** The fixed file shown right of the split line, and its check report. */
   fixed: { model: ModelFiles; check: CheckReport | null } | null = null;
   /** Parts of the fixed file, or of the file to compare with. */
-  #mended: Part[] = [];
-  #mendedFile: ModelFiles | null = null;
-  #mendedScene: Scene | null = null;
+  #fixedParts: Part[] = [];
+  #fixedFile: ModelFiles | null = null;
+  #fixedScene: Scene | null = null;
   /** The fixed file has other normals or triangles, so it is drawn as a separate scene. */
   #hasOtherShape = false;
   /** The model from which the current one was fixed. */
@@ -131,10 +131,10 @@ export class App {
     const { stage, look, uvMap, place, parts, motion } = this.views;
     place.clear();
     this.fixed = null;
-    this.#mended = [];
-    this.#mendedFile = null;
-    this.#mendedScene?.dispose();
-    this.#mendedScene = null;
+    this.#fixedParts = [];
+    this.#fixedFile = null;
+    this.#fixedScene?.dispose();
+    this.#fixedScene = null;
     this.#normalImages = [];
     this.#greenDown.clear();
     this.#variant = -1;
@@ -152,8 +152,8 @@ export class App {
   }
 
   /** Opens the fixed file as the model; back() returns to the original. */
-  openMended(mended: ModelFiles): Promise<void> {
-    return this.open(async () => mended, { before: this.model });
+  openFixed(fixed: ModelFiles): Promise<void> {
+    return this.open(async () => fixed, { before: this.model });
   }
 
   /** Returns to the model that the current one was fixed from; returns false if there is none. */
@@ -242,7 +242,7 @@ export class App {
       place.clear();
       await this.#draw(model, isCurrent, { isOther: true });
       if (!isCurrent()) return;
-      if (this.#mendedFile) await this.#loadMended(this.#mendedFile, isCurrent);
+      if (this.#fixedFile) await this.#loadFixed(this.#fixedFile, isCurrent);
       await this.compare(look.right, 0.3, 1);
       if (isCurrent()) progress.done("");
     } catch (error) {
@@ -337,7 +337,7 @@ export class App {
   }
 
   /** Returns the check report of a fixed file, or null if it cannot be checked. */
-  async checkMended(model: ModelFiles): Promise<CheckReport | null> {
+  async checkFixed(model: ModelFiles): Promise<CheckReport | null> {
     const { progress } = this.views;
     progress.at("Checking the fixed file", 0.8);
     try {
@@ -370,11 +370,11 @@ export class App {
    * Shows the fixed file right of the split line: its frames and normal maps, and also its normals and triangles if
    * they differ.
    */
-  async showMended(model: ModelFiles, hasOtherShape: boolean, as: OtherFile = "mended"): Promise<void> {
+  async showFixed(model: ModelFiles, hasOtherShape: boolean, as: OtherFile = "mended"): Promise<void> {
     const generation = this.#generation, isCurrent = () => generation === this.#generation;
     this.#hasOtherShape = hasOtherShape;
-    if (!(await this.#loadMended(model, isCurrent))) return;
-    this.#mendedFile = model;
+    if (!(await this.#loadFixed(model, isCurrent))) return;
+    this.#fixedFile = model;
     this.views.look.offerFile(as);
     await this.setRight(as);
   }
@@ -389,12 +389,12 @@ export class App {
     const check = other.loneMap?.check ?? ((await this.work.run("report", { verb: "check", model: other })) as CheckReport);
     if (generation !== this.#generation || !this.model) return null;
     const names = [this.model.name, other.name] as const;
-    await this.showMended(other, true, "other");
+    await this.showFixed(other, true, "other");
     this.views.stage.nameFiles(names[0] === names[1] ? [`${names[0]} (first)`, `${names[1]} (second)`] : names);
     return { name: other.name, check };
   }
 
-  async #loadMended(model: ModelFiles, isCurrent: () => boolean): Promise<boolean> {
+  async #loadFixed(model: ModelFiles, isCurrent: () => boolean): Promise<boolean> {
     const { parts, motion } = await loadModel(model, this.work, this.#variant);
     // Animated models are not drawn as a separate scene, which would have to move too.
     const scene = this.#hasOtherShape && !motion ? new Scene() : null;
@@ -402,9 +402,9 @@ export class App {
       if (triangleCount(part.arrays) > 0) scene!.add(kFirstOtherPart + i, part, await this.work.run("corners", { part: null, arrays: copyOf(part.arrays) }));
     }
     if (!isCurrent()) return false;
-    this.#mended = parts;
-    this.#mendedScene?.dispose();
-    this.#mendedScene = scene;
+    this.#fixedParts = parts;
+    this.#fixedScene?.dispose();
+    this.#fixedScene = scene;
     return true;
   }
 
@@ -424,14 +424,14 @@ export class App {
     const { scene } = stage.viewport;
     for (const [i, drawn] of scene.drawn.entries()) {
       progress.at(isFile(right) ? `Reading ${nameOf(right)}` : `Computing frames by ${nameOf(right)}`, from + ((to - from) * i) / scene.drawn.length);
-      const mended = isFile(right) ? this.#mended.find(({ mesh, primitive }) => mesh === drawn.part.mesh && primitive === drawn.part.primitive) : undefined;
-      const frames = await this.#frames(drawn, right, mended);
+      const fixed = isFile(right) ? this.#fixedParts.find(({ mesh, primitive }) => mesh === drawn.part.mesh && primitive === drawn.part.primitive) : undefined;
+      const frames = await this.#frames(drawn, right, fixed);
       if (scene !== stage.viewport.scene || look.right !== right) return;
-      scene.setRight(drawn, frames, (mended ?? drawn.part).normalMap, !isFile(right));
+      scene.setRight(drawn, frames, (fixed ?? drawn.part).normalMap, !isFile(right));
       stage.viewport.ask();
     }
-    if (right === "other" && this.#mendedScene && !(await this.#compareBack(this.#mendedScene, scene))) return;
-    stage.viewport.showRight(isFile(right) ? this.#mendedScene : null);
+    if (right === "other" && this.#fixedScene && !(await this.#compareBack(this.#fixedScene, scene))) return;
+    stage.viewport.showRight(isFile(right) ? this.#fixedScene : null);
     this.#showGreen();
     look.showFigures();
     look.showLines();
@@ -445,7 +445,7 @@ export class App {
   async #compareBack(other: Scene, scene: Scene): Promise<boolean> {
     for (const drawn of other.drawn) {
       const part = scene.find(drawn.part.mesh, drawn.part.primitive)?.part, frames = part ? await this.#frames(drawn, "other", part) : null;
-      if (scene !== this.views.stage.viewport.scene || other !== this.#mendedScene) return false;
+      if (scene !== this.views.stage.viewport.scene || other !== this.#fixedScene) return false;
       other.setRight(drawn, frames, part?.normalMap ?? drawn.part.normalMap, false);
     }
     return true;
@@ -455,10 +455,10 @@ export class App {
    * Returns the frames of a part for the right side, or null if there are none. After the worker was terminated, sends
    * the part again.
    */
-  async #frames(drawn: Drawn, right: Right, mended: Part | undefined): Promise<Calls["otherFrames"]["answer"]> {
+  async #frames(drawn: Drawn, right: Right, fixed: Part | undefined): Promise<Calls["otherFrames"]["answer"]> {
     const ask = () =>
       !isFile(right) ? this.work.run("frames", { part: drawn.number, method: right })
-      : mended ? this.work.run("otherFrames", { part: drawn.number, arrays: copyOf(mended.arrays) })
+      : fixed ? this.work.run("otherFrames", { part: drawn.number, arrays: copyOf(fixed.arrays) })
       : null;
     try {
       return await ask();

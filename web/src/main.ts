@@ -19,7 +19,7 @@ import { FindingsView } from "./views/findings.js";
 import { FixView } from "./views/fix.js";
 import { GalleryView } from "./views/gallery.js";
 import { LookView } from "./views/look.js";
-import { changesShape, MendView, mendedName, type Mended } from "./views/mend.js";
+import { changesShape, FixOptionsView, fixedName, type FixedModel } from "./views/fix_options.js";
 import { MotionView } from "./views/motion.js";
 import { PartsView } from "./views/parts.js";
 import { PlaceView } from "./views/place.js";
@@ -44,12 +44,12 @@ firstRead?.catch(() => {}); // reported when the model is drawn
 await work.started;
 const largeMap = el("section", { class: "large-map", "aria-label": "UV map", hidden: true });
 let plan: Plan | null = null;
-const fix = new FixView(() => plan && void mend.run(plan.tangents));
+const fix = new FixView(() => plan && void fixOptions.run(plan.tangents));
 const stage = new Stage(fix.caption, fix.element, largeMap);
 const place = new PlaceView(stage.viewport, (look) => stage.setLook(look), (share) => stage.setSplit(share));
 const findings = new FindingsView({
   choose: (chosen, isOne) => (stage.canvas.dataset.outlined = String(place.show(chosen, isOne, app.fixed !== null))),
-  mend: (finding) => mend.prepare(finding),
+  addToFix: (finding) => fixOptions.prepare(finding),
 });
 const progress = new Progress(() => app.stop());
 const look = new LookView(stage, (right) => void app.setRight(right), (variant) => void app.setVariant(variant));
@@ -60,22 +60,22 @@ const texel = new TexelView(stage.viewport, (spot) => uvMap.point(spot));
 const title = el("p", { class: "model-name" });
 const back = el("button", { type: "button", class: "back", hidden: true, title: "Key: Backspace", onclick: () => app.back() });
 const close = el("button", { type: "button", class: "close", hidden: true, "aria-label": "Close the model", title: "Close the model and free its memory", onclick: closeModel }, "×");
-const mend = new MendView(
-  async (options): Promise<Mended> => {
+const fixOptions = new FixOptionsView(
+  async (options): Promise<FixedModel> => {
     const { model } = app;
     if (!model) throw new Error("No model is open.");
-    const { name, report, bytes } = (await convertedMap(model)) ?? { name: mendedName(model.name), ...(await app.generate(model, options)) };
-    const mended = { name, bytes, others: model.others };
-    const checked = await app.checkMended(mended), download = model.loneMap && { bytes: imageOf(bytes), type: mapType(name) };
-    void app.showMended(mended, changesShape(report as GenerateReport)).catch((error: Error) => stage.say(`The fixed file cannot be drawn: ${error.message}`));
-    return { report, checked, download, ...mended, ...(download && checked && { loneMap: { file: download.bytes, check: checked } }) };
+    const { name, report, bytes } = (await convertedMap(model)) ?? { name: fixedName(model.name), ...(await app.generate(model, options)) };
+    const fixed = { name, bytes, others: model.others };
+    const checked = await app.checkFixed(fixed), download = model.loneMap && { bytes: imageOf(bytes), type: mapType(name) };
+    void app.showFixed(fixed, changesShape(report as GenerateReport)).catch((error: Error) => stage.say(`The fixed file cannot be drawn: ${error.message}`));
+    return { report, checked, download, ...fixed, ...(download && checked && { loneMap: { file: download.bytes, check: checked } }) };
   },
-  ({ name, bytes, others, loneMap }) => void app.openMended({ name, bytes, others, loneMap }),
+  ({ name, bytes, others, loneMap }) => void app.openFixed({ name, bytes, others, loneMap }),
   { started: () => fix.working(), failed: (message) => fix.failed(message), done: showFixed },
 );
 const app: App = new App(work, {
   stage, findings, look, uvMap, place, parts, motion, progress, opened: showName, offered: (variants) => look.offerVariants(variants), checked, ready: followLink,
-  inspected: ({ primitives }) => mend.setCompressed(primitives.some(({ compression }) => compression !== "none")),
+  inspected: ({ primitives }) => fixOptions.setCompressed(primitives.some(({ compression }) => compression !== "none")),
 });
 
 /**
@@ -85,7 +85,7 @@ const app: App = new App(work, {
 async function convertedMap(model: ModelFiles): Promise<{ name: string; report: unknown; bytes: Uint8Array<ArrayBuffer> } | null> {
   const reading = model.loneMap && mapReading(model.loneMap.check)?.reading;
   if (!reading || !(reading.channels || reading.curve)) return null;
-  const name = mendedName(model.name).replace(/\.[^.]*$/, ".png"), { bytes, notes } = await app.convertMap(model, reading, "png");
+  const name = fixedName(model.name).replace(/\.[^.]*$/, ".png"), { bytes, notes } = await app.convertMap(model, reading, "png");
   const map = { image: 0, name: model.name, flipped: reading.flipGreen, mended: true, reason: "its channels were not those of glTF" };
   return { name, bytes: surfaceWith(name, bytes), report: { changed: true, inputBytes: model.loneMap!.file.length, outputBytes: bytes.length, primitives: [], normalMaps: [map], warnings: notes } };
 }
@@ -101,14 +101,14 @@ const share = new ShareView({
 });
 
 function checked(report: CheckReport): void {
-  mend.advise(report);
+  fixOptions.advise(report);
   plan = planFor(report);
   fix.offer(report, plan);
   convert.show(app.model);
 }
 
 /** After a fix, the list, the look, the picture and the counts are about the fixed file, right of the split line. */
-function showFixed({ name, bytes, others, checked: after }: Mended, url: string, isChanged: boolean): void {
+function showFixed({ name, bytes, others, checked: after }: FixedModel, url: string, isChanged: boolean): void {
   const before = app.reports.check as CheckReport | undefined;
   if (!before) return fix.wait();
   if (!isChanged) return fix.offer(before, null);
@@ -153,7 +153,7 @@ addEventListener("popstate", () => {
 
 function showName(model: ModelFiles | null, before: ModelFiles | null): void {
   if (model && visited.current?.model !== model) visited.add({ model, before, pile });
-  mend.reset(model);
+  fixOptions.reset(model);
   convert.show(null);
   plan = null;
   fix.wait();
@@ -227,7 +227,7 @@ const header = el("header", { class: "bar" },
   el("div", { class: "open" }, picker("Open model…", { accept: ".glb,.vrm,.gltf,.obj,.zip,.bin,.mtl,image/*,.ktx2,.dds", "aria-label": "Open model" }), picker("Folder…", { webkitdirectory: true, "aria-label": "Open folder" }),
     picker("Compare with…", { accept: ".glb,.vrm,.gltf,.obj,.zip,.bin,.mtl,image/*,.ktx2,.dds", "aria-label": "Compare with another version" }, (files) => void compare(files))),
   others, title, close, back);
-const inspector = el("aside", { class: "inspector", "aria-label": "Inspector" }, convert.element, look.element, texel.element, uvMap.element, motion.element, parts.element, mend.element, share.element);
+const inspector = el("aside", { class: "inspector", "aria-label": "Inspector" }, convert.element, look.element, texel.element, uvMap.element, motion.element, parts.element, fixOptions.element, share.element);
 const main = el("main", {}, gallery.element, findings.element, stage.element, inspector);
 const keptLine = el("p", { class: "kept row" });
 const footer = el("footer", {}, progress.element, keptLine, el("span", { class: "quiet" }, "Drop a .glb, .vrm, .obj or .zip, a folder with a .gltf, or a normal map (PNG, JPEG, WebP, KTX2, DDS) anywhere on the page."), lessonLink() || null);

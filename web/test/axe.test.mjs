@@ -5,7 +5,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { test } from "node:test";
-import { choose, drawn, mended, missing, named, noShared, openFile, openSample, shared, withPage } from "./support.mjs";
+import { choose, drawn, fixAndDownload, missing, named, noShared, openFile, openSample, shared, withPage } from "./support.mjs";
 
 const lesson = process.env.TSPACE_LESSON;
 const axe = (() => {
@@ -47,7 +47,7 @@ for (const { scheme, width, height } of sizes) {
       await tab.locator(".finding").first().click();
       await drawn(tab);
       await look("all open, and a finding");
-      await mended(tab);
+      await fixAndDownload(tab);
       await look("mended");
       await tab.locator(".uv button", { hasText: "Large" }).click();
       await drawn(tab);

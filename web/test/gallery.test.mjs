@@ -6,7 +6,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
-import { choose, drawn, farApart, mended, missing, noTool, openSample, pixelsOf, settled, shareOf, shoot, tool, withPage } from "./support.mjs";
+import { choose, drawn, farApart, fixAndDownload, missing, noTool, openSample, pixelsOf, settled, shareOf, shoot, tool, withPage } from "./support.mjs";
 
 const found = {
   "crate-signs-inverted.glb": "signsInverted", "crate-signs-lost.glb": "signsWrong", "crate-seams-shared.glb": "mirroredSeamAveraged", "crate-along-normals.glb": "tangentsNotOrthogonal",
@@ -27,12 +27,12 @@ test("each fault of the gallery is detected, and fixed by the preset options", {
     for (const [label, code] of Object.entries(found)) {
       assert.equal(await openSample(tab, label), "ready");
       assert.ok((await codes(tab)).includes(code), `${label}: ${await codes(tab)}`);
-      await mended(tab);
+      await fixAndDownload(tab);
       const asksForMore = tab.locator(".result p", { hasText: "Recompute all tangents to fix these too" });
       assert.equal(await asksForMore.count(), label === "crate-wrong-axes.glb" ? 1 : 0, `${label}: a repair keeps tangents that are a little off`);
       if (label === "crate-wrong-axes.glb") {
         await choose(tab, "recompute all", ".mend");
-        await mended(tab);
+        await fixAndDownload(tab);
       }
       const counts = await tab.locator(".result .counts").textContent();
       assert.match(counts, /→ (0 errors)?(, )?(0 warnings)?(, \d+ notes?)?$/, `${label}: ${counts}`);
@@ -56,7 +56,7 @@ test("an AI-generated mesh is fixed with the bytes of the tool, and the fixed sh
       await tab.locator(".finding").last().click();
       await tab.locator(".details:not([hidden]) .mend-this").click();
       assert.match(await tab.locator(".command").textContent(), / --repair --fix-winding --overwrite-normals --normals best --denoise auto$/);
-      const bytes = await mended(tab), [, ...words] = (await tab.locator(".command").textContent()).split(" ");
+      const bytes = await fixAndDownload(tab), [, ...words] = (await tab.locator(".command").textContent()).split(" ");
       writeFileSync(join(folder, "bear-by-ai.glb"), Uint8Array.from(await tab.evaluate(() => [...window.tspaceView.model.bytes])));
       execFileSync(tool, [...words, "--quiet"], { cwd: folder });
       assert.ok(bytes.equals(readFileSync(join(folder, "bear-by-ai-fixed.glb"))));
@@ -68,11 +68,11 @@ test("an AI-generated mesh is fixed with the bytes of the tool, and the fixed sh
       assert.ok(differing(before, after) > 0.01, "the holes are closed");
       await tab.locator(".look select").first().selectOption("mikktspace");
       await drawn(tab);
-      assert.ok(differing(before, await side(tab, "0")) < 0.001, "another right side is not the mended file");
+      assert.ok(differing(before, await side(tab, "0")) < 0.001, "another right side is not the fixed file");
       await tab.getByRole("button", { name: "Open the fixed file" }).click();
       await tab.waitForFunction(() => window.tspaceView.model?.name === "bear-by-ai-fixed.glb");
       await settled(tab);
-      assert.ok(differing(after, await side(tab, "1000")) < 0.01, "what stood on the right is the mended file");
+      assert.ok(differing(after, await side(tab, "1000")) < 0.01, "the former right side is the fixed file");
     }, { width: 1400, height: 520 });
   } finally {
     rmSync(folder, { recursive: true, force: true });

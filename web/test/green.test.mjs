@@ -8,7 +8,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { decode, encode } from "fast-png";
 import { Glb } from "./glb.mjs";
-import { choose, drawn, mended, missing, noTool, openFile, openSample, settled, shoot, tool, withPage } from "./support.mjs";
+import { choose, drawn, fixAndDownload, missing, noTool, openFile, openSample, settled, shoot, tool, withPage } from "./support.mjs";
 
 const codes = (tab) => tab.locator(".finding").evaluateAll((items) => items.map((item) => item.dataset.code));
 
@@ -20,7 +20,7 @@ async function ring(tab) {
 async function turned(tab) {
   await tab.locator(".mend > summary").click();
   await tab.getByLabel("Invert green in maps").check();
-  return mended(tab);
+  return fixAndDownload(tab);
 }
 
 test("green that points down is detected, shown and fixed", { skip: missing }, async () => {

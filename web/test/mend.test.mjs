@@ -7,12 +7,12 @@ import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { test } from "node:test";
 import { Glb } from "./glb.mjs";
-import { choose, mended, missing, named, noTool, openFile, openSample, settled, shared, shoot, tool, withPage } from "./support.mjs";
+import { choose, fixAndDownload, missing, named, noTool, openFile, openSample, settled, shared, shoot, tool, withPage } from "./support.mjs";
 
 test("repairing the faulty crate leaves no finding, and shows the changes", { skip: missing }, async () => {
   await withPage(async (tab) => {
     await tab.locator(".mend summary").click();
-    await mended(tab);
+    await fixAndDownload(tab);
     assert.match(await tab.locator(".changes").textContent(), /vertices corrected/);
     // The picture now shows the downloaded file.
     await tab.locator(".figures", { hasText: "the fixed file" }).waitFor();
@@ -33,7 +33,7 @@ test("the tangents right of the line are those of the download for any method", 
     await choose(tab, "recompute all", ".mend");
     for (const method of ["flat", "best"]) {
       await tab.locator(".mend select").selectOption(method);
-      const glb = new Glb(await mended(tab)), [primitive] = glb.primitives("TANGENT"), tangents = glb.numbers(primitive.attributes.TANGENT);
+      const glb = new Glb(await fixAndDownload(tab)), [primitive] = glb.primitives("TANGENT"), tangents = glb.numbers(primitive.attributes.TANGENT);
       const wanted = [...glb.indices(primitive)].flatMap((vertex) => [...tangents.subarray(4 * vertex, 4 * vertex + 4)]);
       await tab.waitForFunction((first) => window.tspaceView.views.stage.viewport.scene.drawn[0].frames?.tangents.every((x, i) => x === first[i]), wanted);
     }
@@ -63,7 +63,7 @@ test("downloads are byte-identical to the output of the displayed command line",
         for (const act of name === "ring-directx.glb" ? cases.slice(0, 1) : cases) {
           await act();
           if (name === "ring-directx.glb") await tab.getByLabel("Invert green in maps").uncheck(); // the page compresses PNGs differently
-          const bytes = await mended(tab);
+          const bytes = await fixAndDownload(tab);
           const [program, ...words] = (await tab.locator(".command").textContent()).split(" ");
           assert.equal(program, "tspace");
           execFileSync(tool, [...words, "--quiet"], { cwd: folder });
@@ -99,7 +99,7 @@ test("fixed compressed models have the bytes of the tool's uncompressed output",
       for (const name of [...exact, ...filtered]) {
         const path = join(shared, "models", name);
         assert.equal(await openFile(tab, path, { others: named(path) }), "ready", name);
-        const bytes = await mended(tab), words = (await tab.locator(".command").textContent()).split(" ").slice(1);
+        const bytes = await fixAndDownload(tab), words = (await tab.locator(".command").textContent()).split(" ").slice(1);
         assert.deepEqual(words.slice(-3), ["--repair", "--compress", "none"]);
         const out = join(folder, words[words.indexOf("-o") + 1]);
         words[words.indexOf("-o") + 1] = out;
@@ -120,7 +120,7 @@ test("a .gltf with files is downloaded as a folder, in which only changed data d
     assert.equal(await openFile(tab, path, { others }), "ready");
     await tab.locator(".mend > summary").click();
     await choose(tab, "recompute all", ".mend");
-    const glb = new Glb(await mended(tab));
+    const glb = new Glb(await fixAndDownload(tab));
     const [download] = await Promise.all([tab.waitForEvent("download"), tab.locator(".result a.folder").click()]);
     assert.equal(download.suggestedFilename(), "sofa_03_1k-fixed.zip");
     const zip = Object.fromEntries(Object.entries(unzipSync(readFileSync(await download.path()))).map(([name, bytes]) => [name.replace(/^sofa_03_1k-fixed\//, ""), Buffer.from(bytes)]));
@@ -168,7 +168,7 @@ test("an image changed by a fix keeps its name in the folder", { skip: missing }
       writeFileSync(join(folder, "ring.gltf"), JSON.stringify({ ...json, buffers: [{ byteLength: glb.binary().length, uri: "ring.bin" }] }));
       assert.equal(await openFile(tab, join(folder, "ring.gltf"), { others: { "ring.bin": join(folder, "ring.bin"), "maps/bricks map.png": join(folder, "bricks map.png") } }), "ready");
       await tab.locator(".mend > summary").click();
-      const whole = new Glb(await mended(tab));
+      const whole = new Glb(await fixAndDownload(tab));
       const [download] = await Promise.all([tab.waitForEvent("download"), tab.locator(".result a.folder").click()]);
       const zip = unzipSync(readFileSync(await download.path())), own = Buffer.from(zip["ring-fixed/maps/bricks map.png"]);
       assert.deepEqual(Object.keys(zip).sort(), ["ring-fixed/maps/bricks map.png", "ring-fixed/ring.bin", "ring-fixed/ring.gltf"]);

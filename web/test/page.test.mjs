@@ -5,7 +5,7 @@ import { readFileSync } from "node:fs";
 import { loadavg } from "node:os";
 import { test } from "node:test";
 import { gzipSync } from "node:zlib";
-import { choose, drawn, mended, missing, openSample, page, screenshots, settled, shares, shoot, withPage } from "./support.mjs";
+import { choose, drawn, fixAndDownload, missing, openSample, page, screenshots, settled, shares, shoot, withPage } from "./support.mjs";
 
 const blue = [66, 133, 210], amber = [240, 168, 56], red = [214, 32, 60];
 const codes = (tab) => tab.locator(".finding").evaluateAll((items) => items.map((item) => item.dataset.code));
@@ -195,7 +195,7 @@ for (const scheme of ["light", "dark"]) {
         await choose(tab, "Lit");
         await tab.locator(".finding").click();
         await tab.evaluate(() => document.querySelectorAll("details").forEach((details) => (details.open = true)));
-        await mended(tab);
+        await fixAndDownload(tab);
         await looksGood(tab);
         await shoot(tab, `page-${width}-${scheme}`, { fullPage: true });
         if (width > 900) await tab.locator(".inspector").screenshot({ path: `${screenshots}/inspector-${scheme}.png` });

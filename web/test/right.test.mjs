@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
 import { Glb } from "./glb.mjs";
-import { choose, drawn, farApart, mended, missing, noShared, openFile, openSample, pixelsOf, settled, shared, shareOf, shoot, withPage } from "./support.mjs";
+import { choose, drawn, farApart, fixAndDownload, missing, noShared, openFile, openSample, pixelsOf, settled, shared, shareOf, shoot, withPage } from "./support.mjs";
 
 const rightLabel = (tab) => tab.locator(".side.right").textContent();
 const cat = () => join(shared, "models/assets/Cat.glb");
@@ -30,10 +30,10 @@ test("if green points down, the right side shows the file with inverted green", 
     await tab.locator(".mend > summary").click();
     assert.equal(await tab.getByLabel("Invert green in maps").isChecked(), true, "what the finding asks for is switched on");
     assert.match(await tab.locator(".reasons").textContent(), /Green points down in 1 normal map/);
-    await mended(tab);
+    await fixAndDownload(tab);
     await tab.waitForFunction(() => window.tspaceView.views.stage.viewport.scene.drawn.every(({ rightMap, part }) => rightMap !== part.normalMap));
     assert.equal(await rightLabel(tab), "fixed");
-    assert.ok(differing(right, await picture(tab, "0")) < 0.002, "and the mended file looks the same");
+    assert.ok(differing(right, await picture(tab, "0")) < 0.002, "and the fixed file looks the same");
     await openSample(tab, "crate.glb");
     assert.equal(await rightLabel(tab), "correct frames (mikktspace)", "nothing of it is left on the next model");
   });
@@ -42,7 +42,7 @@ test("if green points down, the right side shows the file with inverted green", 
 test("a fix shows the findings before and after, and is undone by one key", { skip: missing }, async () => {
   await withPage(async (tab) => {
     await tab.locator(".mend > summary").click();
-    await mended(tab);
+    await fixAndDownload(tab);
     assert.equal(await tab.locator(".result .counts").textContent(), "1 error → 0 errors");
     await tab.getByRole("button", { name: "Open the fixed file" }).click();
     await tab.waitForFunction(() => window.tspaceView.model?.name === "crate-signs-lost-fixed.glb");
@@ -60,7 +60,7 @@ test("a fix that changes nothing is reported, without a download", { skip: missi
   await withPage(async (tab) => {
     await openSample(tab, "crate.glb");
     await tab.locator(".mend > summary").click();
-    await mended(tab);
+    await fixAndDownload(tab);
     assert.match(await tab.locator(".result").textContent(), /No changes were needed/);
     assert.equal(await tab.locator(".result a").getAttribute("class"), "button plain-link");
     await choose(tab, "recompute all", ".mend");
@@ -77,7 +77,7 @@ test("inverted signs and green that cancel out are fixed together or not at all"
     await tab.locator(".mend > summary").click();
     assert.match(await tab.locator(".reasons").textContent(), /cancel out, so this file renders correctly/);
     assert.match(await tab.locator(".command").textContent(), / --repair$/);
-    await mended(tab);
+    await fixAndDownload(tab);
     assert.match(await tab.locator(".result .counts").textContent(), /^3 errors, .* → 0 errors, /);
     await choose(tab, "recompute all", ".mend");
     assert.match(await tab.locator(".command").textContent(), / --overwrite --flip-green$/);
@@ -137,7 +137,7 @@ test("without WebGL, findings and fixes work, and a message replaces the picture
     assert.match(await tab.locator(".figures").textContent(), /1,728 of 5,184 corners have the wrong sign/);
     await shoot(tab, "no-webgl");
     await tab.locator(".mend > summary").click();
-    await mended(tab);
+    await fixAndDownload(tab);
     assert.equal(await tab.locator(".result .counts").textContent(), "1 error → 0 errors");
     await tab.locator(".uv > summary").click();
     await tab.locator(".uv", { hasText: "needs WebGL, which this browser does not support" }).waitFor();

@@ -112,7 +112,7 @@ export async function shoot(tab, name, options = {}) {
 export const choose = (tab, label, scope = "body") => tab.locator(`${scope} label`, { hasText: new RegExp(`^${label}$`) }).locator("input").check({ force: true });
 
 /** Fixes the model with the selected options, and downloads it. */
-export async function mended(tab) {
+export async function fixAndDownload(tab) {
   await tab.locator(".mend .main").click();
   await tab.waitForSelector(".result a:not(.folder)");
   const [download] = await Promise.all([tab.waitForEvent("download"), tab.locator(".result a:not(.folder)").click()]);

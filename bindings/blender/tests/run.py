@@ -96,7 +96,7 @@ check(bpy.context.mode == "EDIT_MESH", "the mode stays")
 bpy.ops.object.mode_set(mode="OBJECT")
 check(set(range(10, 60)) <= set(selected_faces(torus)), "faces without UV area are selected")
 check(selected_faces(torus) == red_faces(torus), "and red")
-check(len(torus["tspace_mends"]) == len(torus["tspace"]) > 0 and all(torus["tspace_mends"]), "each finding says how to mend it")
+check(len(torus["tspace_remedies"]) == len(torus["tspace"]) > 0 and all(torus["tspace_remedies"]), "each finding has a remedy")
 check("uvsDegenerate" in bpy.data.texts["tspace check"].as_string(), "the text has the findings")
 
 circle = new_mesh(bpy.ops.mesh.primitive_circle_add, "Circle", vertices=8, fill_type="NGON", calc_uvs=True)

@@ -90,7 +90,7 @@ class TSPACE_OT_check(Tspace):
             loops = meshes.gathered(thing.data.polygons, "loop_total", 1, numpy.int32)
             paint(thing.data, numpy.repeat(wrong, loops))
             thing["tspace"] = [f"{finding['severity']}: {finding['message']}" for finding in findings]
-            thing["tspace_mends"] = [finding["remedy"] for finding in findings]
+            thing["tspace_remedies"] = [finding["remedy"] for finding in findings]
             for finding in findings:
                 count += 1
                 worst = min(worst, finding["severity"], key=("error", "warning", "note").index)

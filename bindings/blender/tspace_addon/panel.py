@@ -43,8 +43,8 @@ class TSPACE_PT_panel(bpy.types.Panel):
             return
         box = layout.box()
         box.label(text={0: "Nothing was found", 1: "1 finding"}.get(len(found), f"{len(found)} findings"), icon="INFO")
-        for sentence, mend in list(zip(found, thing["tspace_mends"]))[:5]:
-            for line in textwrap.wrap(sentence, 40) + textwrap.wrap(f"fix: {mend}", 40):
+        for sentence, remedy in list(zip(found, thing["tspace_remedies"]))[:5]:
+            for line in textwrap.wrap(sentence, 40) + textwrap.wrap(f"fix: {remedy}", 40):
                 box.label(text=line)
         if len(found):
             box.label(text=f'all: text "{TEXT}"')

@@ -74,9 +74,9 @@ function without(json: Json, binary: Bytes, taken: ReadonlySet<number>): Bytes {
  * Returns the files of the folder by path, or null if the original model was not a .gltf with files, or cannot be split
  * again.
  */
-export function folderOf(mended: Bytes, source: ModelFiles): Map<string, Bytes> | null {
+export function folderOf(fixed: Bytes, source: ModelFiles): Map<string, Bytes> | null {
   if (!/\.gltf$/i.test(source.name) || fileUris(source.bytes).length === 0) return null;
-  const { json, binary } = readGlb(mended), before = JSON.parse(new TextDecoder().decode(source.bytes)) as Json;
+  const { json, binary } = readGlb(fixed), before = JSON.parse(new TextDecoder().decode(source.bytes)) as Json;
   if (json.extensionsUsed?.some((name) => kOwnReferences.test(name))) return null;
   const files = new Map(source.others), taken = new Set<number>();
   for (const { uri } of before.buffers ?? []) if (isFile(uri)) files.delete(pathOf(uri));

@@ -10,19 +10,19 @@ export type Tangents = "repair" | "overwrite" | "missing";
 /** Options of `generate` that the panel has switches for. */
 export interface Extras {
   flipGreen: boolean;
-  mendMaps: boolean;
+  fixMaps: boolean;
   overwriteNormals: boolean;
   /** Recomputes all normals with the method that removes noise from positions. */
   denoise: boolean;
-  mendWinding: boolean;
+  fixWinding: boolean;
   /** Removes tangents that no material needs. */
   strip: boolean;
   morphNormals: "missing" | "all" | null;
 }
-export const noExtras: Extras = { flipGreen: false, mendMaps: false, overwriteNormals: false, denoise: false, mendWinding: false, strip: false, morphNormals: null };
+export const noExtras: Extras = { flipGreen: false, fixMaps: false, overwriteNormals: false, denoise: false, fixWinding: false, strip: false, morphNormals: null };
 
 type Remedy = Partial<Extras> & { tangents?: Tangents };
-const flags = new Set<string>(["flipGreen", "mendMaps", "overwriteNormals", "mendWinding", "strip"]);
+const flags = new Set<string>(["flipGreen", "fixMaps", "overwriteNormals", "fixWinding", "strip"]);
 const camel = (name: string): string => name.replace(/-./g, ([, letter]) => letter.toUpperCase());
 
 /**
@@ -36,7 +36,7 @@ export function remedyOptions({ code, commands }: Finding): Remedy | null {
   if (!command) return null;
   const remedy: Remedy = command.options.length === 0 ? { tangents: "repair" } : {};
   for (const { name, value } of command.options) {
-    const option = camel(name).replace(/^fix(?=Maps|Winding)/, "mend"); // options renamed after the members were named
+    const option = camel(name);
     if (option === "repair" || option === "overwrite") remedy.tangents = option;
     else if (flags.has(option)) Object.assign(remedy, { [option]: true });
     else if (option === "denoise" && value === "auto") remedy.denoise = true;
@@ -99,12 +99,12 @@ export function adviceFor(report: CheckReport | null, tangents: Tangents, isTurn
     if (!cancels(report)) reasons.push(`Green points down in ${plural(down.length, "normal map")}. The option that inverts it was selected for you.`);
   }
   const options = serious.map(remedyOptions);
-  if (options.some((one) => one?.mendMaps)) {
-    extras.mendMaps = true;
+  if (options.some((one) => one?.fixMaps)) {
+    extras.fixMaps = true;
     reasons.push("A normal map is not encoded as glTF requires. The option that converts it was selected for you.");
   }
-  if (options.some((one) => one?.mendWinding)) {
-    extras.mendWinding = true;
+  if (options.some((one) => one?.fixWinding)) {
+    extras.fixWinding = true;
     reasons.push("The winding of some triangles is opposite to that of their neighbors. The option that flips them was selected for you.");
   }
   const morph = options.map((one) => one?.morphNormals).filter(Boolean);
@@ -146,10 +146,10 @@ export function planFor(report: CheckReport): Plan | null {
   const steps = [
     tangents === "overwrite" ? "recompute all tangents" : isWrong ? "recompute the wrong tangents" : isMissing || wants("repair", false) ? "add the missing tangents" : "",
     extras.flipGreen ? `invert green in ${plural(report.findings.filter(({ code }) => code === "greenFlipped").length, "normal map")}` : "",
-    extras.mendWinding ? "flip triangles that face inward" : "",
+    extras.fixWinding ? "flip triangles that face inward" : "",
     extras.morphNormals ? "compute normals of morph targets" : "",
   ].filter(Boolean);
-  return steps.length === 0 ? null : { tangents, steps, left: codes((finding) => remedyOptions(finding) === null || remedyOptions(finding)?.mendMaps === true) };
+  return steps.length === 0 ? null : { tangents, steps, left: codes((finding) => remedyOptions(finding) === null || remedyOptions(finding)?.fixMaps === true) };
 }
 
 /** Returns what one click does about a lone normal map. */

@@ -32,7 +32,7 @@ function grouped(findings: Finding[]): Group[] {
 export interface Choices {
   /** Selects all findings of a kind, or one of them. */
   choose: (findings: Finding[], isOne: boolean) => void;
-  mend: (finding: Finding) => void;
+  addToFix: (finding: Finding) => void;
 }
 
 export class FindingsView {
@@ -120,7 +120,7 @@ export class FindingsView {
     const details = el("div", { class: "details", hidden: true },
       el("p", { class: "mend" }, el("strong", {}, "Fix: "), first.remedy),
       sure !== "" && el("p", {}, el("strong", {}, `${sure}: `), "the finding is a statistical estimate from the texture or mesh."),
-      remedyOptions(first) && el("button", { class: "plain mend-this", type: "button", onclick: () => this.choices.mend(first) }, "Add this to the fix"),
+      remedyOptions(first) && el("button", { class: "plain mend-this", type: "button", onclick: () => this.choices.addToFix(first) }, "Add this to the fix"),
       figureLink(code),
       isOne ? firstVertices(first) : this.#steps(findings));
     const button = el("button", { class: `finding ${severity}`, type: "button", "aria-expanded": "false", "data-code": code },

@@ -9,7 +9,7 @@ import type { CheckReport, Finding, GeneratedPrimitive, GenerateReport, JudgedMa
 import { methods, type MapReading, type Method } from "../worker/protocol.js";
 import { adviceFor, changeOfCounts, isWorse, mapReading, noExtras, remedyOptions, type Extras, type Tangents } from "./advice.js";
 
-export interface Mended extends ModelFiles {
+export interface FixedModel extends ModelFiles {
   report: unknown;
   /** The download, if it is not the model itself: the image of a lone normal map. */
   download?: { bytes: Uint8Array<ArrayBuffer>; type: string };
@@ -21,7 +21,7 @@ export interface Mended extends ModelFiles {
 export interface Told {
   started: () => void;
   /** `url`: URL of the file, valid until the next fix. `isChanged`: its bytes differ from those of the opened file. */
-  done: (mended: Mended, url: string, isChanged: boolean) => void;
+  done: (fixed: FixedModel, url: string, isChanged: boolean) => void;
   failed: (message: string) => void;
 }
 
@@ -39,15 +39,15 @@ const actions: Record<string, string> = {
 /** Switches in the order of the panel. All except the first are shown only if a finding requires them. */
 const switches: readonly (readonly [keyof Extras, string])[] = [
   ["flipGreen", "Invert green in maps where it points down"],
-  ["mendMaps", "Convert maps that are not encoded as glTF requires"],
+  ["fixMaps", "Convert maps that are not encoded as glTF requires"],
   ["morphNormals", "Compute normals of morph targets"],
   ["overwriteNormals", "Recompute all normals"],
-  ["mendWinding", "Flip triangles wound against their neighbors"],
+  ["fixWinding", "Flip triangles wound against their neighbors"],
   ["denoise", "Recompute all normals without the noise of the positions"],
   ["strip", "Remove tangents that no material needs"],
 ];
 
-export class MendView {
+export class FixOptionsView {
   readonly element = el("details", { class: "panel mend" }, el("summary", {}, "Fix options"));
   #tangents: Tangents = "repair";
   #method: Method = "mikktspace";
@@ -73,7 +73,7 @@ export class MendView {
   /** Object URLs of the result, which are revoked with it. */
   #urls: string[] = [];
 
-  constructor(private generate: (options: Record<string, unknown>) => Promise<Mended>, private open: (mended: Mended) => void, private told: Told) {
+  constructor(private generate: (options: Record<string, unknown>) => Promise<FixedModel>, private open: (fixed: FixedModel) => void, private told: Told) {
     const changed = <T>(set: (value: T) => void) => (value: T) => {
       set(value);
       this.#refresh();
@@ -87,7 +87,7 @@ export class MendView {
         this.#extras = { ...this.#extras, [name]: name === "morphNormals" ? (on ? "all" : null) : on };
       })));
     }
-    this.#button.addEventListener("click", () => void this.#mend());
+    this.#button.addEventListener("click", () => void this.#fix());
     this.element.append(el("div", { class: "rows" }, this.#tangentsChoice.element, this.#methodChoice.element, this.#signsChoice.element,
       ...[...this.#boxes.values()].map(({ element }) => element), this.#reasons, this.#unpacks, this.#command, this.#button, this.#result));
     this.#refresh();
@@ -144,21 +144,21 @@ export class MendView {
     this.#tangents = tangents;
     this.#tangentsChoice.set(tangents);
     this.#refresh();
-    await this.#mend();
+    await this.#fix();
   }
 
   /** Returns the options of the package, which are those of the tool in camelCase. */
   #options(): Record<string, unknown> {
-    const { flipGreen, mendMaps, overwriteNormals, denoise, mendWinding, strip, morphNormals } = this.#extras;
+    const { flipGreen, fixMaps, overwriteNormals, denoise, fixWinding, strip, morphNormals } = this.#extras;
     return {
       ...(this.#tangents === "repair" && { repair: true }),
       ...(this.#tangents === "overwrite" && { overwrite: true }),
       ...(this.#method !== "mikktspace" && { method: this.#method }),
       ...(this.#tangents === "overwrite" && this.#isTurned && { convention: "opengl" }),
       ...(flipGreen && { flipGreen: true }),
-      ...(mendMaps && { fixMaps: true }),
+      ...(fixMaps && { fixMaps }),
       ...(morphNormals && { morphNormals }),
-      ...(mendWinding && { fixWinding: true }),
+      ...(fixWinding && { fixWinding }),
       ...((overwriteNormals || denoise) && { overwriteNormals: true }),
       ...(denoise && { normals: "best", denoise: "auto" }),
       ...(strip && { strip: true }),
@@ -188,8 +188,8 @@ export class MendView {
     this.#button.disabled = this.#model === null;
     const words = Object.entries(this.#options()).map(([name, value]) => `--${name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`)}${value === true ? "" : ` ${String(value)}`}`);
     const name = this.#model?.name ?? "model.glb";
-    if (isMapName(name)) return void replaceChildren(this.#command, `tspace convert-map ${shellWord(name)} -o ${shellWord(mendedName(name))}${this.#mapOptions()}`);
-    const parts = ["tspace generate", shellWord(name), whole("-o"), shellWord(mendedName(name)), ...words.map(whole)];
+    if (isMapName(name)) return void replaceChildren(this.#command, `tspace convert-map ${shellWord(name)} -o ${shellWord(fixedName(name))}${this.#mapOptions()}`);
+    const parts = ["tspace generate", shellWord(name), whole("-o"), shellWord(fixedName(name)), ...words.map(whole)];
     replaceChildren(this.#command, ...parts.flatMap((part, i) => (i === 0 ? [part] : [" ", part])));
   }
 
@@ -211,15 +211,15 @@ export class MendView {
     return url;
   }
 
-  async #mend(): Promise<void> {
+  async #fix(): Promise<void> {
     this.#button.disabled = true;
     this.#forgetResult();
     replaceChildren(this.#result, el("p", { class: "quiet" }, "Working…"));
     this.told.started();
     const model = this.#model;
     try {
-      const mended = await this.generate(this.#options());
-      if (model === this.#model) this.#show(mended);
+      const fixed = await this.generate(this.#options());
+      if (model === this.#model) this.#show(fixed);
     } catch (error) {
       if (model !== this.#model) return;
       const message = error instanceof Error ? error.message : String(error);
@@ -231,28 +231,28 @@ export class MendView {
   }
 
   /** Returns a download of the folder that a .gltf came with, as a .zip. */
-  #folder(mended: Mended): HTMLElement[] {
-    const files = this.#model && folderOf(mended.bytes, this.#model);
+  #folder(fixed: FixedModel): HTMLElement[] {
+    const files = this.#model && folderOf(fixed.bytes, this.#model);
     if (!files) return [];
-    const stem = mended.name.replace(/\.glb$/, ""), url = this.#urlOf(zipOf(files, stem), "application/zip");
+    const stem = fixed.name.replace(/\.glb$/, ""), url = this.#urlOf(zipOf(files, stem), "application/zip");
     return [el("a", { class: "button plain-link folder", href: url, download: `${stem}.zip` }, "Download the folder (.zip)")];
   }
 
-  #show(mended: Mended): void {
-    const file = mended.report as GenerateReport, url = this.#urlOf(mended.download?.bytes ?? mended.bytes, mended.download?.type ?? "model/gltf-binary");
-    this.told.done(mended, url, file.changed);
-    const look = el("button", { type: "button", onclick: () => this.open(mended) }, "Open the fixed file");
-    const sentence = verdictOf(mended, this.#checked);
+  #show(fixed: FixedModel): void {
+    const file = fixed.report as GenerateReport, url = this.#urlOf(fixed.download?.bytes ?? fixed.bytes, fixed.download?.type ?? "model/gltf-binary");
+    this.told.done(fixed, url, file.changed);
+    const look = el("button", { type: "button", onclick: () => this.open(fixed) }, "Open the fixed file");
+    const sentence = verdictOf(fixed, this.#checked);
     // Only a file that is better than the previous one is offered as the main download.
-    const download = el("a", { class: sentence.isGood ? "button" : "button plain-link", href: url, download: mended.name }, `Download ${mended.name}`);
+    const download = el("a", { class: sentence.isGood ? "button" : "button plain-link", href: url, download: fixed.name }, `Download ${fixed.name}`);
     replaceChildren(this.#result,
       el("p", { class: sentence.isGood ? "fine" : "quiet" }, sentence.what),
       sentence.findings && el("p", { class: sentence.isWorse ? "failure" : "counts", role: sentence.isWorse ? "alert" : undefined }, sentence.findings),
-      asksForAnew(mended.checked) && this.#tangents !== "overwrite" && el("p", { class: "quiet" }, "The fix keeps tangents that deviate only slightly. Recompute all tangents to fix these too."),
+      asksForAnew(fixed.checked) && this.#tangents !== "overwrite" && el("p", { class: "quiet" }, "The fix keeps tangents that deviate only slightly. Recompute all tangents to fix these too."),
       changeTable(file.primitives),
       file.normalMaps.length > 0 ? mapTable(file.normalMaps) : null,
       ...file.warnings.map((warning) => el("p", { class: "quiet" }, warning)),
-      el("div", { class: "row" }, download, ...this.#folder(mended), look));
+      el("div", { class: "row" }, download, ...this.#folder(fixed), look));
   }
 }
 
@@ -264,14 +264,14 @@ const asksForAnew = (checked: CheckReport | null): boolean => checked !== null &
 export const changesShape = ({ primitives }: GenerateReport): boolean => primitives.some(({ normalsGenerated, windingMended }) => normalsGenerated || windingMended > 0);
 
 /** Returns what the fix did, and the results of `check` before and after. */
-function verdictOf(mended: Mended, before: CheckReport | null): { what: string; findings: string | null; isGood: boolean; isWorse: boolean } {
-  const file = mended.report as GenerateReport, after = mended.checked;
+function verdictOf(fixed: FixedModel, before: CheckReport | null): { what: string; findings: string | null; isGood: boolean; isWorse: boolean } {
+  const file = fixed.report as GenerateReport, after = fixed.checked;
   const findings = before && after ? changeOfCounts(before.counts, after.counts) : null;
   const worse = before !== null && after !== null && isWorse(before.counts, after.counts);
   if (!file.changed) return { what: "No changes were needed: the output is byte-identical to the input.", findings, isGood: false, isWorse: false };
   const sizes = `${count(file.inputBytes)} bytes before, ${count(file.outputBytes)} after.`;
   const others = [
-    file.normalMaps.some(({ flipped, mended: isMended }) => flipped || isMended) && "normal maps",
+    file.normalMaps.some(({ flipped, mended }) => flipped || mended) && "normal maps",
     file.primitives.some(({ normalsGenerated, morphNormals }) => normalsGenerated || morphNormals > 0) && "normals",
     file.primitives.some(({ windingMended }) => windingMended > 0) && "triangles",
   ].filter(Boolean);
@@ -285,7 +285,7 @@ const whole = (words: string): HTMLElement => el("span", { class: "whole" }, wor
 const shellWord = (name: string): string => (/^[\w./-]+$/.test(name) ? name : `'${name.replaceAll("'", "'\\''")}'`);
 
 /** Returns the name of the fixed file: `crate.glb` becomes `crate-fixed.glb`. The page always writes GLB. */
-export const mendedName = (name: string): string => isMapName(name) ? fixedMapName(name) : `${name.replace(/^.*\//, "").replace(/\.[^.]*$/, "")}-fixed.glb`;
+export const fixedName = (name: string): string => isMapName(name) ? fixedMapName(name) : `${name.replace(/^.*\//, "").replace(/\.[^.]*$/, "")}-fixed.glb`;
 
 function table(head: string[], rows: { cells: string[]; title?: string }[], extraClass = ""): HTMLElement {
   const body = el("tbody", {}, ...rows.slice(0, kMostRows).map(({ cells, title }) => el("tr", { title }, ...cells.map((text) => el("td", {}, text)))));
@@ -296,10 +296,10 @@ function table(head: string[], rows: { cells: string[]; title?: string }[], extr
 
 const changeTable = (primitives: GeneratedPrimitive[]): HTMLElement =>
   table(["Part", "Tangents", "Vertices"], primitives.map((one) => {
-    const mended = one.mendedVertices > 0 ? `, ${count(one.mendedVertices)} ${one.mendedVertices === 1 ? "vertex" : "vertices"} corrected` : "";
+    const fixed = one.mendedVertices > 0 ? `, ${count(one.mendedVertices)} ${one.mendedVertices === 1 ? "vertex" : "vertices"} corrected` : "";
     const vertices = one.verticesBefore === one.verticesAfter ? count(one.verticesBefore) : `${count(one.verticesBefore)} → ${count(one.verticesAfter)}`;
     return {
-      cells: [`${one.mesh}/${one.primitive} ${one.meshName || one.materialName}`, `${actions[one.action] ?? one.action}${mended}${one.normalsGenerated ? ", normals computed" : ""}${one.windingMended > 0 ? `, ${plural(one.windingMended, "triangle")} flipped` : ""}`, vertices],
+      cells: [`${one.mesh}/${one.primitive} ${one.meshName || one.materialName}`, `${actions[one.action] ?? one.action}${fixed}${one.normalsGenerated ? ", normals computed" : ""}${one.windingMended > 0 ? `, ${plural(one.windingMended, "triangle")} flipped` : ""}`, vertices],
       title: [one.reason, ...one.notes].join(" "),
     };
   }));
