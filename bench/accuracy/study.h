@@ -50,7 +50,7 @@ struct Study {
     StudyOptions options = {};
     std::vector<Record> records = {};
     std::vector<NormalRecord> normals = {};
-    /// In table order: the methods, then the floor.
+    /// Names in table order: the methods, then the floor.
     std::vector<std::string> methods = {}, weightings = {};
 };
 

@@ -117,7 +117,7 @@ PeerWords encodeQtangent16(const PeerFrame& f) {
 PeerWords encodeTwoOct16(const PeerFrame& f) {
     const Point n = unfolded(toDouble(f.normal)), t = unfolded(tangentOf(f));
     const auto bits = [](double x) { return static_cast<PeerWords>(rounded((x + 1) / 2 * 65535)); };
-    // Never 0, which would have no sign: a bias of one step.
+    // A bias of one step, so that the value is never 0 and always has a sign.
     const double half_y = std::fmax((t.y + 1) / 2, 1.0 / 32767);
     return bits(n.x) | bits(n.y) << 16 | bits(t.x) << 32 | bits(isMirrored(f) ? -half_y : half_y) << 48;
 }

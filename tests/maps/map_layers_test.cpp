@@ -160,7 +160,8 @@ TEST_F(MapLayers, TheThicknessOfASlabIsItsHeightAndThatOfASphereItsRadius) {
     const BakedLayer thickness = one(slab, MapLayer::thickness, {.thickness_range = 1}, sized(8));
     for (const float value : thickness.values) EXPECT_NEAR(value, 0.25, 1e-5);
     EXPECT_EQ(thickness.most[0], 1);
-    // Through a ball of radius r at an angle: 2 r cos, whose depth is 2 r cos^2.
+    // A ray at an angle to the normal passes through a ball of radius r over a length of 2 r cos, so the depth is 2 r
+    // cos^2.
     Mesh ball;
     ball.addBall({0, 0, -1.9}, 2, 64);
     BakeOptions options = sized(8);

@@ -46,7 +46,7 @@ class PackedModel {
         builder_.addView(Bytes(4, 0));  // an uncompressed view first, so that no offset is 0
     }
 
-    /// `rows`: in the form before the filter.
+    /// `rows`: the data before the filter is applied.
     std::size_t addView(MeshoptCoding coding, const Bytes& rows, const char* mode, const char* filter = nullptr) {
         coding.stride = rows.size() / coding.count;
         coding.is_khr = extension_ == kKhrMeshopt;

@@ -293,7 +293,7 @@ void texelOfTwoItem(RandomBits& random, Item& item) {
     item.expect(unpackedTexel(r, g));
 }
 
-/// Per pixel, or with the bitangents of the vertices.
+/// Shading with MikkTSpace, with bitangents computed per pixel or per vertex.
 void mikktspaceItem(RandomBits& random, Item& item) {
     const Interpolated in = someInterpolated(random);
     const DVec3 texel = someTexel(random);

@@ -80,7 +80,7 @@ TEST(CheckMorphs, FindsWrongMorphTangentsNextToCollapsedTriangles) {
     EXPECT_EQ(codesOf(patch), Codes{"error morphTangentsWrong"});
 }
 
-/// Opposite to the right direction, zero, and parallel to the normal.
+/// Deltas that make tangents opposite to the correct direction, zero, or parallel to the normal.
 TEST(CheckMorphs, FindsEveryWayInWhichMorphTangentsAreWrong) {
     for (const double share : {-2.0, -1.0, 0.0}) {
         ScenePrimitive patch = goodPatch();

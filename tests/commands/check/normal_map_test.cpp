@@ -90,7 +90,7 @@ TEST(GreenTest, WorksOnJpeg) {
 }
 
 TEST(GreenTest, WorksOnNoiseThatAveragingRemoves) {
-    // So strong that single texels correlate by 0.05, and means of four by 0.45.
+    // The noise is so strong that single texels correlate by 0.05, and means of four by 0.45.
     for (const bool down : {false, true}) {
         RgbImage map = normalMapOf(512, bumps, down);
         std::uint32_t state = 7;

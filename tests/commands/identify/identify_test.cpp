@@ -46,7 +46,7 @@ TEST(Identify, FindsBestWithAnyNumberOfSteps) {
     }
 }
 
-/// Stored as integers, differences between the floats of methods vanish.
+/// If tangents are stored as integers, differences between methods that are smaller than a step vanish.
 TEST(Identify, NamesAllMethodsThatFitTangentsOfEightBits) {
     const TempFolder folder;
     ModelData data = bentSheet(6);

@@ -116,7 +116,7 @@ RC_GTEST_PROP(OrthonormalizeProperty, IsGramSchmidtInThatOrder, ()) {
 RC_GTEST_PROP(BasisProperty, IsRightHandedAndOrthonormal, ()) {
     Vec3 n = randomUnit();
     if (randomInt(0, 2) == 0) {
-        // Near the pole where the formula of 2012 loses precision.
+        // Normals near the pole, where the formula of 2012 loses precision.
         const float tilt = std::ldexp(1.0f, randomInt(-30, -8));
         n = {tilt, -tilt, -std::sqrt(1 - 2 * tilt * tilt)};
     }

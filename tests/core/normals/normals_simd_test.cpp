@@ -103,7 +103,7 @@ std::vector<SimpleMesh> meshes() {
     all.push_back(withBackSides(sheet(30)));
     all.push_back(withBackSides(sheet(30, 1e-30f)));
     all.push_back(withBrokenValues(sheet(40)));
-    // Large enough to be processed in ranges of points, whose number depends on the threads.
+    // This mesh is large enough to be processed in ranges of points, whose number depends on the threads.
     all.push_back(withBackSides(sheet(190)));
     all.push_back(withBrokenValues(sheet(200)));
     return all;

@@ -112,7 +112,7 @@ RC_GTEST_PROP(RefinedNormals, AreTheStepInDoublePrecision, ()) {
     RC_ASSERT(areClose(normalsOf(mesh.view(), kBest, 2), oneStep(mesh, one)));
 }
 
-/// Each side of the hard edge separately, with the same step.
+/// Each side of the hard edge is refined separately, with the same step.
 RC_GTEST_PROP(RefinedNormals, WithHardEdgesAreTheStepOfEachSide, ()) {
     const SimpleMesh mesh = foldedSheet(6, 2);
     NormalOptions creased = kBest;
@@ -120,7 +120,7 @@ RC_GTEST_PROP(RefinedNormals, WithHardEdgesAreTheStepOfEachSide, ()) {
     const std::vector<Vec3> fit = normalsOf(mesh.view(), creased, 0), one = normalsOf(mesh.view(), creased, 1);
     RC_ASSERT(areClose(one, oneStep(mesh, fit)));
 
-    // Only the lower side, without the faces across the hard edge.
+    // The lower side alone, without the faces across the hard edge.
     SimpleMesh alone = mesh;
     alone.indices.clear();
     std::vector<Vec3> wanted;

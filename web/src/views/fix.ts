@@ -10,7 +10,7 @@ export const sureText = ({ confidence }: Finding): string => (confidence < 1 ? `
 export class FixView {
   /** The visible effect, above the picture. */
   readonly caption = el("p", { class: "seen", role: "status" });
-  /** Over the picture, next to the split line. */
+  /** The fix button, over the picture and next to the split line. */
   readonly element = el("div", { class: "fix", hidden: true });
   #button = el("button", { type: "button", class: "main large" });
 
