@@ -68,10 +68,10 @@ Job allFieldsJob(const Mesh& mesh) {
             }};
 }
 
-Job evaluateJob(const Mesh& mesh) {
+Job evaluateJob(const Mesh& mesh, const TangentOptions& options) {
     auto outputs = std::make_shared<Outputs>();
-    outputs->tangents.resize(mesh.cornerCount());
-    auto plan = std::make_shared<TangentPlan>(orDie(planTangents(mesh.view(), {.convention = conventions::opengl})));
+    auto plan = std::make_shared<TangentPlan>(orDie(planTangents(mesh.view(), options)));
+    outputs->tangents.resize(plan->outputCount());
     return {
         outputs, [&mesh, outputs, plan](const Execution& execution) {
             orDie(evaluateTangents(*plan, {mesh.positions, mesh.normals}, {.tangents = outputs->tangents}, execution));
@@ -157,7 +157,12 @@ Job makeJob(const std::string& name, const Mesh& mesh) {
     if (name == "mikktspace_all") return allFieldsJob(mesh);
     if (name == "mikktspace_corrected")
         return tangentsJob(mesh, {.convention = conventions::opengl, .pairing = Pairing::corrected});
-    if (name == "evaluate") return evaluateJob(mesh);
+    if (name == "evaluate") return evaluateJob(mesh, {.convention = conventions::opengl});
+    if (name == "evaluate_lengyel") {
+        const TangentOptions options{
+            .method = Method::lengyel, .convention = conventions::opengl, .domain = OutputDomain::vertex};
+        return evaluateJob(mesh, options);
+    }
     if (name == "lengyel_vertex") return lengyelVertexJob(mesh);
     if (name == "normals") return normalsJob(mesh);
     if (name == "normals_best") return normalsJob(mesh, NormalWeighting::best);

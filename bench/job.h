@@ -35,9 +35,10 @@ struct Job {
 };
 
 /// Creates a job; `mesh` must outlive it. "mikktspace", "mikktspace_all" (every output), "mikktspace_corrected",
-/// "evaluate" (on an existing plan), "uniform", "angle", "area", "fast", "best", "lengyel", "lengyel_vertex" (one
-/// result per vertex), "flat", "basis", "normals" (angle-weighted), "normals_crease" (with a crease angle),
-/// "normals_flat", "split" (by the tangents of mikktspace). The job has no outputs if the library does not support it.
+/// "evaluate" (on an existing plan), "evaluate_lengyel" (on an existing plan, one result per vertex), "uniform",
+/// "angle", "area", "fast", "best", "lengyel", "lengyel_vertex" (one result per vertex), "flat", "basis", "normals"
+/// (angle-weighted), "normals_crease" (with a crease angle), "normals_flat", "split" (by the tangents of mikktspace).
+/// The job has no outputs if the library does not support it.
 Job makeJob(const std::string& name, const Mesh& mesh);
 const std::vector<std::string>& jobNames();
 

@@ -195,6 +195,36 @@ Row meshJobs(const std::string& title, std::size_t box_count) {
             }};
 }
 
+/// Compares plans of 100 characters, which are evaluated one after the other, with plain loops over the same
+/// characters. Each character has its own arrays, as in a frame of a game.
+Row characters(const std::string& title, const std::string& job_name) {
+    return {title, [=](Lab& lab) {
+                RowResult row{.title = title};
+                std::vector<Pair> pairs;
+                for (const std::size_t size : {2000, 5000, 10000, 20000}) {
+                    const std::vector<Mesh> meshes(100, torusOf(size));
+                    std::vector<Job> jobs;
+                    for (const Mesh& mesh : meshes) jobs.push_back(makeJob(job_name, mesh));
+                    std::vector<std::vector<Vec4>> tangents(meshes.size(),
+                                                            std::vector<Vec4>(meshes[0].positions.size()));
+                    const Arena arena;
+                    const Execution one{.thread_count = 1, .allocator = arena.allocator()};
+                    const auto evaluate = [&] {
+                        for (const Job& job : jobs) job.call(one);
+                    };
+                    const auto loop = [&] {
+                        for (std::size_t i = 0; i < meshes.size(); ++i) plainLoop(meshes[i], tangents[i]);
+                    };
+                    pairs.push_back(race(meshes[0], lab.rounds(), Clock::processor, evaluate, loop));
+                    row.note += (row.note.empty() ? "" : ", ") + inWords(pairs.back().ratio);
+                }
+                const std::string ratios = row.note;
+                summarize(pairs, 1.5, row);
+                row.note = "2k, 5k, 10k and 20k triangles: " + ratios;
+                return row;
+            }};
+}
+
 Row smallCall(const std::string& title) {
     return {title, [=](Lab& lab) {
                 constexpr int kCalls = 1000;  // a single call is below the resolution of clocks and caches
@@ -226,6 +256,8 @@ std::vector<Row> manyMeshRows() {
         threads("two threads against one, 7k to 25k triangles", 2, {7000, 10000, 14000, 18000, 25000}),
         threads("all threads against one, 100 to 500 triangles", 0, {100, 200, 300, 400, 500}),
         meshJobs("10,000 boxes in one call, two threads against one", 10000),
+        characters("a frame of 100 characters, `evaluate` with `mikktspace`, a result per corner", "evaluate"),
+        characters("a frame of 100 characters, `evaluate` with `lengyel`, a result per vertex", "evaluate_lengyel"),
         smallCall("a call for a box of 12 triangles")};
     std::ranges::move(lastBucketRows(), std::back_inserter(rows));
     std::ranges::move(orderRows(), std::back_inserter(rows));

@@ -30,7 +30,7 @@ class Walk {
     void read(std::size_t block) {
         first_ = block * block_size_;
         size_ = std::min(block_size_, triangles_.count - first_);
-        groups_ = triangles_.inPlace(first_, size_);
+        groups_ = triangles_.inPlace(first_, size_).groups;
         if (groups_ != nullptr) return;
         triangles_.read(first_, size_, nullptr, own_groups_);
         groups_ = own_groups_;
@@ -177,11 +177,13 @@ bool RangeLists::Batches::next(TriangleBatch& batch, bool wants_vertices) {
     ++next_;
     batch.numbers[0] = static_cast<std::uint32_t>(first);
     batch.count = std::min(block_size_, triangles_.count - first);
-    const std::uint32_t* const in_place = batch.count == block_size_ ? triangles_.inPlace(first, batch.count) : nullptr;
-    if (in_place == nullptr) {
+    TriangleGroups::InPlace in_place;
+    if (batch.count == block_size_) in_place = triangles_.inPlace(first, batch.count);
+    if (in_place.groups == nullptr) {
         triangles_.read(first, batch.count, vertices, batch.own_groups);
     } else {
-        batch.vertices = batch.groups = in_place;
+        batch.vertices = in_place.vertices;
+        batch.groups = in_place.groups;
     }
     return true;
 }

@@ -32,9 +32,11 @@ class TriangleGroups {
         for (std::size_t i = 0; i < size; ++i)
             read(numbers[i], 1, vertices == nullptr ? nullptr : vertices + 3 * i, groups + 3 * i);
     }
-    /// Returns a pointer to the groups of these triangles if they exist in memory and equal the vertices; otherwise
-    /// null.
-    [[nodiscard]] virtual const std::uint32_t* inPlace(std::size_t, std::size_t) const { return nullptr; }
+    struct InPlace {
+        const std::uint32_t *vertices = nullptr, *groups = nullptr;
+    };
+    /// Returns pointers to the vertices and groups of these triangles if both exist in memory; otherwise null.
+    [[nodiscard]] virtual InPlace inPlace(std::size_t, std::size_t) const { return {}; }
 
     const std::size_t count;
 

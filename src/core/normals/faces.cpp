@@ -43,8 +43,10 @@ PointItems::PointItems(const MeshView& mesh, const MeshFaces& faces, const Buffe
         blocks_ = Buffer<std::uint8_t>(allocator, count / TriangleBatch::kMost + 1, unknown);
 }
 
-const std::uint32_t* PointItems::inPlace(std::size_t first, std::size_t) const {
-    if (in_place_ == nullptr || points_.empty()) return in_place_ == nullptr ? nullptr : in_place_ + 3 * first;
+TriangleGroups::InPlace PointItems::inPlace(std::size_t first, std::size_t) const {
+    if (in_place_ == nullptr) return {};
+    const InPlace vertices{in_place_ + 3 * first, in_place_ + 3 * first};
+    if (points_.empty()) return vertices;
     constexpr std::size_t kBlock = TriangleBatch::kMost;
     std::uint8_t* const block = &blocks_[first / kBlock];
     // This data race is benign: concurrent threads store equal values.
@@ -58,7 +60,7 @@ const std::uint32_t* PointItems::inPlace(std::size_t first, std::size_t) const {
         known = v == past ? own : shared;
         __atomic_store_n(block, known, __ATOMIC_RELAXED);
     }
-    return known == own ? in_place_ + 3 * first : nullptr;
+    return known == own ? vertices : InPlace{};
 }
 
 template <class NumberOf>

@@ -78,7 +78,7 @@ class PointItems final : public TriangleGroups {
     void read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* points) const override;
     void readSome(const std::uint32_t* numbers, std::size_t size, std::uint32_t* vertices,
                   std::uint32_t* points) const override;
-    [[nodiscard]] const std::uint32_t* inPlace(std::size_t first, std::size_t) const override;
+    [[nodiscard]] InPlace inPlace(std::size_t first, std::size_t) const override;
 
   private:
     template <class NumberOf>

@@ -69,9 +69,10 @@ class IndexedTriangles final : public TriangleGroups {
         const std::uint32_t* const v = readIndices(vertices_, 3 * first, 3 * size, groups);
         if (v != groups) std::copy_n(v, 3 * size, groups);
     }
-    [[nodiscard]] const std::uint32_t* inPlace(std::size_t first, std::size_t) const override {
-        return vertices_.type == IndexType::u32 ? static_cast<const std::uint32_t*>(vertices_.data) + 3 * first
-                                                : nullptr;
+    [[nodiscard]] InPlace inPlace(std::size_t first, std::size_t) const override {
+        if (vertices_.type != IndexType::u32) return {};
+        const std::uint32_t* const vertices = static_cast<const std::uint32_t*>(vertices_.data) + 3 * first;
+        return {vertices, vertices};
     }
 
   private:

@@ -38,6 +38,7 @@ struct CornerSource : VertexArrays {
     /// them
     bool adding_only = false;
     CornerDirections* directions = nullptr;  ///< output of directions; null: not requested
+    bool with_marks = true;                  ///< false: omit `marks`
 };
 
 /// Marks of a corner, which prove that a group does not split. A threshold of 180 degrees separates only opposite

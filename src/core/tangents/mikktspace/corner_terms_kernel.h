@@ -56,25 +56,25 @@ struct Group {
     }
 };
 
-/// Values of dP/du and dP/dv of triangles.
+/// Values of dP/du and dP/dv of triangles. Without `all`, only dP/du and the orientation.
 struct Shape {
-    Vectors s, t;
-    Floats length_s, length_t;
-    Mask positive, no_area, finite;
+    Vectors s, t{zero(), zero(), zero()};
+    Floats length_s = zero(), length_t = zero();
+    Mask positive, no_area{}, finite{};
 
-    explicit Shape(const Group& g) {
+    Shape(const Group& g, bool all) {
         const Floats x = g.u[1] - g.u[0], y = g.v[1] - g.v[0], z = g.u[2] - g.u[0], w = g.v[2] - g.v[0];
         const Vectors d1 = g.position[1] - g.position[0], d2 = g.position[2] - g.position[0];
-        const Floats zero = broadcast(0.0f), one = broadcast(1.0f);
         const Floats area = x * w - y * z, size = absolute(area);
         const Vectors along_u = w * d1 - y * d2;
-        const Vectors along_v = (broadcast(-0.0f) - z) * d1 + x * d2;
-        const Floats long_u = squareRoot(dot(along_u, along_u)), long_v = squareRoot(dot(along_v, along_v));
-        positive = area > zero;
-        const Floats facing = select(positive, one, broadcast(-1.0f));
-        const Vectors none{zero, zero, zero};
-        s = select(notZero(long_u), (facing / long_u) * along_u, none);
-        t = select(notZero(long_v), (facing / long_v) * along_v, none);
+        const Floats long_u = squareRoot(dot(along_u, along_u));
+        positive = area > zero();
+        const Floats facing = select(positive, broadcast(1.0f), broadcast(-1.0f));
+        s = keep(notZero(long_u), (facing / long_u) * along_u);
+        if (!all) return;
+        const Vectors along_v = minus(z) * d1 + x * d2;
+        const Floats long_v = squareRoot(dot(along_v, along_v));
+        t = keep(notZero(long_v), (facing / long_v) * along_v);
         length_s = long_u / size;
         length_t = long_v / size;
         no_area = !(notZero(area) & notZero(length_s) & notZero(length_t));
@@ -115,21 +115,25 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
                        bool exact, CornerTerms& terms) {
     Group group;
     group.load(source, vertices, exact);
-    const Mask degenerate = group.isDegenerate();
-    const Shape shape(group);
-    Bits facing = orWhere(broadcastBits(0), shape.positive, kFacesUp);
-    facing = orWhere(facing, !shape.positive, kFacesDown);
-    const Mask usable = shape.finite & !shape.no_area;
-    Bits flags = orWhere(orWhere(broadcastBits(0), shape.no_area, kNoUvArea), degenerate, kDegenerateMark);
-    flags = orWhere(flags, !shape.positive, kMirroredMark);
-    if (source.weighting == Weighting::none) {
-        const Bits all_marks = keepWhere(facing, usable) | flags;
-        for (std::size_t k = 0; k < 3; ++k) store(terms.marks[k] + first, all_marks);
-        return;
-    }
-    if (source.adding_only && (~bitsOf(shape.no_area | degenerate) & valid) == 0) [[unlikely]] {
-        for (std::size_t k = 0; k < 3; ++k) store(terms.marks[k] + first, flags);
-        return;
+    const bool with_marks = source.with_marks, with_bitangents = with_marks || !source.tangents_only;
+    const Shape shape(group, with_bitangents);
+    Bits facing = broadcastBits(0), flags = broadcastBits(0);
+    Mask usable{};
+    if (with_marks) {
+        const Mask degenerate = group.isDegenerate();
+        facing = orWhere(orWhere(facing, shape.positive, kFacesUp), !shape.positive, kFacesDown);
+        usable = shape.finite & !shape.no_area;
+        flags = orWhere(orWhere(flags, shape.no_area, kNoUvArea), degenerate, kDegenerateMark);
+        flags = orWhere(flags, !shape.positive, kMirroredMark);
+        if (source.weighting == Weighting::none) {
+            const Bits all_marks = keepWhere(facing, usable) | flags;
+            for (std::size_t k = 0; k < 3; ++k) store(terms.marks[k] + first, all_marks);
+            return;
+        }
+        if (source.adding_only && (~bitsOf(shape.no_area | degenerate) & valid) == 0) [[unlikely]] {
+            for (std::size_t k = 0; k < 3; ++k) store(terms.marks[k] + first, flags);
+            return;
+        }
     }
     const bool is_mikktspace = source.weighting == Weighting::projected_angle;
     Vectors s[3], t[3];
@@ -140,19 +144,22 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
         const Vectors projected = alongPlane(normal, shape.s);
         const Floats square = dot(projected, projected);
         s[k] = unitByRules(projected, square);
-        const Vectors projected_t = alongPlane(normal, shape.t);
-        if (!source.tangents_only) t[k] = unitByRules(projected_t);
-        if (source.directions != nullptr) {
-            const Floats directions[2][3] = {{s[k].x, s[k].y, s[k].z}, {projected_t.x, projected_t.y, projected_t.z}};
-            for (std::size_t i = 0; i < 3; ++i) {
-                store(source.directions->unit_s[i][k] + first, directions[0][i]);
-                store(source.directions->projected_t[i][k] + first, directions[1][i]);
+        if (with_bitangents) {
+            const Vectors projected_t = alongPlane(normal, shape.t);
+            if (!source.tangents_only) t[k] = unitByRules(projected_t);
+            if (source.directions != nullptr) {
+                const Floats directions[2][3] = {{s[k].x, s[k].y, s[k].z},
+                                                 {projected_t.x, projected_t.y, projected_t.z}};
+                for (std::size_t i = 0; i < 3; ++i) {
+                    store(source.directions->unit_s[i][k] + first, directions[0][i]);
+                    store(source.directions->projected_t[i][k] + first, directions[1][i]);
+                }
             }
+            marks[k] = is_mikktspace ? sidesOf(s[k], square, projected_t, facing) : facing;
         }
         const Vectors here = group.position[k];
         weights[k] = weightOrCosine(source.weighting, normal, group.position[(k + 2) % 3] - here,
                                     group.position[(k + 1) % 3] - here);
-        marks[k] = is_mikktspace ? sidesOf(s[k], square, projected_t, facing) : facing;
     }
     if (is_mikktspace || source.weighting == Weighting::angle) {
         const Floats cosines[3] = {weights[0], weights[1], weights[2]};
@@ -160,7 +167,7 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
     }
     for (std::size_t k = 0; k < 3; ++k) {
         const Floats weight = weights[k];
-        store(terms.marks[k] + first, keepWhere(marks[k], usable & (weight == weight)) | flags);
+        if (with_marks) store(terms.marks[k] + first, keepWhere(marks[k], usable & (weight == weight)) | flags);
         const std::size_t row = 3 * first + k;
         storeRows(terms.s[row], weight * s[k].x, weight * s[k].y, weight * s[k].z, weight);
         if (!source.tangents_only) {

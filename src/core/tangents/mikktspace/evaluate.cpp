@@ -18,6 +18,7 @@ namespace tspace::mikk {
 namespace {
 
 constexpr std::size_t kGroupGrain = 8192, kWriteGrain = 8192;
+constexpr std::size_t kWriteAhead = 2048;  // bytes: a store waits for its cache line unless it was prefetched
 
 // minimum number of groups per task: for fewer, another thread costs more than it saves
 constexpr std::size_t kGroupsPerTask = 4096;
@@ -30,6 +31,10 @@ class PlanTriangles final : public TriangleGroups {
     void read(std::size_t first, std::size_t triangles, std::uint32_t* vertices, std::uint32_t* groups) const override {
         if (vertices != nullptr) std::copy_n(plan_.vertices.data() + 3 * first, 3 * triangles, vertices);
         std::copy_n(plan_.groups.data() + 3 * first, 3 * triangles, groups);
+    }
+    [[nodiscard]] InPlace inPlace(std::size_t first, std::size_t) const override {
+        if (plan_.vertices.empty()) return {};
+        return {plan_.vertices.data() + 3 * first, plan_.groups.data() + 3 * first};
     }
 
   private:
@@ -98,7 +103,9 @@ class Evaluation {
           terms_(cornerTermsFor(execution.simd)),
           source_(cornerSource(pose, uvs, plan.method, wantsOnlyTangents(plan, out))),
           allocator_(execution.allocator),
-          parallel_(parallel) {}
+          parallel_(parallel) {
+        source_.with_marks = false;
+    }
 
     /// Evaluates the plan. `estimates`: null, or results of the estimators, which are moved from.
     TangentReport run(GroupSums* estimates) {
@@ -175,29 +182,40 @@ class Evaluation {
 
     void writeCorners() {
         parallel_.forRanges(plan_.triangle_count, kWriteGrain, [&](std::size_t begin, std::size_t end) {
+            const auto slotOf = [&](std::size_t h) { return plan_.slotOf(static_cast<std::uint32_t>(h)); };
+            const auto writeAll = [&](std::size_t corner, std::uint32_t group) {
+                sink_.write(corner, resultOf(group));
+            };
             // Local copies, which the compiler knows not to alias `tangents`.
-            const std::uint32_t *const groups = plan_.groups.data(), *const slots = plan_.slots.data();
-            const std::uint32_t* const triangles = plan_.triangles.data();
+            const Vec3* const results = sums_.groups.data();
             const std::uint8_t* const positive = plan_.group_positive.data();
-            const Vec3* const sums = sums_.groups.data();
-            const StridedSpan<Vec4> tangents = out_.tangents;
             const float signs[2] = {sink_.sign(false), sink_.sign(true)};
-            const bool tangents_only = wantsTangentsOnly(out_);
-            const std::uint32_t count = plan_.group_count;
-            for (std::size_t t = begin; t < end; ++t) {
-                const std::size_t first = 3 * (triangles == nullptr ? t : triangles[t]);
-                for (std::size_t h = 3 * t; h < 3 * t + 3; ++h) {
-                    const std::uint32_t g = groups[h] & kValue;
-                    const std::size_t c = slots == nullptr ? first + h - 3 * t : slots[h];
-                    if (g >= count || (c & kTopBit) != 0) continue;
-                    if (tangents_only) {
-                        tangents[c] = {sums[g].x, sums[g].y, sums[g].z, signs[positive[g]]};
-                    } else {
-                        sink_.write(c, resultOf(g));
-                    }
-                }
-            }
+            const StridedSpan<Vec4> tangents = out_.tangents;
+            const auto writeTangent = [&](std::size_t corner, std::uint32_t group) {
+                const Vec3& r = results[group];
+                prefetchLines<true>(&tangents[corner], 1, kWriteAhead);
+                tangents[corner] = {r.x, r.y, r.z, signs[positive[group]]};
+            };
+            if (!wantsTangentsOnly(out_))
+                forResults(begin, end, slotOf, writeAll);
+            else if (plan_.slots.empty() && plan_.triangles.empty())
+                forResults(
+                    begin, end, [](std::size_t h) { return h; }, writeTangent);
+            else
+                forResults(begin, end, slotOf, writeTangent);
         });
+    }
+
+    /// Calls write(corner, group) for the corners of these triangles that have a single result, from a group.
+    template <class SlotOf, class Write>
+    void forResults(std::size_t begin, std::size_t end, const SlotOf& slotOf, const Write& write) const {
+        const std::uint32_t* const groups = plan_.groups.data();
+        const std::uint32_t count = plan_.group_count;
+        for (std::size_t h = 3 * begin; h < 3 * end; ++h) {
+            const std::uint32_t group = groups[h] & kValue;
+            const std::size_t corner = slotOf(h);
+            if (group < count && (corner & kTopBit) == 0) write(corner, group);
+        }
     }
 
     /// Scratch memory for one group that splits.

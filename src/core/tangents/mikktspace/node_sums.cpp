@@ -159,10 +159,11 @@ unsigned rangeShift(const Sweep& sweep, const MeshTriangles& by_node, unsigned w
 
 }  // namespace
 
-const std::uint32_t* MeshTriangles::inPlace(std::size_t first, std::size_t) const {
+TriangleGroups::InPlace MeshTriangles::inPlace(std::size_t first, std::size_t) const {
     const bool is_own = in_.nodes.of_vertex.empty() && in_.triangles.corners.empty() && kinds_ == nullptr;
-    if (!is_own || in_.mesh.indices.type != IndexType::u32) return nullptr;
-    return static_cast<const std::uint32_t*>(in_.mesh.indices.data) + 3 * first;
+    if (!is_own || in_.mesh.indices.type != IndexType::u32) return {};
+    const std::uint32_t* const vertices = static_cast<const std::uint32_t*>(in_.mesh.indices.data) + 3 * first;
+    return {vertices, vertices};
 }
 
 void MeshTriangles::read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* groups) const {

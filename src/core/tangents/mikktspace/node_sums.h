@@ -172,7 +172,7 @@ class MeshTriangles final : public TriangleGroups {
     void read(std::size_t first, std::size_t size, std::uint32_t* vertices, std::uint32_t* groups) const override;
     void readSome(const std::uint32_t* numbers, std::size_t size, std::uint32_t* vertices,
                   std::uint32_t* groups) const override;
-    [[nodiscard]] const std::uint32_t* inPlace(std::size_t first, std::size_t size) const override;
+    [[nodiscard]] InPlace inPlace(std::size_t first, std::size_t size) const override;
 
   private:
     /// Fills `vertices` and `groups` from the vertices of the triangles.
