@@ -42,7 +42,9 @@ void expectStops(const std::string& name, const TempFolder& folder,
     measure();
     if (code == ErrorCode::unsupportedFile) GTEST_SKIP() << "this build bakes no maps";
     ASSERT_EQ(code, ErrorCode::ok) << name;
+#ifdef NDEBUG  // builds with sanitizers are not optimized, and take up to 20 times as long
     EXPECT_LT(longest, 0.6) << name;
+#endif
     for (const std::string& file : folder.files()) {
         if (!inputs.contains(file)) std::filesystem::remove(folder.path(file));
     }
