@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Memory, errors, options and models at the C API border.
+// Implements memory, errors, options and models at the border of the C API.
 #include "api/c_call.h"
 
 #include <algorithm>

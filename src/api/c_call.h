@@ -58,7 +58,7 @@ tspace_ErrorCode atCallBorder(tspace_Error* out, std::initializer_list<tspace_By
     return result ? finishCall(Error{ErrorCode::ok}, out) : finishCall(result.error(), out);
 }
 
-/// Returns a text that must not be null. Fails with nullData.
+/// Returns a text argument. Fails with nullData if it is null.
 std::string neededText(const char* text, const char* name);
 
 /// Parses options; null means none. Fails with invalidOption.

@@ -18,13 +18,14 @@ namespace tspace {
 /// than 64 times as large as their file.
 bool isTooLarge(ImageSize size, std::size_t byte_count, std::uint64_t most_pixels, std::string& why);
 
-/// Size declared in a file's header, read without a library and unchecked, and the memory that decoding needs.
+/// Size declared in the header of a file (read without a library, and not verified), and the memory that decoding
+/// needs.
 struct ImageClaim {
     ImageSize size = {};
     std::uint64_t work_bytes = 0;
 };
 
-/// Returns the claim of a file in any format; zeros if this build cannot decode it.
+/// Returns the declared size and the memory of a file in any format; zeros if this build cannot decode it.
 ImageClaim claimOf(ByteSpan bytes);
 ImageClaim claimOfPng(ByteSpan bytes);
 ImageClaim claimOfJpeg(ByteSpan bytes);
@@ -36,16 +37,18 @@ std::optional<RgbImage> decodePng(ByteSpan bytes, std::uint64_t most_pixels, std
 /// Like decodeFloatImage, for PNG; samples of fewer than 16 bits are widened by repeating their bits, which preserves
 /// the ratio to the largest value.
 std::optional<FloatImage> decodeDeepPng(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
-/// Returns four channels; empty if the file is corrupt or has no alpha.
+/// Decodes a PNG to red, green, blue and alpha, 8 bits each. Returns an empty array if the file is corrupt or has no
+/// alpha.
 std::vector<std::uint8_t> decodePngRgba(ByteSpan bytes);
 std::optional<RgbImage> decodeJpeg(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
 std::optional<RgbImage> decodeWebp(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
 
-/// Decode the first level of KTX2 and DDS; decodeFloatTexture can decode another.
+/// Decode the first mip level of a KTX2 or DDS file; decodeFloatTexture can decode another level.
 std::optional<RgbImage> decodeTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why, ImageUse use);
 std::optional<FloatImage> decodeFloatTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why,
                                              std::size_t level = 0, ImageUse use = ImageUse::vectors);
-/// Returns one byte per pixel; empty if the file is corrupt or has no alpha.
+/// Decodes the alpha channel of a texture to one byte per pixel. Returns an empty array if the file is corrupt or has
+/// no alpha.
 std::vector<std::uint8_t> decodeTextureAlpha(ByteSpan bytes);
 
 /// Checks the header only: every field must be valid, and the file long enough for the image.
@@ -54,7 +57,7 @@ ImageClaim claimOfTga(ByteSpan bytes);
 std::optional<RgbImage> decodeTga(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
 struct TgaImage {
     RgbImage image = {};
-    std::vector<std::uint8_t> alpha = {};  ///< one byte per pixel; empty: opaque
+    std::vector<std::uint8_t> alpha = {};  ///< one byte per pixel; empty if the image is opaque
     bool is_gray = false;
 };
 std::optional<TgaImage> decodeTgaPixels(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
@@ -69,10 +72,10 @@ void readFloats(ImageUse use, FloatImage& image);
 /// Rounds to 8 bits per channel.
 RgbImage roundedImage(const FloatImage& image);
 
-// Decoding and encoding of PNG pixels; flip_png.cpp handles the chunks. Bindings replace libspng by other decoders.
+// Decoding and encoding of PNG pixels; flip_png.cpp handles the chunks. The bindings use other decoders than libspng.
 
 struct PngHeader {
-    /// Flags of color types.
+    /// Bits of the color type in a PNG header.
     static constexpr std::uint8_t kPalette = 3, kHasColor = 2, kHasAlpha = 4;
 
     std::uint32_t width = 0, height = 0;
@@ -88,11 +91,11 @@ Error brokenPng();
 /// Returns the 4-byte number at `at`, which must be inside the data.
 std::uint32_t pngNumber(ByteSpan bytes, std::size_t at);
 
-/// Inverts green samples: 255 - x and 65535 - x equal x with all bits inverted. `step`: distance in bytes between green
-/// samples.
+/// Inverts green samples in place by inverting all their bits, which computes 255 - x or 65535 - x. `step`: distance in
+/// bytes between green samples.
 void invertGreenSamples(std::span<std::uint8_t> bytes, std::size_t step, std::size_t sample_bytes);
 
-/// Inverts green of an RGB or RGBA PNG. Returns a PNG with the same header.
+/// Recompresses an RGB or RGBA PNG with the green channel inverted. The header stays the same.
 Result<std::vector<std::uint8_t>> packInverted(ByteSpan bytes, const PngHeader& header);
 
 /// Returns an error if the pixels of a PNG with a palette are corrupt, otherwise ErrorCode::ok.

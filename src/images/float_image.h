@@ -11,17 +11,18 @@ namespace tspace {
 
 /// Bytes per pixel needed for decoding, converting and encoding a map, without the decoder's own memory.
 inline constexpr std::uint64_t kMapPixelBytes = 72;
-/// Larger images of a model are not rewritten.
+/// Maximum number of pixels of a model's image that is rewritten; larger images are kept unchanged.
 inline constexpr std::uint64_t kMostModelMapPixels = std::uint64_t{1} << 26;
 
 /// Returns whether the file is a lossy WebP.
 bool isLossyWebp(ByteSpan bytes);
 
-/// Reads only the header, so the layout is not guessed; returns nullopt for other files and unsupported formats.
+/// Returns the texture properties that a file's header declares; the texels are not examined. Returns nullopt for other
+/// files and unsupported formats.
 std::optional<TextureFacts> textureFacts(ByteSpan bytes);
 
-/// Like decodeImage, with all bits of the file. Memory: 16 bytes per pixel, or 12 without alpha, plus the decoder's
-/// memory.
+/// Decodes an image like decodeImage, but with all bits of the file. Memory: 16 bytes per pixel, or 12 without alpha,
+/// plus the decoder's memory.
 std::optional<FloatImage> decodeFloatImage(ByteSpan bytes, std::uint64_t most_pixels, std::string& why,
                                            ImageUse use = ImageUse::vectors);
 
@@ -32,7 +33,7 @@ std::optional<std::vector<std::uint8_t>> encodeExr(const FloatImage& image, unsi
 /// Encodes a PNG with 8 or 16 bits, without color space information: each channel is clamped to 0 to 1 and rounded to
 /// the nearest integer (not finite: 0). Returns nullopt if this build cannot write PNG, or if libspng fails.
 std::optional<std::vector<std::uint8_t>> encodePng(const FloatImage& image, unsigned bits);
-/// Like encodePng above, for 8-bit images.
+/// Encodes an 8-bit image as PNG, like the overload above.
 std::optional<std::vector<std::uint8_t>> encodePng(const RgbImage& image);
 
 }  // namespace tspace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Floats of an image file: values that are not finite, and vectors in the range -1 to 1.
+// Prepares floats from an image file: replaces values that are not finite, and detects vectors in the range -1 to 1.
 #include <algorithm>
 #include <cmath>
 
@@ -29,7 +29,7 @@ class RangeEvidence {
         sum_z_ += static_cast<double>(texel.z);
     }
 
-    /// Returns why the values are vectors from -1 to 1; empty if they are not.
+    /// Returns why the values are vectors in the range -1 to 1, as a clause; empty if they are not.
     [[nodiscard]] std::string whySigned() const {
         constexpr double kMost = 0.9, kHalf = 0.5, kFew = 0.1, kSome = 0.01;
         if (count_ == 0 || is_gray_) return {};
@@ -56,7 +56,8 @@ class RangeEvidence {
     [[nodiscard]] double share(std::uint64_t count) const {
         return static_cast<double>(count) / static_cast<double>(count_);
     }
-    /// Returns whether most vectors point along +z: colors and factors can have unit length too.
+    /// Returns whether most vectors point along +z. Unit length alone is not sufficient, because colors and factors
+    /// can have it too.
     [[nodiscard]] bool pointsUp() const {
         constexpr double kUp = 0.8, kAside = 0.25;
         const auto n = static_cast<double>(count_);

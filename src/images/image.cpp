@@ -43,7 +43,8 @@ ImageClaim claimOfPng(ByteSpan bytes) {
     return {size, 3 * size.pixels() + 64 * std::uint64_t{size.width}};
 }
 
-/// libjpeg-turbo stores the pixels, and the coefficients of all components if they are split into several scans.
+/// Returns the declared size of a JPEG and the memory for decoding it. libjpeg-turbo stores the pixels, and also the
+/// coefficients of all components if they are split into several scans.
 ImageClaim claimOfJpeg(ByteSpan bytes) {
     constexpr std::size_t kHeadBytes = 4, kFrameBytes = 8;
     constexpr unsigned kProgressive = 2;  // the lowest two bits of a frame marker
@@ -90,7 +91,7 @@ bool has(ByteSpan bytes, std::size_t at, std::string_view text) {
                       [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
 }
 
-/// Names of a format, and its decoder in this build.
+/// Names of a format, and the decoder of this build for it.
 struct Codec {
     const char* name = "";
     const char* mime_type = "";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Images whose four channels contain only x and y of a normal map, and which channels hold them.
+// Detects normal maps whose four channels contain only x and y, and which channels contain them.
 #pragma once
 
 #include <array>
@@ -15,12 +15,12 @@ namespace tspace {
 /// Returns the two-channel layout with x and y in the given output colors.
 inline MapLayout twoChannelLayout(MapChannel x, MapChannel y) { return {.x = {x}, .y = {y}, .z = {MapChannel::none}}; }
 
-/// Common layouts: x in alpha and y in green, with constant red; or x in all three colors and y in alpha.
+/// Detects common layouts: x in alpha and y in green, with constant red; or x in all three colors and y in alpha.
 class LayoutGuess {
   public:
     /// Adds a texel with channels from 0 to 1.
     void add(const Vec3& texel, float alpha) {
-        constexpr float kApart = 8.0F / 255.0F;  // errors due to compression
+        constexpr float kApart = 8.0F / 255.0F;  // tolerance for compression errors
         const std::array<float, 4> values{texel.x, texel.y, texel.z, alpha};
         for (std::size_t i = 0; i < 4; ++i) {
             least_[i] = std::fmin(least_[i], values[i]);
@@ -48,7 +48,7 @@ class LayoutGuess {
         return static_cast<double>(part) >= kNearly * static_cast<double>(count);
     }
 
-    /// Counts whether pairs are x and y of unit vectors around z.
+    /// Counts how many pairs of values are x and y of unit vectors with positive z.
     struct Pairs {
         double sum_x = 0, sum_y = 0;
         std::uint64_t inside = 0;

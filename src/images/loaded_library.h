@@ -13,8 +13,8 @@
 
 namespace tspace {
 
-/// Throws OutOfMemory unless this many bytes can be mapped now. Called before libraries whose handling of failed
-/// allocations is not trusted, with more than they need.
+/// Throws OutOfMemory unless this many bytes can be mapped now. Call it before libraries that may not handle failed
+/// allocations correctly, with more bytes than they need.
 inline void requireMemory(std::size_t bytes) {
     void* const memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (memory == MAP_FAILED) throwOutOfMemory();

@@ -19,7 +19,7 @@ bool isUnit(const Vec3& texel) {
 
 Vec3 dividedBy(const Vec3& texel, float alpha) { return {texel.x / alpha, texel.y / alpha, texel.z / alpha}; }
 
-/// Number of texels by alpha, and number of unit vectors among them.
+/// Evidence for the meaning of alpha: number of texels by alpha, and number of unit vectors among them.
 struct AlphaEvidence {
     std::uint64_t transparent = 0, transparent_unit = 0, opaque = 0, opaque_unit = 0;
     std::uint64_t partial = 0, straight_unit = 0, divided_unit = 0;

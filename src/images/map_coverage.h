@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Alpha of a normal map as coverage.
+// Interprets the alpha channel of a normal map as coverage.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace tspace {
 
-/// Removes alpha from an image for which mip levels will be made. If alpha is coverage, returns the covered part of
-/// each texel, and divides colors by alpha if they were premultiplied. Empty: all texels are fully covered. Adds
-/// sentences about ignored or missing alpha and about automatic decisions to `warnings`.
+/// Removes alpha from an image for which mip levels will be computed. If alpha is coverage, returns the covered part of
+/// each texel, and divides colors by alpha if they were premultiplied. An empty result means that all texels are fully
+/// covered. Adds sentences about ignored or missing alpha and about automatic decisions to `warnings`.
 std::vector<float> takeCoverage(MapAlpha alpha, FloatImage& image, std::vector<std::string>& warnings);
 
 }  // namespace tspace

@@ -9,7 +9,7 @@
 
 namespace tspace {
 
-/// true: an allocation of a C library has failed in this thread since the flag was last cleared.
+/// True if an allocation of a C library has failed in this thread since the flag was last cleared.
 inline thread_local bool has_allocation_failed = false;
 
 inline void* noted(void* memory, std::size_t bytes) {

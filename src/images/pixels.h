@@ -38,26 +38,27 @@ enum class ImageUse {
 /// Pixel information from a file with its own channel layout (KTX2, DDS, EXR).
 struct TextureFacts {
     std::string name = {};  ///< such as "BC5 in a DDS"
-    MapLayout layout =
-        {};  ///< layout of a normal map: the channels of x, y and z. If not the default, z must be reconstructed
+    /// Layout of a normal map: the channels of x, y and z. If not the default, z must be reconstructed.
+    MapLayout layout = {};
     bool is_guessed = false;  ///< the layout was detected from the texels, because the format does not define it
     bool is_srgb = false;     ///< the file declares its values as sRGB, which is wrong for normal maps
     bool has_blocks = false;  ///< block-compressed, so that loaders cannot generate smaller levels
     std::uint32_t level_count = 1;
 };
 
-/// Channels as stored, from 0 (the integer 0) to 1 (the largest integer); floats unchanged, except that vectors from -1
-/// to 1 are mapped (ImageUse). For textures see Rgba in texel_format.h. The first row is the top row. An integer n of
-/// up to 16 bits is restored exactly when it is written with the same number of bits.
+/// Channels as stored in the file, scaled so that the integer 0 is 0 and the largest integer is 1. Floats are
+/// unchanged, except that vectors in the range -1 to 1 are mapped (ImageUse). Rgba in texel_format.h describes
+/// textures. The first row is the top row. An integer of up to 16 bits is restored exactly when it is written with the
+/// same number of bits.
 struct FloatImage {
     std::uint32_t width = 0, height = 0;
     unsigned bits = 8;              ///< bits per channel in the file: 8 or 16; floats: 16 or 32. BC4, BC5 and EAC: 16
     std::vector<Vec3> texels = {};  ///< width * height; in gray images all three channels are equal
     std::vector<float> alpha = {};  ///< one per texel; empty: opaque
-    /// number of texels of an EXR or texture that were not finite, and were set to gray
+    /// Number of texels of an EXR file or texture that were not finite and were set to gray.
     std::uint64_t not_finite = 0;
     TextureFacts texture = {};  ///< the name is empty for other files
-    /// If the values of the file were mapped to 0 to 1: one sentence with the reason and its certainty. Otherwise empty.
+    /// One sentence with the reason and its certainty if the values of the file were mapped to 0 to 1; otherwise empty.
     std::string range_text = {};
 };
 

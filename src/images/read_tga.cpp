@@ -23,7 +23,8 @@ struct TgaHead {
     std::size_t palette_at = 0, pixels_at = 0;
 
     [[nodiscard]] std::size_t pixelBytes() const { return pixel_bits / 8; }
-    /// Returns the bits of a pixel, or of a palette entry, which have the same format.
+    /// Returns the number of bits of a pixel, or of a palette entry if the image has a palette; both have the same
+    /// format.
     [[nodiscard]] unsigned storedBits() const { return kind == TgaKind::palette ? entry_bits : pixel_bits; }
     [[nodiscard]] bool hasAlpha() const {
         const bool is_bit = kind != TgaKind::gray && storedBits() == 16;
@@ -54,7 +55,7 @@ std::uint64_t leastBytes(const TgaHead& head) {
     return (pixels + kMostOfPacket - 1) / kMostOfPacket * (1 + head.pixelBytes());
 }
 
-/// Returns nullopt if the file is not a supported TGA, or too short for its pixels.
+/// Parses the header. Returns nullopt if the file is not a supported TGA, or is too short for its pixels.
 std::optional<TgaHead> readTgaHead(ByteSpan bytes) {
     constexpr std::uint8_t kPacked = 8, kFromTheRight = 0x10, kFromTheTop = 0x20, kReserved = 0xc0, kAlphaBits = 0x0f;
     if (bytes.size() < kHeadBytes) return {};

@@ -34,7 +34,7 @@ void readTexels(const MapLayout& layout, FloatImage& image) {
 
 namespace {
 
-/// Moves x, y and z to the channels of glTF. Returns part of a sentence that states it.
+/// Moves x, y and z to the channels that glTF uses. Returns part of a sentence that describes the change.
 std::string applyLayout(FloatImage& image) {
     const MapLayout layout = image.texture.layout;
     if (layout == MapLayout{}) return {};

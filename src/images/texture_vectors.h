@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Converts normal maps with other channels than those of glTF: moves x, y and z to red, green and blue.
+// Converts normal maps whose channels differ from glTF's: moves x, y and z to red, green and blue.
 #pragma once
 
 #include <string>

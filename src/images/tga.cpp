@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// "Truevision TGA File Format Specification", version 2.0 (1991): a header of 18 bytes, blue, green and red of each
-// pixel, and a footer that identifies the version.
+// Encodes TGA according to the "Truevision TGA File Format Specification", version 2.0 (1991): a header of 18 bytes,
+// blue, green and red of each pixel, and a footer that identifies the version.
 #include "images/tga.h"
 
 #include <cmath>
@@ -25,7 +25,7 @@ std::optional<std::vector<std::uint8_t>> headOf(std::uint32_t width, std::uint32
     return file;
 }
 
-/// Adds the footer, without developer area and extensions.
+/// Appends the footer, which declares that there are no developer and extension areas.
 void addFoot(std::vector<std::uint8_t>& file) {
     constexpr std::string_view kSignature = "TRUEVISION-XFILE.";
     file.insert(file.end(), 8, 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// TGA with 8 bits per channel, uncompressed. Encoder only; see docs/reference/image-files.md.
+// Writes uncompressed TGA with 8 bits per channel; docs/reference/image-files.md describes the format.
 #pragma once
 
 #include <cstdint>

@@ -61,7 +61,7 @@ ExitCode runBake(const BakeArguments& arguments) {
         ExitCode exit_code =
             result ? report::exitCodeOf(*result)
                    : printErrorOfFiles({arguments.low, arguments.high, options.cage, "", options.skew}, result.error());
-        // Prints why there is no map, for users who do not read the report.
+        // The reason why there is no map is printed for users who do not read the report.
         if (result && result->output_files.empty()) {
             for (const std::string& finding : result->findings) printRemark(finding);
         }

@@ -42,10 +42,10 @@ std::string below(const Path& folder, const std::string& name) { return Path(fs:
 struct Pair {
     Job job = {};
     std::size_t line = 0;
-    std::string high = {}, model = {};  ///< `model`: output path of the low poly with its maps; or empty
+    std::string high = {}, model = {};  ///< `model`: output path of the low poly with its maps; may be empty
 };
 
-/// Throws FileError.
+/// Reads the table of pairs. Throws FileError.
 std::vector<Pair> readTable(const BakePairsArguments& arguments) {
     const Bytes bytes = readFile(arguments.table);
     recordInput(arguments.table);
@@ -113,10 +113,10 @@ BakeFileOptions optionsOf(const BakePairsArguments& arguments, const Pair& pair)
     return options;
 }
 
-/// Adds file names that depend on materials and tiles. For them the low poly is read if another pair has a name that
+/// Adds file names that depend on materials and tiles. A low poly is read for them only if another pair has a name that
 /// this pair may write.
 void addWords(const BakePairsArguments& arguments, const std::vector<Pair>& pairs, std::vector<PairOutputs>& outputs) {
-    std::map<std::string, std::size_t> plain;  // pairs, by the identities of their files
+    std::map<std::string, std::size_t> plain;  // index of the pair by the identity of each of its files
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         for (const std::string& file : outputs[i].files) plain.emplace(identityOf(file), i);
     }

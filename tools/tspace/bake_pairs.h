@@ -14,7 +14,7 @@ struct BakePairsArguments {
     std::string table = {};   ///< lines LOW = HIGH, or LOW = HIGH = NAME, with paths relative to the table's folder
     std::string output = {};  ///< output folder; a file is named NAME, or like LOW with the extension .png
     std::string report = {};  ///< path of the JSON report; empty: none
-    /// `out_mesh`: a folder, or empty.
+    /// Options of all bakes. `out_mesh`: a folder, or empty.
     BakeFileOptions options = {};
     std::string option_text = {};  ///< the options that affect results
     BatchArguments batch = {};

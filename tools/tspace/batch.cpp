@@ -79,7 +79,7 @@ void runBatch(std::size_t count, unsigned workers, const std::function<void(std:
         }
     };
     workOnThreads(workers - 1, take);
-    // After stop() some jobs may be missing; later jobs may have been processed all the same.
+    // After stop() returned true, some jobs are missing, but later jobs may have been processed.
     for (; reported < count; ++reported) {
         if (is_done[reported] != 0) finished(reported);
     }

@@ -11,7 +11,7 @@
 
 namespace tspace::tool {
 
-/// Shard `index` (1-based) of `count`.
+/// Shard of a batch: number `index` (1-based) of `count`.
 struct Shard {
     unsigned index = 1;
     unsigned count = 1;
@@ -21,7 +21,7 @@ struct Shard {
 struct BatchArguments {
     unsigned jobs = 1;  ///< number of files processed in parallel; 0: one per core
     Shard shard = {};
-    std::string manifest = {};  ///< empty: none
+    std::string manifest = {};  ///< path of the manifest; empty: none
     bool resume = false;        ///< skip files that are done and unchanged according to the manifest
     bool verbose = false;       ///< print details for every file, even with several inputs
 };

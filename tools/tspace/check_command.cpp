@@ -115,7 +115,7 @@ ExitCode runCheck(const CheckArguments& arguments) {
         if (outcome.result && options::failsBy(arguments.request, *outcome.result))
             exit_code = worse(exit_code, ExitCode::findings);
     }
-    // Reports contain files that cannot be read, but not a single file that did not fit into memory.
+    // A report contains files that cannot be read. An exception is a single file that did not fit into memory.
     const auto is_reported = [](const report::CheckOutcome& outcome) {
         return outcome.result || outcome.result.error().code != ErrorCode::outOfMemory;
     };

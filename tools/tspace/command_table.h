@@ -16,7 +16,7 @@
 
 namespace tspace::tool {
 
-using namespace tspace::options;  // NOLINT: the vocabulary of the table
+using namespace tspace::options;  // NOLINT: the table consists of these names
 
 /// Required type of the first operand of a command, according to its name.
 enum class Reads { anything, models, images };
@@ -50,7 +50,7 @@ inline constexpr const char* kToolSummary = "computes and checks tangent frames 
 /// Returns whether the page needed by tspace view is installed with the tool.
 bool hasViewPage();
 
-/// The whole tool.
+/// All commands and options of the tool.
 struct ToolTable {
     std::vector<Command> commands = {};
     std::vector<Option> options = {};  ///< options that can replace a command: --help, --version

@@ -67,7 +67,7 @@ ExitCode readFileList(const std::string& list, std::vector<std::string>& inputs)
     const bool is_stdin = list == "-";
     const std::optional<Error> failure = tryFile([&] {
         if (is_stdin) return readStream(stdin, text);
-        // A pipe, which shells pass for <(...).
+        // Shells pass a pipe for <(...).
         if (kindOf(list) == PathKind::stream) {
             if (const CFile file = openFile(list, "rb")) return readStream(file.get(), text);
         }

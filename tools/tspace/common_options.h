@@ -17,7 +17,7 @@ inline constexpr const char* kManyFiles = "Many files";
 /// Adds the operand IN... and --files-from, whose files are appended when the command is prepared.
 void addInputs(Command& command, std::vector<std::string>& inputs);
 void addBatch(Command& command, BatchArguments& batch, bool with_manifest);
-/// Also --help.
+/// Adds the options --json, --quiet and --help.
 void addReporting(Command& command, bool& json, bool& quiet);
 Option helpOption();
 

@@ -27,7 +27,7 @@ void printPlain(std::string_view text) noexcept {
 }
 
 ExitCode printError(const std::string& file, const Error& error) {
-    // An invalid option is not a fault of the file.
+    // Errors of options are printed without the name of the file, because they are not faults of the file.
     const std::string about = error.code == ErrorCode::invalidOption ? "" : printable(file) + ": ";
     std::string line = "tspace: " + about + printable(error.message);
     if (!error.place.empty() && error.place != file) line += " (at " + printable(error.place) + ")";
@@ -71,7 +71,7 @@ std::string fitted(std::string_view text, std::FILE* to) {
 bool printText(std::string_view text, std::FILE* to) { return printResult(fitted(text, to), to); }
 
 ExitCode printPage(std::string_view page) {
-    // Very long lines of text would be hard to read.
+    // Maximum width of printed text: longer lines are hard to read.
     constexpr std::size_t kWidest = 100;
     const std::size_t width = std::min(terminalWidth(stdout).value_or(kUsualWidth), kWidest);
     return printResult(report::fitText(page, width, 0)) ? ExitCode::done : ExitCode::cannotReadOrWrite;

@@ -52,7 +52,7 @@ bool printResult(std::string_view text, std::FILE* to = stdout, std::string_view
 /// Wraps a text to terminalWidth(). If the width is unknown, lines stay unwrapped, for programs that search them.
 std::string fitted(std::string_view text, std::FILE* to = stdout);
 bool printText(std::string_view text, std::FILE* to = stdout);
-/// Like printText(), for a help page.
+/// Prints a help page, wrapped to the terminal, and returns the exit code.
 ExitCode printPage(std::string_view page);
 
 /// Returns whether stdout gets colors. automatic: if it is a terminal with colors, and NO_COLOR is not set.
@@ -76,7 +76,7 @@ class ProgressLine {
     void start();
     void stop();
     void setFileCount(std::size_t count);
-    /// `total` 0: the progress within the stage is unknown.
+    /// Sets the stage of a file. If `total` is 0, the progress within the stage is unknown.
     void update(const std::string& file, const char* what, std::uint64_t done, std::uint64_t total);
     void fileDone(bool succeeded);
     /// Writes text in place of the line. Does not throw.

@@ -16,8 +16,8 @@
 namespace tspace::tool {
 namespace {
 
-/// Appends a name. Backslashes are doubled before a space or #, as in the depfiles of GCC. A colon would end the
-/// targets of a rule, except the colon of a drive (C:/).
+/// Appends a name to a rule. Backslashes are doubled before a space or #, as in the depfiles of GCC. A colon would end
+/// the list of targets, except for the colon of a drive (C:/).
 void appendName(std::string& rule, const std::string& name) {
     const bool has_drive = name.size() > 2 && name[1] == ':' && (name[2] == '/' || name[2] == '\\');
     std::size_t backslashes = 0;

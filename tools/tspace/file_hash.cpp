@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fingerprints by xxHash.
+// Computes fingerprints with xxHash.
 #include "file_hash.h"
 
 #define XXH_INLINE_ALL

@@ -16,7 +16,7 @@ struct FileHash {
     bool operator==(const FileHash&) const = default;
 };
 
-/// Returns nullopt if the file cannot be read.
+/// Reads a file and returns its hash, or nullopt if it cannot be read.
 std::optional<FileHash> hashFile(const std::string& path);
 
 /// Returns the hash of a text, which is equal on all machines.

@@ -202,8 +202,8 @@ class GenerateRun {
     const Clock::time_point start_ = Clock::now();
     std::vector<Job> jobs_;
     std::vector<report::GenerateOutcome> outcomes_;
-    std::vector<std::string> texts_;     ///< textOf() each
-    std::vector<std::string> failures_;  ///< lineWithoutReport() each
+    std::vector<std::string> texts_;     ///< result of textOf() for each file
+    std::vector<std::string> failures_;  ///< result of lineWithoutReport() for each file
     unsigned workers_;
     std::FILE* report_to_;
     bool wants_text_;

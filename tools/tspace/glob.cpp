@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Matches the path components of the pattern one after the other, in sorted folders.
+// Matches a pattern one path component after the other, in sorted folders.
 #include "glob.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ void match(const fs::path& folder, const Names& names, std::size_t first, std::s
     for (const FolderEntry& entry : entries) {
         const fs::path path = folder / fs::path(Path(entry.name));
         if (is_any_depth) {
-            // Links to folders could form a cycle.
+            // Links to folders are not followed, because they could form a cycle.
             if (entry.name.front() != '.' && entry.kind == PathKind::folder && !entry.is_link)
                 match(path, names, first, found);
         } else if (matchesName(names[first], entry.name)) {

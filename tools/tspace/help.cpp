@@ -60,7 +60,8 @@ std::vector<std::pair<std::string, std::vector<const Option*>>> optionsByGroup(c
 std::string helpPage(const ToolTable& tool) {
     std::string page = std::string("tspace - ") + kToolSummary + "\n\nUsage: tspace COMMAND [OPTION...]\n\nCommands:\n";
     for (const Command& command : tool.commands) {
-        // Not listed without its page. Man pages list it, because the page may be installed later.
+        // The help omits `view` if its page is not installed. Man pages list it, because the page may be installed
+        // later.
         if (command.name == "view" && !hasViewPage()) continue;
         page += "  " + command.name + "\n        " + command.summary + "\n";
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Format of --help: like a short man page, 80 columns wide.
+// Formats the pages of --help like short man pages, 80 columns wide.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace tspace::tool {
 
-/// "Exit codes:" and a line for each code.
+/// Text of the help: the heading "Exit codes:", and a line for each code.
 extern const char* const kExitCodes;
 
 /// Returns a line such as "Built without: PNG and JPEG, WebP."; empty if the build is complete.

@@ -44,7 +44,7 @@ auto callOnImage(const std::string& input, const std::string& output, std::uint6
     progressLine().update(input, "converting", 0, 0);
     std::vector<std::uint8_t> bytes;
     if (input == "-") {
-        // Accepts any bytes; the library determines the format.
+        // Any bytes are accepted, because the library determines the format.
         const auto is_anything = [](std::string_view) { return true; };
         Result<std::vector<std::uint8_t>> read = readStandardInput("an image", memory_limit_bytes, is_anything, "");
         if (!read) return std::move(read).error();

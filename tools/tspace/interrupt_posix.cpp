@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Signal handlers that remove temporary files and end the program.
+// Handles signals: removes temporary files and ends the program.
 #include "interrupt.h"
 
 #include <signal.h>
@@ -35,7 +35,7 @@ bool startTimer() {
 }
 
 extern "C" void takeSignal(int signal) {
-    // SIGALRM marks the end of the half second, or was sent from outside.
+    // SIGALRM marks the end of the half second, or another process sent it.
     const bool may_wait = signal != SIGPIPE && signal != SIGALRM && caught_signal == 0;
     if (!removeTemporaryFiles(!may_wait)) {
         caught_signal = signal;
@@ -54,7 +54,7 @@ void endCleanlyBySignals() {
     sigfillset(&action.sa_mask);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGALRM}) {
         struct sigaction old = {};
-        // nohup and background jobs set signals to be ignored, which must be preserved. The timer above needs SIGALRM.
+        // Signals that the caller ignores (nohup, background jobs) stay ignored, except SIGALRM, which the timer needs.
         if (sigaction(signal, nullptr, &old) == 0 && (old.sa_handler != SIG_IGN || signal == SIGALRM))
             sigaction(signal, &action, nullptr);
     }

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns a canonical spelling per file, also for files that do not exist yet.
+/// Returns a canonical name of a file, also for files that do not exist yet.
 std::string canonicalName(const fs::path& path) try {
     return canonicalPath(path).string();
 } catch (const fs::filesystem_error&) {
@@ -154,7 +154,7 @@ Result<std::vector<Job>> jobWithNamedOutput(const JobRequest& request) {
     const std::string extension = lowerExtension(job.output);
     const bool is_glb = isGlbOutput(job.output);
     if (is_glb && !isGlbName(job.output)) {
-        // A stream keeps its name and gets no extension.
+        // A stream keeps its name, without an added extension.
         if (request.container == Container::gltf) return usage("only a GLB can be written to a stream: " + job.output);
         return std::vector<Job>{std::move(job)};
     }
@@ -188,8 +188,8 @@ Result<std::vector<Job>> jobToStandardOutput(const JobRequest& request, bool has
 
 Result<std::vector<Job>> jobsIntoFolder(const JobRequest& request) {
     const fs::path folder = Path(request.output);
-    std::map<std::string, std::string> writers;  // input path by canonical output path
-    std::set<std::string> inputs;                // identities
+    std::map<std::string, std::string> writers;  // input path of each canonical output path
+    std::set<std::string> inputs;                // identities of the input files
     std::vector<Found> found = findInputs(request.inputs, canonicalName(folder));
     for (const Found& item : found) inputs.insert(identityOf(item.job.input));
     std::vector<Job> jobs;

@@ -23,11 +23,11 @@ struct JobRequest {
     bool has_list = false;  ///< inputs come from --files-from: the output is a folder, regardless of their number
 };
 
-/// One model file to process.
+/// A model file to process, and its output.
 struct Job {
     std::string input = {};
     std::string output = {};  ///< empty for commands without output files
-    /// path relative to the input folder; for files named explicitly: the given name
+    /// Path relative to the input folder. For files named explicitly: the given name.
     std::string name = {};
     std::string remark = {};                ///< remark about an output that the user may not expect; may be empty
     bool is_found_image = false;            ///< an image found by a search, not named by an input

@@ -84,8 +84,8 @@ ExitCode run(int argc, char** argv) {
     return exit_code;
 }
 
-/// Called if an exception cannot be thrown because of a lack of memory, or would leave a noexcept function. As after a
-/// signal, no temporary files remain.
+/// Terminate handler: called if an exception cannot be thrown for lack of memory, or would leave a noexcept function.
+/// It removes temporary files, as after a signal.
 [[noreturn]] void endWithoutUnwinding() {
     const bool is_out_of_memory =
         std::current_exception() == nullptr || tspace::caughtError().code == tspace::ErrorCode::outOfMemory;
@@ -105,7 +105,7 @@ int main(int argc, char** argv) {
         rememberCommandLine(words);
         return static_cast<int>(run(static_cast<int>(words.size()), words.data()));
     } catch (const std::bad_alloc&) {
-        // Formatting a message would allocate.
+        // The message is a constant, because formatting a message would allocate memory.
         printPlain(kOutOfMemory);
     } catch (const tspace::OutOfMemory&) {
         printPlain(kOutOfMemory);

@@ -73,7 +73,7 @@ std::vector<HashedFile> filesFromJson(const Json& list) {
     return files;
 }
 
-/// Throws JsonError if a member is missing or has a wrong type.
+/// Parses a line of the manifest. Throws JsonError if a member is missing or has a wrong type.
 ManifestEntry entryFromJson(const Json& line) {
     ManifestEntry entry;
     entry.version = line.at("version").get<std::string>();
@@ -225,7 +225,7 @@ report::ExitCode BatchRecord::append(const ManifestEntry& entry) {
 std::vector<HashedFile> hashFiles(const std::vector<std::string>& paths) {
     std::vector<HashedFile> files;
     for (const std::string& path : paths) {
-        // Hashing a stream would block.
+        // Streams are skipped, because reading them would block.
         if (kindOf(path) == PathKind::stream) continue;
         if (const std::optional<FileHash> hash = hashFile(path)) files.push_back({path, *hash});
     }

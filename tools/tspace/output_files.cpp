@@ -19,7 +19,7 @@ Result<Done> prepareOutputs(const std::vector<std::string>& outputs, const std::
     const auto isFile = [](const std::string& path) {
         return !path.empty() && path != "-" && kindOf(path) != PathKind::stream;
     };
-    std::map<std::string, std::string> names;  // by file identity
+    std::map<std::string, std::string> names;  // description of each file for messages, by its identity
     for (const std::string& input : inputs) {
         if (isFile(input)) names.emplace(identityOf(input), "an input");
     }
@@ -37,8 +37,8 @@ Result<Done> prepareOutputs(const std::vector<std::string>& outputs, const std::
 
 Result<Done> writeTextFile(const std::string& path, const std::string& text, const InputFiles* inputs) {
     Result<Done> written = atFileBorder([&]() -> Result<Done> {
-        // A report that cannot be written must not discard other outputs. Only writing to a stream shows whether it
-        // works.
+        // A report that cannot be written must not discard other outputs. For a stream, only writing to it shows
+        // whether it can be written.
         std::optional<HeldOutputs> at_once;
         if (kindOf(path) == PathKind::stream) at_once.emplace();
         AtomicOutput output({.inputs = inputs});

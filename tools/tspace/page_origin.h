@@ -9,7 +9,7 @@
 
 namespace tspace::tool {
 
-/// Must be called once, first, with the arguments of the command line.
+/// Stores the command line for pageOrigin(). Must be called once, first, with the arguments of the program.
 void rememberCommandLine(std::span<char* const> words);
 
 /// Returns the origin. The date is SOURCE_DATE_EPOCH (see reproducible-builds.org) if set, otherwise the current time,

@@ -23,7 +23,7 @@ class Reader {
             } else if (argument == "--") {
                 only_operands = true;
             } else {
-                // -o2 is a separate name if a command declares it.
+                // An argument such as -o2 is a name only if the command declares it.
                 const bool is_name = argument[1] == '-' || (argument.size() > 2 && find(argument) != nullptr);
                 wrong = is_name ? readLong(argument) : readShort(argument);
             }

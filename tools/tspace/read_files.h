@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Processing of many files by commands that only read: several in parallel, reported in file order; a failed file does
-// not stop the others.
+// Processes many files for commands that only read: several files in parallel, with reports in file order. A failed
+// file does not stop the others.
 #pragma once
 
 #include <atomic>

@@ -15,9 +15,10 @@
 namespace tspace::tool {
 namespace {
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 30;  // a GLB cannot be larger
+constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 30;  // maximum size of a GLB
 
-/// Checks the first bytes. JSON may start with a UTF-8 byte order mark and whitespace.
+/// Returns whether the first bytes may be those of a GLB or of JSON, which may start with a UTF-8 byte order mark and
+/// whitespace.
 bool looksLikeModel(std::string_view text) {
     if (text.starts_with("glTF")) return true;
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// "-" as an input or output: data in pipes.
+// Standard input and output as files: the name "-" in options.
 #pragma once
 
 #include <span>
@@ -23,7 +23,7 @@ namespace tspace::tool {
 Result<std::vector<std::uint8_t>> readStandardInput(const char* what, std::uint64_t memory_limit_bytes,
                                                     bool (*looks_right)(std::string_view), const char* why_not);
 
-/// Owns the bytes of a model from stdin.
+/// Bytes of a model or image from standard input.
 class StandardInput {
   public:
     /// If `input` is "-", reads all of stdin and sets up `options` to use it. Fails with cannotRead, unsupportedFile
@@ -35,7 +35,7 @@ class StandardInput {
     std::vector<std::uint8_t> bytes_ = {};
 };
 
-/// "-" as an output.
+/// Standard output as the destination of a model or image ("-").
 class StandardOutput {
   public:
     /// Writes bytes. Returns false if they cannot be written. close() returns the reason, since errno may have changed

@@ -13,7 +13,8 @@
 namespace tspace::tool {
 
 void openStandardStreams() {
-    // Opened in the wrong direction, so that reading or writing fails. The system assigns the lowest free descriptor.
+    // Descriptors are opened in the wrong direction, so that reading or writing fails. The system assigns the lowest
+    // free descriptor.
     for (int number = STDIN_FILENO; number <= STDERR_FILENO; ++number) {
         if (fcntl(number, F_GETFD) != -1 || errno != EBADF) continue;
         if (open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) open("/", O_RDONLY);

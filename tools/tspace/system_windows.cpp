@@ -2,7 +2,7 @@
 #include <fcntl.h>
 #include <io.h>
 #include <windows.h>
-// Must follow the headers above, which it depends on.
+// This header depends on the headers above, so it must follow them.
 #include <shellapi.h>
 
 #include <cstdint>
@@ -52,7 +52,7 @@ void prepareStreams() {
 
 }  // namespace
 
-// Not needed: Windows uses handles, which are never assigned to files.
+// Nothing to do: Windows uses handles, which are never reused for other files.
 void openStandardStreams() {}
 
 std::vector<char*> commandLine(int argc, char** argv) {
@@ -93,7 +93,8 @@ bool terminalHasColors() {
 bool matchesName(const std::string& pattern_text, const std::string& name_text) {
     std::string_view pattern = pattern_text, name = name_text;
     if (name.starts_with('.') && !pattern.starts_with('.')) return false;
-    // Position of the last *, and the text that it has not matched yet: the * matches more if the rest fails.
+    // State of backtracking: the pattern after the last *, and the text after its match. The * matches one more
+    // character if the rest fails.
     std::string_view behind_star, left;
     bool has_star = false;
     while (!name.empty() || !pattern.empty()) {

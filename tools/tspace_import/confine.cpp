@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Linux mechanisms that need no root privileges: Landlock for paths (since 5.13), and a system call filter.
+// Uses Linux mechanisms that do not require root privileges: Landlock for paths (since Linux 5.13), and a system call
+// filter.
 #include "confine.h"
 
 #ifdef __linux__
@@ -40,7 +41,7 @@ std::uint64_t rightsOf(long version) {
 
 void allowReading(int rules, const std::string& path) {
     const int place = open(path.c_str(), O_PATH | O_CLOEXEC);
-    if (place < 0) return;  // reading the file reports the reason
+    if (place < 0) return;  // the error is reported when the file is read
     struct stat status = {};
     landlock_path_beneath_attr rule = {};
     rule.allowed_access = LANDLOCK_ACCESS_FS_READ_FILE;
@@ -82,7 +83,7 @@ constexpr std::uint32_t kMachine = AUDIT_ARCH_AARCH64;
 /// System calls that a parser needs: memory, reading files, open descriptors, clocks, and exit. Programs for x32 use
 /// different numbers, so they are rejected.
 constexpr std::uint32_t kCalls[] = {
-    // Memory and locks.
+    // Memory and locks:
     SYS_brk,
     SYS_mmap,
     SYS_munmap,
@@ -91,7 +92,7 @@ constexpr std::uint32_t kCalls[] = {
     SYS_madvise,
     SYS_futex,
     SYS_getrandom,
-    // Descriptors.
+    // Open descriptors:
     SYS_read,
     SYS_readv,
     SYS_pread64,
@@ -100,7 +101,7 @@ constexpr std::uint32_t kCalls[] = {
     SYS_lseek,
     SYS_close,
     SYS_fstat,
-    // Names of files.
+    // File names:
     SYS_newfstatat,
     SYS_readlinkat,
     SYS_faccessat,
@@ -118,7 +119,7 @@ constexpr std::uint32_t kCalls[] = {
     SYS_readlink,
     SYS_access,
 #endif
-    // This process, its time, and its exit.
+    // This process, its time, and its exit:
     SYS_getpid,
     SYS_gettid,
     SYS_sysinfo,
@@ -185,7 +186,7 @@ bool confineCalls() { return false; }
 }  // namespace
 
 Confinement confine(const std::vector<std::string>& readable) {
-    // Otherwise both mechanisms require root.
+    // Both mechanisms require either this setting or root privileges.
     if (prctl(PR_SET_NO_NEW_PRIVS, 1UL, 0UL, 0UL, 0UL) != 0) return {};
     Confinement made;
     made.of_files = confineFiles(readable);

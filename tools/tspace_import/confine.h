@@ -9,10 +9,10 @@ namespace tspace::import {
 
 /// Restrictions in effect. A kernel that supports neither leaves only the resource limits.
 struct Confinement {
-    /// Landlock: only allowed files can be read; nothing can be written, created, renamed or executed
+    /// Landlock: only allowed files can be read; nothing can be written, created, renamed or executed.
     bool of_files = false;
-    bool of_calls =
-        false;  ///< seccomp: no other program, process, connection or signal; no file can be opened for writing
+    /// Seccomp: no other program, process, connection or signal; no file can be opened for writing.
+    bool of_calls = false;
 };
 
 /// Confines this process, which must have one thread, and all its children; this cannot be undone. Open files stay

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Container of JSON and BIN.
+// Writes the GLB container: JSON and BIN.
 #include "glb_builder.h"
 
 #include <stdexcept>

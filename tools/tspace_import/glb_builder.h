@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// GLB that grows accessor by accessor, with counts of repaired values.
+// Builds a GLB accessor by accessor, and counts repaired values.
 #pragma once
 
 #include <cstdint>

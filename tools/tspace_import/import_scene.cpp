@@ -75,7 +75,8 @@ class SceneWriter {
         const std::vector<float> matrix = columnsOf(place, builder_.mended());
         if (i > 0) countCoarsePlace(node.mTransformation, meters_, builder_.mended());
         if (isAnimated(node) && isFinite(place[0], 16)) {
-            // glTF does not allow animating a matrix.
+            // Animated nodes need separate translation, rotation and scale, because glTF does not allow animating a
+            // matrix.
             aiVector3D scale, translation;
             aiQuaternion rotation;
             place.Decompose(scale, rotation, translation);
@@ -130,7 +131,7 @@ class SceneWriter {
         if (numbers.skin) json["skin"] = *numbers.skin;
     }
 
-    /// Nodes with equal lists and skins share a mesh.
+    /// Returns the meshes for a list. Nodes with equal lists and skins share a mesh.
     MeshNumbers meshOf(const std::vector<unsigned>& list, const aiNode& node) {
         if (list.empty()) return {};
         const auto [known, is_new] = mesh_of_.try_emplace(list);
@@ -303,7 +304,7 @@ class SceneWriter {
     std::map<std::string, std::size_t> reduced_materials_ = {};  ///< by their JSON
 };
 
-/// Parameters of reading a file.
+/// Parameters for reading a file once more.
 struct Reading {
     const std::string& path;
     const ImportRules& rules;
@@ -320,7 +321,7 @@ std::string readNearOrigin(const Reading& reading, const aiScene& scene, Importe
         ", and no common offset fixes this; split the model, and move each part to its own origin";
     if (moved->bytes.empty()) return no_common;
     const std::vector<aiVector3D> first_vertices = firstVertices(scene);
-    std::vector<std::string> refused;  // already recorded by the first pass
+    std::vector<std::string> refused;  // refused files, which the first pass has already recorded
     reading.importer.SetIOHandler(new ModelFiles(reading.path, reading.rules.anywhere, refused, &moved->bytes));
     const aiScene* const near = reading.importer.ReadFile(reading.path, 0);
     if (near == nullptr || near->mRootNode == nullptr) return "; reading it near the origin failed";

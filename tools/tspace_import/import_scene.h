@@ -19,13 +19,11 @@ struct Imported {
 
 /// Options for reading a file.
 struct ImportRules {
-    bool anywhere =
-        /// referenced files may be anywhere; otherwise the rule for glTF URIs applies (src/model/io/folder_rule.h)
-        false;
-    bool keep_coordinates =
-        /// false: an offset is subtracted if floats cannot represent the shape, and the file has more precision than
-        /// floats
-        false;
+    /// Referenced files may be anywhere. If false, the rule for glTF URIs applies (src/model/io/folder_rule.h).
+    bool anywhere = false;
+    /// If false, an offset is subtracted if floats cannot represent the shape and the file has more precision than
+    /// floats.
+    bool keep_coordinates = false;
 };
 
 /// Reads a scene. Meshes are neither joined nor split: one primitive per mesh of the file, polygons are triangulated by

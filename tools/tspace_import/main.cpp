@@ -33,7 +33,7 @@ constexpr int kBadInput = 3;
 constexpr int kCannotWrite = 4;
 constexpr int kOutOfMemory = 5;
 
-/// The type of `resource` differs between systems.
+/// Sets a resource limit. The type of `resource` differs between systems.
 template <class Resource>
 void limit(Resource resource, rlim_t soft, rlim_t hard) {
     const rlimit limits = {soft, hard};
@@ -42,10 +42,11 @@ void limit(Resource resource, rlim_t soft, rlim_t hard) {
 
 void limitAll(rlim_t bytes, rlim_t processor_seconds, unsigned seconds) {
     limit(RLIMIT_CORE, 0, 0);
-    limit(RLIMIT_FSIZE, 0, 0);  // pipes do not count as files
-    // The signal of the soft limit informs the parent. The hard limit cannot be circumvented.
+    limit(RLIMIT_FSIZE, 0, 0);  // the output pipe is not limited by this
+    // The soft limit sends a signal, by which the parent detects the cause. The hard limit ends the process if it
+    // ignores the signal.
     limit(RLIMIT_CPU, processor_seconds, processor_seconds + 1);
-    // One second after the parent would end the process, in case the parent no longer exists.
+    // The timer expires one second after the parent's limit, for the case that the parent no longer exists.
     alarm(seconds + 1);
 #if defined(RLIMIT_AS) && !defined(TSPACE_SANITIZED)  // sanitizers reserve terabytes of address space
     limit(RLIMIT_AS, bytes, bytes);
@@ -80,7 +81,7 @@ void openStandardStreams() {
     }
 }
 
-/// Reserves stdout for the result; output of libraries is dropped.
+/// Reserves stdout for the result, and discards other output of libraries.
 int takeStdout() {
     const int result = dup(STDOUT_FILENO);
     const int nowhere = open("/dev/null", O_WRONLY);
@@ -102,7 +103,7 @@ int run(const char* input, const tspace::import::ImportRules& rules, std::FILE* 
         std::fprintf(stderr, "cannot write the result\n");
         return kCannotWrite;
     }
-    // importDocument distinguishes these lines from others that a library may print.
+    // importDocument recognizes these lines among other output of libraries.
     if (imported.has_no_tangents) std::fprintf(stderr, "tangents: none\n");
     if (imported.keeps_coordinates) std::fprintf(stderr, "coordinates: kept\n");
     const double* const offset = imported.offset;
@@ -116,7 +117,7 @@ int run(const char* input, const tspace::import::ImportRules& rules, std::FILE* 
 }  // namespace
 
 #ifdef TSPACE_SANITIZED
-/// The leak checker reads /proc, which a confined process must not access, and would report an error.
+/// Disables the leak checker, which would fail because a confined process must not read /proc.
 extern "C" const char* __lsan_default_options() { return "detect_leaks=0"; }
 #endif
 

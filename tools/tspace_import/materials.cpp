@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Base color, metalness and roughness, normal map; images embedded or by name.
+// Converts base color, metalness, roughness and normal map. Images are embedded or referenced by name.
 #include "materials.h"
 
 #include <assimp/material.h>
@@ -100,8 +100,8 @@ class MaterialWriter {
         return json;
     }
 
-    /// Adds a transform with v' = 1 - v on both sides of v * scale + offset. Rotation uses a different pivot in this
-    /// case; it is ignored.
+    /// Adds the transform of a texture. Because v is flipped (v' = 1 - v) before and after v * scale + offset, a
+    /// rotation would have a different pivot; it is ignored.
     void addTransform(const aiUVTransform& t, Json& json) {
         if (!isFinite(&t.mScaling.x, 2) || !isFinite(&t.mTranslation.x, 2)) return;
         if (t.mScaling.x == 1 && t.mScaling.y == 1 && t.mTranslation.x == 0 && t.mTranslation.y == 0) return;
@@ -124,7 +124,7 @@ class MaterialWriter {
     std::optional<Json> imageFor(const std::string& path) {
         const aiTexture* embedded = scene_.GetEmbeddedTexture(path.c_str());
         if (embedded == nullptr) return Json{{"uri", percentEncoded(localName(path))}};
-        // Raw pixels would need an encoder; files usually embed PNG and JPEG.
+        // Raw pixels are skipped, because they would need an encoder; files usually embed PNG and JPEG.
         if (embedded->mHeight != 0) return {};
         const auto* bytes = reinterpret_cast<const std::uint8_t*>(embedded->pcData);
         const char* type = mediaType(bytes, embedded->mWidth);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Follows the rules for OBJ (src/model/obj): invalid numbers are replaced and counted.
+// Replaces and counts invalid numbers by the rules for OBJ (src/model/obj).
 #include "mend.h"
 
 #include <algorithm>
@@ -113,7 +113,7 @@ std::size_t mendNormals(std::vector<float>& normals, const std::vector<float>& p
 void countCoarseEdges(const std::vector<float>& positions, const std::vector<std::uint32_t>& triangles,
                       Mended& mended) {
     constexpr double kLeastSteps = 500, kFar = 1 << 14;
-    // The last bits of integers and short fractions are zero; those of rounded numbers rarely are.
+    // In floats of integers and short fractions the last bits are zero; in rounded numbers they rarely are.
     constexpr std::uint32_t kLastBits = 63;
     const auto isRound = [](float value) { return (std::bit_cast<std::uint32_t>(value) & kLastBits) == 0; };
     const auto stepAt = [](float value) {

@@ -15,13 +15,13 @@ namespace tspace::import {
 struct Mended {
     std::size_t positions = 0, uvs = 0, normals = 0, tangents = 0, transforms = 0;
     std::size_t edges = 0, coarse_edges = 0;  ///< edges of triangles; see countCoarseEdges
-    /// number of nodes whose translation floats represent less precisely than a millimeter
+    /// Number of nodes whose translation floats represent less precisely than a millimeter.
     std::size_t coarse_places = 0;
     double worst_place = 0;  ///< largest shift of a node by rounding to floats, in meters
 
     /// Returns whether so many edges are coarse that it is visible: one in twenty, as for OBJ.
     [[nodiscard]] bool isCoarse() const { return coarse_edges != 0 && 20 * coarse_edges >= edges; }
-    /// Returns a human-readable description for isCoarse().
+    /// Returns a description of the coarse edges for isCoarse().
     [[nodiscard]] std::string coarseness() const;
     /// Returns a sentence per kind of repair, except coarse edges.
     [[nodiscard]] std::vector<std::string> warnings() const;

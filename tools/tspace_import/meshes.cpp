@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Faces, attributes, weights and morph targets of a mesh.
+// Converts faces, attributes, weights and morph targets of a mesh.
 #include "meshes.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace tspace::import {
 
 namespace {
 
-/// One attribute: `components` floats per vertex.
+/// Attribute of a primitive: `components` floats per vertex.
 struct Attribute {
     std::string name = {};  ///< "POSITION", or "target 3 NORMAL"
     std::size_t components = 0;
@@ -152,12 +152,11 @@ std::vector<Attribute> attributesOf(const aiMesh& mesh, const std::vector<std::u
     return attributes;
 }
 
-/// Representative of each vertex: the first one with the same bits in every attribute.
+/// Vertices after merging: the first vertex with the same bits in every attribute represents all others.
 struct Joined {
-    std::vector<std::uint32_t> place =
-        /// for each old vertex, the index of its representative among the kept vertices
-        {};
-    std::vector<std::uint32_t> kept = {};  ///< old numbers
+    /// For each old vertex, the index of its representative among the kept vertices.
+    std::vector<std::uint32_t> place = {};
+    std::vector<std::uint32_t> kept = {};  ///< old indices of the kept vertices
 };
 
 Joined joinEqual(const std::vector<Attribute>& attributes, std::size_t count) {

@@ -14,8 +14,8 @@ namespace tspace::import {
 /// a name, and no link that leaves the folder. Other files appear not to exist.
 class ModelFiles : public Assimp::DefaultIOSystem {
   public:
-    /// `anywhere` disables the rule. `refused` receives existing files that were not read, formatted for messages.
-    /// `instead`: if not null, these bytes replace the model.
+    /// Parameters: `anywhere` disables the rule. `refused` receives existing files that were not read, formatted for
+    /// messages. `instead`: if not null, these bytes replace the model.
     ModelFiles(const std::string& model, bool anywhere, std::vector<std::string>& refused,
                const std::vector<char>* instead = nullptr);
 

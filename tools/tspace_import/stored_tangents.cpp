@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Element names are stored as plain text in FBX (including its binary form) and in COLLADA.
+// Searches for element names, which FBX (including its binary form) and COLLADA store as plain text.
 #include "stored_tangents.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ bool contains(const std::string& path, std::string_view name) {
     constexpr std::size_t kBlock = std::size_t{1} << 20;
     std::vector<char> block(kBlock + name.size());
     std::ifstream file(path, std::ios::binary);
-    // Copies the end of each block before the next one, for names that span both.
+    // The end of each block is copied to the start of the next one, for names that span both.
     for (std::size_t kept = 0; file;) {
         file.read(block.data() + kept, static_cast<std::streamsize>(kBlock));
         const std::size_t count = kept + static_cast<std::size_t>(file.gcount());

@@ -9,11 +9,12 @@ namespace tspace::import {
 enum class StoredTangents {
     none,            ///< the format names its tangents, and the name does not occur in the file
     withBitangents,  ///< Assimp's tangents are those of the file
-    unknown,  ///< Assimp does not read them from this format, or the file lacks the bitangents: then their sign is
-              ///< not known, and Assimp makes one up
+    /// Assimp does not read tangents from this format, or the file lacks bitangents. In the second case the sign of the
+    /// tangents is unknown, and Assimp chooses an arbitrary one.
+    unknown,
 };
 
-/// Searches for names in the bytes of the file.
+/// Determines whether a file contains tangents by searching its bytes for their names.
 StoredTangents storedTangents(const std::string& path);
 
 }  // namespace tspace::import

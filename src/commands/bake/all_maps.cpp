@@ -88,7 +88,7 @@ void HighDetail::findShells(float weld_distance) {
         const std::uint32_t vertex = high_.mesh.indices[corner];
         return roots.empty() ? vertex : roots[vertex];
     };
-    // Connected components of triangles by shared positions (disjoint sets).
+    // Shells are connected components of triangles that share positions, computed with disjoint sets.
     std::vector<std::uint32_t> shells(high_.mesh.positions.size());
     std::iota(shells.begin(), shells.end(), 0u);
     for (std::size_t i = 0; i < triangles; ++i) {

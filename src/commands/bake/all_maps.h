@@ -14,22 +14,23 @@ namespace tspace {
 /// IDs and materials of the triangles of a high poly. Must not be moved while a bake uses it.
 class HighDetail {
   public:
-    /// `options` are those with which the models were read. The models must outlive this object. Throws FileError.
+    /// Reads the attributes of the high poly. `options` are those with which the models were read. The models must
+    /// outlive this object. Throws FileError.
     HighDetail(const BakeModels& models, const std::string& path, const BakeFileOptions& options);
     HighDetail(const HighDetail&) = delete;
     HighDetail& operator=(const HighDetail&) = delete;
 
-    /// The requested layers, with the IDs and materials of this object.
+    /// Returns the requested layers, with the IDs and materials of this object.
     [[nodiscard]] LayerOptions layers() const;
     [[nodiscard]] std::uint64_t idCount() const { return id_count_; }
-    /// The first IDs, at most 256.
+    /// Returns the first IDs, at most 256.
     [[nodiscard]] const std::vector<BakedId>& ids() const { return listed_; }
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
   private:
     struct Material {
         PlacedTexture base = {}, metal = {}, emission = {};
-        std::vector<Vec4> colors = {};  ///< linear, or empty
+        std::vector<Vec4> colors = {};  ///< linear; empty if the primitive has no vertex colors
     };
 
     void findNames(BakeIds how);

@@ -47,7 +47,7 @@ std::vector<std::uint8_t> pngOf(std::uint32_t width, std::uint32_t height, std::
     return imageFileOf(".png", width, height, std::move(texels), bits);
 }
 
-/// The state of a call that its steps share.
+/// State of a call, which all steps share.
 struct FileBaking {
     const std::string& output;
     std::string high = {};
@@ -74,7 +74,8 @@ void setLimits(FileBaking& state) {
     if (limit == 0) limit = kUsualLimit;
 }
 
-/// Accepted outputs: .png; .tga with 8 bits; or a texture, whose blocks are fitted to the filtered 16-bit texels.
+/// Checks the type of the output: .png; .tga with 8 bits; or a texture, whose blocks are fitted to the filtered 16-bit
+/// texels.
 void checkOutput(FileBaking& state) {
     if (lowerExtension(state.output) == ".png") return;
     if (isTgaName(state.output)) {
@@ -94,7 +95,7 @@ void checkOutput(FileBaking& state) {
     state.options.map.bits = 16;
 }
 
-/// The written model interprets the map according to glTF, so options that contradict it are refused.
+/// Rejects options that contradict glTF if a model is written, because the model interprets the map according to glTF.
 void checkOutMesh(const FileBaking& state) {
     if (state.options.out_mesh.empty()) return;
     if (!isGltfName(state.options.out_mesh)) failEnding(state.options.out_mesh, {".glb", ".vrm", ".gltf"});
@@ -129,12 +130,13 @@ std::string nameOf(const LowModel::Image& image) {
     return image.material.empty() ? "the low poly" : inQuotes(image.material);
 }
 
-/// Returns the triangles to bake, with all other triangles in the rest. Non-finite UVs are counted by the bake.
+/// Returns the triangles to bake, and stores all other triangles in the rest. The bake counts triangles with non-finite
+/// UVs.
 LowPart insidePart(FileBaking& state, const LowModel::Image& image, std::uint64_t& outside) {
     const auto isOutside = [&](std::size_t triangle) {
         const Vec2* const uvs = &image.part.corners.uvs[3 * triangle];
         const float u = uvs[0].x + uvs[1].x + uvs[2].x, v = uvs[0].y + uvs[1].y + uvs[2].y;
-        // Beyond the edge of a clamped texture, no texel repeats.
+        // Triangles beyond the edge of a clamped texture show no repeated texels.
         const auto isBeside = [](TextureWrap wrap, float sum) {
             return wrap != TextureWrap::clamp && (sum < 0 || sum > 3);
         };
@@ -163,7 +165,7 @@ LowPart insidePart(FileBaking& state, const LowModel::Image& image, std::uint64_
     return part;
 }
 
-/// Number of triangles that extend more than half a texel beyond a clamped image.
+/// Returns the number of triangles that extend more than half a texel beyond a clamped image.
 std::size_t beyondEdges(const FileBaking& state, const LowModel::Image& image, const LowPart& part) {
     const auto isBeyond = [](TextureWrap wrap, float at, std::uint32_t size) {
         return wrap == TextureWrap::clamp && std::fabs(at - 0.5F) > 0.5F + 0.5F / static_cast<float>(size);
@@ -181,7 +183,7 @@ std::size_t beyondEdges(const FileBaking& state, const LowModel::Image& image, c
 
 // -- 4. one image --
 
-/// Adds a finding if the map is unusable, with the cause.
+/// Adds a finding with the cause if the map is unusable.
 void findCause(FileBaking& state, const BakedFile& file, const LowPart& part) {
     const BakedMap& map = file.map;
     const auto add = [&](const std::string& what, const std::string& why) {
@@ -227,8 +229,8 @@ std::vector<std::uint8_t> takeNormalFile(const FileBaking& state, BakedMap& map)
     return imageFileOf(state.output, map.width, map.height, std::move(texels), map.bits);
 }
 
-/// Texture slot of a glTF material for a layer. If `ao` and `orm` are both baked, red of `orm` is the occlusion, so
-/// one image has both slots.
+/// Returns the texture slot of a glTF material for a layer. If `ao` and `orm` are both baked, red of `orm` is the
+/// occlusion, so one image is used for both slots.
 std::optional<MapSlot> slotOf(const FileBaking& state, MapLayer layer) {
     switch (layer) {
         case MapLayer::ao:
@@ -260,7 +262,7 @@ void addLayers(FileBaking& state, const LowModel::Image& image, const std::strin
     }
 }
 
-/// Warns about surfaces that rays with the map's own settings did not hit.
+/// Warns about surfaces that rays with the settings of the bake did not hit.
 void warnOfRays(FileBaking& state, const BakedFile& file) {
     const MapError& own = file.map.own_error;
     if (own.hidden_count == 0) return;

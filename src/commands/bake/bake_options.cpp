@@ -53,7 +53,7 @@ Option mapSizeOption(BakeOptions& map) {
 }
 
 Option mapsOption(LayerOptions& layers) {
-    // The first given name replaces the default list.
+    // The first name in the list replaces the default layers; later names are added.
     const auto take = [&layers, is_first = true](const std::string& name) mutable -> std::string {
         const bool is_normal = name == "normal";
         layers.has_normal = is_normal || (layers.has_normal && !is_first);

@@ -13,7 +13,7 @@
 namespace tspace {
 namespace {
 
-/// Position of a path's extension, or the end of the path.
+/// Returns the position of a path's extension, or the end of the path.
 std::size_t extensionOf(const std::string& path) {
     const std::size_t slash = path.find_last_of('/'), dot = path.find_last_of('.');
     const bool has_extension = dot != std::string::npos && (slash == std::string::npos || dot > slash);
@@ -50,7 +50,7 @@ std::vector<std::string> outputsOf(const BakeNames& bake, const BakeFileOptions&
     return names;
 }
 
-/// Returns whether words of materials and tiles can turn one of `plain` into the file `path`.
+/// Returns whether inserting names of materials and tiles can turn one of the paths `plain` into `path`.
 bool mayBecome(const std::vector<std::string>& plain, const std::string& path) {
     for (const std::string& shorter : withoutWords(path)) {
         const std::string identity = identityOf(shorter);
@@ -101,7 +101,7 @@ std::vector<std::string> outputsBeside(const std::vector<std::string>& others, c
     if (std::none_of(others.begin(), others.end(),
                      [&](const std::string& other) { return !other.empty() && mayBecome(names, other); }))
         return names;
-    // The bake itself reports a low poly that cannot be read.
+    // A low poly that cannot be read is reported by the bake itself.
     static_cast<void>(tryFile([&] { names = outputsFor(low, bake, options); }));
     return names;
 }

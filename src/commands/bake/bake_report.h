@@ -11,13 +11,13 @@
 
 namespace tspace::report {
 
-/// Exit code of a successful bake.
+/// Returns the exit code of a bake that ended without an error.
 inline ExitCode exitCodeOf(const BakeFileReport& report) {
     return report.findings.empty() ? ExitCode::done : ExitCode::findings;
 }
 Json bakeDocument(const Outcome<BakeFileReport>& outcome, const std::string& high, ExitCode exit_code);
 std::string bakeJson(const Outcome<BakeFileReport>& outcome, const std::string& high, ExitCode exit_code);
-/// Returns the report of a successful bake as text. `out_mesh`: see BakeFileOptions::out_mesh.
+/// Returns the report of a bake that ended without an error as text. `out_mesh`: see BakeFileOptions::out_mesh.
 std::string bakeText(const Outcome<BakeFileReport>& outcome, const std::string& out_mesh);
 /// Returns the report as one line, for use in a list of bakes.
 std::string bakeLine(const Outcome<BakeFileReport>& outcome);
@@ -33,14 +33,14 @@ std::string bakedPairsJson(const std::vector<BakedPair>& pairs, ExitCode exit_co
 /// Adds the rows of a completed bake to the table. `out_mesh`: see BakeFileOptions::out_mesh.
 void addBakedRows(const BakeFileReport& done, const std::string& out_mesh, Table& table);
 
-/// JSON as described in docs/reference/json.md: a normal map of the high poly, and the source of its green direction.
+/// Returns the JSON of a normal map of the high poly, with the source of its green direction (docs/reference/json.md).
 Json highMapJson(const BakedHighMap& map);
 const char* greenSourceWord(GreenSource source);
 std::string highMapText(const BakedHighMap& map);
 const char* raysWord(const UsedRays& rays);
 const char* directionsWord(const UsedRays& rays);
 
-/// JSON of the angles between a map and the high poly.
+/// Returns the JSON of the angles between a map and the high poly.
 Json errorOfMapJson(const MapError& error);
 
 }  // namespace tspace::report

@@ -10,7 +10,7 @@
 
 namespace tspace {
 
-/// Sources of the models, and destination of the results.
+/// Inputs of a bake, and the objects that receive its results.
 struct BakeStep {
     BakeSources sources = {};
     /// Path from which the names of the other maps are derived: NAME_ao.png for NAME.png. Empty: the output, as for the

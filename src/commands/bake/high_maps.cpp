@@ -12,7 +12,7 @@ namespace tspace {
 
 namespace {
 
-/// Returns the direction of green according to the slopes of the map.
+/// Returns the direction of the green channel, determined from the slopes of the map.
 GreenVerdict greenOf(const FloatImage& image) {
     RgbImage bytes{.width = image.width, .height = image.height};
     bytes.rgb.reserve(3 * image.texels.size());

@@ -22,8 +22,8 @@ struct MeshMatch {
 /// Returns the path of the file of pairs in BakeFileOptions::match, or "" if it is `names` or `all`.
 std::string matchFileOf(const std::string& how);
 
-/// `how`: BakeFileOptions::match. Matches by names of nodes, and objects without a partner by names of meshes. Throws
-/// FileError if the file of pairs cannot be read.
+/// Matches objects by names of nodes, and objects without a partner by names of meshes. `how`: BakeFileOptions::match.
+/// Throws FileError if the file of pairs cannot be read.
 MeshMatch matchMeshes(const DrawnScene& low, const DrawnScene& high, const std::string& how, const FileOptions& file);
 
 }  // namespace tspace

@@ -70,7 +70,7 @@ std::optional<std::size_t> indexIn(const Json& object, const char* key, std::siz
     return index->get<std::size_t>();
 }
 
-/// A reference to a texture in a material: its key, and whether it is in pbrMetallicRoughness.
+/// Key of a texture reference in a material, and whether it is inside pbrMetallicRoughness.
 struct SlotReference {
     const char* key;
     bool is_in_pbr;
@@ -243,8 +243,8 @@ class MapPlacing {
         entry["floatProperties"]["_BumpScale"] = 1.0;
     }
 
-    /// Returns the texture that all these references of these materials show, if nothing else uses the texture or its
-    /// image.
+    /// Returns the texture that all these references of these materials show, or nullopt if there is none, or if
+    /// something else uses the texture or its image.
     [[nodiscard]] std::optional<std::size_t> oldTexture(const std::vector<std::size_t>& materials, MapSlot slot) const {
         const std::vector<SlotReference> references = referencesOf(slot);
         const Json& json = document_.json;
@@ -299,7 +299,7 @@ class MapPlacing {
         return at;
     }
 
-    /// Returns the URI by which a .gltf references the file, or nothing if it cannot.
+    /// Returns the URI by which a .gltf references the file; nullopt if the file is not in its folder or below.
     [[nodiscard]] std::optional<std::string> nameBeside(const std::string& path) const {
         if (target_.container == gltf::Container::glb) return {};
         std::string name = pathBelow(folderOf(target_.path), path);

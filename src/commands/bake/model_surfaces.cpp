@@ -80,10 +80,12 @@ GenerateOptions allFrames(const BakeFileOptions& options, ExistingTangents exist
     return generate;
 }
 
-/// A map needs frames on all triangles, also where an attribute cannot be read.
+/// Returns the step that reads a model for a bake. Attributes that cannot be read are repaired, because all triangles
+/// need frames.
 GenerateStep withAttributesRepaired() { return {.repairs_attributes = true}; }
 
-/// Reads the low poly and keeps the model, so that it can be written with its maps: the bake uses the frames that are written.
+/// Reads the low poly and keeps the model, so that it can be written with its maps. The bake uses the frames that will
+/// be written.
 DrawnScene readToWrite(const std::string& low, const BakeFileOptions& options, BakeModels& models) {
     gltf::GeneratedModel made = generateModel(low, allFrames(options, ExistingTangents::keep, Faces::triangles), true,
                                               withAttributesRepaired());
@@ -95,7 +97,7 @@ DrawnScene readToWrite(const std::string& low, const BakeFileOptions& options, B
     return models.low_model->drawnScene(false);
 }
 
-/// OBJ has no tangents, and the reader computes missing normals.
+/// Reads an OBJ file and computes its tangents, which OBJ cannot store; the reader computes missing normals.
 DrawnScene readObjWithFrames(const std::string& low, const GenerateOptions& generate, bool& frames_made) {
     DrawnScene drawn = readDrawnScene(low, generate.file, false);
     frames_made = std::any_of(drawn.scene.primitives.begin(), drawn.scene.primitives.end(),
@@ -117,7 +119,7 @@ DrawnScene readWithFrames(const std::string& low, const BakeFileOptions& options
     return gltf::generateModel(std::move(model), generate, false, withAttributesRepaired()).model.drawnScene(false);
 }
 
-/// First placement of a primitive in the scene.
+/// Returns the transform of the first placement of a primitive in the scene.
 Affine firstPlace(const DrawnScene& drawn, std::size_t primitive) {
     for (const ScenePlacement& placement : drawn.placements) {
         if (placement.primitive == primitive) return placement.to_world;
@@ -125,7 +127,8 @@ Affine firstPlace(const DrawnScene& drawn, std::size_t primitive) {
     return {};
 }
 
-/// Offset of the models if they are so far from the origin that floats would not preserve their shapes.
+/// Returns the offset to subtract if the model is so far from the origin that floats would not preserve its shape;
+/// otherwise zero.
 DVec3 farPlace(const DrawnScene& drawn) {
     return offsetForFloats([&](const auto& visit) {
         for (const ScenePlacement& placement : drawn.placements) {
@@ -142,7 +145,7 @@ void moveBy(const DVec3& offset, DrawnScene& drawn) {
     for (ScenePlacement& placement : drawn.placements) placement.to_world.origin = placement.to_world.origin - offset;
 }
 
-/// Appends the triangles at their place, a vertex for each corner. Frames that they lack are zero.
+/// Appends transformed triangles with one vertex per corner. Missing normals and tangents are zero.
 void addPlaced(const MeshView& triangles, std::span<const Vec4> tangents, const Affine& place, OwnedMesh& mesh) {
     for (std::size_t i = 0; i < triangles.cornerCount(); ++i) {
         const std::uint32_t vertex = triangles.indices[placedCorner(place, i)];
@@ -217,7 +220,7 @@ LowModel lowModel(const DrawnScene& drawn, const DrawnScene* cage, const MeshMat
     return model;
 }
 
-/// Fails where a cage is not the low poly with other positions.
+/// Fails if the cage differs from the low poly in more than its positions.
 void checkCage(const Scene& low, const Scene& cage) {
     bool fits = low.primitives.size() == cage.primitives.size();
     for (std::size_t i = 0; fits && i < low.primitives.size(); ++i)
@@ -231,7 +234,7 @@ void addFlat(const ScenePrimitive& primitive, const Affine& place, OwnedMesh& me
         std::array<Vec3, 3> at{};
         for (std::size_t k = 0; k < 3; ++k)
             at[k] = toFloat(place.point(toDouble(primitive.positions[primitive.corners[placedCorner(place, i + k)]])));
-        // If it has no direction, the triangle's normal at the hit of a ray is used.
+        // If the triangle has no direction, hits of rays use the normal computed there.
         const Vec3 normal = cross(at[1] - at[0], at[2] - at[0]);
         for (const Vec3& corner : at) {
             mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
@@ -249,7 +252,7 @@ void addSmooth(const ScenePrimitive& primitive, std::span<const Vec3> normals, c
         mesh.indices.push_back(first + primitive.corners[placedCorner(place, i)]);
 }
 
-/// Smooth normals, one per vertex.
+/// Returns smooth normals, one per vertex.
 std::vector<Vec3> smoothNormals(const ScenePrimitive& primitive, const BakeFileOptions& options) {
     std::vector<Vec3> of_corners(primitive.corners.size()), normals(primitive.positions.size());
     valueOrThrow(generateNormals(primitive.view(),
@@ -276,7 +279,7 @@ void addMapped(const ScenePrimitive& primitive, const TangentUse& use, const Aff
     model.map_of.resize(model.triangleCount(), map);
 }
 
-/// BakeFileOptions::denoise: one per vertex, where positions are noisy; else nothing.
+/// Returns normals for BakeFileOptions::denoise, one per vertex, if positions are noisy; otherwise an empty list.
 std::vector<Vec3> denoisedNormals(const ScenePrimitive& primitive, const BakeFileOptions& options, double& most_noise) {
     std::vector<Vec3> of_corners(primitive.corners.size());
     const NormalOptions how{.weighting = NormalWeighting::best,
@@ -305,7 +308,8 @@ HighModel highModel(const DrawnScene& drawn, const MeshMatch* match, const std::
     HighModel model;
     std::size_t made = 0;
     double noise = 0;
-    // Without normals, glTF and OBJ are flat; meshes of scanners and sculptors are meant to be smooth.
+    // Without normals, glTF and OBJ models are shaded flat; models of scanners and sculpting tools are meant to be
+    // smooth.
     const std::string extension = lowerExtension(path);
     const bool is_flat = isGltfName(path) || extension == ".obj";
     HighMapReading maps(drawn.scene, options);
@@ -430,7 +434,7 @@ FloatImage readFloatImage(const std::string& path, const FileOptions& options, I
 
 namespace {
 
-/// Name and options with which a model is opened. If its bytes are in memory, they are a GLB, whatever the extension.
+/// Name and options for opening a model. A model in memory is a GLB, whatever its extension is.
 struct OpenedModel {
     OpenedModel(const std::string& path, ByteSpan bytes, const FileOptions& options) : name(path), file(options) {
         if (bytes.empty()) return;

@@ -22,7 +22,7 @@
 
 namespace tspace {
 
-// A low poly with the maps that were baked for it as the textures of its materials.
+// Writing a low poly whose materials use the maps that were baked for it.
 
 /// A primitive, and the UVs with which its map is sampled.
 struct MappedPrimitive {
@@ -103,7 +103,7 @@ struct LowModel {
     std::vector<std::string> warnings = {};
     bool frames_made = false;
     PositionBox all_places = {};  ///< bounding box of all instances; `images` has the first instance of each primitive
-    /// origin of the positions in world space; nonzero if both models are far from the origin
+    /// Origin of the positions in world space; nonzero if both models are far from the origin.
     DVec3 origin = {};
 
     [[nodiscard]] std::size_t triangleCount() const;
@@ -118,13 +118,13 @@ struct HighPart {
 
 struct HighModel {
     std::vector<HighPart> parts = {};  ///< in ascending order
-    OwnedMesh mesh = {};               ///< with tangents and UVs if the high poly has normal maps
+    OwnedMesh mesh = {};               ///< has tangents and UVs if the high poly has normal maps
     std::vector<std::uint32_t> groups = {};
     std::vector<std::uint32_t> map_of = {};  ///< map index per triangle; empty if there are no maps
     HighMaps shown = {};
     std::vector<std::string> warnings = {};
-    double position_step =
-        0;  ///< the largest of its primitives', as they are placed: of positions that are whole numbers
+    /// Largest quantization step of all primitives with positions stored as integers, in world space.
+    double position_step = 0;
 
     [[nodiscard]] HighPoly view() const {
         return {.positions = mesh.positions,
@@ -151,10 +151,10 @@ struct BakeModels {
     /// Returns the ray options of a bake or a measurement: the requested ones, with the skew image and these wrap
     /// modes.
     [[nodiscard]] RayOptions rays(const RayOptions& asked, TextureWrap wrap_u, TextureWrap wrap_v) const;
-    /// Ray distance for all images: the requested one, or one derived from the sizes of both models.
+    /// Returns the ray distance for all images: the requested one, or one derived from the sizes of both models.
     [[nodiscard]] double reach(double asked) const;
-    /// Bounding box of the low poly: of the first instances or of all, whichever is nearer to that of the high poly, which may
-    /// have as many instances or only one.
+    /// Returns the bounding box of the low poly. The high poly may have as many instances or only one: the box of the
+    /// first instances or of all instances is returned, whichever is nearer to the box of the high poly.
     [[nodiscard]] PositionBox lowBox() const;
 };
 
@@ -193,11 +193,12 @@ bool showsMaterials(const LayerOptions& layers);
 
 // Pictures of a bake: the kind of each texel, and the error.
 
-/// Red: no hit; yellow: several triangles; green: baked; dark green: padding; black: background.
+/// Colors of the origin of each texel. Red: no hit; yellow: several triangles; green: baked; dark green: padding;
+/// black: background.
 std::vector<Vec3> pictureOfOrigins(const BakedMap& map);
 
-/// Colors from black (0) through blue, red and yellow to white (`top_deg` or more). Texels without triangles are dark
-/// gray.
+/// Colors of the error of each texel, from black (0) through blue, red and yellow to white (`top_deg` or more). Texels
+/// without triangles are dark gray.
 std::vector<Vec3> pictureOfHeat(const std::vector<float>& heat, double top_deg);
 
 }  // namespace tspace

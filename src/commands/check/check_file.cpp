@@ -58,7 +58,7 @@ void joinUnused(const Scene& scene, std::span<PrimitiveJudgement> judgements, st
                         " do not need them, because none of their materials uses a texture in tangent space"));
 }
 
-/// Makes a finding of a warning from reading the file. It concerns the file, so it names no primitive.
+/// Converts a warning from reading the file to a finding about the whole file, without a primitive.
 Finding fileRemark(const std::string& warning) {
     const Tally one{.count = 1, .total = 1};
     return makeFinding(FindingCode::fileRemark, Severity::note, one, "files", warning);
@@ -123,7 +123,7 @@ CheckedModel checkModel(const std::string& input, const CheckOptions& options) {
     for (Finding& finding : images.findings) report.findings.push_back(std::move(finding));
     for (Finding& finding : checkMapScales(scene)) report.findings.push_back(std::move(finding));
     for (std::size_t i = 0; i < scene.warnings.size(); ++i) {
-        // Normal lengths are already reported by a finding on the primitives concerned.
+        // A finding on the primitives already reports the lengths of their normals.
         if (i != scene.scaled_normals_warning) report.findings.push_back(fileRemark(scene.warnings[i]));
     }
     finishFindings(report);

@@ -60,7 +60,7 @@ const char* greenName(GreenVerdict verdict) {
 }
 
 std::string texelText(const std::uint8_t* rgb) {
-    // GCC 12 warns about "(" + std::to_string().
+    // The text is built in steps, because GCC 12 warns about "(" + std::to_string().
     std::string text = "(";
     for (std::size_t i = 0; i < 3; ++i) text.append(i == 0 ? "" : ", ").append(std::to_string(rgb[i]));
     return text + ")";
@@ -102,7 +102,7 @@ std::optional<Finding> lengthFinding(const std::string& name, const RgbImage& im
     for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
         const std::uint8_t* const rgb = &image.rgb[i];
         const auto [least, most] = std::minmax({rgb[0], rgb[1], rgb[2]});
-        if (most <= kBlack || least >= kWhite) continue;  // never painted or baked
+        if (most <= kBlack || least >= kWhite) continue;  // texels that were never painted or baked
         const double size = lengthOf(rgb);
         ++total;
         sum += size;
@@ -136,7 +136,7 @@ std::optional<Finding> zeroFinding(const std::string& name, const RgbImage& imag
 }  // namespace
 
 bool isImageInput(const std::string& input, ByteSpan content) {
-    // Reading an AVIF file fails with an error that names the format.
+    // AVIF cannot be read, but the error for it names the format.
     const bool is_named = isImageName(input) || lowerExtension(input) == ".avif";
     if (content.data() == nullptr) return is_named;
     const ImageFormat format = imageFormat(content);
@@ -185,7 +185,7 @@ CheckReport checkImageFile(const std::string& input, const CheckOptions& options
     Scene scene;
     scene.images.push_back({.bytes = {bytes.begin(), bytes.end()}});
     scene.images[0].uri = input;
-    constexpr std::uint64_t kPixelBytes = 8;  // two copies with 3 bytes each, masks, alpha
+    constexpr std::uint64_t kPixelBytes = 8;  // two copies with 3 bytes each, masks, and alpha
     scene.memory = imageBudget(bytes, options.file);
     scene.memory->require(imageNeed(bytes, kPixelBytes), {});
     LoneMap map = checkLoneMap(scene, options);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Content of normal maps, and green channels that point down in all or part of a map.
+// Examines the content of normal maps, and finds green channels that point down in all or part of a map.
 #include "commands/check/scene_checks.h"
 
 #include <array>
@@ -24,7 +24,7 @@
 namespace tspace {
 namespace {
 
-/// Triangles that show a part of an image, and the primitives that contain them.
+/// Part of an image that one use shows: its triangles, and the primitives that contain them.
 struct MapPart {
     const ScenePrimitive* primitive = nullptr;  ///< first primitive that shows the part
     const TangentUse* use = nullptr;
@@ -42,7 +42,7 @@ struct NormalMap {
     double packing_deg = 0;  ///< approximate error of the vectors of an image with lossy color compression
 };
 
-/// Parts with equal keys show the same texels.
+/// Key of a part: parts with equal keys show the same texels.
 using PartKey = std::tuple<std::size_t, const void*, const void*, std::array<double, 5>, TextureWrap, TextureWrap>;
 
 PartKey keyOf(const ScenePrimitive& primitive, const TangentUse& use) {
@@ -96,7 +96,7 @@ std::uint64_t workBytes(const Scene& scene, const NormalMap& map) {
            GreenBlocks::bytesOf(size.width, size.height) + sizeof(Vec2) * vertices;
 }
 
-/// Tests green for each part. `mask`: scratch memory with the size of the image.
+/// Determines the direction of green for each part. `mask`: scratch memory with the size of the image.
 void lookAtParts(const GreenBlocks& blocks, TexelMask&& mask, NormalMap& map) {
     // If there are more parts, or UVs are hostile, the remaining parts get the verdict of the whole map.
     constexpr std::size_t kMostParts = 4096;
@@ -141,7 +141,7 @@ void showPoints(const MapPart& part, const RgbImage& image, std::vector<TexelOnS
     if (set >= primitive.uv_sets.size() || primitive.uv_sets[set].empty() || primitive.normals.empty()) return;
     const std::vector<Vec2> uvs = textureUvs(primitive.uv_sets[set].span(), part.use->transform);
     const std::size_t triangles = primitive.corners.size() / 3, step = triangles / kMostOfAPart + 1;
-    // If there are few triangles, takes many samples of each, because relief hides what single samples show.
+    // With few triangles, many samples of each are taken, because relief makes single samples unreliable.
     std::uint32_t rows = 1;
     while (rows < kMostRows && triangles / step * rows * rows < kMostOfAPart) ++rows;
     for (std::size_t t = step / 2; t < triangles; t += step) {
@@ -184,7 +184,7 @@ std::vector<TexelOnSurface> placedInWorld(const NormalMap& map, std::span<const 
     return in_world;
 }
 
-/// Decodes alpha only if it may contain x or y.
+/// Returns alpha, which is decoded only if it may contain x or y.
 std::vector<std::uint8_t> alphaOf(const Scene& scene, const SceneImage& image, std::span<const TexelBytes> texels,
                                   bool is_texture) {
     if (!is_texture && !mayHaveXInAlpha(texels)) return {};
@@ -312,7 +312,7 @@ Finding flipped(const std::string& name, const GreenTest& test) {
                            countText(blocks, "blocks") + " of 16 x 16 pixels with relief");
 }
 
-/// Remedy for an image without a model, to which generate does not apply.
+/// Returns a remedy for an image without a model, to which generate does not apply.
 Remedy loneGreenRemedy(const NamedImage& image) {
     return {
         "If the map was made for DirectX and is read as glTF or OpenGL, invert green: {}. If bumps look like dents "
@@ -338,7 +338,8 @@ NamedImage namedImage(const Scene& scene, const NormalMap& map) {
 
 bool isDown(const NormalMap& map) { return map.test && map.test->verdict == GreenVerdict::down; }
 
-/// Returns whether all uses of the map declare that green points down, so that readers of the file invert it.
+/// Returns whether all uses of the map declare that green points down, so that readers of the file invert it
+/// themselves.
 bool isDeclared(const NormalMap& map) {
     return !map.parts.empty() && std::all_of(map.parts.begin(), map.parts.end(),
                                              [](const MapPart& part) { return part.use->is_declared_down; });
@@ -406,7 +407,7 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
         findings.push_back(unreadable(name, map.why_not));
         if (scene.images[map.image].is_unavailable) {
             findings.back().severity = Severity::warning;
-            // An image without a URI of its own is in a data URI.
+            // An image without a URI of its own is stored in a data URI.
             setRemedy(findings.back(),
                       scene.images[map.image].uri.empty()
                           ? "Embed the image again: its data URI is broken."

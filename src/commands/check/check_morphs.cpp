@@ -20,8 +20,8 @@ namespace {
 
 // Collects the morph targets of a primitive that share a fault into one finding.
 
-/// Offsets that come from a formula or a finer mesh deviate near coarse triangles. So a target is reported only if at
-/// least this share of the rotating surface is off.
+/// Minimum share of the rotating surface that must be off before a target is reported. Offsets that come from a formula
+/// or a finer mesh deviate near coarse triangles.
 inline constexpr double kOffShare = 0.25;
 
 struct MorphFault {
@@ -72,7 +72,7 @@ class MorphValues {
     template <class Test>
     FaultyTargets find(SharedArray<Vec3> SceneMorphTarget::*array, const Test& is_faulty) const {
         FaultyTargets result;
-        // A file may reference the same array any number of times.
+        // Results are cached, because a file may reference the same array any number of times.
         std::map<const Vec3*, bool> known;
         const auto& targets = facts_.primitive.morph_targets;
         for (std::size_t i = 0; i < targets.size(); ++i) {
@@ -148,8 +148,8 @@ void checkMorphValues(PrimitiveFacts& facts) {
 
 namespace {
 
-/// A normal is off if its angle to the base normal rotated with the surface exceeds both this fraction of the rotation
-/// and direction_deg.
+/// A morphed normal is off if its angle to the expected normal exceeds both this fraction of the surface's rotation and
+/// direction_deg. The expected normal is the base normal rotated with the surface.
 constexpr double kOfTurn = 0.5;
 
 bool addsNothing(const SharedArray<Vec3>& offsets) { return std::all_of(offsets.begin(), offsets.end(), isZero); }
@@ -212,7 +212,7 @@ class MorphNormalsChecker {
     struct OffNormal {
         std::uint32_t vertex = 0;
         double error_deg = 0;
-        DVec3 was = {}, is = {};  ///< unit normals before and after
+        DVec3 was = {}, is = {};  ///< unit normals before and after the morph
     };
 
     [[nodiscard]] Tally tallyOf(const std::vector<OffNormal>& off) const {
@@ -256,7 +256,7 @@ void checkMorphNormals(PrimitiveFacts& facts) {
     const auto& targets = facts.primitive.morph_targets;
     if (facts.mesh.normals.empty() || targets.empty() || facts.primitive.is_unlit) return;
     MorphNormalsChecker checker(facts);
-    // A file may reference the same arrays any number of times.
+    // Pairs of arrays are checked once, because a file may reference them any number of times.
     std::set<std::array<const Vec3*, 2>> seen;
     for (std::size_t i = 0; i < targets.size(); ++i) {
         if (targets[i].positions.empty()) continue;  // targets that change only normals are authored
@@ -340,7 +340,7 @@ bool isThin(const TangentView& mesh, std::size_t face, float area) {
 /// degenerate before and after change nothing.
 void forgetCollapsed(const TangentView& mesh, const Surface& base, const TangentView& morphed_mesh,
                      const Surface& morphed, const EqualVertices& equal, std::vector<bool>& good) {
-    constexpr float kCollapsed = 1e-4f;            // area ratio: 1 percent along each side
+    constexpr float kCollapsed = 1e-4f;            // ratio of the areas; corresponds to 1 percent along each side
     constexpr double kFlipped = -0.8660254037844;  // cosine of 150 degrees, as in SurfaceTurns
     std::vector<bool> is_out(equal.class_count, false);
     for (std::size_t f = 0; f < base.faces.size(); ++f) {
@@ -423,7 +423,7 @@ void checkMorphTargets(PrimitiveFacts& facts) {
         return;
     }
     MorphChecker checker(facts);
-    // A file may reference the same arrays any number of times.
+    // Combinations of arrays are checked once, because a file may reference them any number of times.
     std::set<std::array<const Vec3*, 3>> seen;
     for (std::size_t i = 0; i < facts.primitive.morph_targets.size(); ++i) {
         const SceneMorphTarget& target = facts.primitive.morph_targets[i];

@@ -13,7 +13,7 @@ constexpr Named<Severity> kSeverities[] = {
     {"warning", Severity::warning},
     {"error", Severity::error},
 };
-/// An option whose value is one code, or several separated by commas.
+/// Returns the option whose value is one code, or several codes separated by commas.
 Option ignoreOption(std::vector<FindingCode>& ignored) {
     const auto take = [&ignored](const std::string& name) {
         for (std::uint32_t code = 0; code < kFindingCodeCount; ++code) {

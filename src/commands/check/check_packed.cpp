@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Compares packed frames with the normals and tangents that they were packed from. Packing sanitizes frames first. So
-// packed frames are compared with normals and tangents that were packed in the finest format, and packing again fixes
-// every finding.
+// Compares packed frames with the normals and tangents that they were packed from. Because packing sanitizes frames,
+// the normals and tangents are packed in the finest format for the comparison. Packing the frames again fixes every
+// finding.
 #include "commands/check/scene_checks.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace {
 constexpr FrameFormat kFinest = FrameFormat::frame64;
 /// Number of frames that are compared at a time.
 constexpr std::size_t kChunk = 256;
-/// Differences from this angle on are visible; 8 bits per component cause errors of 0.4 degrees.
+/// Angle from which differences are visible; 8 bits per component cause errors of 0.4 degrees.
 constexpr double kVisible_deg = 1;
 
 struct PackedErrors {
@@ -77,7 +77,7 @@ PackedErrors comparePacked(const ScenePrimitive& primitive, const ScenePacked& p
     return errors;
 }
 
-/// Formats degrees such as "0.135": at most four decimals, no trailing zeros, independent of the locale.
+/// Formats degrees as in "0.135": at most four decimals, no trailing zeros, independent of the locale.
 std::string degreesText(double degrees) {
     const auto parts = static_cast<std::uint64_t>(degrees * 10000 + 0.5);
     std::string digits = std::to_string(parts % 10000 + 10000).substr(1);

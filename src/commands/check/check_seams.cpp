@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For each mesh, finds edges that primitives of one smooth surface share, and compares the normals on both sides at
+// Finds the edges that primitives of one smooth surface share, mesh by mesh, and compares the normals on both sides at
 // both ends.
 #include "commands/check/scene_checks.h"
 
@@ -21,13 +21,13 @@ namespace {
 constexpr double kToDegrees = 180 / kPi;
 /// Normals that differ by less than this angle make no visible seam.
 constexpr double kLeastSeamDeg = 2;
-/// Normals within this angle of the mean of the primitive's own triangles, by any weighting, are equal to it. The
-/// tolerance covers rounding to 8 bits.
+/// A normal is equal to the mean of the primitive's own triangles if it is within this angle of that mean, by any
+/// weighting. The tolerance covers rounding to 8 bits.
 constexpr double kOwnDeg = 1;
 /// A border is smooth if its bend is at most kMoreBend times that of the smooth edges on both sides, at the quantile
 /// kSmoothPart.
 constexpr double kMoreBend = 1.25, kSmoothPart = 0.9;
-/// Minimum share of the points with differing normals that must look like a seam, and their minimum number.
+/// Share and number of the points with differing normals that must at least look like a seam.
 constexpr double kMostPlaces = 0.8;
 constexpr std::size_t kLeastPlaces = 3;
 
@@ -123,7 +123,7 @@ class SmoothPiece {
 };
 
 struct Seam {
-    // `places`: points where normals differ; `likely`: those where it is a seam
+    // `places`: points where normals differ. `likely`: those of them that look like a seam.
     std::set<std::uint32_t> places = {}, likely = {};
     double worst_deg = 0;
     std::vector<std::uint32_t> vertices = {};
@@ -227,7 +227,7 @@ std::vector<Finding> checkSeams(const Scene& scene, const CheckOptions& options)
     std::vector<Finding> findings;
     for (std::size_t first = 0, past = 0; first < scene.primitives.size(); first = past) {
         std::vector<const ScenePrimitive*> primitives;
-        // A file may reference the same arrays any number of times.
+        // Pairs of arrays are used once, because a file may reference them any number of times.
         std::set<std::pair<const Vec3*, const std::uint32_t*>> seen;
         std::uint64_t bytes = 0;
         for (; past < scene.primitives.size() && scene.primitives[past].mesh == scene.primitives[first].mesh; ++past) {

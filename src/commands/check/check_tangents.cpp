@@ -91,7 +91,7 @@ constexpr double kClearlyLeaning = 0.2;
 /// Maximum share of tilted tangents, and of wrong directions, in the correct axes.
 constexpr double kMostWrong = 0.02;
 
-/// Component i of the result is `sign[i]` times component `from[i]`.
+/// Permutation of signed axes: component i of the result is `sign[i]` times component `from[i]`.
 struct AxisExchange {
     std::array<std::size_t, 3> from = {0, 1, 2};
     std::array<float, 3> sign = {1, 1, 1};
@@ -157,8 +157,8 @@ struct OtherReading {
     UvReading reading = {};
     Surface surface = {};
     FrameHealth health = {};
-    /// Index of a use of the primitive that samples its texture with these UVs, if any: then tangents along them may be
-    /// intended.
+    /// Index of a use of the primitive that samples its texture with these UVs, if there is one. In this case tangents
+    /// along them may be intended.
     std::optional<std::size_t> use = {};
 };
 
@@ -286,7 +286,7 @@ void addExplanation(PrimitiveFacts& facts, const FrameHealth& health, const Othe
     }
     if (other.use) message += "; " + facts.primitive.uses[*other.use].needed_by + " uses these UVs";
     facts.add(code, severity, wrong, "vertices", message);
-    // A texture that uses these UVs does not make the tangents correct.
+    // Tangents along these UVs stay wrong even if another texture uses these UVs.
     for (const std::uint32_t vertex : facts.mesh.corners) facts.faults[vertex] |= faultBit(code);
 }
 
@@ -379,7 +379,8 @@ Result<Done> checkTangents(PrimitiveFacts& facts) {
     }
     const std::string axes = *other ? std::string() : findOtherAxes(facts, *health);
     if (!axes.empty()) {
-        // All tangents are wrong for one reason, including tangents that are close to the correct ones by chance.
+        // All tangents are marked as wrong, because they have one cause: some are close to the correct ones only by
+        // chance.
         for (const std::uint32_t vertex : facts.mesh.corners) facts.fault(vertex, FindingCode::directionsWrong);
     }
     for (Finding& finding : tangentFindings(*health, facts.options)) {

@@ -103,7 +103,7 @@ std::string groupText(std::span<const Finding* const> group, bool in_color) {
     for (std::size_t i = 0; i < group.size() && i < kMostPlaces; ++i) {
         if (!group[i]->place.empty())
             text += fmt::format("      {} (at {})\n", whereText(*group[i]), unbroken(group[i]->place));
-        // A message shared by consecutive locations is printed once, below the last of them.
+        // If consecutive locations have the same message, it is printed once, below the last of them.
         const bool is_shared = i + 1 < std::min(group.size(), kMostPlaces) &&
                                group[i + 1]->message == group[i]->message && !group[i]->place.empty();
         if (!is_shared) text += fmt::format("        {}\n", printable(group[i]->message));
@@ -117,7 +117,7 @@ std::string groupText(std::span<const Finding* const> group, bool in_color) {
 
 std::string checkText(const CheckOutcome& outcome, bool in_color) {
     std::string text = summaryLine(outcome) + packedLines(outcome.result->packed_frames);
-    // Groups are sorted by severity, then by code in the order of first occurrence.
+    // Groups are sorted by severity, and then by code in the order of first occurrence.
     std::vector<std::vector<const Finding*>> groups;
     for (const Finding& finding : outcome.result->findings) {
         const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& candidate) {
@@ -191,11 +191,11 @@ std::string percentEncoded(const std::string& path) {
     return uri;
 }
 
-/// Relative paths are kept relative, so that a CI system finds the file in its checkout.
+/// Returns the URI of a file. Relative paths stay relative, so that a CI system finds the file in its checkout.
 Json artifactLocation(const std::string& input) {
     const std::filesystem::path path = std::filesystem::path(Path(input)).lexically_normal();
     const std::string text = Path(path).string();
-    // Windows paths lack the leading slash: file:///C:/model.glb
+    // On Windows, a slash must be added: file:///C:/model.glb.
     if (path.is_absolute()) return {{"uri", (text.starts_with('/') ? "file://" : "file:///") + percentEncoded(text)}};
     return {{"uri", percentEncoded(text)}, {"uriBaseId", "%SRCROOT%"}};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cones of directions around vertices.
+// Computes cones of directions around vertices.
 #include "commands/check/direction_cones.h"
 
 #include <algorithm>
@@ -116,7 +116,7 @@ class NearestDirections {
         if (angle >= 0) left_[vertex] = std::min(left_[vertex], angle);
         if (angle <= 0) right_[vertex] = std::min(right_[vertex], -angle);
     }
-    /// Returns the distance in degrees.
+    /// Returns the distance of a vertex in degrees.
     [[nodiscard]] float distance(std::size_t vertex) const {
         const float left = left_[vertex], right = right_[vertex];
         if (left == kNone && right == kNone) return kUnknownDirection;

@@ -37,9 +37,10 @@ inline constexpr float kUnknownDirection = -1;
 /// equal position, normal and UV, because MikkTSpace averages over them. Expected near-linear time.
 std::vector<float> directionDistances(const TangentView& mesh, const Surface& surface, double tolerance_deg);
 
+/// Class of vertices that belong to no class.
+inline constexpr std::uint32_t kNoClass = 0xffffffffu;
 /// Returns one cone per class. `class_of_vertex`: class of each vertex (kNoClass: none); vertices of one class have
 /// equal normals.
-inline constexpr std::uint32_t kNoClass = 0xffffffffu;
 std::vector<DirectionCone> conesOfClasses(const TangentView& mesh, const Surface& surface,
                                           std::span<const std::uint32_t> class_of_vertex, std::size_t class_count);
 

@@ -7,7 +7,7 @@
 namespace tspace {
 
 const char* findingEffect(FindingCode code) {
-    // In the order of FindingCode.
+    // Entries are in the order of FindingCode.
     static constexpr std::array kEffects{
         "Parts of the mesh are missing, or stretched to infinity.",
         "The texture is missing, or shows one flat color.",

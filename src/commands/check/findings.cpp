@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes findings from tallies, formats their texts, and makes the findings on tangents.
+// Converts tallies to findings, formats their texts, and creates the findings on tangents.
 #include "commands/check/findings.h"
 
 #include <cmath>
@@ -99,7 +99,7 @@ Severity onShare(Severity severity, double surface_share, const CheckOptions& op
 }
 
 std::string decimalText(double value) {
-    // One decimal, independent of the locale.
+    // Numbers have one decimal, independent of the locale.
     const auto tenths = static_cast<std::uint64_t>(std::llround(value * 10));
     return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes findings: converts counts to sentences.
+// Functions that convert counts of faults to findings with sentences.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct ScenePrimitive;
 /// Returns the view of tspace render that shows the subject of a finding ("sign"), or an empty text.
 const char* findingLook(FindingCode code);
 
-/// Makes a finding with the numbers of the tally, without a location.
+/// Creates a finding with the numbers of the tally and without a location.
 Finding makeFinding(FindingCode code, Severity severity, const Tally& tally, const char* unit, std::string message);
 
 /// Sets the location of a finding: `place` in the primitive.

@@ -52,7 +52,7 @@ class VertexPatches {
 
 /// Tilt out of the tangent plane, in degrees, above which a tangent is parallel to N.
 constexpr double kParallel = 90 - kParallelDeg;
-/// Tilt above which even a single vertex is reported.
+/// Tilt in degrees above which even a single vertex is reported.
 constexpr double kNoFrame = 89;
 
 void examineMixedSigns(const TangentView& mesh, const Surface& surface, FrameHealth& health) {
@@ -211,7 +211,7 @@ void examineSigns(const TangentView& mesh, const Surface& surface, const CheckOp
 
 /// Tolerance in degrees. A mean lies inside the cone of its terms, except for rounding and quantized storage.
 constexpr double kInsideDeg = 2;
-/// Tangents within this angle, in degrees, are copies of one result.
+/// Maximum angle in degrees between tangents that are copies of one result.
 constexpr double kSameDeg = 1;
 /// Maximum number of vertices at one point that a vertex is compared with. Poles have more, but one match is
 /// sufficient.
@@ -338,7 +338,7 @@ void examineDirections(const TangentView& mesh, const Surface& surface, const Ch
 // Finds vertices whose tangents equal those that `generate` would compute. The checks have rules of their own, but
 // bakers and renderers expect the tangents of the reference, so these vertices are not reported.
 
-/// Tolerance in degrees for storage in 8 bits and welding of equal tangents.
+/// Tolerance in degrees; covers storage in 8 bits and welding of equal tangents.
 constexpr double kSettledDeg = 1;
 
 /// Computes one tangent per corner, sanitized as `generate` does it.

@@ -17,19 +17,20 @@ namespace tspace {
 /// Returns the bit of a finding in FrameHealth::faults. Only codes below greenFlipped concern vertices.
 inline constexpr std::uint32_t faultBit(FindingCode code) { return 1u << static_cast<std::uint32_t>(code); }
 
-/// Further bit: the sign is undecided, in a patch of inverted signs.
+/// Additional bit for vertices with an undecided sign, in a patch of inverted signs.
 inline constexpr std::uint32_t kUndecidedSign = 1u << 31;
 
-/// Further bit: the tangent is nearly parallel to N.
+/// Additional bit for vertices whose tangent is nearly parallel to N.
 inline constexpr std::uint32_t kParallelTangent = 1u << 30;
 
 /// Lengths of normals and tangents that deviate from 1 by more are wrong, rather than rounded.
 inline constexpr double kFarFromUnit = 0.1;
 
 struct FrameHealth {
-    /// Per vertex, the bits of the findings below that count it; empty: none. Vertices with wrong signs have the bit of
-    /// signsWrong; if nearly all signs are wrong, others of the same patches have kUndecidedSign. If nearly all
-    /// directions are wrong, others of the same patches also have the bit of directionsWrong.
+    /// Fault bits of each vertex: the bits of the findings that count it; an empty list means no faults. Vertices with
+    /// wrong signs have the bit of signsWrong. If nearly all signs are wrong, other vertices of the same patches have
+    /// kUndecidedSign. If nearly all directions are wrong, other vertices of the same patches also have the bit of
+    /// directionsWrong.
     std::vector<std::uint32_t> faults = {};
     /// Vertices whose tangents equal those that `generate` would compute; no finding below counts them. May be empty.
     std::vector<bool> settled = {};
@@ -46,22 +47,22 @@ struct FrameHealth {
 
     // Values of single tangents. Tallies count all vertices; those of directions count only vertices that triangles
     // use. Flags concern used vertices.
-    Tally not_finite;             ///< x, y, z or w is not finite
-    bool has_not_finite = false;  ///< some are not finite
-    Tally not_unit;               ///< finite, but not of unit length
+    Tally not_finite;             ///< vertices with x, y, z or w that is not finite
+    bool has_not_finite = false;  ///< some vertices are not finite
+    Tally not_unit;               ///< finite vertices whose length is not 1
     double far_from_unit = 0;     ///< share of the surface with lengths below 0.9 or above 1.1
-    bool has_zero = false;        ///< some have zero length
+    bool has_zero = false;        ///< some tangents have zero length
     Tally not_orthogonal;         ///< finite, not zero, with a usable N
     Tally parallel;  ///< within 5 degrees of N or -N, so that there is no frame; not counted in the other tallies
-    bool has_no_frame = false;  ///< some are within 1 degree of N or -N
-    /// Tangents parallel to N cover so little surface that other tilted tangents are a separate warning: only parallel
-    /// ones have the bit of tangentsNotOrthogonal.
+    bool has_no_frame = false;  ///< some tangents are within 1 degree of N or -N
+    /// Only tangents parallel to N have the bit of tangentsNotOrthogonal, because they cover so little surface that
+    /// other tilted tangents are a separate warning.
     bool parallel_apart = false;
     Tally sign_not_one;
     bool sign_vanishes = false;  ///< some |w| is below 0.5
     Tally signs_mixed;           ///< triangles with mixed signs; with UVs, only those with UV area
 
-    // Compared with the UVs. All zero without UVs.
+    // Results of the comparison with the UVs; all are zero without UVs.
     Tally signs_wrong;             ///< vertices whose triangles agree with each other, but not with w
     double wrong_sign_share = 0;   ///< share of the examined surface with wrong signs
     bool all_signs_wrong = false;  ///< wrong on nearly all of the examined surface
@@ -78,7 +79,7 @@ struct FrameHealth {
 /// Fails if generateTangents fails, which happens only if memory runs out.
 Result<FrameHealth> examineTangents(const TangentView& mesh, const CheckOptions& options);
 
-/// Overload with a surface of the mesh that the caller has already computed.
+/// Examines tangents like the overload above, with a surface that the caller has already computed.
 Result<FrameHealth> examineTangents(const TangentView& mesh, const Surface& surface, const CheckOptions& options);
 
 }  // namespace tspace

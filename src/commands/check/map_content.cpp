@@ -15,9 +15,9 @@ namespace {
 
 /// Maximum deviation from 1 of an 8-bit vector's length after compression and filtering.
 constexpr double kLengthSlack = 0.1;
-/// A channel with a smaller standard deviation (of 255) is constant: compression adds as much.
+/// Standard deviation, of 255, below which a channel is constant; compression alone may cause this much.
 constexpr double kConstant = 2.5;
-/// Minimum x^2 + y^2 of tilted texels, which is a tilt of 11 degrees.
+/// Minimum x^2 + y^2 of tilted texels; corresponds to a tilt of 11 degrees.
 constexpr double kLeastLean = 0.04;
 constexpr double kStep = 1.0 / 127.5;
 /// Maximum absolute mean of x and of y in a map, unless more is known.
@@ -92,7 +92,7 @@ Fit fitOf(std::span<const TexelBytes> texels, const MapLayout& layout) {
         if (std::fabs(length(v) - 1) >= kLengthSlack) continue;
         ++unit;
         fit.mean = fit.mean + v;
-        // One rounding step below 0 is not negative.
+        // A value one rounding step below 0 does not count as negative.
         below[0] += v.x < -kStep;
         below[1] += v.y < -kStep;
         below[2] += v.z < -kStep;
@@ -273,7 +273,7 @@ class Looker {
         return made(MapContent::twoChannels, layout, 1);
     }
 
-    /// In maps with a constant blue channel, the relief may be tilted to one side.
+    /// Detects two channels in maps with a constant blue channel whose relief is tilted to one side.
     [[nodiscard]] std::optional<MapLook> leaningTwoChannels() const {
         constexpr double kLeaning = 0.6;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -332,8 +332,8 @@ class Looker {
     /// much nearer to z than to (z + 1) / 2.
     [[nodiscard]] std::optional<MapLook> unsignedZ() const {
         constexpr std::uint64_t kLeastCount = 64;
-        constexpr double kMostLong = 0.05;  // JPEG adds to red and green if blue changes as much as they do
-        constexpr double kNoSpread = 0.2;   // unsigned z leaves 0.4 or more
+        constexpr double kMostLong = 0.05;  // JPEG changes red and green if blue varies as much as they do
+        constexpr double kNoSpread = 0.2;   // unsigned z leaves a spread of 0.4 or more
         if (!canBeXy(texels_, 0, 1, kMostMean, kMostLong) || haveOneLength(kNoSpread)) return {};
         double z = 0, b = 0, zz = 0, zb = 0, bb = 0, off = 0, off_signed = 0;
         std::uint64_t count = 0;
@@ -404,7 +404,8 @@ class Looker {
         const auto [weakest, strongest] = std::minmax({together[0], together[1], together[2]});
         const double least = std::min({mean.x, mean.y, mean.z}), most = std::max({mean.x, mean.y, mean.z});
         const bool is_diagonal = weakest >= kTogether && (least > kLeastDiagonal || most < -kLeastDiagonal);
-        // Vectors with one main direction that is not an axis. The vectors of a wall in object space do not correlate
+        // The vectors may have one main direction that is not an axis. The vectors of a wall in object space do not
+        // correlate like those of a picture.
         // like this.
         const bool is_aside = strongest >= kMuchTogether && !upAxis() && length(plain_.mean) > kOneWay;
         const double unit = unitShareOf(painted);
@@ -449,7 +450,7 @@ struct Following {
 };
 
 Following followingOf(std::span<const TexelOnSurface> surface, const MapLayout& layout) {
-    // Sums of products of 1, u, v, the normal and the vector of the map.
+    // Sums of products of the values 1, u, v, the normal and the vector of the map.
     std::array<std::array<double, 9>, 9> sums{};
     const LayoutReader reader(layout);
     for (const TexelOnSurface& point : surface) {
@@ -517,14 +518,15 @@ Looker::Followed Looker::followed(std::span<const TexelOnSurface> surface, const
     const Moments moments = momentsOf(surface);
     if (surface.size() < kLeastPoints || !(moments.weight > 0)) return {};
     const bool is_up = up && up->axis == 2 && !up->is_inverted;
-    // Agreement with the mesh's own axes, unchanged (`plain`) or with permuted channels (`axes`).
+    // Agreement with the mesh's own axes: with unchanged channels (`plain`), and with permuted channels (`axes`).
     const double plain = (moments.sum[0][0] + moments.sum[1][1] + moments.sum[2][2]) / moments.weight;
     const Axes axes = bestAxes(moments);
     const std::array<double, 3> mean{plain_.mean.x, plain_.mean.y, plain_.mean.z};
     const double constant = std::fabs(up ? mean[up->axis] : plain_.mean.z);
     const bool is_plain = plain >= kLeastAgreement && plain > axes.agreement - 0.05;
     const double agreement = is_plain ? plain : axes.agreement;
-    // A rotation that agrees better stems from the axes of another program, which are unknown here.
+    // If a rotation agrees better than any permutation, the map was made for the axes of another program, which are
+    // unknown.
     const bool is_clear = agreement >= kLeastAgreement && agreement >= kOfTheBest * bestAgreement(moments) &&
                           1 - agreement < kOfTheRest * (1 - constant);
     const bool is_wall = !is_up && up && is_plain && plain >= kSureAgreement;

@@ -45,7 +45,7 @@ struct MapLook {
     /// Layout for decoding the image to vectors in tangent space (or object space).
     MapLayout layout = {};
     std::uint64_t count = 0, total = 0;  ///< texels that support the result, and examined texels
-    /// For objectSpace: the vectors follow the normals of the mesh. Otherwise they only point in all directions.
+    /// For objectSpace: the vectors follow the normals of the mesh. False if the vectors only point in all directions.
     bool follows_mesh = false;
     /// For picture: only y is stored, in green, as in a DXT5nm map that lost its alpha channel with x.
     bool is_x_lost = false;
@@ -70,10 +70,10 @@ std::vector<TexelBytes> sampleTexels(const RgbImage& image, std::span<const std:
 MapLook lookAtTexels(std::span<const TexelBytes> texels, bool has_alpha, std::span<const TexelOnSurface> surface,
                      std::span<const TexelOnSurface> in_world = {});
 
-/// Returns whether red has no information, so that alpha must be examined.
+/// Returns whether red contains no information, so that alpha must be examined.
 bool mayHaveXInAlpha(std::span<const TexelBytes> texels);
 
-/// Returns whether blue has no information.
+/// Returns whether blue contains no information.
 bool isBlueConstant(std::span<const TexelBytes> texels);
 
 /// Returns whether the image decodes to vectors in tangent space by its layout.
@@ -82,7 +82,8 @@ inline bool holdsNormals(MapContent content) {
            content != MapContent::hemiOctahedral;
 }
 
-/// Decodes the image by the layout, and stores x, y and z in red, green and blue. Without alpha, its value is 255.
+/// Decodes the image by the layout, and stores x, y and z in red, green and blue. An image without alpha is decoded
+/// with alpha 255.
 void readByLayout(RgbImage& image, std::span<const std::uint8_t> alpha, const MapLayout& layout);
 
 }  // namespace tspace

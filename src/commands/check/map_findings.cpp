@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finding on the content of a normal map, with the commands that convert it to a normal map.
+// Creates the finding on the content of a normal map, with the commands that convert it.
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,7 +19,7 @@ constexpr const char* kOctahedral =
     "; but they fit the slopes of a height field better as octahedral encoding, x and y of (x, y, z) / (|x| + |y| + "
     "|z|), so they may store that";
 
-/// Returns what a message on two channels adds if x and y are only one possible interpretation.
+/// Returns the text that a message on two channels adds if x and y are only one of several interpretations.
 const char* doubtOf(const MapLook& look) {
     return !look.is_doubtful ? "" : look.may_be_octahedral ? kOctahedral : kDoubt;
 }
@@ -142,7 +142,7 @@ RemedyCommand withLayout(RemedyCommand command, const MapLayout& layout) {
 }
 
 /// Returns a remedy with commands for the model and for the image alone. `behind`: text after the command for the
-/// image; `more`: a command in it. No period follows the last command, because it would be copied with the command.
+/// image; `more`: a command in that text. The last command has no period, which would be copied with it.
 Remedy inModelOrAlone(const NamedImage& image, bool flips_green, RemedyCommand convert, const std::string& behind = {},
                       std::optional<RemedyCommand> more = {}) {
     Remedy remedy{"Convert it: {}" + behind, {}};

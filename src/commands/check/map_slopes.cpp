@@ -49,7 +49,7 @@ MapLayout guessedLayout(const DecodedMap& map, std::span<const TexelBytes> texel
 
 bool hasSide(const GreenTest& test) { return test.verdict == GreenVerdict::up || test.verdict == GreenVerdict::down; }
 
-/// Returns whether slopes fit an interpretation well.
+/// Returns whether the slopes of a map fit a height field well.
 bool fitsWell(const GreenTest& other) {
     constexpr double kLeast = 0.8;
     return hasSide(other) && std::fabs(other.correlation) > kLeast;
@@ -140,7 +140,8 @@ MapLook lookAtMap(const DecodedMap& map, std::span<const TexelOnSurface> surface
         if (!(guess == MapLayout{})) look.layout = guess;
     }
     if (map.declared != nullptr) lookAtTexture(map, texels, look);
-    // In hemi-octahedral encoding, steep relief exceeds the length of any x and y, and gentle relief looks flat.
+    // In hemi-octahedral encoding, steep relief has larger values than x and y of unit vectors can have, and gentle
+    // relief looks flat.
     const bool has_two = look.content == MapContent::twoChannels || look.content == MapContent::xInAlpha;
     const bool may_have_two = look.content == MapContent::normals || look.content == MapContent::picture;
     if (has_two || (may_have_two && isBlueConstant(texels))) testTwoChannels(map, look);

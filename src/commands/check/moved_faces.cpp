@@ -11,8 +11,7 @@ namespace tspace {
 namespace {
 
 constexpr std::uint32_t kNoPoint = 0xffffffffu;
-/// Maximum number of triangles per polygon, and of directions around a point, that are examined. They keep the time
-/// linear.
+/// Maximum number of examined triangles per polygon, and of directions around a point. The limits keep the time linear.
 constexpr std::size_t kMostOfPolygon = 64, kMostFaces = 64;
 
 /// A primitive and the offsets of one of its targets.
@@ -51,8 +50,8 @@ struct Box {
     }
 };
 
-/// Returns whether two consecutive triangles belong to one flat polygon: exporters write the triangles of a polygon
-/// consecutively.
+/// Returns whether two triangles that are consecutive in the file belong to one flat polygon: exporters write the
+/// triangles of a polygon consecutively.
 bool isOnePolygon(const MovedPrimitive& moved, std::size_t a, std::size_t b) {
     constexpr double kFlat = 0.9998;  // cosine of about 1 degree
     int common = 0;
@@ -74,7 +73,7 @@ MovedFaces::MovedFaces(const ScenePrimitive& primitive, std::span<const ScenePri
         box.add(primitive.positions[vertex]);
     }
     faces_.resize(points.size());
-    // Faces with equal directions are added once, so that the mean does not depend on the triangulation.
+    // Directions that are equal are added once, so that the mean does not depend on the triangulation.
     const auto addFace = [&](const MovedPrimitive& moved, std::size_t triangle, std::uint32_t point) {
         constexpr double kSame = 0.9998, kCollapsed = 1e-4;
         Face face{moved.crossOf(triangle, false), moved.crossOf(triangle, true)};

@@ -28,7 +28,7 @@ class MovedFaces {
                              double slack) const;
 
   private:
-    /// Unit normals of a face before and after.
+    /// Unit normals of a face before and after the morph.
     struct Face {
         DVec3 base = {}, moved = {};
     };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Integrability test of normal maps, and axes of a map.
+// Tests the integrability of normal maps, and finds the axes of a map.
 #include "commands/check/normal_map.h"
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 namespace tspace {
 namespace {
 
-/// Minimum z. Steeper normals are island borders, or no normals.
+/// Minimum z of normals that are used. Texels with steeper normals are island borders, or no normals.
 constexpr float kLeastUp = 0.25f;
-/// Larger derivatives are discontinuities between islands.
+/// Maximum derivative that is used. Larger derivatives are discontinuities between islands.
 constexpr float kMostDerivative = 0.25f;
 /// Minimum mean square of a derivative in a block. Rounding to 8 bits (2.6e-6) and compression artifacts are below it.
 constexpr float kLeastRelief = 4e-5f;

@@ -44,13 +44,13 @@ class GreenBlocks {
     /// Uses the texels in `inside`, a mask of the size of the image: the texels that triangles show.
     GreenBlocks(const RgbImage& image, const TexelMask& inside);
 
-    /// Returns the result for all blocks.
+    /// Returns the result of all blocks of the map.
     [[nodiscard]] GreenTest all() const;
     /// Returns the result for the blocks of which `part` covers at least a quarter. If these are too few for a verdict,
     /// and the whole map has one direction, the result is that direction.
     [[nodiscard]] GreenTest within(const TexelMask& part) const;
 
-    /// Returns its memory in bytes.
+    /// Returns the memory of this object in bytes.
     static std::uint64_t bytesOf(std::uint64_t width, std::uint64_t height) {
         return 2 * (width / kBlock + 1) * (height / kBlock + 1) * sizeof(Block);
     }
@@ -60,7 +60,7 @@ class GreenBlocks {
         float ab = 0, aa = 0, bb = 0;  ///< sums of products of the derivatives a = dq/dx, b = dp/drow
         bool votes = false;
         std::int8_t side = 0;    ///< side of its part: -1 up, +1 down
-        std::uint32_t part = 0;  ///< from 1; 0: none
+        std::uint32_t part = 0;  ///< number of the part, starting at 1; 0 if the block is in no part
     };
     /// `isChosen(block)`: returns whether the block is used.
     template <class IsChosen>
@@ -76,8 +76,8 @@ class GreenBlocks {
     std::uint32_t width_ = 0, height_ = 0;
     std::uint32_t columns_ = 0, rows_ = 0;
     std::vector<Block> blocks_ = {};
-    std::vector<Block> means_ =
-        {};  ///< means of squares of four texels, if single texels are inconclusive for the whole map
+    /// Means of squares of four texels, if single texels are inconclusive for the whole map.
+    std::vector<Block> means_ = {};
     std::uint32_t part_count_ = 0;
 };
 

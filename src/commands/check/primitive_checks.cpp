@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks of one primitive, except those of tangents and morph targets.
+// Checks one primitive, except for its tangents and morph targets.
 #include "commands/check/primitive_checks.h"
 
 #include <algorithm>
@@ -27,8 +27,8 @@ std::string setName(std::size_t set) { return "TEXCOORD_" + std::to_string(set);
 
 namespace {
 
-/// A normal points to the back if the cosine of its angle to the face normal is smaller (angles over 96 degrees). The
-/// margin over 90 degrees allows for coarse smooth shading.
+/// Cosine of the angle between a normal and the face normal below which the normal points to the back (angles over 96
+/// degrees). The margin over 90 degrees allows for coarse smooth shading.
 constexpr double kLeastFacing = -0.1;
 /// Share of the surface from which the whole mesh is reported as inside out.
 constexpr double kMostOfSurface = 0.5;
@@ -55,7 +55,7 @@ void checkNormalValues(PrimitiveFacts& facts) {
             not_finite.add(v, facts.surface.vertex_areas[v]);
             continue;
         }
-        // Uses the stored length, because the mesh has the scaled normals.
+        // The stored length is compared, because the mesh has the scaled normals.
         const bool is_scaled = scales != nullptr && scales->of_vertices[v] != 1;
         const double size = is_scaled ? 1 / scales->of_vertices[v] : length(toDouble(mesh.normals[v]));
         if (std::fabs(size - 1) > facts.options.unit_tolerance) not_unit.add(v, facts.surface.vertex_areas[v]);
@@ -206,7 +206,7 @@ void checkFarNormals(PrimitiveFacts& facts, const Directions& directions) {
         // Normals that point to the back are reported by another finding.
         const double cosine = nearest[equal.class_of[v]];
         const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-        // Normals of faces have no more than float precision.
+        // Normals of faces have only float precision.
         const auto angle = static_cast<float>(polarAngle(cosine, sine) * 180 / kPi);
         if (angle > kFarDeg && angle <= 90) far.add(v, facts.surface.vertex_areas[v], angle);
     }
@@ -234,7 +234,8 @@ void checkPositions(PrimitiveFacts& facts) {
                   " are NaN or infinite");
 }
 
-/// Reports random offsets of positions. Examines the mesh only, because the stored normals may not contain them.
+/// Reports random offsets of positions. Only positions are examined, because the stored normals may have been computed
+/// without the noise.
 void checkNoise(PrimitiveFacts& facts) {
     const double noise = notedNoise(facts.mesh.triangles(), facts.mesh.position_step, facts.options.weld_distance);
     if (noise == 0) return;
@@ -278,7 +279,7 @@ void reportAttributeFaults(PrimitiveFacts& facts) {
         const Tally all{.count = fault.vertex_count, .total = fault.vertex_count};
         const std::string name = attributeText(fault.name, fault.target);
         const bool was_read = fault.target < 0 && fault.name == "NORMAL" && !facts.primitive.normals.empty();
-        // Unsigned normals of unit length are correct if no component was meant to be negative.
+        // Unsigned normals that have unit length are correct if no component should be negative.
         const bool may_be_right = was_read && facts.primitive.normal_scales == nullptr;
         facts.add(FindingCode::attributeUnreadable, may_be_right ? Severity::warning : Severity::error, all, "vertices",
                   was_read ? "the surface may be lit from wrong directions: the elements of NORMAL " + fault.why
@@ -454,7 +455,8 @@ double comparedShare(const PrimitiveFacts& facts) {
 /// Reports positions so coarse that triangles determine neither tangents nor, reliably, normals.
 void checkRounding(PrimitiveFacts& facts) {
     PositionRounding rounding = facts.surface.rounding;
-    // Intentional rounding of positions matters only to tangents.
+    // Intentional rounding of positions matters only to tangents; without tangents, only other rounding is
+    // reported.
     const bool has_readers = !facts.primitive.uses.empty() || !facts.primitive.tangents.empty();
     if (rounding.was_before && !has_readers) {
         const std::span<const std::uint32_t> corners = facts.mesh.corners;
@@ -512,7 +514,7 @@ Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const C
     checkNormals(facts);
     checkNoise(facts);
     checkMorphValues(facts);
-    // If an array of a target cannot be read, another finding reports it.
+    // Targets with an array that cannot be read are skipped, because another finding reports them.
     const bool are_targets_read = std::none_of(primitive.attribute_faults.begin(), primitive.attribute_faults.end(),
                                                [](const SceneAttributeFault& fault) { return fault.target >= 0; });
     if (are_targets_read) checkMorphNormals(facts);

@@ -12,11 +12,11 @@ constexpr std::size_t kMostCommands = 3;
 
 struct CodeText {
     const char* name;
-    const char* remedy;  ///< each "{}" is replaced by the next command
+    const char* remedy;  ///< text in which each "{}" is replaced by the next command
     std::array<const char*, kMostCommands> commands = {};
 };
 
-/// In the order of FindingCode.
+/// Entries are in the order of FindingCode.
 constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
     {"positionsNotFinite", "Find the tool that wrote NaN or infinity as a position, and export the mesh again."},
     {"uvsMissing", "Unwrap the mesh, or make the texture use an existing UV set."},
@@ -150,7 +150,7 @@ const char* findingName(FindingCode code) {
 }
 
 const char* findingSummary(FindingCode code) {
-    // In the order of FindingCode.
+    // Entries are in the order of FindingCode.
     static constexpr std::array kSummaries{
         "Positions are not finite.",
         "A texture uses a UV set that does not exist.",

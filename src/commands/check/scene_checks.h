@@ -45,7 +45,7 @@ struct ImageFindings {
     std::uint64_t looked_at = 0;      ///< number of images that could be decoded
     std::uint64_t green_told = 0;     ///< number of decoded maps whose direction of green is known
     std::vector<MapLook> looks = {};  ///< per image of the scene: content of its channels
-    /// Per image: y is inverted but is not in green, so no finding on green reports it.
+    /// Per image: y is inverted but is not stored in green, so no finding on green reports it.
     std::vector<bool> is_y_inverted = {};
     std::vector<bool> is_declared = {};  ///< per image: the file declares that green points down (TangentUse)
 };
@@ -65,13 +65,13 @@ LoneMap checkLoneMap(const Scene& scene, const CheckOptions& options);
 /// Returns a note for each normal map whose scale is 0 or negative.
 std::vector<Finding> checkMapScales(const Scene& scene);
 
-/// Replaces the file name of an image that has none, or whose name cannot be one word of a command line.
+/// Placeholder for the file name of an image that has none, or whose name cannot be one word of a command line.
 inline constexpr const char* kUnnamed = "MAP";
 
 /// Names of an image in findings.
 struct NamedImage {
-    std::string name = {};  ///< in quotes
-    std::string file = {};  ///< name, quoted for a command line; or kUnnamed
+    std::string name = {};  ///< name in quotes
+    std::string file = {};  ///< name, quoted for a command line, or kUnnamed
     bool is_alone = false;  ///< no model shows the image, so generate does not apply
 };
 

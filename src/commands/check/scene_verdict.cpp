@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Verdict on a scene, and remedies of its findings.
+// Judges the primitives of a scene, and determines the remedies of their findings.
 #include "commands/check/scene_verdict.h"
 
 #include <algorithm>
@@ -49,7 +49,7 @@ class PrimitiveKey {
             arrays_.insert(arrays_.end(), {target.positions.data(), target.normals.data(), target.tangents.data()});
         for (const TangentUse& use : primitive.uses) {
             words_.push_back(use.needed_by);
-            // Findings name the materials if there are several.
+            // If a primitive has several materials, findings contain the name of the material.
             if (use.material != primitive.uses.front().material)
                 add({use.material, primitive.uses.front().material, use.only_in_variant ? 1U : 0U});
             add({use.has_texture, static_cast<std::uint64_t>(use.uv_set),
@@ -156,7 +156,7 @@ std::string nameOf(const Convention& convention) {
     for (const char* name : {"opengl", "directx", "unreal", "unity"}) {
         if (*findConvention(name) == convention) return name;
     }
-    return "opengl";  // "opengl" has the same signs
+    return "opengl";  // has the same signs as the convention
 }
 
 /// Returns whether a command computes tangents, either all or only wrong ones, as its first option specifies.
@@ -185,19 +185,19 @@ void setCommandOption(Finding& finding, const char* name, bool flips_green = fal
     }
 }
 
-// Remedies if green points down and signs are inverted.
+// Remedies for wrong signs if green points down.
 
-/// Remedy if both inversions cancel out.
+/// Returns the remedy if inverted signs and inverted green cancel out.
 Remedy bothOrNeither() {
     return {"No action is needed: the two inversions cancel out. Correct both or neither. To correct both: {}.",
             {toCommand("generate --overwrite --flip-green")}};
 }
 
-/// Remedy if the requested convention has green pointing down.
+/// Remedy if the requested convention has green pointing down, so that both are correct.
 constexpr const char* kNothingToDo =
     "No action is needed with this convention; readers that follow glTF expect green to point up.";
 
-/// Remedy if the signs of some meshes, but not of all, were computed for green pointing down.
+/// Returns the remedy if the signs of some meshes, but not of all, were computed for green pointing down.
 Remedy signsFirst() {
     return {"Correct the green channel and the inverted signs together: {}.",
             {toCommand("generate --overwrite --flip-green")}};
@@ -214,7 +214,8 @@ class Maps {
           any_cancels_(std::count(images.image_green.begin(), images.image_green.end(), other_way_) != 0),
           is_asked_for_(signFactor(options.convention) != signFactor(conventions::gltf)) {}
 
-    /// `number`: index of the primitive in the scene.
+    /// Returns whether the normal maps of a primitive cancel its inverted signs. `number`: index of the primitive in
+    /// the scene.
     [[nodiscard]] MapsSay say(const ScenePrimitive& primitive, std::size_t number) const {
         MapsSay result = MapsSay::nothing;
         for (const TangentUse& use : primitive.uses) {
@@ -223,8 +224,8 @@ class Maps {
             const GreenSide green =
                 is_first ? at(images_.primitive_green, number) : at(images_.image_green, *use.image);
             if (green == other_way_) return MapsSay::cancel;
-            // A map without a verdict is treated like the other maps of the file. A user who requests a convention
-            // other than the format's thereby defines the correct signs, also for unreadable maps.
+            // A map whose direction is unknown is treated like the other maps of the file. A convention other than the
+            // format's is requested by the user and defines the correct signs, also for maps that cannot be read.
             const bool is_open = (green == GreenSide::unread && !is_asked_for_) || green == GreenSide::mixed ||
                                  (green == GreenSide::unknown && any_cancels_);
             if (is_open) result = MapsSay::open;
@@ -369,7 +370,7 @@ constexpr const char* kDrawnTangents =
     "Repair the tangents with the program that made them. No texture uses them, so tspace cannot determine their "
     "correct direction.";
 
-/// Returns whether recomputing the tangents fixes the finding.
+/// Returns whether computing the tangents again fixes the finding.
 bool isOfTangents(FindingCode code) {
     return (code >= FindingCode::tangentsNotFinite && code <= FindingCode::morphTangentsWrong);
 }
@@ -383,7 +384,7 @@ bool isOfValues(FindingCode code) {
 
 class Advice {
   public:
-    /// `signs`: verdicts of all primitives.
+    /// Prepares the remedies for a scene. `signs`: verdicts of all primitives.
     Advice(const CheckOptions& options, const std::set<SignVerdict>& signs)
         : options_(options),
           inverts_green_(options.convention.green == Green::up),
@@ -406,7 +407,7 @@ class Advice {
         const bool is_of_signs = finding.code == FindingCode::signsInverted || finding.code == FindingCode::signsWrong;
         const bool is_error = finding.severity == Severity::error;
         if (isOfValues(finding.code) || (finding.code == FindingCode::tangentsNotOrthogonal && is_error)) {
-            // The usual remedy is kept.
+            // The usual remedy repairs forbidden values, regardless of UVs and signs.
         } else if (primitive.hasFreeTangents()) {
             setRemedy(finding, kDrawnTangents);
         } else if (!can_compute) {

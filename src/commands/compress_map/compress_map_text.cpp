@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Report of a compressed normal map as text.
+// Formats the report of compress-map as text.
 #include <fmt/format.h>
 
 #include "commands/compress_map/compress_map_report.h"

@@ -28,7 +28,7 @@ std::string angleText(double degrees) {
     return {text, end.ptr};
 }
 
-/// The mesh of each side that needs one.
+/// The mesh of each side of the conversion, if that side needs one.
 struct Meshes {
     std::optional<MapMesh> from = {}, to = {};
 };
@@ -43,7 +43,7 @@ Meshes readMeshes(const std::string& input, const ConvertMapFileOptions& options
     const std::string& to_mesh = options.to_mesh.empty() ? options.mesh : options.to_mesh;
     Meshes meshes;
     if (!from_tangent && !to_tangent) {
-        // Both models have the transform between object and world space, so either can be used.
+        // Between object and world space either model can be used, because both have the transform.
         if (options.from != options.to) meshes.from = read(options.mesh.empty() ? to_mesh : options.mesh);
         return meshes;
     }
@@ -53,7 +53,8 @@ Meshes readMeshes(const std::string& input, const ConvertMapFileOptions& options
     return meshes;
 }
 
-/// `mesh`: the mesh of this side, or the only mesh. `is_own`: the triangles of `mesh` belong to this side.
+/// Returns one side of the conversion. `mesh`: the mesh of this side, or the only mesh. `is_own`: the triangles of
+/// `mesh` belong to this side.
 MapSide mapSideOf(const MapMesh* mesh, bool is_own, MapFileSpace space, const MapReading& reading) {
     MapSide side{.space = space == MapFileSpace::tangent ? MapSpace::tangent : MapSpace::object, .reading = reading};
     if (mesh == nullptr) return side;
@@ -112,7 +113,7 @@ MapAxes axesOf(const FloatImage& image, const Meshes& meshes, const ConvertMapFi
     return kMapAxesZUp;
 }
 
-/// `axes`: one entry per triangle if they differ from those of the mesh.
+/// Returns both sides of the conversion. `axes`: one entry per triangle if they differ from those of the mesh.
 MapSides sidesOf(const Meshes& meshes, const ConvertMapFileOptions& options, std::span<const MapAxes> axes) {
     const MapMesh* const from = meshes.from ? &*meshes.from : nullptr;
     const MapMesh* const to = meshes.to ? &*meshes.to : nullptr;
@@ -161,7 +162,7 @@ void addMapWarnings(const ConvertMapFileOptions& options, ConvertMapFileReport& 
     }
 }
 
-/// Refuses models that are not one surface with one UV map, and texels that would need several directions.
+/// Fails if the models are not one surface with one UV map, or if texels would need several directions.
 void checkConversion(const ConvertMapReport& texels) {
     constexpr std::uint64_t kOneOf = 10, kOneOfShared = 100;
     const std::uint64_t shown = texels.converted + texels.unmatched + texels.without_frame,
@@ -204,8 +205,8 @@ unsigned outputBits(ImageFormat format, unsigned bits) {
     return bits;
 }
 
-/// Converts the image according to its channel layout. Returns the original texels if the layout is not the default,
-/// and otherwise an empty vector.
+/// Converts the image from its channel layout to that of glTF. Returns the original texels, or an empty vector if the
+/// layout is already that of glTF.
 std::vector<Vec3> applyLayout(const MapLayout& layout, FloatImage& image) {
     if (layout == MapLayout{}) return {};
     if (readsAlpha(layout) && image.alpha.empty())
@@ -442,7 +443,7 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
 }
 
 std::string finish(const Given& given, ConvertMapFileOptions& options) {
-    // Conventions are applied first, in any order on the command line.
+    // Options for conventions are applied before the others, in any order on the command line.
     for (const Given::Item& item : given.items) {
         const std::string& name = item.option->name();
         if (name == "--from-bitangent" || name == "--to-bitangent") item.option->take(item.value);

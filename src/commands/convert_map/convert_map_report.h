@@ -10,7 +10,7 @@
 namespace tspace::report {
 
 std::string convertMapJson(const Outcome<ConvertMapFileReport>& outcome, ExitCode exit_code);
-/// `options`: options of the call; the text names its models.
+/// Returns the report as text. `options`: options of the call; the text names its models.
 std::string convertMapText(const Outcome<ConvertMapFileReport>& outcome, const ConvertMapFileOptions& options);
 
 }  // namespace tspace::report

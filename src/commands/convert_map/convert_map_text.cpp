@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Report of a converted normal map as text.
+// Formats the report of convert-map as text.
 #include <fmt/format.h>
 
 #include "commands/convert_map/convert_map_report.h"

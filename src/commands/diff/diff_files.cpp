@@ -19,7 +19,7 @@
 namespace tspace {
 namespace {
 
-// A collection of angles with statistics.
+// Collection of angles, and its statistics.
 
 class AngleSamples {
   public:
@@ -36,7 +36,7 @@ class AngleSamples {
     std::uint64_t unusable_count_ = 0;
 };
 
-// Nearest-rank percentiles.
+// Percentiles by the nearest-rank method.
 
 /// Returns the smallest value that at least `share` of all values do not exceed.
 double percentile(const std::vector<float>& sorted, double share) {
@@ -121,7 +121,7 @@ class WorstPlaces {
     [[nodiscard]] const std::vector<FrameDifference>& places() const { return places_; }
 
   private:
-    /// A different sign reverses B, so the angle of B includes it.
+    /// Returns the largest angle of a corner. A different sign reverses B, so the angle of B includes it.
     static double worstOf(const FrameDifference& d) { return std::max({d.tangent_deg, d.normal_deg, d.bitangent_deg}); }
     static bool isWorse(const FrameDifference& a, const FrameDifference& b) { return worstOf(a) > worstOf(b); }
 

@@ -10,17 +10,17 @@
 
 namespace tspace::report {
 
-/// Report on the models `a` and `b`.
+/// Returns the report on the models `a` and `b` as JSON.
 std::string diffJson(const std::string& a, const std::string& b, double tolerance_deg, const Result<FrameDiff>& diff,
                      ExitCode exit_code);
 std::string diffText(const std::string& a, const std::string& b, const FrameDiff& diff);
 
 // A comparison as sentences and tables, for a terminal or a page.
 
-/// Rows of cells, of which the first is the header; empty: no table.
+/// Rows of cells; the first row is the header. An empty list means no table.
 using TextTable = std::vector<std::vector<std::string>>;
 
-/// Sentences and tables. Names from files are not escaped.
+/// Sentences and tables of a comparison. Names from files are not escaped.
 struct DiffWords {
     std::string summary = {};               ///< "A against B: ..."
     std::vector<std::string> remarks = {};  ///< further sentences
@@ -29,7 +29,7 @@ struct DiffWords {
     TextTable worst = {};
 };
 
-/// `a`, `b`: names of the files.
+/// Returns the report as sentences and tables. `a`, `b`: names of the files.
 DiffWords diffWords(const std::string& a, const std::string& b, const FrameDiff& diff);
 
 /// Returns the label of a bin of kAngleBins, such as "up to 0.1".

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Report of tspace diff as text.
+// Formats the report of diff as text.
 #include <algorithm>
 
 #include "commands/diff/diff_report.h"

@@ -20,7 +20,7 @@ std::string degrees(double value) {
     return spelled(value, std::chars_format::fixed, value != 0 && value < 0.1 ? 4 : 2);
 }
 
-/// Returns "" or a sentence on files whose tangents the importer cannot read.
+/// Returns a sentence on files whose tangents the importer cannot read, or "" if there are none.
 std::string notReadText(const std::string& a, const std::string& b, const FrameDiff& diff) {
     const auto any = [&](bool PrimitiveDiff::*not_read) {
         return std::any_of(diff.primitives.begin(), diff.primitives.end(), [&](const auto& p) { return p.*not_read; });

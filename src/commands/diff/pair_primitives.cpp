@@ -212,7 +212,8 @@ std::vector<TrianglePair> pairByPlace(const ScenePrimitive& a, const ScenePrimit
             pairs.push_back({t, u, rotation});
             return true;
         };
-        // Most files keep the order of triangles; it also distinguishes coincident triangles.
+        // The triangle with the same index is tried first: most files keep the order of triangles, and the order
+        // distinguishes coincident triangles.
         if (t < is_paired.size() && pairWith(t)) continue;
         grid_b.visitNear(grid_a.centerOf(t), pairWith);
     }
@@ -221,7 +222,7 @@ std::vector<TrianglePair> pairByPlace(const ScenePrimitive& a, const ScenePrimit
 
 namespace {
 
-/// Returns the key that both partners share; empty: the primitive is not paired by this key.
+/// Returns the key that both partners share. A primitive with an empty key is not paired by it.
 using KeyOf = std::function<std::string(const ScenePrimitive&)>;
 
 class Pairer {
@@ -271,7 +272,8 @@ class Pairer {
         const ScenePrimitive& mine = a_.primitives[pair.a];
         const ScenePrimitive& other = b_.primitives[pair.b];
         pair.triangles = pairByCorners(mine, other);
-        // All vertices moved slightly: the mesh was quantized, or written with fewer digits.
+        // If corners differ, all vertices may have moved slightly: the mesh was quantized, or written with fewer
+        // digits.
         if (pair.triangles.size() < mine.corners.size() / 3) {
             std::vector<TrianglePair> by_place = pairByPlace(mine, other);
             if (by_place.size() > pair.triangles.size()) pair.triangles = std::move(by_place);
@@ -285,7 +287,7 @@ class Pairer {
     std::vector<bool> taken_ = {};  ///< per primitive of B; true also for those without triangles
 };
 
-/// Computed once, because keys are used several times.
+/// Returns the geometry keys of all primitives, which are computed once because they are used several times.
 std::map<const ScenePrimitive*, std::string> geometryKeys(const Scene& a, const Scene& b) {
     std::map<const ScenePrimitive*, std::string> keys;
     for (const Scene* scene : {&a, &b}) {

@@ -69,9 +69,9 @@ class Applier {
         return changed;
     }
 
-    /// Morph targets whose tangent deltas were computed.
+    /// Returns the number of morph targets whose tangent deltas were computed.
     [[nodiscard]] std::uint32_t computedTargets() const { return computed_targets_; }
-    /// Morph targets whose normal offsets were computed although the base normals stay.
+    /// Returns the number of morph targets whose normal offsets were computed although the base normals are kept.
     [[nodiscard]] std::uint32_t newNormals() const { return new_normals_; }
 
   private:
@@ -130,7 +130,7 @@ class Applier {
             if (!elements_.has_tangent_deltas) continue;
             const bool has_tangents = findAttribute(first.targets[i], "TANGENT").has_value();
             if (pool_.keeps_tangents && has_tangents && !turns_normals) continue;
-            // New deltas would fit the computed tangents, but the file keeps its own tangents.
+            // Computed deltas fit computed tangents, but the file keeps different tangents.
             if (pool_.mendsTangents() && elements_.differing_count != 0 && !has_tangents) continue;
             ++computed_targets_;
             changed |= setAttribute(target, "TANGENT", elementsOf(elements_.morphs[i].tangents));

@@ -84,7 +84,7 @@ WeldedVertices weldVertices(const Document& document, const Primitive& primitive
 
 namespace {
 
-/// Starting threads takes longer than computing fewer corners.
+/// Number of corners below which one thread is faster, because starting threads takes time.
 constexpr std::size_t kCornersForThreads = 3000;
 
 /// Charges the deltas of a target to the memory budget: one for each vertex that moves, kept until the last target is
@@ -192,7 +192,7 @@ void weld(const WeldedVertices& welded, std::vector<PrimitiveGeometry>& geometri
     };
 }
 
-/// Computes normal deltas of morph targets whose base normals are kept, on first use.
+/// Computes normal offsets of morph targets whose base normals are kept, when they are first used.
 class NewMorphNormals {
   public:
     /// Replaces the target reader of `vertices`, so that it returns the new offsets. `vertices` and `geometries` must
@@ -283,7 +283,7 @@ std::vector<PrimitiveGeometry> readGeometries(DecodedArrays& arrays, std::span<c
 
 }  // namespace
 
-/// Reusable arenas: one for each pool that is being computed.
+/// Arenas for reuse, one for each pool that is being computed.
 class PoolComputer::Arenas {
   public:
     std::unique_ptr<Arena> take() {

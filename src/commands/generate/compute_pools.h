@@ -50,7 +50,7 @@ class PoolComputer {
 
   private:
     class Arenas;
-    /// `progress`: null if this is not the calling thread.
+    /// Computes one pool. `progress`: null if this is not the calling thread.
     PoolElements computeOne(const PoolPlan& pool, const Execution& execution, const PoolProgress* progress,
                             std::span<PrimitiveReport> reports);
     void tell(const PoolProgress* progress) const;

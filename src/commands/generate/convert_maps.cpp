@@ -24,7 +24,7 @@ struct ShownMap {
     OwnedMesh from = {}, to = {};  ///< one vertex per corner
     TexelMask texels = {};
     bool is_new = false;     ///< the tangents of the primitive were computed
-    bool is_bright = false;  ///< the primitive got normals that intentionally change the shading
+    bool is_bright = false;  ///< the primitive got normals that change the shading on purpose
 
     [[nodiscard]] bool readsLike(const ShownMap& other) const {
         const TangentUse &own = *user.use, &others = *other.user.use;
@@ -156,7 +156,7 @@ NewMap convertFor(const MapGroup& group, const FloatImage& image, const Generate
     return made;
 }
 
-/// All primitives that show one image.
+/// All primitives that show one image, and the conversion of that image for them.
 class OneMap {
   public:
     OneMap(const Bytes& file, const GenerateOptions& options) : file_(file), options_(options) {}
@@ -189,7 +189,7 @@ class OneMap {
         }
         return made;
     }
-    /// Frees the frames.
+    /// Frees the memory of the frames.
     void release() { shown_ = {}; }
     [[nodiscard]] std::size_t userCount() const { return shown_.size(); }
 
@@ -214,13 +214,13 @@ class OneMap {
         std::optional<FloatImage> image = decodeFloatImage(file_, kMostModelMapPixels, why);
         if (!image) return {};
         readTextureVectors(*image);
-        constexpr unsigned kMostBits = 16;  // maximum bits of a PNG
+        constexpr unsigned kMostBits = 16;  // maximum number of bits per channel of a PNG
         image->bits = std::min(image->bits, kMostBits);
         return image;
     }
 
     void prepare(ShownMap& one, const Source& source, const FloatImage& image) const {
-        // Tangents that viewers compute for a file without tangents.
+        // Viewers compute these tangents for a file without tangents.
         const TangentOptions viewers{.convention = conventions::gltf};
         const TangentUse& use = *one.user.use;
         addMapCorners(*source.before, &use, viewers, options_.execution, one.from);

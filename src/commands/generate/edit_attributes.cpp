@@ -57,8 +57,8 @@ bool setAttribute(Editor& editor, const Document& document, const SharedAttribut
     }
     if (current) data.makeNow();
     if (current && copyElements(document, *current) == data.bytes) return false;
-    // KHR_mesh_quantization is needed for normalized formats of the attributes that glTF specifies.
-    // Application-specific attributes may always be integers.
+    // KHR_mesh_quantization is required for normalized formats of attributes that glTF specifies. Application-specific
+    // attributes may be integers without it.
     if (data.normalized && !isPackedAttribute(attribute.name)) editor.require("KHR_mesh_quantization");
     if (attribute.target != kBase) makeSparseWhereSmaller(data);
     // Morph targets are compressed like their positions; Draco does not compress them.
@@ -136,7 +136,7 @@ void removeUnreadable(Editor& editor, const Primitive& primitive, std::ptrdiff_t
     } else {
         attributesOf(editor, primitive, target).erase(name);
     }
-    // The size of an unknown type is unknown, so its data cannot be freed.
+    // Data of an unknown type cannot be freed, because its size is unknown.
     if (hasKnownType(editor.accessor(accessor))) editor.release(accessor);
 }
 
@@ -230,7 +230,7 @@ struct NewList {
 void turnTriangles(Document& document, const std::string& new_file, std::span<const Primitive> primitives,
                    std::span<const std::vector<std::uint8_t>> turned) {
     const std::optional<std::size_t> none;
-    // The key is the old list and the POSITION accessor, which also determine how a list is stored.
+    // Primitives are grouped by old list and POSITION accessor, which also determine how a list is stored.
     std::map<std::pair<std::optional<std::size_t>, std::optional<std::size_t>>, std::vector<NewList>> lists;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         if (std::find(turned[i].begin(), turned[i].end(), 1) == turned[i].end()) continue;
@@ -302,7 +302,7 @@ bool canScaleNormals(const Document& document, const Primitive& primitive) {
 }
 
 void writeUnitNormals(Document& document, const std::string& new_file, std::span<const Primitive> primitives) {
-    // The key is the target, its NORMAL accessor, and the NORMAL accessor of the base.
+    // Primitives are grouped by target, by the NORMAL accessor of the target, and by the NORMAL accessor of the base.
     std::map<std::tuple<std::ptrdiff_t, std::size_t, std::size_t>, std::vector<std::size_t>> sharing;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         const Primitive& primitive = primitives[i];

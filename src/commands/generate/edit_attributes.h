@@ -17,7 +17,7 @@
 
 namespace tspace::gltf {
 
-/// selects the attributes of the primitive, instead of those of a morph target
+/// Index that selects the attributes of the primitive, instead of those of a morph target.
 inline constexpr std::ptrdiff_t kBase = -1;
 
 // Sets one attribute of the primitives that share it.

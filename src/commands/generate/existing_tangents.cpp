@@ -57,9 +57,9 @@ std::uint8_t partsOf(FindingCode code) {
 /// Faults of one primitive.
 struct Verdict {
     Mends mends = {};
-    std::string why = {};   ///< description of the faults; empty: none
-    std::string kept = {};  ///< description of the checks, if nothing is wrong
-    bool is_free = false;   ///< no texture uses its tangents
+    std::string why = {};   ///< description of the faults; empty if there are none
+    std::string kept = {};  ///< description of the checks, for primitives without a fault
+    bool is_free = false;   ///< no texture uses the tangents
 };
 
 /// Returns whether the vertices that the finding counts are repaired. Values that the format forbids are always
@@ -95,7 +95,7 @@ std::string whyKept(const PrimitiveJudgement& judgement, bool is_free) {
 Verdict verdictOf(const PrimitiveJudgement& judgement, bool is_free) {
     Verdict verdict{.kept = whyKept(judgement, is_free), .is_free = is_free};
     verdict.mends.inverted_signs = judgement.signs_stay;
-    std::vector<std::pair<std::uint32_t, std::uint8_t>> rules;  // fault bits, and the parts to repair
+    std::vector<std::pair<std::uint32_t, std::uint8_t>> rules;  // fault bits, and the parts of the tangent to repair
     for (const Finding& finding : judgement.findings) {
         if (!asksForMending(finding)) continue;
         const bool is_inverted = finding.code == FindingCode::signsInverted;
@@ -118,7 +118,7 @@ Verdict verdictOf(const PrimitiveJudgement& judgement, bool is_free) {
 /// Adapts the texture uses of the scene to the options.
 void applyReadingOptions(const GenerateOptions& options, Scene& scene) {
     for (ScenePrimitive& primitive : scene.primitives) {
-        // Treats these tangents as if a texture used them.
+        // With the option 'all', tangents are judged as if a texture used them.
         if (primitive.uses.empty() && options.selection.all) {
             primitive.uses.push_back({.needed_by = "the option 'all'", .has_texture = primitive.other_reader.empty()});
         }
@@ -364,7 +364,8 @@ std::vector<std::vector<std::size_t>> findBrokenValues(Model& model, const Gener
     std::map<std::size_t, std::vector<std::size_t>> sharing;  // accessor -> primitives
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         const auto accessor = primitives[i].find("TANGENT");
-        // Without positions nothing is drawn, and new elements have no accessor to be stored like.
+        // Primitives without positions are not drawn, and have no accessor whose compression new elements could
+        // inherit.
         if (!accessor || !primitives[i].find("POSITION") || is_computed[i]) continue;
         if (plan.reports[i].action == PrimitiveAction::removed) continue;
         if (hasData(document, readAccessor(document, *accessor))) sharing[*accessor].push_back(i);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Decides which normal maps are inverted, and connects the new images with the textures that show them.
+// Decides which normal maps are inverted, and makes the textures that show them use the new images.
 #include "commands/generate/flip_maps.h"
 
 #include <algorithm>

@@ -24,7 +24,7 @@ struct JudgedMap {
     std::size_t image = 0;
     Bytes flipped = {};          ///< image file with green inverted; empty: the image is unchanged
     MapLook look = {};           ///< content of the image
-    bool is_y_inverted = false;  ///< y is inverted and is not stored in green
+    bool is_y_inverted = false;  ///< y is inverted, but is not stored in green
     NormalMapReport report = {};
 };
 
@@ -51,7 +51,7 @@ std::vector<JudgedMap> judgeMaps(const Scene& scene, const std::vector<bool>& ke
 Bytes mendMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options, JudgedMap& map);
 
 struct MadeOfHeights {
-    /// The image is gray, or cannot be decoded. Otherwise it is treated as a normal map.
+    /// The image is gray, or cannot be decoded. Other images are treated as normal maps.
     bool is_height_map = false;
     Bytes file = {};           ///< PNG; empty: not converted
     std::string why_not = {};  ///< reason why it was not converted, as half a sentence
@@ -69,7 +69,7 @@ namespace tspace::gltf {
 
 struct MapFlips {
     std::map<std::size_t, Bytes> images = {};  ///< image files with green inverted, by image index
-    /// rewritten image files, with or without inverted green, by image index
+    /// Rewritten image files, with or without inverted green, by image index.
     std::map<std::size_t, Bytes> mended = {};
     std::vector<NormalMapReport> reports = {};
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Conversions between GenerateOptions and PrimitiveReport and the types of computeFrames.
+// Converts GenerateOptions and PrimitiveReport to and from the types of computeFrames.
 #include "commands/generate/frames_call.h"
 
 namespace tspace {

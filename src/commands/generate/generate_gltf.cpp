@@ -66,7 +66,7 @@ struct Input {
     Model model;
     OutputTarget target = {};
     GenerateOptions options = {};  ///< options, adapted to this model
-    bool is_converted = false;     ///< the output has another container or format, even without edits
+    bool is_converted = false;     ///< the output has a different container or format, even without edits
 };
 
 /// Fails if the model cannot be written to that output.
@@ -81,7 +81,7 @@ Input toInput(Model&& model, const Path& output, bool is_stream, const GenerateO
     return input;
 }
 
-/// Describes how geometry is stored in the document during editing.
+/// Storage of the geometry while the document is edited.
 struct Storage {
     std::string new_file = {};  ///< buffer file for new data that have no better location
     bool is_unpacked = false;   ///< geometry was decompressed or unpacked
@@ -104,7 +104,7 @@ Storage prepareStorage(Input& input, std::vector<std::string>& warnings) {
 struct Decisions {
     GeneratePlan plan = {};
     MapFlips flips = {};
-    std::optional<MapConversion> maps = {};             ///< holds the appearance with the old tangents
+    std::optional<MapConversion> maps = {};             ///< keeps the appearance with the old tangents
     std::vector<std::vector<std::size_t>> broken = {};  ///< primitives of each TANGENT whose values are repaired
     bool has_unreadable_tangents = false;
 
@@ -197,8 +197,8 @@ WorkedOn edit(Input& input, const Storage& storage, Decisions&& decisions, Gener
             .compression = storage.is_unpacked || is_packed};
 }
 
-/// Flips triangles if requested. Returns whether any were flipped; then the container is already that of the output.
-/// `is_converted`: the container was converted before.
+/// Flips triangles if requested. Returns whether any were flipped; in this case the container has been converted to
+/// that of the output. `is_converted`: the container was already converted.
 bool turnWrong(Input& input, const Storage& storage, std::span<const std::uint32_t> kept, bool is_converted,
                WindingPlan& plan, std::vector<std::string>& warnings) {
     if (!input.options.mend_winding) return false;
@@ -212,8 +212,8 @@ bool turnWrong(Input& input, const Storage& storage, std::span<const std::uint32
     return true;
 }
 
-/// Repairs attributes if requested. Returns whether any were repaired; then the container is already that of the
-/// output. Primitives that lost their normals get new ones.
+/// Repairs attributes if requested. Returns whether any were repaired; in this case the container has been converted to
+/// that of the output. Primitives that lost their normals get new ones.
 bool repairFaults(Input& input, const Storage& storage, bool is_asked_for, NormalWishes& wishes,
                   std::vector<std::string>& warnings) {
     const GenerateOptions& options = input.options;
@@ -255,7 +255,7 @@ void noteUnitNormals(std::span<const std::size_t> scaled, const ScaledNormalsWar
     if (are_unit) report.warnings[warning.number] = warning.lengths + ". The normals in the output have unit length";
 }
 
-/// Performs all steps except reading and writing.
+/// Runs all steps between reading and writing.
 WorkedOn generate(Input& input, bool with_images, const GenerateStep& step, GenerateReport& report) {
     Document& document = input.model.document();
     std::vector<std::size_t> scaled;
@@ -284,7 +284,7 @@ WorkedOn generate(Input& input, bool with_images, const GenerateStep& step, Gene
         const bool will_edit = decisions.changeGeometryOrMaps() || input.options.storage.pack.has_value();
         convertContainer(document, input.target, will_edit, report.warnings);
     }
-    // Runs after the decisions on maps, which find images by their names.
+    // Images are embedded after the decisions on maps, which find images by their names.
     if (with_images) takeImagesIn(document, input.target, report.warnings);
     tell(input.options, "reading", 1, 1);
     const WorkedOn worked_on = edit(input, storage, std::move(decisions), report);
@@ -342,7 +342,7 @@ void writeGenerated(const std::string& input, Document& document, const OutputTa
     tellFiles(input, document, files, report);
     addWarnings(options, worked_on, is_step, report);
     tell(options, "writing", 1, 1);
-    // Nothing that can fail may follow.
+    // No step that can fail may follow.
     files.commit();
 }
 

@@ -16,8 +16,8 @@ namespace tspace {
 /// Settings of generate as a step of another command. A step does not warn about options without effect.
 struct GenerateStep {
     gltf::NormalWishes normals = {};  ///< normals to recompute; ignored for OBJ
-    std::vector<std::uint32_t> wound_meshes =
-        {};  ///< meshes that GenerateOptions::mend_winding does not change; ignored for OBJ
+    /// Meshes that GenerateOptions::mend_winding does not change; ignored for OBJ.
+    std::vector<std::uint32_t> wound_meshes = {};
     /// Repairs attributes with a wrong type or element count; otherwise generate repairs them only with some options.
     bool repairs_attributes = false;
 };
@@ -37,8 +37,8 @@ struct GeneratedModel {
 GeneratedModel generateModel(Model&& input, const GenerateOptions& options, bool with_images,
                              const GenerateStep& step = {});
 
-/// generateFile for glTF inputs, and for formats that the importer converts to glTF. `step`: null if generate itself is
-/// the command.
+/// Implements generateFile for glTF inputs, and for formats that the importer converts to glTF. `step`: null if
+/// generate itself is the command.
 Result<GenerateReport> generateGltf(const std::string& input, const std::string& output, const GenerateOptions& options,
                                     const GenerateStep* step);
 
@@ -50,14 +50,14 @@ namespace tspace {
 gltf::GeneratedModel generateModel(const std::string& input, const GenerateOptions& options, bool with_images,
                                    const GenerateStep& step = {});
 
-/// generateFile as a step of another command.
+/// Runs generateFile as a step of another command.
 Result<GenerateReport> generateStep(const std::string& input, const std::string& output, const GenerateOptions& options,
                                     const GenerateStep& step);
 
-/// generateFile for an OBJ input; `output` is a .glb or .gltf file.
+/// Implements generateFile for an OBJ input; `output` is a .glb or .gltf file.
 Result<GenerateReport> generateObj(const std::string& input, const std::string& output, const GenerateOptions& options,
                                    const GenerateStep* step);
-/// generateModel for an OBJ input. Throws FileError.
+/// Implements generateModel for an OBJ input. Throws FileError.
 gltf::GeneratedModel generateObjModel(const std::string& input, const GenerateOptions& options);
 
 }  // namespace tspace

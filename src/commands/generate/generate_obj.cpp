@@ -221,7 +221,7 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool
         .shape = primitive.shape, .material = primitive.material, .mesh = buildMesh(model, primitive)};
     OwnedMesh& mesh = finished.mesh;
     tell(options, "computing tangents", 0, 0);
-    // Rounded before tangents are computed, because tangents must match the written normals.
+    // Normals are rounded before tangents are computed, because tangents must match the written normals.
     if (primitive.normals_generated) roundUnits(mesh.normals, options.storage.format);
     if (decide(material, primitive, options, report)) {
         makeObjFrames(options, finished, report);
@@ -232,7 +232,7 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool
     report.normals_generated = primitive.normals_generated;
     report.normals_replaced = replaced;
     if (primitive.normals_generated) {
-        FramesReport faults;  // OBJ has no morph targets, so no sign flips
+        FramesReport faults;  // counts of faults; OBJ has no morph targets, so no signs flip
         countFaults(mesh.positions, mesh.normals, {&mesh.indices, 1}, options.normals.compute.weld_distance,
                     {&faults, 1});
         copyReportOfKept(faults, report);
@@ -243,13 +243,13 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool
     return finished;
 }
 
-/// A glTF document made from an OBJ file, and which options had an effect.
+/// A glTF document that was created from an OBJ file, and the options that had an effect.
 struct Made {
     gltf::Document document = {};
     WorkedOn worked_on = {};
 };
 
-/// Fills the report, except for what the writer adds.
+/// Generates the document. Fills the report, except for the values that the writer adds.
 Made generate(const std::string& input, const std::string& output, const GenerateOptions& options,
               GenerateReport& report) {
     if (options.storage.compression == Compression::meshopt || options.storage.compression == Compression::draco) {

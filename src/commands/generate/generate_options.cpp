@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Options for the output and the computation of frames. The meaning, unit and default of each option are defined only
-// here.
+// Options for the output and for the computation of frames. The meaning, unit and default of each option are defined in
+// this file only.
 #include <optional>
 
 #include "commands/shared/file_options.h"
@@ -68,7 +68,7 @@ void addOutput(OptionList& list, GenerateOptions& options) {
     addAllowExternal(list, options.file);
 }
 
-/// Options that select the primitives that get tangents, and the treatment of existing tangents.
+/// Adds the options that select which primitives get tangents, and how existing tangents are treated.
 void addSelection(OptionList& list, GenerateOptions& options) {
     const char* group = "Tangents";
     add(list, group, flag("--all", options.selection.all, "Also process primitives whose material needs no tangents."));
@@ -160,7 +160,7 @@ void addPackOptions(OptionList& list, GenerateOptions& options) {
         .needs = "--pack";
 }
 
-/// The only accepted value is `keep`; the error message for uastc names alternatives.
+/// Returns the option whose only value is `keep`; the error message for uastc names alternatives.
 Option compressMapsOption() {
     const auto take = [](const std::string& how) {
         return how == "uastc"

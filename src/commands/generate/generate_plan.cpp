@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Choosing an action for each primitive and grouping primitives into pools of shared vertices.
+// Chooses an action for each primitive, and groups primitives into pools of shared vertices.
 #include "commands/generate/generate_plan.h"
 
 #include <algorithm>
@@ -27,7 +27,8 @@ namespace {
 
 std::string uvName(std::size_t set) { return "TEXCOORD_" + std::to_string(set); }
 
-/// Tangents without normals are to be ignored (glTF 2.0, section 3.7.2.1), so they count as missing.
+/// Returns whether the primitive has tangents and normals: tangents without normals must be ignored (glTF 2.0, section
+/// 3.7.2.1).
 bool hasUsableTangents(const Primitive& primitive) {
     return primitive.find("TANGENT").has_value() && primitive.find("NORMAL").has_value();
 }
@@ -85,7 +86,7 @@ std::vector<bool> morphNormals(const Document& document, const Primitive& primit
     return targets;
 }
 
-/// Planned computations of normals.
+/// The computations of normals that are planned for a primitive.
 struct NormalsPlan {
     bool anew = false;
     std::vector<bool> morphs = {};
@@ -180,7 +181,7 @@ std::string noteOnDrawn(const Document& document, const Primitive& primitive, co
     return "tangents that may have been authored (" + reader + ") were recomputed" + (along_u ? " along u" : "");
 }
 
-/// Primitives with equal keys are computed together.
+/// Returns a key; primitives with equal keys are computed together.
 std::string poolKey(const Primitive& primitive, std::int32_t uv_set, const UvMatrix& matrix, bool makes_tangents,
                     bool overwrites_normals) {
     std::string key = std::to_string(uv_set) + (makes_tangents ? "" : "without") + (overwrites_normals ? "anew" : "");
@@ -287,7 +288,7 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
     return plan;
 }
 
-// Processes meshes one by one: reads all triangles of a mesh, but keeps only those near a border.
+// Processing of meshes one by one: all triangles of a mesh are read, but only those near a border are kept.
 
 namespace {
 
@@ -355,7 +356,7 @@ class MeshPieces {
 
     [[nodiscard]] std::size_t othersOf(std::uint32_t piece) const { return joined_->othersOf(piece); }
     struct OtherMesh {
-        std::size_t primitive = 0;  ///< index of the primitive in the other mesh that is first at the border
+        std::size_t primitive = 0;  ///< index of the other mesh's first primitive at the border
         std::set<std::uint32_t> points = {};
     };
     /// Returns the other meshes that form one surface with a piece, and the shared points, by piece and mesh.

@@ -23,7 +23,7 @@ struct Surroundings;
 
 namespace tspace::gltf {
 
-/// Primitives that draw the same triangles of one pool; they are computed once.
+/// Primitives that draw the same triangles of one pool. They are computed once.
 struct GeometryPlan {
     std::vector<std::size_t> primitives = {};         ///< indices of primitives; never empty
     Mends mends = {};                                 ///< faults of the existing tangents
@@ -46,12 +46,12 @@ struct PoolPlan {
     bool keeps_tangents = false;  ///< tangents are kept; morph targets without tangent deltas get them
     bool tries_quads = false;     ///< tangents may be computed on quads, if the existing tangents match quads
     bool is_blenders = false;     ///< Blender wrote the file
-    /// targets that get new normal offsets although the base normals are kept; empty: none
+    /// Targets that get new normal offsets although the base normals are kept; empty if there are none.
     std::vector<bool> morph_normals = {};
     std::uint64_t corner_count = 0;
     std::size_t vertex_count = 0;
 
-    /// Existing tangents are kept, except for the repairs listed in the geometries.
+    /// Returns whether existing tangents are kept, except for the repairs listed in the geometries.
     [[nodiscard]] bool mendsTangents() const {
         return !geometries.empty() && !geometries.front().mends.vertices.empty();
     }
@@ -66,8 +66,8 @@ struct PoolPlan {
 struct GeneratePlan {
     std::vector<PoolPlan> pools = {};
     std::vector<PrimitiveReport> reports = {};  ///< one per primitive; final for primitives that are in no pool
-    bool has_texture_transforms =
-        false;  ///< some used texture has a transform, even if TextureTransform::ignore disables it
+    /// Some used texture has a transform, even if TextureTransform::ignore disables transforms.
+    bool has_texture_transforms = false;
 };
 
 /// Returns whether a morph target changes the surface but has no tangent deltas.

@@ -71,7 +71,7 @@ class VertexTotals {
     std::set<std::uint32_t> source_lists_ = {}, split_lists_ = {};
 };
 
-/// Sums over primitives; vertices and triangles only of primitives with computed tangents.
+/// Sums over primitives. Vertices and triangles are those of primitives with computed tangents.
 struct Totals {
     std::uint64_t actions[std::size(kActions)] = {};
     std::uint64_t primitive_count = 0;

@@ -180,7 +180,8 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
     return table.text("  ");
 }
 
-/// Notes are below the table, because they are long. Primitives with equal notes share one line.
+/// Returns the notes, which are printed below the table because they are long. Primitives with equal notes share one
+/// line.
 std::string notesText(const GenerateReport& report) {
     constexpr std::size_t kMostNotes = 20;
     std::vector<std::pair<std::string, std::string>> notes;  // note, and the first primitive that has it

@@ -16,7 +16,8 @@ namespace tspace::gltf {
 MapReferences::Slot MapReferences::slotOf(const MapUser& user) const {
     const bool is_coat = user.use->needed_by == "clearcoatNormalTexture";
     if (user.use->only_in_variant) return {user.use->material, is_coat};
-    // Reads the current material: converting an earlier map may have given the primitive a copy of its material.
+    // The current material is read, because converting an earlier map may have given the primitive a copy of its
+    // material.
     return {jsonOf(*user.primitive)["material"].get<std::size_t>(), is_coat};
 }
 
@@ -119,7 +120,7 @@ void MapReferences::redirect(std::span<const MapUser> users, std::size_t to_imag
         }
         return own->second;
     };
-    // Decided before anything changes, because a copied material makes its original appear less shared.
+    // Sharing is determined before anything changes, because a copy reduces the number of users of the original.
     std::map<std::size_t, bool> is_shared;
     for (const MapUser& user : users) {
         const std::size_t material = slotOf(user).material;
@@ -177,7 +178,7 @@ void ImagePlacer::put(std::size_t image, Bytes&& bytes, bool keeps_old, bool is_
     editor_.touch();
 }
 
-/// Embeds the image in the GLB, so that the output can be a pipe.
+/// Embeds the image in the GLB, so that the output needs no other file and can be a pipe.
 void ImagePlacer::takeIn(std::size_t image, Bytes&& bytes) {
     const char* type = mimeType(imageFormat(bytes));
     const std::size_t view = editor_.storeBlob(std::move(bytes), std::nullopt);
@@ -194,7 +195,7 @@ void ImagePlacer::putInView(std::size_t image, Bytes&& bytes, bool keeps_old, bo
     const std::size_t stored =
         known != views_.end() && is_of_all ? known->second : editor_.storeBlob(std::move(bytes), std::nullopt);
     if (is_of_all) views_[view] = stored;
-    // The entry is looked up again, because storing may move the members of the root object.
+    // The entry is looked up again, because storing the image may move the members of the root object.
     document_.json["images"][image]["bufferView"] = stored;
 }
 

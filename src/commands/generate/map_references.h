@@ -66,7 +66,7 @@ struct MapUser {
 
 class MapReferences {
   public:
-    /// `primitives`: all primitives of the document.
+    /// Finds the references of a document. `primitives`: all primitives of the document.
     MapReferences(Document& document, std::span<const Primitive> primitives)
         : document_(document), primitives_(primitives) {}
 

@@ -131,7 +131,7 @@ Bytes mendMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options
 MadeOfHeights makeOfHeights(const Scene& scene, std::size_t material, std::size_t image, double strength,
                             const GenerateOptions& options) {
     const ByteSpan bytes = scene.images[image].bytes;
-    // Missing images and unsupported formats are skipped, or kept like other textures.
+    // Missing images and images in unsupported formats are skipped, or kept like other textures.
     if (bytes.empty() || whyNotRead(imageFormat(bytes)) != nullptr) return {};
     MadeOfHeights made{.is_height_map = true};
     if (!scene.memory->has(kMapPixelBytes * claimedSize(bytes).pixels())) {

@@ -55,7 +55,8 @@ class MeshSurface {
         std::vector<std::size_t> numbers = {};
     };
 
-    /// Primitives often share one vertex list, and each has its own triangles.
+    /// Adds the vertices of a list and returns their first index. A list is added once, because primitives often share
+    /// it.
     std::uint32_t addVertices(const gltf::Primitive& primitive, std::size_t accessor, bool with_normals) {
         const auto normals = with_normals ? primitive.find("NORMAL") : std::nullopt;
         const auto [place, is_new] =
@@ -152,7 +153,7 @@ std::vector<std::uint8_t> mendObjWinding(obj::Model& model, const GenerateOption
     mended.winding = valueOrThrow(mendWinding(mesh, how, turned, options.execution));
     for (std::size_t f = 0; f < turned.size(); ++f) {
         const auto begin = model.corners.begin() + model.faces[f].first_corner;
-        // The first corner of the face stays first.
+        // The first corner of the face remains the first.
         if (turned[f] != 0) std::reverse(begin + 1, begin + model.faces[f].corner_count);
     }
     return turned;

@@ -35,8 +35,8 @@ struct Dropped {
     }
 };
 
-/// Attributes that morph targets modify must be kept. Normals are kept if tangents are kept, because TANGENT is ignored
-/// without NORMAL.
+/// Returns the attributes to remove. Attributes that morph targets modify are kept. Normals are kept if tangents are
+/// kept, because TANGENT is ignored without NORMAL.
 Dropped droppedFrom(const Primitive& primitive, PackDrop asked) {
     Dropped dropped;
     dropped.tangents = asked != PackDrop::nothing && !movesAttribute(primitive, "TANGENT");

@@ -86,7 +86,7 @@ PoolElements packFrames(const Document& document, std::span<const Primitive> pri
             elements.corners = frames.indices;
         }
         elements.carried = carriedAttributes(primitives, pool, frames);
-        // Old vertices come first, unchanged.
+        // Old vertices keep their indices and come before the new ones.
         SplitSources sources{.kept = rule.is_welded ? 0 : primitives[pool.primitives[0]].vertex_count};
         sources.copies = std::make_shared<const std::vector<std::uint32_t>>(
             frames.source_vertices.begin() + static_cast<std::ptrdiff_t>(sources.kept), frames.source_vertices.end());

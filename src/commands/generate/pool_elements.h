@@ -34,12 +34,12 @@ struct PoolElements {
     std::size_t vertex_count = 0;
     bool was_split = false;
     bool normals_generated = false, bitangents_generated = false;
-    /// After a split: other attributes of the vertices, by accessor, so that shared accessors stay shared; and the
-    /// index list of each geometry.
+    /// Other attributes of the vertices after a split, by accessor so that shared accessors stay shared; and the index
+    /// list of each geometry.
     std::map<std::size_t, CarriedElements> carried = {};
     std::vector<ElementData> indices = {};
-    /// After a split, if an extension may contain vertex numbers (see vertex_numbers.h): the old index of each vertex,
-    /// and the corners of each geometry.
+    /// The old index of each vertex, and the corners of each geometry. Set after a split if an extension may contain
+    /// vertex numbers (see vertex_numbers.h).
     std::vector<std::uint32_t> sources = {};
     std::vector<std::vector<std::uint32_t>> corners = {};
     ElementData normals = {}, tangents = {}, bitangents = {};

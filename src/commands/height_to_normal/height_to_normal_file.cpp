@@ -17,7 +17,7 @@
 namespace tspace {
 namespace {
 
-/// Slopes beyond these limits suggest that the strength is in different units than the mesh.
+/// Slopes outside of these limits suggest that strength and mesh have different units.
 constexpr double kSteepDeg = 60, kFlatDeg = 0.1;
 
 /// Returns the height of a texel with 8 bits per channel, in meters.
@@ -37,7 +37,7 @@ std::vector<float> terrainHeights(HeightEncoding encoding, const FloatImage& ima
     return heights;
 }
 
-/// Throws if the image may be lossy: an error of one in red is an error of kilometers.
+/// Throws FileError if the image may be lossy: an error of 1 in the red channel is an error of kilometers.
 void checkTerrain(ByteSpan bytes, const FloatImage& image) {
     if (image.bits != 8)
         failFile(ErrorCode::invalidOption,

@@ -10,7 +10,7 @@
 namespace tspace::report {
 
 std::string heightToNormalJson(const Outcome<HeightToNormalFileReport>& outcome, ExitCode exit_code);
-/// `options`: options of the call; the text names the strength and the model.
+/// Returns the report as text. `options`: options of the call; the text contains the strength and the model.
 std::string heightToNormalText(const Outcome<HeightToNormalFileReport>& outcome,
                                const HeightToNormalFileOptions& options);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Report of a converted height map as text.
+// Formats the report of height-to-normal as text.
 #include <fmt/format.h>
 
 #include "commands/height_to_normal/height_to_normal_report.h"

@@ -87,7 +87,7 @@ PrimitiveIdentity identify(const ScenePrimitive& primitive, const IdentifyOption
     if (identity.explanations.empty()) identity.skipped = "its UVs have no area";
     sortExplanations(identity.explanations);
     identity.has_two_readings = hasTwoReadings(identity);
-    // Of two interpretations with equally many near corners, the one whose signs fit is first.
+    // If two interpretations have equally many near corners, the one whose signs fit is first.
     const auto follows =
         std::find_if(identity.explanations.begin(), identity.explanations.end(), [&](const Explanation& entry) {
             return entry.is_textures_set && entry.is_transformed == followsTransform(identity);

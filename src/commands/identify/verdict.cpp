@@ -20,7 +20,7 @@ namespace tspace {
 
 namespace {
 
-/// UV set of the first texture; the first existing set if there is no texture.
+/// Returns the UV set of the first texture, or the first existing set if there is no texture.
 std::size_t texturesSet(const ScenePrimitive& primitive) {
     if (!primitive.uses.empty()) return primitive.uses.front().uv_set;
     std::size_t set = 0;
@@ -95,7 +95,7 @@ void compare(const ScenePrimitive& primitive, std::span<const std::uint8_t> vote
         explanation.near_any_count += static_cast<unsigned char>(is_near_at[vertex]);
 }
 
-/// Explanations along one interpretation of the UVs.
+/// Computes the explanations along one interpretation of the UVs.
 class Explainer {
   public:
     Explainer(const ScenePrimitive& primitive, const UvReading& reading, const IdentifyOptions& options)
@@ -373,7 +373,7 @@ std::string exceptionsSentence(const Identification& result) {
 
 std::string signSentence(const Identification& result) {
     const Explanation& best = result.explanations.front();
-    // The meaning of signs depends on how the tangents were made.
+    // The meaning of signs depends on the method, so signs are not described if the method is unknown.
     if (best.nearShare() < kLikelyShare && !keptOnePerVertex(best) && differentMakers(result).empty()) return "";
     switch (best.signs()) {
         case SignReading::gltf:
@@ -416,7 +416,7 @@ std::string uvSetSentence(const std::vector<PrimitiveIdentity>& primitives) {
             share = std::max(share, entry.nearShare());
             corner_count = entry.corner_count;
         }
-        // A UV set with area on a few triangles is not compared with one that covers the mesh.
+        // A UV set with area on only a few triangles is not compared with one that covers the mesh.
         if (2 * best->corner_count < corner_count) continue;
         count += share + kClearlyMore < best->nearShare() ? 1 : 0;
     }

@@ -38,10 +38,10 @@ const Explanation* bestReading(const PrimitiveIdentity& primitive, bool is_trans
 /// transform that mirrors may keep every direction.
 bool followsTransform(const PrimitiveIdentity& primitive);
 
-/// Value of PrimitiveIdentity::skipped for data that an importer cannot read.
+/// Value of PrimitiveIdentity::skipped for tangents that the importer cannot read.
 inline constexpr const char* kNotRead = "its tangents were not read";
 
-/// All other members of `result` must be filled.
+/// Describes the result in sentences. All other members of `result` must be filled.
 std::string verdictOf(const Identification& result);
 
 }  // namespace tspace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Statistics of the UV map of a triangle mesh that matter before tangents are computed.
+// Computes statistics of the UV map of a triangle mesh that matter before tangents are computed.
 #pragma once
 
 #include <cstdint>

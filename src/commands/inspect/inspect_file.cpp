@@ -42,7 +42,7 @@ void describeUvMap(std::span<const std::uint32_t> corners, std::span<const Vec3>
     for (std::size_t i = 0; i < triangle_count; ++i) {
         const double area =
             signedUvArea(uvs[corners[3 * i]], uvs[corners[3 * i + 1]], uvs[corners[3 * i + 2]], v_runs_down);
-        // NaN and infinity count as no area too, because they define no direction.
+        // NaN and infinity count as zero area, because they define no direction.
         if (!(area < 0 || area > 0) || area - area != 0) {
             ++info.degenerate_uv_count;
             continue;
@@ -196,7 +196,7 @@ struct MeshDraws {
     std::uint64_t instance_count = 0;
 };
 
-/// All instancing attributes of a node have one element per instance.
+/// Returns the number of instances. All instancing attributes of a node have one element per instance.
 std::uint64_t instanceCount(const Document& document, const Json& node, const std::string& place) {
     const Json* instancing = findExtension(node, "EXT_mesh_gpu_instancing");
     const Json* attributes = instancing == nullptr ? nullptr : findMember(*instancing, "attributes");
@@ -298,7 +298,7 @@ PrimitiveInfo describePrimitive(const obj::Model& model, const ObjPrimitive& pri
     const std::vector<std::uint32_t> corners = triangleCorners(mesh);
     info.triangle_count = corners.size() / 3;
     describeUvMap(corners, mesh.positions, mesh.uvs, true, info);
-    MeshView cut;  // triangulated as in check
+    MeshView cut;  // triangulated like in check
     cut.positions = std::span(mesh.positions);
     cut.indices = IndexView(std::span(corners));
     if (model.memory->has(noteMemory(cut))) info.position_noise = notedNoise(cut, 0);

@@ -29,7 +29,7 @@ namespace {
 /// Another interpretation is reported if its error is below this fraction of the requested one, and lower by at least
 /// this angle; smaller differences may be random.
 constexpr double kMuchBetter = 0.7, kLeastGainDeg = 0.02;
-/// If the errors of all interpretations exceed this angle, none explains the map.
+/// Error of all interpretations above which none of them explains the map.
 constexpr double kUnexplainedDeg = 5;
 
 struct TriedFrames {
@@ -43,7 +43,7 @@ struct TriedRays {
     MapError error = {};
 };
 
-/// Merges all images of a model, or the part selected by the options, into one.
+/// Merges all images of a model into one, or the images that the options select.
 LowModel::Image shownPart(const LowModel& model, const MapErrorFileOptions& options) {
     LowModel::Image shown;
     for (const LowModel::Image& image : model.images) {
@@ -75,7 +75,7 @@ std::string degreesWord(double degrees) {
     return {text, std::to_chars(text, text + sizeof text, degrees, std::chars_format::fixed, digits).ptr};
 }
 
-/// The state of a call that its steps share.
+/// State of a call, which all steps share.
 struct Measuring {
     MapErrorFileOptions options;
     InputFiles inputs = {};
@@ -108,7 +108,7 @@ BakeFileOptions bakeOptionsOf(const MapErrorFileOptions& options) {
 
 // -- 2. readings --
 
-/// Lists the frames for which the map may have been baked.
+/// Lists the frames that the map may have been baked for.
 void listFrames(Measuring& state, const std::string& low, const LowModel& known) {
     state.frames.push_back({"file"});
     struct Tried {
@@ -194,7 +194,7 @@ void takeErrors(Measuring& state, const std::vector<MapError>& errors) {
 void listRays(Measuring& state, const RayOptions& asked) {
     const double reach = state.options.map.reach;
     state.tried.push_back({asked, reach});
-    // Among rays with the same hits, the first is reported.
+    // If several choices of rays have the same hits, the first one is reported.
     for (const double factor : {1.0, 0.25, 3.0}) {
         for (const RayTarget target : {RayTarget::outermost, RayTarget::nearest}) {
             for (const RayDirections directions :
@@ -246,7 +246,7 @@ void tryRays(Measuring& state, const Measure& measure) {
 
 // -- 4. verdict --
 
-/// Describes the conditions that the map was baked for, if they differ from this model.
+/// Describes how the conditions that the map was baked for differ from this model; empty if they do not.
 std::string difference(const ExplainedReading& asked, const ExplainedReading& best) {
     if (best.frames == "object")
         return best.axes == kMapAxesZUp ? "object space with z up, as in Blender (convert-map --from object --axes "

@@ -10,12 +10,12 @@
 
 namespace tspace::report {
 
-/// Report on the map `outcome`.input.
+/// Returns the JSON report on the map `outcome`.input.
 std::string mapErrorJson(const Outcome<MapErrorFileReport>& outcome, const std::string& low, const std::string& high,
                          ExitCode exit_code);
 std::string mapErrorText(const Outcome<MapErrorFileReport>& outcome);
 
-/// Report on the texture `outcome`.input.
+/// Returns the JSON report on the texture `outcome`.input.
 std::string textureErrorJson(const Outcome<TextureErrorReport>& outcome, const std::string& source, ExitCode exit_code);
 std::string textureErrorText(const Outcome<TextureErrorReport>& outcome);
 

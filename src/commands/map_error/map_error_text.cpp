@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Error of a normal map and its best interpretation as text.
+// Formats the error of a normal map and its best interpretation as text.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// textureErrorFile: compares a texture with its source map. Its report as JSON.
+// textureErrorFile: compares a texture with its source map; its report as JSON.
 #include <cmath>
 
 #include "commands/map_error/map_error_report.h"
@@ -13,7 +13,7 @@
 namespace tspace {
 namespace {
 
-/// Reads the source. Errors name it, because errors of this call are printed with the name of the texture.
+/// Reads the source. Errors contain its name, because errors of this call are printed with the name of the texture.
 FloatImage readSource(const std::string& path, const FileOptions& file) {
     try {
         return readMapImage(path, {}, file);

@@ -50,7 +50,7 @@ DrawnScene mendedScene(const std::string& input, const FileOptions& file, Genera
 }
 
 struct FindingPictures::Model {
-    /// The model after a command.
+    /// The model after a command was applied.
     struct MendedModel {
         MendedModel(const std::string& input, const FileOptions& options, const Scene& before,
                     const GenerateOptions& command)
@@ -98,7 +98,7 @@ FindingPicture FindingPictures::draw(const Finding& finding) {
     FindingPicture result;
     const std::size_t primitive = findPrimitive(model_->before.scene(), finding.mesh, finding.primitive);
     if (finding.place.empty() || primitive == kNoPrimitive) return result;
-    // A picture with computed tangents would hide that the file has none.
+    // The picture before the fix must not contain computed tangents, which would hide that the file has none.
     const bool lacks = finding.code == FindingCode::tangentsMissing || finding.code == FindingCode::tangentsIgnored;
     const RenderFrames frames = lacks ? RenderFrames::stored : RenderFrames::automatic;
     const std::vector<std::size_t> triangles =
@@ -198,7 +198,7 @@ class PictureSource {
             if (!pictures_) pictures_ = std::make_unique<FindingPictures>(input_, file_);
             figures = figuresOf(finding, pictures_->draw(finding));
         } catch (const FileError&) {
-            // The error of the file has been reported before.
+            // The error of the file has already been reported.
             is_over_ = true;
         }
         if (figures.empty()) return {};
@@ -217,7 +217,7 @@ class PictureSource {
     bool is_over_ = false;
 };
 
-/// `pictures`: null: no pictures.
+/// Returns a finding as HTML. `pictures` may be null: no pictures.
 std::string findingHtml(const Finding& finding, PictureSource* pictures) {
     std::string html = "<article class=\"" + std::string(severityName(finding.severity)) + "\">\n<h3><b>" +
                        severityName(finding.severity) + "</b> " + findingName(finding.code) + "</h3>\n";

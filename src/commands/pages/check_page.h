@@ -32,8 +32,8 @@ DrawnScene mendedScene(const std::string& input, const FileOptions& file, Genera
 
 struct FindingPicture {
     std::vector<std::uint8_t> before = {};  ///< PNG of the location in the original file; empty: no pictures
-    std::vector<std::uint8_t> after =
-        {};  ///< PNG of the location after the command of the remedy, if there is a visible difference
+    /// PNG of the location after the command of the remedy; empty if there is no visible difference.
+    std::vector<std::uint8_t> after = {};
     std::vector<std::uint8_t> difference = {};  ///< PNG of the difference; `caption` explains it
     std::string caption = {};
     std::string command = {};       ///< command of the remedy; empty: none
@@ -44,7 +44,7 @@ struct FindingPicture {
 /// Draws the findings of a checked model.
 class FindingPictures {
   public:
-    /// Throws FileError.
+    /// Reads the model. Throws FileError.
     FindingPictures(const std::string& input, const FileOptions& options);
     ~FindingPictures();
     FindingPictures(const FindingPictures&) = delete;

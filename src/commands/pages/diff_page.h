@@ -18,7 +18,7 @@ class DiffPictures {
   public:
     static constexpr std::uint32_t kHeatWidth = 440, kHeatHeight = 360;
 
-    /// Throws FileError.
+    /// Reads both models. Throws FileError.
     DiffPictures(const std::string& a, const std::string& b, const DiffOptions& options);
 
     enum class Side { front, back };

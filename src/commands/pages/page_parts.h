@@ -19,7 +19,7 @@ inline constexpr std::uint32_t kPlaceWidth = 320, kPlaceHeight = 240;
 std::string pageHead(std::string_view title);
 std::string pageEnd();
 
-/// Date of a page, and the command that made it.
+/// Date of a page, and the command that created it.
 struct PageOrigin {
     std::string date = {};     ///< "2026-11-26 07:41 UTC"
     std::string command = {};  ///< in shell syntax: "tspace check helmet.glb --html report.html"
@@ -31,7 +31,7 @@ std::string originHtml(const PageOrigin& origin);
 /// `png` is empty.
 std::string figureHtml(const std::vector<std::uint8_t>& png, std::uint32_t width, std::uint32_t height,
                        std::string_view caption);
-/// Returns the replacement of a missing picture. `sentence`: plain text.
+/// Returns the HTML that replaces a missing picture. `sentence`: plain text.
 std::string noFigureHtml(std::string_view sentence);
 /// Returns figures side by side, or nothing if there are none.
 std::string figuresHtml(const std::string& figures);

@@ -70,8 +70,8 @@ DVec3 pixelNormal(const RgbImage& image, std::size_t pixel) {
     return {component(0), component(1), component(2)};
 }
 
-/// A camera and a light, and the mean difference of the two pictures, from 0 to 1. Pixels without surface after the fix
-/// do not count: seen from behind, a surface whose winding was fixed is not drawn.
+/// A camera and a light, and the mean difference of the two pictures, from 0 to 1. Pixels that show no surface after
+/// the fix are not counted: a surface whose winding was fixed is not drawn from behind.
 struct Trial {
     PlaceView view = {};
     DVec3 to_light = {};
@@ -180,7 +180,7 @@ Trial bestTrial(const Side& before, const Side& after, std::span<const std::size
     if (!triangles.empty()) {
         PlaceView view = viewOver(before.model.meshes(), before.number, triangles);
         place = search.tryView(view);
-        if (!(place.difference > 0)) {  // the triangles face away from the side of the surface
+        if (!(place.difference > 0)) {  // the triangles face away from the camera, so the other side is tried
             view.angles = {view.angles.yaw_deg + 180, -view.angles.pitch_deg};
             place = search.tryView(view);
         }
@@ -202,7 +202,7 @@ Trial bestTrial(const Side& before, const Side& after, std::span<const std::size
             if (trial.difference > best.difference) best = trial;
         }
     }
-    // A fault that is plain to see on the whole surface is shown there, where the model is recognizable.
+    // A fault that is clearly visible on the whole surface is shown there, because the model is recognizable.
     constexpr double kPlainDifference = 0.08;
     const bool is_plain = whole_difference > kPlainDifference;
     return place.difference > 0 && !is_plain && 2 * place.difference >= best.difference ? place : best;
@@ -256,7 +256,7 @@ std::optional<Side> sideOf(const PicturedPrimitive& pictured) {
 PicturePair drawPair(const PicturedPrimitive& before, std::span<const std::size_t> triangles,
                      const PicturedPrimitive& after) {
     constexpr double kLeastShare = 0.002;
-    // A base color hides the difference if the visible difference is below this fraction of the difference without base
+    // Fraction of the difference without base color below which the visible difference counts as hidden by the base
     // color.
     constexpr double kHidden = 0.7;
     PicturePair pair;

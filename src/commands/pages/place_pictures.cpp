@@ -134,7 +134,7 @@ void drawFrame(RgbImage& image, const Camera& camera, const PlacePoints& place) 
     right = std::floor(std::clamp(right + wide, 0.0, image.width - 1.0));
     top = std::floor(std::clamp(top - high, 0.0, image.height - 1.0));
     bottom = std::floor(std::clamp(bottom + high, 0.0, image.height - 1.0));
-    // A frame around nearly the whole picture is omitted.
+    // A frame that surrounds nearly the whole picture is omitted.
     if (!(right - left < kMostPart * image.width) && !(bottom - top < kMostPart * image.height)) return;
     const auto x = static_cast<std::int64_t>(left), y = static_cast<std::int64_t>(top),
                width = static_cast<std::int64_t>(right - left) + 1,

@@ -17,7 +17,7 @@ namespace tspace {
 /// A model that was read for pictures. The lit surfaces are prepared when they are first requested.
 class PicturedModel {
   public:
-    /// Throws FileError.
+    /// Reads the model. Throws FileError.
     PicturedModel(const std::string& input, const FileOptions& options);
     explicit PicturedModel(DrawnScene&& drawn);
     PicturedModel(const PicturedModel&) = delete;
@@ -25,7 +25,7 @@ class PicturedModel {
 
     [[nodiscard]] const Scene& scene() const { return drawn_.scene; }
     [[nodiscard]] const DrawnScene& drawn() const { return drawn_; }
-    /// `frames`: not `computed`. Throws FileError.
+    /// Returns the lit surfaces. `frames`: any value except `computed`. Throws FileError.
     const ModelPicture& lit(RenderFrames frames);
 
   private:

@@ -91,7 +91,8 @@ ImageUse imageUse(ModelTextures::Use use) {
     return use == ModelTextures::Use::normals ? ImageUse::vectors : ImageUse::numbers;
 }
 
-/// `how_read`: for a normal map, receives a sentence on its channels if they differ from glTF's.
+/// Decodes a texture with all of its bits. `how_read`: for a normal map, receives a sentence on its channels if they
+/// differ from those of glTF.
 std::optional<PictureTexture> decodeDeep(ByteSpan bytes, std::uint64_t most_pixels, ModelTextures::Use use,
                                          std::string& why, std::string& how_read) {
     std::optional<FloatImage> image = decodeFloatImage(bytes, most_pixels, why, imageUse(use));
@@ -327,7 +328,7 @@ void ModelPicture::place() {
             continue;
         }
         const PosedSurface& surface = pose(primitive, *posed);
-        // Bone matrices transform to world space; the node of a skinned mesh has no effect.
+        // Bone matrices transform to world space, so the node of a skinned mesh has no effect.
         addShown(primitive, surface.shown, surface.positions, posed->bones.empty() ? placement.to_world : Affine{});
     }
 }

@@ -30,9 +30,9 @@ struct OtherFrames {
 struct FrameChoice {
     RenderFrames frames = RenderFrames::automatic;
     Method method = Method::mikktspace;
-    bool always = false;   ///< even if no normal map uses them
-    bool compare = false;  ///< the tangents of the method are needed too
-    /// One entry per primitive, or empty. `error` compares with these frames instead of those of the method.
+    bool always = false;   ///< compute tangents even if no normal map uses them
+    bool compare = false;  ///< compute the tangents of the method too, for a comparison
+    /// Frames to compare with in `error`, instead of those of the method: one entry per primitive, or an empty list.
     std::span<const OtherFrames> others = {};
     Execution execution = {};
 };
@@ -104,7 +104,7 @@ class ModelPicture {
                  ModelTextures* textures, std::span<const ScenePose> poses = {});
 
     [[nodiscard]] std::span<const DrawnMesh> meshes() const { return meshes_; }
-    /// Surfaces, one per mesh.
+    /// Returns the surfaces, one per mesh.
     [[nodiscard]] std::span<const ShownSurface* const> surfaces() const { return shown_; }
     /// Returns the number of corners in the file, counting each primitive once.
     [[nodiscard]] std::uint64_t cornerCount() const;

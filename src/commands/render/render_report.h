@@ -10,7 +10,7 @@
 namespace tspace::report {
 
 std::string renderJson(const Outcome<RenderReport>& outcome, ExitCode exit_code);
-/// `method`: the requested method of tangents.
+/// Returns the report as text. `method`: the requested method of tangents.
 std::string renderText(const Outcome<RenderReport>& outcome, Method method);
 
 }  // namespace tspace::report

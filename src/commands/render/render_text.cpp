@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Report of tspace render as text.
+// Formats the report of render as text.
 #include <fmt/format.h>
 
 #include "commands/render/render_report.h"

@@ -8,10 +8,10 @@
 
 namespace tspace::report {
 
-/// Larger codes are more severe: the largest code of several files is the result.
+/// Exit code of the tool. Larger codes are more severe: the result for several files is the largest of their codes.
 enum class ExitCode : int {
     done = 0,
-    findings = 1,           ///< a checking command has findings
+    findings = 1,           ///< a checking command found faults
     usage = 2,              ///< invalid command line
     badInput = 3,           ///< a file is invalid, not supported, or leads outside its folder
     cannotReadOrWrite = 4,  ///< a file cannot be read or written, or the caller canceled the call

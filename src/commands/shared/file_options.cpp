@@ -7,8 +7,8 @@ namespace {
 
 constexpr unsigned kMostThreads = 1024;
 
-/// Parses "500M", "8G" or "none"; K, M, G and T are powers of 1024. Rejects limits below 64 MiB, which every file may
-/// use.
+/// Parses a memory limit such as "500M", "8G" or "none"; K, M, G and T are powers of 1024. Rejects limits below 64 MiB,
+/// which every file may use.
 bool parseMemory(const std::string& text, std::uint64_t& bytes) {
     constexpr std::uint64_t kLeast = std::uint64_t{64} << 20, kMost = std::uint64_t{1} << 56;
     if (text == "none") {

@@ -17,7 +17,7 @@ std::uint64_t expectedPixels(std::uint64_t byte_count) {
 }  // namespace
 
 std::shared_ptr<MemoryBudget> imageBudget(ByteSpan bytes, const FileOptions& file) {
-    constexpr std::uint64_t kDecoderBytes = 24;  // per pixel, for any format
+    constexpr std::uint64_t kDecoderBytes = 24;  // bytes per pixel, an upper limit for all formats
     auto budget = std::make_shared<MemoryBudget>(file.memory_limit_bytes);
     budget->allow(bytes.size());
     budget->allow((kMapPixelBytes + kDecoderBytes) * expectedPixels(bytes.size()) / MemoryBudget::kPerByte);

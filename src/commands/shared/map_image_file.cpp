@@ -247,7 +247,7 @@ MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const
     if (choice.needs_material && choice.material.empty() && chosen.front().is_guess) checkMaterials(chosen);
     MapMesh mesh;
     mesh.report.scale = scaleOf(chosen);
-    // In UDIM layouts tiles are adjacent, independent of the wrap mode of a texture.
+    // Tiles of UDIM layouts are adjacent, so the wrap mode of the texture is not used.
     if (chosen.front().use != nullptr && choice.tile == 0) {
         mesh.wrap_u = chosen.front().use->wrap_u;
         mesh.wrap_v = chosen.front().use->wrap_v;

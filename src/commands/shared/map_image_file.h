@@ -20,7 +20,8 @@ namespace tspace {
 
 struct MapMesh {
     OwnedMesh corners = {};  ///< one vertex per corner; UVs as the texture is sampled
-    /// In world space, one per triangle: directions of the axes of its mesh, for transforming normals.
+    /// Directions of the axes of the mesh in world space, one entry per triangle, for transforming normals. Empty in
+    /// other spaces.
     std::vector<MapAxes> axes = {};
     TextureWrap wrap_u = TextureWrap::repeat,
                 wrap_v = TextureWrap::repeat;  ///< wrap modes of the first primitive's texture
@@ -41,8 +42,8 @@ struct MapMeshChoice {
     std::string image_name = {};  ///< file name of the map, without folder
     bool in_world = false;        ///< transform normals and tangents by the nodes of the scene
     std::uint32_t tile = 0;       ///< ConvertMapFileOptions::tile
-    /// Fail if the materials that show the map are not identified by the name of the material or of the image, and
-    /// their UVs overlap.
+    /// If true, reading fails if neither the name of the material nor that of the image identifies the materials that
+    /// show the map, and their UVs overlap.
     bool needs_material = false;
 };
 
@@ -61,7 +62,7 @@ FloatImage readMapImage(const std::string& input, ByteSpan content, const FileOp
 MapMesh readNamedMapMesh(const std::string& model, const MapMeshChoice& choice, const TangentOptions& tangents,
                          const FileOptions& file, const Execution& execution);
 
-/// Returns the path without folders.
+/// Returns the file name of a path, without folders.
 std::string fileNameOf(const std::string& path);
 
 /// Returns whether the extension is that of a TGA.

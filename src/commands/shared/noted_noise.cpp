@@ -18,7 +18,7 @@ double notedNoise(const MeshView& mesh, double position_step, float weld_distanc
     constexpr std::size_t kLeastFaces = 1000;
     constexpr double kLeastNoise = 0.03;
     if (mesh.faceCount() < kLeastFaces) return 0;
-    const Arena arena;  // freed as a whole: without it, a thousand calls fragmented the heap by 63 MB
+    const Arena arena;  // the arena is freed as a whole; without it, a thousand calls fragmented the heap by 63 MB
     const Execution execution{.allocator = arena.allocator()};
     const Result<PositionNoise> found = atBorder([&]() -> Result<PositionNoise> {
         Parallel parallel(execution, mesh.cornerCount());

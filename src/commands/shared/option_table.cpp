@@ -31,7 +31,7 @@ std::string givePart(const Option& option, const std::string& value) {
     std::string wrong;
     if (!choices.empty() && std::find(choices.begin(), choices.end(), value) == choices.end()) {
         constexpr std::size_t kMostListed = 12;
-        wrong = option.take(value);  // explains for some names why they are invalid
+        wrong = option.take(value);  // may return why a name is invalid
         if (wrong.empty()) {
             wrong =
                 choices.size() <= kMostListed ? "must be one of " + joined(choices) : "is not a known " + option.value;
@@ -232,15 +232,16 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string nearestName(const std::string& word, const std::vector<std::string>& names) {
-    constexpr std::size_t kShortest = 3, kLongest = 64;  // "-q" is not a misspelled "-h"
+    // Minimum and maximum length of names; for example, "-q" is not a misspelled "-h".
+    constexpr std::size_t kShortest = 3, kLongest = 64;
     if (word.size() < kShortest || word.size() > kLongest) return {};
-    // One mistake per three letters, so that different short words do not match.
+    // One typing error per three letters is allowed, so that short words that differ do not match.
     const std::size_t most = word.size() / 3;
     std::size_t least = 2 * most + 2;
     std::string nearest;
     for (const std::string& name : names) {
         std::size_t distance = 2 * editDistance(word, name);
-        // A longer name that starts with the word ranks after names within the maximum distance.
+        // A longer name that starts with the word ranks below names within the maximum distance.
         if (name.starts_with(word)) distance = std::min(distance, 2 * most + 1);
         if (distance < least) {
             least = distance;

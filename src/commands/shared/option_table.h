@@ -15,7 +15,7 @@ namespace tspace::options {
 using Take = std::function<std::string(const std::string& value)>;
 
 #ifdef TSPACE_SMALL
-/// The bindings show no help, so this type discards help texts.
+/// Help text of an option. The bindings print no help, so in their builds this type discards the text.
 struct HelpText {
     constexpr HelpText() = default;
     constexpr HelpText(const char*) {}
@@ -28,11 +28,11 @@ using HelpText = std::string;
 /// An option, or an operand of a command line (a word without an option name, such as an input file).
 struct Option {
     std::vector<std::string> names = {};  ///< {"-o", "--output"}; empty: an operand
-    /// Names before a rename: accepted, but absent from help, completions and man pages.
+    /// Former names of a renamed option: accepted, but absent from help, completions and man pages.
     std::vector<std::string> old_names = {};
     std::string value = {};  ///< name of the value in help, such as "DEG"; empty: a flag
     HelpText help = {};      ///< one or more sentences
-    /// Default printed after the help; empty: stated by the help, or no default.
+    /// Default value, printed after the help text. Empty if the help text states the default, or if there is none.
     std::string default_text = {};
     std::string group = {};                 ///< heading in help
     std::vector<std::string> choices = {};  ///< allowed values; empty: all values that `take` accepts
@@ -58,7 +58,7 @@ struct Given {
     };
     std::vector<Item> items = {};
 
-    /// `name`: see Option::name.
+    /// Returns whether an option was given. `name`: see Option::name.
     [[nodiscard]] bool has(const std::string& name) const;
 };
 
@@ -156,7 +156,7 @@ std::string nearestName(const std::string& word, const std::vector<std::string>&
 /// Returns "; did you mean '...'?", or an empty string.
 std::string didYouMean(const std::string& word, const std::vector<std::string>& names);
 
-// Options as JSON, for callers of the C API.
+// Options given as JSON, for callers of the C API.
 
 /// Passes the members of a JSON object to the options with these names, without dashes: {"method": "best", "crease":
 /// 60, "overwrite": true, "ignore": ["tangentsUnused"]}. Flags are booleans; false and null leave an option unset. An

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Common parts of the JSON of all commands.
+// Implements the common parts of the JSON of all commands.
 #include "commands/shared/report.h"
 
 #include "tspace/version.h"

@@ -52,7 +52,7 @@ std::string printable(std::string_view text) {
 
 std::size_t columnCount(std::string_view text) {
     std::size_t columns = 0;
-    bool is_escape = false;  // a color escape sequence: ESC [ ... m
+    bool is_escape = false;  // inside of a color escape sequence: ESC [ ... m
     for (const char c : text) {
         if (c == '\033') is_escape = true;
         columns += !is_escape && (static_cast<unsigned char>(c) & 0xC0) != 0x80;
@@ -94,8 +94,8 @@ bool endsCommand(std::string_view word) {
     return word.empty() || std::string_view(".,;:)'\"").find(word.back()) != std::string_view::npos;
 }
 
-/// Returns whether a word continues the command of the previous word `before`: an option, its value, or a name such as
-/// IN or OUT.png. Choices in a usage line do not continue it.
+/// Returns whether a word belongs to the same command as the previous word `before`: it is an option, the value of an
+/// option, or a name such as IN or OUT.png. Choices in a usage line do not belong to it.
 bool goesOn(std::string_view before, std::string_view word) {
     if (word.starts_with('{') || word.starts_with('[')) return false;
     if (word.starts_with('-') || before.starts_with('-')) return true;
@@ -108,7 +108,7 @@ bool goesOn(std::string_view before, std::string_view word) {
 void keepCommandsWhole(std::string& line) {
     constexpr std::string_view kTool = "tspace ";
     for (std::size_t at = line.find(kTool); at != std::string::npos; at = line.find(kTool, at + 1)) {
-        std::string_view before = "--";  // any word may follow: the name of the command
+        std::string_view before = "--";  // the first word, the name of the command, may follow anything
         for (std::size_t space = at + kTool.size() - 1; space < line.size() && line[space] == ' ';) {
             const std::size_t end = std::min(line.find(' ', space + 1), line.size());
             const std::string_view word = std::string_view(line).substr(space + 1, end - space - 1);
@@ -121,7 +121,7 @@ void keepCommandsWhole(std::string& line) {
     }
 }
 
-/// Returns the indentation of continuation lines.
+/// Returns the number of columns by which continuation lines are indented.
 std::size_t hangOf(std::string_view line, std::size_t width, std::size_t hang) {
     const std::size_t start = std::min(line.find_first_not_of(' '), line.size()), gap = line.find("  ", start);
     if (gap == std::string_view::npos) return start + hang;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parts of reports as text.
+// Functions that format parts of reports as text.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ std::string unbroken(std::string_view text);
 /// the first line. All texts of this folder are passed through it before printing.
 std::string fitText(std::string_view text, std::size_t width, std::size_t hang = 2);
 
-/// Formats a size: "318 B", "6.8 MB".
+/// Formats a number of bytes, as in "318 B" or "6.8 MB".
 std::string byteText(std::uint64_t bytes);
 
 /// Rows of cells with aligned columns, two spaces apart. Numbers are right-aligned. In tables of more than two columns,

@@ -13,9 +13,9 @@ namespace tspace {
 
 struct UvReading {
     std::size_t uv_set = 0;
-    bool transformed = false;        ///< changed by the texture transform of the use, in a way that changes frames
+    bool transformed = false;        ///< the texture transform of the use changed the UVs, in a way that changes frames
     std::vector<Vec2> own = {};      ///< storage of the transformed UVs
-    std::span<const Vec2> uvs = {};  ///< empty: the primitive does not have this set
+    std::span<const Vec2> uvs = {};  ///< the UVs; empty if the primitive does not have this set
 };
 
 /// Returns the UVs by which the texture of this use is sampled, without scale and offset that do not affect frames.

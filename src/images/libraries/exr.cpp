@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// EXR with OpenEXR's C library, which is loaded for the first EXR image.
+// Reads and writes EXR with OpenEXR's C library, which is loaded for the first EXR image.
 #include <openexr.h>
 
 #include <algorithm>
@@ -176,7 +176,7 @@ std::int64_t exrByteCount(exr_const_context_t, void* data) {
     return static_cast<std::int64_t>(static_cast<const ByteSpan*>(data)->size());
 }
 
-/// Channels of a file that are read.
+/// Channels to read from a file.
 struct ExrChannels {
     /// Channels of red, green and blue. The second is empty if there is one channel, the third if there are only x and y.
     std::array<std::string, 3> colors = {};
@@ -496,7 +496,8 @@ bool hasOpenExr() { return openExr().is_loaded; }
 ImageClaim claimOfExr(ByteSpan bytes) {
     const std::optional<ExrHead> head = ExrHeadReader(bytes).read();
     if (!head) return {};
-    // The pixels; and for one chunk the compressed, decompressed and intermediate data, with 4 bytes per channel each.
+    // Memory of the pixels, and of the compressed, decompressed and intermediate data of one chunk with 4 bytes per
+    // channel.
     constexpr std::uint64_t kMost = std::uint64_t{1} << 60;
     const double work = 16.0 * static_cast<double>(head->size.pixels()) +
                         16.0 * static_cast<double>(head->chunk_pixels) * static_cast<double>(head->channel_count);

@@ -132,7 +132,7 @@ Result<FlippedPng> flipPng(ByteSpan bytes) {
         return Error{ErrorCode::unsupportedFile, "the PNG is animated, which is not supported"};
     }
     if (header.color == PngHeader::kPalette) {
-        // The pixels are palette indices and stay unchanged.
+        // The samples of an image with a palette are indices and stay unchanged; the palette is inverted.
         if (Error error = checkPixels(bytes, header); error.code != ErrorCode::ok) return error;
         return FlippedPng{joinChunks(bytes, chunks, header, {}), 8};
     }

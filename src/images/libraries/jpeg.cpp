@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// JPEG with libjpeg-turbo, through its TurboJPEG interface, which returns errors and prints nothing.
+// Reads and writes JPEG with libjpeg-turbo, through its TurboJPEG interface, which returns errors and prints nothing.
 #include <turbojpeg.h>
 
 #include <cstring>
@@ -32,7 +32,7 @@ bool succeeds(int result, const Decompressor& decompressor) {
 }
 
 struct JpegHead {
-    ImageSize size = {};  ///< 0: corrupt
+    ImageSize size = {};  ///< 0 if the header is corrupt
     int color_space = 0;
 
     [[nodiscard]] bool isForPrint() const { return color_space == TJCS_CMYK || color_space == TJCS_YCCK; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All uses of libspng: decoding to bytes and floats, encoding, and recompressing a PNG with inverted green.
+// Contains all calls of libspng: decoding to bytes and floats, encoding, and recompressing a PNG with inverted green.
 #include <spng.h>
 
 #include <cstdlib>
@@ -56,7 +56,7 @@ unsigned nearest(float part, unsigned largest) {
     return scaled >= largest ? largest : static_cast<unsigned>(scaled);
 }
 
-/// Returns the samples in sequence; 16-bit samples in native byte order, which libspng swaps.
+/// Returns the samples of all channels in sequence; 16-bit samples in native byte order, which libspng converts.
 std::vector<std::uint8_t> samplesOf(const FloatImage& image, unsigned bits) {
     const bool has_alpha = !image.alpha.empty();
     const std::size_t sample_bytes = bits / 8;
@@ -83,7 +83,7 @@ std::vector<std::uint8_t> samplesOf(const FloatImage& image, unsigned bits) {
 
 /// Uses one filter for all rows: trying all filters per row doubles the time and saves 1 % of the bytes.
 std::optional<std::vector<std::uint8_t>> encodeSamples(spng_ihdr header, const std::vector<std::uint8_t>& samples) {
-    // The lower half of 16 bits is noise: higher levels take four times as long, and save 10 %.
+    // The low byte of 16-bit samples is mostly noise: higher levels take four times as long and save 10 %.
     const int level = header.bit_depth == 16 ? 1 : 6;  // 6: the default of zlib
     struct Free {
         void operator()(void* memory) const { std::free(memory); }
@@ -107,7 +107,7 @@ std::optional<std::vector<std::uint8_t>> encodeSamples(spng_ihdr header, const s
 
 // -- streaming rows, with inverted green --
 
-/// Thrown and caught in this file only.
+/// Exception for corrupt PNG data; thrown and caught in this file only.
 struct BrokenPng {};
 
 void check(int result) {

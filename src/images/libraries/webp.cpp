@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// WebP by libwebp.
+// Reads and writes WebP with libwebp.
 #include <webp/decode.h>
 #include <webp/encode.h>
 

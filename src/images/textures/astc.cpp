@@ -23,7 +23,8 @@ bool decodeAstc(const TextureFile& texture, ByteSpan blocks, std::span<std::uint
     const TexelFormat& format = texture.format;
     astcenc_config config{};
     astcenc_context* made = nullptr;
-    // Also for sRGB: the curve only changes the interpretation of the stored values.
+    // The linear profile is used for sRGB textures too, because sRGB only changes the interpretation of the stored
+    // values.
     if (astc().initConfig(ASTCENC_PRF_LDR, format.width, format.height, 1, ASTCENC_PRE_FASTEST,
                           ASTCENC_FLG_DECOMPRESS_ONLY, &config) != ASTCENC_SUCCESS)
         return false;
@@ -43,7 +44,7 @@ bool decodeAstc(const TextureFile& texture, ByteSpan blocks, std::span<std::uint
         bool is_finite = true;
         for (const float part : texel) is_finite = is_finite && std::isfinite(part);
         if (is_finite) continue;
-        texel = {1, 0, 1, 1};  // the error color
+        texel = {1, 0, 1, 1};  // magenta, which ASTC defines as the error color
         std::memcpy(&texels[at], &texel, sizeof texel);
     }
     return true;

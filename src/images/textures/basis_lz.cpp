@@ -10,7 +10,7 @@ namespace tspace {
 
 namespace {
 
-/// Reads bits, starting with the lowest of each byte; after the end it returns zeros and sets a flag.
+/// Reads bits, starting with the lowest bit of each byte. After the end of the data it returns zeros and sets a flag.
 class BasisBits {
   public:
     explicit BasisBits(ByteSpan bytes) : bytes_(bytes) {}
@@ -93,7 +93,7 @@ class HuffmanCode {
     std::vector<std::uint16_t> symbols_ = {};  ///< symbols in code order
 };
 
-/// Reads a code whose lengths are compressed with another code.
+/// Reads a Huffman code whose code lengths are themselves Huffman-coded.
 HuffmanCode readCode(BasisBits& bits) {
     constexpr std::uint8_t kOrder[] = {17, 18, 19, 20, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15, 16};
     const std::uint32_t symbols = bits.take(14), used = bits.take(5);
@@ -124,9 +124,9 @@ HuffmanCode readCode(BasisBits& bits) {
     return bits.hasFailed() ? HuffmanCode{} : HuffmanCode(lengths, bits);
 }
 
-/// Red, green, blue, and the index of a modifier table.
+/// Endpoint color: red, green, blue, and the index of a modifier table.
 using Etc1sEnd = std::array<std::uint8_t, 4>;
-/// Four rows of four 2-bit selectors.
+/// Selectors of a block: four rows of four 2-bit values.
 using Etc1sCodes = std::array<std::uint8_t, 4>;
 
 std::vector<Etc1sEnd> readEnds(ByteSpan data, std::size_t count) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// BC7. Formulas and tables: Khronos Data Format Specification 1.4, chapter BPTC.
+// Decodes BC7. Formulas and tables: Khronos Data Format Specification 1.4, chapter BPTC.
 #include <bit>
 #include <cstddef>
 
@@ -98,7 +98,7 @@ void readBc7Ends(BlockBits& bits, Bc7Block& block) {
     }
 }
 
-/// Returns false for the reserved mode.
+/// Parses a block. Returns false for the reserved mode.
 bool readBc7Block(const std::uint8_t* bytes, Bc7Block& block) {
     if (bytes[0] == 0) return false;
     const auto number = static_cast<unsigned>(std::countr_zero(bytes[0]));

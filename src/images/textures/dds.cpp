@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Header of a DDS file, according to Microsoft's Programming Guide for DDS.
+// Parses the header of a DDS file, according to Microsoft's Programming Guide for DDS.
 #include <algorithm>
 #include <bit>
 #include <iterator>
@@ -18,7 +18,7 @@ constexpr std::uint32_t codeOf(const char (&text)[5]) {
     return code;
 }
 
-/// Format by its DXGI number, or by its FourCC (which may be a Direct3D 9 format number).
+/// A texel format with its DXGI number, or with its FourCC (which may be a Direct3D 9 format number).
 struct NamedFormat {
     std::uint32_t code;
     TexelKind kind;
@@ -175,7 +175,7 @@ class DdsReader {
             masks[i] = is_there ? number(kMasksAt + 4 * i) : 0;
             const std::uint32_t ones = masks[i] == 0 ? 0 : masks[i] >> std::countr_zero(masks[i]);
             if ((ones & (ones + 1)) != 0 || (bits < 32 && masks[i] >> bits != 0))
-                return false;  // bits not contiguous, or out of range
+                return false;  // the bits of a channel are not contiguous, or the mask is out of range
             if (ones > 255) texture_.format.bits = 16;
         }
         if (masks[0] == 0) return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Header of a KTX2 file, according to the Khronos KTX File Format Specification 2.0.
+// Parses the header of a KTX2 file, according to the Khronos KTX File Format Specification 2.0.
 #include <algorithm>
 #include <iterator>
 #include <string_view>
@@ -11,7 +11,7 @@ namespace tspace {
 
 namespace {
 
-/// Vulkan format number, and whether the format is sRGB.
+/// A texel format with its Vulkan format number, and whether that number is an sRGB format.
 struct VulkanFormat {
     std::uint16_t number;
     TexelKind kind;
@@ -125,7 +125,7 @@ class Ktx2Reader {
         return false;
     }
 
-    /// Each block size has a linear and an sRGB format, in this order.
+    /// Finds an ASTC format. Vulkan has a linear and an sRGB format number for each block size, in this order.
     bool findAstc(std::uint32_t vulkan) {
         constexpr std::uint32_t kFirst = 157;
         constexpr std::uint8_t kSizes[][2] = {{4, 4}, {5, 4},  {5, 5},  {6, 5},  {6, 6},   {8, 5},   {8, 6},
@@ -224,7 +224,7 @@ class Ktx2Reader {
             swizzle[i] = static_cast<std::uint8_t>(found);
         }
         texture_.swizzle = swizzle;
-        // Only two of four channels are shown.
+        // The swizzle shows only two of the four channels, so these are x and y.
         if (swizzle[0] < 4 && swizzle[1] < 4 && swizzle[2] == TextureFile::kZero && swizzle[3] == TextureFile::kOne) {
             x_ = swizzle[0];
             y_ = swizzle[1];

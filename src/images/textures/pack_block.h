@@ -8,8 +8,9 @@
 
 namespace tspace {
 
-/// Packs a BC4 block. `first` > `second`: eight values; otherwise six values plus 0 and 1. Ends of signed formats may
-/// be negative. Codes: 0 and 1 for the ends, then those between them; row by row.
+/// Packs a BC4 block. If `first` > `second`, the block has eight values, otherwise six values plus 0 and 1. Endpoints
+/// of signed formats may be negative. Codes 0 and 1 select the endpoints, the other codes the interpolated values;
+/// codes are given row by row.
 inline std::array<std::uint8_t, 8> packBc4Block(int first, int second, const std::array<std::uint8_t, 16>& codes) {
     std::array<std::uint8_t, 8> block{static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(second)};
     std::uint64_t bits = 0;

@@ -10,15 +10,15 @@
 
 namespace tspace {
 
-// BC1 to BC5 and EAC. Formulas: Khronos Data Format Specification 1.4, chapters S3TC, RGTC and ETC2; computed exactly,
-// whereas hardware rounds.
+// Decoders of BC1 to BC5 and EAC. Formulas: Khronos Data Format Specification 1.4, chapters S3TC, RGTC and ETC2. Values
+// are computed exactly, whereas hardware rounds.
 
 namespace {
 
 constexpr std::size_t kBlockTexels = 16;
 
-/// Decodes BC1 colors. With `has_alpha`, if the first end is not the larger one, the third color is the mean and the
-/// fourth is transparent black.
+/// Decodes BC1 colors. With `has_alpha`, if the first endpoint is not larger than the second, the third color is their
+/// mean and the fourth is transparent black.
 void decodeColors(const std::uint8_t* block, bool has_alpha, Rgba* texels) {
     const std::uint32_t first = little16(block), second = little16(block + 2), codes = little32(block + 4);
     const bool is_cut = has_alpha && first <= second;
@@ -45,7 +45,7 @@ std::array<float, 8> channelPalette(const std::uint8_t* block, bool is_signed) {
         return is_signed ? std::max(value, -127) + 127 : value;
     };
     const int most = is_signed ? 254 : 255, first = end(block[0]), second = end(block[1]);
-    // Compared as stored, where -128 differs from -127.
+    // Endpoints are compared as stored integers: -128 differs from -127, although both represent -1.
     const bool is_full =
         is_signed ? std::bit_cast<std::int8_t>(block[0]) > std::bit_cast<std::int8_t>(block[1]) : block[0] > block[1];
     const auto of = [&](int sum, int parts) { return static_cast<float>(sum) / static_cast<float>(parts * most); };
@@ -62,7 +62,7 @@ void decodeChannel(const std::uint8_t* block, bool is_signed, std::size_t channe
     for (std::size_t i = 0; i < kBlockTexels; ++i, codes >>= 3) texels[i][channel] = palette[codes & 7];
 }
 
-/// The block is big-endian, with column-major codes.
+/// Decodes an EAC channel. Its block is big-endian, with the codes in column-major order.
 void decodeEacChannel(const std::uint8_t* block, bool is_signed, std::size_t channel, Rgba* texels) {
     const int stored = is_signed ? std::max<int>(std::bit_cast<std::int8_t>(block[0]), -127) : block[0];
     const int base = is_signed ? stored * 8 : stored * 8 + 4;
@@ -116,7 +116,7 @@ void decodeBc4(const TexelFormat& format, const std::uint8_t* block, Rgba* texel
     decodeChannels(format, block, texels, decodeChannel);
 }
 
-/// The ends are inverted and swapped, and so are their codes; the values between them stay the same.
+/// Inverts a BC4 channel exactly: inverts and swaps the endpoints, and exchanges the codes accordingly.
 void invertBc4Channel(const TexelFormat& format, std::uint8_t* block, unsigned channel) {
     std::uint8_t* const at = block + std::size_t{8} * channel;
     const auto inverted = [&](std::uint8_t byte) {
@@ -129,7 +129,7 @@ void invertBc4Channel(const TexelFormat& format, std::uint8_t* block, unsigned c
     const std::uint8_t first = inverted(at[1]), second = inverted(at[0]);
     at[0] = first;
     at[1] = second;
-    // -127 and -128 represent the same value: if both are ends, all values are equal.
+    // -127 and -128 represent the same value. If both are endpoints, all values of the block are equal.
     const bool is_one = is_full && first == second;
     std::uint64_t codes = 0;
     for (unsigned i = 0; i < kBlockTexels; ++i) {
@@ -166,7 +166,7 @@ float halfValue(std::uint32_t half) {
     return std::bit_cast<float>(sign | wide << 23 | fraction << 13);
 }
 
-/// Assigns the existing channels to red, green, blue and alpha.
+/// Assigns the stored channels to red, green, blue and alpha.
 template <class Channel>
 void placeChannels(unsigned count, Rgba& texel, const Channel& channel) {
     texel = {0, 0, 0, 1};
@@ -182,7 +182,7 @@ void decodeBytes(const TexelFormat& format, const std::uint8_t* block, Rgba* tex
     });
 }
 
-/// Decodes texels with blue first (BGR order).
+/// Decodes texels whose channels are stored in the order blue, green, red.
 void decodeTurnedBytes(const TexelFormat& format, const std::uint8_t* block, Rgba* texels) {
     decodeBytes(format, block, texels);
     const float blue = (*texels)[0];
@@ -243,7 +243,7 @@ void invertWord(const TexelFormat& format, std::uint8_t* block, unsigned channel
     at[1] = static_cast<std::uint8_t>(changed >> 8);
 }
 
-/// Inverts all bits of the mask.
+/// Inverts all bits of the channel's mask.
 void invertMasked(const TexelFormat& format, std::uint8_t* block, unsigned channel) {
     for (unsigned i = 0; i < format.block_bytes; ++i)
         block[i] ^= static_cast<std::uint8_t>(format.masks[channel] >> 8 * i);
@@ -305,8 +305,8 @@ constexpr TexelFormat maskedFormat() {
     return format;
 }
 
-/// In the order of TexelKind. In uncompressed formats with blue first, green is still the second channel. BC4, BC5 and
-/// EAC resolve more than 8 bits.
+/// Table of formats, in the order of TexelKind. In uncompressed formats that start with blue, green is still the second
+/// channel. BC4, BC5 and EAC resolve more than 8 bits.
 constexpr TexelFormat kFormats[] = {
     plainFormat("R8", 1, 8, decodeBytes),
     plainFormat("R8 signed", 1, 8, decodeBytes, true),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Texels in texture files (KTX2, DDS): single texels, or blocks of 4 x 4. Decoded according to the formulas, without
-// rounding to 8 bits.
+// Texels in texture files (KTX2, DDS): single texels, or blocks of 4 x 4. They are decoded by the formulas of the
+// specifications, without rounding to 8 bits.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace tspace {
 
-/// Red, green, blue and alpha, from 0 to 1; for signed formats (v + 1) / 2, for floats the stored value. A missing
-/// color channel is 0, missing alpha is 1; a single channel is copied to all three colors.
+/// Red, green, blue and alpha from 0 to 1. Signed formats are mapped to (v + 1) / 2; floats keep the stored value. A
+/// missing color channel is 0, missing alpha is 1; a single channel is copied to all three colors.
 using Rgba = std::array<float, 4>;
 
 enum class TexelKind : std::uint8_t {
@@ -59,7 +59,7 @@ enum class TexelKind : std::uint8_t {
     uastc,
     etc1s,       ///< blocks that unpackBasisLz decodes
     etc1sAlpha,  ///< with a second slice, whose green channel is alpha
-    astc,        ///< 4 x 4 texels; other block sizes must be set
+    astc,        ///< blocks of 4 x 4 texels; the caller sets other block sizes
     none
 };
 
@@ -75,8 +75,8 @@ struct TexelFormat {
     std::uint8_t channels = 4;
     std::uint8_t bits = 8;  ///< effective bits per channel: 8, 16 or 32 (floats)
     bool is_signed = false, is_float = false;
-    /// Writes width * height texels, row by row. Accepts arbitrary bytes. Null: whole levels are decoded at once
-    /// (ASTC).
+    /// Decodes a block to width * height texels, row by row. Accepts arbitrary bytes. Null if only whole levels can be
+    /// decoded (ASTC).
     void (*decode)(const TexelFormat&, const std::uint8_t* block, Rgba* texels) = nullptr;
     InvertChannel invert = nullptr;           ///< null if the format cannot represent the result exactly
     std::array<std::uint32_t, 4> masks = {};  ///< channel masks of `masked`

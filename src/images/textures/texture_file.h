@@ -19,8 +19,8 @@ namespace tspace {
 /// Supercompression scheme of KTX2 levels.
 enum class Repacking : std::uint8_t { none, zstd, zlib, basisLz };
 
-/// Maximum side to which header sizes are clamped. The product of two sides and up to 256 bytes per texel then fits in
-/// 64 bits.
+/// Maximum side length; larger sizes in headers are clamped to it. The product of two sides and up to 256 bytes per
+/// texel then fits in 64 bits.
 inline constexpr std::uint32_t kMostTextureSide = std::uint32_t{1} << 28;
 
 struct TextureFile {
@@ -40,7 +40,7 @@ struct TextureFile {
     ByteSpan global = {};                            ///< codebooks of BasisLZ
     bool is_srgb = false;                            ///< the file declares its values as sRGB
     bool turns_columns = false, turns_rows = false;  ///< the first texel is not the top left one
-    /// For each output color: a channel of the format, or one of these constants.
+    /// Source of each output color: a channel of the format, or one of these constants.
     static constexpr std::uint8_t kZero = 4, kOne = 5;
     std::array<std::uint8_t, 4> swizzle = {0, 1, 2, 3};
     /// Channels of x, y and z among the output colors if the format defines them; otherwise as in glTF.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// UASTC. Formulas and tables: Khronos Data Format Specification 1.4, chapter UASTC (by Rich Geldreich, public domain).
+// Decodes UASTC. Formulas and tables: Khronos Data Format Specification 1.4, chapter UASTC (by Rich Geldreich, public
+// domain).
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
@@ -12,7 +13,7 @@ namespace {
 
 constexpr std::size_t kUastcTexels = 16, kSolid = 8;
 
-/// A mode: its code, and the bits of each field.
+/// A UASTC mode: its code, and the number of bits of each field.
 struct UastcMode {
     std::uint8_t code, code_bits;
     std::uint8_t hint_bits;       ///< bits between the code and the pattern: hints for transcoding
@@ -106,7 +107,7 @@ struct UastcBlock {
     }
 };
 
-/// Order: low and high of each channel, subset by subset.
+/// Reads the endpoints: low and high value of each channel, subset by subset.
 void readUastcEnds(BlockBits& bits, UastcBlock& block) {
     const UastcMode& mode = block.mode;
     const std::size_t count = std::size_t{2} * mode.parts * mode.subsets;
@@ -139,7 +140,7 @@ void readUastcEnds(BlockBits& bits, UastcBlock& block) {
     }
 }
 
-/// The weight of the first texel of each subset has one bit less.
+/// Reads the weights. The weight of the first texel of each subset has one bit less.
 void readUastcWeights(BlockBits& bits, UastcBlock& block) {
     unsigned seen = 0;
     const std::size_t planes = block.mode.has_planes ? 2 : 1;
@@ -179,7 +180,8 @@ bool readUastcBlock(const std::uint8_t* bytes, UastcBlock& block) {
 void decodeUastc(const TexelFormat&, const std::uint8_t* bytes, Rgba* texels) {
     UastcBlock block;
     if (!readUastcBlock(bytes, block)) {
-        std::fill_n(texels, kUastcTexels, Rgba{1, 0, 1, 1});  // the error color
+        // Magenta, which the specification defines as the error color.
+        std::fill_n(texels, kUastcTexels, Rgba{1, 0, 1, 1});
         return;
     }
     for (std::size_t i = 0; i < kUastcTexels; ++i) {

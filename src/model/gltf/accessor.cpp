@@ -442,7 +442,7 @@ std::string formatName(const Accessor& accessor) {
     }
     if (accessor.component_count == 0) return name + " with an unknown accessor type";
     if (accessor.component_count == 1) return name;
-    // "snorm16x3", but "float3" without an x.
+    // Examples of names are "snorm16x3" and, without an x, "float3".
     return name + (accessor.component == ComponentType::f32 ? "" : "x") + std::to_string(accessor.component_count);
 }
 

@@ -61,22 +61,22 @@ double stepOf(const Accessor& accessor);
 /// Returns whether the data that copyElements needs is available.
 bool hasData(const Document& document, const Accessor& accessor);
 
-/// Elements in place: data_bytes each, `stride` apart, at any alignment.
+/// View of elements in the bytes of a buffer: data_bytes each, `stride` apart, at any alignment.
 struct ElementView {
     const std::uint8_t* data = nullptr;
     std::size_t stride = 0;
 };
 
-/// Returns nullopt if elements have to be assembled: zero or sparse elements, or an incomplete last element. Fails like
-/// copyElements.
+/// Returns the elements without copying them, or nullopt if they have to be assembled: zero or sparse elements, or an
+/// incomplete last element. Fails like copyElements.
 std::optional<ElementView> viewElements(const Document& document, const Accessor& accessor);
 
 /// Returns all elements, tightly packed (element_bytes each), with sparse values applied. Fails if a buffer has no
 /// data, and for an unknown type.
 Bytes copyElements(const Document& document, const Accessor& accessor);
 
-/// Decode elements as floats: normalized integers by the formulas of the specification, other integers by value. Fail
-/// with invalidFile at `place` if the accessor has a different number of components.
+/// Decode elements as floats: normalized integers by the formulas of the specification, other integers by their value.
+/// Fail with invalidFile at `place` if the accessor has a different number of components.
 std::vector<Vec2> decodeVec2(const Document& document, const Accessor& accessor, const std::string& place);
 std::vector<Vec3> decodeVec3(const Document& document, const Accessor& accessor, const std::string& place);
 std::vector<Vec4> decodeVec4(const Document& document, const Accessor& accessor, const std::string& place);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pieces of a buffer: appending, cutting and generating lazy bytes.
+// Implements buffers as lists of pieces: appending, cutting, and generating lazy bytes.
 #include "model/gltf/buffer_bytes.h"
 
 #include <algorithm>

@@ -135,7 +135,7 @@ class Packer {
         }
         Bytes data;
         const DracoLimits no_limits{mesh.corners.size(), mesh.point_count, ~std::size_t{0}};
-        // leave the primitive uncompressed
+        // If the codec fails, the primitive stays uncompressed.
         if (!encodeDraco(mesh, false, data) || !decodeDraco(data, no_limits, mesh).empty()) return;
         store(group, mesh, std::move(elements), std::move(data), chosen, owns);
         if (chosen.size() != first.vertex_count) numbers_.carry(group, {chosen, mesh.corners, first.vertex_count});
@@ -201,7 +201,7 @@ class Packer {
         for (std::size_t t = 0; t < group[0]->targets.size(); ++t) {
             for (const auto& [name, old] : group[0]->targets[t]) {
                 if (stored.count(old) == 0) {
-                    // Unused vertices were dropped, possibly including the declared extremes.
+                    // Unused vertices were dropped, and they may have defined the declared bounds.
                     ElementData data = gatherElements(document_, readAccessor(document_, old), chosen);
                     renewBounds(data);
                     const bool alone = editor_.accessorUses(old) == uses[old];
@@ -271,7 +271,7 @@ void unpackDraco(Document& document, Editor& editor) {
         std::iota(all.begin(), all.end(), 0u);
         ElementData data = gatherElements(document, accessor, all);
         data.like.reset();
-        renewBounds(data);  // decoded Draco values rarely match the declared extremes exactly
+        renewBounds(data);  // decoded Draco values rarely match the declared bounds exactly
         if (indices.count(index) != 0) data.target = kIndexTarget;
         document.elements.erase(index);
         editor.store(std::move(data), index);
@@ -361,7 +361,7 @@ bool usesMeshopt(const Document& document) {
     return std::any_of(views.begin(), views.end(), [](const Json& view) { return meshoptExtension(view) != nullptr; });
 }
 
-/// Returns whether the body changed the document.
+/// Calls the body with an editor, and finishes the edit. Returns whether the body changed the document.
 template <class Body>
 bool edit(Document& document, const std::string& new_file_name, Body&& body) {
     Editor editor(document, new_file_name);

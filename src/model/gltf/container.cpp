@@ -246,7 +246,7 @@ void joinBuffers(Document& document) {
     }
 }
 
-/// Replaces "uri" by "bufferView" and "mimeType" at the same position among the members.
+/// Replaces "uri" by "bufferView" and "mimeType", at the same position in the object.
 void embedImages(Document& document, std::vector<std::string>& warnings) {
     for (std::size_t i = 0; i < rootArray(document, "images").size(); ++i) {
         const std::string place = join("/images", i);
@@ -291,7 +291,7 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
     std::string why = document.files.whyNotRead(uri, place);
     if (leadsAway(relative) != nullptr) why = "it is outside the folder of the model";
     if (!why.empty()) {
-        // Embedding it has already failed with a warning.
+        // A model that embeds its images has already reported the missing one.
         if (!target.takes_images_in) warnings.push_back("the file " + inQuotes(uri) + " was not copied: " + why);
         return;
     }
@@ -311,7 +311,7 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
     output.addShared(to, document.files.read(from, place));
 }
 
-/// Warns about missing images in cases where no other code reads them.
+/// Warns about missing images if no other step reads images.
 void noteMissingImages(const Document& document, const OutputTarget& target, std::vector<std::string>& warnings) {
     if (target.takes_images_in || document.files.areNone()) return;
     for (const Json& image : rootArray(document, "images")) {
@@ -418,7 +418,7 @@ void convertContainer(Document& document, const OutputTarget& target, bool will_
             buffer.own = true;
         } else if (buffer.source == BufferSource::file && (target.in_place || !target.same_folder) &&
                    pathOfUri(entry["uri"].text()) == own_name) {
-            // An earlier run wrote this file for a model with this name.
+            // The file was written by an earlier run for a model with this name, so the output owns it.
             buffer.own = true;
             buffer.path = own_name;
         }

@@ -34,18 +34,19 @@ class DecodedArrays {
     SharedArray<Vec4> vec4(std::size_t accessor, const std::string& place);
     /// Returns NORMAL of the primitive, or of one of its morph targets, scaled as the primitive specifies.
     SharedArray<Vec3> normals(const Primitive& primitive, std::size_t accessor, const std::string& place);
-    /// Like readTriangleCorners. Also fails with tooLarge if the budget does not allow reading them.
+    /// Returns the triangles like readTriangleCorners. Also fails with tooLarge if the budget does not allow reading
+    /// them.
     SharedArray<std::uint32_t> corners(const Primitive& primitive);
-    /// Like readPackedWords.
+    /// Returns packed frames like readPackedWords.
     SharedArray<std::uint8_t> packedWords(const Primitive& primitive, const PackedLayout& layout);
 
-    /// Returns a cached array, or decodes one for the caller without charging the budget: for callers that reserve all
-    /// their memory in the budget. The attribute must exist.
+    /// Returns a cached array, or decodes one for the caller without charging the budget. For callers that reserve all
+    /// of their memory in the budget. The attribute must exist.
     SharedArray<Vec2> borrowUvs(const Primitive& primitive, std::size_t uv_set);
     SharedArray<Vec3> borrowVec3(const Primitive& primitive, const char* attribute);
     SharedArray<Vec4> borrowTangents(const Primitive& primitive);
     SharedArray<std::uint32_t> borrowCorners(const Primitive& primitive);
-    /// Like corners(), as a list that the caller owns.
+    /// Like corners(), but returns a list that the caller owns.
     std::vector<std::uint32_t> copyCorners(const Primitive& primitive);
 
     /// Must be called after the document has changed: accessors are then decoded again. Arrays in use are not changed.
@@ -57,7 +58,7 @@ class DecodedArrays {
     /// Index accessor, vertex count, and mode.
     using CornerKey = std::tuple<std::size_t, std::size_t, Mode>;
 
-    /// Returns nullopt if the array is not cached.
+    /// Returns a cached array, or nullopt.
     template <class T, class Key>
     std::optional<SharedArray<T>> known(const std::map<Key, Known<T>>& table, const Key& key) const;
     template <class T, class Key, class Decode>
@@ -73,8 +74,8 @@ class DecodedArrays {
     std::map<std::size_t, Known<Vec2>> vec2_ = {};  ///< keyed by accessor
     std::map<std::size_t, Known<Vec3>> vec3_ = {};
     std::map<std::size_t, Known<Vec4>> vec4_ = {};
-    std::map<std::pair<std::size_t, std::size_t>, Known<Vec3>> scaled_normals_ =
-        {};  ///< keyed by the accessors of the base and of the array
+    /// Keyed by the accessors of the base and of the array.
+    std::map<std::pair<std::size_t, std::size_t>, Known<Vec3>> scaled_normals_ = {};
     std::map<CornerKey, Known<std::uint32_t>> corners_ = {};
     std::map<std::vector<std::size_t>, Known<std::uint8_t>> words_ = {};  ///< keyed by the accessors of the words
 };

@@ -48,8 +48,8 @@ struct Buffer {
     BufferSource source = BufferSource::absent;
     BufferBytes bytes = {};  ///< exactly `byteLength` bytes, unless absent
     Path path = {};          ///< path of the file, for BufferSource::file
-    /// true: the output stores these bytes itself (BIN, data URI, a file named after the output), so that they may be
-    /// edited. Other files belong to the input and are never changed.
+    /// The output stores these bytes itself (BIN, data URI, or a file named after the output), so they may be edited.
+    /// Other files belong to the input and are never changed.
     bool own = false;
     bool edited = false;  ///< the bytes differ from those read
 
@@ -59,7 +59,7 @@ struct Buffer {
     }
 };
 
-/// Warning about normals whose length is not 1: see NormalScales.
+/// Warning about normals whose length is not 1 (see NormalScales).
 struct ScaledNormalsWarning {
     std::size_t number = 0;    ///< index in Document::warnings
     std::string lengths = {};  ///< first sentence, without the period: how many normals, where, and their lengths
@@ -84,12 +84,12 @@ struct Document {
     std::vector<ExtraChunk> extra_chunks = {};
     std::uint64_t input_bytes = 0;              ///< size of the model file and its buffer files
     std::vector<std::string> input_files = {};  ///< files that were read in addition to the model file
-    /// converted from another format: `file_bytes` is not the original file
+    /// The document was converted from another format; `file_bytes` is not the original file.
     bool imported = false;
     bool may_hide_tangents = false;             ///< the original may have tangents that the importer did not read
     std::string source_generator = {};          ///< program that wrote the original; may be empty
     std::array<double, 3> coordinate_offset{};  ///< offset that the importer subtracted from the coordinates
-    /// coordinates exceed float precision, and FileOptions::keep_coordinates was set
+    /// The coordinates exceed float precision, and FileOptions::keep_coordinates was set.
     bool keeps_far_coordinates = false;
     FileOptions options = {};
     /// Images that are written next to the output, keyed by the path of their URI.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Views and accessors of a new glTF document.
+// Builds the buffer views and accessors of a new glTF document.
 #include "model/gltf/document_builder.h"
 
 #include <algorithm>

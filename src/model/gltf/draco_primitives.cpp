@@ -21,7 +21,7 @@ namespace {
 /// nothing), so the limit is a choice: a file of any size may decode to 4 MiB, a large file to 256 times its size.
 constexpr std::uint64_t kFreeBytes = std::uint64_t{4} << 20;
 constexpr std::uint64_t kRatio = 256;
-/// Temporary memory of the library per point, in multiples of the size of the values.
+/// Estimated temporary memory of the library per point, as a multiple of the size of the values.
 constexpr std::uint64_t kWorkFactor = 4;
 
 constexpr std::size_t kTriangles = 4;
@@ -96,7 +96,7 @@ Json& primitiveJson(Document& document, const Packed& packed) {
     return document.json["meshes"][packed.mesh]["primitives"][packed.index];
 }
 
-/// Source of an accessor's data: a view, and an attribute ID in it or its indices.
+/// Source of an accessor's data in a Draco primitive: a view, and the ID of an attribute in it or the indices.
 struct Source {
     std::size_t view = 0;
     std::int64_t id = -1;

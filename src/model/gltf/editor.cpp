@@ -108,7 +108,7 @@ bool Editor::canOverwrite(const Accessor& accessor) const {
 
 void Editor::overwrite(const Accessor& accessor, const Bytes& elements) {
     const BufferView view = readBufferView(document_, *accessor.view);
-    // Lazy pieces may still need these bytes.
+    // Lazy pieces may read the bytes that are overwritten, so all of them are generated first.
     for (Buffer& any : document_.buffers) any.bytes.makeAll();
     Buffer& buffer = document_.buffers[view.buffer];
     std::uint8_t* to =
@@ -372,7 +372,7 @@ void Editor::unpackView(std::size_t index) {
 /// Returns the buffer for the decoded form of views whose only data in the file is compressed.
 std::size_t Editor::fallbackBuffer() {
     if (fallback_buffer_) return *fallback_buffer_;
-    targetBuffer();  // must come first, because BIN is buffer 0
+    targetBuffer();  // must come first: with a new BIN, buffer 0 changes
     for (std::size_t i = 0; i < document_.buffers.size(); ++i) {
         if (document_.buffers[i].source == BufferSource::decoded) fallback_buffer_ = i;
     }

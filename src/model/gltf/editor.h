@@ -81,7 +81,7 @@ class Editor {
     [[nodiscard]] Form formLike(std::optional<std::size_t> accessor) const;
     std::size_t targetBuffer();
     std::size_t appendBytes(std::size_t buffer, Bytes bytes, std::size_t element_bytes, std::size_t stride);
-    /// storeView and storeSparse move the bytes out of `data`; its description stays valid.
+    /// Store elements, moving the bytes out of `data`; its description stays valid.
     std::size_t storeView(ElementData& data, const Form& form);
     Json storeSparse(ElementData& data);
     std::size_t newView();

@@ -26,7 +26,7 @@ ElementData describe(const Document& document, const Accessor& accessor, std::si
     data.filter = filterOf(document, accessor);
     data.count = count;
     data.element_bytes = accessor.element_bytes;
-    // Copying elements does not change their bounds.
+    // Copied elements have the same bounds as their sources.
     const Json& object = rootArray(document, "accessors")[accessor.index];
     if (const Json* low = findMember(object, "min")) data.min = *low;
     if (const Json* high = findMember(object, "max")) data.max = *high;
@@ -138,7 +138,7 @@ void makeSparseWhereSmaller(ElementData& data) {
     data.places = std::move(places);
 }
 
-// Index lists.
+// Conversion of index lists to elements.
 
 namespace {
 

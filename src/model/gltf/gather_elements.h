@@ -27,7 +27,7 @@ struct ElementData {
     std::size_t count = 0;
     std::size_t element_bytes = 4;
     Bytes bytes = {};
-    /// generates the elements when they are written; `bytes` is then empty
+    /// Generates the elements when they are written; `bytes` is empty in this case.
     std::shared_ptr<const ByteMaker> later = {};
     unsigned target = kVertexTarget;
     /// Accessor whose compression the new elements inherit.

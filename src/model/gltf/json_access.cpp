@@ -60,7 +60,7 @@ std::optional<std::uint64_t> wholeNumber(const Json& value) {
         return value.get<std::uint64_t>();
     }
     if (!value.is_number_float()) return {};
-    // 5.0 is an integer too. Beyond 2^53 a double cannot represent every integer.
+    // Numbers such as 5.0 are integers too. Beyond 2^53 a double cannot represent every integer.
     const double number = value.get<double>();
     if (!(number >= 0 && number <= 9007199254740992.0) || number != std::floor(number)) return {};
     return static_cast<std::uint64_t>(number);

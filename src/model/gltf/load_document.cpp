@@ -71,7 +71,7 @@ void checkRoot(const Json& root) {
     }
 }
 
-/// Reports other file types by name instead of a syntax error.
+/// Fails with the name of the file type for known types that are not glTF, instead of with a syntax error.
 void checkLooksLikeJson(std::span<const std::uint8_t> text) {
     std::string_view view(reinterpret_cast<const char*>(text.data()), text.size());
     if (view.substr(0, 3) == "\xef\xbb\xbf") view.remove_prefix(3);  // byte order mark
@@ -154,8 +154,8 @@ Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, cons
     return buffer;
 }
 
-/// Images are not read here, but their files are part of the input. A rejected URI causes a warning, since geometry
-/// does not depend on it.
+/// Records the files of images as inputs; they are not read here. A rejected URI causes a warning only, because
+/// geometry does not depend on images.
 void checkImageUris(Document& document) {
     constexpr std::size_t kMostWarnings = 8;
     const Json& images = rootArray(document, "images");
@@ -181,7 +181,8 @@ void checkImageUris(Document& document) {
         document.warnings.push_back(std::to_string(refused_count - kMostWarnings) + " more images could not be read");
 }
 
-/// Charges each entry a fixed cost for tables of uses and reports: an entry takes only a few bytes of JSON.
+/// Charges the budget for tables of uses and reports: a fixed cost per entry, because an entry takes only a few bytes
+/// of JSON.
 void takeEntries(const Document& document) {
     struct List {
         const char* name;

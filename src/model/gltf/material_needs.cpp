@@ -26,7 +26,8 @@ std::size_t readUvSet(const Json& object, const std::string& place, std::size_t 
     return static_cast<std::size_t>(set);
 }
 
-/// UV set and transform of a texture reference. The texCoord of KHR_texture_transform overrides the reference's.
+/// Reads the UV set and the transform of a texture reference. The texCoord of KHR_texture_transform overrides that of
+/// the reference.
 void readUvs(const Json& texture, const std::string& place, TextureReading& reading) {
     reading.uv_set = readUvSet(texture, place, 0);
     const Json* extensions = readObject(texture, "extensions", place);
@@ -41,8 +42,8 @@ void readUvs(const Json& texture, const std::string& place, TextureReading& read
     readNumbers(*transform, "scale", transform_place, reading.transform.scale);
 }
 
-/// Returns a member that is an index below `limit`, or nullopt. An invalid image does not affect frames, so it is not
-/// an error.
+/// Returns a member that is an index below `limit`, or nullopt if there is none. An invalid image is not an error,
+/// because frames do not depend on it.
 std::optional<std::size_t> indexBelow(const Json& object, const char* key, std::size_t limit) {
     const Json* value = findMember(object, key);
     if (value == nullptr || !value->is_number_integer()) return {};
@@ -223,7 +224,8 @@ class MaterialUses {
         const Json& material = rootArray(document_, "materials")[material_];
         const std::string place = join("/materials", material_);
         const bool has_map = addTexture(material, place, "normalTexture", "normalTexture");
-        // The image is not recorded: commands that change maps update references in materials only.
+        // The image is not recorded: commands that change normal maps update references only in glTF materials, not in
+        // VRM properties.
         if (!has_map && vrmNormalMap(document_, material_) != nullptr)
             add("normalTexture", join("/extensions/VRM/materialProperties", material_) + "/textureProperties/_BumpMap");
         if (isUnlit(document_, material_)) {

@@ -70,13 +70,13 @@ bool haveSameTangents(const TangentUse& a, const TangentUse& b, TextureTransform
 /// Returns the JSON pointers that animations change (KHR_animation_pointer).
 std::set<std::string> animatedPointers(const Document& document);
 
-/// Returns sentences about the `uses` of one primitive: textures whose tangents would have to differ from those of the
-/// first, and animated transforms. `computed`: also about the transform that the new tangents follow or ignore.
 /// Prefix of the note on the transform that computed tangents follow.
 inline constexpr const char* kTransformNote = "KHR_texture_transform ";
 /// Prefix of the note on tangents that a repair fixes.
 inline constexpr const char* kWrongNote = "its tangents were wrong: ";
 
+/// Returns sentences about the `uses` of one primitive: textures whose tangents would have to differ from those of the
+/// first, and animated transforms. `computed`: also about the transform that the new tangents follow or ignore.
 std::vector<std::string> notesOf(const std::vector<TangentUse>& uses, const std::set<std::string>& animated,
                                  TextureTransform reading, bool computed);
 

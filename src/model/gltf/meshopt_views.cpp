@@ -13,8 +13,8 @@ namespace tspace::gltf {
 
 namespace {
 
-/// Number of bytes that a fallback buffer without data may have in addition to its compressed views, for files of any
-/// size: gaps take memory too.
+/// Number of bytes that a fallback buffer without data may have outside of its compressed views, for files of any size.
+/// Gaps between views take memory too.
 constexpr std::uint64_t kFreeGap = std::uint64_t{4} << 20;
 constexpr std::uint64_t kGapRatio = 16;
 

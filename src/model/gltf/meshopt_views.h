@@ -16,7 +16,7 @@
 
 namespace tspace::gltf {
 
-/// Meshopt extension of one buffer view.
+/// Parsed meshopt extension of one buffer view.
 struct MeshoptView {
     const char* extension = kExtMeshopt;
     std::size_t buffer = 0, begin = 0, byte_count = 0;  ///< range of the compressed bytes

@@ -104,7 +104,7 @@ void Model::readAnew() {
         if (buffer.hasStoredBytes()) stored += buffer.bytes.size();
     }
     document.memory = std::make_shared<MemoryBudget>(document.options.memory_limit_bytes);
-    // The JSON is not written yet; its length is estimated as that of the input.
+    // The output JSON does not exist yet; its length is estimated as that of the input.
     document.memory->allow(stored + document.input_bytes);
     document.memory->take(stored, {});
     for (Buffer& buffer : document.buffers) {

@@ -31,7 +31,7 @@ class Model {
     /// Returns all primitives as a Scene, which is valid, with its arrays, until dropScene. Copies of it share the
     /// arrays.
     [[nodiscard]] const Scene& scene();
-    /// Returns a scene that the caller owns: all primitives, or only the given ones.
+    /// Returns a scene that the caller owns, with all primitives or only the given ones.
     [[nodiscard]] Scene sceneOf();
     [[nodiscard]] Scene sceneOf(std::span<const std::size_t> numbers);
     void dropScene() { scene_.reset(); }
@@ -39,8 +39,8 @@ class Model {
     /// Returns the scene with surface looks and placements; `with_images`: with the bytes of the images that pictures
     /// show. The model does not keep it.
     [[nodiscard]] DrawnScene drawnScene(bool with_images);
-    /// Like scene, with everything that materials use: the image bytes of base color, metalness and emission, and vertex
-    /// colors.
+    /// Returns the scene with the inputs of complete materials: image bytes of base color, metalness and emission, and
+    /// vertex colors. `with_normal_maps`: also image bytes of normal maps.
     [[nodiscard]] DrawnScene materialScene(bool with_normal_maps);
     /// Returns the scene as posed by its nodes; `with_images`: with the bytes of all images and the vertex colors.
     [[nodiscard]] PosedScene posedScene(bool with_images);

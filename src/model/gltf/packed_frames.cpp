@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reading packed tangent frames.
+// Reads packed tangent frames of primitives.
 #include "model/gltf/packed_frames.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Layouts of packed tangent frames.
+// Defines how packed tangent frames are stored in glTF attributes.
 #include "model/gltf/packed_layout.h"
 
 #include <algorithm>

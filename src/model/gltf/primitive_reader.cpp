@@ -30,7 +30,8 @@ AttributeList readAttributes(const Json& object, const std::string& place, std::
     return list;
 }
 
-/// Packed frames with a wrong number of elements do not make a file invalid: they can be recomputed.
+/// Moves packed frames with a wrong number of elements to `miscounted`. They do not make a file invalid, because they
+/// can be recomputed.
 void setMiscountedApart(const Document& document, Primitive& primitive) {
     const auto is_good = [&](const auto& entry) {
         return !isPackedAttribute(entry.first) || readAccessor(document, entry.second).count == primitive.vertex_count;
@@ -127,8 +128,8 @@ std::optional<AttributeFault> attributeFault(const Document& document, const Pri
     return fault;
 }
 
-/// Attributes that cannot be read do not make a file invalid: findings state the remedy, and the rest of the model is
-/// processed.
+/// Moves attributes that cannot be read to `attribute_faults`. They do not make a file invalid: findings state the
+/// remedy, and the rest of the model is processed.
 void setFaultyApart(const Document& document, Primitive& primitive) {
     const auto goodOf = [&](const AttributeList& list, std::ptrdiff_t target) {
         AttributeList good;
@@ -207,7 +208,7 @@ double storedScale(const Vec3& normal) {
 }
 
 std::shared_ptr<const NormalScales> findScales(const Document& document, const Accessor& accessor) {
-    // Without a view all normals are zero, regardless of their number.
+    // Normals that are not stored are all zero, and the file size does not limit their number.
     const bool is_stored = accessor.view || accessor.sparse || document.elements.count(accessor.index) != 0;
     if (accessor.type != "VEC3" || !is_stored || !hasData(document, accessor)) return nullptr;
     std::optional<StridedSpan<const Vec3>> normals = viewVectors<Vec3>(document, accessor);
@@ -235,7 +236,8 @@ std::shared_ptr<const NormalScales> findScales(const Document& document, const A
     return scales;
 }
 
-/// Skips unreadable normals; reading them will report the reason.
+/// Computes the scales of normals that do not have unit length. Skips unreadable normals: reading them later reports
+/// the reason.
 void findScales(const Document& document, std::vector<Primitive>& primitives) {
     std::map<std::size_t, std::shared_ptr<const NormalScales>> known;
     for (Primitive& primitive : primitives) {

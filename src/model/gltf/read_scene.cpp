@@ -138,7 +138,7 @@ class Nodes {
     const Document& document_;
     const Json& list_;
     std::vector<Affine> worlds_;
-    std::vector<std::uint8_t> seen_;  ///< number of the last walk that visited the node
+    std::vector<std::uint8_t> seen_;  ///< index of the last traversal that visited the node
     std::uint8_t walk_ = 0;
     std::vector<std::size_t> roots_ = {};
 };
@@ -305,7 +305,7 @@ std::vector<Affine> blendedBones(DecodedArrays& arrays, const Primitive& primiti
     for (std::size_t v = 0; v < result.size(); ++v) {
         const float number[4] = {numbers[v].x, numbers[v].y, numbers[v].z, numbers[v].w};
         double weight[4] = {weights[v].x, weights[v].y, weights[v].z, weights[v].w};
-        // CesiumMan has weight sums down to 0.18, which renderers normalize to 1.
+        // The weights of CesiumMan have sums down to 0.18, which renderers normalize to 1.
         const double all = weight[0] + weight[1] + weight[2] + weight[3];
         for (double& part : weight) part = all > 0 ? part / all : 0;
         if (!(all > 0)) weight[0] = 1;

@@ -39,7 +39,8 @@ void countPrimitive(std::vector<std::size_t>& uses, const Json& primitive) {
     for (const Json& target : *targets) countMembers(uses, &target);
 }
 
-/// The recursion depth is bounded by kMaxJsonDepth.
+/// Counts the members named "bufferView" in a value and everything below it. The recursion depth is bounded by
+/// kMaxJsonDepth.
 void countViewMembers(std::vector<std::size_t>& uses, const Json& value) {
     if (value.is_object()) count(uses, findMember(value, "bufferView"));
     if (!value.is_structured()) return;
@@ -103,7 +104,7 @@ std::vector<ByteRange> cutsOf(std::size_t buffer, std::span<const ByteRange> vac
     return cuts;
 }
 
-/// Maps byte offsets to their values after the cuts. A byte inside a cut maps to the position of the cut.
+/// Maps byte offsets before the cuts to offsets after them. A byte inside a cut maps to the position of the cut.
 class Mover {
   public:
     explicit Mover(std::span<const ByteRange> cuts) : cuts_(cuts) {
@@ -234,7 +235,7 @@ std::vector<Extent> collectExtents(const Document& document) {
                 {Extent::kNoAccessor, packed->buffer, packed->begin, packed->begin + packed->byte_count, 0, 0});
         }
     }
-    // Views that images, extensions or unknown readers use count as a whole.
+    // Views that images, extensions or unknown readers use are counted as a whole.
     const std::vector<std::size_t> all = countViewUses(document), known = accessorViewUses(document);
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (known[i] > 0 && known[i] == all[i] && !rootArray(document, "bufferViews")[i].contains("extensions"))

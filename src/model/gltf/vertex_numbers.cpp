@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kOutline = "CESIUM_primitive_outline";
 constexpr const char* kFeatures = "EXT_mesh_features";
-/// Extensions of primitives and meshes that reference no vertices, or that are handled elsewhere.
+/// Extensions of primitives and meshes that contain no vertex indices, or that other code handles.
 constexpr std::array kNamesNoVertices = {kOutline,
                                          kFeatures,
                                          "KHR_draco_mesh_compression",
@@ -84,12 +84,12 @@ std::vector<std::uint32_t> carriedEdges(std::span<const std::uint32_t> edges, co
         std::vector<Edge>& list = entry->second;
         if (std::find(list.begin(), list.end(), edge) == list.end()) list.push_back(edge);
     }
-    std::unordered_map<std::uint32_t, std::uint32_t> first_of;  // new vertex for each old one
+    std::unordered_map<std::uint32_t, std::uint32_t> first_of;  // index of the first new vertex for each old one
     for (std::uint32_t i = 0; i < vertices.sources.size(); ++i) first_of.try_emplace(vertices.sources[i], i);
     std::vector<std::uint32_t> result;
     for (std::size_t i = 0; i + 1 < edges.size(); i += 2) {
         for (const Edge& edge : found[keyOf(edges[i], edges[i + 1])]) {
-            // Keeps the direction of the edge in the file.
+            // The new edge keeps the direction of the edge in the file.
             const bool turned = vertices.sources[edge.first] != edges[i];
             result.push_back(turned ? edge.second : edge.first);
             result.push_back(turned ? edge.first : edge.second);

@@ -80,12 +80,13 @@ ImportLimits limitsFor(std::uint64_t size, const FileOptions& options) {
                               : std::min(options.import_max_memory_bytes, kAnyFile + kPerByte * size);
     limits.processor_seconds = options.import_max_seconds != 0 ? options.import_max_seconds : seconds;
     limits.reads_anywhere = options.allow_external;
-    // The wall-clock limit only ends an importer that waits. Where 20 processes share two cores, it gets a tenth of one.
+    // Processor time is the effective limit. The wall-clock limit ends an importer that waits; it is ten times as long,
+    // because with 20 processes on two cores each gets a tenth of a core.
     limits.seconds = options.import_max_seconds != 0 ? options.import_max_seconds : 10 * seconds;
     return limits;
 }
 
-/// Fails with the reason if there is no result.
+/// Throws the reason as FileError if the importer returned no result.
 void checkEnd(const ImportResult& result, const ImportLimits& limits) {
     std::string why;
     switch (result.end) {
@@ -141,7 +142,7 @@ gltf::Document importDocument(const Path& path, const FileOptions& options, cons
     checkEnd(result, limits);
     gltf::Document document = gltf::parseDocument(std::move(result.glb), path, options);
     document.input_bytes = static_cast<std::uint64_t>(size);
-    // tspace writes the output, not the importer.
+    // The generator of the original is kept separately, because tspace becomes the generator of the output.
     document.source_generator = gltf::generatorOf(document);
     document.imported = true;
     document.json["asset"]["generator"] = "tspace";

@@ -131,7 +131,7 @@ pid_t start(const std::vector<std::string>& command, const Descriptor& result, c
     return child;
 }
 
-/// Reserves the length that a GLB's header declares, at most `most`.
+/// Reserves memory for the length that a GLB's header declares, but no more than `most`.
 void reserveWhole(Bytes& glb, std::uint64_t most) {
     constexpr std::size_t kLengthEnd = 12;
     if (glb.size() < kLengthEnd) return;

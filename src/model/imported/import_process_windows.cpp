@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace-import confines itself with Landlock and seccomp, so it does not exist on Windows.
+// The importer is not available on Windows: it confines itself with Landlock and seccomp of Linux.
 #include "model/imported/import_document.h"
 #include "model/io/file_error.h"
 

@@ -68,7 +68,7 @@ struct OutputPiece {
     [[nodiscard]] std::size_t size() const { return maker ? maker->size() : bytes.size(); }
 
     std::span<const std::uint8_t> bytes = {};
-    std::shared_ptr<const ByteMaker> maker = {};  ///< owner or generator of the bytes
+    std::shared_ptr<const ByteMaker> maker = {};  ///< owner or generator of the bytes; null if the caller owns them
 };
 
 // Temporary files: their names, which identify the owning process, and the list of this process's files, which a signal
@@ -114,8 +114,8 @@ class InputFiles {
     InputFiles();
     /// Adds an input. Fails with cannotRead (FileError) if another call of the same OneRun wrote this file.
     void add(const Path& path) { addTo(identities_, path); }
-    /// Makes `options` report every opened file, and separately every referenced image, to this object and then to the
-    /// previous callbacks. Must outlive `options`.
+    /// Makes `options` report every opened file, and every referenced image, to this object and then to the callbacks
+    /// that were set before. This object must outlive `options`.
     void watch(FileOptions& options);
     /// Allows outputs to replace this file if a model references it as an image and nothing reads it.
     void letOff(const Path& path);
@@ -132,9 +132,9 @@ class InputFiles {
     std::set<std::string> identities_ = {}, named_ = {}, let_off_ = {};
 };
 
-/// While it exists, no output of this process replaces these files. Used for reports and manifests, which are written
-/// by other code or later (the names of derived outputs are known only when they are written). Empty paths and "-" are
-/// skipped.
+/// Prevents all outputs of this process from replacing these files while it exists. Used for reports and manifests,
+/// which other code writes, possibly later (the names of derived outputs are known only when they are written). Empty
+/// paths and "-" are ignored.
 class KeptFiles {
   public:
     explicit KeptFiles(const std::vector<std::string>& paths);
@@ -146,8 +146,9 @@ class KeptFiles {
     std::vector<std::string> identities_ = {};
 };
 
-/// While it exists, all calls belong to one run over several models, possibly in parallel: no call changes a file that
-/// another call read, wrote, or left because its content was already correct. At most one may exist.
+/// Makes all calls part of one run over several models while it exists. The calls may run in parallel: no call changes
+/// a file that another call read, wrote, or left unchanged because its content was already correct. At most one may
+/// exist.
 class OneRun {
   public:
     OneRun();
@@ -196,7 +197,8 @@ class AtomicOutput {
         files_.back().is_shared = true;
     }
 
-    /// Returns whether the file exists with exactly these bytes. If so, other calls of OneRun cannot change it.
+    /// Returns whether the file already exists with exactly these bytes. If so, other calls of the run cannot change
+    /// it.
     bool leave(const Path& target, std::span<const std::uint8_t> bytes);
 
     [[nodiscard]] bool isStream() const { return way_.sink != nullptr; }
@@ -247,9 +249,9 @@ class AtomicOutput {
     bool committed_ = false;
 };
 
-/// While it exists, AtomicOutput::commit() on this thread holds back its files, and commit() of this object puts them
-/// in place together. The caller prepares its report in between, so that no allocation follows once outputs are in
-/// place. Without commit() the destructor removes the files. If several exist on one thread, the innermost one is used.
+/// Holds back the files of AtomicOutput::commit() on this thread while it exists; its own commit() puts them in place
+/// together. The caller prepares its report in between, so that no allocation follows once outputs are in place.
+/// Without commit() the destructor removes the files. If several exist on one thread, the innermost one is used.
 class HeldOutputs {
   public:
     HeldOutputs();

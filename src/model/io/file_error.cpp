@@ -30,7 +30,7 @@ Character firstCharacter(std::string_view text) {
     }
     const bool overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
     if (overlong || code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) return {};
-    // Includes line separators and marks that change the text direction.
+    // Control characters include line separators and marks that change the text direction.
     const bool control = code < 0xa0 || code == 0x061c || code == 0x200b || code == 0x200e || code == 0x200f ||
                          (code >= 0x2028 && code <= 0x202e) || (code >= 0x2060 && code <= 0x206f);
     return {length, !control};

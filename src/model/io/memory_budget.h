@@ -16,8 +16,8 @@
 
 namespace tspace {
 
-/// Costs are estimates, rounded up: with the default limit, measured peaks stay below 64 MB + 16 bytes per byte of the
-/// file. Thread-safe.
+/// Budget in bytes. Charged costs are estimates, rounded up: with the default limit, measured peaks stay below 64 MB +
+/// 16 bytes per byte of the file. Thread-safe.
 class MemoryBudget {
   public:
     /// Memory of the program itself, and a margin for the estimates.
@@ -47,8 +47,7 @@ class MemoryBudget {
     /// Returns bytes to the budget.
     void release(std::uint64_t bytes) { left_ += limited(bytes); }
 
-    /// Returns the remaining bytes. giveBack(), with an earlier result of left(), returns everything that was charged
-    /// since.
+    /// Returns the remaining bytes. Passing the result to giveBack() later returns everything that was charged since.
     [[nodiscard]] std::int64_t left() const { return left_; }
     void giveBack(std::int64_t left_before) {
         if (left_ < left_before) left_ = left_before;
@@ -72,7 +71,7 @@ class MemoryBudget {
         return count;
     }
 
-    /// Returns whether the user set the limit.
+    /// Returns whether the user set the limit, instead of the default.
     [[nodiscard]] bool isUsers() const { return is_users_; }
 
     /// Returns the message of a failure: "needs ...".
@@ -84,7 +83,7 @@ class MemoryBudget {
     }
 
   private:
-    /// Clamps, so that no sum of two values can overflow.
+    /// Clamps a size, so that no sum of two sizes can overflow.
     static std::int64_t limited(std::uint64_t bytes) {
         constexpr std::uint64_t kMost = std::uint64_t{1} << 56;
         return static_cast<std::int64_t>(bytes < kMost ? bytes : kMost);

@@ -92,7 +92,7 @@ void waitBriefly();
 
 /// Returns the ID of this process.
 std::uint32_t processNumber();
-/// Returns false only if there is certainly no process with this ID.
+/// Returns whether a process with this ID may exist; false only if there is certainly none.
 bool isRunning(std::uint32_t process);
 /// Returns a text that identifies the PID namespace: it differs on another machine, after a reboot, and in another
 /// container.

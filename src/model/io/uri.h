@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// URIs in model files.
+// Parsing and checking of URIs in model files.
 #pragma once
 
 #include <string>
@@ -44,7 +44,7 @@ std::string pathOfUri(std::string_view uri);
 /// scheme or leaves the folder; `allow_external` allows all of these except a scheme.
 std::string checkedPathOfUri(std::string_view uri, bool allow_external, const std::string& place);
 
-/// End of messages about rejected paths: the option that allows them.
+/// End of messages about rejected paths, which names the option that allows them.
 inline constexpr const char* kFollowed = " (--allow-external follows it)";
 
 /// Fails with forbiddenPath. `why`: the fault, as a predicate whose subject is the URI.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// JSON values: memory, members and comparison.
+// Implements JSON values: memory, members and comparison.
 #include "model/json/json.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace tspace {
 
-// Not inline, because reports construct hundreds of members.
+// Defined here instead of inline, because reports construct hundreds of members.
 Json::Json(const char* text) : Json(std::string(text)) {}
 Json::Json(std::string_view text) : Json(std::string(text)) {}
 Json::Json(std::string text) : kind_(Kind::text) { value_.text = new std::string(std::move(text)); }
@@ -213,7 +213,7 @@ class JsonBuilder {
         stack_.push_back(&place);
         return true;
     }
-    /// Returns the slot of the next value. In an object its name was appended already.
+    /// Returns the place for the next value. In an object, its name has already been appended.
     Json& slot() {
         if (stack_.empty()) return root_;
         std::vector<Json>& values = stack_.back()->value_.children->values;

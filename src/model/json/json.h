@@ -41,7 +41,7 @@ class JsonMemory {
     ~JsonMemory() = default;
 };
 
-/// Handling of invalid UTF-8 by the writer.
+/// Handling of invalid UTF-8 when text is written.
 enum class BadUtf8 {
     refuse,   ///< throw JsonError
     replace,  ///< write U+FFFD
@@ -189,7 +189,7 @@ class Json {
     /// Appends an element. Null becomes an array.
     void push_back(Json value);
 
-    /// Numbers are compared by value. Objects are equal only if their members have the same order.
+    /// Compares numbers by value. Objects are equal only if their members have the same order.
     friend bool operator==(const Json& a, const Json& b) { return a.isEqual(b); }
     /// Orders numbers; values of other types are unordered.
     friend std::partial_ordering operator<=>(const Json& a, const Json& b) { return a.compare(b); }

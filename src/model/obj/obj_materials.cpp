@@ -25,7 +25,8 @@ namespace {
 
 bool isDecimal(char c) { return c >= '0' && c <= '9'; }
 
-/// Matches [+-] digits [. digits] [e [+-] digits], with a digit on at least one side of the point.
+/// Returns whether the word matches [+-] digits [. digits] [e [+-] digits], with a digit on at least one side of the
+/// point.
 bool isNumber(std::string_view word) {
     std::size_t i = 0;
     const auto skipSign = [&] { i += i < word.size() && (word[i] == '+' || word[i] == '-'); };
@@ -67,7 +68,7 @@ const Option* findOption(std::string_view word) {
     return nullptr;
 }
 
-/// A word, and the blanks before it.
+/// A word of a line, and the blanks before it.
 struct Word {
     std::string_view blanks, text;
 };
@@ -113,9 +114,9 @@ bool appendLine(std::string_view line, std::string& out) {
 
 }  // namespace
 
-/// The options -o, -s, -t and -mm of a texture take up to three numbers (-mm: two). If a line has fewer, the parser
-/// would interpret the file name as the next number, so missing numbers are inserted here. Returns the number of lines
-/// that move, scale or perturb a texture with -o, -s or -t.
+/// Completes the texture options -o, -s, -t and -mm, which take up to three numbers (-mm: two). If a line has fewer
+/// numbers, the parser would interpret the file name as the next number, so missing numbers are inserted. Returns the
+/// number of lines that move, scale or perturb a texture with -o, -s or -t.
 std::size_t completeTextureOptions(std::string& text) {
     std::string result;
     result.reserve(text.size());
@@ -199,7 +200,8 @@ class FileFinder {
         std::string slashed = unquoted(text);
         const std::string plain = withSlashes(slashed);
         if (isThere(plain)) return plain;
-        // The first byte of a character in one encoding is a whole character in another, where a separator follows it.
+        // withSlashes() keeps backslashes that may be the second byte of a character. Because the encoding is unknown,
+        // they may also be separators.
         std::replace(slashed.begin(), slashed.end(), '\\', '/');
         if (slashed != plain && isThere(slashed)) return slashed;
         const fs::path path = Path(plain);

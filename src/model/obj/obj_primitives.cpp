@@ -30,7 +30,7 @@ bool hasNormals(const Model& model, const Face& face) {
     return std::all_of(corner, corner + face.corner_count, [](const Corner& c) { return c.normal != kNone; });
 }
 
-/// Faces without normals, as a mesh that has only positions.
+/// A mesh of the faces without normals, which has only positions.
 struct BareMesh {
     std::vector<std::uint32_t> faces = {};  // indices into Model::faces
     std::vector<std::uint32_t> indices = {};

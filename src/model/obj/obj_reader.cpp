@@ -52,7 +52,7 @@ std::uint32_t smoothingGroup(std::string_view rest) {
     std::uint32_t group = 0;
     for (const char c : takeToken(rest)) {
         if (!isDigit(c)) return 0;
-        // may wrap around, but each text still has one number
+        // The number may wrap around, but equal texts still give equal numbers.
         group = group * 10 + static_cast<std::uint32_t>(c - '0');
     }
     return group;
@@ -217,7 +217,7 @@ void takePositions(std::vector<DVec3> positions, const FileOptions& options, Mod
 }
 namespace {
 
-/// Number of corner indices that refer to nothing.
+/// Number of corner indices that refer to data that does not exist.
 struct DeadIndices {
     std::uint64_t count = 0;
     std::uint32_t first_line = kNone;
@@ -275,8 +275,8 @@ void addUv(void* user, double u, double v, double) {
     build.model->uvs.push_back(uv);
 }
 
-/// glTF requires unit normals, OBJ does not. Normals within the tolerance of the glTF validator keep their exact
-/// values.
+/// Adds a normal with unit length, which glTF requires and OBJ does not. Normals within the tolerance of the glTF
+/// validator keep their exact values.
 void addNormal(void* user, double x, double y, double z) {
     Build& build = buildOf(user);
     const Vec3 given = toFloat({x, y, z});
@@ -490,7 +490,7 @@ void fillMaterials(Model& model, std::vector<Material> library) {
 
 }  // namespace
 
-/// Memory that later steps need for faces. Polygons need more than triangles, because they are triangulated.
+/// Checks the memory that later steps need for faces. Polygons need more than triangles, because they are triangulated.
 void requireFaces(const Model& model) {
     constexpr std::uint64_t kTriangleCornerBytes = 128, kPolygonCornerBytes = 200;
     std::uint64_t bytes = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// OBJ files: lines, model, and reading.
+// Reads OBJ files: lines, and the model that they describe.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ struct LineNotes {
     bool has_free_form = false;  ///< has curves or surfaces
 };
 
-/// Converts all line ends to line feeds, and blanks NUL bytes and a byte order mark.
+/// Converts all line ends to line feeds, and replaces NUL bytes and a byte order mark by blanks.
 void makeLineEndsPlain(std::string& text);
 
 /// Like makeLineEndsPlain; also joins lines that end in a backslash (the line end becomes spaces) and blanks comments

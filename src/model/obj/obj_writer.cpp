@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Conversion of an OBJ model to a glTF 2.0 document.
+// Converts an OBJ model to a glTF 2.0 document.
 #include "model/obj/obj_writer.h"
 
 #include <algorithm>
@@ -69,7 +69,7 @@ std::size_t addPacked(const PackedAttribute& attribute, DocumentBuilder& builder
     return addRows(attribute.elements, count, std::move(accessor), builder);
 }
 
-/// Images and textures; one per file, regardless of the number of uses.
+/// Collects the images and textures of the document: one per file, regardless of the number of uses.
 class ImageBuilder {
   public:
     ImageBuilder(const Model& model, const Path& output, DocumentBuilder& builder, std::vector<std::string>& sources,
@@ -150,7 +150,7 @@ class ImageBuilder {
     DocumentBuilder& builder_;
     std::vector<std::string>& sources_;
     std::vector<std::string>& warnings_;
-    /// keyed by path and by whether green is inverted
+    /// texture by path and by whether green is inverted
     std::map<std::pair<std::string, bool>, int> textures_by_file_ = {};
 };
 

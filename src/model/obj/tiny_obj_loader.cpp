@@ -26,7 +26,7 @@ bool parseObj(std::string& text, const tinyobj::callback_t& callbacks, void* use
     MemoryStream stream(text);
     std::string warning;
     std::string error;
-    // Null: without a material reader the parser opens no files.
+    // Without a material reader (null), the parser opens no files.
     return tinyobj::LoadObjWithCallback(stream, callbacks, user, nullptr, &warning, &error);
 }
 

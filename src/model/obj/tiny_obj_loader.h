@@ -2,7 +2,7 @@
 // Calls the parser of the tinyobjloader package with text in memory.
 #pragma once
 
-// Coordinates of geographic maps exceed the precision of floats.
+// The parser reads doubles, because coordinates of geographic maps exceed the precision of floats.
 #define TINYOBJLOADER_USE_DOUBLE
 #include <tiny_obj_loader.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reading of model files of any format.
+// Reads model files of any format.
 #include "model/read/read_scene.h"
 
 #include <utility>
@@ -15,7 +15,7 @@
 
 namespace tspace::gltf {
 
-// Chooses between the caller's bytes, the importer and the file.
+// Selection of the source: the caller's bytes, the importer, or the file.
 
 Document loadDocument(const Path& path, const FileOptions& options, const Execution& execution,
                       const Progress& progress) {
@@ -29,7 +29,7 @@ Document loadDocument(const Path& path, const FileOptions& options, const Execut
 
 namespace tspace {
 
-// Chooses the reader by the file name.
+// Selection of the reader by the file name.
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reading of model files of any format.
+// Functions that read model files of any format.
 #pragma once
 
 #include <string>
@@ -39,7 +39,7 @@ DrawnScene readDrawnScene(const std::string& input, const FileOptions& options, 
 /// colors as stored. `with_normal_maps`: normal maps too. OBJ has only base color images.
 DrawnScene readMaterialScene(const std::string& input, const FileOptions& options, bool with_normal_maps);
 
-/// Like readDrawnScene, with all textures of materials, and with the pose stored in the file.
+/// Reads a scene like readDrawnScene, with all textures of materials, and with the pose stored in the file.
 PosedScene readPosedScene(const std::string& input, const FileOptions& options, bool with_images);
 
 }  // namespace tspace

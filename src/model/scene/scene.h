@@ -51,14 +51,15 @@ struct TextureReading {
 struct TangentUse {
     std::string needed_by = {};  ///< "normalTexture", "clearcoatNormalTexture" or "anisotropy"
     std::string place = {};      ///< JSON pointer of the texture reference, or of the extension
-    /// False: only a factor (KHR_materials_anisotropy), for which tangents in any direction suffice.
+    /// False if only a factor reads the tangents (KHR_materials_anisotropy), for which tangents in any direction
+    /// suffice.
     bool has_texture = true;
     std::size_t uv_set = 0;  ///< n of TEXCOORD_n; texCoord of KHR_texture_transform has priority
     UvTransform transform = {};
     std::optional<std::size_t> image = {};  ///< index into the file's images
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
     double scale = 1;  ///< factor for x and y of a normal map
-    /// the file declares that green of its normal maps points down, which its readers respect
+    /// The file declares that green of its normal maps points down, and readers of the file respect it.
     bool is_declared_down = false;
     bool may_be_heights = false;  ///< the format would interpret a gray image as a height map (map_bump of OBJ)
     bool reads_levels = true;     ///< see TextureReading::reads_levels
@@ -137,7 +138,7 @@ inline std::string attributeText(const std::string& name, std::ptrdiff_t target)
 struct ScenePacked {
     FrameFormat format = FrameFormat::frame32;
     std::string attribute = {};  ///< the first attribute of the format, or the one that `fault` is about
-    /// why the frames cannot be read, as half a sentence about `attribute`; empty if they can
+    /// Reason why the frames cannot be read, as a clause about `attribute`; empty if they can.
     std::string fault = {};
     SharedArray<std::uint8_t> words = {};  ///< without padding; empty if there is a fault
 };
@@ -166,20 +167,20 @@ struct ScenePrimitive {
     SharedArray<Vec4> tangents = {};                         ///< one per vertex; empty: absent
     std::vector<SceneTangentFault> tangent_faults = {};      ///< faults of tangents that are ignored
     std::vector<SceneAttributeFault> attribute_faults = {};
-    /// tangents are empty, but the importer cannot tell whether the file has some
+    /// `tangents` is empty, but the importer cannot tell whether the file has tangents.
     bool tangents_not_read = false;
     std::vector<SharedArray<Vec2>> uv_sets = {};  ///< entry n: TEXCOORD_n, empty if absent; v points down
     std::vector<SceneMorphTarget> morph_targets = {};
     std::vector<ScenePacked> packed = {};  ///< in the order of FrameFormat
     bool is_unlit = false;                 ///< every material of the primitive is unlit: normals are not used
     bool is_double_sided = false;          ///< every material of the primitive is double-sided
-    /// All uses of tangents in the primitive's materials (including variants); the first use determines the UV set of
+    /// All uses of tangents in the primitive's materials, including variants. The first use determines the UV set of
     /// the tangents.
     std::vector<TangentUse> uses = {};
     /// Transforms of the primitive by the nodes of the scene; empty if not requested.
     std::vector<Affine> places = {};
-    /// Another possible reader of the tangents, or a sign that they are authored, such as "the material extension
-    /// EXT_hair". Empty: none.
+    /// Description of another possible reader of the tangents, or of a sign that they are authored, such as "the
+    /// material extension EXT_hair". Empty if there is none.
     std::string other_reader = {};
 
     /// Returns the primitive's triangles with the given UVs.
@@ -237,7 +238,7 @@ struct Scene {
     std::vector<ScenePrimitive> primitives = {};  ///< in file order
     std::vector<SceneImage> images = {};          ///< referenced by TangentUse::image
     std::vector<std::string> warnings = {};       ///< warnings of the reader
-    /// index of the warning about scaled normals, which findings on their primitives report too
+    /// Index of the warning about scaled normals, which findings on their primitives report too.
     std::optional<std::size_t> scaled_normals_warning = {};
     DVec3 offset = {};                          ///< offset subtracted from all positions while reading (OBJ)
     std::shared_ptr<MemoryBudget> memory = {};  ///< remaining memory budget
@@ -275,7 +276,8 @@ struct DrawnScene {
     Scene scene = {};
     std::vector<SurfaceLook> looks = {};          ///< one per primitive
     std::vector<ScenePlacement> placements = {};  ///< in node order; never empty if there are primitives
-    /// COLOR_0 as stored, one list per primitive, empty for primitives without it; no lists if not requested.
+    /// COLOR_0 as stored: one list per primitive, empty for primitives without it. No lists if colors were not
+    /// requested.
     std::vector<SharedArray<Vec4>> colors = {};
 };
 

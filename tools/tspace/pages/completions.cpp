@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shell completions for bash, zsh and fish: commands, options, and option values.
+// Writes shell completions for bash, zsh and fish: commands, options, and option values.
 #include <fmt/core.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Man pages.
+// Writes man pages.
 #include <fmt/core.h>
 
 #include <algorithm>

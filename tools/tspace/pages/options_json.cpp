@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Options of the C API calls as JSON, from which scripts/api generates the options of the bindings.
+// Writes the options of the C API calls as JSON, from which scripts/api generates the options of the bindings.
 #include <array>
 
 #include "commands/shared/request.h"
@@ -18,7 +18,7 @@ std::string list(const Texts& texts) {
     return "[" + made + "]";
 }
 
-/// Returns which of several sample values an option accepts, to distinguish numbers from text.
+/// Returns which sample values an option accepts. scripts/api distinguishes numbers from text by them.
 std::string taken(const Option& option) {
     std::vector<std::string> values;
     for (const char* value : {"1", "0.5", "auto", "16x16", "64M", "text"}) {

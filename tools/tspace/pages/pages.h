@@ -10,7 +10,7 @@ namespace tspace::tool {
 
 /// Returns tspace.1, in the man macros of roff.
 std::string manPage(const ToolTable& tool, const std::string& date);
-/// tspace-COMMAND.1.
+/// Returns tspace-COMMAND.1, in the man macros of roff.
 std::string manPage(const ToolTable& tool, const Command& command, const std::string& date);
 
 std::string bashCompletion(const ToolTable& tool);

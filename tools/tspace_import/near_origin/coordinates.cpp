@@ -41,7 +41,7 @@ std::vector<char> TextCoordinates::rewritten() {
         for (std::size_t i = 0; lists[l].is_moved && i < lists[l].values.size(); ++i)
             numbers.push_back({places_[l][i], lists[l].values[i]});
     }
-    // Sorted by position in the file: a format may store z before x.
+    // Numbers are sorted by their position in the file, because a format may store z before x.
     const auto isBefore = [](const Number& a, const Number& b) { return a.place.begin < b.place.begin; };
     if (!std::is_sorted(numbers.begin(), numbers.end(), isBefore)) std::sort(numbers.begin(), numbers.end(), isBefore);
     std::vector<char> file;

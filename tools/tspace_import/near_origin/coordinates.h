@@ -50,7 +50,7 @@ class TextCoordinates : public FileCoordinates {
     std::vector<std::vector<Place>> places_ = {};  ///< positions of the values of each list
 };
 
-/// Null if the reader finds no coordinates.
+/// Coordinates of a file; null if the reader finds none.
 using Coordinates = std::unique_ptr<FileCoordinates>;
 
 Coordinates readPly(std::vector<char> bytes);

@@ -72,8 +72,9 @@ bool isFar(const VertexList& list, const DVec3& middle) {
     return length(middle) > kFar * *median;
 }
 
-/// Returns whether one value in twenty, along the axes that are far, has more digits than a float: it is between two
-/// floats. Values that were written from floats with few digits are close to a float. `middles`: centers of the lists;
+/// Returns whether at least one value in twenty, along the axes that are far from the origin, has more digits than a
+/// float, so that it lies between two floats. Values that were written from floats with few digits are close to a
+/// float. `middles`: centers of the lists; empty: all axes are used.
 /// empty: every axis counts.
 bool hasMoreThanFloats(const std::vector<const VertexList*>& lists, const std::vector<DVec3>& middles) {
     constexpr double kClose = 1.0 / 16, kFarthest = 1024;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// PLY as text, or with doubles, if vertices are the first element, with x, y and z as single numbers.
+// Reads PLY files that are text or contain doubles, if vertices are the first element, with x, y and z as single
+// numbers.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -20,9 +21,9 @@ struct Header {
     Format format = Format::ascii;
     std::size_t end = 0;  ///< size of the header, in bytes
     std::size_t vertex_count = 0;
-    std::array<std::size_t, 3> places =
-        {};                       ///< positions of x, y and z within a vertex: number of preceding values, or bytes
-    std::size_t vertex_size = 0;  ///< numbers, or bytes
+    /// Positions of x, y and z within a vertex: number of preceding values (text) or bytes (binary).
+    std::array<std::size_t, 3> places = {};
+    std::size_t vertex_size = 0;  ///< size of a vertex: number of values (text) or bytes (binary)
 };
 
 std::size_t sizeOfType(const std::string& type) {
@@ -39,7 +40,7 @@ bool addProperty(std::istringstream& words, unsigned& axes, Header& header) {
     std::string type, name;
     words >> type >> name;
     const std::size_t size = sizeOfType(type);
-    if (size == 0) return false;  // a list too
+    if (size == 0) return false;  // unknown types and lists have size 0
     const std::size_t axis = name.size() == 1 ? std::string("xyz").find(name) : std::string::npos;
     if (axis != std::string::npos) {
         if (header.format != Format::ascii && size != sizeof(double)) return false;
@@ -118,7 +119,7 @@ class BinaryPly : public FileCoordinates {
 Coordinates readTextPly(std::vector<char> bytes, const Header& header) {
     if (header.vertex_count > bytes.size() / (2 * header.vertex_size)) return {};
     auto file = std::make_unique<TextCoordinates>(std::move(bytes));
-    // Reads word by word, because several vertices may share a line.
+    // The text is read word by word, because several vertices may share a line.
     std::size_t at = header.end;
     std::vector<std::string_view> vertex(header.vertex_size);
     file->addList();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// STL as text. Binary STL contains floats, which have no additional precision: normals of the same floats near the
-// origin have the same bits (tests/model/imported/near_origin_test.cpp), since differences of neighboring floats are
-// exact.
+// Reads STL files that are text. Binary STL contains floats, which have no additional precision: differences of
+// neighboring floats are exact, so normals computed near the origin have the same bits
+// (tests/model/imported/near_origin_test.cpp).
 #include <cstring>
 
 #include "near_origin/coordinates.h"
@@ -10,7 +10,7 @@ namespace tspace::import {
 
 namespace {
 
-/// Assimp's rule: the file size matches the declared number of triangles.
+/// Returns whether the file is binary STL, by Assimp's rule: the file size matches the declared number of triangles.
 bool isBinaryStl(const std::vector<char>& bytes) {
     constexpr std::size_t kHeader = 84, kPerTriangle = 50;
     if (bytes.size() < kHeader) return false;
@@ -29,7 +29,7 @@ Coordinates readStl(std::vector<char> bytes) {
     for (std::size_t at = 0; at < text.size();) {
         const std::string_view word = nextWord(text, at);
         if (word == "solid" || word == "endsolid") {
-            // A name, which may consist of any words.
+            // The name of the solid may consist of any words.
             while (at < text.size() && text[at] != '\n' && text[at] != '\r') ++at;
             if (word == "solid") {
                 file->endList();

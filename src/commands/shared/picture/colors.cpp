@@ -40,7 +40,7 @@ struct ByteBorders {
 
 double srgbToLight(double stored) {
     if (stored <= 0.04045) return stored / 12.92;
-    // x^2.4 = x^2 (x^2)^(1/5)
+    // x^2.4 is computed as x^2 (x^2)^(1/5).
     const double x = (stored + 0.055) / 1.055;
     return x * x * fifthRoot(x * x);
 }

@@ -29,7 +29,7 @@ inline constexpr Vec3 kBackground{0.925f, 0.933f, 0.945f}, kPictureInk{0.15f, 0.
 inline constexpr Vec3 kSignPlus{0.42f, 0.60f, 0.86f}, kSignMinus{0.95f, 0.66f, 0.33f},
     kSignNeither{0.90f, 0.20f, 0.80f}, kSignWrong{0.80f, 0.08f, 0.10f}, kSignStripes{0.20f, 0.20f, 0.24f};
 
-/// Color of missing data, and first of the island colors.
+/// Color of surfaces without data, and the first of the island colors.
 inline constexpr Vec3 kNothingKnown{0.55f, 0.55f, 0.55f}, kIslandColor{0.55f, 0.74f, 0.89f};
 
 /// Returns a vector with components from -1 to 1 as a color: 0.5 v + 0.5.

@@ -11,7 +11,7 @@
 namespace tspace {
 namespace {
 
-/// Ambient light, and light of the lamp.
+/// Intensities of the ambient light and of the lamp.
 constexpr float kAmbient = 0.12f, kLamp = 0.88f;
 /// Period of stripes in pixels, along both axes.
 constexpr std::uint32_t kStripe = 8;
@@ -180,7 +180,7 @@ Vec3 islandColor(const ShownSurface& surface, const SurfacePoint& point) {
                                                {0.84f, 0.84f, 0.50f}}};
     if (surface.islands.empty()) return kNothingKnown;
     const Vec3& color = kIslands[surface.islands[point.triangle] % kIslands.size()];
-    // Shades adjacent triangles slightly differently, so that they are visible.
+    // Adjacent triangles have slightly different shades, so that they can be distinguished.
     const float shade = (point.triangle % 2 != 0 ? 0.93f : 1.0f) *
                         (uvSideOf(surface, point) == UvSide::mirrored && isInStripe(point) ? 0.45f : 1.0f);
     return {shade * color.x, shade * color.y, shade * color.z};
@@ -274,7 +274,7 @@ Vec3 shadePoint(RenderShow show, const ShownSurface& surface, const Affine& to_w
 
 namespace {
 
-/// Surface that is visible at one sample.
+/// The surface that is visible at one sample.
 struct SeenSample {
     const ShownSurface* surface = nullptr;  ///< null: background
     SurfacePoint point = {};

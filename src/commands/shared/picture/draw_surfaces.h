@@ -18,7 +18,7 @@
 
 namespace tspace {
 
-// Textures of a picture. They are many and large, so 8-bit textures are not expanded.
+// Textures of a picture. 8-bit textures are not expanded to floats, because textures are many and large.
 
 struct PictureTexture {
     std::uint32_t width = 0, height = 0;
@@ -69,7 +69,7 @@ struct PlacedTexture {
 Vec3 sampleAt(const PlacedTexture& texture, const std::array<std::uint32_t, 3>& vertices,
               const std::array<double, 3>& weights);
 
-/// Returns whether a triangle shows its texture mirrored.
+/// Whether a triangle shows its texture mirrored.
 enum class UvSide : std::uint8_t { unknown, plain, mirrored };
 
 /// Data of one primitive that views show.

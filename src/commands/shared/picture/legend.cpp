@@ -82,7 +82,7 @@ const std::array<std::uint8_t, kDotRows>& dotsOf(char c) {
     }
 }
 
-// Sizes in dots.
+// Sizes of the legend, in dots.
 constexpr std::int64_t kLetterRows = kDotRows, kLineRows = kDotRows + 4, kMargin = 6, kBarRows = 8, kGap = 14;
 
 /// Returns the size of a dot in pixels. Letters are 7 dots high: 14 pixels in a picture of width 512, and 21 in one of

@@ -38,7 +38,8 @@ struct TangentSources {
 Legend legendOf(RenderShow show, const TangentSources& sources, Method method);
 Legend legendOfBoth(const TangentSources& left, const TangentSources& right, Method method);
 
-/// Returns the height of a legend in rows of the picture, at most a third. 0: it does not fit, or is empty.
+/// Returns the height of a legend in rows of the picture, at most a third of it; 0 if the legend does not fit or is
+/// empty.
 std::uint32_t legendRows(const Legend& legend, std::uint32_t width, std::uint32_t height);
 /// Appends `rows` rows with the legend below a picture.
 void addLegend(const Legend& legend, std::uint32_t rows, RgbImage& image);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Camera, rasterization of triangles with integer coordinates, and depth test.
+// Implements the camera, the rasterization of triangles with integer coordinates, and the depth test.
 #include "commands/shared/picture/visible_triangles.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace tspace {
 namespace {
 
-/// Share of the picture's width and height that the points may fill.
+/// Maximum share of the picture's width and height that the points fill.
 constexpr double kFilled = 0.94;
 
 struct Extent {
@@ -147,7 +147,7 @@ class FixedTriangle {
             const FixedCorner &a = corners_[i], &b = corners_[(i + 1) % 3];
             const std::int64_t dx = b.x - a.x, dy = b.y - a.y;
             const bool is_own = dy < 0 || (dy == 0 && dx > 0);
-            // A sample is inside where value - dy * kSampleParts * column >= 0.
+            // A sample is inside if value - dy * kSampleParts * column >= 0.
             const std::int64_t value = dx * (y - a.y) - dy * (kSampleParts / 2 - a.x) - (is_own ? 0 : 1);
             if (dy > 0) end = std::min(end, floorQuotient(value, dy * kSampleParts) + 1);
             if (dy < 0) begin = std::max(begin, -floorQuotient(value, -dy * kSampleParts));
@@ -161,7 +161,7 @@ class FixedTriangle {
 };
 
 FixedCorner fixedCorner(const SeenPoint& p) {
-    // NaN, which clipping of enormous triangles may produce, becomes a limit.
+    // NaN can result from clipping enormous triangles, and becomes a limit.
     const auto fixed = [&](double x) {
         const double inside = std::fmin(std::fmax(x / p.w, -kMostSamples), kMostSamples);
         return static_cast<std::int64_t>(std::floor(inside * kSampleParts + 0.5));
@@ -258,7 +258,7 @@ void VisibleTriangles::drawTriangle(std::size_t mesh, std::size_t triangle, cons
 void VisibleTriangles::drawPart(const Job& job, const SeenPoint& a, const SeenPoint& b, const SeenPoint& c,
                                 Effort& effort) {
     const FixedTriangle part(fixedCorner(a), fixedCorner(b), fixedCorner(c));
-    // Corners were rounded, so a sample may lie outside the triangle, where a steep plane would give a far-off depth.
+    // Corners were rounded, so a sample may lie outside the triangle, where a steep plane would give a wrong depth.
     const auto [least, most] = std::minmax({nearnessOf(a), nearnessOf(b), nearnessOf(c)});
     constexpr std::uint64_t kRowSteps = 8;
     std::int64_t row = 0, end_row = 0;

@@ -44,12 +44,12 @@ class Camera {
         if (!is_perspective_) return {center_x_ + x, center_y_ + y, 1, -depth};
         return {center_x_ * depth + x, center_y_ * depth + y, depth, 1};
     }
-    /// Minimum w of visible points; points with a smaller w are too near.
+    /// Returns the minimum w of visible points. Points with a smaller w are too close to the camera.
     [[nodiscard]] double leastW() const { return least_w_; }
 
     [[nodiscard]] const DVec3& right() const { return right_; }
     [[nodiscard]] const DVec3& up() const { return up_; }
-    /// Direction from the scene to the eye.
+    /// Returns the direction from the scene to the eye.
     [[nodiscard]] const DVec3& back() const { return back_; }
 
   private:
@@ -60,13 +60,14 @@ class Camera {
     bool is_perspective_ = true;
 };
 
-/// A mesh with one transform.
+/// A mesh and its transform.
 struct DrawnMesh {
     std::span<const Vec3> positions = {};
     std::span<const std::uint32_t> corners = {};  ///< three per triangle, each smaller than positions.size()
     Affine to_world = {};
     bool is_double_sided = false;
-    /// Returns whether the surface is opaque at a point of a triangle; empty: everywhere.
+    /// Returns whether the surface is opaque at a point of a triangle. A null function means that it is opaque
+    /// everywhere.
     std::function<bool(std::size_t triangle, const std::array<double, 3>& weights)> is_there = {};
 };
 

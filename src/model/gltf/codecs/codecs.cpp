@@ -51,7 +51,7 @@ bool encodeDraco(DracoMesh& mesh, bool exact, Bytes& data) {
     return is_exact || encodeDraco(mesh, true, data);
 }
 
-// Checks of preconditions that the library does not check itself, and lossless encoding.
+// Checks of meshopt data that its library does not perform, and lossless encoding.
 
 namespace {
 
@@ -83,7 +83,7 @@ bool comesBack(const MeshoptCoding& coding, std::span<const std::uint8_t> rows, 
 }  // namespace
 
 std::uint64_t meshoptRatio(bool is_khr) {
-    // Codec 0 uses 2 bits for 16 equal bytes of a column; codec 1 uses 2 bits for 256 of them.
+    // A vertex block uses 2 bits for 16 equal bytes of a column with codec 0, and for 256 of them with codec 1.
     return is_khr ? 1024 : 64;
 }
 

@@ -43,7 +43,8 @@ namespace {
 std::mutex work_mutex;
 std::atomic<bool> is_in_work = false, is_ending = false, has_committed = false;
 
-/// Never deleted, because a signal may arrive while the program ends. Null until the first file.
+/// Paths of the temporary files; null until the first one. Never deleted, because a signal may arrive while the program
+/// ends.
 std::vector<Path>* temporary_files = nullptr;
 
 }  // namespace
@@ -79,7 +80,7 @@ void TemporaryFilesInWork::noteCommit() noexcept { has_committed = true; }
 
 bool removeTemporaryFiles(bool even_after_commit) {
     is_ending = true;
-    // Long enough to rename a few files; if it takes longer, the disk hangs.
+    // This is long enough to rename a few files; if it takes longer, the disk hangs.
     constexpr int kPatience_ms = 5000;
     for (int waited = 0; is_in_work; ++waited) {
         if (waited == kPatience_ms) return true;
@@ -193,7 +194,7 @@ void removeAbandonedFiles(const std::string& top, bool with_folders_below, std::
 
 std::uint64_t removeAbandonedFiles(const std::string& folder, bool with_folders_below) {
     std::uint64_t count = 0;
-    // If memory does not suffice, the files stay until the next call.
+    // If memory runs out, the abandoned files stay until the next call.
     static_cast<void>(atBorder([&]() -> Result<Done> {
         removeAbandonedFiles(folder, with_folders_below, count);
         return Done{};
@@ -274,8 +275,8 @@ void inRun(const Path& path, const Work& work) {
     if (run.is_run) work(run.files[runName(path)]);
 }
 
-/// Locked from the check whether a file exists until its renaming, because a thread that works on another model may
-/// write the same name.
+/// Mutex that is locked from checking whether a file exists until it is renamed, because a thread that works on another
+/// model may write the same name.
 std::mutex& renaming() {
     static std::mutex mutex;
     return mutex;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Explicit instantiation of the functions of Bytes.
+// Instantiates the functions of Bytes explicitly (see io/bytes.h).
 #include "model/io/bytes.h"
 
 template class std::vector<std::uint8_t, tspace::UnsetAllocator<std::uint8_t>>;

@@ -100,7 +100,7 @@ Path resolveUri(const Path& in_folder, std::string_view uri, bool allow_external
     try {
         file = canonicalPath(root / relative);
     } catch (const fs::filesystem_error& failure) {
-        // Too long names, or circular links.
+        // The name is too long, or its links are circular.
         failFile(ErrorCode::invalidFile,
                  "the URI " + inQuotes(uri, 200) + " cannot name a file: " + failure.code().message(), place);
     }

@@ -11,7 +11,7 @@
 namespace tspace {
 namespace {
 
-/// Paths in the order of adding, each file once.
+/// Recorded paths in the order in which they were added, each file once.
 struct RecordedPaths {
     std::vector<std::string> paths = {};
     std::set<std::string> identities = {};

@@ -170,7 +170,8 @@ int removePath(const Path& path) noexcept { return std::remove(path.string().c_s
 std::uint64_t randomNumber() {
     std::uint64_t number = 0;
     if (::getentropy(&number, sizeof number) == 0) return number;
-    // Only on kernels before 2014. The time is predictable, but O_EXCL still protects against planted files.
+    // Fallback for kernels before 2014, which lack getentropy. The time is predictable, but O_EXCL still protects
+    // against files that were planted under this name.
     return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
 }
 
@@ -193,7 +194,7 @@ void waitBriefly() { ::poll(nullptr, 0, 1); }
 std::uint32_t processNumber() { return static_cast<std::uint32_t>(::getpid()); }
 
 bool isRunning(std::uint32_t process) {
-    // kill() interprets IDs that are not positive as groups.
+    // kill() interprets IDs that are not positive as process groups.
     if (process == 0 || process > static_cast<std::uint32_t>(std::numeric_limits<pid_t>::max())) return true;
     return ::kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH;
 }

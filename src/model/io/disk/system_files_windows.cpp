@@ -136,7 +136,7 @@ CFile createFile(const Path& path, const Path&) {
     return file;
 }
 
-// Permissions are inherited from the folder.
+// Windows files inherit their permissions from the folder.
 void takePermissions(std::FILE*, const Path&) {}
 
 bool syncFile(std::FILE* file) {
