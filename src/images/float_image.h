@@ -12,7 +12,7 @@ namespace tspace {
 /// Bytes per pixel needed for decoding, converting and encoding a map, without the decoder's own memory.
 inline constexpr std::uint64_t kMapPixelBytes = 72;
 /// Maximum number of pixels of a model's image that is rewritten; larger images are kept unchanged.
-inline constexpr std::uint64_t kMostModelMapPixels = std::uint64_t{1} << 26;
+inline constexpr std::uint64_t kMaxModelMapPixels = std::uint64_t{1} << 26;
 
 /// Returns whether the file is a lossy WebP.
 bool isLossyWebp(ByteSpan bytes);

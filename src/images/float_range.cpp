@@ -31,13 +31,13 @@ class RangeEvidence {
 
     /// Returns why the values are vectors in the range -1 to 1, as a clause; empty if they are not.
     [[nodiscard]] std::string whySigned() const {
-        constexpr double kMost = 0.9, kHalf = 0.5, kFew = 0.1, kSome = 0.01;
+        constexpr double kMax = 0.9, kHalf = 0.5, kFew = 0.1, kSome = 0.01;
         if (count_ == 0 || is_gray_) return {};
         const double stored = share(stored_fit_), moved = share(moved_fit_), negative = share(negative_);
         const std::string read = "; they were read as vectors from -1 to 1";
         if (negative_ > 0 && stored >= kHalf && stored > moved)
             return "its floats are " + lengths() + " as stored, and some are below 0" + read;
-        if (negative_ == 0 && stored >= kMost && moved <= kFew && (!has_z_ || pointsUp()))
+        if (negative_ == 0 && stored >= kMax && moved <= kFew && (!has_z_ || pointsUp()))
             return "its floats are " + lengths() + " as stored, but not if decoded as 2c - 1" + read;
         if (negative >= kSome && stored >= moved)
             return "floats of " + std::to_string(negative_) + " of " + std::to_string(count_) + " texels are below 0" +

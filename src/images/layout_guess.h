@@ -23,8 +23,8 @@ class LayoutGuess {
         constexpr float kApart = 8.0F / 255.0F;  // tolerance for compression errors
         const std::array<float, 4> values{texel.x, texel.y, texel.z, alpha};
         for (std::size_t i = 0; i < 4; ++i) {
-            least_[i] = std::fmin(least_[i], values[i]);
-            most_[i] = std::fmax(most_[i], values[i]);
+            min_[i] = std::fmin(min_[i], values[i]);
+            max_[i] = std::fmax(max_[i], values[i]);
         }
         gray_ += std::fabs(texel.x - texel.y) <= kApart && std::fabs(texel.x - texel.z) <= kApart ? 1 : 0;
         green_.add(alpha, texel.y);
@@ -34,7 +34,7 @@ class LayoutGuess {
 
     [[nodiscard]] std::optional<MapLayout> layout() const {
         constexpr float kSame = 3.0F / 255.0F;
-        const auto varies = [&](std::size_t i) { return most_[i] - least_[i] > kSame; };
+        const auto varies = [&](std::size_t i) { return max_[i] - min_[i] > kSame; };
         if (count_ == 0 || !varies(3) || !varies(1)) return {};
         if (!varies(0) && green_.fits(count_)) return twoChannelLayout(MapChannel::alpha, MapChannel::green);
         if (isNearlyAll(gray_, count_) && red_.fits(count_))
@@ -61,14 +61,14 @@ class LayoutGuess {
             inside += a * a + b * b <= kLongest ? 1 : 0;
         }
         [[nodiscard]] bool fits(std::uint64_t count) const {
-            constexpr double kMostMean = 0.3;
+            constexpr double kMaxMean = 0.3;
             const auto total = static_cast<double>(count);
-            return std::fabs(sum_x) < kMostMean * total && std::fabs(sum_y) < kMostMean * total &&
+            return std::fabs(sum_x) < kMaxMean * total && std::fabs(sum_y) < kMaxMean * total &&
                    isNearlyAll(inside, count);
         }
     };
 
-    std::array<float, 4> least_ = {1, 1, 1, 1}, most_ = {};
+    std::array<float, 4> min_ = {1, 1, 1, 1}, max_ = {};
     std::uint64_t gray_ = 0, count_ = 0;
     Pairs green_ = {}, red_ = {};
 };

@@ -10,7 +10,7 @@
 namespace tspace {
 namespace {
 
-constexpr std::size_t kHeadBytes = 18, kMostOfPacket = 128;
+constexpr std::size_t kHeadBytes = 18, kMaxOfPacket = 128;
 
 enum class TgaKind : std::uint8_t { palette = 1, colors = 2, gray = 3 };
 
@@ -49,10 +49,10 @@ bool areBitsRight(const TgaHead& head) {
 }
 
 /// Returns the minimum size of the pixel data: packets of 128 equal pixels if it is run-length encoded.
-std::uint64_t leastBytes(const TgaHead& head) {
+std::uint64_t minBytes(const TgaHead& head) {
     const std::uint64_t pixels = head.size.pixels();
     if (!head.is_packed) return pixels * head.pixelBytes();
-    return (pixels + kMostOfPacket - 1) / kMostOfPacket * (1 + head.pixelBytes());
+    return (pixels + kMaxOfPacket - 1) / kMaxOfPacket * (1 + head.pixelBytes());
 }
 
 /// Parses the header. Returns nullopt if the file is not a supported TGA, or is too short for its pixels.
@@ -78,7 +78,7 @@ std::optional<TgaHead> readTgaHead(ByteSpan bytes) {
     head.palette_at = kHeadBytes + bytes[0];
     head.pixels_at = head.palette_at + head.entry_count * (head.entry_bits / 8);
     if ((descriptor & kReserved) != 0 || head.size.pixels() == 0 || !areBitsRight(head)) return {};
-    if (bytes.size() < head.pixels_at || bytes.size() - head.pixels_at < leastBytes(head)) return {};
+    if (bytes.size() < head.pixels_at || bytes.size() - head.pixels_at < minBytes(head)) return {};
     return head;
 }
 

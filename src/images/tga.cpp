@@ -10,8 +10,8 @@ namespace tspace {
 namespace {
 
 std::optional<std::vector<std::uint8_t>> headOf(std::uint32_t width, std::uint32_t height, bool has_alpha) {
-    constexpr std::uint32_t kMostSide = 65535;
-    if (width > kMostSide || height > kMostSide) return {};
+    constexpr std::uint32_t kMaxSide = 65535;
+    if (width > kMaxSide || height > kMaxSide) return {};
     constexpr std::uint8_t kTrueColor = 2, kFromTheTop = 0x20, kAlphaBits = 8;
     std::vector<std::uint8_t> file(18);
     file.reserve(file.size() + std::size_t{has_alpha ? 4U : 3U} * width * height + 26);

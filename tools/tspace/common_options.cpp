@@ -17,7 +17,7 @@
 namespace tspace::tool {
 namespace {
 
-constexpr unsigned kMostJobs = 1024;
+constexpr unsigned kMaxJobs = 1024;
 
 /// Parses "I/N" with 1 <= I <= N.
 bool parseShard(const std::string& text, Shard& shard) {
@@ -52,11 +52,11 @@ namespace {
 
 /// Reads a stream to its end. Throws FileError.
 void readStream(std::FILE* stream, std::string& text) {
-    constexpr std::size_t kMostBytes = std::size_t{1} << 28;
+    constexpr std::size_t kMaxBytes = std::size_t{1} << 28;
     char part[4096];
     for (std::size_t count = 0; (count = std::fread(part, 1, sizeof part, stream)) != 0;) {
         text.append(part, count);
-        if (text.size() > kMostBytes) failFile(ErrorCode::cannotRead, "the list exceeds 256 MB");
+        if (text.size() > kMaxBytes) failFile(ErrorCode::cannotRead, "the list exceeds 256 MB");
     }
     if (std::ferror(stream) != 0) failFile(ErrorCode::cannotRead, "it cannot be read");
 }
@@ -113,7 +113,7 @@ void addInputs(Command& command, std::vector<std::string>& inputs) {
 void addBatch(Command& command, BatchArguments& batch, bool with_manifest) {
     const char* group = kManyFiles;
     command.add(group,
-                number("--jobs", batch.jobs, kMostJobs, "Number of files processed in parallel; 0: one per core."));
+                number("--jobs", batch.jobs, kMaxJobs, "Number of files processed in parallel; 0: one per core."));
     const auto take_shard = [&batch](const std::string& text) -> std::string {
         return parseShard(text, batch.shard) ? "" : "must be I/N with I from 1 to N, such as 2/8";
     };

@@ -84,12 +84,12 @@ bool wantsColor(Color color) {
 }
 
 std::optional<std::size_t> terminalWidth(std::FILE* file) {
-    constexpr std::size_t kLeast = 20;
+    constexpr std::size_t kMin = 20;
     std::uint64_t columns = 0;
     const char* wanted = std::getenv("COLUMNS");
     if (wanted == nullptr || !options::parseNumber(wanted, columns) || columns == 0) columns = terminalColumns(file);
     if (columns == 0) return {};
-    return std::max<std::size_t>(columns, kLeast);
+    return std::max<std::size_t>(columns, kMin);
 }
 
 ProgressLine& progressLine() {

@@ -32,8 +32,8 @@ using namespace tspace::tool;
 /// immediately, and each page of the next block has to be cleared again.
 void keepFreedMemory() {
 #ifdef __GLIBC__
-    constexpr int kMostAllowed = 32 << 20;
-    mallopt(M_MMAP_THRESHOLD, kMostAllowed);
+    constexpr int kMaxAllowed = 32 << 20;
+    mallopt(M_MMAP_THRESHOLD, kMaxAllowed);
     mallopt(M_TRIM_THRESHOLD, 1 << 30);
 #endif
 }

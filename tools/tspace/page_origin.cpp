@@ -39,9 +39,9 @@ Result<PageOrigin> pageOrigin() {
         using Clock = std::chrono::system_clock;
         return PageOrigin{dateText(Clock::to_time_t(Clock::now())), rememberedCommand()};
     }
-    constexpr std::uint64_t kMost = 253402300799;  // the last second of the year 9999
+    constexpr std::uint64_t kMax = 253402300799;  // the last second of the year 9999
     std::uint64_t seconds = 0;
-    if (!options::parseNumber(given, seconds) || seconds > kMost) {
+    if (!options::parseNumber(given, seconds) || seconds > kMax) {
         return Error{
             ErrorCode::invalidOption,
             "the environment variable SOURCE_DATE_EPOCH must be a number of seconds since 1970, at most 253402300799"};

@@ -24,11 +24,11 @@ struct PreparedReport {
 
 /// Returns the line to print if standard output fails although `files` are in place.
 inline std::string lineWithoutReport(const std::vector<std::string>& files) {
-    constexpr std::size_t kMostNamed = 8;
+    constexpr std::size_t kMaxNamed = 8;
     std::string line = "tspace: cannot write to standard output";
-    for (std::size_t i = 0; i < std::min(files.size(), kMostNamed); ++i)
+    for (std::size_t i = 0; i < std::min(files.size(), kMaxNamed); ++i)
         line += (i == 0 ? "; the outputs are complete: " : ", ") + printable(files[i]);
-    if (files.size() > kMostNamed) line += ", and " + std::to_string(files.size() - kMostNamed) + " more";
+    if (files.size() > kMaxNamed) line += ", and " + std::to_string(files.size() - kMaxNamed) + " more";
     return line + "\n";
 }
 

@@ -15,7 +15,7 @@
 namespace tspace::tool {
 namespace {
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 30;  // maximum size of a GLB
+constexpr std::uint64_t kMaxBytes = std::uint64_t{4} << 30;  // maximum size of a GLB
 
 /// Returns whether the first bytes may be those of a GLB or of JSON, which may start with a UTF-8 byte order mark and
 /// whitespace.
@@ -39,7 +39,7 @@ Result<std::vector<std::uint8_t>> readStandardInput(const char* what, std::uint6
     if (isTerminal(stdin))
         return Error{ErrorCode::cannotRead, std::string("standard input is a terminal, not ") + what};
     const bool is_limited = memory_limit_bytes != 0 && memory_limit_bytes != kNoMemoryLimit;
-    const std::uint64_t most = is_limited ? std::min(kMostBytes, memory_limit_bytes) : kMostBytes;
+    const std::uint64_t most = is_limited ? std::min(kMaxBytes, memory_limit_bytes) : kMaxBytes;
     std::vector<std::uint8_t> bytes, block(std::size_t{1} << 20);
     while (const std::size_t count = std::fread(block.data(), 1, block.size(), stdin)) {
         const std::string_view text(reinterpret_cast<const char*>(block.data()), count);

@@ -70,8 +70,8 @@ void closeOtherFiles() {
 #if defined(__linux__) && defined(SYS_close_range)
     if (syscall(SYS_close_range, kFirst, ~0U, 0U) == 0) return;
 #endif
-    constexpr long kMost = 65536;
-    for (long i = kFirst; i < std::min(sysconf(_SC_OPEN_MAX), kMost); ++i) close(static_cast<int>(i));
+    constexpr long kMax = 65536;
+    for (long i = kFirst; i < std::min(sysconf(_SC_OPEN_MAX), kMax); ++i) close(static_cast<int>(i));
 }
 
 /// Ensures that no opened file gets the descriptor of stdin, stdout or stderr, which may be closed.

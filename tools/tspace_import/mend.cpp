@@ -112,7 +112,7 @@ std::size_t mendNormals(std::vector<float>& normals, const std::vector<float>& p
 
 void countCoarseEdges(const std::vector<float>& positions, const std::vector<std::uint32_t>& triangles,
                       Mended& mended) {
-    constexpr double kLeastSteps = 500, kFar = 1 << 14;
+    constexpr double kMinSteps = 500, kFar = 1 << 14;
     // In floats of integers and short fractions the last bits are zero; in rounded numbers they rarely are.
     constexpr std::uint32_t kLastBits = 63;
     const auto isRound = [](float value) { return (std::bit_cast<std::uint32_t>(value) & kLastBits) == 0; };
@@ -132,7 +132,7 @@ void countCoarseEdges(const std::vector<float>& positions, const std::vector<std
         bool is_coarse = false;
         for (std::size_t k = 0; k < 3; ++k) {
             const double step = std::max(stepAt(a[k]), stepAt(b[k]));
-            is_coarse = is_coarse || (step * kLeastSteps > length && !(isRound(a[k]) && isRound(b[k])));
+            is_coarse = is_coarse || (step * kMinSteps > length && !(isRound(a[k]) && isRound(b[k])));
         }
         mended.coarse_edges += is_coarse;
     }
@@ -142,14 +142,14 @@ void countCoarseEdges(const std::vector<float>& positions, const std::vector<std
 }
 
 void countCoarsePlace(const aiMatrix4x4& matrix, double meters, Mended& mended) {
-    constexpr double kLeastMeters = 0.001;
+    constexpr double kMinMeters = 0.001;
     float largest = 0;
     for (const float value : {matrix.a4, matrix.b4, matrix.c4}) {
         if (std::isfinite(value)) largest = std::max(largest, std::fabs(value));
     }
     const double step = double{std::nextafter(largest, std::numeric_limits<float>::infinity())} - double{largest};
     const double error = meters * step / 2;
-    if (!std::isfinite(error) || error < kLeastMeters) return;
+    if (!std::isfinite(error) || error < kMinMeters) return;
     ++mended.coarse_places;
     mended.worst_place = std::max(mended.worst_place, error);
 }

@@ -47,7 +47,7 @@ std::vector<float> differences(const aiVector3D* moved, const aiVector3D* base, 
 
 /// Adds the joints of every vertex, largest weights first, four per set, at most two sets. Weights sum to 1.
 void addWeights(const aiMesh& mesh, const std::vector<std::uint16_t>& joints, std::vector<Attribute>& attributes) {
-    constexpr std::size_t kPerSet = 4, kMostSets = 2;
+    constexpr std::size_t kPerSet = 4, kMaxSets = 2;
     struct Influence {
         float weight = 0;
         std::uint16_t joint = 0;
@@ -73,7 +73,7 @@ void addWeights(const aiMesh& mesh, const std::vector<std::uint16_t>& joints, st
     for (std::vector<Influence>& list : influences) {
         std::stable_sort(list.begin(), list.end(),
                          [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
-        if (list.size() > kPerSet * kMostSets) list.resize(kPerSet * kMostSets);
+        if (list.size() > kPerSet * kMaxSets) list.resize(kPerSet * kMaxSets);
         float sum = 0;
         for (const Influence& influence : list) sum += influence.weight;
         for (Influence& influence : list) influence.weight /= sum;

@@ -30,9 +30,9 @@ std::string ModelFiles::find(const fs::path& name) const {
     const bool is_named_below = folder_end.first == folder_.end() && leadsAway(below) == nullptr;
     if (is_named_below && isBelow(fs::weakly_canonical(folder_, failed), fs::weakly_canonical(file, failed)) && !failed)
         return file.string();
-    constexpr std::size_t kMostNamed = 8;
+    constexpr std::size_t kMaxNamed = 8;
     const std::string refused = file.filename().string();
-    if (refused_.size() < kMostNamed && std::find(refused_.begin(), refused_.end(), refused) == refused_.end())
+    if (refused_.size() < kMaxNamed && std::find(refused_.begin(), refused_.end(), refused) == refused_.end())
         refused_.push_back(refused);
     return {};
 }

@@ -19,15 +19,15 @@ namespace tspace {
 namespace {
 
 /// Maximum number of IDs listed in the report. All IDs are counted.
-constexpr std::size_t kMostListedIds = 256;
+constexpr std::size_t kMaxListedIds = 256;
 
 std::array<std::uint8_t, 3> bytesOf(const Vec3& color) {
     return {storedByte(color.x), storedByte(color.y), storedByte(color.z)};
 }
 
-std::uint64_t mostPixels(std::uint64_t memory_limit) {
+std::uint64_t maxPixels(std::uint64_t memory_limit) {
     constexpr std::uint64_t kPixelBytes = 32;
-    return memory_limit == 0 ? kMostModelMapPixels : std::max<std::uint64_t>(memory_limit / kPixelBytes, 1);
+    return memory_limit == 0 ? kMaxModelMapPixels : std::max<std::uint64_t>(memory_limit / kPixelBytes, 1);
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ HighDetail::HighDetail(const BakeModels& models, const std::string& path, const 
     : high_(models.high),
       scene_(models.high_scene),
       layers_(options.layers),
-      textures_(models.high_scene.scene, mostPixels(options.file.memory_limit_bytes)) {
+      textures_(models.high_scene.scene, maxPixels(options.file.memory_limit_bytes)) {
     if (shows(layers_, MapLayer::id)) {
         if (options.ids == BakeIds::shell) {
             findShells(options.map.rays.weld_distance);
@@ -107,7 +107,7 @@ void HighDetail::findShells(float weld_distance) {
 }
 
 void HighDetail::listIds(const std::vector<std::string>& names) {
-    for (std::size_t i = 0; i < std::min<std::size_t>(id_count_, kMostListedIds); ++i)
+    for (std::size_t i = 0; i < std::min<std::size_t>(id_count_, kMaxListedIds); ++i)
         listed_.push_back(
             {i < names.size() ? names[i] : std::string(), bytesOf(idColor(static_cast<std::uint32_t>(i)))});
 }

@@ -22,7 +22,7 @@ constexpr Named<unsigned> kMapBits[] = {{"8", 8}, {"16", 16}};
 constexpr Named<BakeIds> kIds[] = {
     {"material", BakeIds::material}, {"object", BakeIds::object}, {"shell", BakeIds::shell}};
 
-constexpr unsigned kMostPadding = 256, kMostSide = 16384;
+constexpr unsigned kMaxPadding = 256, kMaxSide = 16384;
 
 Option lengthOption(const char* name, double& target, const char* help) {
     const auto take = [&target](const std::string& text) -> std::string {
@@ -40,7 +40,7 @@ Option mapSizeOption(BakeOptions& map) {
         std::uint64_t width = 0, height = 0;
         const bool is_read = parseNumber(text.substr(0, cross), width) &&
                              parseNumber(cross == text.npos ? text : text.substr(cross + 1), height);
-        if (!is_read || width == 0 || height == 0 || width > kMostSide || height > kMostSide)
+        if (!is_read || width == 0 || height == 0 || width > kMaxSide || height > kMaxSide)
             return "must be an integer from 1 to 16384, or two of them, such as 2048x1024";
         map.width = static_cast<std::uint32_t>(width);
         map.height = static_cast<std::uint32_t>(height);
@@ -187,7 +187,7 @@ void addBakedMapOptions(OptionList& list, BakeFileOptions& options) {
                "between texel centers; texel: each texel separately, accurate only at its center, which is faster."));
     addLengths(list, group, map.lengths);
     add(list, group,
-        number("--padding", map.padding, kMostPadding,
+        number("--padding", map.padding, kMaxPadding,
                "Padding around UV islands, in texels, so that filtering and smaller mip levels never sample the "
                "background."));
     add(list, group,

@@ -280,7 +280,7 @@ void addMapped(const ScenePrimitive& primitive, const TangentUse& use, const Aff
 }
 
 /// Returns normals for BakeFileOptions::denoise, one per vertex, if positions are noisy; otherwise an empty list.
-std::vector<Vec3> denoisedNormals(const ScenePrimitive& primitive, const BakeFileOptions& options, double& most_noise) {
+std::vector<Vec3> denoisedNormals(const ScenePrimitive& primitive, const BakeFileOptions& options, double& max_noise) {
     std::vector<Vec3> of_corners(primitive.corners.size());
     const NormalOptions how{.weighting = NormalWeighting::best,
                             .convention = conventions::gltf,
@@ -288,7 +288,7 @@ std::vector<Vec3> denoisedNormals(const ScenePrimitive& primitive, const BakeFil
                             .denoise = options.denoise};
     const NormalReport report = valueOrThrow(generateNormals(primitive.view(), how, of_corners, options.execution));
     if (!(report.noise > 0)) return {};
-    most_noise = std::max(most_noise, double{report.noise});
+    max_noise = std::max(max_noise, double{report.noise});
     std::vector<Vec3> normals(primitive.positions.size());
     for (std::size_t i = 0; i < of_corners.size(); ++i) normals[primitive.corners[i]] = of_corners[i];
     return normals;

@@ -95,7 +95,7 @@ std::optional<Finding> constantFinding(const std::string& name, const RgbImage& 
 
 /// Reports vectors whose lengths are far from 1.
 std::optional<Finding> lengthFinding(const std::string& name, const RgbImage& image) {
-    constexpr double kOff = 0.1, kLeastShare = 0.1;
+    constexpr double kOff = 0.1, kMinShare = 0.1;
     constexpr int kBlack = 8, kWhite = 247;
     std::size_t count = 0, total = 0;
     double sum = 0;
@@ -108,7 +108,7 @@ std::optional<Finding> lengthFinding(const std::string& name, const RgbImage& im
         sum += size;
         count += std::fabs(size - 1) > kOff ? 1 : 0;
     }
-    if (total == 0 || static_cast<double>(count) < kLeastShare * static_cast<double>(total)) return {};
+    if (total == 0 || static_cast<double>(count) < kMinShare * static_cast<double>(total)) return {};
     return noteOn(FindingCode::normalMapLengths, count, total,
                   "the relief may look too strong or too weak: vectors of " + name +
                       " do not have unit length: " + std::to_string(count) + " of " + std::to_string(total) +
@@ -118,7 +118,7 @@ std::optional<Finding> lengthFinding(const std::string& name, const RgbImage& im
 
 /// Reports flat areas of 8-bit maps whose x and y are 127, which is half a step below 0 (128 is half a step above).
 std::optional<Finding> zeroFinding(const std::string& name, const RgbImage& image) {
-    constexpr double kLeastShare = 0.05;
+    constexpr double kMinShare = 0.05;
     const std::size_t total = image.rgb.size() / 3;
     std::size_t low = 0, high = 0;
     for (std::size_t i = 0; i < total; ++i) {
@@ -126,7 +126,7 @@ std::optional<Finding> zeroFinding(const std::string& name, const RgbImage& imag
         low += rgb[0] == 127 && rgb[1] == 127 ? 1 : 0;
         high += rgb[0] == 128 && rgb[1] == 128 ? 1 : 0;
     }
-    if (low <= high || static_cast<double>(low) < kLeastShare * static_cast<double>(total)) return {};
+    if (low <= high || static_cast<double>(low) < kMinShare * static_cast<double>(total)) return {};
     return noteOn(FindingCode::normalMapZero, low, total,
                   "flat areas may look slightly tilted: flat texels of " + name +
                       " are (127, 127), where most programs write (128, 128). Both values tilt the normal by 0.3 "

@@ -99,13 +99,13 @@ std::uint64_t workBytes(const Scene& scene, const NormalMap& map) {
 /// Determines the direction of green for each part. `mask`: scratch memory with the size of the image.
 void lookAtParts(const GreenBlocks& blocks, TexelMask&& mask, NormalMap& map) {
     // If there are more parts, or UVs are hostile, the remaining parts get the verdict of the whole map.
-    constexpr std::size_t kMostParts = 4096;
+    constexpr std::size_t kMaxParts = 4096;
     std::uint64_t steps = kCoverSteps;
     bool is_exact = map.parts.size() > 1;
     for (std::size_t i = 0; i < map.parts.size(); ++i) {
         MapPart& part = map.parts[i];
         mask.clear();
-        is_exact = is_exact && i < kMostParts && cover(part, mask, steps);
+        is_exact = is_exact && i < kMaxParts && cover(part, mask, steps);
         part.test = is_exact ? blocks.within(mask) : *map.test;
     }
 }
@@ -135,15 +135,15 @@ void showPoint(const ScenePrimitive& primitive, const MapPart& part, std::span<c
 
 /// Samples the map on the triangles of a part, with the mesh normals.
 void showPoints(const MapPart& part, const RgbImage& image, std::vector<TexelOnSurface>& surface) {
-    constexpr std::size_t kMostOfAPart = 4096, kMostRows = 32;
+    constexpr std::size_t kMaxOfAPart = 4096, kMaxRows = 32;
     const ScenePrimitive& primitive = *part.primitive;
     const std::size_t set = part.use->uv_set;
     if (set >= primitive.uv_sets.size() || primitive.uv_sets[set].empty() || primitive.normals.empty()) return;
     const std::vector<Vec2> uvs = textureUvs(primitive.uv_sets[set].span(), part.use->transform);
-    const std::size_t triangles = primitive.corners.size() / 3, step = triangles / kMostOfAPart + 1;
+    const std::size_t triangles = primitive.corners.size() / 3, step = triangles / kMaxOfAPart + 1;
     // With few triangles, many samples of each are taken, because relief makes single samples unreliable.
     std::uint32_t rows = 1;
-    while (rows < kMostRows && triangles / step * rows * rows < kMostOfAPart) ++rows;
+    while (rows < kMaxRows && triangles / step * rows * rows < kMaxOfAPart) ++rows;
     for (std::size_t t = step / 2; t < triangles; t += step) {
         const std::uint32_t* const corners = primitive.corners.data() + 3 * t;
         const auto at = [&](std::size_t k) { return toDouble(primitive.positions[corners[k]]); };
@@ -160,10 +160,10 @@ void showPoints(const MapPart& part, const RgbImage& image, std::vector<TexelOnS
 
 /// Returns whether a transform changes directions, as opposed to only translating and scaling.
 bool turns(const Affine& place) {
-    constexpr double kLeast = 1e-4;
+    constexpr double kMin = 1e-4;
     for (const DVec3& axis : {DVec3{1, 0, 0}, DVec3{0, 1, 0}, DVec3{0, 0, 1}}) {
         DVec3 turned = place.normal(axis);
-        if (normalize(turned) && length(turned - axis) > kLeast) return true;
+        if (normalize(turned) && length(turned - axis) > kMin) return true;
     }
     return false;
 }

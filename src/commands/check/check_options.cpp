@@ -37,7 +37,7 @@ void addChecking(OptionList& list, CheckRequest& request) {
         choice("--fail-on", "LEVEL", kSeverities, request.fail_on,
                "Exit with code 1 if there is a finding of this severity or higher: note, warning or error."));
     add(list, group,
-        choice("--severity", "LEVEL", kSeverities, request.least_severity,
+        choice("--severity", "LEVEL", kSeverities, request.min_severity,
                "Minimum severity to report: note, warning or error. Findings below it are not printed and do not "
                "affect the exit code."));
     add(list, group, ignoreOption(request.ignored));
@@ -77,7 +77,7 @@ OptionList checkOptions(CheckRequest& request) {
 void leaveOut(const CheckRequest& request, CheckReport& report) {
     const auto is_unwanted = [&](const Finding& finding) {
         const auto& ignored = request.ignored;
-        return finding.severity < request.least_severity ||
+        return finding.severity < request.min_severity ||
                std::find(ignored.begin(), ignored.end(), finding.code) != ignored.end();
     };
     std::erase_if(report.findings, is_unwanted);

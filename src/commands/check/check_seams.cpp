@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kToDegrees = 180 / kPi;
 /// Normals that differ by less than this angle make no visible seam.
-constexpr double kLeastSeamDeg = 2;
+constexpr double kMinSeamDeg = 2;
 /// A normal is equal to the mean of the primitive's own triangles if it is within this angle of that mean, by any
 /// weighting. The tolerance covers rounding to 8 bits.
 constexpr double kOwnDeg = 1;
@@ -28,8 +28,8 @@ constexpr double kOwnDeg = 1;
 /// kSmoothPart.
 constexpr double kMoreBend = 1.25, kSmoothPart = 0.9;
 /// Share and number of the points with differing normals that must at least look like a seam.
-constexpr double kMostPlaces = 0.8;
-constexpr std::size_t kLeastPlaces = 3;
+constexpr double kMaxPlaces = 0.8;
+constexpr std::size_t kMinPlaces = 3;
 
 /// Approximate memory for comparing the primitives of a mesh; freed afterwards.
 constexpr std::uint64_t kBytesPerVertex = 200, kBytesPerCorner = 100;
@@ -64,7 +64,7 @@ class SmoothPiece {
         });
     }
     [[nodiscard]] double smoothDeg() const { return smooth_deg_; }
-    [[nodiscard]] double leastHardDeg() const { return least_hard_deg_; }
+    [[nodiscard]] double minHardDeg() const { return min_hard_deg_; }
 
   private:
     void addFace(std::size_t c) {
@@ -103,11 +103,11 @@ class SmoothPiece {
             if (past - i != 2) continue;
             const double bend =
                 angleBetween(faces_[edges[i].face].normal, faces_[edges[i + 1].face].normal) * kToDegrees;
-            if (bend < kLeastSeamDeg) continue;
+            if (bend < kMinSeamDeg) continue;
             if (edges[i].classes == edges[i + 1].classes)
                 smooth.push_back(bend);
             else
-                least_hard_deg_ = std::min(least_hard_deg_, bend);
+                min_hard_deg_ = std::min(min_hard_deg_, bend);
         }
         if (smooth.empty()) return;
         const auto place = smooth.begin() + static_cast<std::ptrdiff_t>(kSmoothPart * double(smooth.size() - 1));
@@ -119,7 +119,7 @@ class SmoothPiece {
     std::vector<std::uint32_t> class_of_ = {};
     std::vector<Face> faces_ = {};
     std::vector<std::array<DVec3, 3>> means_ = {};
-    double smooth_deg_ = 0, least_hard_deg_ = 180;
+    double smooth_deg_ = 0, min_hard_deg_ = 180;
 };
 
 struct Seam {
@@ -152,8 +152,8 @@ class MeshSeams {
             look(joined, border, smooth, seams[{border.triangles[0].piece, border.triangles[1].piece}]);
         }
         for (const auto& [pair, seam] : seams) {
-            const auto least = kMostPlaces * static_cast<double>(seam.places.size());
-            if (seam.likely.size() < kLeastPlaces || static_cast<double>(seam.likely.size()) < least) continue;
+            const auto least = kMaxPlaces * static_cast<double>(seam.places.size());
+            if (seam.likely.size() < kMinPlaces || static_cast<double>(seam.likely.size()) < least) continue;
             findings.push_back(findingOf(pair, seam));
         }
     }
@@ -173,17 +173,17 @@ class MeshSeams {
         const SmoothPiece &side_a = smooth.at(a.piece), &side_b = smooth.at(b.piece);
         const double bend = angleBetween(side_a.faceNormal(a.triangle), side_b.faceNormal(b.triangle)) * kToDegrees;
         const bool is_smooth = bend <= kMoreBend * std::min(side_a.smoothDeg(), side_b.smoothDeg()) &&
-                               bend < std::min(side_a.leastHardDeg(), side_b.leastHardDeg());
+                               bend < std::min(side_a.minHardDeg(), side_b.minHardDeg());
         for (const std::uint32_t point : border.points) {
             const std::uint32_t vertex_a = vertexAt(joined, a, point), vertex_b = vertexAt(joined, b, point);
             DVec3 normal_a = toDouble(primitives_[a.piece]->normals[vertex_a]);
             DVec3 normal_b = toDouble(primitives_[b.piece]->normals[vertex_b]);
             if (!normalize(normal_a) || !normalize(normal_b)) continue;
             const double apart = angleBetween(normal_a, normal_b) * kToDegrees;
-            if (apart <= kLeastSeamDeg) continue;
+            if (apart <= kMinSeamDeg) continue;
             seam.places.insert(point);
             if (!is_smooth || !side_a.isOwn(vertex_a) || !side_b.isOwn(vertex_b)) continue;
-            if (seam.likely.insert(point).second && seam.vertices.size() < Tally::kMostVertices)
+            if (seam.likely.insert(point).second && seam.vertices.size() < Tally::kMaxVertices)
                 seam.vertices.push_back(vertex_a);
             seam.worst_deg = std::max(seam.worst_deg, apart);
         }

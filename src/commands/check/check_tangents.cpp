@@ -89,7 +89,7 @@ namespace {
 /// Other axes are tried if tangents are tilted out of at least this share of the surface.
 constexpr double kClearlyLeaning = 0.2;
 /// Maximum share of tilted tangents, and of wrong directions, in the correct axes.
-constexpr double kMostWrong = 0.02;
+constexpr double kMaxWrong = 0.02;
 
 /// Permutation of signed axes: component i of the result is `sign[i]` times component `from[i]`.
 struct AxisExchange {
@@ -144,8 +144,7 @@ std::string findOtherAxes(const PrimitiveFacts& facts, const FrameHealth& health
         for (unsigned signs = 0; signs < 8; ++signs) {
             for (std::size_t i = 0; i < 3; ++i) axes.sign[i] = (signs >> i & 1) != 0 ? -1.0f : 1.0f;
             std::transform(facts.mesh.tangents.begin(), facts.mesh.tangents.end(), turned.begin(), axes);
-            if (leaningShare(facts, turned) <= kMostWrong && wrongShare(facts, turned) <= kMostWrong)
-                return axes.text();
+            if (leaningShare(facts, turned) <= kMaxWrong && wrongShare(facts, turned) <= kMaxWrong) return axes.text();
         }
     } while (std::next_permutation(axes.from.begin(), axes.from.end()));
     return {};

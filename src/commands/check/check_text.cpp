@@ -14,7 +14,7 @@ namespace tspace::report {
 namespace {
 
 /// Maximum number of locations listed per kind of finding; the JSON contains all.
-constexpr std::size_t kMostPlaces = 5;
+constexpr std::size_t kMaxPlaces = 5;
 
 std::string countsText(std::uint64_t errors, std::uint64_t warnings, std::uint64_t notes) {
     return fmt::format("{}, {}, {}", counted(errors, "error"), counted(warnings, "warning"), counted(notes, "note"));
@@ -100,16 +100,16 @@ std::string groupText(std::span<const Finding* const> group, bool in_color) {
     if (first.confidence < 1) text += fmt::format(" (confidence {:.0f} %)", 100 * first.confidence);
     if (group.size() > 1) text += fmt::format(", {} places", group.size());
     text += "\n";
-    for (std::size_t i = 0; i < group.size() && i < kMostPlaces; ++i) {
+    for (std::size_t i = 0; i < group.size() && i < kMaxPlaces; ++i) {
         if (!group[i]->place.empty())
             text += fmt::format("      {} (at {})\n", whereText(*group[i]), unbroken(group[i]->place));
         // If consecutive locations have the same message, it is printed once, below the last of them.
-        const bool is_shared = i + 1 < std::min(group.size(), kMostPlaces) &&
+        const bool is_shared = i + 1 < std::min(group.size(), kMaxPlaces) &&
                                group[i + 1]->message == group[i]->message && !group[i]->place.empty();
         if (!is_shared) text += fmt::format("        {}\n", printable(group[i]->message));
         if (group.size() == 1) text += verticesText(first);
     }
-    if (group.size() > kMostPlaces) text += fmt::format("      and {} more\n", group.size() - kMostPlaces);
+    if (group.size() > kMaxPlaces) text += fmt::format("      and {} more\n", group.size() - kMaxPlaces);
     return text + fmt::format("      fix: {}\n", first.remedy);
 }
 

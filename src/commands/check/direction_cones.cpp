@@ -17,12 +17,12 @@ constexpr double kDegrees = 180 / kPi;
 
 /// Minimum length of a unit tangent projected to the plane of N. Tangents within 6 degrees of N have no reliable
 /// direction there.
-constexpr double kLeastInPlane = 0.1;
+constexpr double kMinInPlane = 0.1;
 /// Minimum projected length of a triangle's unit direction. Methods weight directions regardless of this length, so
 /// nearly all are used; shorter ones are rounding errors.
-constexpr double kLeastOfTriangle = 1e-6;
+constexpr double kMinOfTriangle = 1e-6;
 /// Minimum projected length of a unit edge. An edge along N has no direction in the plane.
-constexpr double kLeastOfEdge = 1e-4;
+constexpr double kMinOfEdge = 1e-4;
 
 double signedAngle(double x, double y) { return y < 0 ? -polarAngle(x, -y) : polarAngle(x, y); }
 
@@ -60,13 +60,13 @@ double errorInPlane(const DVec3& n, const SurfaceFrame& face) {
 /// Returns whether the angle at the corner, seen along N, exceeds the rounding error of floats. Methods that weight by
 /// this angle, such as MikkTSpace, give other corners no weight or an arbitrary one.
 bool spansAngle(const TangentView& mesh, std::size_t corner) {
-    constexpr double kLeastAngle = 1e-3;  // the arc cosine of the largest float below 1 is 3.5e-4
+    constexpr double kMinAngle = 1e-3;  // the arc cosine of the largest float below 1 is 3.5e-4
     const std::size_t face = corner / 3 * 3, place = corner - face;
     const auto position = [&](std::size_t k) { return toDouble(mesh.positions[mesh.corners[face + k % 3]]); };
     DVec3 n = toDouble(mesh.normals[mesh.corners[corner]]);
     DVec3 a = position(place + 1) - position(place), b = position(place + 2) - position(place);
-    if (!normalize(n) || !projectUnit(n, a, kLeastOfEdge) || !projectUnit(n, b, kLeastOfEdge)) return false;
-    return dot(a, b) < 0 || length(cross(a, b)) > kLeastAngle;
+    if (!normalize(n) || !projectUnit(n, a, kMinOfEdge) || !projectUnit(n, b, kMinOfEdge)) return false;
+    return dot(a, b) < 0 || length(cross(a, b)) > kMinAngle;
 }
 
 /// Sets distances beyond the tolerance to unknown if no triangle with a direction spans an angle at the vertex: the
@@ -94,8 +94,8 @@ class NearestDirections {
         DVec3 n = toDouble(mesh_.normals[vertex]);
         DVec3 t = toDouble(xyz(mesh_.tangents[vertex]));
         DVec3 d = toDouble(face.tangent);
-        if (!normalize(n) || !projectUnit(n, t, kLeastInPlane)) return;
-        if (!projectUnit(n, d, kLeastOfTriangle)) {
+        if (!normalize(n) || !projectUnit(n, t, kMinInPlane)) return;
+        if (!projectUnit(n, d, kMinOfTriangle)) {
             // The rounding error of a direction along N may point anywhere, and methods weight it like the others.
             if (face.tangent != Vec3{}) addAngle(vertex, 0);
             return;
@@ -185,7 +185,7 @@ DirectionCone coneAround(std::span<double> angles) {
 }
 
 double planeAngle(const Vec3& normal, const Vec3& v, bool& found) {
-    return angleInPlane(normal, v, kLeastInPlane, found);
+    return angleInPlane(normal, v, kMinInPlane, found);
 }
 
 std::vector<std::uint8_t> vertexOrientations(const TangentView& mesh, const Surface& surface) {
@@ -209,7 +209,7 @@ std::vector<DirectionCone> conesOfClasses(const TangentView& mesh, const Surface
         const SurfaceFrame& face = surface.faces[c / 3];
         if (class_of_vertex[vertex] == kNoClass) continue;
         bool found = false;
-        const double angle = angleInPlane(mesh.normals[vertex], face.tangent, kLeastOfTriangle, found);
+        const double angle = angleInPlane(mesh.normals[vertex], face.tangent, kMinOfTriangle, found);
         if (!found) continue;
         DVec3 n = toDouble(mesh.normals[vertex]);
         const double off = normalize(n) ? errorInPlane(n, face) : 0;

@@ -105,8 +105,8 @@ std::string decimalText(double value) {
 }
 
 std::string stepText(double value) {
-    constexpr double kLeast = 1e-9, kMost = 1e15;
-    if (value >= kMost || (value > 0 && value < kLeast)) return shortNumber(value);
+    constexpr double kMin = 1e-9, kMax = 1e15;
+    if (value >= kMax || (value > 0 && value < kMin)) return shortNumber(value);
     if (value >= 10) return std::to_string(static_cast<std::uint64_t>(std::llround(value)));
     int digits = 1;
     for (double scaled = value; scaled > 0 && scaled < 1 && digits < 12; scaled *= 10) ++digits;

@@ -215,10 +215,10 @@ constexpr double kInsideDeg = 2;
 constexpr double kSameDeg = 1;
 /// Maximum number of vertices at one point that a vertex is compared with. Poles have more, but one match is
 /// sufficient.
-constexpr std::size_t kMostCompared = 64;
+constexpr std::size_t kMaxCompared = 64;
 /// Share of the surface from which all directions are treated as wrong.
 constexpr double kNothingRight = 0.95;
-constexpr double kMostly = 0.5;
+constexpr double kMaxly = 0.5;
 
 enum class Cause { unknown, uvSeam, mirroredSeam };
 
@@ -252,7 +252,7 @@ class SeamFinder {
         std::size_t compared = 0;
         for (auto other = first; other != members_.end() && points_.class_of[*other] == point; ++other) {
             if (*other == vertex || orientations_[*other] == 0) continue;
-            if (++compared > kMostCompared) break;
+            if (++compared > kMaxCompared) break;
             if (!isSame(vertex, *other)) continue;
             if (orientations_[vertex] != orientations_[*other]) return Cause::mirroredSeam;
             if (mesh_.uvs[vertex] != mesh_.uvs[*other]) return Cause::uvSeam;
@@ -294,12 +294,12 @@ void findUndecided(const TangentView& mesh, const Surface& surface, std::span<co
         wrong[patches.of(v)] += surface.known_areas[v];
         all_wrong += surface.known_areas[v];
     }
-    const double share = all_wrong >= kNothingRight * all_judged ? kMostly : kNothingRight;
+    const double share = all_wrong >= kNothingRight * all_judged ? kMaxly : kNothingRight;
     for (std::uint32_t v = 0; v < count; ++v) {
         if (directions[v] == kUnknownDirection || health.isSettled(v)) continue;
         const std::uint32_t patch = patches.of(v);
         // If most are wrong, tangents outside their cones by less than the tolerance are also treated as wrong.
-        const double least = directions[v] > kInsideDeg ? kMostly : share;
+        const double least = directions[v] > kInsideDeg ? kMaxly : share;
         if (wrong[patch] > 0 && wrong[patch] >= least * judged[patch])
             health.fault(v, FindingCode::directionsWrong, count);
     }

@@ -18,10 +18,10 @@ constexpr double kLengthSlack = 0.1;
 /// Standard deviation, of 255, below which a channel is constant; compression alone may cause this much.
 constexpr double kConstant = 2.5;
 /// Minimum x^2 + y^2 of tilted texels; corresponds to a tilt of 11 degrees.
-constexpr double kLeastLean = 0.04;
+constexpr double kMinLean = 0.04;
 constexpr double kStep = 1.0 / 127.5;
 /// Maximum absolute mean of x and of y in a map, unless more is known.
-constexpr double kMostMean = 0.25;
+constexpr double kMaxMean = 0.25;
 
 double signedValue(std::uint8_t channel) { return static_cast<double>(channel) * kStep - 1; }
 
@@ -106,7 +106,7 @@ Fit fitOf(std::span<const TexelBytes> texels, const MapLayout& layout) {
 }
 
 bool pointsUp(const Fit& fit) {
-    return fit.mean.z > 0.5 && std::fabs(fit.mean.x) < kMostMean && std::fabs(fit.mean.y) < kMostMean;
+    return fit.mean.z > 0.5 && std::fabs(fit.mean.x) < kMaxMean && std::fabs(fit.mean.y) < kMaxMean;
 }
 
 /// Returns x^2 + y^2 of two channels.
@@ -120,14 +120,14 @@ double expectedZ(const TexelBytes& texel) { return std::sqrt(std::max(0.0, 1 - s
 
 /// Returns whether two channels can be x and y of unit vectors: nearly no texel is longer than 1, and both means are
 /// near 0.
-bool canBeXy(std::span<const TexelBytes> texels, std::size_t x, std::size_t y, double most_mean = kMostMean,
-             double most_long = 0.01) {
+bool canBeXy(std::span<const TexelBytes> texels, std::size_t x, std::size_t y, double max_mean = kMaxMean,
+             double max_long = 0.01) {
     constexpr double kLongest = 1.03;
     const auto meanOf = [&](std::size_t channel) {
         return spreadOf(texels, [&](const TexelBytes& texel) { return signedValue(texel[channel]); }).mean;
     };
-    return shareOf(texels, [&](const TexelBytes& texel) { return squareOf(texel, x, y) > kLongest; }) < most_long &&
-           std::fabs(meanOf(x)) < most_mean && std::fabs(meanOf(y)) < most_mean;
+    return shareOf(texels, [&](const TexelBytes& texel) { return squareOf(texel, x, y) > kLongest; }) < max_long &&
+           std::fabs(meanOf(x)) < max_mean && std::fabs(meanOf(y)) < max_mean;
 }
 
 /// Returns a function that returns red, green and blue of a texel (0 to 255).
@@ -171,7 +171,7 @@ class Looker {
         if (const auto found = xInAlpha()) return *found;
         if (const auto found = lostX()) return *found;
         if (isGrayTexels(texels_)) return made(MapContent::height, {}, 1);
-        if (const auto found = twoChannels(kMostMean)) return *found;
+        if (const auto found = twoChannels(kMaxMean)) return *found;
         if (const auto found = encoded()) return *found;
         if (const auto found = leaningTwoChannels()) return *found;
         if (const auto found = picture()) return *found;
@@ -209,7 +209,7 @@ class Looker {
         const auto isConstant = [&](std::size_t i) { return channels_[i].deviation <= kConstant; };
         const auto valueOf = [&](std::size_t i) { return channels_[i].mean * kStep - 1; };
         if (!isConstant(0) || isConstant(1) || !isConstant(2) || (has_alpha_ && !isConstant(3))) return {};
-        if (std::fabs(valueOf(0)) < kFarX || std::fabs(valueOf(1)) > kMostMean || plain_.unit_share > kFewUnit)
+        if (std::fabs(valueOf(0)) < kFarX || std::fabs(valueOf(1)) > kMaxMean || plain_.unit_share > kFewUnit)
             return {};
         MapLook look = made(MapContent::picture, {}, 1);
         look.is_x_lost = true;
@@ -218,32 +218,32 @@ class Looker {
 
     /// Returns whether blue is z of vectors with equal lengths, which may differ from 1: z^2 falls as x^2 + y^2 grows.
     /// For gentle relief in 8 bits, rounding alone makes the squared lengths vary.
-    [[nodiscard]] bool haveOneLength(double most_of_spread) const {
-        constexpr double kRounding = 0.006, kLeastSlope = 0.5, kMostSlope = 1.5;
+    [[nodiscard]] bool haveOneLength(double max_of_spread) const {
+        constexpr double kRounding = 0.006, kMinSlope = 0.5, kMaxSlope = 1.5;
         const auto zz = [](const TexelBytes& texel) { return signedValue(texel[2]) * signedValue(texel[2]); };
         const auto xy = [](const TexelBytes& texel) { return squareOf(texel, 0, 1); };
         const Spread across = spreadOf(texels_, xy), up = spreadOf(texels_, zz);
         const double rest = spreadOf(texels_, [&](const TexelBytes& texel) { return xy(texel) + zz(texel); }).deviation;
         if (channels_[2].mean * kStep < 1 || !(across.deviation > 0)) return false;
-        if (rest < most_of_spread * across.deviation) return true;
+        if (rest < max_of_spread * across.deviation) return true;
         double product = 0;
         for (const TexelBytes& texel : texels_) product -= (xy(texel) - across.mean) * (zz(texel) - up.mean);
         const double unit = across.deviation * across.deviation * static_cast<double>(texels_.size());
-        return rest < kRounding && product > kLeastSlope * unit && product < kMostSlope * unit;
+        return rest < kRounding && product > kMinSlope * unit && product < kMaxSlope * unit;
     }
 
     /// Detects two channels: blue is constant and differs from the expected z, on all texels or on tilted ones. Maps
     /// that are flat nearly everywhere are not reported: Khronos' Lantern has one with blue = 255, which is wrong by
     /// only 0.15 degrees on average.
-    [[nodiscard]] std::optional<MapLook> twoChannels(double most_mean) const {
-        constexpr double kFar = 0.3, kNearlyConstant = 16, kMostCorrelation = 0.5;
-        constexpr double kSeenDeg = 0.5, kMostTogether = 0.9;
-        constexpr std::uint64_t kLeastCount = 16;
+    [[nodiscard]] std::optional<MapLook> twoChannels(double max_mean) const {
+        constexpr double kFar = 0.3, kNearlyConstant = 16, kMaxCorrelation = 0.5;
+        constexpr double kSeenDeg = 0.5, kMaxTogether = 0.9;
+        constexpr std::uint64_t kMinCount = 16;
         const Spread& blue = channels_[2];
         if (blue.deviation > kNearlyConstant) return {};
-        if (!canBeXy(texels_, 0, 1, most_mean)) return {};
+        if (!canBeXy(texels_, 0, 1, max_mean)) return {};
         // Shading correlates red with green, and slightly with blue.
-        if (blue.deviation > kConstant && channelCorrelations(texels_.size(), colorsOf(texels_))[0] > kMostTogether)
+        if (blue.deviation > kConstant && channelCorrelations(texels_.size(), colorsOf(texels_))[0] > kMaxTogether)
             return {};
         double off = 0, wanted = 0, error = 0, product = 0, angle = 0;
         const Spread up = spreadOf(texels_, [](const TexelBytes& texel) { return expectedZ(texel); });
@@ -254,7 +254,7 @@ class Looker {
             error += std::fabs(stored - z);
             angle += std::fabs(std::atan2(across, stored) - std::atan2(across, z)) * 180 / kPi;
             product += (texel[2] - blue.mean) * (z - up.mean);
-            if (squareOf(texel, 0, 1) < kLeastLean) continue;
+            if (squareOf(texel, 0, 1) < kMinLean) continue;
             ++count;
             off += (texel[2] - blue.mean) * (texel[2] - blue.mean);
             wanted += (127.5 * (z + 1) - blue.mean) * (127.5 * (z + 1) - blue.mean);
@@ -262,9 +262,9 @@ class Looker {
         // Blue is far from z and does not correlate with it: it varies only by compression.
         const auto total = static_cast<double>(texels_.size());
         const bool goes_with_z =
-            blue.deviation > kConstant && std::fabs(product) > kMostCorrelation * total * blue.deviation * up.deviation;
+            blue.deviation > kConstant && std::fabs(product) > kMaxCorrelation * total * blue.deviation * up.deviation;
         const bool is_far = error / total > kFar && !goes_with_z;
-        const bool is_constant = blue.deviation <= kConstant && count >= kLeastCount &&
+        const bool is_constant = blue.deviation <= kConstant && count >= kMinCount &&
                                  off <= kConstant * kConstant * static_cast<double>(count) && wanted >= 4 * off &&
                                  angle >= kSeenDeg * total;
         if ((!is_far && !is_constant) || haveOneLength(0.5)) return {};
@@ -298,12 +298,12 @@ class Looker {
         bool is_inverted = false;
     };
     [[nodiscard]] std::optional<Up> upAxis() const {
-        constexpr double kLeastMean = 0.6, kMostAside = 0.3, kMostBelow = 0.02;
+        constexpr double kMinMean = 0.6, kMaxAside = 0.3, kMaxBelow = 0.02;
         const std::array<double, 3> mean{plain_.mean.x, plain_.mean.y, plain_.mean.z};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double below = mean[axis] < 0 ? 1 - plain_.below_share[axis] : plain_.below_share[axis];
-            if (std::fabs(mean[axis]) < kLeastMean || below > kMostBelow) continue;
-            if (std::fabs(mean[(axis + 1) % 3]) > kMostAside || std::fabs(mean[(axis + 2) % 3]) > kMostAside) continue;
+            if (std::fabs(mean[axis]) < kMinMean || below > kMaxBelow) continue;
+            if (std::fabs(mean[(axis + 1) % 3]) > kMaxAside || std::fabs(mean[(axis + 2) % 3]) > kMaxAside) continue;
             return Up{axis, mean[axis] < 0};
         }
         return {};
@@ -331,15 +331,15 @@ class Looker {
     /// Detects z stored without sign: over tilted texels the slope of blue against z is about 1, not 1/2, and blue is
     /// much nearer to z than to (z + 1) / 2.
     [[nodiscard]] std::optional<MapLook> unsignedZ() const {
-        constexpr std::uint64_t kLeastCount = 64;
-        constexpr double kMostLong = 0.05;  // JPEG changes red and green if blue varies as much as they do
-        constexpr double kNoSpread = 0.2;   // unsigned z leaves a spread of 0.4 or more
-        if (!canBeXy(texels_, 0, 1, kMostMean, kMostLong) || haveOneLength(kNoSpread)) return {};
+        constexpr std::uint64_t kMinCount = 64;
+        constexpr double kMaxLong = 0.05;  // JPEG changes red and green if blue varies as much as they do
+        constexpr double kNoSpread = 0.2;  // unsigned z leaves a spread of 0.4 or more
+        if (!canBeXy(texels_, 0, 1, kMaxMean, kMaxLong) || haveOneLength(kNoSpread)) return {};
         double z = 0, b = 0, zz = 0, zb = 0, bb = 0, off = 0, off_signed = 0;
         std::uint64_t count = 0;
         for (const TexelBytes& texel : texels_) {
             const double square = squareOf(texel, 0, 1);
-            if (square < kLeastLean || square > 1) continue;
+            if (square < kMinLean || square > 1) continue;
             const double wanted = std::sqrt(1 - square), blue = texel[2] / 255.0;
             ++count;
             z += wanted;
@@ -350,7 +350,7 @@ class Looker {
             off += (blue - wanted) * (blue - wanted);
             off_signed += (blue - (wanted + 1) / 2) * (blue - (wanted + 1) / 2);
         }
-        if (count < kLeastCount) return {};
+        if (count < kMinCount) return {};
         const auto n = static_cast<double>(count);
         const double var_z = zz / n - z * z / n / n, var_b = bb / n - b * b / n / n, cov = zb / n - z * b / n / n;
         if (var_z < 1e-5 || var_b < 1e-5 || std::sqrt(off / n) > 0.1 || 4 * off > off_signed) return {};
@@ -376,11 +376,10 @@ class Looker {
 
     /// Returns whether blue can be z: stored as z, or constant in addition to x and y.
     [[nodiscard]] bool mayPointUp(std::span<const TexelBytes> texels, const DVec3& mean) const {
-        constexpr double kLeastUp = 0.7, kMostBelow = 0.1;
+        constexpr double kMinUp = 0.7, kMaxBelow = 0.1;
         constexpr std::uint8_t kZero = 127 - 16;  // tolerance for compression errors
         const double below = shareOf(texels, [](const TexelBytes& texel) { return texel[2] < kZero; });
-        return (mean.z > kLeastUp && below < kMostBelow) ||
-               (channels_[2].deviation <= kConstant && canBeXy(texels, 0, 1));
+        return (mean.z > kMinUp && below < kMaxBelow) || (channels_[2].deviation <= kConstant && canBeXy(texels, 0, 1));
     }
 
     /// Detects pictures: few colors are unit vectors, and either they do not point up, or the channels rise and fall
@@ -388,14 +387,14 @@ class Looker {
     /// where the components of real unit vectors cannot all increase together. Images with one color or few texels, and
     /// images with x and y plus another channel, are not classified.
     [[nodiscard]] std::optional<MapLook> picture() const {
-        constexpr double kMostUnit = 0.7, kFewUnit = 0.5, kTogether = 0.5, kMuchTogether = 0.8, kLeastDiagonal = 0.35,
+        constexpr double kMaxUnit = 0.7, kFewUnit = 0.5, kTogether = 0.5, kMuchTogether = 0.8, kMinDiagonal = 0.35,
                          kOneWay = 0.75;
-        constexpr std::size_t kLeastCount = 256;
+        constexpr std::size_t kMinCount = 256;
         const bool varies = std::any_of(channels_.begin(), channels_.begin() + 3,
                                         [](const Spread& channel) { return channel.deviation > kConstant; });
         if (!varies || mayBeXInAlpha()) return {};
         const std::vector<TexelBytes> painted = paintedOf(texels_);
-        if (painted.size() < kLeastCount) return {};
+        if (painted.size() < kMinCount) return {};
         DVec3 mean{};
         for (const TexelBytes& texel : painted)
             mean = mean + DVec3{signedValue(texel[0]), signedValue(texel[1]), signedValue(texel[2])};
@@ -403,15 +402,15 @@ class Looker {
         const std::array<double, 3> together = channelCorrelations(painted.size(), colorsOf(painted));
         const auto [weakest, strongest] = std::minmax({together[0], together[1], together[2]});
         const double least = std::min({mean.x, mean.y, mean.z}), most = std::max({mean.x, mean.y, mean.z});
-        const bool is_diagonal = weakest >= kTogether && (least > kLeastDiagonal || most < -kLeastDiagonal);
+        const bool is_diagonal = weakest >= kTogether && (least > kMinDiagonal || most < -kMinDiagonal);
         // The vectors may have one main direction that is not an axis. The vectors of a wall in object space do not
         // correlate like those of a picture.
         // like this.
         const bool is_aside = strongest >= kMuchTogether && !upAxis() && length(plain_.mean) > kOneWay;
         const double unit = unitShareOf(painted);
-        const double most_unit = !mayPointUp(painted, mean) ? kMostUnit : weakest >= kTogether ? kFewUnit : 0;
+        const double max_unit = !mayPointUp(painted, mean) ? kMaxUnit : weakest >= kTogether ? kFewUnit : 0;
         const bool is_none = is_diagonal || is_aside;
-        if (!is_none && unit >= most_unit) return {};
+        if (!is_none && unit >= max_unit) return {};
         MapLook look = made(MapContent::picture, {}, 1);
         look.total = painted.size();
         look.count = static_cast<std::uint64_t>((is_none ? 1 : 1 - unit) * static_cast<double>(look.total) + 0.5);
@@ -475,11 +474,11 @@ Following followingOf(std::span<const TexelOnSurface> surface, const MapLayout& 
     const auto slope = [&] { return spread() > 0 ? (sums[3][6] + sums[4][7] + sums[5][8]) / spread() : 0; };
     if (!(weight > 0)) return {};
     constexpr double kRounding = 1e-9;
-    const double least_u = kRounding * sums[1][1], least_v = kRounding * sums[2][2];
+    const double min_u = kRounding * sums[1][1], min_v = kRounding * sums[2][2];
     takeOut(0, 0);
     Following following{.spread = spread() / weight, .slope = slope()};
-    takeOut(1, least_u);
-    takeOut(2, least_v);
+    takeOut(1, min_u);
+    takeOut(2, min_v);
     following.bent_share = following.spread > 0 ? spread() / weight / following.spread : 0;
     following.bent_slope = slope();
     return following;
@@ -488,52 +487,52 @@ Following followingOf(std::span<const TexelOnSurface> surface, const MapLayout& 
 /// Returns whether the vectors are the normals of the mesh. `may_be_tangent`: they can also be in tangent space, which
 /// is assumed in doubtful cases.
 bool isOfMesh(std::span<const TexelOnSurface> surface, const MapLayout& layout, bool may_be_tangent) {
-    constexpr double kFlat = 0.002, kLeastSlope = 0.5, kLeastBent = 0.25;
+    constexpr double kFlat = 0.002, kMinSlope = 0.5, kMinBent = 0.25;
     const Following following = followingOf(surface, layout);
-    if (!may_be_tangent) return following.spread < kFlat || following.slope > kLeastSlope;
-    return following.spread >= kFlat && following.slope > kLeastSlope && following.bent_share > kLeastBent &&
-           following.bent_slope > kLeastSlope;
+    if (!may_be_tangent) return following.spread < kFlat || following.slope > kMinSlope;
+    return following.spread >= kFlat && following.slope > kMinSlope && following.bent_share > kMinBent &&
+           following.bent_slope > kMinSlope;
 }
 
 /// Variant of isOfMesh for strong relief, which hides the mesh in single vectors and lowers slopes. All quarters of the
 /// mesh must correlate, because a correlation by chance does not occur in each of them.
 bool isOfMeshUnderRelief(std::span<const TexelOnSurface> surface, const MapLayout& layout, bool may_be_tangent) {
     constexpr std::size_t kQuarters = 4, kManyPoints = 1024;
-    constexpr double kFlat = 0.002, kLeastSlope = 0.4, kLeastOfQuarter = 0.25, kLeastBent = 0.25;
+    constexpr double kFlat = 0.002, kMinSlope = 0.4, kMinOfQuarter = 0.25, kMinBent = 0.25;
     if (surface.size() < kManyPoints) return false;
     const Following following = followingOf(surface, layout);
-    if (following.spread < kFlat || following.slope < kLeastSlope) return false;
-    if (may_be_tangent && (following.bent_share < kLeastBent || following.bent_slope < kLeastSlope)) return false;
+    if (following.spread < kFlat || following.slope < kMinSlope) return false;
+    if (may_be_tangent && (following.bent_share < kMinBent || following.bent_slope < kMinSlope)) return false;
     for (std::size_t i = 0; i < kQuarters; ++i) {
         const std::size_t begin = i * surface.size() / kQuarters, end = (i + 1) * surface.size() / kQuarters;
         const Following quarter = followingOf(surface.subspan(begin, end - begin), layout);
-        if (quarter.spread < kFlat || quarter.slope < kLeastOfQuarter) return false;
+        if (quarter.spread < kFlat || quarter.slope < kMinOfQuarter) return false;
     }
     return true;
 }
 
 Looker::Followed Looker::followed(std::span<const TexelOnSurface> surface, const std::optional<Up>& up) const {
-    constexpr std::size_t kLeastPoints = 8;
-    constexpr double kLeastAgreement = 0.5, kSureAgreement = 0.9, kOfTheBest = 0.97, kOfTheRest = 0.4;
+    constexpr std::size_t kMinPoints = 8;
+    constexpr double kMinAgreement = 0.5, kSureAgreement = 0.9, kOfTheBest = 0.97, kOfTheRest = 0.4;
     const Moments moments = momentsOf(surface);
-    if (surface.size() < kLeastPoints || !(moments.weight > 0)) return {};
+    if (surface.size() < kMinPoints || !(moments.weight > 0)) return {};
     const bool is_up = up && up->axis == 2 && !up->is_inverted;
     // Agreement with the mesh's own axes: with unchanged channels (`plain`), and with permuted channels (`axes`).
     const double plain = (moments.sum[0][0] + moments.sum[1][1] + moments.sum[2][2]) / moments.weight;
     const Axes axes = bestAxes(moments);
     const std::array<double, 3> mean{plain_.mean.x, plain_.mean.y, plain_.mean.z};
     const double constant = std::fabs(up ? mean[up->axis] : plain_.mean.z);
-    const bool is_plain = plain >= kLeastAgreement && plain > axes.agreement - 0.05;
+    const bool is_plain = plain >= kMinAgreement && plain > axes.agreement - 0.05;
     const double agreement = is_plain ? plain : axes.agreement;
     // If a rotation agrees better than any permutation, the map was made for the axes of another program, which are
     // unknown.
-    const bool is_clear = agreement >= kLeastAgreement && agreement >= kOfTheBest * bestAgreement(moments) &&
+    const bool is_clear = agreement >= kMinAgreement && agreement >= kOfTheBest * bestAgreement(moments) &&
                           1 - agreement < kOfTheRest * (1 - constant);
     const bool is_wall = !is_up && up && is_plain && plain >= kSureAgreement;
     const MapLayout layout = is_plain ? MapLayout{} : axes.layout;
-    const bool is_of_mesh =
-        is_clear || is_wall ? isOfMesh(surface, layout, is_up)
-                            : is_plain && agreement >= kLeastAgreement && isOfMeshUnderRelief(surface, layout, is_up);
+    const bool is_of_mesh = is_clear || is_wall
+                                ? isOfMesh(surface, layout, is_up)
+                                : is_plain && agreement >= kMinAgreement && isOfMeshUnderRelief(surface, layout, is_up);
     if (!is_of_mesh) return {};
     return {layout, agreement};
 }
@@ -558,9 +557,9 @@ std::optional<MapLook> Looker::objectSpace() const {
 
 std::vector<TexelBytes> sampleTexels(const RgbImage& image, std::span<const std::uint8_t> alpha,
                                      const TexelMask& inside) {
-    constexpr std::uint64_t kMost = std::uint64_t{1} << 18;
+    constexpr std::uint64_t kMax = std::uint64_t{1} << 18;
     std::uint32_t step = 1;
-    while (std::uint64_t{image.width} * image.height / step / step > kMost) ++step;
+    while (std::uint64_t{image.width} * image.height / step / step > kMax) ++step;
     std::vector<TexelBytes> texels;
     for (std::uint32_t y = step / 2; y < image.height; y += step) {
         for (std::uint32_t x = step / 2; x < image.width; x += step) {

@@ -51,15 +51,15 @@ bool hasSide(const GreenTest& test) { return test.verdict == GreenVerdict::up ||
 
 /// Returns whether the slopes of a map fit a height field well.
 bool fitsWell(const GreenTest& other) {
-    constexpr double kLeast = 0.8;
-    return hasSide(other) && std::fabs(other.correlation) > kLeast;
+    constexpr double kMin = 0.8;
+    return hasSide(other) && std::fabs(other.correlation) > kMin;
 }
 
 /// Returns whether red and green are exchanged. Relief whose curvature along x equals that along y, such as a product
 /// of waves, does not show it.
 bool areXAndYExchanged(const DecodedMap& map) {
-    constexpr double kMost = 0.5;
-    return std::fabs(slopesOf(map.image, map).correlation) <= kMost && fitsWell(slopesOf(map, exchanged({})));
+    constexpr double kMax = 0.5;
+    return std::fabs(slopesOf(map.image, map).correlation) <= kMax && fitsWell(slopesOf(map, exchanged({})));
 }
 
 /// Decodes octahedral encoding of vectors with z >= 0 from the channels that the layout assigns to x and y. `is_hemi`:

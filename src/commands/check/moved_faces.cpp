@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kNoPoint = 0xffffffffu;
 /// Maximum number of examined triangles per polygon, and of directions around a point. The limits keep the time linear.
-constexpr std::size_t kMostOfPolygon = 64, kMostFaces = 64;
+constexpr std::size_t kMaxOfPolygon = 64, kMaxFaces = 64;
 
 /// A primitive and the offsets of one of its targets.
 struct MovedPrimitive {
@@ -85,12 +85,12 @@ MovedFaces::MovedFaces(const ScenePrimitive& primitive, std::span<const ScenePri
         const bool is_known = std::any_of(faces.begin(), faces.end(), [&](const Face& other) {
             return dot(other.moved, face.moved) >= kSame && dot(other.base, face.base) >= kSame;
         });
-        if (!is_known && faces.size() < kMostFaces) faces.push_back(face);
+        if (!is_known && faces.size() < kMaxFaces) faces.push_back(face);
     };
     const auto addFaces = [&](const MovedPrimitive& moved) {
         for (std::size_t first = 0, end = 0; first < moved.triangleCount(); first = end) {
             end = first + 1;
-            while (end < std::min(moved.triangleCount(), first + kMostOfPolygon) && isOnePolygon(moved, end - 1, end))
+            while (end < std::min(moved.triangleCount(), first + kMaxOfPolygon) && isOnePolygon(moved, end - 1, end))
                 ++end;
             for (std::size_t corner = 3 * first; corner < 3 * end; ++corner) {
                 const std::uint32_t vertex = moved.vertexAt(corner);

@@ -11,16 +11,16 @@ namespace tspace {
 namespace {
 
 /// Minimum z of normals that are used. Texels with steeper normals are island borders, or no normals.
-constexpr float kLeastUp = 0.25f;
+constexpr float kMinUp = 0.25f;
 /// Maximum derivative that is used. Larger derivatives are discontinuities between islands.
-constexpr float kMostDerivative = 0.25f;
+constexpr float kMaxDerivative = 0.25f;
 /// Minimum mean square of a derivative in a block. Rounding to 8 bits (2.6e-6) and compression artifacts are below it.
-constexpr float kLeastRelief = 4e-5f;
+constexpr float kMinRelief = 4e-5f;
 
 /// Computes the slopes p and q of a texel. Returns false if its normal does not point out of the surface.
 bool slopes(const std::uint8_t* texel, float& p, float& q) {
     const float nz = static_cast<float>(texel[2]) / 127.5f - 1;
-    if (nz < kLeastUp) return false;
+    if (nz < kMinUp) return false;
     p = -(static_cast<float>(texel[0]) / 127.5f - 1) / nz;
     q = -(static_cast<float>(texel[1]) / 127.5f - 1) / nz;
     return true;
@@ -58,8 +58,8 @@ bool derivatives(const RgbImage& image, const TexelMask& inside, std::uint32_t x
         !slopesOfSquare(image, inside, x, y + side, side, p_below, q_below)) {
         return false;
     }
-    a = std::clamp(0.5f * (q_right - q_left), -kMostDerivative, kMostDerivative);
-    b = std::clamp(0.5f * (p_below - p_above), -kMostDerivative, kMostDerivative);
+    a = std::clamp(0.5f * (q_right - q_left), -kMaxDerivative, kMaxDerivative);
+    b = std::clamp(0.5f * (p_below - p_above), -kMaxDerivative, kMaxDerivative);
     return true;
 }
 
@@ -77,23 +77,23 @@ struct Votes {
     }
     [[nodiscard]] double correlation() const { return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0; }
     /// Returns +1 for down, -1 for up, 0 for undecided.
-    [[nodiscard]] int side(double least_correlation, double least_agreement) const {
+    [[nodiscard]] int side(double min_correlation, double min_agreement) const {
         if (count == 0) return 0;
         const double down = static_cast<double>(down_count) / static_cast<double>(count);
-        if (correlation() > least_correlation && down >= least_agreement) return 1;
-        return correlation() < -least_correlation && 1 - down >= least_agreement ? -1 : 0;
+        if (correlation() > min_correlation && down >= min_agreement) return 1;
+        return correlation() < -min_correlation && 1 - down >= min_agreement ? -1 : 0;
     }
 };
 
-constexpr std::uint64_t kLeastBlocks = 16;
+constexpr std::uint64_t kMinBlocks = 16;
 /// Thresholds for a whole map, or for the texels that one primitive shows.
-constexpr double kLeastCorrelation = 0.1, kLeastAgreement = 0.65;
+constexpr double kMinCorrelation = 0.1, kMinAgreement = 0.65;
 /// Thresholds for a part that contradicts another part of its map, and for means if single texels give no verdict. They
 /// are strict, so that chance and unusual relief do not produce such a part.
 constexpr double kPartCorrelation = 0.3, kPartAgreement = 0.8;
 /// Minimum number of blocks in a part, and their minimum share of all voting blocks.
-constexpr std::uint64_t kLeastPartBlocks = 16;
-constexpr double kLeastPartShare = 0.02;
+constexpr std::uint64_t kMinPartBlocks = 16;
+constexpr double kMinPartShare = 0.02;
 
 }  // namespace
 
@@ -134,7 +134,7 @@ std::vector<GreenBlocks::Block> GreenBlocks::measured(const RgbImage& image, con
             }
         }
         block.votes = 4 * side * side * count >= kBlock * kBlock &&
-                      std::min(block.aa, block.bb) >= kLeastRelief * static_cast<float>(count);
+                      std::min(block.aa, block.bb) >= kMinRelief * static_cast<float>(count);
     }
     return blocks;
 }
@@ -147,7 +147,7 @@ TexelRect GreenBlocks::rectOf(std::size_t block) const {
 
 /// Returns the direction of a block and its neighbors; 0 if they disagree or have too few votes.
 int GreenBlocks::leaningOf(std::size_t block) const {
-    constexpr std::uint64_t kLeastAround = 3;
+    constexpr std::uint64_t kMinAround = 3;
     const auto column = static_cast<std::uint32_t>(block % columns_),
                row = static_cast<std::uint32_t>(block / columns_);
     Votes votes;
@@ -157,7 +157,7 @@ int GreenBlocks::leaningOf(std::size_t block) const {
             if (near.votes) votes.add(near.ab, near.aa, near.bb);
         }
     }
-    return votes.count < kLeastAround ? 0 : votes.side(kPartCorrelation, 0.5);
+    return votes.count < kMinAround ? 0 : votes.side(kPartCorrelation, 0.5);
 }
 
 /// Groups adjacent blocks with equal directions into parts, if they are many and agree.
@@ -186,7 +186,7 @@ void GreenBlocks::findParts() {
             reach(at >= columns_, at - columns_);
             reach(at + columns_ < blocks_.size(), at + columns_);
         }
-        if (part.size() < kLeastPartBlocks || static_cast<double>(part.size()) < kLeastPartShare * voting ||
+        if (part.size() < kMinPartBlocks || static_cast<double>(part.size()) < kMinPartShare * voting ||
             votes.side(kPartCorrelation, kPartAgreement) != side) {
             continue;
         }
@@ -216,7 +216,7 @@ GreenTest GreenBlocks::judge(const IsChosen& isChosen) const {
     sizes[0] = 0;
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
         const Block& block = blocks_[i];
-        if (block.part == 0 || sizes[block.part] < kLeastPartBlocks) continue;
+        if (block.part == 0 || sizes[block.part] < kMinPartBlocks) continue;
         std::uint32_t& largest = block.side > 0 ? down_part : up_part;
         if (sizes[block.part] > sizes[largest]) largest = block.part;
     }
@@ -229,8 +229,8 @@ GreenTest GreenBlocks::judge(const IsChosen& isChosen) const {
             if (blocks_[i].part == down_part) test.down_part.include(rectOf(i));
             if (blocks_[i].part == up_part) test.up_part.include(rectOf(i));
         }
-    } else if (all.count >= kLeastBlocks) {
-        int side = all.side(kLeastCorrelation, kLeastAgreement);
+    } else if (all.count >= kMinBlocks) {
+        int side = all.side(kMinCorrelation, kMinAgreement);
         if (side == 0) side = sideOfMeans(isChosen, test);
         if (side > 0 && up_part == 0) test.verdict = GreenVerdict::down;
         if (side < 0 && down_part == 0) test.verdict = GreenVerdict::up;
@@ -247,7 +247,7 @@ int GreenBlocks::sideOfMeans(const IsChosen& isChosen, GreenTest& test) const {
     for (std::size_t i = 0; i < means_.size(); ++i) {
         if (means_[i].votes && isChosen(i)) votes.add(means_[i].ab, means_[i].aa, means_[i].bb);
     }
-    const int side = votes.count < kLeastBlocks ? 0 : votes.side(kPartCorrelation, kPartAgreement);
+    const int side = votes.count < kMinBlocks ? 0 : votes.side(kPartCorrelation, kPartAgreement);
     if (side == 0 || (side > 0) != (test.correlation > 0)) return 0;
     test.block_count = votes.count;
     test.down_block_count = votes.down_count;
@@ -264,7 +264,7 @@ GreenTest GreenBlocks::within(const TexelMask& part) const {
         const TexelRect rect = rectOf(i);
         return 4 * part.count(rect) >= kBlock * kBlock;
     });
-    if (test.verdict != GreenVerdict::unknown || test.block_count >= kLeastBlocks) return test;
+    if (test.verdict != GreenVerdict::unknown || test.block_count >= kMinBlocks) return test;
     const GreenVerdict whole = all().verdict;
     if (whole == GreenVerdict::up || whole == GreenVerdict::down) test.verdict = whole;
     return test;

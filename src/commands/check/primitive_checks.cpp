@@ -29,9 +29,9 @@ namespace {
 
 /// Cosine of the angle between a normal and the face normal below which the normal points to the back (angles over 96
 /// degrees). The margin over 90 degrees allows for coarse smooth shading.
-constexpr double kLeastFacing = -0.1;
+constexpr double kMinFacing = -0.1;
 /// Share of the surface from which the whole mesh is reported as inside out.
-constexpr double kMostOfSurface = 0.5;
+constexpr double kMaxOfSurface = 0.5;
 constexpr double kNearlyAll = 0.95;
 constexpr double kSomeNormals = 0.01;
 /// Minimum angle in degrees between a normal and the nearest triangle normal. A mean over an edge of a box is 45
@@ -76,7 +76,7 @@ void checkNormalValues(PrimitiveFacts& facts) {
             facts.surface.area > 0 && far_share >= facts.options.error_share * facts.surface.area && far_share > 0;
         std::string lengths;
         if (scales != nullptr)
-            lengths = " (from " + stepText(scales->least_length) + " to " + stepText(scales->most_length) + ")";
+            lengths = " (from " + stepText(scales->min_length) + " to " + stepText(scales->max_length) + ")";
         facts.add(FindingCode::normalsNotUnit, zero_count != 0 || is_far ? Severity::error : Severity::warning,
                   not_unit, "vertices",
                   "the shading may be too dark, too bright or too steep: the normals of " +
@@ -141,7 +141,7 @@ bool haveSoundNeighbors(const PrimitiveFacts& facts, const Directions& direction
     return std::any_of(edges.begin(), edges.end(), [&](const Edge& edge) {
         if (edge.count != 2 || edge.is_forward[0] == edge.is_forward[1]) return false;
         const double a = facingOf(facts, directions, edge.faces[0]), b = facingOf(facts, directions, edge.faces[1]);
-        return std::min(a, b) < kLeastFacing && std::max(a, b) > -kLeastFacing;
+        return std::min(a, b) < kMinFacing && std::max(a, b) > -kMinFacing;
     });
 }
 
@@ -154,7 +154,7 @@ bool areTrianglesToBlame(const PrimitiveFacts& facts, const Directions& directio
     if (!mendWinding(facts.mesh.triangles(), how, turned, facts.options.execution)) return false;
     for (std::size_t f = 0; f < turned.size(); ++f) {
         const double facing = facts.surface.faces[f].area == 0 ? 0 : facingOf(facts, directions, f);
-        if ((turned[f] != 0 ? -facing : facing) < kLeastFacing) return false;
+        if ((turned[f] != 0 ? -facing : facing) < kMinFacing) return false;
     }
     return true;
 }
@@ -167,14 +167,14 @@ void checkWinding(PrimitiveFacts& facts, const Directions& directions) {
         const SurfaceFrame& face = facts.surface.faces[f];
         if (face.area == 0) continue;
         ++against.total;
-        if (facingOf(facts, directions, f) >= kLeastFacing) continue;
+        if (facingOf(facts, directions, f) >= kMinFacing) continue;
         against.add(mesh.corners[3 * f], face.area);
         faces_against.push_back(f);
     }
     against.finish(facts.surface.area);
     if (against.count == 0) return;
     // Double-sided leaves and grass often have the normals of the whole tree or ground on purpose.
-    const double mostly = facts.primitive.is_double_sided ? kNearlyAll : kMostOfSurface;
+    const double mostly = facts.primitive.is_double_sided ? kNearlyAll : kMaxOfSurface;
     const Severity severity = against.surface_share >= mostly         ? Severity::error
                               : against.surface_share >= kSomeNormals ? Severity::warning
                                                                       : Severity::note;

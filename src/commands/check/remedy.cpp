@@ -8,12 +8,12 @@
 namespace tspace {
 namespace {
 
-constexpr std::size_t kMostCommands = 3;
+constexpr std::size_t kMaxCommands = 3;
 
 struct CodeText {
     const char* name;
     const char* remedy;  ///< text in which each "{}" is replaced by the next command
-    std::array<const char*, kMostCommands> commands = {};
+    std::array<const char*, kMaxCommands> commands = {};
 };
 
 /// Entries are in the order of FindingCode.

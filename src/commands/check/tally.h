@@ -12,7 +12,7 @@
 namespace tspace {
 
 struct Tally {
-    static constexpr std::size_t kMostVertices = 8;
+    static constexpr std::size_t kMaxVertices = 8;
 
     std::uint64_t count = 0;
     std::uint64_t total = 0;  ///< number of candidates
@@ -25,7 +25,7 @@ struct Tally {
         ++count;
         area += its_area;
         worst_deg = std::max(worst_deg, deg);
-        if (vertices.size() < kMostVertices && std::find(vertices.begin(), vertices.end(), vertex) == vertices.end())
+        if (vertices.size() < kMaxVertices && std::find(vertices.begin(), vertices.end(), vertex) == vertices.end())
             vertices.push_back(vertex);
     }
     /// Adds a tally with the same total.
@@ -37,7 +37,7 @@ struct Tally {
         vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
         sortList(vertices.begin(), vertices.end());
         vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-        if (vertices.size() > kMostVertices) vertices.resize(kMostVertices);
+        if (vertices.size() > kMaxVertices) vertices.resize(kMaxVertices);
     }
     [[nodiscard]] double share() const {
         return total == 0 ? 0 : static_cast<double>(count) / static_cast<double>(total);

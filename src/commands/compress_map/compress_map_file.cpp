@@ -64,7 +64,7 @@ class MapCompression {
 
   private:
     void checkOptions() {
-        constexpr unsigned kMostZstd = 22;
+        constexpr unsigned kMaxZstd = 22;
         container_ = options_.sink ? Container::ktx2 : containerOf(output_, false);
         if (options_.roughness.empty() != options_.roughness_output.empty())
             failFile(ErrorCode::invalidOption, "a roughness texture needs both --roughness and --roughness-output");
@@ -79,7 +79,7 @@ class MapCompression {
             roughness_container_ != Container::dds)
             failFile(ErrorCode::invalidOption, "--dds-header can only be used with outputs that end in .dds");
         if (options_.zstd_level == 0) return;
-        if (options_.zstd_level > kMostZstd)
+        if (options_.zstd_level > kMaxZstd)
             failFile(ErrorCode::invalidOption, "the Zstandard level must be from 1 to 22");
         if (const char* why_not = whyNotZstd()) failFile(ErrorCode::unsupportedFile, why_not);
         if (container_ != Container::ktx2 && roughness_container_ != Container::ktx2)

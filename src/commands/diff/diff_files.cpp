@@ -101,11 +101,11 @@ Vec3 bitangentOf(const Vec3& normal, const Vec4& tangent) { return tangent.w * c
 /// The worst corners found so far, each vertex of A once.
 class WorstPlaces {
   public:
-    explicit WorstPlaces(std::size_t most) : most_(most) {}
+    explicit WorstPlaces(std::size_t most) : max_(most) {}
 
     void offer(const FrameDifference& difference) {
-        if (most_ == 0 || worstOf(difference) == 0) return;
-        if (places_.size() == most_ && !isWorse(difference, places_.back())) return;
+        if (max_ == 0 || worstOf(difference) == 0) return;
+        if (places_.size() == max_ && !isWorse(difference, places_.back())) return;
         const auto same = std::find_if(places_.begin(), places_.end(), [&](const FrameDifference& place) {
             return place.mesh_a == difference.mesh_a && place.primitive_a == difference.primitive_a &&
                    place.vertex_a == difference.vertex_a;
@@ -115,7 +115,7 @@ class WorstPlaces {
             places_.erase(same);
         }
         places_.insert(std::upper_bound(places_.begin(), places_.end(), difference, isWorse), difference);
-        if (places_.size() > most_) places_.pop_back();
+        if (places_.size() > max_) places_.pop_back();
     }
 
     [[nodiscard]] const std::vector<FrameDifference>& places() const { return places_; }
@@ -125,7 +125,7 @@ class WorstPlaces {
     static double worstOf(const FrameDifference& d) { return std::max({d.tangent_deg, d.normal_deg, d.bitangent_deg}); }
     static bool isWorse(const FrameDifference& a, const FrameDifference& b) { return worstOf(a) > worstOf(b); }
 
-    std::size_t most_;
+    std::size_t max_;
     std::vector<FrameDifference> places_ = {};  ///< sorted, the worst first
 };
 

@@ -137,13 +137,13 @@ class TriangleGrid {
     /// Calls visit(triangle) for triangles near `center`, at most 100 per cell, until it returns true.
     template <class Visit>
     void visitNear(const DVec3& center, Visit&& visit) const {
-        constexpr std::size_t kMostPerCell = 100;
+        constexpr std::size_t kMaxPerCell = 100;
         if (!std::isfinite(center.x + center.y + center.z)) return;
         for (unsigned corner = 0; corner < 8; ++corner) {
             const auto found = cells_.find(cellHash(center, corner));
             if (found == cells_.end()) continue;
             const std::vector<std::uint32_t>& cell = found->second;
-            for (std::size_t i = 0; i < std::min(cell.size(), kMostPerCell); ++i) {
+            for (std::size_t i = 0; i < std::min(cell.size(), kMaxPerCell); ++i) {
                 if (visit(cell[i])) return;
             }
         }

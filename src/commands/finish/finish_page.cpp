@@ -121,7 +121,7 @@ std::string finishPage(const FinishReport& report, const std::string& output_pat
     if (report.bake) html += mapsHtml(*report.bake);
     report::CheckOutcome outcome{.input = output_path};
     outcome.result = report.check;
-    return html + checkedFileHtml(outcome, 0, finished, kMostModelBytes) + pageEnd();
+    return html + checkedFileHtml(outcome, 0, finished, kMaxModelBytes) + pageEnd();
 }
 
 }  // namespace tspace

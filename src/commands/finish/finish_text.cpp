@@ -17,15 +17,15 @@ void addModel(const char* what, const FinishedModel& model, Table& table) {
 
 /// Adds the remaining errors, each with its fix.
 void addErrors(const CheckReport& check, Table& table) {
-    constexpr std::size_t kMostErrors = 5;
+    constexpr std::size_t kMaxErrors = 5;
     std::size_t count = 0;
     for (const Finding& finding : check.findings) {
-        if (finding.severity != Severity::error || count++ >= kMostErrors) continue;
+        if (finding.severity != Severity::error || count++ >= kMaxErrors) continue;
         table.addRow({"error", fmt::format("{}: {}", findingName(finding.code), printable(finding.message))});
         table.addRow({"", printable(finding.remedy)});
     }
-    if (count > kMostErrors)
-        table.addRow({"", fmt::format("{} (--json lists all)", counted(count - kMostErrors, "more error"))});
+    if (count > kMaxErrors)
+        table.addRow({"", fmt::format("{} (--json lists all)", counted(count - kMaxErrors, "more error"))});
 }
 
 }  // namespace

@@ -20,9 +20,9 @@ namespace {
 /// be this multiple of the memory limit: 1 GB, about 5 seconds, for the smallest file. A single-color map of 16384 x
 /// 16384 texels has 800 MB in a file of 800 KB.
 void checkWork(ByteSpan bytes, std::uint64_t memory_limit_bytes) {
-    constexpr std::uint64_t kTimesMemory = 16, kMost = std::uint64_t{1} << 56;
+    constexpr std::uint64_t kTimesMemory = 16, kMax = std::uint64_t{1} << 56;
     const std::uint64_t memory = memory_limit_bytes != 0
-                                     ? std::min(memory_limit_bytes, kMost)
+                                     ? std::min(memory_limit_bytes, kMax)
                                      : MemoryBudget::kAnyFile + MemoryBudget::kPerByte * bytes.size();
     const std::uint64_t unpacked = flipUnpackedBytes(bytes);
     if (unpacked <= kTimesMemory * memory) return;

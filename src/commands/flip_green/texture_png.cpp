@@ -14,7 +14,7 @@ namespace tspace {
 FlippedImage flippedTexturePng(ByteSpan bytes) {
     if (const char* why_not = whyNotRead(ImageFormat::png)) failFile(ErrorCode::unsupportedFile, why_not);
     std::string why;
-    std::optional<FloatImage> image = decodeFloatImage(bytes, kMostModelMapPixels, why);
+    std::optional<FloatImage> image = decodeFloatImage(bytes, kMaxModelMapPixels, why);
     if (!image) failFile(ErrorCode::invalidFile, why);
     const std::string how_read = readTextureVectors(*image);
     for (Vec3& texel : image->texels) texel.y = 1 - texel.y;

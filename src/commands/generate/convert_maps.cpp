@@ -211,11 +211,11 @@ class OneMap {
             why = "it " + budget->whyNot(bytes);
             return {};
         }
-        std::optional<FloatImage> image = decodeFloatImage(file_, kMostModelMapPixels, why);
+        std::optional<FloatImage> image = decodeFloatImage(file_, kMaxModelMapPixels, why);
         if (!image) return {};
         readTextureVectors(*image);
-        constexpr unsigned kMostBits = 16;  // maximum number of bits per channel of a PNG
-        image->bits = std::min(image->bits, kMostBits);
+        constexpr unsigned kMaxBits = 16;  // maximum number of bits per channel of a PNG
+        image->bits = std::min(image->bits, kMaxBits);
         return image;
     }
 

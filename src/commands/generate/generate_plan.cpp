@@ -491,7 +491,7 @@ std::vector<std::vector<std::size_t>> primitivesByPlace(const Document& document
 /// Adds notes to primitives with computed normals that form one surface with another mesh.
 void noteOtherMeshes(Model& model, const GenerateOptions& options, const std::vector<bool>& makes_normals,
                      GeneratePlan& plan) {
-    constexpr std::size_t kMostNotes = 4;
+    constexpr std::size_t kMaxNotes = 4;
     const std::span<const Primitive> primitives = model.primitives();
     if (std::find(makes_normals.begin(), makes_normals.end(), true) == makes_normals.end()) return;
     if (primitives.front().mesh == primitives.back().mesh) return;
@@ -509,7 +509,7 @@ void noteOtherMeshes(Model& model, const GenerateOptions& options, const std::ve
         std::map<std::uint32_t, std::size_t> counts;
         for (const auto& [key, other] : pieces.otherMeshes()) {
             const std::size_t number = numbers[key.first];
-            if (makes_normals[number] && ++counts[key.first] <= kMostNotes)
+            if (makes_normals[number] && ++counts[key.first] <= kMaxNotes)
                 plan.reports[number].notes.push_back(noteOf(primitives[other.primitive], other.points.size()));
         }
     }

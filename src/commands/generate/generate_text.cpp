@@ -183,7 +183,7 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
 /// Returns the notes, which are printed below the table because they are long. Primitives with equal notes share one
 /// line.
 std::string notesText(const GenerateReport& report) {
-    constexpr std::size_t kMostNotes = 20;
+    constexpr std::size_t kMaxNotes = 20;
     std::vector<std::pair<std::string, std::string>> notes;  // note, and the first primitive that has it
     std::map<std::string, std::size_t> line_of, others;
     for (const PrimitiveReport& primitive : report.primitives) {
@@ -197,7 +197,7 @@ std::string notesText(const GenerateReport& report) {
         }
     }
     std::string text;
-    for (std::size_t i = 0; i < std::min(notes.size(), kMostNotes); ++i) {
+    for (std::size_t i = 0; i < std::min(notes.size(), kMaxNotes); ++i) {
         const auto& [note, who] = notes[i];
         const std::size_t more = others.count(note) == 0 ? 0 : others[note];
         text +=
@@ -207,8 +207,8 @@ std::string notesText(const GenerateReport& report) {
         for (const std::string& note : map.notes)
             text += fmt::format("  note: {}: {}\n", imageText(map.image, map.name), printable(note));
     }
-    if (notes.size() > kMostNotes)
-        text += fmt::format("  note: {} (--json lists all)\n", counted(notes.size() - kMostNotes, "more note"));
+    if (notes.size() > kMaxNotes)
+        text += fmt::format("  note: {} (--json lists all)\n", counted(notes.size() - kMaxNotes, "more note"));
     return text.empty() ? text : "\n" + text;
 }
 

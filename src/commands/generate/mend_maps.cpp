@@ -111,14 +111,14 @@ Bytes mendMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options
         map.report.reason = "converting the map would exceed the memory limit";
         return {};
     }
-    std::optional<FloatImage> image = decodeFloatImage(bytes, kMostModelMapPixels, map.report.reason);
+    std::optional<FloatImage> image = decodeFloatImage(bytes, kMaxModelMapPixels, map.report.reason);
     if (!image) return {};
     MapLayout layout = map.look.layout;
     layout.y.is_inverted = layout.y.is_inverted != map.is_y_inverted;
     readTexels(layout, *image);
     if (map.look.content == MapContent::objectSpace) toTangentSpace(scene, map.image, options, *image);
-    constexpr unsigned kMostBits = 16;  // maximum bits of a PNG
-    const auto file = encodePng(*image, std::min(image->bits, kMostBits));
+    constexpr unsigned kMaxBits = 16;  // maximum bits of a PNG
+    const auto file = encodePng(*image, std::min(image->bits, kMaxBits));
     if (!file) {
         map.report.reason = "the new map could not be encoded as PNG";
         return {};
@@ -138,7 +138,7 @@ MadeOfHeights makeOfHeights(const Scene& scene, std::size_t material, std::size_
         made.why_not = "converting the map would exceed the memory limit";
         return made;
     }
-    std::optional<FloatImage> heights = decodeFloatImage(bytes, kMostModelMapPixels, made.why_not, ImageUse::numbers);
+    std::optional<FloatImage> heights = decodeFloatImage(bytes, kMaxModelMapPixels, made.why_not, ImageUse::numbers);
     if (!heights) return made;
     if (!isGrayImage(*heights)) {
         made.is_height_map = isPicture(*heights);

@@ -28,7 +28,7 @@ namespace {
 
 /// Another interpretation is reported if its error is below this fraction of the requested one, and lower by at least
 /// this angle; smaller differences may be random.
-constexpr double kMuchBetter = 0.7, kLeastGainDeg = 0.02;
+constexpr double kMuchBetter = 0.7, kMinGainDeg = 0.02;
 /// Error of all interpretations above which none of them explains the map.
 constexpr double kUnexplainedDeg = 5;
 
@@ -208,7 +208,7 @@ void listRays(Measuring& state, const RayOptions& asked) {
     }
 }
 
-bool isMuchBetter(double better, double than) { return better < kMuchBetter * than && than - better > kLeastGainDeg; }
+bool isMuchBetter(double better, double than) { return better < kMuchBetter * than && than - better > kMinGainDeg; }
 
 /// Measures the map with the rays that it may have been baked with.
 template <class Measure>

@@ -141,7 +141,7 @@ namespace {
 
 using report::counted;
 
-constexpr std::size_t kMostPicturedFindings = 12;
+constexpr std::size_t kMaxPicturedFindings = 12;
 
 std::string severityCounts(const CheckReport& report) {
     if (report.findings.empty()) return "<b class=\"good\">nothing found</b>";
@@ -193,7 +193,7 @@ class PictureSource {
     std::string html(const Finding& finding) {
         if (finding.place.empty() || is_over_ || input_ == "-") return {};
         std::string figures;
-        if (progress_) progress_("drawing pictures", count_, kMostPicturedFindings);
+        if (progress_) progress_("drawing pictures", count_, kMaxPicturedFindings);
         try {
             if (!pictures_) pictures_ = std::make_unique<FindingPictures>(input_, file_);
             figures = figuresOf(finding, pictures_->draw(finding));
@@ -202,7 +202,7 @@ class PictureSource {
             is_over_ = true;
         }
         if (figures.empty()) return {};
-        is_over_ = is_over_ || figures.size() > room_ || ++count_ >= kMostPicturedFindings;
+        is_over_ = is_over_ || figures.size() > room_ || ++count_ >= kMaxPicturedFindings;
         if (figures.size() > room_) return {};
         room_ -= figures.size();
         return figuresHtml(figures);
@@ -295,8 +295,8 @@ std::string checkPage(const std::vector<report::CheckOutcome>& outcomes, const F
             "and after the fix use the camera and the light that show the difference best.</p>\n";
     if (outcomes.size() > 1) html += overviewHtml(outcomes);
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
-        const std::size_t left = html.size() < kMostPageBytes ? kMostPageBytes - html.size() : 0;
-        html += checkedFileHtml(outcomes[i], i, file, std::min(left, kMostModelBytes), progress);
+        const std::size_t left = html.size() < kMaxPageBytes ? kMaxPageBytes - html.size() : 0;
+        html += checkedFileHtml(outcomes[i], i, file, std::min(left, kMaxModelBytes), progress);
     }
     return html + pageEnd();
 }

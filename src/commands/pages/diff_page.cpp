@@ -121,7 +121,7 @@ class Room {
     }
 
   private:
-    std::size_t left_ = kMostModelBytes;
+    std::size_t left_ = kMaxModelBytes;
 };
 
 std::string heatHtml(DiffPictures& pictures) {
@@ -136,9 +136,9 @@ std::string heatHtml(DiffPictures& pictures) {
 }
 
 std::string placesHtml(const FrameDiff& diff, DiffPictures& pictures, Room& room) {
-    constexpr std::size_t kMostPlaces = 12;
+    constexpr std::size_t kMaxPlaces = 12;
     std::string html;
-    for (std::size_t i = 0; i < std::min(kMostPlaces, diff.worst.size()); ++i) {
+    for (std::size_t i = 0; i < std::min(kMaxPlaces, diff.worst.size()); ++i) {
         const FrameDifference& place = diff.worst[i];
         const DiffPictures::Place pair = pictures.place(place);
         if (pair.a.empty() && pair.b.empty()) continue;

@@ -11,7 +11,7 @@
 namespace tspace {
 
 /// Maximum size of the encoded pictures of one model, and of a page.
-inline constexpr std::size_t kMostModelBytes = 1500000, kMostPageBytes = 12000000;
+inline constexpr std::size_t kMaxModelBytes = 1500000, kMaxPageBytes = 12000000;
 /// Size in pixels of a picture of a location.
 inline constexpr std::uint32_t kPlaceWidth = 320, kPlaceHeight = 240;
 

@@ -255,7 +255,7 @@ std::optional<Side> sideOf(const PicturedPrimitive& pictured) {
 
 PicturePair drawPair(const PicturedPrimitive& before, std::span<const std::size_t> triangles,
                      const PicturedPrimitive& after) {
-    constexpr double kLeastShare = 0.002;
+    constexpr double kMinShare = 0.002;
     // Fraction of the difference without base color below which the visible difference counts as hidden by the base
     // color.
     constexpr double kHidden = 0.7;
@@ -271,7 +271,7 @@ PicturePair drawPair(const PicturedPrimitive& before, std::span<const std::size_
     if (pair.is_clay) shown = std::move(clay);
     pair.differing_share = static_cast<double>(shown.seen_count) /
                            (static_cast<double>(kWhole.width) * static_cast<double>(kWhole.height));
-    if (pair.differing_share < kLeastShare) return pair;
+    if (pair.differing_share < kMinShare) return pair;
     while (pair.gain < 8 && 2 * static_cast<int>(pair.gain) * shown.most <= 255) pair.gain *= 2;
     RgbImage difference{.width = kWhole.width, .height = kWhole.height};
     difference.rgb.resize(shown.before.rgb.size());

@@ -36,12 +36,12 @@ ViewAngles anglesOf(DVec3 direction) {
 
 /// Returns the scale of a location at which its picture shows some of the surroundings, but nothing beyond the mesh.
 double aroundOf(const DrawnMesh& mesh, const PlacePoints& place) {
-    constexpr double kMost = 2.5, kLeast = 1.2;
+    constexpr double kMax = 2.5, kMin = 1.2;
     PositionBox whole, part;
     for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner) whole.add(placeOfCorner(mesh, corner));
     for (const DVec3& point : place.points) part.add(point);
     const double size = part.diagonal();
-    return size > 0 ? std::clamp(kLeast * whole.diagonal() / size, kLeast, kMost) : kMost;
+    return size > 0 ? std::clamp(kMin * whole.diagonal() / size, kMin, kMax) : kMax;
 }
 
 }  // namespace
@@ -70,7 +70,7 @@ PlaceView viewOver(std::span<const DrawnMesh> meshes, std::size_t mesh, std::spa
     constexpr ViewAngles kTurns[] = {{12, 8}, {-30, 8}, {40, 8}, {12, 40}, {12, -40}, {-65, 8}, {70, 8}};
     constexpr PictureSize kGlance{80, 60, 1};
     constexpr std::size_t kEnoughSamples = 60;
-    constexpr std::size_t kMostTriangles = 2000000;  // meshes with more triangles get no small preview pictures
+    constexpr std::size_t kMaxTriangles = 2000000;  // meshes with more triangles get no small preview pictures
     PlaceView best{.points = PlacePoints(meshes[mesh], triangles), .is_alone = true, .is_place = true};
     best.around = aroundOf(meshes[mesh], best.points);
     const ViewAngles over = anglesOf(best.points.normal);
@@ -81,7 +81,7 @@ PlaceView viewOver(std::span<const DrawnMesh> meshes, std::size_t mesh, std::spa
     for (const ViewAngles& turn : kTurns) {
         view.angles = {over.yaw_deg + turn.yaw_deg, std::clamp(over.pitch_deg + turn.pitch_deg, -90.0, 90.0)};
         if (&turn == kTurns) best.angles = view.angles;
-        if (triangle_count > kMostTriangles) return view;
+        if (triangle_count > kMaxTriangles) return view;
         Effort effort(std::uint64_t{1} << 28);
         const VisibleTriangles visible(meshes, view.camera(kGlance), kGlance.width, kGlance.height, effort);
         std::size_t count = 0;
@@ -117,25 +117,25 @@ RgbImage drawView(RenderShow show, std::span<const DrawnMesh> meshes, std::span<
 }
 
 void drawFrame(RgbImage& image, const Camera& camera, const PlacePoints& place) {
-    constexpr double kBeside = 4, kLeastSide = 14, kMostPart = 0.9;
+    constexpr double kBeside = 4, kMinSide = 14, kMaxPart = 0.9;
     double left = HUGE_VAL, right = -HUGE_VAL, top = HUGE_VAL, bottom = -HUGE_VAL;
     for (const DVec3& point : place.points) {
         const SeenPoint seen = camera.see(point);
-        if (!(seen.w > camera.leastW())) return;
+        if (!(seen.w > camera.minW())) return;
         const double x = seen.x / seen.w / kPlaceSize.samples, y = seen.y / seen.w / kPlaceSize.samples;
         left = std::min(left, x);
         right = std::max(right, x);
         top = std::min(top, y);
         bottom = std::max(bottom, y);
     }
-    const double wide = std::max(0.0, kLeastSide - (right - left)) / 2 + kBeside,
-                 high = std::max(0.0, kLeastSide - (bottom - top)) / 2 + kBeside;
+    const double wide = std::max(0.0, kMinSide - (right - left)) / 2 + kBeside,
+                 high = std::max(0.0, kMinSide - (bottom - top)) / 2 + kBeside;
     left = std::floor(std::clamp(left - wide, 0.0, image.width - 1.0));
     right = std::floor(std::clamp(right + wide, 0.0, image.width - 1.0));
     top = std::floor(std::clamp(top - high, 0.0, image.height - 1.0));
     bottom = std::floor(std::clamp(bottom + high, 0.0, image.height - 1.0));
     // A frame that surrounds nearly the whole picture is omitted.
-    if (!(right - left < kMostPart * image.width) && !(bottom - top < kMostPart * image.height)) return;
+    if (!(right - left < kMaxPart * image.width) && !(bottom - top < kMaxPart * image.height)) return;
     const auto x = static_cast<std::int64_t>(left), y = static_cast<std::int64_t>(top),
                width = static_cast<std::int64_t>(right - left) + 1,
                height = static_cast<std::int64_t>(bottom - top) + 1;

@@ -427,8 +427,8 @@ SurfacePicture drawModel(const ModelPicture& model, const RenderOptions& options
     const Legend legend = options.legend ? model.legend() : Legend{};
     const std::uint32_t rows = legendRows(legend, options.width, options.height), height = options.height - rows;
     const std::uint64_t samples = std::uint64_t{options.width} * options.samples * options.height * options.samples;
-    constexpr std::uint64_t kSteps = std::uint64_t{1} << 28, kMostLayers = 100, kCornerSteps = 64;
-    Effort effort(kSteps + kMostLayers * samples + kCornerSteps * model.cornerCount());
+    constexpr std::uint64_t kSteps = std::uint64_t{1} << 28, kMaxLayers = 100, kCornerSteps = 64;
+    Effort effort(kSteps + kMaxLayers * samples + kCornerSteps * model.cornerCount());
     const ViewAngles angles = is_uv ? ViewAngles{} : ViewAngles{options.yaw_deg, options.pitch_deg};
     const Camera camera = Camera::around(
         [&](const std::function<void(const DVec3&)>& visit) {

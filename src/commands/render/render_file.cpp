@@ -15,17 +15,17 @@ namespace tspace {
 namespace {
 
 void checkRenderOptions(const RenderOptions& options) {
-    constexpr std::uint32_t kLeastPixels = 16, kMostPixels = 8192, kMostSamples = 16384;
-    constexpr std::uint64_t kMostInAll = std::uint64_t{1} << 26;
+    constexpr std::uint32_t kMinPixels = 16, kMaxPixels = 8192, kMaxSamples = 16384;
+    constexpr std::uint64_t kMaxInAll = std::uint64_t{1} << 26;
     for (const std::uint32_t pixels : {options.width, options.height}) {
-        if (pixels < kLeastPixels || pixels > kMostPixels)
+        if (pixels < kMinPixels || pixels > kMaxPixels)
             failFile(ErrorCode::invalidOption, "the width and height of a picture must be from 16 to 8192 pixels");
-        if (options.samples < 1 || options.samples > 4 || pixels * options.samples > kMostSamples)
+        if (options.samples < 1 || options.samples > 4 || pixels * options.samples > kMaxSamples)
             failFile(ErrorCode::invalidOption,
                      "the number of samples per side of a pixel must be from 1 to 4, and the picture may have at most "
                      "16384 samples per side");
     }
-    if (std::uint64_t{options.width} * options.samples * options.height * options.samples > kMostInAll)
+    if (std::uint64_t{options.width} * options.samples * options.height * options.samples > kMaxInAll)
         failFile(ErrorCode::invalidOption, "the picture has more than 67108864 samples; use fewer samples per pixel");
     if (!std::isfinite(options.yaw_deg) || !std::isfinite(options.pitch_deg))
         failFile(ErrorCode::invalidOption, "the angles of the view must be finite numbers");

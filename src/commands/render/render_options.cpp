@@ -97,9 +97,9 @@ Option sizeOption(RenderOptions& options) {
         const std::size_t cross = text.find('x');
         std::uint64_t width = 0, height = 0;
         const std::string second = cross == std::string::npos ? text : text.substr(cross + 1);
-        constexpr std::uint64_t kLeast = 16, kMost = 8192;
-        if (!parseNumber(text.substr(0, cross), width) || !parseNumber(second, height) || width < kLeast ||
-            height < kLeast || width > kMost || height > kMost)
+        constexpr std::uint64_t kMin = 16, kMax = 8192;
+        if (!parseNumber(text.substr(0, cross), width) || !parseNumber(second, height) || width < kMin ||
+            height < kMin || width > kMax || height > kMax)
             return "must be N or WIDTHxHEIGHT, 16 to 8192 pixels";
         options.width = static_cast<std::uint32_t>(width);
         options.height = static_cast<std::uint32_t>(height);

@@ -5,12 +5,12 @@
 namespace tspace::options {
 namespace {
 
-constexpr unsigned kMostThreads = 1024;
+constexpr unsigned kMaxThreads = 1024;
 
 /// Parses a memory limit such as "500M", "8G" or "none"; K, M, G and T are powers of 1024. Rejects limits below 64 MiB,
 /// which every file may use.
 bool parseMemory(const std::string& text, std::uint64_t& bytes) {
-    constexpr std::uint64_t kLeast = std::uint64_t{64} << 20, kMost = std::uint64_t{1} << 56;
+    constexpr std::uint64_t kMin = std::uint64_t{64} << 20, kMax = std::uint64_t{1} << 56;
     if (text == "none") {
         bytes = kNoMemoryLimit;
         return true;
@@ -21,7 +21,7 @@ bool parseMemory(const std::string& text, std::uint64_t& bytes) {
     if (power == std::string::npos || !parseNumber(text.substr(0, unit), count)) return false;
     const std::uint64_t factor = std::uint64_t{1} << (10 * (power + 1));
     bytes = count * factor;
-    return count <= kMost / factor && bytes >= kLeast;
+    return count <= kMax / factor && bytes >= kMin;
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ void addThreads(OptionList& list, Execution& execution, HelpText help) {
         execution.thread_count = given == 0 ? kAllThreads : static_cast<std::uint32_t>(given);
     };
     const std::uint32_t threads = execution.thread_count == kAllThreads ? 0 : execution.thread_count;
-    add(list, kRunning, numberOption("--threads", threads, kMostThreads, store, std::move(help)));
+    add(list, kRunning, numberOption("--threads", threads, kMaxThreads, store, std::move(help)));
 }
 
 void addMemoryLimit(OptionList& list, std::uint64_t& memory_limit_bytes) {
@@ -74,9 +74,9 @@ void addMemoryLimit(OptionList& list, std::uint64_t& memory_limit_bytes) {
 
 void addLimits(OptionList& list, FileOptions& file) {
     addMemoryLimit(list, file.memory_limit_bytes);
-    constexpr unsigned kMostSeconds = 1000000;
+    constexpr unsigned kMaxSeconds = 1000000;
     add(list, kRunning,
-        number("--import-seconds", file.import_max_seconds, kMostSeconds,
+        number("--import-seconds", file.import_max_seconds, kMaxSeconds,
                "CPU time limit in seconds for reading one file of an imported format (FBX, PLY, DAE, ...); 0: 2 "
                "seconds plus 1 second per MiB of the file."));
 }

@@ -275,7 +275,7 @@ MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const
 
 namespace {
 
-constexpr std::uint64_t kMostMapPixels = std::uint64_t{1} << 28;
+constexpr std::uint64_t kMaxMapPixels = std::uint64_t{1} << 28;
 
 }  // namespace
 
@@ -289,7 +289,7 @@ FloatImage readMapImage(const std::string& input, ByteSpan content, const FileOp
     if (const char* why_not = whyNotRead(imageFormat(bytes))) failFile(ErrorCode::unsupportedFile, why_not);
     imageBudget(bytes, file)->require(imageNeed(bytes), {});
     std::string why;
-    std::optional<FloatImage> image = decodeFloatImage(bytes, kMostMapPixels, why, use);
+    std::optional<FloatImage> image = decodeFloatImage(bytes, kMaxMapPixels, why, use);
     if (!image) failFile(ErrorCode::invalidFile, why);
     return *std::move(image);
 }

@@ -15,17 +15,17 @@ std::uint64_t noteMemory(const MeshView& mesh) {
 }
 
 double notedNoise(const MeshView& mesh, double position_step, float weld_distance) {
-    constexpr std::size_t kLeastFaces = 1000;
-    constexpr double kLeastNoise = 0.03;
-    if (mesh.faceCount() < kLeastFaces) return 0;
+    constexpr std::size_t kMinFaces = 1000;
+    constexpr double kMinNoise = 0.03;
+    if (mesh.faceCount() < kMinFaces) return 0;
     const Arena arena;  // the arena is freed as a whole; without it, a thousand calls fragmented the heap by 63 MB
     const Execution execution{.allocator = arena.allocator()};
     const Result<PositionNoise> found = atBorder([&]() -> Result<PositionNoise> {
         Parallel parallel(execution, mesh.cornerCount());
         const NearMesh near(mesh, weld_distance, execution.allocator, parallel);
-        return measureSureNoise(near.view(), kLeastNoise, execution);
+        return measureSureNoise(near.view(), kMinNoise, execution);
     });
-    if (!found || found->noise < kLeastNoise || found->noise * found->mean_edge < position_step) return 0;
+    if (!found || found->noise < kMinNoise || found->noise * found->mean_edge < position_step) return 0;
     return double{found->noise};
 }
 

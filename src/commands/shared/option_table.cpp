@@ -30,11 +30,11 @@ std::string givePart(const Option& option, const std::string& value) {
     const auto& choices = option.choices;
     std::string wrong;
     if (!choices.empty() && std::find(choices.begin(), choices.end(), value) == choices.end()) {
-        constexpr std::size_t kMostListed = 12;
+        constexpr std::size_t kMaxListed = 12;
         wrong = option.take(value);  // may return why a name is invalid
         if (wrong.empty()) {
             wrong =
-                choices.size() <= kMostListed ? "must be one of " + joined(choices) : "is not a known " + option.value;
+                choices.size() <= kMaxListed ? "must be one of " + joined(choices) : "is not a known " + option.value;
             wrong += didYouMean(value, choices);
         }
     } else {
@@ -69,8 +69,8 @@ bool parseReal(const std::string& text, double& number) {
 }
 
 bool parseNumber(const std::string& text, std::uint64_t& number) {
-    constexpr std::size_t kMostDigits = 19;  // maximum number of digits of an integer below 2^63
-    if (text.empty() || text.size() > kMostDigits || text.find_first_not_of(kDigits) != std::string::npos) return false;
+    constexpr std::size_t kMaxDigits = 19;  // maximum number of digits of an integer below 2^63
+    if (text.empty() || text.size() > kMaxDigits || text.find_first_not_of(kDigits) != std::string::npos) return false;
     number = std::strtoull(text.c_str(), nullptr, 10);
     return true;
 }

@@ -18,9 +18,9 @@ namespace tspace::options {
 
 struct CheckRequest {
     CheckOptions options = {};
-    Severity fail_on = Severity::error;        ///< findings of at least this severity make a check fail
-    Severity least_severity = Severity::note;  ///< findings below this severity are omitted
-    std::vector<FindingCode> ignored = {};     ///< findings with these codes are omitted
+    Severity fail_on = Severity::error;      ///< findings of at least this severity make a check fail
+    Severity min_severity = Severity::note;  ///< findings below this severity are omitted
+    std::vector<FindingCode> ignored = {};   ///< findings with these codes are omitted
 };
 
 struct DiffRequest {

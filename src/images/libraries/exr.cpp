@@ -52,8 +52,8 @@ class ExrHeadReader {
             at_ = begin + size;
         }
         if (failed_ || head.size.pixels() == 0) return {};
-        constexpr std::uint64_t kMostRows = 256;  // maximum rows of a chunk, with any compression
-        const std::uint64_t rows = head.size.width * std::min<std::uint64_t>(kMostRows, head.size.height);
+        constexpr std::uint64_t kMaxRows = 256;  // maximum rows of a chunk, with any compression
+        const std::uint64_t rows = head.size.width * std::min<std::uint64_t>(kMaxRows, head.size.height);
         head.chunk_pixels = tile_pixels != 0 ? std::min(tile_pixels, head.size.pixels()) : rows;
         return head;
     }
@@ -83,8 +83,8 @@ class ExrHeadReader {
         std::array<std::int64_t, 4> corner{};
         for (std::int64_t& value : corner) value = static_cast<std::int32_t>(number());
         const auto size = [](std::int64_t first, std::int64_t last) {
-            constexpr std::int64_t kMost = std::int64_t{1} << 30;  // prevents overflow of products
-            return static_cast<std::uint32_t>(std::clamp<std::int64_t>(last - first + 1, 0, kMost));
+            constexpr std::int64_t kMax = std::int64_t{1} << 30;  // prevents overflow of products
+            return static_cast<std::uint32_t>(std::clamp<std::int64_t>(last - first + 1, 0, kMax));
         };
         return {size(corner[0], corner[2]), size(corner[1], corner[3])};
     }
@@ -498,21 +498,21 @@ ImageClaim claimOfExr(ByteSpan bytes) {
     if (!head) return {};
     // Memory of the pixels, and of the compressed, decompressed and intermediate data of one chunk with 4 bytes per
     // channel.
-    constexpr std::uint64_t kMost = std::uint64_t{1} << 60;
+    constexpr std::uint64_t kMax = std::uint64_t{1} << 60;
     const double work = 16.0 * static_cast<double>(head->size.pixels()) +
                         16.0 * static_cast<double>(head->chunk_pixels) * static_cast<double>(head->channel_count);
-    return {head->size, work < static_cast<double>(kMost) ? static_cast<std::uint64_t>(work) : kMost};
+    return {head->size, work < static_cast<double>(kMax) ? static_cast<std::uint64_t>(work) : kMax};
 }
 
 std::optional<FloatImage> decodeExr(ByteSpan bytes, std::uint64_t most_pixels, std::string& why, ImageUse use) {
-    constexpr std::uint64_t kMostChannels = 64;
+    constexpr std::uint64_t kMaxChannels = 64;
     why = "the EXR is damaged";
     const std::optional<ExrHead> head = ExrHeadReader(bytes).read();
     if (!head || isTooLarge(head->size, bytes.size(), most_pixels, why)) return {};
-    if (head->channel_count > kMostChannels) why = "the EXR has more channels than tspace supports";
+    if (head->channel_count > kMaxChannels) why = "the EXR has more channels than tspace supports";
     if (head->has_more) why = "the EXR has several parts or deep pixels, which are not supported";
     if (!head->is_plain) why = "the EXR uses lossy compression (B44 or DWA), which is not supported";
-    if (head->channel_count > kMostChannels || head->has_more || !head->is_plain) return {};
+    if (head->channel_count > kMaxChannels || head->has_more || !head->is_plain) return {};
     return orOutOfMemory([&] { return ExrReader(bytes, *head, use, why).read(); });
 }
 

@@ -15,7 +15,7 @@ namespace tspace {
 
 namespace {
 
-constexpr std::size_t kMostChunkBytes = std::size_t{64} << 20;
+constexpr std::size_t kMaxChunkBytes = std::size_t{64} << 20;
 
 struct FreePngContext {
     void operator()(spng_ctx* context) const { spng_ctx_free(context); }
@@ -42,7 +42,7 @@ bool succeeds(int result) {
 bool openPng(ByteSpan bytes, std::uint64_t most_pixels, PngContext& context, spng_ihdr& header, std::string& why) {
     why = "the PNG is damaged";
     context = makeContext(0);
-    return succeeds(spng_set_chunk_limits(context.get(), kMostChunkBytes, kMostChunkBytes)) &&
+    return succeeds(spng_set_chunk_limits(context.get(), kMaxChunkBytes, kMaxChunkBytes)) &&
            succeeds(spng_set_png_buffer(context.get(), bytes.data(), bytes.size())) &&
            succeeds(spng_get_ihdr(context.get(), &header)) &&
            !isTooLarge({header.width, header.height}, bytes.size(), most_pixels, why);
@@ -126,7 +126,7 @@ auto orBroken(Body&& body) -> decltype(body()) {
 
 PngContext decoderOf(ByteSpan bytes) {
     PngContext decoder = makeContext(0);
-    check(spng_set_chunk_limits(decoder.get(), kMostChunkBytes, kMostChunkBytes));
+    check(spng_set_chunk_limits(decoder.get(), kMaxChunkBytes, kMaxChunkBytes));
     check(spng_set_png_buffer(decoder.get(), bytes.data(), bytes.size()));
     return decoder;
 }

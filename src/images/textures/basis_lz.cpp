@@ -58,8 +58,8 @@ class HuffmanCode {
         for (const std::uint8_t length : lengths) ++counts_[length];
         counts_[0] = 0;
         std::uint32_t left = 1;
-        std::array<std::uint32_t, kMost + 2> begins{};
-        for (std::size_t length = 1; length <= kMost; ++length) {
+        std::array<std::uint32_t, kMax + 2> begins{};
+        for (std::size_t length = 1; length <= kMax; ++length) {
             left <<= 1;
             if (counts_[length] > left) {  // more codes than possible
                 bits.fail();
@@ -68,7 +68,7 @@ class HuffmanCode {
             left -= counts_[length];
             begins[length + 1] = begins[length] + counts_[length];
         }
-        symbols_.resize(begins[kMost + 1]);
+        symbols_.resize(begins[kMax + 1]);
         for (std::size_t symbol = 0; symbol < lengths.size(); ++symbol) {
             if (lengths[symbol] != 0) symbols_[begins[lengths[symbol]]++] = static_cast<std::uint16_t>(symbol);
         }
@@ -76,7 +76,7 @@ class HuffmanCode {
 
     std::uint32_t read(BasisBits& bits) const {
         std::uint32_t code = 0, first = 0, index = 0;
-        for (std::size_t length = 1; length <= kMost; ++length) {
+        for (std::size_t length = 1; length <= kMax; ++length) {
             code |= bits.bit();
             if (code - first < counts_[length]) return symbols_[index + code - first];
             index += counts_[length];
@@ -88,8 +88,8 @@ class HuffmanCode {
     }
 
   private:
-    static constexpr std::size_t kMost = 16;
-    std::array<std::uint32_t, kMost + 1> counts_ = {};
+    static constexpr std::size_t kMax = 16;
+    std::array<std::uint32_t, kMax + 1> counts_ = {};
     std::vector<std::uint16_t> symbols_ = {};  ///< symbols in code order
 };
 
@@ -112,8 +112,8 @@ HuffmanCode readCode(BasisBits& bits) {
             lengths.push_back(static_cast<std::uint8_t>(symbol));
             continue;
         }
-        constexpr unsigned kBits[] = {3, 7, 2, 7}, kLeast[] = {3, 11, 3, 7};
-        const std::uint32_t count = kLeast[symbol - 17] + bits.take(kBits[symbol - 17]);
+        constexpr unsigned kBits[] = {3, 7, 2, 7}, kMin[] = {3, 11, 3, 7};
+        const std::uint32_t count = kMin[symbol - 17] + bits.take(kBits[symbol - 17]);
         const bool repeats = symbol >= 19;
         if ((repeats && (lengths.empty() || lengths.back() == 0)) || count > symbols - lengths.size()) {
             bits.fail();
@@ -228,14 +228,14 @@ class BasisSlice {
   private:
     /// Reads how the endpoints of four blocks are predicted, two bits each.
     std::uint32_t readPredictions() {
-        constexpr std::uint32_t kRepeats = 256, kLeastRepeats = 3;
+        constexpr std::uint32_t kRepeats = 256, kMinRepeats = 3;
         if (repeats_ > 0) {
             --repeats_;
             return last_predictions_;
         }
         const std::uint32_t read = tables_.of_predictions.read(bits_);
         if (read == kRepeats) {
-            repeats_ = std::uint64_t{bits_.takeParts(4)} + kLeastRepeats - 1;
+            repeats_ = std::uint64_t{bits_.takeParts(4)} + kMinRepeats - 1;
         } else {
             last_predictions_ = read;
         }
@@ -269,7 +269,7 @@ class BasisSlice {
     }
 
     std::optional<std::uint32_t> readSelector() {
-        constexpr std::uint32_t kLongRun = 63, kLeastRun = 3;
+        constexpr std::uint32_t kLongRun = 63, kMinRun = 3;
         const auto count = static_cast<std::uint32_t>(tables_.selectors.size());
         std::uint32_t symbol = count;
         if (run_ > 0) {
@@ -278,7 +278,7 @@ class BasisSlice {
             symbol = tables_.of_selectors.read(bits_);
             if (symbol == count + history_.size()) {
                 const std::uint32_t length = tables_.of_runs.read(bits_);
-                run_ = std::uint64_t{length == kLongRun ? bits_.takeParts(7) : length} + kLeastRun - 1;
+                run_ = std::uint64_t{length == kLongRun ? bits_.takeParts(7) : length} + kMinRun - 1;
                 symbol = count;
             }
         }

@@ -70,7 +70,7 @@ class DdsReader {
         constexpr std::size_t kHeadBytes = 128, kHeightAt = 12, kWidthAt = 16;
         if (bytes_.size() < kHeadBytes || number(4) != kHeadBytes - 4) return why_;
         texture_.container = "DDS";
-        texture_.size = {std::min(number(kWidthAt), kMostTextureSide), std::min(number(kHeightAt), kMostTextureSide)};
+        texture_.size = {std::min(number(kWidthAt), kMaxTextureSide), std::min(number(kHeightAt), kMaxTextureSide)};
         data_at_ = kHeadBytes;
         if (texture_.size.pixels() == 0 || !isPicture() || !findFormat()) return why_;
         why_ = damaged();
@@ -90,8 +90,8 @@ class DdsReader {
     /// Lists the levels in order; truncated levels are skipped.
     void listLevels() {
         constexpr std::size_t kCountAt = 28;
-        constexpr std::uint32_t kMostLevels = 31;
-        const std::uint32_t count = std::clamp<std::uint32_t>(number(kCountAt), 1, kMostLevels);
+        constexpr std::uint32_t kMaxLevels = 31;
+        const std::uint32_t count = std::clamp<std::uint32_t>(number(kCountAt), 1, kMaxLevels);
         std::size_t at = data_at_;
         for (std::uint32_t i = 0; i < count; ++i) {
             const auto side = [&](std::uint32_t texels) { return std::max<std::uint32_t>(texels >> i, 1); };

@@ -53,7 +53,7 @@ class Ktx2Reader {
         if (bytes_.size() < kHeadBytes || !std::equal(std::begin(kIdentifier), std::end(kIdentifier), bytes_.begin()))
             return why_;
         texture_.container = "KTX2";
-        texture_.size = {std::min(number(20), kMostTextureSide), std::min(number(24), kMostTextureSide)};
+        texture_.size = {std::min(number(20), kMaxTextureSide), std::min(number(24), kMaxTextureSide)};
         if (texture_.size.pixels() == 0 || !isPicture() || !readDescription() || !findFormat() || !findRepacking() ||
             !findLevel())
             return why_;
@@ -167,9 +167,9 @@ class Ktx2Reader {
 
     /// Checks that all levels are after the header and do not overlap.
     bool findLevel() {
-        constexpr std::size_t kHeadBytes = 80, kEntry = 24, kMostLevels = 31;
+        constexpr std::size_t kHeadBytes = 80, kEntry = 24, kMaxLevels = 31;
         const std::size_t count = std::max<std::uint32_t>(number(40), 1);
-        if (count > kMostLevels || !part(kHeadBytes, kEntry * count)) return false;
+        if (count > kMaxLevels || !part(kHeadBytes, kEntry * count)) return false;
         struct Range {
             std::uint64_t begin, count;
         };

@@ -22,12 +22,12 @@ constexpr std::size_t kBlockTexels = 16;
 void decodeColors(const std::uint8_t* block, bool has_alpha, Rgba* texels) {
     const std::uint32_t first = little16(block), second = little16(block + 2), codes = little32(block + 4);
     const bool is_cut = has_alpha && first <= second;
-    constexpr unsigned kShift[] = {11, 5, 0}, kMost[] = {31, 63, 31};
+    constexpr unsigned kShift[] = {11, 5, 0}, kMax[] = {31, 63, 31};
     std::array<Rgba, 4> palette{};
     for (std::size_t i = 0; i < 3; ++i) {
-        const unsigned a = first >> kShift[i] & kMost[i], b = second >> kShift[i] & kMost[i];
+        const unsigned a = first >> kShift[i] & kMax[i], b = second >> kShift[i] & kMax[i];
         const auto of = [&](unsigned sum, unsigned parts) {
-            return static_cast<float>(sum) / static_cast<float>(parts * kMost[i]);
+            return static_cast<float>(sum) / static_cast<float>(parts * kMax[i]);
         };
         palette[0][i] = of(a, 1);
         palette[1][i] = of(b, 1);

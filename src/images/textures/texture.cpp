@@ -243,7 +243,7 @@ Result<FlippedImage> flipTexture(ByteSpan bytes, ImageFileFormat format) {
     TextureFacts facts{.layout = texture->layout};
     if (texels.channels == 4 && facts.layout == MapLayout{}) {
         std::string why;
-        const std::optional<FloatImage> image = decodeFloatTexture(bytes, kMostModelMapPixels, why);
+        const std::optional<FloatImage> image = decodeFloatTexture(bytes, kMaxModelMapPixels, why);
         if (!image) return Error{ErrorCode::invalidFile, why};
         facts = image->texture;
     }

@@ -21,11 +21,11 @@ enum class Repacking : std::uint8_t { none, zstd, zlib, basisLz };
 
 /// Maximum side length; larger sizes in headers are clamped to it. The product of two sides and up to 256 bytes per
 /// texel then fits in 64 bits.
-inline constexpr std::uint32_t kMostTextureSide = std::uint32_t{1} << 28;
+inline constexpr std::uint32_t kMaxTextureSide = std::uint32_t{1} << 28;
 
 struct TextureFile {
     const char* container = "";  ///< "KTX2", "DDS"
-    ImageSize size = {};         ///< at most kMostTextureSide each
+    ImageSize size = {};         ///< at most kMaxTextureSide each
     TexelFormat format = {};
     Repacking repacking = Repacking::none;
     /// First (largest) level, as stored in the file. In a supercompressed KTX2 it may have any size.

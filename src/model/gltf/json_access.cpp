@@ -97,11 +97,11 @@ std::uint64_t readWhole(const Json& object, const char* key, const std::string& 
 
 std::size_t readSize(const Json& object, const char* key, const std::string& place,
                      std::optional<std::size_t> fallback) {
-    constexpr std::uint64_t kMost = std::numeric_limits<std::size_t>::max();
+    constexpr std::uint64_t kMax = std::numeric_limits<std::size_t>::max();
     const std::uint64_t number = readWhole(object, key, place, fallback);
-    if (number > kMost) {
+    if (number > kMax) {
         failJson(std::string("'") + key + "' is " + std::to_string(number) + "; the maximum of this build is " +
-                     std::to_string(kMost),
+                     std::to_string(kMax),
                  join(place, key));
     }
     return static_cast<std::size_t>(number);

@@ -157,7 +157,7 @@ Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, cons
 /// Records the files of images as inputs; they are not read here. A rejected URI causes a warning only, because
 /// geometry does not depend on images.
 void checkImageUris(Document& document) {
-    constexpr std::size_t kMostWarnings = 8;
+    constexpr std::size_t kMaxWarnings = 8;
     const Json& images = rootArray(document, "images");
     std::size_t refused_count = 0;
     for (std::size_t i = 0; i < images.size(); ++i) {
@@ -174,11 +174,11 @@ void checkImageUris(Document& document) {
                 static_cast<void>(checkedPathOfUri(uri, true, join(place, "uri")));
             }
         });
-        if (failure && ++refused_count <= kMostWarnings)
+        if (failure && ++refused_count <= kMaxWarnings)
             document.warnings.push_back("image " + std::to_string(i) + " is not read: " + failure->message);
     }
-    if (refused_count > kMostWarnings)
-        document.warnings.push_back(std::to_string(refused_count - kMostWarnings) + " more images could not be read");
+    if (refused_count > kMaxWarnings)
+        document.warnings.push_back(std::to_string(refused_count - kMaxWarnings) + " more images could not be read");
 }
 
 /// Charges the budget for tables of uses and reports: a fixed cost per entry, because an entry takes only a few bytes

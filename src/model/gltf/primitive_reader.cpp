@@ -202,9 +202,9 @@ std::optional<StridedSpan<const Vec>> viewVectors(const Document& document, cons
 /// Returns the scale to unit length, as unitScale does, and also for shorter normals whose squared length is a
 /// normalized float, since shaders can normalize those.
 double storedScale(const Vec3& normal) {
-    constexpr double kLeast = 0x1p-63;
+    constexpr double kMin = 0x1p-63;
     const double size = length(toDouble(normal));
-    return size >= kLeast && size < kLeastLength ? 1 / size : unitScale(normal);
+    return size >= kMin && size < kLeastLength ? 1 / size : unitScale(normal);
 }
 
 std::shared_ptr<const NormalScales> findScales(const Document& document, const Accessor& accessor) {
@@ -226,11 +226,11 @@ std::shared_ptr<const NormalScales> findScales(const Document& document, const A
             document.memory->take(std::uint64_t{normals->count} * sizeof(double), accessor.place());
             scales = std::make_shared<NormalScales>();
             scales->of_vertices.assign(normals->count, 1);
-            scales->least_length = scales->most_length = 1 / scale;
+            scales->min_length = scales->max_length = 1 / scale;
         }
         scales->of_vertices[v] = scale;
-        scales->least_length = std::min(scales->least_length, 1 / scale);
-        scales->most_length = std::max(scales->most_length, 1 / scale);
+        scales->min_length = std::min(scales->min_length, 1 / scale);
+        scales->max_length = std::max(scales->max_length, 1 / scale);
         ++scales->count;
     }
     return scales;
@@ -348,7 +348,7 @@ void warnOfScaledNormals(Document& document, std::span<const Primitive> primitiv
                                 static_cast<std::ptrdiff_t>(document.scaled_normals->number));
         document.scaled_normals.reset();
     }
-    constexpr std::size_t kMostNamed = 3;
+    constexpr std::size_t kMaxNamed = 3;
     std::map<const NormalScales*, const Primitive*> first_with;
     std::string named;
     std::size_t count = 0, primitive_count = 0;
@@ -358,16 +358,16 @@ void warnOfScaledNormals(Document& document, std::span<const Primitive> primitiv
         const NormalScales* const scales = primitive.normal_scales.get();
         if (scales == nullptr) continue;
         are_some_unsigned = are_some_unsigned || areUnsigned(document, primitive.find("NORMAL"));
-        if (primitive_count++ < kMostNamed)
+        if (primitive_count++ < kMaxNamed)
             named += (named.empty() ? "mesh " : "; mesh ") + std::to_string(primitive.mesh) + ", primitive " +
                      std::to_string(primitive.index);
         if (!first_with.try_emplace(scales, &primitive).second) continue;
-        least = count == 0 ? scales->least_length : std::min(least, scales->least_length);
-        most = std::max(most, scales->most_length);
+        least = count == 0 ? scales->min_length : std::min(least, scales->min_length);
+        most = std::max(most, scales->max_length);
         count += scales->count;
     }
     if (count == 0) return;
-    if (primitive_count > kMostNamed) named += "; and " + std::to_string(primitive_count - kMostNamed) + " more";
+    if (primitive_count > kMaxNamed) named += "; and " + std::to_string(primitive_count - kMaxNamed) + " more";
     const std::string lengths = "normals that do not have unit length: " + std::to_string(count) +
                                 (count == 1 ? " vertex" : " vertices") + " (" + named + ") with lengths from " +
                                 shortNumber(least) + " to " + shortNumber(most);

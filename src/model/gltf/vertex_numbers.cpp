@@ -115,10 +115,10 @@ std::size_t freeFeatureId(const Document& document, std::span<const Primitive* c
 
 /// Returns the old vertex indices as an attribute for EXT_mesh_features: shorts, or floats for indices beyond 16 bits.
 ElementData numbersOf(const NewVertices& vertices) {
-    constexpr std::size_t kMostShort = 65536, kMostFloat = std::size_t{1} << 24;
-    if (vertices.old_count > kMostFloat)
+    constexpr std::size_t kMaxShort = 65536, kMaxFloat = std::size_t{1} << 24;
+    if (vertices.old_count > kMaxFloat)
         failFile(ErrorCode::unsupportedFile, "it has too many feature IDs for a vertex attribute");
-    const bool is_short = vertices.old_count <= kMostShort;
+    const bool is_short = vertices.old_count <= kMaxShort;
     ElementData data{.component = is_short ? ComponentType::u16 : ComponentType::f32,
                      .count = vertices.sources.size(),
                      .element_bytes = is_short ? std::size_t{2} : std::size_t{4}};

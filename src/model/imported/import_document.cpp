@@ -36,8 +36,8 @@ constexpr std::string_view kCoordinatesKept = "coordinates: kept\n";
 
 /// Returns the first line of the importer's output, quoted for a message.
 std::string firstLine(const std::string& messages) {
-    constexpr std::size_t kMostBytes = 300;
-    const std::string quoted = inQuotes(messages.substr(0, messages.find('\n')), kMostBytes);
+    constexpr std::size_t kMaxBytes = 300;
+    const std::string quoted = inQuotes(messages.substr(0, messages.find('\n')), kMaxBytes);
     return quoted.substr(1, quoted.size() - 2);
 }
 
@@ -72,8 +72,8 @@ ImportLimits limitsFor(std::uint64_t size, const FileOptions& options) {
     constexpr std::uint64_t kMebibyte = std::uint64_t{1} << 20;
     constexpr std::uint64_t kAnyFile = 192 * kMebibyte, kPerByte = 256;
     // Assimp reads 20 to 130 MB per second on the machine of the measurement; other machines may be much slower.
-    constexpr std::uint32_t kLeastSeconds = 2;
-    const auto seconds = kLeastSeconds + static_cast<std::uint32_t>(size / kMebibyte);
+    constexpr std::uint32_t kMinSeconds = 2;
+    const auto seconds = kMinSeconds + static_cast<std::uint32_t>(size / kMebibyte);
     ImportLimits limits;
     limits.memory_bytes = options.memory_limit_bytes != 0
                               ? options.memory_limit_bytes

@@ -143,8 +143,8 @@ void reserveWhole(Bytes& glb, std::uint64_t most) {
 /// Reads until the child has closed both pipes. Stops early if the time or space limit is exceeded.
 class Reader {
   public:
-    Reader(Descriptor glb, Descriptor messages, std::uint64_t most_bytes)
-        : glb_(std::move(glb)), messages_(std::move(messages)), most_bytes_(most_bytes) {}
+    Reader(Descriptor glb, Descriptor messages, std::uint64_t max_bytes)
+        : glb_(std::move(glb)), messages_(std::move(messages)), max_bytes_(max_bytes) {}
 
     ImportEnd read(Clock::time_point end, const std::function<void()>& tick, ImportResult& result) {
         while (glb_.isOpen() || messages_.isOpen()) {
@@ -157,7 +157,7 @@ class Reader {
             }
             if (polled[0].revents != 0) takeGlb(result.glb);
             if (polled[1].revents != 0) takeMessages(result.messages);
-            if (result.glb.size() > most_bytes_) return ImportEnd::outOfSpace;
+            if (result.glb.size() > max_bytes_) return ImportEnd::outOfSpace;
         }
         return ImportEnd::done;
     }
@@ -173,18 +173,18 @@ class Reader {
         const bool is_first = glb.empty();
         const auto bytes = take(glb_);
         glb.insert(glb.end(), bytes.begin(), bytes.end());
-        if (is_first) reserveWhole(glb, most_bytes_);
+        if (is_first) reserveWhole(glb, max_bytes_);
     }
     void takeMessages(std::string& messages) {
         const auto bytes = take(messages_);
-        const std::size_t room = kMostMessages - std::min(kMostMessages, messages.size());
+        const std::size_t room = kMaxMessages - std::min(kMaxMessages, messages.size());
         messages.append(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(std::min(room, bytes.size())));
     }
 
     static constexpr int kTickMs = 50;
-    static constexpr std::size_t kMostMessages = std::size_t{64} << 10;
+    static constexpr std::size_t kMaxMessages = std::size_t{64} << 10;
     Descriptor glb_, messages_;
-    std::uint64_t most_bytes_;
+    std::uint64_t max_bytes_;
     std::vector<std::uint8_t> block_ = std::vector<std::uint8_t>(std::size_t{64} << 10);  // the capacity of a pipe
 };
 

@@ -24,7 +24,7 @@ class Batch {
     void fill(std::span<const OutputPiece> pieces, std::size_t& piece, std::size_t& offset) {
         parts_.clear();
         std::size_t used = 0, taken = 0;
-        while (piece < pieces.size() && taken < kMostBytes) {
+        while (piece < pieces.size() && taken < kMaxBytes) {
             const OutputPiece& from = pieces[piece];
             std::size_t count = from.size() - offset;
             if (!from.isThere() && count != 0) {
@@ -50,7 +50,7 @@ class Batch {
 
   private:
     static constexpr std::size_t kBlockBytes = std::size_t{1} << 19;  // fits the L2 cache
-    static constexpr std::size_t kMostBytes = 4 * kBlockBytes;
+    static constexpr std::size_t kMaxBytes = 4 * kBlockBytes;
     std::vector<std::span<const std::uint8_t>> parts_;
     Bytes block_;
 };

@@ -85,8 +85,8 @@ class MemoryBudget {
   private:
     /// Clamps a size, so that no sum of two sizes can overflow.
     static std::int64_t limited(std::uint64_t bytes) {
-        constexpr std::uint64_t kMost = std::uint64_t{1} << 56;
-        return static_cast<std::int64_t>(bytes < kMost ? bytes : kMost);
+        constexpr std::uint64_t kMax = std::uint64_t{1} << 56;
+        return static_cast<std::int64_t>(bytes < kMax ? bytes : kMax);
     }
     /// Formats a size in the unit of the option, rounded up.
     static std::string megabytes(std::int64_t bytes) {

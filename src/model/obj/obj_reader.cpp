@@ -59,13 +59,13 @@ std::uint32_t smoothingGroup(std::string_view rest) {
 }
 
 void noteFace(std::string_view rest, std::uint32_t line, std::uint32_t smoothing_group, LineNotes& notes) {
-    constexpr std::size_t kMostDigits = 9;  // fits a 32-bit int; no file can have more vertices
+    constexpr std::size_t kMaxDigits = 9;  // fits a 32-bit int; no file can have more vertices
     std::size_t digits = 0;
     bool empty = true;
     for (const char c : rest) {
         empty = empty && isBlank(c);
         digits = isDigit(c) ? digits + 1 : 0;
-        if (digits > kMostDigits)
+        if (digits > kMaxDigits)
             failFile(ErrorCode::invalidFile, "a vertex index of a face is too large", lineName(line));
     }
     if (!empty) notes.faces.push_back({line, smoothing_group});
@@ -502,10 +502,10 @@ void requireFaces(const Model& model) {
 
 Model readModel(const Path& path, const FileOptions& options) {
     // Beyond this size, vertex counts might exceed 32 bits.
-    constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30;
+    constexpr std::uint64_t kMaxBytes = std::uint64_t{8} << 30;
     const bool is_in_memory = options.content.data() != nullptr;
     const std::uint64_t size = is_in_memory ? options.content.size() : fileSize(path);
-    if (size > kMostBytes) failFile(ErrorCode::unsupportedFile, "the OBJ file is larger than 8 GiB");
+    if (size > kMaxBytes) failFile(ErrorCode::unsupportedFile, "the OBJ file is larger than 8 GiB");
     Bytes bytes = is_in_memory ? Bytes(options.content.begin(), options.content.end()) : readFile(path);
     Model model;
     model.files = NamedFiles(path, options);

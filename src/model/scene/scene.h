@@ -146,9 +146,9 @@ struct ScenePacked {
 /// Factors that scale normals to length 1. Normal deltas of morph targets are multiplied by the same factors, so that
 /// all sums keep their directions.
 struct NormalScales {
-    std::vector<double> of_vertices = {};      ///< 1 if the stored normal is unit within rounding, or has no direction
-    std::size_t count = 0;                     ///< number of factors other than 1
-    double least_length = 0, most_length = 0;  ///< range of the lengths of the scaled normals
+    std::vector<double> of_vertices = {};   ///< 1 if the stored normal is unit within rounding, or has no direction
+    std::size_t count = 0;                  ///< number of factors other than 1
+    double min_length = 0, max_length = 0;  ///< range of the lengths of the scaled normals
 };
 
 struct ScenePrimitive {

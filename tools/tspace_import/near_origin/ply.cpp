@@ -52,9 +52,9 @@ bool addProperty(std::istringstream& words, unsigned& axes, Header& header) {
 }
 
 std::optional<Header> readHeader(const std::vector<char>& bytes) {
-    constexpr std::size_t kMostBytes = 1 << 16;
+    constexpr std::size_t kMaxBytes = 1 << 16;
     const std::string text(bytes.begin(),
-                           bytes.begin() + static_cast<std::ptrdiff_t>(std::min(bytes.size(), kMostBytes)));
+                           bytes.begin() + static_cast<std::ptrdiff_t>(std::min(bytes.size(), kMaxBytes)));
     const std::size_t end = text.find("end_header");
     const std::size_t line_end = end == std::string::npos ? end : text.find('\n', end);
     if (line_end == std::string::npos) return {};

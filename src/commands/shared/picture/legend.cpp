@@ -236,13 +236,13 @@ Legend legendOfBoth(const TangentSources& left, const TangentSources& right, Met
 }
 
 std::uint32_t legendRows(const Legend& legend, std::uint32_t width, std::uint32_t height) {
-    constexpr std::uint32_t kLeastWidth = 200, kLeastShare = 3;
-    if (width < kLeastWidth) return 0;
+    constexpr std::uint32_t kMinWidth = 200, kMinShare = 3;
+    if (width < kMinWidth) return 0;
     const std::int64_t lines = layOut(legend.entries, width).line_count;
     if (lines == 0 && !legend.has_heat_scale) return 0;
     const std::int64_t scale = legend.has_heat_scale ? kBarRows + kDotRows + 5 : 0;
     const auto rows = static_cast<std::uint32_t>((kMargin + scale + lines * kLineRows) * dotOf(width));
-    return rows > height / kLeastShare ? 0 : rows;
+    return rows > height / kMinShare ? 0 : rows;
 }
 
 void addLegend(const Legend& legend, std::uint32_t rows, RgbImage& image) {

@@ -68,7 +68,7 @@ Camera Camera::around(const VisitPoints& points, const ViewAngles& angles, doubl
     });
     if (!(distance > 0)) distance = 1;
     camera.eye_ = center + distance * camera.back_;
-    camera.least_w_ = std::max(0.5 * (distance - z.half()), 1e-6 * distance);
+    camera.min_w_ = std::max(0.5 * (distance - z.half()), 1e-6 * distance);
     return camera;
 }
 
@@ -77,7 +77,7 @@ namespace {
 /// Subdivisions of a sample to which corners are rounded.
 constexpr std::int64_t kSampleParts = 256;
 /// Triangles are clipped at this distance from the picture, in samples, so that products of coordinates fit in 64 bits.
-constexpr double kMostSamples = 1048576;
+constexpr double kMaxSamples = 1048576;
 
 using Polygon = std::vector<SeenPoint>;
 
@@ -102,17 +102,17 @@ void cutAway(Polygon& polygon, const Inside& inside) {
 }
 
 /// Returns whether a point can be drawn without clipping.
-bool isDrawable(const SeenPoint& p, double least_w) {
-    return p.w >= least_w && p.w > 0 && std::fabs(p.x) <= kMostSamples * p.w && std::fabs(p.y) <= kMostSamples * p.w;
+bool isDrawable(const SeenPoint& p, double min_w) {
+    return p.w >= min_w && p.w > 0 && std::fabs(p.x) <= kMaxSamples * p.w && std::fabs(p.y) <= kMaxSamples * p.w;
 }
 
-Polygon cutToPicture(const std::array<SeenPoint, 3>& points, double least_w) {
+Polygon cutToPicture(const std::array<SeenPoint, 3>& points, double min_w) {
     Polygon polygon(points.begin(), points.end());
-    cutAway(polygon, [&](const SeenPoint& p) { return p.w - least_w; });
-    cutAway(polygon, [](const SeenPoint& p) { return kMostSamples * p.w - p.x; });
-    cutAway(polygon, [](const SeenPoint& p) { return kMostSamples * p.w + p.x; });
-    cutAway(polygon, [](const SeenPoint& p) { return kMostSamples * p.w - p.y; });
-    cutAway(polygon, [](const SeenPoint& p) { return kMostSamples * p.w + p.y; });
+    cutAway(polygon, [&](const SeenPoint& p) { return p.w - min_w; });
+    cutAway(polygon, [](const SeenPoint& p) { return kMaxSamples * p.w - p.x; });
+    cutAway(polygon, [](const SeenPoint& p) { return kMaxSamples * p.w + p.x; });
+    cutAway(polygon, [](const SeenPoint& p) { return kMaxSamples * p.w - p.y; });
+    cutAway(polygon, [](const SeenPoint& p) { return kMaxSamples * p.w + p.y; });
     return polygon;
 }
 
@@ -163,7 +163,7 @@ class FixedTriangle {
 FixedCorner fixedCorner(const SeenPoint& p) {
     // NaN can result from clipping enormous triangles, and becomes a limit.
     const auto fixed = [&](double x) {
-        const double inside = std::fmin(std::fmax(x / p.w, -kMostSamples), kMostSamples);
+        const double inside = std::fmin(std::fmax(x / p.w, -kMaxSamples), kMaxSamples);
         return static_cast<std::int64_t>(std::floor(inside * kSampleParts + 0.5));
     };
     return {fixed(p.x), fixed(p.y)};
@@ -246,12 +246,12 @@ void VisibleTriangles::drawTriangle(std::size_t mesh, std::size_t triangle, cons
     const std::uint32_t number = first_[mesh] + static_cast<std::uint32_t>(triangle);
     const Job job{drawn, seen, seen.nearness(), triangle, number};
     const bool is_whole =
-        std::all_of(points.begin(), points.end(), [&](const SeenPoint& p) { return isDrawable(p, camera_.leastW()); });
+        std::all_of(points.begin(), points.end(), [&](const SeenPoint& p) { return isDrawable(p, camera_.minW()); });
     if (is_whole) {
         drawPart(job, points[0], points[1], points[2], effort);
         return;
     }
-    const Polygon polygon = cutToPicture(points, camera_.leastW());
+    const Polygon polygon = cutToPicture(points, camera_.minW());
     for (std::size_t k = 2; k < polygon.size(); ++k) drawPart(job, polygon[0], polygon[k - 1], polygon[k], effort);
 }
 

@@ -45,7 +45,7 @@ class Camera {
         return {center_x_ * depth + x, center_y_ * depth + y, depth, 1};
     }
     /// Returns the minimum w of visible points. Points with a smaller w are too close to the camera.
-    [[nodiscard]] double leastW() const { return least_w_; }
+    [[nodiscard]] double minW() const { return min_w_; }
 
     [[nodiscard]] const DVec3& right() const { return right_; }
     [[nodiscard]] const DVec3& up() const { return up_; }
@@ -56,7 +56,7 @@ class Camera {
     DVec3 right_{1, 0, 0}, up_{0, 1, 0}, back_{0, 0, 1}, eye_{};
     double center_x_ = 0, center_y_ = 0;
     double scale_ = 1;  ///< samples per unit; for a perspective camera, at distance 1
-    double least_w_ = 0;
+    double min_w_ = 0;
     bool is_perspective_ = true;
 };
 

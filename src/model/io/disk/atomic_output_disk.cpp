@@ -132,11 +132,11 @@ std::optional<Abandoned> abandoned(std::string_view name) {
     name.remove_suffix(std::string_view(kTemporaryEnding).size());
     name.remove_prefix(std::min(name.size(), at + machineMark().size()));
     const std::size_t dash = name.find('-');
-    constexpr std::size_t kMostDigits = 10;
+    constexpr std::size_t kMaxDigits = 10;
     const auto hasOnly = [](std::string_view text, const char* digits, std::size_t most) {
         return !text.empty() && text.size() <= most && text.find_first_not_of(digits) == std::string_view::npos;
     };
-    if (dash == std::string_view::npos || !hasOnly(name.substr(0, dash), "0123456789", kMostDigits) ||
+    if (dash == std::string_view::npos || !hasOnly(name.substr(0, dash), "0123456789", kMaxDigits) ||
         !hasOnly(name.substr(dash + 1), "0123456789abcdef", 16))
         return {};
     const std::uint64_t process = std::strtoull(std::string(name.substr(0, dash)).c_str(), nullptr, 10);
@@ -158,12 +158,12 @@ bool removeAbandoned(const Path& folder, const FolderEntry& entry) {
 }  // namespace
 
 Path besideName(const Path& target, const char* ending) {
-    constexpr std::size_t kMostBytes = 255;
+    constexpr std::size_t kMaxBytes = 255;
     const std::string tail =
         machineMark() + std::to_string(processNumber()) + "-" + sixteenDigits(randomNumber()) + ending;
     std::string name = Path(fs::path(target).filename()).string();
-    if (name.size() + tail.size() > kMostBytes) {
-        std::size_t length = kMostBytes - tail.size();
+    if (name.size() + tail.size() > kMaxBytes) {
+        std::size_t length = kMaxBytes - tail.size();
         // Cuts at the start of a UTF-8 character (continuation bytes are 10xxxxxx).
         while (length > 0 && (static_cast<unsigned char>(name[length]) & 0xc0u) == 0x80u) --length;
         name.resize(length);

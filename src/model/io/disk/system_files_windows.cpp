@@ -63,13 +63,13 @@ CFile openFile(const Path& path, const char* mode) {
 
 bool readAt(std::FILE* file, std::size_t begin, std::span<std::uint8_t> to) {
     const auto handle = reinterpret_cast<HANDLE>(_get_osfhandle(_fileno(file)));
-    constexpr std::size_t kMostAtOnce = std::size_t{1} << 30;
+    constexpr std::size_t kMaxAtOnce = std::size_t{1} << 30;
     while (!to.empty()) {
         OVERLAPPED place = {};
         place.Offset = static_cast<DWORD>(begin);
         place.OffsetHigh = static_cast<DWORD>(std::uint64_t{begin} >> 32);
         DWORD count = 0;
-        const auto wanted = static_cast<DWORD>(std::min(to.size(), kMostAtOnce));
+        const auto wanted = static_cast<DWORD>(std::min(to.size(), kMaxAtOnce));
         if (ReadFile(handle, to.data(), wanted, &count, &place) == 0 || count == 0) return false;
         begin += count;
         to = to.subspan(count);
