@@ -49,7 +49,7 @@ tspace_ErrorCode finishCall(const Error& error, tspace_Error* out) noexcept {
     return code;
 }
 
-std::string neededText(const char* text, const char* name) {
+std::string requiredText(const char* text, const char* name) {
     if (text == nullptr) failFile(ErrorCode::nullData, std::string(name) + " is null");
     return text;
 }

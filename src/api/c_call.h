@@ -59,7 +59,7 @@ tspace_ErrorCode atCallBorder(tspace_Error* out, std::initializer_list<tspace_By
 }
 
 /// Returns a text argument. Fails with nullData if it is null.
-std::string neededText(const char* text, const char* name);
+std::string requiredText(const char* text, const char* name);
 
 /// Parses options; null means none. Fails with invalidOption.
 void readOptions(const options::OptionList& list, const char* text, options::Given& given);

@@ -175,7 +175,7 @@ void readFinishOptions(const char* text, FinishOptions& options) {
 tspace_ErrorCode tspace_generateFile(const char* input, const char* output, const char* options, tspace_Bytes* report,
                                      tspace_Error* error) noexcept {
     return atCallBorder(error, {report}, [&] {
-        const std::string from = neededText(input, "input"), to = neededText(output, "output");
+        const std::string from = requiredText(input, "input"), to = requiredText(output, "output");
         GenerateOptions chosen;
         readGenerateOptions(options, chosen);
         generate(from, to, chosen, report);
@@ -210,7 +210,7 @@ tspace_ErrorCode tspace_generateBytes(const tspace_Model* model, const char* opt
 tspace_ErrorCode tspace_checkFile(const char* input, const char* options, tspace_Bytes* report,
                                   tspace_Error* error) noexcept {
     return atCallBorder(error, {report}, [&] {
-        const std::string from = neededText(input, "input");
+        const std::string from = requiredText(input, "input");
         options::CheckRequest request;
         readCheckOptions(options, request);
         check(from, request, report);
@@ -236,7 +236,7 @@ tspace_ErrorCode tspace_checkBytes(const tspace_Model* model, const char* option
 tspace_ErrorCode tspace_inspectFile(const char* input, const char* options, tspace_Bytes* report,
                                     tspace_Error* error) noexcept {
     return atCallBorder(error, {report}, [&] {
-        const std::string from = neededText(input, "input");
+        const std::string from = requiredText(input, "input");
         FileOptions chosen;
         readInspectOptions(options, chosen);
         inspect(from, chosen, report);
@@ -256,7 +256,7 @@ tspace_ErrorCode tspace_inspectBytes(const tspace_Model* model, const char* opti
 tspace_ErrorCode tspace_identifyFile(const char* input, const char* options, tspace_Bytes* report,
                                      tspace_Error* error) noexcept {
     return atCallBorder(error, {report}, [&] {
-        const std::string from = neededText(input, "input");
+        const std::string from = requiredText(input, "input");
         IdentifyOptions chosen;
         readIdentifyOptions(options, chosen);
         identify(from, chosen, report);
@@ -276,7 +276,7 @@ tspace_ErrorCode tspace_identifyBytes(const tspace_Model* model, const char* opt
 tspace_ErrorCode tspace_diffFiles(const char* a, const char* b, const char* options, tspace_Bytes* report,
                                   tspace_Error* error) noexcept {
     return atCallBorder(error, {report}, [&] {
-        const std::string from_a = neededText(a, "a"), from_b = neededText(b, "b");
+        const std::string from_a = requiredText(a, "a"), from_b = requiredText(b, "b");
         options::DiffRequest request;
         readDiffOptions(options, request);
         diff(from_a, from_b, request, report);
@@ -299,7 +299,7 @@ tspace_ErrorCode tspace_diffBytes(const tspace_Model* a, const tspace_Model* b, 
 tspace_ErrorCode tspace_flipGreenFile(const char* input, const char* output, const char* options, tspace_Bytes* report,
                                       tspace_Error* error) noexcept {
     return atCallBorder(error, {report}, [&] {
-        const std::string from = neededText(input, "input"), to = neededText(output, "output");
+        const std::string from = requiredText(input, "input"), to = requiredText(output, "output");
         FlipGreenOptions chosen;
         readFlipGreenOptions(options, chosen);
         makeFile(flipGreenFile, report::flipGreenJson, from, to, chosen, report);
@@ -309,7 +309,7 @@ tspace_ErrorCode tspace_flipGreenFile(const char* input, const char* output, con
 tspace_ErrorCode tspace_convertMapFile(const char* input, const char* output, const char* options, tspace_Bytes* report,
                                        tspace_Error* error) noexcept {
     return atCallBorder(error, {report}, [&] {
-        const std::string from = neededText(input, "input"), to = neededText(output, "output");
+        const std::string from = requiredText(input, "input"), to = requiredText(output, "output");
         ConvertMapFileOptions chosen;
         readConvertMapOptions(options, chosen);
         makeFile(convertMapFile, report::convertMapJson, from, to, chosen, report);
@@ -319,7 +319,7 @@ tspace_ErrorCode tspace_convertMapFile(const char* input, const char* output, co
 tspace_ErrorCode tspace_heightToNormalFile(const char* input, const char* output, const char* options,
                                            tspace_Bytes* report, tspace_Error* error) noexcept {
     return atCallBorder(error, {report}, [&] {
-        const std::string from = neededText(input, "input"), to = neededText(output, "output");
+        const std::string from = requiredText(input, "input"), to = requiredText(output, "output");
         HeightToNormalFileOptions chosen;
         readHeightToNormalOptions(options, chosen);
         makeFile(heightToNormalFile, report::heightToNormalJson, from, to, chosen, report);
@@ -329,7 +329,7 @@ tspace_ErrorCode tspace_heightToNormalFile(const char* input, const char* output
 tspace_ErrorCode tspace_compressMapFile(const char* input, const char* output, const char* options,
                                         tspace_Bytes* report, tspace_Error* error) noexcept {
     return atCallBorder(error, {report}, [&] {
-        const std::string from = neededText(input, "input"), to = neededText(output, "output");
+        const std::string from = requiredText(input, "input"), to = requiredText(output, "output");
         CompressMapFileOptions chosen;
         readCompressMapOptions(options, chosen);
         makeFile(compressMapFile, report::compressMapJson, from, to, chosen, report);
@@ -357,8 +357,8 @@ tspace_ErrorCode tspace_compressMapBytes(const uint8_t* data, size_t size, const
 tspace_ErrorCode tspace_bakeFile(const char* low, const char* high, const char* output, const char* options,
                                  tspace_Bytes* report, tspace_Error* error) noexcept {
     return atCallBorder(error, {report}, [&] {
-        const std::string from = neededText(low, "low"), seen = neededText(high, "high");
-        const std::string to = neededText(output, "output");
+        const std::string from = requiredText(low, "low"), seen = requiredText(high, "high");
+        const std::string to = requiredText(output, "output");
         BakeFileOptions chosen;
         readBakeOptions(options, chosen);
         report::Outcome<BakeFileReport> outcome{.input = from, .output = to};
@@ -371,7 +371,7 @@ tspace_ErrorCode tspace_bakeFile(const char* low, const char* high, const char* 
 tspace_ErrorCode tspace_finishFile(const char* input, const char* output, const char* options, tspace_Bytes* report,
                                    tspace_Error* error) noexcept {
     return atCallBorder(error, {report}, [&] {
-        const std::string from = neededText(input, "input"), to = neededText(output, "output");
+        const std::string from = requiredText(input, "input"), to = requiredText(output, "output");
         FinishOptions chosen;
         readFinishOptions(options, chosen);
         report::Outcome<FinishReport> outcome{.input = from, .output = to};

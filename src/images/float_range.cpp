@@ -59,9 +59,9 @@ class RangeEvidence {
     /// Returns whether most vectors point along +z. Unit length alone is not sufficient, because colors and factors
     /// can have it too.
     [[nodiscard]] bool pointsUp() const {
-        constexpr double kUp = 0.8, kAside = 0.25;
+        constexpr double kUp = 0.8, kMaxMeanXy = 0.25;
         const auto n = static_cast<double>(count_);
-        return sum_z_ > kUp * n && std::fabs(sum_x_) < kAside * n && std::fabs(sum_y_) < kAside * n;
+        return sum_z_ > kUp * n && std::fabs(sum_x_) < kMaxMeanXy * n && std::fabs(sum_y_) < kMaxMeanXy * n;
     }
     [[nodiscard]] std::string lengths() const { return has_z_ ? "unit vectors" : "x and y of unit vectors"; }
 

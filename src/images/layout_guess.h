@@ -16,7 +16,7 @@ namespace tspace {
 inline MapLayout twoChannelLayout(MapChannel x, MapChannel y) { return {.x = {x}, .y = {y}, .z = {MapChannel::none}}; }
 
 /// Detects common layouts: x in alpha and y in green, with constant red; or x in all three colors and y in alpha.
-class LayoutGuess {
+class LayoutDetector {
   public:
     /// Adds a texel with channels from 0 to 1.
     void add(const Vec3& texel, float alpha) {

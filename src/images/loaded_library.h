@@ -32,11 +32,11 @@ class LoadedLibrary {
         library_ = dlopen(name, RTLD_NOW | RTLD_LOCAL);
         if (library_ != nullptr) return;
         const char* const reason = dlerror();
-        const auto says = [reason](const char* part) {
+        const auto mentions = [reason](const char* part) {
             return reason != nullptr && std::strstr(reason, part) != nullptr;
         };
-        if (says("ELF") || says("symbol") || says("version") || says("no such")) return;
-        if (says(std::strerror(ENOENT)) || says(std::strerror(EACCES))) return;
+        if (mentions("ELF") || mentions("symbol") || mentions("version") || mentions("no such")) return;
+        if (mentions(std::strerror(ENOENT)) || mentions(std::strerror(EACCES))) return;
         throwOutOfMemory();
     }
 

@@ -84,7 +84,7 @@ std::optional<TgaHead> readTgaHead(ByteSpan bytes) {
 
 struct Texel {
     std::uint8_t red = 0, green = 0, blue = 0, alpha = 255;
-    bool is_there = true;  ///< false: the palette has no such entry
+    bool exists = true;  ///< false: the palette has no such entry
 };
 
 /// Converts a channel from 5 bits to the nearest 8-bit value.
@@ -103,7 +103,7 @@ class TgaReader {
   public:
     TgaReader(ByteSpan bytes, const TgaHead& head) : bytes_(bytes), head_(head) {
         if (head.kind != TgaKind::palette) return;
-        palette_.fill({.is_there = false});
+        palette_.fill({.exists = false});
         for (std::size_t i = 0; i < head.entry_count && head.first_entry + i < palette_.size(); ++i)
             palette_[head.first_entry + i] =
                 colorOf(bytes.data() + head.palette_at + i * (head.entry_bits / 8), head.entry_bits);
@@ -156,7 +156,7 @@ class TgaReader {
             column_ = 0;
             ++row_;
         }
-        return texel.is_there;
+        return texel.exists;
     }
 
     ByteSpan bytes_;
@@ -183,9 +183,9 @@ std::optional<TgaImage> decodeTgaPixels(ByteSpan bytes, std::uint64_t most_pixel
     if (!TgaReader(bytes, *head).read(out)) return {};
     // Programs that do not know the meaning of the fourth byte write 0, and declare no alpha. Others have alpha but do
     // not declare it.
-    const bool is_said = head->alpha_bits != 0;
-    const bool is_nothing = std::all_of(out.alpha.begin(), out.alpha.end(), [](std::uint8_t a) { return a == 0; });
-    if (!is_said && is_nothing) out.alpha = {};
+    const bool is_declared = head->alpha_bits != 0;
+    const bool is_all_zero = std::all_of(out.alpha.begin(), out.alpha.end(), [](std::uint8_t a) { return a == 0; });
+    if (!is_declared && is_all_zero) out.alpha = {};
     out.is_gray = head->kind == TgaKind::gray;
     return out;
 }

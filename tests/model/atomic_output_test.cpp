@@ -143,9 +143,11 @@ TEST(AtomicOutput, UsesUnpredictableTemporaryNames) {
     }
     EXPECT_EQ(names.size(), 20u);
     const std::string longest(255, 'a');
-    EXPECT_LE(
-        std::filesystem::path(besideName(folder.path(longest), kTemporaryEnding).string()).filename().string().size(),
-        255u);
+    EXPECT_LE(std::filesystem::path(temporaryName(folder.path(longest), kTemporaryEnding).string())
+                  .filename()
+                  .string()
+                  .size(),
+              255u);
     AtomicOutput output;
     output.add(folder.path(longest), toBytes("new"));
     output.commit();
@@ -193,9 +195,9 @@ TEST(AbandonedFiles, AreRestoredIfNoFileReplacedThem) {
     const pid_t child = fork();
     if (child == 0) {
         folder.write("a", std::string("set aside"));
-        renameFile(folder.path("a"), besideName(folder.path("a"), kAsideEnding));
+        renameFile(folder.path("a"), temporaryName(folder.path("a"), kBackupEnding));
         folder.write("b", std::string("set aside"));
-        renameFile(folder.path("b"), besideName(folder.path("b"), kAsideEnding));
+        renameFile(folder.path("b"), temporaryName(folder.path("b"), kBackupEnding));
         folder.write("b", std::string("new"));
         _exit(0);
     }

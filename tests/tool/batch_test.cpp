@@ -239,7 +239,7 @@ TEST(Batch, ResumeRemovesTemporaryFilesOfKilledRuns) {
     EXPECT_EQ(folder.files("out").size(), 2U);
     // One file of this running process, and one of the user.
     const std::string mine =
-        std::filesystem::path(besideName(Path("out/even/d.glb"), kTemporaryEnding).string()).string();
+        std::filesystem::path(temporaryName(Path("out/even/d.glb"), kTemporaryEnding).string()).string();
     folder.write(mine, "at work");
     folder.write("out/even/e.glb.tmp", "the user's");
     const std::string command = "generate in -o out -q --manifest m.jsonl";

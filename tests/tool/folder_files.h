@@ -41,7 +41,7 @@ inline void leaveTemporaryFile(const TempFolder& folder, const std::string& targ
         folder.write(target, "half");
         std::error_code ignored;
         const std::filesystem::path file = folder.path(target);
-        std::filesystem::rename(file, besideName(Path(file.string()), kTemporaryEnding).string(), ignored);
+        std::filesystem::rename(file, temporaryName(Path(file.string()), kTemporaryEnding).string(), ignored);
         _exit(0);
     }
     int status = 0;

@@ -117,7 +117,7 @@ bool decodeMeshopt(const MeshoptCoding& coding, std::span<const std::uint8_t> da
                                    static_cast<std::uint32_t>(coding.filter)) != 0;
 }
 
-Bytes encodeAsItIs(const MeshoptCoding& coding, std::span<const std::uint8_t> rows) {
+Bytes encodeUnchecked(const MeshoptCoding& coding, std::span<const std::uint8_t> rows) {
     needEncoder(
         Codec::meshoptEncoder,
         "the output is compressed with meshopt, but the option meshopt has no encoder; use MeshoptEncoder of the npm "
@@ -150,7 +150,7 @@ std::string decodeDraco(std::span<const std::uint8_t> data, const DracoLimits& l
     return {};
 }
 
-bool encodeDracoAsItIs(DracoMesh& mesh, Bytes& data) {
+bool encodeDracoUnchecked(DracoMesh& mesh, Bytes& data) {
     needEncoder(
         Codec::dracoEncoder,
         "the output is compressed with Draco, but the option draco has no encoder; use the encoder module of the npm "

@@ -212,7 +212,7 @@ void findCause(FileBaking& state, const BakedFile& file, const LowPart& part) {
 void addMap(FileBaking& state, const std::string& path, const std::vector<std::uint8_t>& png,
             std::optional<MapSlot> slot, const LowModel::Image& image) {
     // A new bake may overwrite the map that the low poly references.
-    state.step.inputs.letOff(path);
+    state.step.inputs.allowReplacing(path);
     if (state.options.out_mesh.empty() || !slot) {
         state.files.add(path, png);
     } else {

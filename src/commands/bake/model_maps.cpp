@@ -286,7 +286,7 @@ class MapPlacing {
         } else {
             append("images", Json::object());
         }
-        if (old_view) editor_.letGoOfView(*old_view);
+        if (old_view) editor_.releaseView(*old_view);
         Json image = Json::object();
         image["name"] = stemOf(map.path);
         if (name) {

@@ -37,7 +37,7 @@ void chooseXAndY(const DecodedMap& map, MapLayout& layout) {
 /// Returns the layout that the texels of an image with alpha suggest. If all colors are equal, green and alpha may also
 /// hold x and y in reverse.
 MapLayout guessedLayout(const DecodedMap& map, std::span<const TexelBytes> texels) {
-    LayoutGuess guess;
+    LayoutDetector guess;
     for (const TexelBytes& texel : texels) {
         const auto part = [&](std::size_t i) { return static_cast<float>(texel[i]) / 255.0F; };
         guess.add({part(0), part(1), part(2)}, part(3));

@@ -149,7 +149,7 @@ std::vector<Verdict> judge(Model& model, const GenerateOptions& options) {
     std::vector<Verdict> verdicts;
     for (std::size_t i = 0; i < judgements.size(); ++i)
         verdicts.push_back(verdictOf(judgements[i], scene.primitives[i].hasFreeTangents()));
-    document.memory->giveBack(left);
+    document.memory->restore(left);
     return verdicts;
 }
 
@@ -307,7 +307,7 @@ std::string warnOfInvertedSigns(Model& model, const GeneratePlan& plan, const Ma
                             ? 1
                             : 0;
     });
-    memory.giveBack(left);
+    memory.restore(left);
     if (failure && failure->code != ErrorCode::tooLarge) throw FileError{*failure};
     if (failure) return "the signs of the replaced tangents were not examined, because the memory limit is too low";
     if (inverted == 0) return {};

@@ -306,14 +306,14 @@ MapFlips planFlips(Model& model, std::span<const PrimitiveReport> reports, const
     Scene scene = model.scene();
     const std::int64_t left = document.memory->left();
     readImages(document, scene);
-    tellPlaces(document, model.primitives(), scene);
+    setPlaces(document, model.primitives(), scene);
     std::vector<JudgedMap> maps = judgeMaps(scene, keeps_tangents, options);
     for (JudgedMap& map : maps) {
         if (options.maps.mend) mendInPlace(document, scene, options, map, flips);
         if (map.report.flipped && !map.report.mended) flips.images[map.image] = std::move(map.flipped);
         flips.reports.push_back(std::move(map.report));
     }
-    document.memory->giveBack(left);
+    document.memory->restore(left);
     for (const auto& [image, bytes] : flips.images) document.memory->take(bytes.size(), join("/images", image));
     for (const auto& [image, bytes] : flips.mended) document.memory->take(bytes.size(), join("/images", image));
     Alternatives(document, flips).decide();

@@ -285,7 +285,7 @@ WorkedOn generate(Input& input, bool with_images, const GenerateStep& step, Gene
         convertContainer(document, input.target, will_edit, report.warnings);
     }
     // Images are embedded after the decisions on maps, which find images by their names.
-    if (with_images) takeImagesIn(document, input.target, report.warnings);
+    if (with_images) embedImagesInGlb(document, input.target, report.warnings);
     tell(input.options, "reading", 1, 1);
     const WorkedOn worked_on = edit(input, storage, std::move(decisions), report);
     report.changed = report.changed || was_turned || were_mended || was_repaired;
@@ -351,7 +351,7 @@ GeneratedModel generateModel(Model&& model, const GenerateOptions& options, bool
     Input input = toInput(std::move(model), "model.glb", true, options);
     GenerateReport report;
     generate(input, with_images, step, report);
-    input.model.readAnew();
+    input.model.reload();
     return {std::move(input.model), std::move(report)};
 }
 

@@ -47,7 +47,7 @@ void convertHeightMap(const Scene& scene, std::size_t image, const GenerateOptio
     if (!made.is_height_map) return;
     if (made.file.empty()) return skipHeightMap(material, made.why_not, model);
     model.memory->take(made.file.size(), "material");
-    material.made_normal_map = std::make_shared<const Bytes>(std::move(made.file));
+    material.converted_normal_map = std::make_shared<const Bytes>(std::move(made.file));
     material.normal_scale = 1;
     const std::string lean = shortNumber(made.mean_lean_deg) + " degrees on average";
     NormalMapReport& report = reports.emplace_back();
@@ -96,7 +96,7 @@ std::vector<NormalMapReport> prepareMaps(std::span<const ObjPrimitive> primitive
     for (const ScenePrimitive& primitive : scene.primitives) {
         for (const TangentUse& use : primitive.uses) {
             const Material& material = model.materials[use.material];
-            if (material.normal_texture.used() && !material.made_normal_map)
+            if (material.normal_texture.used() && !material.converted_normal_map)
                 textures[*use.image] = &material.normal_texture;
         }
     }
@@ -116,7 +116,7 @@ std::vector<NormalMapReport> prepareMaps(std::span<const ObjPrimitive> primitive
         reports.push_back(std::move(map.report));
         if (!bytes.empty()) made.emplace_back(textures[map.image]->path(), std::move(bytes));
     }
-    model.memory->giveBack(left);
+    model.memory->restore(left);
     for (auto& [path, bytes] : made) {
         model.memory->take(bytes.size(), "material");
         model.flipped_maps[path] = std::move(bytes);
@@ -330,7 +330,7 @@ Result<GenerateReport> generateObj(const std::string& input, const std::string& 
 gltf::GeneratedModel generateObjModel(const std::string& input, const GenerateOptions& options) {
     GenerateReport report;
     gltf::Model model(generate(input, "model.glb", options, report).document);
-    model.readAnew();
+    model.reload();
     return {std::move(model), std::move(report)};
 }
 

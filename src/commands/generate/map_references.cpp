@@ -190,7 +190,7 @@ void ImagePlacer::takeIn(std::size_t image, Bytes&& bytes) {
 
 void ImagePlacer::putInView(std::size_t image, Bytes&& bytes, bool keeps_old, bool is_of_all) {
     const auto view = document_.json["images"][image]["bufferView"].get<std::size_t>();
-    if (!keeps_old) editor_.letGoOfView(view);
+    if (!keeps_old) editor_.releaseView(view);
     const auto known = views_.find(view);
     const std::size_t stored =
         known != views_.end() && is_of_all ? known->second : editor_.storeBlob(std::move(bytes), std::nullopt);

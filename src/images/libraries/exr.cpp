@@ -16,7 +16,7 @@
 #include "images/float_image.h"
 #include "images/layout_guess.h"
 #include "images/loaded_library.h"
-#include "images/noted_memory.h"
+#include "images/tracked_memory.h"
 
 namespace tspace {
 
@@ -287,7 +287,7 @@ class ExrReader {
         why_ = "the EXR is damaged";
         exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
         setup.error_handler_fn = ignoreError;
-        setup.alloc_fn = notedMalloc;
+        setup.alloc_fn = trackedMalloc;
         setup.free_fn = std::free;
         setup.user_data = &bytes_;
         setup.read_fn = readExrBytes;
@@ -522,7 +522,7 @@ std::optional<std::vector<std::uint8_t>> encodeExr(const FloatImage& image, unsi
     ExrContext file;
     exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
     setup.error_handler_fn = ignoreError;
-    setup.alloc_fn = notedMalloc;
+    setup.alloc_fn = trackedMalloc;
     setup.free_fn = std::free;
     setup.user_data = &bytes;
     setup.write_fn = writeExrBytes;

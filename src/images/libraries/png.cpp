@@ -9,7 +9,7 @@
 #include "core/base/memory.h"
 #include "images/codecs.h"
 #include "images/flip_green.h"
-#include "images/noted_memory.h"
+#include "images/tracked_memory.h"
 
 namespace tspace {
 
@@ -25,7 +25,7 @@ using PngContext = std::unique_ptr<spng_ctx, FreePngContext>;
 /// Creates a decoder or encoder. Never null.
 PngContext makeContext(int flags) {
     has_allocation_failed = false;
-    spng_alloc memory{notedMalloc, notedRealloc, notedCalloc, std::free};
+    spng_alloc memory{trackedMalloc, trackedRealloc, trackedCalloc, std::free};
     PngContext context(spng_ctx_new2(&memory, flags));
     if (!context) throw OutOfMemory{};
     return context;

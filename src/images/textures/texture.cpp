@@ -128,7 +128,7 @@ std::string brokenTexture(const TextureFile& texture) {
 
 void guessLayout(FloatImage& image) {
     if (image.alpha.empty() || !(image.texture.layout == MapLayout{})) return;
-    LayoutGuess guess;
+    LayoutDetector guess;
     for (std::size_t i = 0; i < image.texels.size(); ++i) guess.add(image.texels[i], image.alpha[i]);
     if (const std::optional<MapLayout> layout = guess.layout()) {
         image.texture.layout = *layout;

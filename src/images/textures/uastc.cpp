@@ -155,8 +155,10 @@ void readUastcWeights(BlockBits& bits, UastcBlock& block) {
 
 /// Reads a block. Returns false if it is invalid. For a solid block only the first end is set.
 bool readUastcBlock(const std::uint8_t* bytes, UastcBlock& block) {
-    const auto isOf = [&](const UastcMode& mode) { return (bytes[0] & ((1U << mode.code_bits) - 1)) == mode.code; };
-    const auto* const found = std::find_if(std::begin(kUastcModes), std::end(kUastcModes), isOf);
+    const auto hasCodeOf = [&](const UastcMode& mode) {
+        return (bytes[0] & ((1U << mode.code_bits) - 1)) == mode.code;
+    };
+    const auto* const found = std::find_if(std::begin(kUastcModes), std::end(kUastcModes), hasCodeOf);
     if (found == std::end(kUastcModes)) return false;
     block.number = static_cast<std::size_t>(found - std::begin(kUastcModes));
     block.mode = *found;

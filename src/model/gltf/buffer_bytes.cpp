@@ -35,7 +35,7 @@ class BufferBytes::Later {
     Bytes bytes_;
 };
 
-std::span<std::uint8_t> BufferBytes::Piece::there() const { return bytes.empty() ? later->bytes() : bytes; }
+std::span<std::uint8_t> BufferBytes::Piece::generatedBytes() const { return bytes.empty() ? later->bytes() : bytes; }
 
 BufferBytes::BufferBytes(std::span<std::uint8_t> bytes) { addPiece({.count = bytes.size(), .bytes = bytes}); }
 
@@ -46,7 +46,7 @@ std::span<std::uint8_t> BufferBytes::range(std::size_t begin, std::size_t count)
     if (after != pieces_.begin()) {
         const Piece& piece = *(after - 1);
         const std::size_t offset = begin - piece.begin;
-        if (offset < piece.count && count <= piece.count - offset) return piece.there().subspan(offset, count);
+        if (offset < piece.count && count <= piece.count - offset) return piece.generatedBytes().subspan(offset, count);
     }
     failFile(ErrorCode::internal, "internal error: a range of a buffer is not contiguous");
 }
@@ -62,7 +62,7 @@ Bytes BufferBytes::copy(std::size_t begin, std::size_t count) const {
         const std::size_t from = std::max(begin, piece.begin);
         const std::size_t to = std::min(begin + count, piece.begin + piece.count);
         if (from >= to) continue;
-        const auto part = piece.there().subspan(from - piece.begin, to - from);
+        const auto part = piece.generatedBytes().subspan(from - piece.begin, to - from);
         bytes.insert(bytes.end(), part.begin(), part.end());
     }
     return bytes;
@@ -91,12 +91,13 @@ std::size_t BufferBytes::append(std::shared_ptr<const ByteMaker> maker, std::siz
 }
 
 void BufferBytes::makeAll() {
-    for (; there_count_ < pieces_.size(); ++there_count_) static_cast<void>(pieces_[there_count_].there());
+    for (; generated_count_ < pieces_.size(); ++generated_count_)
+        static_cast<void>(pieces_[generated_count_].generatedBytes());
 }
 
 void BufferBytes::cut(std::span<const ByteCut> cuts) {
     const std::vector<Piece> old = std::exchange(pieces_, {});
-    size_ = there_count_ = 0;
+    size_ = generated_count_ = 0;
     auto cut = cuts.begin();
     for (const Piece& piece : old) {
         const std::size_t end = piece.begin + piece.count;
@@ -108,7 +109,7 @@ void BufferBytes::cut(std::span<const ByteCut> cuts) {
                 addPiece(piece);
             } else if (!is_cut) {
                 addPiece({.count = stop - at,
-                          .bytes = piece.there().subspan(at - piece.begin, stop - at),
+                          .bytes = piece.generatedBytes().subspan(at - piece.begin, stop - at),
                           .later = piece.later});
             }
             at = stop;
@@ -128,7 +129,7 @@ Bytes BufferBytes::joined() const {
     Bytes all;
     all.reserve(size_);
     for (const Piece& piece : pieces_) {
-        const auto bytes = piece.there();
+        const auto bytes = piece.generatedBytes();
         all.insert(all.end(), bytes.begin(), bytes.end());
     }
     return all;

@@ -57,7 +57,7 @@ class BufferBytes {
         std::span<std::uint8_t> bytes = {};  ///< empty: `later` provides the bytes
         std::shared_ptr<Later> later = {};
 
-        [[nodiscard]] std::span<std::uint8_t> there() const;
+        [[nodiscard]] std::span<std::uint8_t> generatedBytes() const;
     };
     void addPiece(Piece piece);
     void pad(std::size_t alignment);
@@ -65,7 +65,7 @@ class BufferBytes {
     std::vector<Piece> pieces_;   ///< the pieces, none of them empty
     std::vector<Bytes> storage_;  ///< owns the bytes of all pieces except views
     std::size_t size_ = 0;
-    std::size_t there_count_ = 0;  ///< number of leading pieces whose bytes are known to be generated
+    std::size_t generated_count_ = 0;  ///< number of leading pieces whose bytes are known to be generated
 };
 
 }  // namespace tspace::gltf

@@ -257,7 +257,7 @@ void unpackDraco(Document& document, Editor& editor) {
         for (Json& primitive : mesh["primitives"]) {
             const Json* extension = findExtension(primitive, kDraco);
             if (extension == nullptr) continue;
-            editor.letGoOfView((*extension)["bufferView"].get<std::size_t>());
+            editor.releaseView((*extension)["bufferView"].get<std::size_t>());
             primitive["extensions"].erase(kDraco);
             if (primitive["extensions"].empty()) primitive.erase("extensions");
             if (primitive.contains("indices")) indices.insert(primitive["indices"].get<std::size_t>());

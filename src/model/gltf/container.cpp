@@ -275,7 +275,7 @@ void embedImages(Document& document, std::vector<std::string>& warnings) {
 }
 
 /// Returns a path relative to the folder of the output; without a folder if the output has none.
-Path besideTarget(const OutputTarget& target, const Path& name) {
+Path pathNextToTarget(const OutputTarget& target, const Path& name) {
     return fs::path(target.path).parent_path() / fs::path(name);
 }
 
@@ -292,12 +292,12 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
     if (leadsAway(relative) != nullptr) why = "it is outside the folder of the model";
     if (!why.empty()) {
         // A model that embeds its images has already reported the missing one.
-        if (!target.takes_images_in) warnings.push_back("the file " + inQuotes(uri) + " was not copied: " + why);
+        if (!target.embeds_images) warnings.push_back("the file " + inQuotes(uri) + " was not copied: " + why);
         return;
     }
     const Path from = document.files.resolve(uri, place);
     output.addSource(from);
-    const Path to = besideTarget(target, relative);
+    const Path to = pathNextToTarget(target, relative);
     const std::vector<std::string> planned = output.files();
     if (std::find(planned.begin(), planned.end(), to.string()) != planned.end()) return;
     if (isThere(to)) {
@@ -313,7 +313,7 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
 
 /// Warns about missing images if no other step reads images.
 void noteMissingImages(const Document& document, const OutputTarget& target, std::vector<std::string>& warnings) {
-    if (target.takes_images_in || document.files.areNone()) return;
+    if (target.embeds_images || document.files.areNone()) return;
     for (const Json& image : rootArray(document, "images")) {
         const std::string uri = readString(image, "uri", "/images");
         if (uri.empty() || uriKind(uri) != UriKind::path || document.new_files.contains(pathOfUri(uri))) continue;
@@ -326,7 +326,7 @@ void noteMissingImages(const Document& document, const OutputTarget& target, std
 
 void copyNamedFiles(const Document& document, const OutputTarget& target, AtomicOutput& output,
                     std::vector<std::string>& warnings) {
-    for (const auto& [path, bytes] : document.new_files) output.add(besideTarget(target, path), bytes);
+    for (const auto& [path, bytes] : document.new_files) output.add(pathNextToTarget(target, path), bytes);
     if (target.same_folder) return noteMissingImages(document, target, warnings);
     const Json& buffers = rootArray(document, "buffers");
     for (std::size_t i = 0; i < buffers.size(); ++i) {
@@ -350,7 +350,7 @@ OutputTarget outputTarget(const Document& document, const Path& path, bool is_st
     target.path = path;
     if (!isGltfName(path) && !isGlbOutput(path)) failEnding(path, {".glb", ".vrm", ".gltf"});
     target.container = isGlbOutput(path) ? Container::glb : Container::gltf;
-    target.takes_images_in =
+    target.embeds_images =
         target.container == Container::glb && (document.container == Container::gltf || document.imported);
     if (is_stream) {
         if (target.container != Container::glb)
@@ -393,7 +393,7 @@ void convertContainer(Document& document, const OutputTarget& target, bool will_
                       std::vector<std::string>& warnings) {
     if (target.container == Container::glb) {
         const bool has_bin = document.buffers.empty() || document.buffers[0].source == BufferSource::bin;
-        if (target.takes_images_in || (!has_bin && will_edit)) joinBuffers(document);
+        if (target.embeds_images || (!has_bin && will_edit)) joinBuffers(document);
         document.container = Container::glb;
         if (!document.buffers.empty() && document.buffers[0].source == BufferSource::bin)
             document.buffers[0].own = true;
@@ -425,8 +425,8 @@ void convertContainer(Document& document, const OutputTarget& target, bool will_
     }
 }
 
-void takeImagesIn(Document& document, const OutputTarget& target, std::vector<std::string>& warnings) {
-    if (target.takes_images_in) embedImages(document, warnings);
+void embedImagesInGlb(Document& document, const OutputTarget& target, std::vector<std::string>& warnings) {
+    if (target.embeds_images) embedImages(document, warnings);
 }
 
 void writeDocument(Document& document, const OutputTarget& target, AtomicOutput& output,
@@ -453,7 +453,7 @@ void writeDocument(Document& document, const OutputTarget& target, AtomicOutput&
         output.add(target.path, bytesOf(writeJson(document.json, document.style)));
         for (const Buffer& buffer : document.buffers) {
             if (buffer.source == BufferSource::file && buffer.own && (buffer.edited || !target.in_place)) {
-                output.add(besideTarget(target, buffer.path), buffer.bytes.pieces(), execution);
+                output.add(pathNextToTarget(target, buffer.path), buffer.bytes.pieces(), execution);
             }
         }
     }
@@ -466,7 +466,7 @@ void writeUnchanged(const Document& document, const OutputTarget& target, Atomic
     output.add(target.path, document.file_bytes);
     for (const Buffer& buffer : document.buffers) {
         if (buffer.source == BufferSource::file && buffer.own && !target.same_folder) {
-            output.add(besideTarget(target, buffer.path), buffer.bytes.pieces());
+            output.add(pathNextToTarget(target, buffer.path), buffer.bytes.pieces());
         }
     }
     copyNamedFiles(document, target, output, warnings);

@@ -45,9 +45,9 @@ GlbFrame frameGlb(const std::string& json, std::optional<std::size_t> bin_bytes,
 struct OutputTarget {
     Path path = {};
     Container container = Container::glb;
-    bool in_place = false;         ///< the output replaces the input
-    bool same_folder = false;      ///< output is in the input's folder: referenced files need not be copied
-    bool takes_images_in = false;  ///< a .gltf becomes a .glb, which embeds its images
+    bool in_place = false;       ///< the output replaces the input
+    bool same_folder = false;    ///< output is in the input's folder: referenced files need not be copied
+    bool embeds_images = false;  ///< a .gltf becomes a .glb, which embeds its images
 };
 
 /// Determines the target by isGlbOutput(). Fails with unsupportedFile for names that are neither a GLB's nor end in
@@ -61,7 +61,7 @@ void convertContainer(Document& document, const OutputTarget& target, bool will_
 
 /// Embeds images in BIN if a .gltf becomes a .glb. Must be called after convertContainer; embedded images have no URI
 /// afterwards.
-void takeImagesIn(Document& document, const OutputTarget& target, std::vector<std::string>& warnings);
+void embedImagesInGlb(Document& document, const OutputTarget& target, std::vector<std::string>& warnings);
 
 /// Returns whether a buffer or image of the document references this file (a path relative to the model's folder).
 bool namesFile(const Document& document, const std::string& name);

@@ -182,7 +182,7 @@ class Decoder {
 
     /// Charges the budget for the declared size of accessors before values are decoded.
     void takeFromBudget(std::uint64_t bytes, const std::string& place) {
-        if (document_.memory->isUsers()) {
+        if (document_.memory->isFromUser()) {
             document_.memory->require(bytes * kWorkFactor, place);
             return;
         }

@@ -28,26 +28,27 @@ void Editor::moveUse(std::optional<std::size_t> from, std::size_t to) {
 void Editor::release(std::size_t index) {
     changed_ = true;
     if (--accessor_uses_[index] > 0) return;
-    letGoOf(readAccessor(document_, index));
+    freeAccessorData(readAccessor(document_, index));
     Json& accessor = document_.json["accessors"][index];
     for (const char* member : {"bufferView", "byteOffset", "min", "max", "sparse"}) accessor.erase(member);
     accessor["count"] = 1;
 }
 
 /// Frees the bytes of an accessor that will be replaced, and views without other uses.
-void Editor::letGoOf(const Accessor& old) {
+void Editor::freeAccessorData(const Accessor& old) {
     if (old.view) {
         const std::size_t begin = old.byte_offset;
-        letGo(*old.view, begin, old.count == 0 ? begin : begin + (old.count - 1) * old.stride + old.data_bytes);
+        releaseRange(*old.view, begin, old.count == 0 ? begin : begin + (old.count - 1) * old.stride + old.data_bytes);
     }
     if (old.sparse) {
         const SparsePart& sparse = *old.sparse;
-        letGo(sparse.index_view, sparse.index_offset, sparse.index_offset + sparse.count * bytesOf(sparse.index_type));
-        letGo(sparse.value_view, sparse.value_offset, sparse.value_offset + sparse.count * old.element_bytes);
+        releaseRange(sparse.index_view, sparse.index_offset,
+                     sparse.index_offset + sparse.count * bytesOf(sparse.index_type));
+        releaseRange(sparse.value_view, sparse.value_offset, sparse.value_offset + sparse.count * old.element_bytes);
     }
 }
 
-void Editor::letGo(std::size_t index, std::size_t begin, std::size_t end) {
+void Editor::releaseRange(std::size_t index, std::size_t begin, std::size_t end) {
     const BufferView range = readBufferView(document_, index);
     if (begin < end) vacated_.push_back({range.buffer, range.begin + begin, range.begin + end});
     const Json& view = rootArray(document_, "bufferViews")[index];
@@ -252,7 +253,7 @@ std::size_t Editor::store(ElementData&& data, std::optional<std::size_t> replace
     document_.memory->take(data.byteCount() + data.unfiltered.size(), "/accessors");
     changed_ = true;
     const Form form = data.in_draco ? Form{.is_draco = true} : formLike(data.like);
-    if (replaces) letGoOf(readAccessor(document_, *replaces));
+    if (replaces) freeAccessorData(readAccessor(document_, *replaces));
     if (form.is_draco || data.places) data.makeNow();
     std::optional<std::size_t> view;
     Json sparse;
@@ -347,8 +348,8 @@ void Editor::finish() {
 
 void Editor::require(const char* extension) { requireExtension(document_, extension); }
 
-void Editor::letGoOfView(std::size_t view) {
-    letGo(view, 0, readBufferView(document_, view).byte_count);
+void Editor::releaseView(std::size_t view) {
+    releaseRange(view, 0, readBufferView(document_, view).byte_count);
     changed_ = true;
 }
 

@@ -48,7 +48,7 @@ class Editor {
     /// Stores bytes in a view without a target and returns its index; `replaces`: a view that only the caller uses.
     std::size_t storeBlob(Bytes data, std::optional<std::size_t> replaces);
     /// Drops one reference to a view.
-    void letGoOfView(std::size_t view);
+    void releaseView(std::size_t view);
     /// Removes the meshopt extension of a view; the file then stores its decoded bytes.
     void unpackView(std::size_t view);
     /// Requests meshopt encoding (EXT_meshopt_compression) of the first `byte_count` bytes of an uncompressed view,
@@ -88,8 +88,8 @@ class Editor {
     std::size_t fallbackBuffer();
     /// Drops one reference to a view and frees its bytes from `begin` to `end`. A view without references becomes
     /// spare.
-    void letGo(std::size_t view, std::size_t begin, std::size_t end);
-    void letGoOf(const Accessor& old);
+    void releaseRange(std::size_t view, std::size_t begin, std::size_t end);
+    void freeAccessorData(const Accessor& old);
     void shrinkView(std::size_t view);
 
     Document& document_;

@@ -35,7 +35,7 @@ ElementData describe(const Document& document, const Accessor& accessor, std::si
 
 /// Returns whether the bytes are part of the model file (in BIN). These bytes live until the end of the run, and
 /// Editor::overwrite generates lazy pieces before it changes them.
-bool liesInModelFile(const Document& document, const std::uint8_t* data) {
+bool isInModelFile(const Document& document, const std::uint8_t* data) {
     const std::uint8_t *begin = document.file_bytes.data(), *end = begin + document.file_bytes.size();
     return !std::less<>{}(data, begin) && std::less<>{}(data, end);
 }
@@ -64,7 +64,7 @@ void GatheredBytes::make(std::size_t begin, std::span<std::uint8_t> to) const {
 
 ElementData gatherSplit(const Document& document, const Accessor& accessor, const SplitSources& sources) {
     const std::optional<ElementView> old = viewElements(document, accessor);
-    if (old && liesInModelFile(document, old->data) && filterOf(document, accessor) == MeshoptFilter::none) {
+    if (old && isInModelFile(document, old->data) && filterOf(document, accessor) == MeshoptFilter::none) {
         ElementData data = describe(document, accessor, sources.size());
         data.later = std::make_shared<GatheredBytes>(old->data, old->stride, accessor.element_bytes, sources);
         return data;

@@ -187,7 +187,7 @@ bool namesFlow(const std::string& text) {
 }
 
 /// Returns whether the extras of an object suggest hand-authored directions, by the name of a member or by its text.
-bool speaksOfFlow(const Json& object) {
+bool mentionsFlow(const Json& object) {
     const Json* extras = findMember(object, "extras");
     if (extras == nullptr || !extras->is_object()) return false;
     for (const auto& [name, value] : extras->items()) {
@@ -340,12 +340,12 @@ std::string otherTangentReader(const Document& document, const Primitive& primit
         for (const std::string& name : extensionsOf(object)) {
             if (!isKnownExtension(name)) return "the material extension " + name;
         }
-        if (speaksOfFlow(object)) return "extras of the material";
+        if (mentionsFlow(object)) return "extras of the material";
     }
     const Json& mesh = document.json["meshes"][primitive.mesh];
     const Json& object = mesh["primitives"][primitive.index];
-    if (speaksOfFlow(object)) return "extras of the primitive";
-    if (speaksOfFlow(mesh)) return "extras of the mesh";
+    if (mentionsFlow(object)) return "extras of the primitive";
+    if (mentionsFlow(mesh)) return "extras of the mesh";
     for (const auto& [name, accessor] : primitive.attributes) {
         if (name[0] == '_' && !isPackedAttribute(name) && namesFlow(name)) return "the attribute " + name;
     }

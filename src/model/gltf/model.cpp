@@ -96,7 +96,7 @@ void Model::wasEdited() {
     primitives_.reset();
 }
 
-void Model::readAnew() {
+void Model::reload() {
     wasEdited();
     Document& document = *document_;
     std::uint64_t stored = 0;

@@ -50,7 +50,7 @@ class Model {
 
     /// Makes the model equal to the result of reading its file: compressed geometry is decoded again, since Draco
     /// reorders and rounds vertices and meshopt rotates triangles; the budget is that of a file of this size.
-    void readAnew();
+    void reload();
 
   private:
     std::unique_ptr<Document> document_;

@@ -83,11 +83,11 @@ bool removeMiscounted(Document& document, std::span<Primitive> primitives, std::
     bool is_changed = false;
     for (Primitive& primitive : primitives) {
         for (const auto& [name, index] : primitive.miscounted) {
-            const bool is_made_anew =
+            const bool will_be_recomputed =
                 pack &&
                 std::any_of(packedLayout(*pack).parts.begin(), packedLayout(*pack).parts.end(),
                             [&attribute = name](const PackedPart& part) { return part.attribute == attribute; });
-            if (!is_made_anew) {
+            if (!will_be_recomputed) {
                 failFile(ErrorCode::invalidFile,
                          "the attribute " + countFault(readAccessor(document, index), primitive),
                          join(join(primitive.place(), "attributes"), name));

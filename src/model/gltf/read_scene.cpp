@@ -370,7 +370,7 @@ std::vector<ScenePose> readPoses(const Document& document, DecodedArrays& arrays
     return poses;
 }
 
-void tellPlaces(const Document& document, std::span<const Primitive> primitives, Scene& scene) {
+void setPlaces(const Document& document, std::span<const Primitive> primitives, Scene& scene) {
     std::vector<ScenePlacement> placements;
     if (tryFile([&] { placements = readPlacements(document, primitives); })) return;
     for (const ScenePlacement& placement : placements)
@@ -496,7 +496,7 @@ class PrimitiveLoader {
 
 /// Returns whether the image is a TGA, which no glTF viewer shows. Imported models may reference TGA files. The
 /// JavaScript module does not support TGA.
-bool isForbidden([[maybe_unused]] const Document& document, [[maybe_unused]] const Bytes& bytes) {
+bool isUnsupportedTga([[maybe_unused]] const Document& document, [[maybe_unused]] const Bytes& bytes) {
 #ifdef TSPACE_SMALL
     return false;
 #else
@@ -526,7 +526,7 @@ Bytes readImageBytes(const Document& document, const Json& image, const std::str
 Bytes tryReadImage(const Document& document, std::size_t image) {
     Bytes bytes;
     tryFile([&] { bytes = readImageBytes(document, rootArray(document, "images")[image], join("/images", image)); });
-    if (isForbidden(document, bytes)) return {};
+    if (isUnsupportedTga(document, bytes)) return {};
     return bytes;
 }
 
@@ -548,7 +548,7 @@ void readImages(const Document& document, const std::set<std::size_t>& wanted, S
         const std::string uri = readString(list[i], "uri", place);
         const std::optional<Error> failure = tryFile([&] {
             const Bytes bytes = readImageBytes(document, list[i], place);
-            if (isForbidden(document, bytes)) {
+            if (isUnsupportedTga(document, bytes)) {
                 scene.images[i].why_empty = "glTF does not allow TGA images";
                 return;
             }

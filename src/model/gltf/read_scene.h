@@ -34,7 +34,7 @@ std::vector<ScenePose> readPoses(const Document& document, DecodedArrays& arrays
 
 /// Sets `places` of the scene's primitives. `primitives` must list the same primitives in the same order. Nodes that
 /// cannot be read are skipped.
-void tellPlaces(const Document& document, std::span<const Primitive> primitives, Scene& scene);
+void setPlaces(const Document& document, std::span<const Primitive> primitives, Scene& scene);
 
 /// Returns the images that these looks reference and pictures show: base colors and normal maps.
 std::set<std::size_t> imagesOf(std::span<const SurfaceLook> looks);

@@ -35,7 +35,7 @@ class ByteMaker {
     /// Fills `to` with the bytes from `begin` on. Must be thread-safe and deterministic.
     virtual void make(std::size_t begin, std::span<std::uint8_t> to) const = 0;
     /// Returns all bytes if they already exist (valid for the lifetime of this object); otherwise an empty span.
-    [[nodiscard]] virtual std::span<const std::uint8_t> there() const { return {}; }
+    [[nodiscard]] virtual std::span<const std::uint8_t> existingBytes() const { return {}; }
 };
 
 /// Owns a vector and provides its bytes without a copy. T: four-byte numbers without padding.
@@ -48,9 +48,9 @@ class KeptBytes final : public ByteMaker {
 
     [[nodiscard]] std::size_t size() const override { return values_.size() * sizeof(T); }
     void make(std::size_t begin, std::span<std::uint8_t> to) const override {
-        if (!to.empty()) std::memcpy(to.data(), there().data() + begin, to.size());
+        if (!to.empty()) std::memcpy(to.data(), existingBytes().data() + begin, to.size());
     }
-    [[nodiscard]] std::span<const std::uint8_t> there() const override {
+    [[nodiscard]] std::span<const std::uint8_t> existingBytes() const override {
         return {reinterpret_cast<const std::uint8_t*>(values_.data()), size()};
     }
 
@@ -59,9 +59,9 @@ class KeptBytes final : public ByteMaker {
 };
 
 struct OutputPiece {
-    OutputPiece(std::span<const std::uint8_t> there) : bytes(there) {}
-    OutputPiece(const Bytes& there) : bytes(there) {}
-    OutputPiece(std::shared_ptr<const ByteMaker> made) : bytes(made->there()), maker(std::move(made)) {}
+    OutputPiece(std::span<const std::uint8_t> existing) : bytes(existing) {}
+    OutputPiece(const Bytes& existing) : bytes(existing) {}
+    OutputPiece(std::shared_ptr<const ByteMaker> made) : bytes(made->existingBytes()), maker(std::move(made)) {}
 
     [[nodiscard]] bool isThere() const { return !maker || !bytes.empty(); }
 
@@ -76,20 +76,20 @@ struct OutputPiece {
 
 inline constexpr const char* kTemporaryEnding = ".tmp";
 /// Name ending of the old file while new files are renamed.
-inline constexpr const char* kAsideEnding = ".old";
+inline constexpr const char* kBackupEnding = ".old";
 
 /// Returns an unpredictable name next to `target`: TARGET.tspace-MACHINE-PROCESS-RANDOM and the ending. Long target
 /// names are cut, so that the result has at most 255 bytes.
-Path besideName(const Path& target, const char* ending);
+Path temporaryName(const Path& target, const char* ending);
 
 /// Critical section for creating, removing or renaming temporary files; signals are blocked, and only one thread can be
 /// inside. The constructor does not return once removeTemporaryFiles() has removed the files.
-class TemporaryFilesInWork {
+class TemporaryFilesLock {
   public:
-    TemporaryFilesInWork();
-    ~TemporaryFilesInWork();
-    TemporaryFilesInWork(const TemporaryFilesInWork&) = delete;
-    TemporaryFilesInWork& operator=(const TemporaryFilesInWork&) = delete;
+    TemporaryFilesLock();
+    ~TemporaryFilesLock();
+    TemporaryFilesLock(const TemporaryFilesLock&) = delete;
+    TemporaryFilesLock& operator=(const TemporaryFilesLock&) = delete;
 
     /// Must be called before the file or folder is created.
     void add(const Path& path);
@@ -118,7 +118,7 @@ class InputFiles {
     /// that were set before. This object must outlive `options`.
     void watch(FileOptions& options);
     /// Allows outputs to replace this file if a model references it as an image and nothing reads it.
-    void letOff(const Path& path);
+    void allowReplacing(const Path& path);
     /// Returns whether `path` is one of the inputs, under any name (links, relative paths).
     [[nodiscard]] bool has(const Path& path) const;
     /// Number of the call; unique in this process.
@@ -129,7 +129,7 @@ class InputFiles {
 
     std::uint64_t call_;
     mutable std::mutex mutex_ = {};
-    std::set<std::string> identities_ = {}, named_ = {}, let_off_ = {};
+    std::set<std::string> identities_ = {}, named_ = {}, replaceable_ = {};
 };
 
 /// Prevents all outputs of this process from replacing these files while it exists. Used for reports and manifests,

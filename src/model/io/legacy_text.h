@@ -34,13 +34,13 @@ inline bool isUtf8(std::string_view text) {
 /// an odd number of preceding bytes are lead bytes of Shift-JIS, or of GBK, Big5 and similar encodings. `text` must not
 /// be UTF-8.
 inline bool isSecondByte(std::string_view text, std::size_t at) {
-    const auto isBehindOdd = [&](auto&& begins) {
+    const auto followsOddCount = [&](auto&& begins) {
         std::size_t leads = 0;
         while (leads < at && begins(static_cast<unsigned char>(text[at - leads - 1]))) ++leads;
         return leads % 2 != 0;
     };
-    return isBehindOdd([](int byte) { return (byte >= 0x81 && byte <= 0x9f) || (byte >= 0xe0 && byte <= 0xfc); }) ||
-           isBehindOdd([](int byte) { return byte >= 0x81 && byte <= 0xfe; });
+    return followsOddCount([](int byte) { return (byte >= 0x81 && byte <= 0x9f) || (byte >= 0xe0 && byte <= 0xfc); }) ||
+           followsOddCount([](int byte) { return byte >= 0x81 && byte <= 0xfe; });
 }
 
 /// Writes slashes for the backslashes of a path, but not for bytes that belong to a character of two bytes.

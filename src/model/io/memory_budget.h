@@ -27,13 +27,13 @@ class MemoryBudget {
 
     /// `limit_bytes`: see FileOptions::memory_limit_bytes.
     explicit MemoryBudget(std::uint64_t limit_bytes = 0)
-        : is_users_(limit_bytes != 0),
-          granted_(is_users_ ? limited(limit_bytes) : kAnyFile),
+        : is_from_user_(limit_bytes != 0),
+          granted_(is_from_user_ ? limited(limit_bytes) : kAnyFile),
           left_(granted_ - kProgram) {}
 
     /// Raises the limit by the size of the file, or of a file that it references.
     void allow(std::uint64_t file_bytes) {
-        if (is_users_) return;
+        if (is_from_user_) return;
         granted_ += kPerByte * limited(file_bytes);
         left_ += kPerByte * limited(file_bytes);
     }
@@ -47,10 +47,10 @@ class MemoryBudget {
     /// Returns bytes to the budget.
     void release(std::uint64_t bytes) { left_ += limited(bytes); }
 
-    /// Returns the remaining bytes. Passing the result to giveBack() later returns everything that was charged since.
+    /// Returns the remaining bytes. Passing the result to restore() later returns everything that was charged since.
     [[nodiscard]] std::int64_t left() const { return left_; }
-    void giveBack(std::int64_t left_before) {
-        if (left_ < left_before) left_ = left_before;
+    void restore(std::int64_t earlier_left) {
+        if (left_ < earlier_left) left_ = earlier_left;
     }
 
     /// Checks a temporary allocation without charging it. Fails with tooLarge.
@@ -72,14 +72,14 @@ class MemoryBudget {
     }
 
     /// Returns whether the user set the limit, instead of the default.
-    [[nodiscard]] bool isUsers() const { return is_users_; }
+    [[nodiscard]] bool isFromUser() const { return is_from_user_; }
 
     /// Returns the message of a failure: "needs ...".
     [[nodiscard]] std::string whyNot(std::uint64_t bytes) const {
         const std::string needed = "needs about " + megabytes(granted_ - left_ + limited(bytes)) + " of memory, but ";
-        return is_users_ ? needed + "--memory-limit is " + megabytes(granted_)
-                         : needed + "the limit for a file of its size is " + megabytes(granted_) +
-                               "; use --memory-limit to raise it";
+        return is_from_user_ ? needed + "--memory-limit is " + megabytes(granted_)
+                             : needed + "the limit for a file of its size is " + megabytes(granted_) +
+                                   "; use --memory-limit to raise it";
     }
 
   private:
@@ -94,7 +94,7 @@ class MemoryBudget {
         return std::to_string((bytes + kMegabyte - 1) / kMegabyte) + " MB";
     }
 
-    bool is_users_;
+    bool is_from_user_;
     std::atomic<std::int64_t> granted_;
     std::atomic<std::int64_t> left_;
 };

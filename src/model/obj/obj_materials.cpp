@@ -208,7 +208,7 @@ class FileFinder {
         if (!path.has_root_path() && !startsAtDrive(path)) return plain;
         std::string name = Path(path.filename()).string();
         if (name.empty() || !isThere(name)) return plain;
-        if (told_.insert(plain).second)
+        if (warned_paths_.insert(plain).second)
             warnings_.push_back("the path " + inQuotes(plain, 200) + " is absolute; the file " + inQuotes(name, 200) +
                                 " in the folder of the file that references it is read instead");
         return name;
@@ -228,7 +228,7 @@ class FileFinder {
     const NamedFiles& files_;
     Path folder_;
     std::vector<std::string>& warnings_;
-    std::set<std::string> told_ = {};
+    std::set<std::string> warned_paths_ = {};
 };
 
 Material toMaterial(const tinyobj::material_t& source, FileFinder& finder, const Path& folder, bool has_diffuse) {

@@ -179,11 +179,12 @@ void warnOfOffset(const FloatLoss& loss, Model& model) {
                              "--keep-coordinates disables this)");
 }
 
-void warnOfLoss(const FloatLoss& loss, bool could_be_mended, Model& model) {
+void warnOfLoss(const FloatLoss& loss, bool can_subtract_offset, Model& model) {
     model.warnings.push_back(
         "the coordinates are too large for the 32-bit floats of glTF: rounding changes " + changedEdges(loss) +
-        (could_be_mended ? "; omit --keep-coordinates to subtract an offset from them"
-                         : ", and no common offset fixes this; split the model, and move each part to its own origin"));
+        (can_subtract_offset
+             ? "; omit --keep-coordinates to subtract an offset from them"
+             : ", and no common offset fixes this; split the model, and move each part to its own origin"));
 }
 
 }  // namespace

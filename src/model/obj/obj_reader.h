@@ -88,7 +88,7 @@ struct Material {
     bool normal_is_bump = false;  ///< from map_bump, which also allows height maps
     float normal_scale = 1;       ///< -bm: scale of a normal map, or the height of white in a height map
     /// Replacement of the normal texture in the output; null: the texture is kept.
-    std::shared_ptr<const Bytes> made_normal_map = {};
+    std::shared_ptr<const Bytes> converted_normal_map = {};
 };
 
 struct Model {

@@ -93,7 +93,7 @@ class ImageBuilder {
     }
 
     /// Like addReference(), for an image in memory.
-    void addMade(const Texture& like, const Bytes& bytes, Json& material, const char* key) {
+    void addConverted(const Texture& like, const Bytes& bytes, Json& material, const char* key) {
         const fs::path path = Path(like.file);
         material[key] = {{"index", append(imageJson(path, bytes, mimeType(imageFormat(bytes)), false))}};
     }
@@ -170,8 +170,8 @@ Json materialJson(const Material& material, ImageBuilder* images) {
     surface["metallicFactor"] = material.metallic;
     surface["roughnessFactor"] = material.roughness;
     json["pbrMetallicRoughness"] = std::move(surface);
-    if (images != nullptr && material.made_normal_map) {
-        images->addMade(material.normal_texture, *material.made_normal_map, json, "normalTexture");
+    if (images != nullptr && material.converted_normal_map) {
+        images->addConverted(material.normal_texture, *material.converted_normal_map, json, "normalTexture");
     } else if (images != nullptr) {
         images->addReference(material.normal_texture, json, "normalTexture");
     }

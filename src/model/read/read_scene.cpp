@@ -51,7 +51,7 @@ Scene readScene(const std::string& input, const FileOptions& options, bool with_
     Scene scene = model.sceneOf();
     if (with_images) {
         gltf::readImages(model.document(), scene);
-        gltf::tellPlaces(model.document(), model.primitives(), scene);
+        gltf::setPlaces(model.document(), model.primitives(), scene);
     }
     return scene;
 }

@@ -36,7 +36,7 @@ std::string dracoHeaderFault(std::span<const std::uint8_t> data) {
 bool isEdgebreaker(std::span<const std::uint8_t> data) { return data[kMethodAt] == kEdgebreaker; }
 
 bool encodeDraco(DracoMesh& mesh, bool exact, Bytes& data) {
-    if (!encodeDracoAsItIs(mesh, data)) return false;
+    if (!encodeDracoUnchecked(mesh, data)) return false;
     if (!exact) return true;
     DracoMesh back{.corners = {}, .point_count = 0, .attributes = mesh.attributes};
     const DracoLimits limits{mesh.corners.size(), mesh.point_count, ~std::size_t{0}};
@@ -103,14 +103,14 @@ std::string meshoptFault(const MeshoptCoding& coding, std::size_t byte_count) {
 }
 
 bool encodeMeshopt(MeshoptCoding& coding, std::span<const std::uint8_t> rows, Bytes& data) {
-    data = encodeAsItIs(coding, rows);
+    data = encodeUnchecked(coding, rows);
     if (data.empty() || coding.mode == MeshoptMode::attributes) return !data.empty();
     if (coding.mode == MeshoptMode::triangles) {
         if (comesBack(coding, rows, data)) return true;
         // The triangle codec may rotate the corners of a triangle, which changes the order of floating-point sums over
         // corners.
         coding.mode = MeshoptMode::indices;
-        data = encodeAsItIs(coding, rows);
+        data = encodeUnchecked(coding, rows);
     }
     return !data.empty() && comesBack(coding, rows, data);
 }

@@ -76,7 +76,7 @@ bool isEdgebreaker(std::span<const std::uint8_t> data);
 
 /// Encodes points and triangles in their order, quantizes attributes as requested, and sets their IDs. Returns false if
 /// the library cannot encode the mesh.
-bool encodeDracoAsItIs(DracoMesh& mesh, Bytes& data);
+bool encodeDracoUnchecked(DracoMesh& mesh, Bytes& data);
 
 // Codec of EXT_meshopt_compression and KHR_meshopt_compression, using the library meshoptimizer. Independent of JSON.
 
@@ -116,6 +116,6 @@ bool encodeMeshopt(MeshoptCoding& coding, std::span<const std::uint8_t> rows, By
 // functions (bindings/js/wasm).
 
 /// Encodes rows in the mode of `coding`. Returns an empty array if the library cannot encode them.
-Bytes encodeAsItIs(const MeshoptCoding& coding, std::span<const std::uint8_t> rows);
+Bytes encodeUnchecked(const MeshoptCoding& coding, std::span<const std::uint8_t> rows);
 
 }  // namespace tspace::gltf

@@ -41,7 +41,7 @@ namespace fs = std::filesystem;
 namespace {
 
 std::mutex work_mutex;
-std::atomic<bool> is_in_work = false, is_ending = false, has_committed = false;
+std::atomic<bool> is_busy = false, is_ending = false, has_committed = false;
 
 /// Paths of the temporary files; null until the first one. Never deleted, because a signal may arrive while the program
 /// ends.
@@ -49,25 +49,25 @@ std::vector<Path>* temporary_files = nullptr;
 
 }  // namespace
 
-TemporaryFilesInWork::TemporaryFilesInWork() {
+TemporaryFilesLock::TemporaryFilesLock() {
     work_mutex.lock();
-    for (is_in_work = true; is_ending; is_in_work = true) {
-        is_in_work = false;
+    for (is_busy = true; is_ending; is_busy = true) {
+        is_busy = false;
         while (is_ending) waitBriefly();
     }
 }
 
-TemporaryFilesInWork::~TemporaryFilesInWork() {
-    is_in_work = false;
+TemporaryFilesLock::~TemporaryFilesLock() {
+    is_busy = false;
     work_mutex.unlock();
 }
 
-void TemporaryFilesInWork::add(const Path& path) {
+void TemporaryFilesLock::add(const Path& path) {
     if (temporary_files == nullptr) temporary_files = new std::vector<Path>;
     temporary_files->push_back(path);
 }
 
-void TemporaryFilesInWork::forget(const Path& path) noexcept {
+void TemporaryFilesLock::forget(const Path& path) noexcept {
     if (temporary_files == nullptr) return;
     const auto found = std::find_if(temporary_files->begin(), temporary_files->end(),
                                     [&](const Path& known) { return known.string() == path.string(); });
@@ -76,13 +76,13 @@ void TemporaryFilesInWork::forget(const Path& path) noexcept {
     temporary_files->erase(found);
 }
 
-void TemporaryFilesInWork::noteCommit() noexcept { has_committed = true; }
+void TemporaryFilesLock::noteCommit() noexcept { has_committed = true; }
 
 bool removeTemporaryFiles(bool even_after_commit) {
     is_ending = true;
     // This is long enough to rename a few files; if it takes longer, the disk hangs.
     constexpr int kPatience_ms = 5000;
-    for (int waited = 0; is_in_work; ++waited) {
+    for (int waited = 0; is_busy; ++waited) {
         if (waited == kPatience_ms) return true;
         waitBriefly();
     }
@@ -117,18 +117,18 @@ const std::string& machineMark() {
     return mark;
 }
 
-/// Arguments of besideName() in a process that no longer runs.
+/// Arguments of temporaryName() in a process that no longer runs.
 struct Abandoned {
     std::string target_name;
-    bool is_aside;  ///< false: a temporary file
+    bool is_backup;  ///< false: a temporary file
 };
 
 std::optional<Abandoned> abandoned(std::string_view name) {
     const std::size_t at = name.rfind(machineMark());
     if (at == std::string_view::npos || at == 0) return {};
-    const bool is_aside = name.ends_with(kAsideEnding);
-    if (!is_aside && !name.ends_with(kTemporaryEnding)) return {};
-    Abandoned found{std::string(name.substr(0, at)), is_aside};
+    const bool is_backup = name.ends_with(kBackupEnding);
+    if (!is_backup && !name.ends_with(kTemporaryEnding)) return {};
+    Abandoned found{std::string(name.substr(0, at)), is_backup};
     name.remove_suffix(std::string_view(kTemporaryEnding).size());
     name.remove_prefix(std::min(name.size(), at + machineMark().size()));
     const std::size_t dash = name.find('-');
@@ -151,13 +151,13 @@ bool removeAbandoned(const Path& folder, const FolderEntry& entry) {
     if (!found) return false;
     const Path path = folder / entry.name, target = folder / found->target_name;
     // The run was killed between two renames, so the old file is restored.
-    if (found->is_aside && kindOf(target) == PathKind::nothing) return renameFile(path, target) == 0;
+    if (found->is_backup && kindOf(target) == PathKind::nothing) return renameFile(path, target) == 0;
     return removePath(path) == 0;
 }
 
 }  // namespace
 
-Path besideName(const Path& target, const char* ending) {
+Path temporaryName(const Path& target, const char* ending) {
     constexpr std::size_t kMaxBytes = 255;
     const std::string tail =
         machineMark() + std::to_string(processNumber()) + "-" + sixteenDigits(randomNumber()) + ending;
@@ -347,27 +347,27 @@ void InputFiles::watch(FileOptions& options) {
     options.opened = adder(identities_, options.opened);
 }
 
-void InputFiles::letOff(const Path& path) {
+void InputFiles::allowReplacing(const Path& path) {
     std::string identity = identityOf(path);
     const std::lock_guard lock(mutex_);
-    let_off_.insert(std::move(identity));
+    replaceable_.insert(std::move(identity));
 }
 
 bool InputFiles::has(const Path& path) const {
     const std::string identity = identityOf(path);
     const std::lock_guard lock(mutex_);
-    return identities_.contains(identity) || (named_.contains(identity) && !let_off_.contains(identity));
+    return identities_.contains(identity) || (named_.contains(identity) && !replaceable_.contains(identity));
 }
 
 void AtomicOutput::removeTemporaryFiles() noexcept {
     for (const File& file : files_) {
         if (!file.is_made) continue;
-        TemporaryFilesInWork work;
+        TemporaryFilesLock work;
         removePath(file.temporary);
         work.forget(file.temporary);
     }
     for (auto folder = created_folders_.rbegin(); folder != created_folders_.rend(); ++folder) {
-        TemporaryFilesInWork work;
+        TemporaryFilesLock work;
         removePath(*folder);
         work.forget(*folder);
     }
@@ -395,7 +395,7 @@ AtomicOutput::File AtomicOutput::planFile(const Path& requested) {
     const bool is_held = held != nullptr && held->all_.identities_.contains(identity);
     if (isKept(identity) || is_held || !identities_.insert(identity).second)
         failToWrite(requested, "another output of this run is the same file");
-    return {.target = target, .temporary = besideName(target, kTemporaryEnding), .call = call};
+    return {.target = target, .temporary = temporaryName(target, kTemporaryEnding), .call = call};
 }
 
 void AtomicOutput::makeFolders(const Path& target) {
@@ -408,7 +408,7 @@ void AtomicOutput::makeFolders(const Path& target) {
     for (auto folder = missing.rbegin(); folder != missing.rend(); ++folder) {
         Path created = *folder;
         {
-            TemporaryFilesInWork work;
+            TemporaryFilesLock work;
             work.add(created);
             if (fs::create_directory(*folder, error)) {
                 created_folders_.push_back(std::move(created));
@@ -435,7 +435,7 @@ void AtomicOutput::addFile(File planned, const std::function<int(const Sink&)>& 
     makeFolders(added.target);
     CFile file;
     {
-        TemporaryFilesInWork work;
+        TemporaryFilesLock work;
         work.add(added.temporary);
         file = createFile(added.temporary, added.target);
         added.is_made = file != nullptr;
@@ -456,7 +456,7 @@ void AtomicOutput::addFile(File planned, const std::function<int(const Sink&)>& 
 }
 
 void AtomicOutput::leave(File& file) {
-    TemporaryFilesInWork work;
+    TemporaryFilesLock work;
     removePath(file.temporary);
     work.forget(file.temporary);
     file.is_made = false;
@@ -465,18 +465,20 @@ void AtomicOutput::leave(File& file) {
 void AtomicOutput::leaveSharedFiles() {
     for (File& file : files_) {
         if (!file.is_made) continue;
-        bool is_of_other = false, is_read_by_other = false;
+        bool is_owned_by_other = false, is_read_by_other = false;
         inRun(file.target, [&](const RunFile& known) {
-            is_of_other = known.owner != 0 && known.owner != file.call;
+            is_owned_by_other = known.owner != 0 && known.owner != file.call;
             is_read_by_other = known.readers.size() > known.readers.count(file.call);
         });
-        if (kindOf(file.target) == PathKind::nothing || !(file.is_shared || is_of_other || is_read_by_other)) continue;
+        if (kindOf(file.target) == PathKind::nothing || !(file.is_shared || is_owned_by_other || is_read_by_other))
+            continue;
         if (!hasBytes(file.target, readFile(file.temporary)))
             failToWrite(file.target,
                         is_read_by_other ? "it is an input of another model in this run; choose another "
                                            "output folder"
-                        : is_of_other    ? "this run has already written a different file with this name"
-                                      : "another program has created a different file with this name during the run");
+                        : is_owned_by_other
+                            ? "this run has already written a different file with this name"
+                            : "another program has created a different file with this name during the run");
         leave(file);
         inRun(file.target, [&](RunFile& known) { known.owner = file.call; });
     }
@@ -501,11 +503,11 @@ void AtomicOutput::renameFiles() {
         if (!file.is_stream) recordOutput(file.target.string());
     }
     // Old files are set aside first, so that a partial failure can be undone. No allocations from here on.
-    struct Aside {
+    struct Backup {
         Path name = {};
         bool is_made = false;
     };
-    std::vector<Aside> aside(files_.size());
+    std::vector<Backup> backups(files_.size());
     std::vector<RunFile*> in_run(files_.size());
     std::vector<Path> folders;
     const auto addFolder = [&](Path folder) {
@@ -517,38 +519,38 @@ void AtomicOutput::renameFiles() {
         addFolder(folderOf(files_[i].target));
         inRun(files_[i].target, [&](RunFile& known) { in_run[i] = &known; });
         if (files_.size() > 1 && kindOf(files_[i].target) == PathKind::file)
-            aside[i].name = besideName(files_[i].target, kAsideEnding);
+            backups[i].name = temporaryName(files_[i].target, kBackupEnding);
     }
     for (const Path& folder : created_folders_) addFolder(folderOf(folder));
     int failure = 0;
     std::size_t failed = files_.size();
     {
-        TemporaryFilesInWork work;
+        TemporaryFilesLock work;
         for (std::size_t i = files_.size(); i-- > 0 && failure == 0;) {
             const File& file = files_[i];
             if (!file.is_made) continue;
             failed = i;
             if (kindOf(file.target) == PathKind::folder) {
                 failure = EISDIR;
-            } else if (!aside[i].name.empty()) {
+            } else if (!backups[i].name.empty()) {
                 // Falls back to renaming on file systems without hard links.
-                failure = linkFile(file.target, aside[i].name);
-                if (failure != 0) failure = renameFile(file.target, aside[i].name);
-                aside[i].is_made = failure == 0;
+                failure = linkFile(file.target, backups[i].name);
+                if (failure != 0) failure = renameFile(file.target, backups[i].name);
+                backups[i].is_made = failure == 0;
             }
             if (failure == 0) failure = renameFile(file.temporary, file.target);
         }
         for (std::size_t i = failed; failure != 0 && i < files_.size(); ++i) {
-            if (aside[i].is_made) {
-                renameFile(aside[i].name, files_[i].target);
+            if (backups[i].is_made) {
+                renameFile(backups[i].name, files_[i].target);
                 // If both names still refer to one file, renaming has no effect.
-                removePath(aside[i].name);
+                removePath(backups[i].name);
             } else if (i != failed && files_[i].is_made) {
                 removePath(files_[i].target);
             }
         }
         for (std::size_t i = 0; failure == 0 && i < files_.size(); ++i) {
-            if (aside[i].is_made) removePath(aside[i].name);
+            if (backups[i].is_made) removePath(backups[i].name);
             work.forget(files_[i].temporary);
             files_[i].is_made = false;
         }

@@ -28,7 +28,7 @@ struct EndHandle {
 using Handle = std::unique_ptr<void, EndHandle>;
 
 /// Opens a file or folder to query it; returns null if it does not exist.
-Handle openToLook(const fs::path& path) {
+Handle openForQuery(const fs::path& path) {
     const HANDLE handle = CreateFileW(path.c_str(), 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, nullptr,
                                       OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, nullptr);
     return Handle(handle == INVALID_HANDLE_VALUE ? nullptr : handle);
@@ -44,7 +44,7 @@ fs::path withoutMark(std::wstring text) {
 
 /// Returns the path with links resolved; empty if it cannot be determined.
 fs::path finalPath(const fs::path& path) {
-    const Handle file = openToLook(path);
+    const Handle file = openForQuery(path);
     if (!file) return {};
     std::wstring text(GetFinalPathNameByHandleW(file.get(), nullptr, 0, VOLUME_NAME_DOS), L'\0');
     const DWORD length =
@@ -78,19 +78,19 @@ bool readAt(std::FILE* file, std::size_t begin, std::span<std::uint8_t> to) {
 }
 
 Path canonicalPath(const Path& path) {
-    fs::path there = fs::absolute(fs::path(path)).lexically_normal();
-    if (!there.has_filename()) there = there.parent_path();
+    fs::path existing = fs::absolute(fs::path(path)).lexically_normal();
+    if (!existing.has_filename()) existing = existing.parent_path();
     fs::path rest;
     while (true) {
-        if (const fs::path final = finalPath(there); !final.empty()) return rest.empty() ? final : final / rest;
-        if (there == there.parent_path()) return rest.empty() ? there : there / rest;
-        rest = rest.empty() ? there.filename() : there.filename() / rest;
-        there = there.parent_path();
+        if (const fs::path final = finalPath(existing); !final.empty()) return rest.empty() ? final : final / rest;
+        if (existing == existing.parent_path()) return rest.empty() ? existing : existing / rest;
+        rest = rest.empty() ? existing.filename() : existing.filename() / rest;
+        existing = existing.parent_path();
     }
 }
 
 std::string fileIdentity(const Path& path) {
-    const Handle file = openToLook(path);
+    const Handle file = openForQuery(path);
     BY_HANDLE_FILE_INFORMATION found = {};
     if (!file || GetFileInformationByHandle(file.get(), &found) == 0) return {};
     return std::to_string(found.dwVolumeSerialNumber) + ":" + std::to_string(found.nFileIndexHigh) + ":" +

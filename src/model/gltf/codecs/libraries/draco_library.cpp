@@ -25,7 +25,7 @@ namespace tspace::gltf {
 
 std::string dracoMissing() { return "this build of tspace does not include the library Draco"; }
 std::string decodeDraco(std::span<const std::uint8_t>, const DracoLimits&, DracoMesh&) { return dracoMissing(); }
-bool encodeDracoAsItIs(DracoMesh&, Bytes&) { return false; }
+bool encodeDracoUnchecked(DracoMesh&, Bytes&) { return false; }
 
 #else
 
@@ -280,7 +280,7 @@ std::string decodeDraco(std::span<const std::uint8_t> data, const DracoLimits& l
     return {};
 }
 
-bool encodeDracoAsItIs(DracoMesh& from, Bytes& data) {
+bool encodeDracoUnchecked(DracoMesh& from, Bytes& data) {
     // Draco's decoders reject sequential data with fewer than three bytes per triangle after the header, even if the
     // triangles compress better. Uncompressed triangles take at least three bytes.
     constexpr std::size_t kHeaderBytes = 64;

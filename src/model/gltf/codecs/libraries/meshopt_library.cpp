@@ -107,7 +107,7 @@ bool decodeMeshopt(const MeshoptCoding& coding, std::span<const std::uint8_t> da
     return failure == 0;
 }
 
-Bytes encodeAsItIs(const MeshoptCoding& coding, std::span<const std::uint8_t> rows) {
+Bytes encodeUnchecked(const MeshoptCoding& coding, std::span<const std::uint8_t> rows) {
     if (coding.mode != MeshoptMode::attributes) return encodeIndices(coding, wideIndices(coding, rows));
     Bytes data;
     data.resize(meshopt_encodeVertexBufferBound(coding.count, coding.stride));
@@ -124,7 +124,7 @@ Bytes encodeAsItIs(const MeshoptCoding& coding, std::span<const std::uint8_t> ro
 #else
 
 bool decodeMeshopt(const MeshoptCoding&, std::span<const std::uint8_t>, std::span<std::uint8_t>) { return false; }
-Bytes encodeAsItIs(const MeshoptCoding&, std::span<const std::uint8_t>) { return {}; }
+Bytes encodeUnchecked(const MeshoptCoding&, std::span<const std::uint8_t>) { return {}; }
 
 #endif
 

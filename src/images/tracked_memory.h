@@ -16,9 +16,9 @@ inline void* noted(void* memory, std::size_t bytes) {
     has_allocation_failed = has_allocation_failed || (memory == nullptr && bytes != 0);
     return memory;
 }
-inline void* notedMalloc(std::size_t bytes) { return noted(std::malloc(bytes), bytes); }
-inline void* notedRealloc(void* old, std::size_t bytes) { return noted(std::realloc(old, bytes), bytes); }
-inline void* notedCalloc(std::size_t count, std::size_t bytes) {
+inline void* trackedMalloc(std::size_t bytes) { return noted(std::malloc(bytes), bytes); }
+inline void* trackedRealloc(void* old, std::size_t bytes) { return noted(std::realloc(old, bytes), bytes); }
+inline void* trackedCalloc(std::size_t count, std::size_t bytes) {
     return noted(std::calloc(count, bytes), count * bytes);
 }
 
