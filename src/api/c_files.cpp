@@ -99,8 +99,8 @@ void readCheckOptions(const char* text, options::CheckRequest& request) {
 void check(const std::string& input, const options::CheckRequest& request, tspace_Bytes* json) {
     report::CheckOutcome outcome{.input = input, .result = checkFile(input, request.options)};
     throwError(outcome.result);
-    options::leaveOut(request, *outcome.result);
-    const ExitCode exit_code = options::failsBy(request, *outcome.result) ? ExitCode::findings : ExitCode::done;
+    options::removeOmitted(request, *outcome.result);
+    const ExitCode exit_code = options::makesCheckFail(request, *outcome.result) ? ExitCode::findings : ExitCode::done;
     giveReport(report::checkJson({outcome}, exit_code, request.fail_on), json);
 }
 

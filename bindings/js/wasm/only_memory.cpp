@@ -59,11 +59,11 @@ Arena::Arena()
                                std::size_t alignment) { ::operator delete(memory, std::align_val_t(alignment)); }} {}
 Arena::~Arena() = default;
 
-Bytes mendMap(const Scene&, ByteSpan, const GenerateOptions&, JudgedMap& map) {
+Bytes rewriteMap(const Scene&, ByteSpan, const GenerateOptions&, JudgedMap& map) {
     map.report.reason = "images cannot be rewritten in JavaScript";
     return {};
 }
-MadeOfHeights makeOfHeights(const Scene&, std::size_t, std::size_t, double, const GenerateOptions&) { return {}; }
+ConvertedHeights normalMapFromHeights(const Scene&, std::size_t, std::size_t, double, const GenerateOptions&) { return {}; }
 
 gltf::MapConversion::MapConversion(gltf::Model& model, const GenerateOptions& options)
     : model_(model), options_(options) {

@@ -3,7 +3,7 @@
 //
 //   1. setLimits, checkOutput, checkOutMesh: what the options and the names of outputs allow
 //   2. noteNoise: a warning about the positions of the high poly
-//   3. insidePart, beyondEdges: which triangles of an image of the low poly are baked
+//   3. bakedPart, beyondEdges: which triangles of an image of the low poly are baked
 //   4. bakeImage: the maps of an image or UDIM tile, with findings and warnings
 //   5. bakeTiles: all tiles of an image
 //   6. bakeModels: all images, then the model with its maps
@@ -21,7 +21,7 @@
 #include "commands/bake/model_surfaces.h"
 #include "commands/compress_map/pack_texture.h"
 #include "commands/shared/map_image_file.h"
-#include "commands/shared/noted_noise.h"
+#include "commands/shared/reportable_noise.h"
 #include "core/base/numbers.h"
 #include "images/float_image.h"
 #include "maps/rays/map_surfaces.h"
@@ -118,7 +118,7 @@ void noteNoise(FileBaking& state) {
     MeshView mesh;
     mesh.positions = high.positions;
     mesh.indices = high.corners;
-    if (const double noise = notedNoise(mesh, state.models.high.position_step); noise > 0)
+    if (const double noise = reportableNoise(mesh, state.models.high.position_step); noise > 0)
         state.report.warnings.push_back(
             "the positions of the high poly are noisy (" + shortNumber(noise) +
             " of an edge length), and the map shows this noise; use --denoise auto to bake normals without it");
@@ -132,7 +132,7 @@ std::string nameOf(const LowModel::Image& image) {
 
 /// Returns the triangles to bake, and stores all other triangles in the rest. The bake counts triangles with non-finite
 /// UVs.
-LowPart insidePart(FileBaking& state, const LowModel::Image& image, std::uint64_t& outside) {
+LowPart bakedPart(FileBaking& state, const LowModel::Image& image, std::uint64_t& outside) {
     const auto isOutside = [&](std::size_t triangle) {
         const Vec2* const uvs = &image.part.corners.uvs[3 * triangle];
         const float u = uvs[0].x + uvs[1].x + uvs[2].x, v = uvs[0].y + uvs[1].y + uvs[2].y;
@@ -329,7 +329,7 @@ void bakeTiles(FileBaking& state, const LowModel::Image& image, const std::strin
     };
     if (!state.options.udim) {
         std::uint64_t outside = 0;
-        LowPart part = insidePart(state, image, outside);
+        LowPart part = bakedPart(state, image, outside);
         if (const std::size_t count = beyondEdges(state, image, part))
             state.report.warnings.push_back(std::to_string(count) + " triangles extend beyond the texture of " +
                                             nameOf(image) +

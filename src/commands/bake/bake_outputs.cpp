@@ -95,8 +95,8 @@ std::vector<std::string> plainOutputs(const BakeNames& bake, const BakeFileOptio
     return outputsOf(bake, options, {""});
 }
 
-std::vector<std::string> outputsBeside(const std::vector<std::string>& others, const std::string& low,
-                                       const BakeNames& bake, const BakeFileOptions& options) {
+std::vector<std::string> outputsToCompare(const std::vector<std::string>& others, const std::string& low,
+                                          const BakeNames& bake, const BakeFileOptions& options) {
     std::vector<std::string> names = plainOutputs(bake, options);
     if (std::none_of(others.begin(), others.end(),
                      [&](const std::string& other) { return !other.empty() && mayBecome(names, other); }))

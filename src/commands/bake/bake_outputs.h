@@ -37,8 +37,8 @@ std::vector<std::string> outputsFor(const std::string& low, const BakeNames& bak
 
 /// Returns all outputs of a bake, to compare them with `others`, the other outputs of the command line (or empty
 /// strings). The low poly is read only if its materials or tiles could give a map one of these names.
-std::vector<std::string> outputsBeside(const std::vector<std::string>& others, const std::string& low,
-                                       const BakeNames& bake, const BakeFileOptions& options);
+std::vector<std::string> outputsToCompare(const std::vector<std::string>& others, const std::string& low,
+                                          const BakeNames& bake, const BakeFileOptions& options);
 
 /// Returns the paths from which an image word can lead to this path: "dir/a.b.png" and "dir/a.png" for "dir/a.b.c.png".
 std::vector<std::string> withoutWords(const std::string& path);

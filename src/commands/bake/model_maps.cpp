@@ -48,18 +48,18 @@ const char* vrmPropertyOf(MapSlot slot) {
 std::size_t vrmReferencesTo(const Json& json, std::size_t texture) {
     const Json* const vrm = gltf::findExtension(json, "VRM");
     if (vrm == nullptr || !vrm->is_object()) return 0;
-    const auto isIt = [&](const Json& number) {
+    const auto isTexture = [&](const Json& number) {
         return number.is_number_unsigned() && number.get<std::size_t>() == texture;
     };
     const Json* const meta = vrm->find("meta");
     const Json* const thumbnail = meta == nullptr || !meta->is_object() ? nullptr : meta->find("texture");
-    std::size_t count = thumbnail != nullptr && isIt(*thumbnail) ? 1 : 0;
+    std::size_t count = thumbnail != nullptr && isTexture(*thumbnail) ? 1 : 0;
     const Json* const materials = vrm->find("materialProperties");
     if (materials == nullptr || !materials->is_array()) return count;
     for (const Json& material : *materials) {
         const Json* const textures = material.is_object() ? material.find("textureProperties") : nullptr;
         if (textures == nullptr || !textures->is_object()) continue;
-        for (const Json& number : *textures) count += isIt(number) ? 1 : 0;
+        for (const Json& number : *textures) count += isTexture(number) ? 1 : 0;
     }
     return count;
 }
@@ -144,9 +144,9 @@ class MapPlacing {
 
     /// Makes the map the texture of its materials. Returns true if a .gltf references the map as a separate file.
     bool place(const ModelMap& map) {
-        const std::vector<std::size_t> materials = giveMaterials(map);
+        const std::vector<std::size_t> materials = assignMaterials(map);
         const std::optional<std::size_t> old = oldTexture(materials, map.slot);
-        const std::optional<std::string> name = nameBeside(map.path);
+        const std::optional<std::string> name = relativeUri(map.path);
         const std::size_t image = placeImage(map, name, old);
         const std::size_t texture = old ? *old : append("textures", Json{{"source", image}});
         // The map was baked for the sampler of the old texture, so that sampler is kept.
@@ -193,7 +193,7 @@ class MapPlacing {
     }
 
     /// Assigns a material to each primitive of the map: a copy if primitives share it that do not use the map.
-    std::vector<std::size_t> giveMaterials(const ModelMap& map) {
+    std::vector<std::size_t> assignMaterials(const ModelMap& map) {
         std::vector<std::optional<std::size_t>> before;
         std::map<std::size_t, std::size_t> users;
         for (const MappedPrimitive& primitive : map.primitives) {
@@ -300,7 +300,7 @@ class MapPlacing {
     }
 
     /// Returns the URI by which a .gltf references the file; nullopt if the file is not in its folder or below.
-    [[nodiscard]] std::optional<std::string> nameBeside(const std::string& path) const {
+    [[nodiscard]] std::optional<std::string> relativeUri(const std::string& path) const {
         if (target_.container == gltf::Container::glb) return {};
         std::string name = pathBelow(folderOf(target_.path), path);
         if (name.empty() || gltf::namesFile(document_, name)) return {};

@@ -415,8 +415,8 @@ LowModel readLowImages(const std::string& low, const BakeFileOptions& options) {
     return lowModel(readDrawnScene(low, options.file, false), nullptr, nullptr);
 }
 
-std::optional<LowModel> readLowAnew(const std::string& low, const BakeFileOptions& options, Faces faces,
-                                    const LowModel& known) {
+std::optional<LowModel> readLowRecomputed(const std::string& low, const BakeFileOptions& options, Faces faces,
+                                          const LowModel& known) {
     const GenerateOptions generate = allFrames(options, ExistingTangents::replace, faces);
     DrawnScene scene = generateModel(low, generate, false, withAttributesRepaired()).model.drawnScene(false);
     moveBy(known.origin, scene);

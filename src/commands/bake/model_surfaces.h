@@ -184,8 +184,8 @@ LowModel readLowImages(const std::string& low, const BakeFileOptions& options);
 
 /// Returns the low poly with tangents recomputed by `options`.tangents on these faces, in the order of readBakeModels,
 /// or nothing if the method yields a different number of triangles. Throws FileError.
-std::optional<LowModel> readLowAnew(const std::string& low, const BakeFileOptions& options, Faces faces,
-                                    const LowModel& known);
+std::optional<LowModel> readLowRecomputed(const std::string& low, const BakeFileOptions& options, Faces faces,
+                                          const LowModel& known);
 
 bool shows(const LayerOptions& layers, MapLayer layer);
 /// Returns whether a layer uses materials.

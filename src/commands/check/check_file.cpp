@@ -101,10 +101,10 @@ CheckedModel checkModel(const std::string& input, const CheckOptions& options) {
     tell("checking normal maps", 0);
     if (options.images) images = checkImages(scene, options);
     tell("comparing primitives", 0);
-    report.image_count = images.looked_at;
-    report.green_count = images.green_told;
-    weighImages(scene, options, images, judgements);
-    adviseOn(scene, options, judgements);
+    report.image_count = images.examined_count;
+    report.green_count = images.green_known_count;
+    applyImageVerdicts(scene, options, images, judgements);
+    setRemedies(scene, options, judgements);
     std::vector<Finding> unused;
     joinUnused(scene, judgements, unused);
     for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
@@ -175,7 +175,7 @@ Json findingJson(const Finding& finding) {
         {"effect", findingEffect(finding.code)},
         {"message", finding.message},
         {"remedy", finding.remedy},
-        {"show", findingLook(finding.code)},
+        {"show", findingView(finding.code)},
         {"commands", listJson(finding.commands, commandJson)},
     });
 }

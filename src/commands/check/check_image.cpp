@@ -193,7 +193,7 @@ CheckReport checkImageFile(const std::string& input, const CheckOptions& options
     report.green_count = map.test.verdict == GreenVerdict::unknown ? 0 : 1;
     report.image = CheckedImage{.width = map.pixels.width,
                                 .height = map.pixels.height,
-                                .content = contentName(map.look.content),
+                                .content = contentName(map.analysis.content),
                                 .green = greenName(map.test.verdict),
                                 .green_confidence = map.test.confidence()};
     const std::string name = "'" + scene.images[0].uri + "'";
@@ -210,7 +210,7 @@ CheckReport checkImageFile(const std::string& input, const CheckOptions& options
         // Engines use the layout that the format declares, so only viewers of plain glTF are wrong.
         if (is_declared && is_layout) finding.severity = Severity::note;
     }
-    if (map.look.content != MapContent::normals) return report;
+    if (map.analysis.content != MapContent::normals) return report;
     for (std::optional<Finding> finding : {lengthFinding(name, map.pixels), zeroFinding(name, map.pixels)}) {
         if (finding) report.findings.push_back(*std::move(finding));
     }

@@ -36,7 +36,7 @@ struct MapPart {
 struct NormalMap {
     std::size_t image = 0;
     std::vector<MapPart> parts = {};
-    MapLook look = {};
+    MapAnalysis analysis = {};
     std::optional<GreenTest> test = {};
     std::string why_not = {};
     double packing_deg = 0;  ///< approximate error of the vectors of an image with lossy color compression
@@ -97,7 +97,7 @@ std::uint64_t workBytes(const Scene& scene, const NormalMap& map) {
 }
 
 /// Determines the direction of green for each part. `mask`: scratch memory with the size of the image.
-void lookAtParts(const GreenBlocks& blocks, TexelMask&& mask, NormalMap& map) {
+void examineParts(const GreenBlocks& blocks, TexelMask&& mask, NormalMap& map) {
     // If there are more parts, or UVs are hostile, the remaining parts get the verdict of the whole map.
     constexpr std::size_t kMaxParts = 4096;
     std::uint64_t steps = kCoverSteps;
@@ -194,7 +194,7 @@ std::vector<std::uint8_t> alphaOf(const Scene& scene, const SceneImage& image, s
 }
 
 /// Detects what the image contains, and converts it to the channel layout of glTF.
-void lookAtContent(const Scene& scene, const TexelMask& inside, NormalMap& map, RgbImage& image) {
+void analyzeContent(const Scene& scene, const TexelMask& inside, NormalMap& map, RgbImage& image) {
     const std::optional<TextureFacts> facts = textureFacts(scene.images[map.image].bytes);
     const std::vector<std::uint8_t> alpha =
         alphaOf(scene, scene.images[map.image], sampleTexels(image, {}, inside), facts.has_value());
@@ -204,10 +204,10 @@ void lookAtContent(const Scene& scene, const TexelMask& inside, NormalMap& map, 
         parts.push_back(surface.size());
         showPoints(part, image, surface);
     }
-    map.look = lookAtMap({image, alpha, inside, facts ? &facts->layout : nullptr}, surface,
-                         placedInWorld(map, parts, surface));
-    if (holdsNormals(map.look.content) && !(map.look.layout == MapLayout{}))
-        readByLayout(image, alpha, map.look.layout);
+    map.analysis = analyzeMap({image, alpha, inside, facts ? &facts->layout : nullptr}, surface,
+                              placedInWorld(map, parts, surface));
+    if (holdsNormals(map.analysis.content) && !(map.analysis.layout == MapLayout{}))
+        readByLayout(image, alpha, map.analysis.layout);
 }
 
 bool isEtc1s(const std::optional<TextureFacts>& facts) { return facts && facts->name.starts_with("ETC1S"); }
@@ -250,7 +250,7 @@ double etc1sDegrees(const RgbImage& image) {
     return std::sqrt(lost * lost + kRoundedDeg * kRoundedDeg);
 }
 
-void lookAt(const Scene& scene, const CheckOptions& options, NormalMap& map) {
+void examine(const Scene& scene, const CheckOptions& options, NormalMap& map) {
     const SceneImage& image = scene.images[map.image];
     if (image.bytes.empty()) {
         map.why_not = image.why_empty;
@@ -269,12 +269,12 @@ void lookAt(const Scene& scene, const CheckOptions& options, NormalMap& map) {
     if (map.parts.empty()) inside.fillAll();
     if (isLossyWebp(image.bytes)) map.packing_deg = webpDegrees(*decoded);
     if (isEtc1s(textureFacts(image.bytes))) map.packing_deg = etc1sDegrees(*decoded);
-    lookAtContent(scene, inside, map, *decoded);
+    analyzeContent(scene, inside, map, *decoded);
     map.test = GreenTest{};
-    if (!holdsNormals(map.look.content)) return;
+    if (!holdsNormals(map.analysis.content)) return;
     const GreenBlocks blocks(*decoded, inside);
     map.test = blocks.all();
-    lookAtParts(blocks, std::move(inside), map);
+    examineParts(blocks, std::move(inside), map);
 }
 
 std::string imageName(const Scene& scene, std::size_t image) {
@@ -359,7 +359,7 @@ void describeStorage(const Scene& scene, const NormalMap& map, const std::string
                      std::vector<Finding>& findings) {
     const SceneImage& image = scene.images[map.image];
     const std::optional<TextureFacts> facts = textureFacts(image.bytes);
-    const MapContent content = map.look.content;
+    const MapContent content = map.analysis.content;
     const auto add = [&](FindingCode code, Severity severity, std::string text) -> Finding& {
         const Tally one{.count = 1, .total = 1};
         return findings.emplace_back(
@@ -414,12 +414,12 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
                           : "Put the image where the model references it, or correct its path in the model.");
         }
     } else {
-        const bool has_own_green = hasOwnGreen(map.look.layout);
+        const bool has_own_green = hasOwnGreen(map.analysis.layout);
         const std::optional<TextureFacts> facts = textureFacts(scene.images[map.image].bytes);
         std::optional<Finding> content =
-            contentFinding(namedImage(scene, map), map.look, isDown(map) && !(has_own_green && isDeclared(map)));
+            contentFinding(namedImage(scene, map), map.analysis, isDown(map) && !(has_own_green && isDeclared(map)));
         if (content && facts) content->message += " (it is " + facts->name + ")";
-        if (content && map.look.content == MapContent::height && mayBeHeights(map)) {
+        if (content && map.analysis.content == MapContent::height && mayBeHeights(map)) {
             content->severity = Severity::note;
             content->message = name + " is a height map (map_bump), not a normal map";
             setRemedy(*content, {"No action is needed: generate makes a normal map from it, with -bm as its height in "
@@ -444,7 +444,7 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
 }
 
 GreenSide sideOf(const NormalMap& map, const GreenTest& test) {
-    if (!hasOwnGreen(map.look.layout)) return GreenSide::unknown;
+    if (!hasOwnGreen(map.analysis.layout)) return GreenSide::unknown;
     const bool is_declared = isDeclared(map);
     switch (test.verdict) {
         case GreenVerdict::up:
@@ -466,18 +466,18 @@ ImageFindings checkImages(const Scene& scene, const CheckOptions& options) {
     Parallel parallel(options.execution);
     workTogether(
         scene.memory.get(), maps.size(), parallel, [&](std::size_t i) { return workBytes(scene, maps[i]); },
-        [&](std::size_t i) { lookAt(scene, options, maps[i]); });
+        [&](std::size_t i) { examine(scene, options, maps[i]); });
     ImageFindings result;
     result.image_green.assign(scene.images.size(), GreenSide::noMap);
     result.primitive_green.assign(scene.primitives.size(), GreenSide::noMap);
-    result.looks.resize(scene.images.size());
+    result.analyses.resize(scene.images.size());
     result.is_y_inverted.resize(scene.images.size());
     result.is_declared.resize(scene.images.size());
     for (const NormalMap& map : maps) {
-        result.looked_at += map.test.has_value();
-        result.green_told += map.test && map.test->verdict != GreenVerdict::unknown;
-        result.looks[map.image] = map.look;
-        result.is_y_inverted[map.image] = isDown(map) && !hasOwnGreen(map.look.layout);
+        result.examined_count += map.test.has_value();
+        result.green_known_count += map.test && map.test->verdict != GreenVerdict::unknown;
+        result.analyses[map.image] = map.analysis;
+        result.is_y_inverted[map.image] = isDown(map) && !hasOwnGreen(map.analysis.layout);
         result.is_declared[map.image] = isDeclared(map);
         result.image_green[map.image] = map.test ? sideOf(map, *map.test) : GreenSide::unread;
         for (const MapPart& part : map.parts) {
@@ -495,9 +495,9 @@ ImageFindings checkImages(const Scene& scene, const CheckOptions& options) {
 
 LoneMap checkLoneMap(const Scene& scene, const CheckOptions& options) {
     NormalMap map;
-    lookAt(scene, options, map);
+    examine(scene, options, map);
     if (!map.test) failFile(ErrorCode::invalidFile, map.why_not);
-    LoneMap lone{.look = map.look, .test = *map.test, .findings = describe(scene, map)};
+    LoneMap lone{.analysis = map.analysis, .test = *map.test, .findings = describe(scene, map)};
     lone.pixels = *decodeImage(scene.images[0].bytes, options.most_pixels, map.why_not);
     return lone;
 }

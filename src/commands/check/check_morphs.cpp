@@ -239,9 +239,9 @@ class MorphNormalsChecker {
         std::erase_if(off, [&](const OffNormal& one) {
             const std::size_t at = i++;
             const VertexTurn& turn = turns[one.vertex];
-            const double lean = angleBetween(one.was, toDouble(turn.from));
-            return angleBetween(one.is, toDouble(turn.to)) <= lean + slack ||
-                   faces.admit(at, one.is, turn, lean <= slack, slack);
+            const double tilt = angleBetween(one.was, toDouble(turn.from));
+            return angleBetween(one.is, toDouble(turn.to)) <= tilt + slack ||
+                   faces.admit(at, one.is, turn, tilt <= slack, slack);
         });
     }
 
@@ -301,8 +301,8 @@ std::vector<float> frameErrors(const TangentView& mesh, std::vector<float> dista
         DVec3 normal = toDouble(mesh.normals[v]), tangent = toDouble(xyz(mesh.tangents[v]));
         if (!normalize(normal)) continue;
         const bool has_tangent = normalize(tangent);
-        const double lean = has_tangent ? std::fabs(90 - angleBetween(normal, tangent) * 180 / kPi) : 90;
-        errors[v] = std::max(errors[v], static_cast<float>(lean));
+        const double tilt = has_tangent ? std::fabs(90 - angleBetween(normal, tangent) * 180 / kPi) : 90;
+        errors[v] = std::max(errors[v], static_cast<float>(tilt));
     }
     return errors;
 }
@@ -338,8 +338,8 @@ bool isThin(const TangentView& mesh, std::size_t face, float area) {
 /// The groups are computed on the base, so a triangle that collapses still belongs to them, with an arbitrary
 /// direction, and a triangle that opens does not. A triangle that is flipped collapses in between. Triangles that are
 /// degenerate before and after change nothing.
-void forgetCollapsed(const TangentView& mesh, const Surface& base, const TangentView& morphed_mesh,
-                     const Surface& morphed, const EqualVertices& equal, std::vector<bool>& good) {
+void excludeCollapsed(const TangentView& mesh, const Surface& base, const TangentView& morphed_mesh,
+                      const Surface& morphed, const EqualVertices& equal, std::vector<bool>& good) {
     constexpr float kCollapsed = 1e-4f;            // ratio of the areas; corresponds to 1 percent along each side
     constexpr double kFlipped = -0.8660254037844;  // cosine of 150 degrees, as in SurfaceTurns
     std::vector<bool> is_out(equal.class_count, false);
@@ -370,7 +370,7 @@ class MorphChecker {
         const double limit = facts_.options.direction_deg;
         const std::vector<float> errors = frameErrors(morphed.view, directionDistances(morphed.view, surface, limit));
         std::vector<bool> good = good_on_base_;
-        forgetCollapsed(facts_.mesh, facts_.surface, morphed.view, surface, equal_, good);
+        excludeCollapsed(facts_.mesh, facts_.surface, morphed.view, surface, equal_, good);
         Tally tally;
         double far_area = 0, turning_area = 0;
         std::vector<std::uint32_t> off;

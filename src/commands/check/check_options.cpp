@@ -74,7 +74,7 @@ OptionList checkOptions(CheckRequest& request) {
     return list;
 }
 
-void leaveOut(const CheckRequest& request, CheckReport& report) {
+void removeOmitted(const CheckRequest& request, CheckReport& report) {
     const auto is_unwanted = [&](const Finding& finding) {
         const auto& ignored = request.ignored;
         return finding.severity < request.min_severity ||
@@ -90,7 +90,7 @@ void leaveOut(const CheckRequest& request, CheckReport& report) {
     report.note_count = count(Severity::note);
 }
 
-bool failsBy(const CheckRequest& request, const CheckReport& report) {
+bool makesCheckFail(const CheckRequest& request, const CheckReport& report) {
     return std::any_of(report.findings.begin(), report.findings.end(),
                        [&](const Finding& finding) { return finding.severity >= request.fail_on; });
 }

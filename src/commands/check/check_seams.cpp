@@ -149,7 +149,7 @@ class MeshSeams {
         for (const JoinedPieces::Border& border : joined.borders()) {
             for (const PieceTriangle& at : border.triangles)
                 smooth.try_emplace(at.piece, *primitives_[at.piece], joined, at.piece);
-            look(joined, border, smooth, seams[{border.triangles[0].piece, border.triangles[1].piece}]);
+            compareBorder(joined, border, smooth, seams[{border.triangles[0].piece, border.triangles[1].piece}]);
         }
         for (const auto& [pair, seam] : seams) {
             const auto least = kMaxPlaces * static_cast<double>(seam.places.size());
@@ -167,8 +167,8 @@ class MeshSeams {
         return corners[c];
     }
 
-    void look(const JoinedPieces& joined, const JoinedPieces::Border& border,
-              const std::map<std::uint32_t, SmoothPiece>& smooth, Seam& seam) const {
+    void compareBorder(const JoinedPieces& joined, const JoinedPieces::Border& border,
+                       const std::map<std::uint32_t, SmoothPiece>& smooth, Seam& seam) const {
         const auto& [a, b] = border.triangles;
         const SmoothPiece &side_a = smooth.at(a.piece), &side_b = smooth.at(b.piece);
         const double bend = angleBetween(side_a.faceNormal(a.triangle), side_b.faceNormal(b.triangle)) * kToDegrees;

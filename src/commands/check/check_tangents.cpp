@@ -33,7 +33,7 @@ double uvArea(const TangentView& mesh, std::size_t triangle) {
 
 /// Gives both halves of a quad one orientation, as the MikkTSpace reference does: if the quad is folded in the UV map,
 /// the larger half decides.
-void giveFacesOneOrientation(const TangentView& mesh, std::span<const std::uint32_t> faces, Surface& surface) {
+void unifyQuadOrientations(const TangentView& mesh, std::span<const std::uint32_t> faces, Surface& surface) {
     for (std::size_t t = 0; t + 1 < faces.size(); ++t) {
         SurfaceFrame &first = surface.faces[t], &second = surface.faces[t + 1];
         if (faces[t] != faces[t + 1] || first.orientation * second.orientation != -1) continue;
@@ -62,7 +62,7 @@ Result<QuadReading> cutQuads(const TangentView& mesh, const QuadFaces& faces) {
     TangentView other = mesh;
     other.corners = reading.corners;
     reading.surface = describeSurface(other);
-    giveFacesOneOrientation(other, cut->faces, reading.surface);
+    unifyQuadOrientations(other, cut->faces, reading.surface);
     return reading;
 }
 
@@ -71,8 +71,8 @@ Result<QuadReading> cutQuads(const TangentView& mesh, const QuadFaces& faces) {
 Result<std::optional<QuadReading>> findQuads(const TangentView& mesh, const FrameHealth& health,
                                              const CheckOptions& options) {
     const std::optional<QuadReading> none;
-    const bool is_asked = options.faces == Faces::quads || (options.faces == Faces::automatic && hasFaults(health));
-    if (!is_asked || mesh.normals.empty() || mesh.uvs.empty()) return none;
+    const bool try_quads = options.faces == Faces::quads || (options.faces == Faces::automatic && hasFaults(health));
+    if (!try_quads || mesh.normals.empty() || mesh.uvs.empty()) return none;
     const Result<QuadFaces> faces =
         chooseFaces(mesh.triangles(), mesh.tangents, false, options.faces, {.thread_count = 1});
     if (!faces) return faces.error();
@@ -87,7 +87,7 @@ namespace {
 // Detects tangents that were not rotated with their mesh, for example from Z up to Y up.
 
 /// Other axes are tried if tangents are tilted out of at least this share of the surface.
-constexpr double kClearlyLeaning = 0.2;
+constexpr double kManyTilted = 0.2;
 /// Maximum share of tilted tangents, and of wrong directions, in the correct axes.
 constexpr double kMaxWrong = 0.02;
 
@@ -108,15 +108,15 @@ struct AxisExchange {
     }
 };
 
-double leaningShare(const PrimitiveFacts& facts, std::span<const Vec4> tangents) {
-    double leaning = 0;
+double tiltedShare(const PrimitiveFacts& facts, std::span<const Vec4> tangents) {
+    double tilted_area = 0;
     for (std::uint32_t v = 0; v < tangents.size(); ++v) {
         DVec3 n = toDouble(facts.mesh.normals[v]), t = toDouble(xyz(tangents[v]));
         if (!normalize(n) || !normalize(t)) continue;
-        const double lean = std::fabs(90 - angleBetween(n, t) * 180 / kPi);
-        if (lean > facts.options.orthogonal_deg) leaning += facts.surface.vertex_areas[v];
+        const double tilt = std::fabs(90 - angleBetween(n, t) * 180 / kPi);
+        if (tilt > facts.options.orthogonal_deg) tilted_area += facts.surface.vertex_areas[v];
     }
-    return leaning / facts.surface.area;
+    return tilted_area / facts.surface.area;
 }
 
 double wrongShare(const PrimitiveFacts& facts, std::span<const Vec4> tangents) {
@@ -135,7 +135,7 @@ double wrongShare(const PrimitiveFacts& facts, std::span<const Vec4> tangents) {
 /// permutations of the axes are tried.
 std::string findOtherAxes(const PrimitiveFacts& facts, const FrameHealth& health) {
     if (facts.mesh.uvs.empty() || !(facts.surface.known_area > 0)) return {};
-    if (health.not_orthogonal.surface_share + health.parallel.surface_share < kClearlyLeaning ||
+    if (health.not_orthogonal.surface_share + health.parallel.surface_share < kManyTilted ||
         health.directions_wrong.count == 0)
         return {};
     std::vector<Vec4> turned(facts.mesh.tangents.size());
@@ -144,7 +144,7 @@ std::string findOtherAxes(const PrimitiveFacts& facts, const FrameHealth& health
         for (unsigned signs = 0; signs < 8; ++signs) {
             for (std::size_t i = 0; i < 3; ++i) axes.sign[i] = (signs >> i & 1) != 0 ? -1.0f : 1.0f;
             std::transform(facts.mesh.tangents.begin(), facts.mesh.tangents.end(), turned.begin(), axes);
-            if (leaningShare(facts, turned) <= kMaxWrong && wrongShare(facts, turned) <= kMaxWrong) return axes.text();
+            if (tiltedShare(facts, turned) <= kMaxWrong && wrongShare(facts, turned) <= kMaxWrong) return axes.text();
         }
     } while (std::next_permutation(axes.from.begin(), axes.from.end()));
     return {};
@@ -363,7 +363,7 @@ Result<Done> checkTangents(PrimitiveFacts& facts) {
     if (Result<Done> done = readOnQuads(facts, *health); !done) return done;
     Result<std::optional<OtherReading>> other = findOtherReading(facts, *health);
     if (!other) return other.error();
-    facts.looked_at_values = true;
+    facts.examined_values = true;
     facts.faults = std::move(health->faults);
     facts.wrong_sign_share = health->wrong_sign_share;
     if (*other) {

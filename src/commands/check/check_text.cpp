@@ -21,7 +21,7 @@ std::string countsText(std::uint64_t errors, std::uint64_t warnings, std::uint64
 }
 
 /// Lists the tests that normal maps were examined with. Flat maps have no relief that shows the direction of green.
-std::string lookedText(const CheckReport& report) {
+std::string testsText(const CheckReport& report) {
     if (report.image_count == 0) return {};
     std::string text = fmt::format("; examined {}: channel contents", counted(report.image_count, "normal map"));
     if (report.green_count == report.image_count) return text + ", direction of green";
@@ -37,7 +37,7 @@ std::string summaryLine(const CheckOutcome& outcome) {
     if (report.image) return fmt::format("{}: {}; {}\n", unbroken(outcome.input), imageText(report), what);
     std::string text = fmt::format("{}: {} in {}, {} of them with tangents", unbroken(outcome.input), what,
                                    counted(report.primitive_count, "primitive"), report.tangents_count);
-    return text + lookedText(report) + "\n";
+    return text + testsText(report) + "\n";
 }
 
 /// Returns the largest error of packed frames of one format, over all primitives that could be compared.

@@ -71,8 +71,8 @@ bool spansAngle(const TangentView& mesh, std::size_t corner) {
 
 /// Sets distances beyond the tolerance to unknown if no triangle with a direction spans an angle at the vertex: the
 /// result of methods that weight by this angle is arbitrary there.
-void forgetThinCorners(const TangentView& mesh, const Surface& surface, double tolerance_deg,
-                       std::vector<float>& distances) {
+void excludeThinCorners(const TangentView& mesh, const Surface& surface, double tolerance_deg,
+                        std::vector<float>& distances) {
     std::vector<bool> spans(distances.size(), false);
     for (std::size_t c = 0; c < surface.faces.size() * 3; ++c) {
         const std::uint32_t v = mesh.corners[c];
@@ -247,7 +247,7 @@ std::vector<float> directionDistances(const TangentView& mesh, const Surface& su
         is_any_far = is_any_far || distances[v] > tolerance_deg;
     }
     if (!is_any_far) return distances;
-    forgetThinCorners(mesh, surface, tolerance_deg, distances);
+    excludeThinCorners(mesh, surface, tolerance_deg, distances);
     considerEqualVertices(mesh, surface, tolerance_deg, distances);
     return distances;
 }

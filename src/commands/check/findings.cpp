@@ -22,7 +22,7 @@ const char* severityName(Severity severity) {
     return "";
 }
 
-const char* findingLook(FindingCode code) {
+const char* findingView(FindingCode code) {
     switch (code) {
         case FindingCode::signsNotOne:
         case FindingCode::signsMixed:
@@ -176,23 +176,23 @@ void addValues(const FrameHealth& health, const CheckOptions& options, FindingLi
                   "the relief looks too strong or too weak: the tangents of " + countText(health.not_unit, kVertices) +
                       " do not have unit length" + (health.has_zero ? ", some have length 0" : "") +
                       onSurface(health.not_unit));
-    Tally leaning = health.not_orthogonal;
+    Tally all_tilted = health.not_orthogonal;
     if (health.parallel_apart) {
         list.addWhole(FindingCode::tangentsNotOrthogonal, Severity::error, health.parallel,
                       "the relief vanishes or turns black: the tangents of " + countText(health.parallel, kVertices) +
                           " are parallel to the normal, so the bitangent is undefined" + onSurface(health.parallel));
     } else {
-        leaning.include(health.parallel);
+        all_tilted.include(health.parallel);
     }
     const bool is_parallel =
         !health.parallel_apart && health.parallel.surface_share >= options.error_share && health.parallel.count != 0;
     list.addWhole(
-        FindingCode::tangentsNotOrthogonal, is_parallel ? Severity::error : Severity::warning, leaning,
-        "the relief may look tilted: the tangents of " + countText(leaning, kVertices) +
-            " are not perpendicular to the normal; they deviate by up to " + decimalText(leaning.worst_deg) +
+        FindingCode::tangentsNotOrthogonal, is_parallel ? Severity::error : Severity::warning, all_tilted,
+        "the relief may look tilted: the tangents of " + countText(all_tilted, kVertices) +
+            " are not perpendicular to the normal; they deviate by up to " + decimalText(all_tilted.worst_deg) +
             " degrees" +
             (is_parallel ? "; " + std::to_string(health.parallel.count) + " of them are parallel to it" : "") +
-            onSurface(leaning));
+            onSurface(all_tilted));
     list.addWhole(FindingCode::signsNotOne, health.sign_vanishes ? Severity::error : Severity::warning,
                   health.sign_not_one,
                   "the relief may look too strong, too weak or flat: the sign (w) of " +

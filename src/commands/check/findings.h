@@ -15,7 +15,7 @@ struct FrameHealth;
 struct ScenePrimitive;
 
 /// Returns the view of tspace render that shows the subject of a finding ("sign"), or an empty text.
-const char* findingLook(FindingCode code);
+const char* findingView(FindingCode code);
 
 /// Creates a finding with the numbers of the tally and without a location.
 Finding makeFinding(FindingCode code, Severity severity, const Tally& tally, const char* unit, std::string message);

@@ -116,13 +116,13 @@ void examineValues(const TangentView& mesh, const Surface& surface, const CheckO
         if (!normalize(tangent) || !normalize(normal)) continue;
         ++health.not_orthogonal.total;
         ++health.parallel.total;
-        const double lean = std::fabs(90 - angleBetween(normal, tangent) * 180 / kPi);
+        const double tilt = std::fabs(90 - angleBetween(normal, tangent) * 180 / kPi);
         const double limit = mesh.uvs.empty() || knows_direction[v] ? options.orthogonal_deg : kParallel;
-        if (!(lean > limit) || health.isSettled(v)) continue;
-        (lean > kParallel ? health.parallel : health.not_orthogonal).add(v, area, lean);
+        if (!(tilt > limit) || health.isSettled(v)) continue;
+        (tilt > kParallel ? health.parallel : health.not_orthogonal).add(v, area, tilt);
         fault(FindingCode::tangentsNotOrthogonal);
-        if (lean <= kParallel) continue;
-        health.has_no_frame = health.has_no_frame || lean > kNoFrame;
+        if (tilt <= kParallel) continue;
+        health.has_no_frame = health.has_no_frame || tilt > kNoFrame;
         health.addFaults(v, kParallelTangent, mesh.positions.size());
     }
     examineMixedSigns(mesh, surface, health);

@@ -18,7 +18,7 @@ constexpr double kLengthSlack = 0.1;
 /// Standard deviation, of 255, below which a channel is constant; compression alone may cause this much.
 constexpr double kConstant = 2.5;
 /// Minimum x^2 + y^2 of tilted texels; corresponds to a tilt of 11 degrees.
-constexpr double kMinLean = 0.04;
+constexpr double kMinTilt = 0.04;
 constexpr double kStep = 1.0 / 127.5;
 /// Maximum absolute mean of x and of y in a map, unless more is known.
 constexpr double kMaxMean = 0.25;
@@ -157,23 +157,23 @@ std::vector<TexelBytes> paintedOf(std::span<const TexelBytes> texels) {
     return painted;
 }
 
-class Looker {
+class MapAnalyzer {
   public:
-    Looker(std::span<const TexelBytes> texels, bool has_alpha, std::span<const TexelOnSurface> surface,
-           std::span<const TexelOnSurface> in_world)
+    MapAnalyzer(std::span<const TexelBytes> texels, bool has_alpha, std::span<const TexelOnSurface> surface,
+                std::span<const TexelOnSurface> in_world)
         : texels_(texels), has_alpha_(has_alpha), surface_(surface), in_world_(in_world), plain_(fitOf(texels, {})) {
         for (std::size_t i = 0; i < channels_.size(); ++i) {
             channels_[i] = spreadOf(texels, [i](const TexelBytes& texel) { return static_cast<double>(texel[i]); });
         }
     }
 
-    [[nodiscard]] MapLook look() const {
+    [[nodiscard]] MapAnalysis analysis() const {
         if (const auto found = xInAlpha()) return *found;
         if (const auto found = lostX()) return *found;
         if (isGrayTexels(texels_)) return made(MapContent::height, {}, 1);
         if (const auto found = twoChannels(kMaxMean)) return *found;
         if (const auto found = encoded()) return *found;
-        if (const auto found = leaningTwoChannels()) return *found;
+        if (const auto found = tiltedTwoChannels()) return *found;
         if (const auto found = picture()) return *found;
         if (const auto found = objectSpace()) return *found;
         if (const auto found = exchanged()) return *found;
@@ -182,7 +182,7 @@ class Looker {
     }
 
   private:
-    [[nodiscard]] MapLook made(MapContent content, const MapLayout& layout, double share) const {
+    [[nodiscard]] MapAnalysis made(MapContent content, const MapLayout& layout, double share) const {
         const std::uint64_t total = texels_.size();
         const auto count = static_cast<std::uint64_t>(share * static_cast<double>(total) + 0.5);
         return {.content = content, .layout = layout, .count = count, .total = total};
@@ -195,7 +195,7 @@ class Looker {
 
     /// Detects x in alpha: red is constant or a copy of green, and alpha varies like x. A gray image with another alpha
     /// channel is a height map with a mask.
-    [[nodiscard]] std::optional<MapLook> xInAlpha() const {
+    [[nodiscard]] std::optional<MapAnalysis> xInAlpha() const {
         if (!mayBeXInAlpha() || plain_.unit_share > 0.5 || !canBeXy(texels_, 3, 1)) return {};
         MapLayout layout;
         layout.x.channel = MapChannel::alpha;
@@ -204,16 +204,16 @@ class Looker {
     }
 
     /// Detects a lost x: red and blue are constant, red is not a possible mean of x, and green varies like y.
-    [[nodiscard]] std::optional<MapLook> lostX() const {
+    [[nodiscard]] std::optional<MapAnalysis> lostX() const {
         constexpr double kFarX = 0.9, kFewUnit = 0.1;
         const auto isConstant = [&](std::size_t i) { return channels_[i].deviation <= kConstant; };
         const auto valueOf = [&](std::size_t i) { return channels_[i].mean * kStep - 1; };
         if (!isConstant(0) || isConstant(1) || !isConstant(2) || (has_alpha_ && !isConstant(3))) return {};
         if (std::fabs(valueOf(0)) < kFarX || std::fabs(valueOf(1)) > kMaxMean || plain_.unit_share > kFewUnit)
             return {};
-        MapLook look = made(MapContent::picture, {}, 1);
-        look.is_x_lost = true;
-        return look;
+        MapAnalysis analysis = made(MapContent::picture, {}, 1);
+        analysis.is_x_lost = true;
+        return analysis;
     }
 
     /// Returns whether blue is z of vectors with equal lengths, which may differ from 1: z^2 falls as x^2 + y^2 grows.
@@ -235,7 +235,7 @@ class Looker {
     /// Detects two channels: blue is constant and differs from the expected z, on all texels or on tilted ones. Maps
     /// that are flat nearly everywhere are not reported: Khronos' Lantern has one with blue = 255, which is wrong by
     /// only 0.15 degrees on average.
-    [[nodiscard]] std::optional<MapLook> twoChannels(double max_mean) const {
+    [[nodiscard]] std::optional<MapAnalysis> twoChannels(double max_mean) const {
         constexpr double kFar = 0.3, kNearlyConstant = 16, kMaxCorrelation = 0.5;
         constexpr double kSeenDeg = 0.5, kMaxTogether = 0.9;
         constexpr std::uint64_t kMinCount = 16;
@@ -254,7 +254,7 @@ class Looker {
             error += std::fabs(stored - z);
             angle += std::fabs(std::atan2(across, stored) - std::atan2(across, z)) * 180 / kPi;
             product += (texel[2] - blue.mean) * (z - up.mean);
-            if (squareOf(texel, 0, 1) < kMinLean) continue;
+            if (squareOf(texel, 0, 1) < kMinTilt) continue;
             ++count;
             off += (texel[2] - blue.mean) * (texel[2] - blue.mean);
             wanted += (127.5 * (z + 1) - blue.mean) * (127.5 * (z + 1) - blue.mean);
@@ -274,15 +274,15 @@ class Looker {
     }
 
     /// Detects two channels in maps with a constant blue channel whose relief is tilted to one side.
-    [[nodiscard]] std::optional<MapLook> leaningTwoChannels() const {
-        constexpr double kLeaning = 0.6;
+    [[nodiscard]] std::optional<MapAnalysis> tiltedTwoChannels() const {
+        constexpr double kMaxTiltedMean = 0.6;
         for (std::size_t i = 0; i < 3; ++i) {
             if ((channels_[i].deviation > kConstant) == (i == 2)) return {};
         }
-        return twoChannels(kLeaning);
+        return twoChannels(kMaxTiltedMean);
     }
 
-    [[nodiscard]] std::optional<MapLook> encoded() const {
+    [[nodiscard]] std::optional<MapAnalysis> encoded() const {
         for (const MapCurve curve : {MapCurve::srgb, MapCurve::linearized}) {
             const MapLayout layout{.curve = curve};
             const Fit fit = fitOf(texels_, layout);
@@ -315,9 +315,9 @@ class Looker {
         double agreement = 0;
     };
     [[nodiscard]] Followed followed(std::span<const TexelOnSurface> surface, const std::optional<Up>& up) const;
-    [[nodiscard]] std::optional<MapLook> objectSpace() const;
+    [[nodiscard]] std::optional<MapAnalysis> objectSpace() const;
 
-    [[nodiscard]] std::optional<MapLook> exchanged() const {
+    [[nodiscard]] std::optional<MapAnalysis> exchanged() const {
         const std::optional<Up> up = upAxis();
         if (plain_.unit_share < 0.7 || !up || (up->axis == 2 && !up->is_inverted)) return {};
         MapLayout layout;
@@ -330,7 +330,7 @@ class Looker {
 
     /// Detects z stored without sign: over tilted texels the slope of blue against z is about 1, not 1/2, and blue is
     /// much nearer to z than to (z + 1) / 2.
-    [[nodiscard]] std::optional<MapLook> unsignedZ() const {
+    [[nodiscard]] std::optional<MapAnalysis> unsignedZ() const {
         constexpr std::uint64_t kMinCount = 64;
         constexpr double kMaxLong = 0.05;  // JPEG changes red and green if blue varies as much as they do
         constexpr double kNoSpread = 0.2;  // unsigned z leaves a spread of 0.4 or more
@@ -339,7 +339,7 @@ class Looker {
         std::uint64_t count = 0;
         for (const TexelBytes& texel : texels_) {
             const double square = squareOf(texel, 0, 1);
-            if (square < kMinLean || square > 1) continue;
+            if (square < kMinTilt || square > 1) continue;
             const double wanted = std::sqrt(1 - square), blue = texel[2] / 255.0;
             ++count;
             z += wanted;
@@ -358,9 +358,9 @@ class Looker {
         if (slope < 0.6 || slope > 1.3 || agreement < 0.5) return {};
         MapLayout layout;
         layout.z.channel = MapChannel::none;
-        MapLook look = made(MapContent::unsignedZ, layout, 1);
-        look.count = count;
-        return look;
+        MapAnalysis analysis = made(MapContent::unsignedZ, layout, 1);
+        analysis.count = count;
+        return analysis;
     }
 
     /// Returns the share of unit vectors, by the best transfer curve. A curve is used only if the decoded vectors then
@@ -386,7 +386,7 @@ class Looker {
     /// together, as shading makes them. Light and dark grays are unit vectors only by chance: they lie on a diagonal,
     /// where the components of real unit vectors cannot all increase together. Images with one color or few texels, and
     /// images with x and y plus another channel, are not classified.
-    [[nodiscard]] std::optional<MapLook> picture() const {
+    [[nodiscard]] std::optional<MapAnalysis> picture() const {
         constexpr double kMaxUnit = 0.7, kFewUnit = 0.5, kTogether = 0.5, kMuchTogether = 0.8, kMinDiagonal = 0.35,
                          kOneWay = 0.75;
         constexpr std::size_t kMinCount = 256;
@@ -411,10 +411,11 @@ class Looker {
         const double max_unit = !mayPointUp(painted, mean) ? kMaxUnit : weakest >= kTogether ? kFewUnit : 0;
         const bool is_none = is_diagonal || is_aside;
         if (!is_none && unit >= max_unit) return {};
-        MapLook look = made(MapContent::picture, {}, 1);
-        look.total = painted.size();
-        look.count = static_cast<std::uint64_t>((is_none ? 1 : 1 - unit) * static_cast<double>(look.total) + 0.5);
-        return look;
+        MapAnalysis analysis = made(MapContent::picture, {}, 1);
+        analysis.total = painted.size();
+        analysis.count =
+            static_cast<std::uint64_t>((is_none ? 1 : 1 - unit) * static_cast<double>(analysis.total) + 0.5);
+        return analysis;
     }
 
     std::span<const TexelBytes> texels_;
@@ -462,7 +463,7 @@ Following followingOf(std::span<const TexelOnSurface> surface, const MapLayout& 
         }
     }
     const double weight = sums[0][0];
-    const auto takeOut = [&](std::size_t pivot, double least) {
+    const auto eliminate = [&](std::size_t pivot, double least) {
         if (!(sums[pivot][pivot] > least)) return;
         const auto by = sums[pivot];
         for (auto& row : sums) {
@@ -475,10 +476,10 @@ Following followingOf(std::span<const TexelOnSurface> surface, const MapLayout& 
     if (!(weight > 0)) return {};
     constexpr double kRounding = 1e-9;
     const double min_u = kRounding * sums[1][1], min_v = kRounding * sums[2][2];
-    takeOut(0, 0);
+    eliminate(0, 0);
     Following following{.spread = spread() / weight, .slope = slope()};
-    takeOut(1, min_u);
-    takeOut(2, min_v);
+    eliminate(1, min_u);
+    eliminate(2, min_v);
     following.bent_share = following.spread > 0 ? spread() / weight / following.spread : 0;
     following.bent_slope = slope();
     return following;
@@ -511,7 +512,8 @@ bool isOfMeshUnderRelief(std::span<const TexelOnSurface> surface, const MapLayou
     return true;
 }
 
-Looker::Followed Looker::followed(std::span<const TexelOnSurface> surface, const std::optional<Up>& up) const {
+MapAnalyzer::Followed MapAnalyzer::followed(std::span<const TexelOnSurface> surface,
+                                            const std::optional<Up>& up) const {
     constexpr std::size_t kMinPoints = 8;
     constexpr double kMinAgreement = 0.5, kSureAgreement = 0.9, kOfTheBest = 0.97, kOfTheRest = 0.4;
     const Moments moments = momentsOf(surface);
@@ -537,17 +539,17 @@ Looker::Followed Looker::followed(std::span<const TexelOnSurface> surface, const
     return {layout, agreement};
 }
 
-std::optional<MapLook> Looker::objectSpace() const {
+std::optional<MapAnalysis> MapAnalyzer::objectSpace() const {
     constexpr double kMuchBelow = 0.2, kRounding = 1e-6;
     if (plain_.unit_share < 0.7) return {};
     const std::optional<Up> up = upAxis();
     const Followed mesh = followed(surface_, up), world = followed(in_world_, up);
     const bool is_in_world = world.agreement > mesh.agreement + kRounding;
     if (const Followed& best = is_in_world ? world : mesh; best.agreement > 0) {
-        MapLook look = made(MapContent::objectSpace, best.layout, plain_.unit_share);
-        look.follows_mesh = true;
-        look.is_in_world = is_in_world;
-        return look;
+        MapAnalysis analysis = made(MapContent::objectSpace, best.layout, plain_.unit_share);
+        analysis.follows_mesh = true;
+        analysis.is_in_world = is_in_world;
+        return analysis;
     }
     if (up || plain_.below_share[2] < kMuchBelow) return {};
     return made(MapContent::objectSpace, {}, plain_.below_share[2]);
@@ -572,10 +574,10 @@ std::vector<TexelBytes> sampleTexels(const RgbImage& image, std::span<const std:
     return texels;
 }
 
-MapLook lookAtTexels(std::span<const TexelBytes> texels, bool has_alpha, std::span<const TexelOnSurface> surface,
-                     std::span<const TexelOnSurface> in_world) {
+MapAnalysis analyzeTexels(std::span<const TexelBytes> texels, bool has_alpha, std::span<const TexelOnSurface> surface,
+                          std::span<const TexelOnSurface> in_world) {
     if (texels.empty()) return {};
-    return Looker(texels, has_alpha, surface, in_world).look();
+    return MapAnalyzer(texels, has_alpha, surface, in_world).analysis();
 }
 
 bool mayHaveXInAlpha(std::span<const TexelBytes> texels) {

@@ -40,7 +40,7 @@ struct TexelOnSurface {
     Vec2 uv = {};
 };
 
-struct MapLook {
+struct MapAnalysis {
     MapContent content = MapContent::normals;
     /// Layout for decoding the image to vectors in tangent space (or object space).
     MapLayout layout = {};
@@ -67,8 +67,8 @@ std::vector<TexelBytes> sampleTexels(const RgbImage& image, std::span<const std:
 /// Detects the content from the texels that triangles show, by the lengths of the vectors, their mean direction, and
 /// whether a channel is constant or all are equal. `surface`: distinguishes object space from exchanged channels; may
 /// be empty. `in_world`: the same points with the normals in world space; empty if no node rotates them.
-MapLook lookAtTexels(std::span<const TexelBytes> texels, bool has_alpha, std::span<const TexelOnSurface> surface,
-                     std::span<const TexelOnSurface> in_world = {});
+MapAnalysis analyzeTexels(std::span<const TexelBytes> texels, bool has_alpha, std::span<const TexelOnSurface> surface,
+                          std::span<const TexelOnSurface> in_world = {});
 
 /// Returns whether red contains no information, so that alpha must be examined.
 bool mayHaveXInAlpha(std::span<const TexelBytes> texels);

@@ -20,8 +20,8 @@ constexpr const char* kOctahedral =
     "|z|), so they may store that";
 
 /// Returns the text that a message on two channels adds if x and y are only one of several interpretations.
-const char* doubtOf(const MapLook& look) {
-    return !look.is_doubtful ? "" : look.may_be_octahedral ? kOctahedral : kDoubt;
+const char* doubtOf(const MapAnalysis& analysis) {
+    return !analysis.is_doubtful ? "" : analysis.may_be_octahedral ? kOctahedral : kDoubt;
 }
 
 char letterOf(const MapComponent& component) {
@@ -63,15 +63,15 @@ FindingCode codeOf(MapContent content) {
     return FindingCode::normalMapIsHeight;
 }
 
-std::string messageOf(const NamedImage& image, const MapLook& look) {
+std::string messageOf(const NamedImage& image, const MapAnalysis& analysis) {
     const std::string& name = image.name;
-    const MapLayout& layout = look.layout;
+    const MapLayout& layout = analysis.layout;
     const bool is_srgb = layout.curve == MapCurve::srgb;
-    switch (look.content) {
+    switch (analysis.content) {
         case MapContent::twoChannels:
             return "the relief is lit incorrectly: the normal map " + name +
                    " holds only x and y, in red and green; its blue is constant, but glTF reads z there" +
-                   doubtOf(look);
+                   doubtOf(analysis);
         case MapContent::unsignedZ:
             return "the relief looks too steep: blue of the normal map " + name +
                    " stores z itself, from 0 to 1, instead of (z + 1) / 2";
@@ -79,10 +79,10 @@ std::string messageOf(const NamedImage& image, const MapLook& look) {
             if (layout.x.channel != MapChannel::alpha || layout.y.channel != MapChannel::green) {
                 return "the relief is lit incorrectly: the normal map " + name + " holds only " +
                        axisText("x", layout.x) + " and " + axisText("y", layout.y) +
-                       ", and no z, which glTF reads in blue" + doubtOf(look);
+                       ", and no z, which glTF reads in blue" + doubtOf(analysis);
             }
             return "the relief is lit incorrectly: the normal map " + name +
-                   " holds x in alpha and y in green (DXT5nm) and no z; red and blue are unused" + doubtOf(look);
+                   " holds x in alpha and y in green (DXT5nm) and no z; red and blue are unused" + doubtOf(analysis);
         case MapContent::exchanged:
             if (layout.z == MapLayout{}.z) {
                 return "the relief is lit from the wrong direction: red and green of the normal map " + name +
@@ -96,19 +96,19 @@ std::string messageOf(const NamedImage& image, const MapLook& look) {
                    " was stored as a color image: its texels are unit vectors only after the sRGB curve is " +
                    (is_srgb ? "removed (flat is about 188, not 128)" : "applied (flat is about 55, not 128)");
         case MapContent::objectSpace:
-            if (!look.follows_mesh) {
+            if (!analysis.follows_mesh) {
                 return "the whole model is lit incorrectly: the normal map " + name +
                        " is not in tangent space: its vectors point in all directions, as in object or world space" +
                        (image.is_alone ? "" : ", though not along the normals of this mesh");
             }
             return "the whole model is lit incorrectly: the normal map " + name +
-                   (look.is_in_world ? " is in world space: its vectors follow the normals after node transforms"
-                                     : " is in object space: its vectors follow the normals of the mesh") +
+                   (analysis.is_in_world ? " is in world space: its vectors follow the normals after node transforms"
+                                         : " is in object space: its vectors follow the normals of the mesh") +
                    (layout == MapLayout{} ? std::string()
                                           : ", with " + axisText("x", layout.x) + ", " + axisText("y", layout.y) +
                                                 " and " + axisText("z", layout.z));
         case MapContent::picture:
-            if (look.is_x_lost) {
+            if (analysis.is_x_lost) {
                 return name +
                        " cannot be used as a normal map: only green varies, like y of a map with x in alpha (DXT5nm), "
                        "but the alpha channel is missing";
@@ -156,7 +156,7 @@ Remedy inModelOrAlone(const NamedImage& image, bool flips_green, RemedyCommand c
     return remedy;
 }
 
-Remedy objectSpaceRemedy(const NamedImage& image, const MapLook& look, bool green_is_down) {
+Remedy objectSpaceRemedy(const NamedImage& image, const MapAnalysis& analysis, bool green_is_down) {
     const auto from = [&](const char* space) {
         return withOption(withOption(convertCommand(image), "from", space), "mesh", "MODEL");
     };
@@ -165,52 +165,52 @@ Remedy objectSpaceRemedy(const NamedImage& image, const MapLook& look, bool gree
         return command;
     };
     const RemedyCommand object = withModel(from("object")), world = withModel(from("world"));
-    if (look.follows_mesh && look.is_in_world)
-        return {"Convert the map from world space: {}", {withLayout(world, look.layout)}};
-    if (look.follows_mesh) return inModelOrAlone(image, green_is_down, withLayout(object, look.layout));
+    if (analysis.follows_mesh && analysis.is_in_world)
+        return {"Convert the map from world space: {}", {withLayout(world, analysis.layout)}};
+    if (analysis.follows_mesh) return inModelOrAlone(image, green_is_down, withLayout(object, analysis.layout));
     const std::string text = ": {} (or --from world, if the map used the node transforms).";
     if (image.is_alone) return {"Convert the map with the model for which it was made" + text, {object}};
     return {"Find out for which model the map was made" + text + " Or bake it again.", {object}};
 }
 
-Remedy remedyOf(const NamedImage& image, const MapLook& look, bool green_is_down) {
+Remedy remedyOf(const NamedImage& image, const MapAnalysis& analysis, bool green_is_down) {
     const RemedyCommand convert = convertCommand(image);
-    if (look.is_x_lost)
+    if (analysis.is_x_lost)
         return {"Export the map again from its source with its alpha channel, because x cannot be restored."};
-    if (look.content == MapContent::picture) return usualRemedy(FindingCode::normalMapIsPicture);
-    if (look.content == MapContent::hemiOctahedral) {
+    if (analysis.content == MapContent::picture) return usualRemedy(FindingCode::normalMapIsPicture);
+    if (analysis.content == MapContent::hemiOctahedral) {
         return {
             "Decode the map with the program that encoded it, and export x, y and z. Its encoding is not "
             "supported here, and reading the two channels as x and y results in a different surface."};
     }
-    if (look.content == MapContent::height) {
+    if (analysis.content == MapContent::height) {
         RemedyCommand command = withOption(imageCommand("height-to-normal", image), "strength", "S");
         command.placeholders.emplace_back("S");
         return {"Make a normal map from it: {}, where S is the height of white above black.", {std::move(command)}};
     }
-    if (look.content == MapContent::objectSpace) return objectSpaceRemedy(image, look, green_is_down);
-    if (look.is_doubtful) {
+    if (analysis.content == MapContent::objectSpace) return objectSpaceRemedy(image, analysis, green_is_down);
+    if (analysis.is_doubtful) {
         return {"If these channels hold x and y: {}. Otherwise decode the map with the program that encoded it.",
-                {withLayout(convert, look.layout)}};
+                {withLayout(convert, analysis.layout)}};
     }
-    MapLayout layout = look.layout;
+    MapLayout layout = analysis.layout;
     const bool has_own_green = layout.y == MapLayout{}.y && layout.curve == MapCurve::none;
     if (green_is_down && !has_own_green) layout.y.is_inverted = !layout.y.is_inverted;
-    if (isTurned(look, green_is_down)) {
+    if (isTurned(analysis, green_is_down)) {
         const MapLayout left = layout.x.is_inverted ? layout : invertedRelief(layout);
         return {
             "If the image was rotated by 90 degrees counterclockwise: {}. If it was rotated clockwise: {}. The slopes "
             "do not show which of the two cases it is; with the wrong one, bumps look like dents.",
             {withLayout(convert, left), withLayout(convert, invertedRelief(left))}};
     }
-    if ((look.content == MapContent::exchanged && !look.is_declared) || (green_is_down && !has_own_green)) {
+    if ((analysis.content == MapContent::exchanged && !analysis.is_declared) || (green_is_down && !has_own_green)) {
         // Slopes cannot distinguish these interpretations.
         return inModelOrAlone(image, green_is_down, withLayout(convert, layout),
                               ". Slopes do not distinguish bumps from dents; if bumps look like dents afterwards, "
                               "convert the original image with {}",
                               withLayout(convert, invertedRelief(layout)));
     }
-    RemedyCommand command = withLayout(convert, look.layout);
+    RemedyCommand command = withLayout(convert, analysis.layout);
     if (green_is_down) command = withOption(std::move(command), "flip-green");
     return inModelOrAlone(image, green_is_down, std::move(command));
 }
@@ -226,16 +226,16 @@ RemedyCommand imageCommand(const char* verb, const NamedImage& image) {
 
 RemedyCommand convertCommand(const NamedImage& image) { return imageCommand("convert-map", image); }
 
-std::optional<Finding> contentFinding(const NamedImage& image, const MapLook& look, bool green_is_down) {
-    if (look.content == MapContent::normals) return {};
-    const Tally texels{.count = look.count, .total = look.total};
-    std::string message = messageOf(image, look);
-    if (isTurned(look, green_is_down))
+std::optional<Finding> contentFinding(const NamedImage& image, const MapAnalysis& analysis, bool green_is_down) {
+    if (analysis.content == MapContent::normals) return {};
+    const Tally texels{.count = analysis.count, .total = analysis.total};
+    std::string message = messageOf(image, analysis);
+    if (isTurned(analysis, green_is_down))
         message += ", and one of them is inverted, as in an image that was rotated without its vectors";
     else if (green_is_down)
         message += "; y is inverted as well";
-    Finding finding = makeFinding(codeOf(look.content), Severity::warning, texels, "texels", std::move(message));
-    setRemedy(finding, remedyOf(image, look, green_is_down));
+    Finding finding = makeFinding(codeOf(analysis.content), Severity::warning, texels, "texels", std::move(message));
+    setRemedy(finding, remedyOf(image, analysis, green_is_down));
     finding.confidence = texels.share();
     return finding;
 }

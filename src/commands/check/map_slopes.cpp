@@ -91,61 +91,61 @@ bool fitsBetter(const GreenTest& decoded, const GreenTest& plain) {
 
 /// Tests by slopes whether two channels are x and y. For a periodic height h, the products h_xx h_yy and h_xy h_xy have
 /// equal means. So if the channels hold x + y and x - y, their derivatives do not correlate as those of x and y.
-void testTwoChannels(const DecodedMap& map, MapLook& look) {
+void testTwoChannels(const DecodedMap& map, MapAnalysis& analysis) {
     constexpr std::uint64_t kManyBlocks = 32;
     constexpr double kNoCorrelation = 0.1, kClear = 0.3;
-    const GreenTest plain = slopesOf(map, look.layout);
-    const GreenTest hemi = slopesOf(decodeOctahedral(map, look.layout, true), map);
+    const GreenTest plain = slopesOf(map, analysis.layout);
+    const GreenTest hemi = slopesOf(decodeOctahedral(map, analysis.layout, true), map);
     if (fitsWell(hemi) && std::fabs(hemi.correlation) > std::fabs(plain.correlation) + kClear) {
-        look.content = MapContent::hemiOctahedral;
+        analysis.content = MapContent::hemiOctahedral;
         return;
     }
-    if (look.layout.z.channel != MapChannel::none) return;
-    look.may_be_octahedral = fitsBetter(slopesOf(decodeOctahedral(map, look.layout, false), map), plain);
-    look.is_doubtful =
-        look.may_be_octahedral || (plain.verdict == GreenVerdict::unknown && plain.block_count >= kManyBlocks &&
-                                   std::fabs(plain.correlation) < kNoCorrelation);
+    if (analysis.layout.z.channel != MapChannel::none) return;
+    analysis.may_be_octahedral = fitsBetter(slopesOf(decodeOctahedral(map, analysis.layout, false), map), plain);
+    analysis.is_doubtful =
+        analysis.may_be_octahedral || (plain.verdict == GreenVerdict::unknown && plain.block_count >= kManyBlocks &&
+                                       std::fabs(plain.correlation) < kNoCorrelation);
 }
 
 /// Replaces the result by the layout that a texture file declares, or that its texels suggest.
-void lookAtTexture(const DecodedMap& map, std::span<const TexelBytes> texels, MapLook& look) {
+void useTextureLayout(const DecodedMap& map, std::span<const TexelBytes> texels, MapAnalysis& analysis) {
     const bool is_guessed = *map.declared == MapLayout{} && !map.alpha.empty();
     const MapLayout layout = is_guessed ? guessedLayout(map, texels) : *map.declared;
     if (layout == MapLayout{}) return;
     const bool has_z = layout.z.channel != MapChannel::none;
     const bool is_plain = layout.x == MapLayout{}.x && layout.y == MapLayout{}.y;
-    look = {.content = has_z      ? MapContent::exchanged
-                       : is_plain ? MapContent::twoChannels
-                                  : MapContent::xInAlpha,
-            .layout = layout,
-            .count = texels.size(),
-            .total = texels.size(),
-            .is_declared = !is_guessed};
+    analysis = {.content = has_z      ? MapContent::exchanged
+                           : is_plain ? MapContent::twoChannels
+                                      : MapContent::xInAlpha,
+                .layout = layout,
+                .count = texels.size(),
+                .total = texels.size(),
+                .is_declared = !is_guessed};
 }
 
 }  // namespace
 
-MapLook lookAtMap(const DecodedMap& map, std::span<const TexelOnSurface> surface,
-                  std::span<const TexelOnSurface> in_world) {
+MapAnalysis analyzeMap(const DecodedMap& map, std::span<const TexelOnSurface> surface,
+                       std::span<const TexelOnSurface> in_world) {
     const std::vector<TexelBytes> texels = sampleTexels(map.image, map.alpha, map.inside);
-    MapLook look = lookAtTexels(texels, !map.alpha.empty(), surface, in_world);
-    if (look.content == MapContent::exchanged) chooseXAndY(map, look.layout);
-    if (look.content == MapContent::normals && areXAndYExchanged(map)) {
-        look.content = MapContent::exchanged;
-        look.layout = exchanged({});
+    MapAnalysis analysis = analyzeTexels(texels, !map.alpha.empty(), surface, in_world);
+    if (analysis.content == MapContent::exchanged) chooseXAndY(map, analysis.layout);
+    if (analysis.content == MapContent::normals && areXAndYExchanged(map)) {
+        analysis.content = MapContent::exchanged;
+        analysis.layout = exchanged({});
     }
     // In gray images with alpha, only slopes show whether x is in the colors or in alpha.
-    if (map.declared == nullptr && look.content == MapContent::xInAlpha) {
+    if (map.declared == nullptr && analysis.content == MapContent::xInAlpha) {
         const MapLayout guess = guessedLayout(map, texels);
-        if (!(guess == MapLayout{})) look.layout = guess;
+        if (!(guess == MapLayout{})) analysis.layout = guess;
     }
-    if (map.declared != nullptr) lookAtTexture(map, texels, look);
+    if (map.declared != nullptr) useTextureLayout(map, texels, analysis);
     // In hemi-octahedral encoding, steep relief has larger values than x and y of unit vectors can have, and gentle
     // relief looks flat.
-    const bool has_two = look.content == MapContent::twoChannels || look.content == MapContent::xInAlpha;
-    const bool may_have_two = look.content == MapContent::normals || look.content == MapContent::picture;
-    if (has_two || (may_have_two && isBlueConstant(texels))) testTwoChannels(map, look);
-    return look;
+    const bool has_two = analysis.content == MapContent::twoChannels || analysis.content == MapContent::xInAlpha;
+    const bool may_have_two = analysis.content == MapContent::normals || analysis.content == MapContent::picture;
+    if (has_two || (may_have_two && isBlueConstant(texels))) testTwoChannels(map, analysis);
+    return analysis;
 }
 
 MapLayout invertedRelief(MapLayout layout) {
@@ -154,9 +154,9 @@ MapLayout invertedRelief(MapLayout layout) {
     return layout;
 }
 
-bool isTurned(const MapLook& look, bool is_y_inverted) {
-    const MapLayout& layout = look.layout;
-    return look.content == MapContent::exchanged && !look.is_declared && layout.z == MapLayout{}.z &&
+bool isTurned(const MapAnalysis& analysis, bool is_y_inverted) {
+    const MapLayout& layout = analysis.layout;
+    return analysis.content == MapContent::exchanged && !analysis.is_declared && layout.z == MapLayout{}.z &&
            layout.x.channel == MapChannel::green && (layout.x.is_inverted != layout.y.is_inverted) != is_y_inverted;
 }
 

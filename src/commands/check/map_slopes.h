@@ -21,9 +21,9 @@ struct DecodedMap {
     const MapLayout* declared = nullptr;       ///< layout that a texture file declares; null for PNG, JPEG and WebP
 };
 
-/// Detects the content of the map. `surface` and `in_world`: see lookAtTexels.
-MapLook lookAtMap(const DecodedMap& map, std::span<const TexelOnSurface> surface = {},
-                  std::span<const TexelOnSurface> in_world = {});
+/// Detects the content of the map. `surface` and `in_world`: see analyzeTexels.
+MapAnalysis analyzeMap(const DecodedMap& map, std::span<const TexelOnSurface> surface = {},
+                       std::span<const TexelOnSurface> in_world = {});
 
 /// Returns the layout whose height field is -h: x and y are both negated, so bumps become dents. Slopes cannot
 /// distinguish it from `layout`.
@@ -31,6 +31,6 @@ MapLayout invertedRelief(MapLayout layout);
 
 /// Returns whether red and green are exchanged and one of them is negated, as in an image that was rotated by 90 or 270
 /// degrees without its vectors. `is_y_inverted`: y is inverted under the layout of `look`.
-bool isTurned(const MapLook& look, bool is_y_inverted);
+bool isTurned(const MapAnalysis& analysis, bool is_y_inverted);
 
 }  // namespace tspace

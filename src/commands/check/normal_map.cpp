@@ -146,7 +146,7 @@ TexelRect GreenBlocks::rectOf(std::size_t block) const {
 }
 
 /// Returns the direction of a block and its neighbors; 0 if they disagree or have too few votes.
-int GreenBlocks::leaningOf(std::size_t block) const {
+int GreenBlocks::sideOf(std::size_t block) const {
     constexpr std::uint64_t kMinAround = 3;
     const auto column = static_cast<std::uint32_t>(block % columns_),
                row = static_cast<std::uint32_t>(block / columns_);
@@ -164,21 +164,21 @@ int GreenBlocks::leaningOf(std::size_t block) const {
 void GreenBlocks::findParts() {
     const auto voting = static_cast<double>(
         std::count_if(blocks_.begin(), blocks_.end(), [](const Block& block) { return block.votes; }));
-    std::vector<int> leaning(blocks_.size());
-    for (std::size_t i = 0; i < blocks_.size(); ++i) leaning[i] = blocks_[i].votes ? leaningOf(i) : 0;
+    std::vector<int> sides(blocks_.size());
+    for (std::size_t i = 0; i < blocks_.size(); ++i) sides[i] = blocks_[i].votes ? sideOf(i) : 0;
     std::vector<std::size_t> part;
     for (std::size_t start = 0; start < blocks_.size(); ++start) {
-        const int side = leaning[start];
+        const int side = sides[start];
         if (side == 0) continue;
         Votes votes;
         part.assign(1, start);
-        leaning[start] = 0;
+        sides[start] = 0;
         for (std::size_t next = 0; next < part.size(); ++next) {
             const std::size_t at = part[next], column = at % columns_;
             votes.add(blocks_[at].ab, blocks_[at].aa, blocks_[at].bb);
             const auto reach = [&](bool exists, std::size_t neighbor) {
-                if (!exists || leaning[neighbor] != side) return;
-                leaning[neighbor] = 0;
+                if (!exists || sides[neighbor] != side) return;
+                sides[neighbor] = 0;
                 part.push_back(neighbor);
             };
             reach(column > 0, at - 1);

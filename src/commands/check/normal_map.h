@@ -70,7 +70,7 @@ class GreenBlocks {
     /// Returns the sums of all blocks, from squares of `side` x `side` texels.
     [[nodiscard]] std::vector<Block> measured(const RgbImage& image, const TexelMask& inside, std::uint32_t side) const;
     [[nodiscard]] TexelRect rectOf(std::size_t block) const;
-    [[nodiscard]] int leaningOf(std::size_t block) const;
+    [[nodiscard]] int sideOf(std::size_t block) const;
     void findParts();
 
     std::uint32_t width_ = 0, height_ = 0;

@@ -10,7 +10,7 @@
 #include "commands/check/findings.h"
 #include "commands/check/frame_health.h"
 #include "commands/check/remedy.h"
-#include "commands/shared/noted_noise.h"
+#include "commands/shared/reportable_noise.h"
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
 #include "core/mesh/surface/surface.h"
@@ -146,7 +146,7 @@ bool haveSoundNeighbors(const PrimitiveFacts& facts, const Directions& direction
 }
 
 /// Returns whether no normal would point to the back after flipping triangles as `generate --fix-winding` does.
-bool areTrianglesToBlame(const PrimitiveFacts& facts, const Directions& directions,
+bool areTrianglesFlipped(const PrimitiveFacts& facts, const Directions& directions,
                          std::span<const std::uint32_t> against) {
     if (haveSoundNeighbors(facts, directions, against)) return false;
     std::vector<std::uint8_t> turned(facts.surface.faces.size());
@@ -181,7 +181,7 @@ void checkWinding(PrimitiveFacts& facts, const Directions& directions) {
     facts.add(FindingCode::normalsAgainstWinding, severity, against, "triangles",
               "parts are lit from the wrong side: the normals of " + countText(against, "triangles") +
                   " point to the back (" + shareText(against.surface_share) + " of the surface)");
-    if (areTrianglesToBlame(facts, directions, faces_against))
+    if (areTrianglesFlipped(facts, directions, faces_against))
         setRemedy(facts.findings.back(), {"Reverse the winding of those triangles: {}. Existing tangents are kept.",
                                           {toCommand("generate --fix-winding")}});
 }
@@ -237,7 +237,7 @@ void checkPositions(PrimitiveFacts& facts) {
 /// Reports random offsets of positions. Only positions are examined, because the stored normals may have been computed
 /// without the noise.
 void checkNoise(PrimitiveFacts& facts) {
-    const double noise = notedNoise(facts.mesh.triangles(), facts.mesh.position_step, facts.options.weld_distance);
+    const double noise = reportableNoise(facts.mesh.triangles(), facts.mesh.position_step, facts.options.weld_distance);
     if (noise == 0) return;
     Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
     facts.add(FindingCode::positionsNoisy, Severity::note, all, "vertices",
@@ -522,7 +522,7 @@ Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const C
     checkTextures(facts);
     if (const Result<Done> done = checkTangents(facts); !done) return done.error();
     if (are_targets_read) checkMorphTargets(facts);
-    const double compared = facts.looked_at_values ? comparedShare(facts) : 0;
+    const double compared = facts.examined_values ? comparedShare(facts) : 0;
     return PrimitiveVerdict{std::move(facts.findings), std::move(facts.faults), facts.wrong_sign_share, compared};
 }
 

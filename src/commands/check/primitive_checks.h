@@ -42,7 +42,7 @@ struct PrimitiveFacts {
     std::vector<std::uint32_t> faults = {};    ///< faults of the tangents, see FrameHealth::faults; empty: none
     double wrong_sign_share = 0;               ///< see FrameHealth::wrong_sign_share
     std::span<const ScenePrimitive> all = {};  ///< primitives of the scene, or none
-    bool looked_at_values = false;             ///< there are tangents, and they were examined
+    bool examined_values = false;              ///< there are tangents, and they were examined
 
     void fault(std::uint32_t vertex, FindingCode code) {
         if (faults.empty()) faults.resize(mesh.positions.size());

@@ -42,9 +42,9 @@ struct ImageFindings {
     /// Per primitive of the scene: direction in the normal map that its tangents belong to (the first of its uses), in
     /// the texels that the primitive shows.
     std::vector<GreenSide> primitive_green = {};
-    std::uint64_t looked_at = 0;      ///< number of images that could be decoded
-    std::uint64_t green_told = 0;     ///< number of decoded maps whose direction of green is known
-    std::vector<MapLook> looks = {};  ///< per image of the scene: content of its channels
+    std::uint64_t examined_count = 0;        ///< number of images that could be decoded
+    std::uint64_t green_known_count = 0;     ///< number of decoded maps whose direction of green is known
+    std::vector<MapAnalysis> analyses = {};  ///< per image of the scene: content of its channels
     /// Per image: y is inverted but is not stored in green, so no finding on green reports it.
     std::vector<bool> is_y_inverted = {};
     std::vector<bool> is_declared = {};  ///< per image: the file declares that green points down (TangentUse)
@@ -55,7 +55,7 @@ ImageFindings checkImages(const Scene& scene, const CheckOptions& options);
 
 /// Examines scene.images[0], which no primitive shows, like checkImages. Throws FileError if it cannot be read.
 struct LoneMap {
-    MapLook look = {};
+    MapAnalysis analysis = {};
     GreenTest test = {};
     RgbImage pixels = {};  ///< pixels as stored, 8 bits
     std::vector<Finding> findings = {};
@@ -81,7 +81,7 @@ RemedyCommand convertCommand(const NamedImage& image);
 
 /// Returns the finding on the content of a map, or nothing for normals. `green_is_down`: the channel that contains y is
 /// also inverted.
-std::optional<Finding> contentFinding(const NamedImage& image, const MapLook& look, bool green_is_down);
+std::optional<Finding> contentFinding(const NamedImage& image, const MapAnalysis& analysis, bool green_is_down);
 
 // Packed frames of a scene.
 

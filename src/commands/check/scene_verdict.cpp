@@ -204,7 +204,7 @@ Remedy signsFirst() {
 }
 
 /// States whether the normal maps of a primitive cancel inverted signs: no, unknown, yes.
-enum class MapsSay { nothing, open, cancel };
+enum class MapEffect { nothing, open, cancel };
 
 class Maps {
   public:
@@ -212,23 +212,23 @@ class Maps {
         : images_(images),
           other_way_(options.convention.green == Green::down ? GreenSide::up : GreenSide::down),
           any_cancels_(std::count(images.image_green.begin(), images.image_green.end(), other_way_) != 0),
-          is_asked_for_(signFactor(options.convention) != signFactor(conventions::gltf)) {}
+          is_requested_(signFactor(options.convention) != signFactor(conventions::gltf)) {}
 
     /// Returns whether the normal maps of a primitive cancel its inverted signs. `number`: index of the primitive in
     /// the scene.
-    [[nodiscard]] MapsSay say(const ScenePrimitive& primitive, std::size_t number) const {
-        MapsSay result = MapsSay::nothing;
+    [[nodiscard]] MapEffect effectOn(const ScenePrimitive& primitive, std::size_t number) const {
+        MapEffect result = MapEffect::nothing;
         for (const TangentUse& use : primitive.uses) {
             if (!use.image || use.needed_by == "anisotropy") continue;
             const bool is_first = &use == &primitive.uses.front();
             const GreenSide green =
                 is_first ? at(images_.primitive_green, number) : at(images_.image_green, *use.image);
-            if (green == other_way_) return MapsSay::cancel;
+            if (green == other_way_) return MapEffect::cancel;
             // A map whose direction is unknown is treated like the other maps of the file. A convention other than the
             // format's is requested by the user and defines the correct signs, also for maps that cannot be read.
-            const bool is_open = (green == GreenSide::unread && !is_asked_for_) || green == GreenSide::mixed ||
+            const bool is_open = (green == GreenSide::unread && !is_requested_) || green == GreenSide::mixed ||
                                  (green == GreenSide::unknown && any_cancels_);
-            if (is_open) result = MapsSay::open;
+            if (is_open) result = MapEffect::open;
         }
         return result;
     }
@@ -242,7 +242,7 @@ class Maps {
     const ImageFindings& images_;
     GreenSide other_way_;
     bool any_cancels_;
-    bool is_asked_for_;
+    bool is_requested_;
 };
 
 void soften(Finding& finding, const std::string& why) {
@@ -250,23 +250,25 @@ void soften(Finding& finding, const std::string& why) {
     finding.message += why;
 }
 
-void weighSigns(PrimitiveJudgement& judgement, MapsSay maps) {
-    if (maps == MapsSay::nothing) return;
+void lowerSigns(PrimitiveJudgement& judgement, MapEffect maps) {
+    if (maps == MapEffect::nothing) return;
     Finding* inverted = judgement.find(FindingCode::signsInverted);
     Finding* wrong = judgement.find(FindingCode::signsWrong);
     if (inverted == nullptr && wrong == nullptr) return;
     const bool most = judgement.wrong_sign_share >= kMaxSigns;
-    judgement.signs = maps == MapsSay::cancel ? SignVerdict::cancelled : most ? SignVerdict::open : SignVerdict::plain;
+    judgement.signs = maps == MapEffect::cancel ? SignVerdict::cancelled
+                      : most                    ? SignVerdict::open
+                                                : SignVerdict::plain;
     judgement.signs_stay = most;
     if (inverted != nullptr) {
         soften(
             *inverted,
-            maps == MapsSay::cancel
+            maps == MapEffect::cancel
                 ? "; but green points down in its normal map too, so the two inversions cancel out"
                 : "; but it is unknown whether green also points down in its normal map, which would cancel this out");
         return;
     }
-    if (maps == MapsSay::cancel) {
+    if (maps == MapEffect::cancel) {
         soften(*wrong, "; but green points down in its normal map too, so the inverted signs render correctly");
     } else if (most) {
         soften(*wrong, "; but it is unknown whether green also points down in its normal map");
@@ -300,15 +302,15 @@ std::vector<PrimitiveJudgement> judgePrimitives(const Scene& scene, const CheckO
     return judgements;
 }
 
-bool waitForImages(std::span<const PrimitiveJudgement> judgements) {
+bool dependOnImages(std::span<const PrimitiveJudgement> judgements) {
     return std::any_of(judgements.begin(), judgements.end(), [](const PrimitiveJudgement& judgement) {
         return judgement.find(FindingCode::signsInverted) != nullptr ||
                judgement.find(FindingCode::signsWrong) != nullptr;
     });
 }
 
-void weighImages(const Scene& scene, const CheckOptions& options, ImageFindings& images,
-                 std::span<PrimitiveJudgement> judgements) {
+void applyImageVerdicts(const Scene& scene, const CheckOptions& options, ImageFindings& images,
+                        std::span<PrimitiveJudgement> judgements) {
     const Maps maps(images, options);
     std::vector<bool> is_needed(scene.images.size(), false);  // images used by a primitive whose signs are correct
     std::vector<bool> is_cancelled(scene.images.size(), false);
@@ -317,7 +319,7 @@ void weighImages(const Scene& scene, const CheckOptions& options, ImageFindings&
         for (const TangentUse& use : scene.primitives[i].uses) {
             if (use.image && !is_inverted) is_needed[*use.image] = true;
         }
-        weighSigns(judgements[i], maps.say(scene.primitives[i], i));
+        lowerSigns(judgements[i], maps.effectOn(scene.primitives[i], i));
         for (const TangentUse& use : scene.primitives[i].uses) {
             if (use.image && judgements[i].signs != SignVerdict::plain) is_cancelled[*use.image] = true;
         }
@@ -356,7 +358,7 @@ constexpr const char* kOtherTool =
 constexpr const char* kBothByHand =
     "No action is needed: the two inversions cancel out. Correct both or neither: negate every w, and invert the green "
     "channel of the normal map.";
-constexpr const char* kLookAtTheMap =
+constexpr const char* kExamineTheMap =
     "Examine the normal map. If green points up in it, negate every w. If green points down, either negate every w and "
     "invert the green channel, or change neither. If the high poly is available, {} measures which is correct.";
 
@@ -366,18 +368,18 @@ constexpr const char* kOnlyForItsReaders =
 constexpr const char* kAlsoForOthers =
     "No action is needed for programs that read the packed frames. For others compute tangents too: {}.";
 
-constexpr const char* kDrawnTangents =
+constexpr const char* kAuthoredTangents =
     "Repair the tangents with the program that made them. No texture uses them, so tspace cannot determine their "
     "correct direction.";
 
 /// Returns whether computing the tangents again fixes the finding.
-bool isOfTangents(FindingCode code) {
+bool concernsTangents(FindingCode code) {
     return (code >= FindingCode::tangentsNotFinite && code <= FindingCode::morphTangentsWrong);
 }
 
 /// Returns whether the finding concerns values that the format forbids. These are fixed without regard to UVs, even at
 /// a single vertex.
-bool isOfValues(FindingCode code) {
+bool concernsValues(FindingCode code) {
     return code == FindingCode::tangentsNotFinite || code == FindingCode::tangentsNotUnit ||
            code == FindingCode::signsNotOne;
 }
@@ -403,18 +405,19 @@ class Advice {
             if (!can_compute) setRemedy(finding, primitive.uvsDecide() ? kUnwrapFirst : kNoUvsToFollow);
             return addConvention(options_, finding);
         }
-        if (!isOfTangents(finding.code)) return;
-        const bool is_of_signs = finding.code == FindingCode::signsInverted || finding.code == FindingCode::signsWrong;
+        if (!concernsTangents(finding.code)) return;
+        const bool concerns_signs =
+            finding.code == FindingCode::signsInverted || finding.code == FindingCode::signsWrong;
         const bool is_error = finding.severity == Severity::error;
-        if (isOfValues(finding.code) || (finding.code == FindingCode::tangentsNotOrthogonal && is_error)) {
+        if (concernsValues(finding.code) || (finding.code == FindingCode::tangentsNotOrthogonal && is_error)) {
             // The usual remedy repairs forbidden values, regardless of UVs and signs.
         } else if (primitive.hasFreeTangents()) {
-            setRemedy(finding, kDrawnTangents);
+            setRemedy(finding, kAuthoredTangents);
         } else if (!can_compute) {
             setRemedy(finding, kUnwrapFirst);
-        } else if (is_of_signs && judgement.signs != SignVerdict::plain) {
+        } else if (concerns_signs && judgement.signs != SignVerdict::plain) {
             setRemedy(finding, judgement.signs == SignVerdict::open
-                                   ? Remedy{kLookAtTheMap, {toCommand("map-error MAP MODEL --high HIGH")}}
+                                   ? Remedy{kExamineTheMap, {toCommand("map-error MAP MODEL --high HIGH")}}
                                : inverts_green_ ? bothOrNeither()
                                                 : Remedy{kBothByHand});
         } else if (is_error) {
@@ -440,7 +443,7 @@ bool canCompute(const ScenePrimitive& primitive) {
            !plainReading(primitive, primitive.uses.front().uv_set).uvs.empty();
 }
 
-void adviseOn(const Scene& scene, const CheckOptions& options, std::span<PrimitiveJudgement> judgements) {
+void setRemedies(const Scene& scene, const CheckOptions& options, std::span<PrimitiveJudgement> judgements) {
     std::set<SignVerdict> signs;
     for (const PrimitiveJudgement& judgement : judgements) signs.insert(judgement.signs);
     const Advice advice(options, signs);

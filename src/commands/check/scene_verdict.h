@@ -47,17 +47,17 @@ std::vector<PrimitiveJudgement> judgePrimitives(const Scene& scene, const CheckO
                                                 bool with_faults = false);
 
 /// Returns whether the verdict on signs depends on the normal maps.
-bool waitForImages(std::span<const PrimitiveJudgement> judgements);
+bool dependOnImages(std::span<const PrimitiveJudgement> judgements);
 
 /// Lowers the severity of wrong signs that a normal map cancels, or may cancel because it could not be examined. Also
 /// lowers the severity of maps whose green points down, if the signs of all primitives that use them are inverted.
-void weighImages(const Scene& scene, const CheckOptions& options, ImageFindings& images,
-                 std::span<PrimitiveJudgement> judgements);
+void applyImageVerdicts(const Scene& scene, const CheckOptions& options, ImageFindings& images,
+                        std::span<PrimitiveJudgement> judgements);
 
 /// Returns whether `generate` can compute tangents that a material of the primitive needs.
 bool canCompute(const ScenePrimitive& primitive);
 
 /// Sets the remedy of each finding for this file. A command is named only if it fixes the finding.
-void adviseOn(const Scene& scene, const CheckOptions& options, std::span<PrimitiveJudgement> judgements);
+void setRemedies(const Scene& scene, const CheckOptions& options, std::span<PrimitiveJudgement> judgements);
 
 }  // namespace tspace

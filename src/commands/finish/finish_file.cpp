@@ -83,8 +83,8 @@ class ModelInWork {
             generate.mend_winding = !isObj();
             runFirst(generate, {.wound_meshes = std::move(right)});
         }
-        const gltf::NormalWishes wishes = wishesOf();
-        if (!wishes.anew.empty()) {
+        const gltf::RecomputedNormals wishes = wishesOf();
+        if (!wishes.base.empty()) {
             GenerateOptions again = generate;
             again.mend_winding = false;
             const Bytes before = std::move(bytes_);
@@ -193,28 +193,28 @@ class ModelInWork {
     }
 
     /// Returns the normals to recompute after fixing the winding.
-    [[nodiscard]] gltf::NormalWishes wishesOf() const {
+    [[nodiscard]] gltf::RecomputedNormals wishesOf() const {
         if (options_.normals == FinishNormals::none) return {};
         const std::vector<PrimitiveReport>& primitives = report_.made.primitives;
         // Normals of STL files only indicate the orientation of triangles, not their shading.
         const bool all = options_.normals == FinishNormals::all || lowerExtension(path_) == ".stl";
-        gltf::NormalWishes wishes{.anew = std::vector<bool>(primitives.size(), all),
-                                  .morphs = std::vector<bool>(primitives.size(), false)};
+        gltf::RecomputedNormals wishes{.base = std::vector<bool>(primitives.size(), all),
+                                       .morphs = std::vector<bool>(primitives.size(), false)};
         for (const Finding& finding : check_.report.findings) {
             const PrimitiveReport* const found = primitiveOf(finding);
             if (found == nullptr) continue;
             const auto i = static_cast<std::size_t>(found - primitives.data());
             if (asksForMorphNormals(finding)) wishes.morphs[i] = true;
-            if (asksForNormals(finding, found->winding_mended_count != 0)) wishes.anew[i] = true;
+            if (asksForNormals(finding, found->winding_mended_count != 0)) wishes.base[i] = true;
         }
         const auto any = [](const std::vector<bool>& list) {
             return std::find(list.begin(), list.end(), true) != list.end();
         };
-        return any(wishes.anew) || any(wishes.morphs) ? wishes : gltf::NormalWishes{};
+        return any(wishes.base) || any(wishes.morphs) ? wishes : gltf::RecomputedNormals{};
     }
 
     /// Merges the report of a second run.
-    void take(GenerateReport&& second, const gltf::NormalWishes& wishes) {
+    void take(GenerateReport&& second, const gltf::RecomputedNormals& wishes) {
         GenerateReport& made = report_.made;
         made.changed = made.changed || second.changed;
         made.output_bytes = second.output_bytes;
@@ -223,7 +223,7 @@ class ModelInWork {
                 made.warnings.push_back(std::move(warning));
         }
         for (std::size_t i = 0; i < made.primitives.size() && i < second.primitives.size(); ++i) {
-            if (!wishes.anew[i] && !wishes.morphs[i]) continue;
+            if (!wishes.base[i] && !wishes.morphs[i]) continue;
             PrimitiveReport& now = second.primitives[i];
             PrimitiveReport& first = made.primitives[i];
             now.winding_mended_count = first.winding_mended_count;
@@ -370,7 +370,7 @@ std::vector<std::string> finishOutputs(const std::vector<std::string>& others, c
     BakeFileOptions bake = options.bake;
     bake.out_mesh = output;
     bake.file = options.file;
-    return outputsBeside(others, options.low, namesOf(output), bake);
+    return outputsToCompare(others, options.low, namesOf(output), bake);
 }
 
 Result<FinishReport> finishFile(const std::string& input, const std::string& output, const FinishOptions& options) {

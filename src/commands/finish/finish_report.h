@@ -19,7 +19,7 @@ namespace tspace {
 std::string finishPage(const FinishReport& report, const std::string& output_path, std::span<const std::uint8_t> output,
                        const FileOptions& file, const PageOrigin& origin);
 
-/// Returns the files that finishFile() writes, without the page, for a comparison with `others` as in outputsBeside().
+/// Returns the files that finishFile() writes, without the page, for a comparison with `others` as in outputsToCompare().
 std::vector<std::string> finishOutputs(const std::vector<std::string>& others, const std::string& output,
                                        const FinishOptions& options);
 

@@ -131,7 +131,7 @@ class Applier {
             const bool has_tangents = findAttribute(first.targets[i], "TANGENT").has_value();
             if (pool_.keeps_tangents && has_tangents && !turns_normals) continue;
             // Computed deltas fit computed tangents, but the file keeps different tangents.
-            if (pool_.mendsTangents() && elements_.differing_count != 0 && !has_tangents) continue;
+            if (pool_.repairsTangents() && elements_.differing_count != 0 && !has_tangents) continue;
             ++computed_targets_;
             changed |= setAttribute(target, "TANGENT", elementsOf(elements_.morphs[i].tangents));
         }
@@ -145,13 +145,13 @@ class Applier {
                                    .numbers = pool_.primitives,
                                    .target = target,
                                    .name = name,
-                                   .may_stay = mayStay()},
+                                   .may_reuse = canReuse()},
                                   std::move(data));
     }
 
     /// Returns whether the old accessors of frames may be reused. They may not if vertices were split or tangents were
     /// missing.
-    [[nodiscard]] bool mayStay() const { return pool_.has_tangents && !elements_.was_split; }
+    [[nodiscard]] bool canReuse() const { return pool_.has_tangents && !elements_.was_split; }
 
     Editor& editor_;
     const Document& document_;
@@ -172,7 +172,7 @@ std::string morphNormalsNote(const PoolPlan& pool, const PoolElements& elements,
     if (count == 0) return {};
     std::string note =
         std::to_string(count) + (count == 1 ? " morph target got" : " morph targets got") + " computed normal deltas";
-    const bool left = !elements.has_tangent_deltas || (pool.mendsTangents() && elements.differing_count != 0);
+    const bool left = !elements.has_tangent_deltas || (pool.repairsTangents() && elements.differing_count != 0);
     if (left && anyHasTangents(primitive)) note += "; existing tangent deltas were kept and may not fit them";
     return note;
 }
@@ -222,7 +222,7 @@ void applyFrames(Editor& editor, const Document& document, std::span<const Primi
                                                : PrimitiveAction::unchanged;
         }
         for (std::string& wrong : report.notes) {
-            if (!pool.mendsTangents() || wrong.rfind(kWrongNote, 0) != 0) continue;
+            if (!pool.repairsTangents() || wrong.rfind(kWrongNote, 0) != 0) continue;
             wrong += "; repaired at " + std::to_string(report.mended_vertex_count) + " of " +
                      std::to_string(report.vertices_before) + " vertices";
         }

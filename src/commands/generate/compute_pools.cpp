@@ -327,9 +327,9 @@ PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& exe
     const Primitive& first = primitives_[pool.primitives[0]];
     DecodedVertices decoded;
     PoolView vertices = lendVertices(document_, arrays_, first, pool, decoded);
-    vertices.targets = targetsOf(document_, first, pool.mendsTangents());
-    vertices.mends_tangents = pool.mendsTangents();
-    if (pool.keeps_tangents || pool.mendsTangents()) decoded.kept_tangents = arrays_.borrowTangents(first);
+    vertices.targets = targetsOf(document_, first, pool.repairsTangents());
+    vertices.mends_tangents = pool.repairsTangents();
+    if (pool.keeps_tangents || pool.repairsTangents()) decoded.kept_tangents = arrays_.borrowTangents(first);
     vertices.kept_tangents = decoded.kept_tangents.span();
     const bool keeps_signs = pool.overwrites_normals && options_.selection.existing == ExistingTangents::keep;
     if ((pool.tries_quads || keeps_signs) && pool.has_tangents && !pool.keeps_tangents) {
@@ -384,7 +384,7 @@ PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& exe
     PoolElements elements = packFrames(document_, primitives_, pool, std::move(frames),
                                        {.format = options.format, .is_welded = was_welded});
     elements.has_tangent_deltas = has_tangent_deltas;
-    if (computes && !pool.keeps_tangents && !pool.mendsTangents())
+    if (computes && !pool.keeps_tangents && !pool.repairsTangents())
         elements.warning = warnOfRounding(vertices, geometries, options.execution.allocator);
     return elements;
 }

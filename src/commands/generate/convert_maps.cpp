@@ -23,8 +23,8 @@ struct ShownMap {
     MapUser user = {};
     OwnedMesh from = {}, to = {};  ///< one vertex per corner
     TexelMask texels = {};
-    bool is_new = false;     ///< the tangents of the primitive were computed
-    bool is_bright = false;  ///< the primitive got normals that change the shading on purpose
+    bool is_new = false;       ///< the tangents of the primitive were computed
+    bool is_intended = false;  ///< the primitive got normals that change the shading on purpose
 
     [[nodiscard]] bool readsLike(const ShownMap& other) const {
         const TangentUse &own = *user.use, &others = *other.user.use;
@@ -126,10 +126,10 @@ NewMap convertFor(const MapGroup& group, const FloatImage& image, const Generate
         valueOrThrow(convertMap(map, from_side, to_side, {.bits = image.bits}, converted.texels, options.execution));
     report.changed = texels.changed;
     if (texels.changed == 0) {
-        const bool is_bright =
-            std::any_of(group.begin(), group.end(), [](const ShownMap* one) { return one->is_bright; });
+        const bool is_intended =
+            std::any_of(group.begin(), group.end(), [](const ShownMap* one) { return one->is_intended; });
         report.reason =
-            is_bright ? "new normals change the shading intentionally" : "the new tangents shade it as before";
+            is_intended ? "new normals change the shading intentionally" : "the new tangents shade it as before";
         return made;
     }
     Parallel parallel(options.execution);
@@ -166,7 +166,7 @@ class OneMap {
         ShownMap& one = shown_.emplace_back();
         one.user = user;
         one.is_new = report.action == PrimitiveAction::generated || report.action == PrimitiveAction::replaced;
-        one.is_bright = report.normals_generated && options_.normals.compute.weighting != NormalWeighting::flat;
+        one.is_intended = report.normals_generated && options_.normals.compute.weighting != NormalWeighting::flat;
         sources_.push_back({&before, &after});
     }
     [[nodiscard]] bool isNeeded() const {
@@ -225,7 +225,7 @@ class OneMap {
         const TangentUse& use = *one.user.use;
         addMapCorners(*source.before, &use, viewers, options_.execution, one.from);
         addMapCorners(*source.after, &use, viewers, options_.execution, one.to);
-        if (one.is_bright || one.from.uvs != one.to.uvs) one.from = one.to;
+        if (one.is_intended || one.from.uvs != one.to.uvs) one.from = one.to;
         std::vector<std::uint32_t> corners(one.from.uvs.size());
         for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(i);
         one.texels = TexelMask(image.width, image.height);
@@ -259,10 +259,10 @@ class MapPlacer {
         if (!report.converted) return;
         std::vector<MapUser> users;
         for (const ShownMap* one : group) users.push_back(one->user);
-        if (references_.isOfAlone(image, users)) {
+        if (references_.isUsedOnlyBy(image, users)) {
             report.new_image = static_cast<std::uint32_t>(image);
             placer_.placeOwn(image, std::move(map.file));
-            references_.namePlainly(image);
+            references_.makeOnlySource(image);
             return;
         }
         report.reason = references_.whyNotApart(users);

@@ -51,7 +51,7 @@ bool setAttribute(Editor& editor, const Document& document, const SharedAttribut
     const std::optional<std::size_t> old = accessorOf(first);
     const bool alone = old && editor.accessorUses(*old) == attribute.numbers.size();
     std::optional<Accessor> current;
-    if (old && old != attribute.spare && attribute.may_stay) {
+    if (old && old != attribute.spare && attribute.may_reuse) {
         current = readAccessor(document, *old);
         if (!hasFormatOf(*current, data)) current.reset();
     }
@@ -210,11 +210,11 @@ std::vector<bool> repairAttributes(Document& document, const std::string& new_fi
 
 namespace {
 
-std::vector<std::uint32_t> turnedCorners(const Document& document, const Primitive& primitive,
-                                         const std::vector<std::uint8_t>& turned) {
+std::vector<std::uint32_t> flippedCorners(const Document& document, const Primitive& primitive,
+                                          const std::vector<std::uint8_t>& flipped) {
     std::vector<std::uint32_t> corners = readTriangleCorners(document, primitive);
-    for (std::size_t t = 0; t < turned.size(); ++t) {
-        if (turned[t] != 0) std::swap(corners[3 * t + 1], corners[3 * t + 2]);
+    for (std::size_t t = 0; t < flipped.size(); ++t) {
+        if (flipped[t] != 0) std::swap(corners[3 * t + 1], corners[3 * t + 2]);
     }
     return corners;
 }
@@ -227,15 +227,15 @@ struct NewList {
 
 }  // namespace
 
-void turnTriangles(Document& document, const std::string& new_file, std::span<const Primitive> primitives,
-                   std::span<const std::vector<std::uint8_t>> turned) {
+void flipTriangles(Document& document, const std::string& new_file, std::span<const Primitive> primitives,
+                   std::span<const std::vector<std::uint8_t>> flipped) {
     const std::optional<std::size_t> none;
     // Primitives are grouped by old list and POSITION accessor, which also determine how a list is stored.
     std::map<std::pair<std::optional<std::size_t>, std::optional<std::size_t>>, std::vector<NewList>> lists;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
-        if (std::find(turned[i].begin(), turned[i].end(), 1) == turned[i].end()) continue;
+        if (std::find(flipped[i].begin(), flipped[i].end(), 1) == flipped[i].end()) continue;
         std::vector<NewList>& known = lists[{primitives[i].indices, primitives[i].find("POSITION")}];
-        std::vector<std::uint32_t> corners = turnedCorners(document, primitives[i], turned[i]);
+        std::vector<std::uint32_t> corners = flippedCorners(document, primitives[i], flipped[i]);
         auto list = std::find_if(known.begin(), known.end(), [&](const NewList& l) { return l.corners == corners; });
         if (list == known.end()) list = known.insert(known.end(), {std::move(corners), {}});
         list->primitives.push_back(i);

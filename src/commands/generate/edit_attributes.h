@@ -28,7 +28,7 @@ struct SharedAttribute {
     std::ptrdiff_t target = kBase;
     std::string name = {};
     /// Existing elements may be kept, or overwritten in place.
-    bool may_stay = true;
+    bool may_reuse = true;
     /// Accessor of a removed attribute that only these primitives used; its entry is reused.
     std::optional<std::size_t> spare = {};
 };
@@ -72,8 +72,8 @@ void eraseAttribute(Editor& editor, const Primitive& primitive, const char* name
 /// new_file    as for Editor
 /// primitives  primitives of the document; read them again afterwards
 /// turned      per primitive: one entry per triangle, 1 to flip it; or empty: no triangle is flipped
-void turnTriangles(Document& document, const std::string& new_file, std::span<const Primitive> primitives,
-                   std::span<const std::vector<std::uint8_t>> turned);
+void flipTriangles(Document& document, const std::string& new_file, std::span<const Primitive> primitives,
+                   std::span<const std::vector<std::uint8_t>> flipped);
 
 /// Returns whether normals need to be scaled to length 1 and can be. Scaled unsigned normals would still have wrong
 /// directions, and their lengths would no longer reveal it.
@@ -81,7 +81,7 @@ bool canScaleNormals(const Document& document, const Primitive& primitive);
 
 /// Writes the normals of primitives with canScaleNormals with length 1, and scales the offsets of morph targets
 /// accordingly. Floats and normalized signed integers keep their format, other formats become floats; normals that
-/// have unit length keep their bits. Parameters as for turnTriangles.
+/// have unit length keep their bits. Parameters as for flipTriangles.
 void writeUnitNormals(Document& document, const std::string& new_file, std::span<const Primitive> primitives);
 
 }  // namespace tspace::gltf

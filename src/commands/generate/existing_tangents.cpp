@@ -64,7 +64,7 @@ struct Verdict {
 
 /// Returns whether the vertices that the finding counts are repaired. Values that the format forbids are always
 /// repaired, whatever the severity.
-bool asksForMending(const Finding& finding) {
+bool needsRepair(const Finding& finding) {
     const std::uint8_t parts = partsOf(finding.code);
     const bool is_of_values = parts == mend::kValues || finding.code == FindingCode::tangentsNotFinite;
     return parts != 0 && (finding.severity == Severity::error || is_of_values);
@@ -97,7 +97,7 @@ Verdict verdictOf(const PrimitiveJudgement& judgement, bool is_free) {
     verdict.mends.inverted_signs = judgement.signs_stay;
     std::vector<std::pair<std::uint32_t, std::uint8_t>> rules;  // fault bits, and the parts of the tangent to repair
     for (const Finding& finding : judgement.findings) {
-        if (!asksForMending(finding)) continue;
+        if (!needsRepair(finding)) continue;
         const bool is_inverted = finding.code == FindingCode::signsInverted;
         rules.emplace_back(is_inverted ? faultBit(FindingCode::signsWrong) | kUndecidedSign : faultBit(finding.code),
                            partsOf(finding.code));
@@ -138,13 +138,13 @@ std::vector<Verdict> judge(Model& model, const GenerateOptions& options) {
     check.execution.allocator = nullptr;
     applyReadingOptions(options, scene);
     std::vector<PrimitiveJudgement> judgements = judgePrimitives(scene, check, true);
-    if (waitForImages(judgements)) {
+    if (dependOnImages(judgements)) {
         ImageFindings images;
         if (options.maps.read) {
             readImages(document, scene);
             images = checkImages(scene, check);
         }
-        weighImages(scene, check, images, judgements);
+        applyImageVerdicts(scene, check, images, judgements);
     }
     std::vector<Verdict> verdicts;
     for (std::size_t i = 0; i < judgements.size(); ++i)
@@ -161,13 +161,13 @@ void keep(const Verdict& verdict, PrimitiveReport& report) {
 }
 
 /// Returns whether the primitive has tangents with normals, but they cannot be recomputed.
-bool hasOnlyItsOwn(const Primitive& primitive, const PrimitiveReport& report) {
+bool hasIrreplaceableTangents(const Primitive& primitive, const PrimitiveReport& report) {
     return report.action == PrimitiveAction::impossible && primitive.find("TANGENT") && primitive.find("NORMAL");
 }
 
-/// Returns the pool with some of its primitives, grouped by equal repairs. `mendsOf`: null for primitives to omit.
-template <class MendsOf>
-PoolPlan selected(const PoolPlan& pool, std::span<const Primitive> primitives, const MendsOf& mendsOf) {
+/// Returns the pool with some of its primitives, grouped by equal repairs. `repairsOf`: null for primitives to omit.
+template <class RepairsOf>
+PoolPlan selected(const PoolPlan& pool, std::span<const Primitive> primitives, const RepairsOf& repairsOf) {
     PoolPlan result = pool;
     result.geometries.clear();
     result.primitives.clear();
@@ -175,7 +175,7 @@ PoolPlan selected(const PoolPlan& pool, std::span<const Primitive> primitives, c
     for (const GeometryPlan& geometry : pool.geometries) {
         const std::size_t first = result.geometries.size();
         for (const std::size_t number : geometry.primitives) {
-            const Mends* const mends = mendsOf(number);
+            const Mends* const mends = repairsOf(number);
             if (mends == nullptr) continue;
             result.primitives.push_back(number);
             const auto same =
@@ -203,12 +203,13 @@ void planRepair(Model& model, const GenerateOptions& options, GeneratePlan& plan
     };
     bool is_needed = std::any_of(plan.pools.begin(), plan.pools.end(), isJudged);
     for (std::size_t i = 0; i < primitives.size(); ++i)
-        is_needed = is_needed || hasOnlyItsOwn(primitives[i], plan.reports[i]);
+        is_needed = is_needed || hasIrreplaceableTangents(primitives[i], plan.reports[i]);
     if (!is_needed) return;
     // Judges all primitives, because normal maps are judged by the whole file.
     const std::vector<Verdict> verdicts = judge(model, options);
     for (std::size_t i = 0; i < primitives.size(); ++i) {
-        if (verdicts[i].is_free && hasOnlyItsOwn(primitives[i], plan.reports[i])) keep(verdicts[i], plan.reports[i]);
+        if (verdicts[i].is_free && hasIrreplaceableTangents(primitives[i], plan.reports[i]))
+            keep(verdicts[i], plan.reports[i]);
     }
     std::vector<PoolPlan> pools;
     for (PoolPlan& pool : plan.pools) {
@@ -241,7 +242,7 @@ void planRepair(Model& model, const GenerateOptions& options, GeneratePlan& plan
 namespace {
 
 /// Returns whether most signs are the opposite of what the UVs require, based on a sample of triangles.
-bool looksInverted(const ScenePrimitive& primitive, const Convention& convention) {
+bool seemInverted(const ScenePrimitive& primitive, const Convention& convention) {
     constexpr std::size_t kTriangles = 1024;
     if (primitive.tangents.empty() || primitive.uses.empty()) return false;
     const UvReading reading = readingOf(primitive, primitive.uses.front());
@@ -303,9 +304,8 @@ std::string warnOfInvertedSigns(Model& model, const GeneratePlan& plan, const Ma
     std::uint64_t inverted = 0;
     const std::optional<Error> failure = tryFile([&] {
         for (const ScenePrimitive& primitive : model.sceneOf(replaced).primitives)
-            inverted += looksInverted(primitive, options.tangents.compute.convention) && !showsFlipped(primitive, flips)
-                            ? 1
-                            : 0;
+            inverted +=
+                seemInverted(primitive, options.tangents.compute.convention) && !showsFlipped(primitive, flips) ? 1 : 0;
     });
     memory.restore(left);
     if (failure && failure->code != ErrorCode::tooLarge) throw FileError{*failure};
@@ -325,8 +325,8 @@ bool isRead(const Document& document, const Primitive& primitive) {
 }
 
 /// Returns the first primitive whose tangents a material reads, or else the first of all.
-std::size_t judgeOf(const Document& document, std::span<const Primitive> primitives,
-                    const std::vector<std::size_t>& numbers) {
+std::size_t representativeOf(const Document& document, std::span<const Primitive> primitives,
+                             const std::vector<std::size_t>& numbers) {
     const auto read = std::find_if(numbers.begin(), numbers.end(),
                                    [&](std::size_t number) { return isRead(document, primitives[number]); });
     return read == numbers.end() ? numbers.front() : *read;
@@ -372,17 +372,17 @@ std::vector<std::vector<std::size_t>> findBrokenValues(Model& model, const Gener
     }
     std::vector<std::vector<std::size_t>> groups;
     for (const auto& [accessor, numbers] : sharing) {
-        const Primitive& judge = primitives[judgeOf(document, primitives, numbers)];
+        const Primitive& judge = primitives[representativeOf(document, primitives, numbers)];
         document.memory->require((sizeof(Vec4) + sizeof(Vec3)) * judge.vertex_count, judge.place());
         if (areBroken(model, judge)) groups.push_back(numbers);
     }
     return groups;
 }
 
-void mendBrokenValues(Editor& editor, const Document& document, std::span<const Primitive> primitives,
-                      std::span<const std::vector<std::size_t>> groups, std::span<PrimitiveReport> reports) {
+void repairInvalidValues(Editor& editor, const Document& document, std::span<const Primitive> primitives,
+                         std::span<const std::vector<std::size_t>> groups, std::span<PrimitiveReport> reports) {
     for (const std::vector<std::size_t>& numbers : groups) {
-        const Primitive& judge = primitives[judgeOf(document, primitives, numbers)];
+        const Primitive& judge = primitives[representativeOf(document, primitives, numbers)];
         constexpr std::uint64_t kOfCorner = 48, kOfVertex = 128;
         document.memory->require(kOfCorner * 3 * judge.triangleCount() + kOfVertex * judge.vertex_count, judge.place());
         const OwnedMesh stored = readStored(document, judge);

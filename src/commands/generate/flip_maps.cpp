@@ -32,7 +32,7 @@ std::vector<bool> findCancelled(const Scene& scene, ImageFindings& found, const 
     if (std::count(found.image_green.begin(), found.image_green.end(), GreenSide::down) == 0) return cancelled;
     if (std::count(keeps_tangents.begin(), keeps_tangents.end(), true) == 0) return cancelled;
     std::vector<PrimitiveJudgement> judgements = judgePrimitives(scene, check);
-    weighImages(scene, check, found, judgements);
+    applyImageVerdicts(scene, check, found, judgements);
     for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
         if (!keeps_tangents[i] || judgements[i].signs == SignVerdict::plain) continue;
         for (const TangentUse& use : scene.primitives[i].uses) {
@@ -116,7 +116,7 @@ std::vector<JudgedMap> judgeMaps(const Scene& scene, const std::vector<bool>& ke
         map.image = i;
         map.report = {.image = static_cast<std::uint32_t>(i), .name = image.uri.empty() ? image.name : image.uri};
         std::string& why = map.report.reason;
-        map.look = found.looks[i];
+        map.analysis = found.analyses[i];
         map.is_y_inverted = found.is_y_inverted[i];
         if (options.maps.flip_green == FlipGreen::none) continue;
         if (options.maps.flip_green == FlipGreen::down)
@@ -279,15 +279,15 @@ class Alternatives {
 };
 
 /// Rewrites the map as glTF expects it, inverted if requested, unless it also exists in another format.
-void mendInPlace(Document& document, const Scene& scene, const GenerateOptions& options, JudgedMap& map,
-                 MapFlips& flips) {
+void rewriteInPlace(Document& document, const Scene& scene, const GenerateOptions& options, JudgedMap& map,
+                    MapFlips& flips) {
     if (!TextureUses(document).alternatives(map.image).empty()) {
         if (!map.report.flipped) map.report.reason = "the same map also exists in another format";
         return;
     }
     const std::string why_not_flipped = map.report.reason;
-    Bytes mended = mendMap(scene, map.flipped.empty() ? ByteSpan(scene.images[map.image].bytes) : ByteSpan(map.flipped),
-                           options, map);
+    Bytes mended = rewriteMap(
+        scene, map.flipped.empty() ? ByteSpan(scene.images[map.image].bytes) : ByteSpan(map.flipped), options, map);
     if (!mended.empty()) flips.mended[map.image] = std::move(mended);
     if (!map.report.mended && map.report.flipped) map.report.reason.clear();
     if (!map.report.mended && !why_not_flipped.empty()) map.report.reason = why_not_flipped;
@@ -309,7 +309,7 @@ MapFlips planFlips(Model& model, std::span<const PrimitiveReport> reports, const
     setPlaces(document, model.primitives(), scene);
     std::vector<JudgedMap> maps = judgeMaps(scene, keeps_tangents, options);
     for (JudgedMap& map : maps) {
-        if (options.maps.mend) mendInPlace(document, scene, options, map, flips);
+        if (options.maps.mend) rewriteInPlace(document, scene, options, map, flips);
         if (map.report.flipped && !map.report.mended) flips.images[map.image] = std::move(map.flipped);
         flips.reports.push_back(std::move(map.report));
     }
@@ -348,7 +348,7 @@ void applyFlips(Document& document, Editor& editor, const OutputTarget& target, 
     uses.applyRedirections();
     // Rewritten images are always PNG.
     MapReferences references(document, {});
-    for (const std::size_t image : new_images) references.namePlainly(image);
+    for (const std::size_t image : new_images) references.makeOnlySource(image);
 }
 
 }  // namespace tspace::gltf

@@ -23,7 +23,7 @@ namespace tspace {
 struct JudgedMap {
     std::size_t image = 0;
     Bytes flipped = {};          ///< image file with green inverted; empty: the image is unchanged
-    MapLook look = {};           ///< content of the image
+    MapAnalysis analysis = {};   ///< content of the image
     bool is_y_inverted = false;  ///< y is inverted, but is not stored in green
     NormalMapReport report = {};
 };
@@ -48,9 +48,9 @@ std::vector<JudgedMap> judgeMaps(const Scene& scene, const std::vector<bool>& ke
 /// Returns the image of `map` as a PNG with the encoding of glTF. `bytes`: the image file, possibly with green
 /// inverted. If the image is unchanged, returns nothing, and `map.report` has the reason; otherwise `map.report`
 /// describes the former contents. Throws FileError.
-Bytes mendMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options, JudgedMap& map);
+Bytes rewriteMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options, JudgedMap& map);
 
-struct MadeOfHeights {
+struct ConvertedHeights {
     /// The image is gray, or cannot be decoded. Other images are treated as normal maps.
     bool is_height_map = false;
     Bytes file = {};           ///< PNG; empty: not converted
@@ -60,8 +60,8 @@ struct MadeOfHeights {
 
 /// Converts height map `image` to a normal map for all primitives of the material; white is `strength` units high.
 /// Throws FileError.
-MadeOfHeights makeOfHeights(const Scene& scene, std::size_t material, std::size_t image, double strength,
-                            const GenerateOptions& options);
+ConvertedHeights normalMapFromHeights(const Scene& scene, std::size_t material, std::size_t image, double strength,
+                                      const GenerateOptions& options);
 
 }  // namespace tspace
 

@@ -110,7 +110,7 @@ Totals totalsOf(const GenerateReport& report) {
         totals.quad_count += primitive.quad_count;
         totals.bitangents_generated += primitive.bitangents_generated;
         totals.frames_packed += primitive.frames_packed;
-        totals.packed_mended += primitive.packing.mendedCount();
+        totals.packed_repaired += primitive.packing.mendedCount();
         totals.tangents_dropped += primitive.tangents_dropped;
         totals.normals_dropped += primitive.normals_dropped;
         totals.morph_deltas_computed += primitive.morph_deltas_computed;

@@ -117,9 +117,9 @@ struct Decisions {
 /// Makes the plan first, then narrows it down to repairs; the other decisions depend on the plan. Frees decoded arrays
 /// at the end: pools mostly read the file's bytes in place, and all decoded arrays together may be larger than the
 /// file.
-Decisions decide(Model& model, const GenerateOptions& options, const NormalWishes& wishes,
+Decisions decide(Model& model, const GenerateOptions& options, const RecomputedNormals& recomputed,
                  std::vector<std::string>& warnings) {
-    Decisions decisions{.plan = planGenerate(model.document(), model.primitives(), options, wishes)};
+    Decisions decisions{.plan = planGenerate(model.document(), model.primitives(), options, recomputed)};
     GeneratePlan& plan = decisions.plan;
     if (options.selection.existing == ExistingTangents::repair) planRepair(model, options, plan);
     planSurroundings(model, options, plan);
@@ -161,7 +161,7 @@ void computeAndApply(Input& input, Decisions& decisions, Editor& editor, std::ve
     tell(input.options, "computing tangents", total, total);
     // Runs after new frames are stored, in other accessors, and before tangents are removed, so that notes have this
     // order.
-    mendBrokenValues(editor, document, primitives, decisions.broken, plan.reports);
+    repairInvalidValues(editor, document, primitives, decisions.broken, plan.reports);
     for (std::string& warning : numbers.warnings()) warnings.push_back(std::move(warning));
 }
 
@@ -199,22 +199,22 @@ WorkedOn edit(Input& input, const Storage& storage, Decisions&& decisions, Gener
 
 /// Flips triangles if requested. Returns whether any were flipped; in this case the container has been converted to
 /// that of the output. `is_converted`: the container was already converted.
-bool turnWrong(Input& input, const Storage& storage, std::span<const std::uint32_t> kept, bool is_converted,
-               WindingPlan& plan, std::vector<std::string>& warnings) {
+bool flipWrongTriangles(Input& input, const Storage& storage, std::span<const std::uint32_t> kept, bool is_converted,
+                        WindingPlan& plan, std::vector<std::string>& warnings) {
     if (!input.options.mend_winding) return false;
     plan = planWinding(input.model, input.options, kept);
     if (!plan.turnsAny()) return false;
     Document& document = input.model.document();
     if (input.options.storage.compression == Compression::keep && !is_converted)
         convertContainer(document, input.target, true, warnings);
-    turnTriangles(document, storage.new_file, input.model.primitives(), plan.turned);
+    flipTriangles(document, storage.new_file, input.model.primitives(), plan.flipped);
     input.model.wasEdited();
     return true;
 }
 
 /// Repairs attributes if requested. Returns whether any were repaired; in this case the container has been converted to
 /// that of the output. Primitives that lost their normals get new ones.
-bool repairFaults(Input& input, const Storage& storage, bool is_asked_for, NormalWishes& wishes,
+bool repairFaults(Input& input, const Storage& storage, bool is_asked_for, RecomputedNormals& recomputed,
                   std::vector<std::string>& warnings) {
     const GenerateOptions& options = input.options;
     if (!is_asked_for && !options.normals.overwrite && options.selection.existing != ExistingTangents::repair)
@@ -227,14 +227,14 @@ bool repairFaults(Input& input, const Storage& storage, bool is_asked_for, Norma
     Document& document = input.model.document();
     if (options.storage.compression == Compression::keep) convertContainer(document, input.target, true, warnings);
     const std::vector<bool> lost = repairAttributes(document, storage.new_file, primitives, warnings);
-    wishes.anew.resize(lost.size());
-    for (std::size_t i = 0; i < lost.size(); ++i) wishes.anew[i] = wishes.anew[i] || lost[i];
+    recomputed.base.resize(lost.size());
+    for (std::size_t i = 0; i < lost.size(); ++i) recomputed.base[i] = recomputed.base[i] || lost[i];
     input.model.wasEdited();
     return true;
 }
 
 /// Normalizes normals of other lengths if tangents are repaired. Returns whether there were any.
-bool mendNormalLengths(Input& input, const Storage& storage, std::vector<std::string>& warnings) {
+bool normalizeNormals(Input& input, const Storage& storage, std::vector<std::string>& warnings) {
     const std::vector<Primitive>& primitives = input.model.primitives();
     Document& document = input.model.document();
     const auto can_scale = [&](const Primitive& primitive) { return canScaleNormals(document, primitive); };
@@ -269,18 +269,18 @@ WorkedOn generate(Input& input, bool with_images, const GenerateStep& step, Gene
     const std::optional<ScaledNormalsWarning> scaled_normals = document.scaled_normals;
     std::copy_n(document.coordinate_offset.begin(), 3, report.coordinate_offset);
     const Storage storage = prepareStorage(input, report.warnings);
-    NormalWishes wishes = step.normals;
-    const bool was_repaired = repairFaults(input, storage, step.repairs_attributes, wishes, report.warnings);
-    const bool were_mended = mendNormalLengths(input, storage, report.warnings);
+    RecomputedNormals recomputed = step.normals;
+    const bool was_repaired = repairFaults(input, storage, step.repairs_attributes, recomputed, report.warnings);
+    const bool were_repaired = normalizeNormals(input, storage, report.warnings);
     tell(input.options, "reading", 1, 1);
     WindingPlan winding;
     const bool was_turned =
-        turnWrong(input, storage, step.wound_meshes, were_mended || was_repaired, winding, report.warnings);
+        flipWrongTriangles(input, storage, step.wound_meshes, were_repaired || was_repaired, winding, report.warnings);
     report.windings = std::move(winding.reports);
     tell(input.options, "reading", 1, 1);
-    Decisions decisions = decide(input.model, input.options, wishes, report.warnings);
+    Decisions decisions = decide(input.model, input.options, recomputed, report.warnings);
     report.input_bytes = document.input_bytes;
-    if (input.options.storage.compression == Compression::keep && !was_turned && !were_mended && !was_repaired) {
+    if (input.options.storage.compression == Compression::keep && !was_turned && !were_repaired && !was_repaired) {
         const bool will_edit = decisions.changeGeometryOrMaps() || input.options.storage.pack.has_value();
         convertContainer(document, input.target, will_edit, report.warnings);
     }
@@ -288,14 +288,15 @@ WorkedOn generate(Input& input, bool with_images, const GenerateStep& step, Gene
     if (with_images) embedImagesInGlb(document, input.target, report.warnings);
     tell(input.options, "reading", 1, 1);
     const WorkedOn worked_on = edit(input, storage, std::move(decisions), report);
-    report.changed = report.changed || was_turned || were_mended || was_repaired;
+    report.changed = report.changed || was_turned || were_repaired || was_repaired;
     if (scaled_normals) noteUnitNormals(scaled, *scaled_normals, report);
-    countTurned(winding, report.primitives);
+    countFlipped(winding, report.primitives);
     return worked_on;
 }
 
 /// Adds the file names to the report.
-void tellFiles(const std::string& input, const Document& document, const AtomicOutput& files, GenerateReport& report) {
+void reportFiles(const std::string& input, const Document& document, const AtomicOutput& files,
+                 GenerateReport& report) {
     report.input_files = {input};
     for (const std::vector<std::string>& more : {document.input_files, files.sources()}) {
         for (const std::string& file : more) {
@@ -339,7 +340,7 @@ void writeGenerated(const std::string& input, Document& document, const OutputTa
         writeUnchanged(document, target, files, report.warnings);
     }
     tell(options, "writing", 1, 1);
-    tellFiles(input, document, files, report);
+    reportFiles(input, document, files, report);
     addWarnings(options, worked_on, is_step, report);
     tell(options, "writing", 1, 1);
     // No step that can fail may follow.

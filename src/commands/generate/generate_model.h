@@ -15,7 +15,7 @@ namespace tspace {
 
 /// Settings of generate as a step of another command. A step does not warn about options without effect.
 struct GenerateStep {
-    gltf::NormalWishes normals = {};  ///< normals to recompute; ignored for OBJ
+    gltf::RecomputedNormals normals = {};  ///< normals to recompute; ignored for OBJ
     /// Meshes that GenerateOptions::mend_winding does not change; ignored for OBJ.
     std::vector<std::uint32_t> wound_meshes = {};
     /// Repairs attributes with a wrong type or element count; otherwise generate repairs them only with some options.

@@ -43,23 +43,23 @@ void convertHeightMap(const Scene& scene, std::size_t image, const GenerateOptio
                       Model& model, std::vector<NormalMapReport>& reports) {
     const auto number = static_cast<std::size_t>(&material - model.materials.data());
     const auto strength = static_cast<double>(material.normal_scale);
-    MadeOfHeights made = makeOfHeights(scene, number, image, strength, options);
+    ConvertedHeights made = normalMapFromHeights(scene, number, image, strength, options);
     if (!made.is_height_map) return;
     if (made.file.empty()) return skipHeightMap(material, made.why_not, model);
     model.memory->take(made.file.size(), "material");
     material.converted_normal_map = std::make_shared<const Bytes>(std::move(made.file));
     material.normal_scale = 1;
-    const std::string lean = shortNumber(made.mean_lean_deg) + " degrees on average";
+    const std::string tilt = shortNumber(made.mean_lean_deg) + " degrees on average";
     NormalMapReport& report = reports.emplace_back();
     report.image = static_cast<std::uint32_t>(image);
     report.name = material.normal_texture.file;
     report.mended = true;
     report.reason = "the image was a height map; white is " + shortNumber(strength) +
-                    " model units high (-bm), and the normals are tilted by " + lean;
+                    " model units high (-bm), and the normals are tilted by " + tilt;
     constexpr double kSteepDeg = 60;
     if (made.mean_lean_deg > kSteepDeg) {
         model.warnings.push_back("the normal map made from '" + material.normal_texture.file + "' is very steep (" +
-                                 lean + "); -bm is interpreted as the height of white above black, in model units");
+                                 tilt + "); -bm is interpreted as the height of white above black, in model units");
     }
 }
 
@@ -108,7 +108,7 @@ std::vector<NormalMapReport> prepareMaps(std::span<const ObjPrimitive> primitive
             const std::string why_not_flipped = map.report.reason;
             const ByteSpan source =
                 map.flipped.empty() ? ByteSpan(scene.images[map.image].bytes) : ByteSpan(map.flipped);
-            bytes = mendMap(scene, source, options, map);
+            bytes = rewriteMap(scene, source, options, map);
             if (bytes.empty() && map.report.flipped) map.report.reason.clear();
             if (bytes.empty() && !why_not_flipped.empty()) map.report.reason = why_not_flipped;
         }
@@ -259,8 +259,8 @@ Made generate(const std::string& input, const std::string& output, const Generat
     tell(options, "reading", 0, 0);
     Model model = readModel(input, options.file);
     tell(options, "reading", 1, 1);
-    std::vector<std::uint8_t> turned;
-    if (options.mend_winding) turned = mendObjWinding(model, options, report);
+    std::vector<std::uint8_t> flipped;
+    if (options.mend_winding) flipped = fixObjWinding(model, options, report);
     tell(options, "reading", 1, 1);
     std::vector<ObjPrimitive> primitives = collectPrimitives(model);
     tell(options, "computing normals", 0, 0);
@@ -281,7 +281,7 @@ Made generate(const std::string& input, const std::string& output, const Generat
         const bool replaced = options.normals.overwrite && had_normals[finished.size()];
         finished.push_back(finish(model, primitive, replaced, options, entry));
         for (const std::uint32_t face : primitive.faces) {
-            if (!turned.empty() && turned[face] != 0) listTurned(face, entry);
+            if (!flipped.empty() && flipped[face] != 0) listFlipped(face, entry);
         }
         entry.primitive = next_in_mesh[primitive.shape]++;
         // Normals are computed for the whole file at once: the first primitive with computed normals reports the

@@ -88,14 +88,15 @@ std::vector<bool> morphNormals(const Document& document, const Primitive& primit
 
 /// The computations of normals that are planned for a primitive.
 struct NormalsPlan {
-    bool anew = false;
+    bool recompute = false;
     std::vector<bool> morphs = {};
 };
 
 /// Returns whether nothing is computed because it is not needed or not possible. If so, fills action and reason.
 bool isSkipped(PrimitiveReport& report, const Document& document, const Primitive& primitive,
                const std::vector<TangentUse>& uses, const GenerateOptions& options, const NormalsPlan& normals) {
-    const bool follows = normals.anew && primitive.find("TANGENT") && !shouldStripTangents(primitive, uses, options);
+    const bool follows =
+        normals.recompute && primitive.find("TANGENT") && !shouldStripTangents(primitive, uses, options);
     std::string why;
     if (!hasTriangles(primitive.mode)) {
         report.action = PrimitiveAction::notTriangles;
@@ -137,7 +138,7 @@ bool decide(PrimitiveReport& report, const Document& document, const Primitive& 
     if (const std::string packed = can_overwrite ? "" : packedAlone(document, primitive); !packed.empty())
         return leave(PrimitiveAction::kept, "its frames are packed in " + packed);
     const bool keeps =
-        hasUsableTangents(primitive) && options.selection.existing == ExistingTangents::keep && !normals.anew;
+        hasUsableTangents(primitive) && options.selection.existing == ExistingTangents::keep && !normals.recompute;
     if (keeps && !lacksDeltas(primitive) && normals.morphs.empty()) return leave(PrimitiveAction::kept, kKeptReason);
     if (!primitive.attribute_faults.empty()) {
         const AttributeFault& fault = primitive.attribute_faults.front();
@@ -163,7 +164,7 @@ bool decide(PrimitiveReport& report, const Document& document, const Primitive& 
                                             : "it has tangents";
     if (hasUsableTangents(primitive) && options.selection.existing == ExistingTangents::replace) {
         report.reason += ", and overwriting was requested";
-    } else if (hasUsableTangents(primitive) && normals.anew) {
+    } else if (hasUsableTangents(primitive) && normals.recompute) {
         report.reason += ", which would not fit its new normals";
     }
     if (keeps) leave(PrimitiveAction::kept, kKeptReason);
@@ -172,8 +173,8 @@ bool decide(PrimitiveReport& report, const Document& document, const Primitive& 
 
 /// Returns a note if computed tangents replace tangents that no texture uses, because these may be authored; otherwise
 /// empty.
-std::string noteOnDrawn(const Document& document, const Primitive& primitive, const std::vector<TangentUse>& uses,
-                        bool along_u) {
+std::string noteOnAuthored(const Document& document, const Primitive& primitive, const std::vector<TangentUse>& uses,
+                           bool along_u) {
     if (std::any_of(uses.begin(), uses.end(), [](const TangentUse& use) { return use.has_texture; })) return {};
     std::string reader = otherTangentReader(document, primitive);
     if (reader.empty() && !uses.empty()) reader = uses[0].needed_by + " without a texture";
@@ -206,7 +207,7 @@ bool lacksDeltas(const Primitive& primitive) {
 }
 
 GeneratePlan planGenerate(const Document& document, std::span<const Primitive> primitives,
-                          const GenerateOptions& options, const NormalWishes& wishes) {
+                          const GenerateOptions& options, const RecomputedNormals& recomputed) {
     const auto isIn = [](const std::vector<bool>& list, std::size_t i) { return i < list.size() && list[i]; };
     GeneratePlan plan;
     const std::set<std::string> animated = animatedPointers(document);
@@ -227,24 +228,24 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
         report.vertices_before = report.vertices_after = primitive.vertex_count;
         report.source_list = report.split_list = lists.numberOf(primitive);
         const std::vector<TangentUse> uses = tangentUses(document, primitive);
-        NormalsPlan normals{.anew =
-                                regeneratesNormals(report, document, primitive, uses, options, isIn(wishes.anew, i))};
-        if (!normals.anew)
-            normals.morphs =
-                morphNormals(document, primitive, isIn(wishes.morphs, i) ? MorphNormals::all : options.normals.morphs);
+        NormalsPlan normals{
+            .recompute = regeneratesNormals(report, document, primitive, uses, options, isIn(recomputed.base, i))};
+        if (!normals.recompute)
+            normals.morphs = morphNormals(document, primitive,
+                                          isIn(recomputed.morphs, i) ? MorphNormals::all : options.normals.morphs);
         const bool computes = decide(report, document, primitive, uses, options, normals);
         if (hasTriangles(primitive.mode)) {
             const bool follows = computes && report.uv_set >= 0 && report.action != PrimitiveAction::kept;
             for (std::string& note : notesOf(uses, animated, options.tangents.texture_transform, follows))
                 report.notes.push_back(std::move(note));
         }
-        if (!computes && !normals.anew && normals.morphs.empty()) continue;
+        if (!computes && !normals.recompute && normals.morphs.empty()) continue;
         if (computes && primitive.find("TANGENT") && !hasUsableTangents(primitive))
             report.notes.emplace_back("its existing tangents were ignored, because it had no normals");
 
-        const bool replaces = options.selection.existing == ExistingTangents::replace || normals.anew;
+        const bool replaces = options.selection.existing == ExistingTangents::replace || normals.recompute;
         if (computes && replaces && report.action != PrimitiveAction::kept && hasUsableTangents(primitive)) {
-            std::string note = noteOnDrawn(document, primitive, uses, report.uv_set >= 0);
+            std::string note = noteOnAuthored(document, primitive, uses, report.uv_set >= 0);
             if (!note.empty()) report.notes.push_back(std::move(note));
         }
 
@@ -254,8 +255,8 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
             plan.has_texture_transforms =
                 plan.has_texture_transforms || !uvMatrixOf(uses[0], TextureTransform::apply).isIdentity();
         }
-        const auto [pool_entry, is_new_pool] =
-            pool_of.try_emplace(poolKey(primitive, report.uv_set, matrix, computes, normals.anew), plan.pools.size());
+        const auto [pool_entry, is_new_pool] = pool_of.try_emplace(
+            poolKey(primitive, report.uv_set, matrix, computes, normals.recompute), plan.pools.size());
         const std::size_t pool_number = pool_entry->second;
         if (is_new_pool) {
             PoolPlan& created = plan.pools.emplace_back();
@@ -264,8 +265,8 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
             created.uv_matrix = matrix;
             created.uv_set = created.uses_uvs ? static_cast<std::size_t>(report.uv_set) : 0;
             created.vertex_count = primitive.vertex_count;
-            created.overwrites_normals = normals.anew && primitive.find("NORMAL");
-            created.has_normals = primitive.find("NORMAL") && !normals.anew;
+            created.overwrites_normals = normals.recompute && primitive.find("NORMAL");
+            created.has_normals = primitive.find("NORMAL") && !normals.recompute;
             created.morph_normals = std::move(normals.morphs);
             created.has_tangents = hasUsableTangents(primitive);
             created.keeps_tangents = computes && report.action == PrimitiveAction::kept;

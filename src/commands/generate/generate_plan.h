@@ -52,13 +52,13 @@ struct PoolPlan {
     std::size_t vertex_count = 0;
 
     /// Returns whether existing tangents are kept, except for the repairs listed in the geometries.
-    [[nodiscard]] bool mendsTangents() const {
+    [[nodiscard]] bool repairsTangents() const {
         return !geometries.empty() && !geometries.front().mends.vertices.empty();
     }
 
     /// Returns the approximate memory of the computation, most of it for lists of the corners' neighbors and tangents.
     [[nodiscard]] std::uint64_t workBytes() const {
-        const std::uint64_t of_corner = (has_normals ? 96U : 128U) + (mendsTangents() ? 24U : 0U);
+        const std::uint64_t of_corner = (has_normals ? 96U : 128U) + (repairsTangents() ? 24U : 0U);
         return of_corner * corner_count + std::uint64_t{64} * vertex_count;
     }
 };
@@ -74,13 +74,13 @@ struct GeneratePlan {
 bool lacksDeltas(const Primitive& primitive);
 
 /// Normals that are recomputed regardless of the options: one entry per primitive in file order, or empty.
-struct NormalWishes {
-    std::vector<bool> anew = {};    ///< like GenerateOptions::Normals::overwrite, per primitive
+struct RecomputedNormals {
+    std::vector<bool> base = {};    ///< like GenerateOptions::Normals::overwrite, per primitive
     std::vector<bool> morphs = {};  ///< like MorphNormals::all, per primitive
 };
 
 GeneratePlan planGenerate(const Document& document, std::span<const Primitive> primitives,
-                          const GenerateOptions& options, const NormalWishes& wishes = {});
+                          const GenerateOptions& options, const RecomputedNormals& recomputed = {});
 
 // Finds the primitives of a mesh that form one surface for computing normals.
 

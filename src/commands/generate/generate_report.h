@@ -81,7 +81,7 @@ struct Totals {
     std::uint64_t morph_normals_computed = 0;
     std::uint64_t on_quads = 0, quad_count = 0;  ///< number of primitives, and of their quads
     std::uint64_t bitangents_generated = 0;
-    std::uint64_t frames_packed = 0, packed_mended = 0;  ///< number of primitives, and of their repaired frames
+    std::uint64_t frames_packed = 0, packed_repaired = 0;  ///< number of primitives, and of their repaired frames
     std::uint64_t tangents_dropped = 0, normals_dropped = 0;
     std::uint64_t morph_deltas_computed = 0;
     std::uint64_t morph_sign_flip_count = 0;

@@ -25,7 +25,7 @@ namespace tspace {
 struct WindingPlan {
     std::vector<MendedWindingReport> reports = {};
     /// Per primitive: one entry per triangle, 1 to flip it; or empty: no triangle is flipped.
-    std::vector<std::vector<std::uint8_t>> turned = {};
+    std::vector<std::vector<std::uint8_t>> flipped = {};
 
     [[nodiscard]] bool turnsAny() const;
 };
@@ -36,13 +36,13 @@ struct WindingPlan {
 WindingPlan planWinding(gltf::Model& model, const GenerateOptions& options, std::span<const std::uint32_t> kept);
 
 /// Appends a flipped face to the report.
-void listTurned(std::uint64_t face, PrimitiveReport& report);
+void listFlipped(std::uint64_t face, PrimitiveReport& report);
 
 /// Counts and lists the flipped faces in the reports.
-void countTurned(const WindingPlan& plan, std::vector<PrimitiveReport>& primitives);
+void countFlipped(const WindingPlan& plan, std::vector<PrimitiveReport>& primitives);
 
 /// Flips faces of an OBJ file. Returns one entry per face: 1 if it was flipped.
-std::vector<std::uint8_t> mendObjWinding(obj::Model& model, const GenerateOptions& options, GenerateReport& report);
+std::vector<std::uint8_t> fixObjWinding(obj::Model& model, const GenerateOptions& options, GenerateReport& report);
 
 }  // namespace tspace
 
@@ -73,8 +73,8 @@ std::vector<std::vector<std::size_t>> findBrokenValues(Model& model, const Gener
 
 /// Repairs invalid values in the format of the accessor, and notes the repairs in the reports. All other elements keep
 /// their bits.
-void mendBrokenValues(Editor& editor, const Document& document, std::span<const Primitive> primitives,
-                      std::span<const std::vector<std::size_t>> groups, std::span<PrimitiveReport> reports);
+void repairInvalidValues(Editor& editor, const Document& document, std::span<const Primitive> primitives,
+                         std::span<const std::vector<std::size_t>> groups, std::span<PrimitiveReport> reports);
 
 // Converts the normal maps of a glTF file for its new tangents, so that the shading does not change.
 

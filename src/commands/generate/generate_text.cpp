@@ -104,7 +104,7 @@ std::string normalMapText(const NormalMapReport& map) {
 
 std::string packedText(const Totals& totals) {
     std::string text = "frames of " + counted(totals.frames_packed, "primitive");
-    if (totals.packed_mended != 0) text += fmt::format(", {} repaired first", totals.packed_mended);
+    if (totals.packed_repaired != 0) text += fmt::format(", {} repaired first", totals.packed_repaired);
     if (totals.tangents_dropped != 0) text += fmt::format("; TANGENT removed from {}", totals.tangents_dropped);
     if (totals.normals_dropped != 0) text += fmt::format(", NORMAL from {}", totals.normals_dropped);
     return text;
@@ -152,9 +152,9 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
     }
     if (!report.windings.empty()) table.addRow({"winding", windingText(report.windings)});
     if (totals.normals_generated != 0) {
-        const std::string anew =
+        const std::string replaced =
             totals.normals_replaced == 0 ? "" : fmt::format(", {} of them recomputed", totals.normals_replaced);
-        table.addRow({"normals", "generated for " + counted(totals.normals_generated, "primitive") + anew});
+        table.addRow({"normals", "generated for " + counted(totals.normals_generated, "primitive") + replaced});
     }
     if (totals.morph_normals_computed != 0) {
         table.addRow({"morph targets", "normal deltas computed for " + std::to_string(totals.morph_normals_computed)});

@@ -47,7 +47,7 @@ Json& MapReferences::reference(const Slot& slot) const {
     return material["extensions"]["KHR_materials_clearcoat"]["clearcoatNormalTexture"];
 }
 
-bool MapReferences::isOfAlone(std::size_t image, std::span<const MapUser> users) const {
+bool MapReferences::isUsedOnlyBy(std::size_t image, std::span<const MapUser> users) const {
     std::set<std::size_t> textures;
     Json& list = document_.json["textures"];
     for (std::size_t i = 0; i < list.size(); ++i) {
@@ -81,7 +81,7 @@ void MapReferences::setSource(Json& texture, std::size_t image) {
     texture["source"] = image;
 }
 
-void MapReferences::namePlainly(std::size_t image) {
+void MapReferences::makeOnlySource(std::size_t image) {
     for (Json& texture : document_.json["textures"]) {
         bool shows_it = false;
         forSources(texture, [&](Json& source) { shows_it = shows_it || isNumber(source, image); });
@@ -158,19 +158,19 @@ std::size_t ImagePlacer::add(std::size_t like, Bytes&& bytes) {
     return image;
 }
 
-void ImagePlacer::put(std::size_t image, Bytes&& bytes, bool keeps_old, bool is_of_all) {
+void ImagePlacer::put(std::size_t image, Bytes&& bytes, bool keeps_old, bool for_all_users) {
     const char* type = mimeType(imageFormat(bytes));
     if (document_.json["images"][image].contains("bufferView")) {
-        putInView(image, std::move(bytes), keeps_old, is_of_all);
+        putInView(image, std::move(bytes), keeps_old, for_all_users);
     } else {
         Json& entry = document_.json["images"][image];
         const std::string uri = entry["uri"].text();
         if (uriKind(uri) == UriKind::data) {
             entry["uri"] = encodeDataUri(type, bytes);
         } else if (target_.container == Container::glb) {
-            takeIn(image, std::move(bytes));
+            embed(image, std::move(bytes));
         } else {
-            putInFile(image, uri, std::move(bytes), is_of_all);
+            putInFile(image, uri, std::move(bytes), for_all_users);
         }
     }
     Json& entry = document_.json["images"][image];
@@ -179,7 +179,7 @@ void ImagePlacer::put(std::size_t image, Bytes&& bytes, bool keeps_old, bool is_
 }
 
 /// Embeds the image in the GLB, so that the output needs no other file and can be a pipe.
-void ImagePlacer::takeIn(std::size_t image, Bytes&& bytes) {
+void ImagePlacer::embed(std::size_t image, Bytes&& bytes) {
     const char* type = mimeType(imageFormat(bytes));
     const std::size_t view = editor_.storeBlob(std::move(bytes), std::nullopt);
     Json& entry = document_.json["images"][image];
@@ -188,21 +188,21 @@ void ImagePlacer::takeIn(std::size_t image, Bytes&& bytes) {
     entry["mimeType"] = type;
 }
 
-void ImagePlacer::putInView(std::size_t image, Bytes&& bytes, bool keeps_old, bool is_of_all) {
+void ImagePlacer::putInView(std::size_t image, Bytes&& bytes, bool keeps_old, bool for_all_users) {
     const auto view = document_.json["images"][image]["bufferView"].get<std::size_t>();
     if (!keeps_old) editor_.releaseView(view);
     const auto known = views_.find(view);
     const std::size_t stored =
-        known != views_.end() && is_of_all ? known->second : editor_.storeBlob(std::move(bytes), std::nullopt);
-    if (is_of_all) views_[view] = stored;
+        known != views_.end() && for_all_users ? known->second : editor_.storeBlob(std::move(bytes), std::nullopt);
+    if (for_all_users) views_[view] = stored;
     // The entry is looked up again, because storing the image may move the members of the root object.
     document_.json["images"][image]["bufferView"] = stored;
 }
 
-void ImagePlacer::putInFile(std::size_t image, const std::string& uri, Bytes&& bytes, bool is_of_all) {
+void ImagePlacer::putInFile(std::size_t image, const std::string& uri, Bytes&& bytes, bool for_all_users) {
     const auto known = files_.find(uri);
-    const std::string name = known != files_.end() && is_of_all ? known->second : freeName(uri, bytes);
-    if (is_of_all) files_[uri] = name;
+    const std::string name = known != files_.end() && for_all_users ? known->second : freeName(uri, bytes);
+    if (for_all_users) files_[uri] = name;
     document_.json["images"][image]["uri"] = percentEncode(name);
     document_.new_files[name] = std::move(bytes);
 }

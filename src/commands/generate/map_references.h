@@ -71,11 +71,11 @@ class MapReferences {
         : document_(document), primitives_(primitives) {}
 
     /// Returns whether only these primitives show the image, so that it can be replaced in place.
-    [[nodiscard]] bool isOfAlone(std::size_t image, std::span<const MapUser> users) const;
+    [[nodiscard]] bool isUsedOnlyBy(std::size_t image, std::span<const MapUser> users) const;
 
     /// Makes the image the only source of all textures that show it, without alternatives in other formats. Its format
     /// must be one that all viewers support. Removes extensions for other formats that no texture uses any more.
-    void namePlainly(std::size_t image);
+    void makeOnlySource(std::size_t image);
 
     /// Returns why these primitives cannot have an image of their own (half a sentence); empty: they can.
     [[nodiscard]] std::string whyNotApart(std::span<const MapUser> users) const;
@@ -119,10 +119,10 @@ class ImagePlacer {
     std::size_t add(std::size_t like, Bytes&& bytes);
 
   private:
-    void put(std::size_t image, Bytes&& bytes, bool keeps_old, bool is_of_all);
-    void takeIn(std::size_t image, Bytes&& bytes);
-    void putInView(std::size_t image, Bytes&& bytes, bool keeps_old, bool is_of_all);
-    void putInFile(std::size_t image, const std::string& uri, Bytes&& bytes, bool is_of_all);
+    void put(std::size_t image, Bytes&& bytes, bool keeps_old, bool for_all_users);
+    void embed(std::size_t image, Bytes&& bytes);
+    void putInView(std::size_t image, Bytes&& bytes, bool keeps_old, bool for_all_users);
+    void putInFile(std::size_t image, const std::string& uri, Bytes&& bytes, bool for_all_users);
     std::string freeName(const std::string& uri, const Bytes& bytes);
 
     Document& document_;

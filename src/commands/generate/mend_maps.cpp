@@ -14,7 +14,7 @@ namespace tspace {
 namespace {
 
 /// Returns what the image contained, as half a sentence.
-const char* whatItHeld(MapContent content) {
+const char* formerContent(MapContent content) {
     switch (content) {
         case MapContent::twoChannels:
             return "the map stored only x and y";
@@ -41,22 +41,22 @@ const char* whatItHeld(MapContent content) {
 /// Returns why an image with such contents is unchanged; empty: it is rewritten. `claims_srgb`: the file declares sRGB
 /// encoding.
 std::string whyUnchanged(const JudgedMap& map, bool claims_srgb) {
-    const MapLook& look = map.look;
-    if (look.content == MapContent::normals && !claims_srgb) return "the map is encoded as glTF requires";
-    if (look.content == MapContent::height)
+    const MapAnalysis& analysis = map.analysis;
+    if (analysis.content == MapContent::normals && !claims_srgb) return "the map is encoded as glTF requires";
+    if (analysis.content == MapContent::height)
         return "the image is gray, so it is a height map of unknown strength; use tspace height-to-normal";
-    if (look.content == MapContent::picture) return "the image is a color image, not a normal map";
-    if (look.content == MapContent::objectSpace && !look.follows_mesh)
+    if (analysis.content == MapContent::picture) return "the image is a color image, not a normal map";
+    if (analysis.content == MapContent::objectSpace && !analysis.follows_mesh)
         return "the map is neither in tangent space nor in the object space of this mesh";
-    if (look.content == MapContent::objectSpace && look.is_in_world)
+    if (analysis.content == MapContent::objectSpace && analysis.is_in_world)
         return "the map is in world space; use tspace convert-map --from world";
-    if (look.content == MapContent::hemiOctahedral)
+    if (analysis.content == MapContent::hemiOctahedral)
         return "the map is hemi-octahedrally encoded, which tspace does not decode";
-    if (look.may_be_octahedral) return "its two channels may store octahedral encoding (see tspace check)";
-    if (look.is_doubtful)
+    if (analysis.may_be_octahedral) return "its two channels may store octahedral encoding (see tspace check)";
+    if (analysis.is_doubtful)
         return "its two channels may use another encoding, because they are not the slopes of any height field (see "
                "tspace check)";
-    if (isTurned(look, map.is_y_inverted))
+    if (isTurned(analysis, map.is_y_inverted))
         return "the image was rotated by 90 or 270 degrees without its vectors, and its slopes do not show which (see "
                "tspace check)";
     return {};
@@ -69,7 +69,7 @@ bool isPicture(const FloatImage& image) {
     std::vector<TexelBytes> texels;
     texels.reserve(image.texels.size());
     for (const Vec3& texel : image.texels) texels.push_back({byteOf(texel.x), byteOf(texel.y), byteOf(texel.z), 255});
-    return lookAtTexels(texels, false, {}).content == MapContent::picture;
+    return analyzeTexels(texels, false, {}).content == MapContent::picture;
 }
 
 /// Returns all triangles that show the image, with tangents that approximate those of the output. `isUser(TangentUse)`:
@@ -103,7 +103,7 @@ void toTangentSpace(const Scene& scene, std::size_t image_number, const Generate
 
 }  // namespace
 
-Bytes mendMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options, JudgedMap& map) {
+Bytes rewriteMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options, JudgedMap& map) {
     const std::optional<TextureFacts> facts = textureFacts(bytes);
     map.report.reason = whyUnchanged(map, facts && facts->is_srgb);
     if (!map.report.reason.empty()) return {};
@@ -113,10 +113,10 @@ Bytes mendMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options
     }
     std::optional<FloatImage> image = decodeFloatImage(bytes, kMaxModelMapPixels, map.report.reason);
     if (!image) return {};
-    MapLayout layout = map.look.layout;
+    MapLayout layout = map.analysis.layout;
     layout.y.is_inverted = layout.y.is_inverted != map.is_y_inverted;
     readTexels(layout, *image);
-    if (map.look.content == MapContent::objectSpace) toTangentSpace(scene, map.image, options, *image);
+    if (map.analysis.content == MapContent::objectSpace) toTangentSpace(scene, map.image, options, *image);
     constexpr unsigned kMaxBits = 16;  // maximum bits of a PNG
     const auto file = encodePng(*image, std::min(image->bits, kMaxBits));
     if (!file) {
@@ -124,16 +124,16 @@ Bytes mendMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options
         return {};
     }
     map.report.mended = true;
-    map.report.reason = whatItHeld(map.look.content);
+    map.report.reason = formerContent(map.analysis.content);
     return Bytes(file->begin(), file->end());
 }
 
-MadeOfHeights makeOfHeights(const Scene& scene, std::size_t material, std::size_t image, double strength,
-                            const GenerateOptions& options) {
+ConvertedHeights normalMapFromHeights(const Scene& scene, std::size_t material, std::size_t image, double strength,
+                                      const GenerateOptions& options) {
     const ByteSpan bytes = scene.images[image].bytes;
     // Missing images and images in unsupported formats are skipped, or kept like other textures.
     if (bytes.empty() || whyNotRead(imageFormat(bytes)) != nullptr) return {};
-    MadeOfHeights made{.is_height_map = true};
+    ConvertedHeights made{.is_height_map = true};
     if (!scene.memory->has(kMapPixelBytes * claimedSize(bytes).pixels())) {
         made.why_not = "converting the map would exceed the memory limit";
         return made;

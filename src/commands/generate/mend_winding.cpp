@@ -37,14 +37,14 @@ class MeshSurface {
         mesh.positions = positions_;
         if (has_normals_) mesh.normals = normals_;
         mesh.indices = std::span<const std::uint32_t>(indices_);
-        std::vector<std::uint8_t> turned(indices_.size() / 3);
+        std::vector<std::uint8_t> flipped(indices_.size() / 3);
         const WindingOptions how{.weld_distance = options.normals.compute.weld_distance};
-        report.winding = valueOrThrow(mendWinding(mesh, how, turned, options.execution));
+        report.winding = valueOrThrow(mendWinding(mesh, how, flipped, options.execution));
         for (const auto& [key, piece] : pieces_) {
-            const auto begin = turned.begin() + static_cast<std::ptrdiff_t>(piece.first);
+            const auto begin = flipped.begin() + static_cast<std::ptrdiff_t>(piece.first);
             const std::vector<std::uint8_t> own(begin, begin + static_cast<std::ptrdiff_t>(piece.count));
             if (std::find(own.begin(), own.end(), 1) == own.end()) continue;
-            for (const std::size_t number : piece.numbers) plan.turned[number] = own;
+            for (const std::size_t number : piece.numbers) plan.flipped[number] = own;
         }
     }
     [[nodiscard]] bool empty() const { return indices_.empty(); }
@@ -84,13 +84,13 @@ class MeshSurface {
 }  // namespace
 
 bool WindingPlan::turnsAny() const {
-    return std::any_of(turned.begin(), turned.end(), [](const auto& faces) { return !faces.empty(); });
+    return std::any_of(flipped.begin(), flipped.end(), [](const auto& faces) { return !faces.empty(); });
 }
 
 WindingPlan planWinding(gltf::Model& model, const GenerateOptions& options, std::span<const std::uint32_t> kept) {
     WindingPlan plan;
     const std::vector<gltf::Primitive>& primitives = model.primitives();
-    plan.turned.resize(primitives.size());
+    plan.flipped.resize(primitives.size());
     for (std::size_t i = 0, past = 0; i < primitives.size(); i = past) {
         std::uint64_t corners = 0, vertices = 0;
         for (past = i; past < primitives.size() && primitives[past].mesh == primitives[i].mesh; ++past) {
@@ -110,7 +110,7 @@ WindingPlan planWinding(gltf::Model& model, const GenerateOptions& options, std:
     return plan;
 }
 
-void listTurned(std::uint64_t face, PrimitiveReport& report) {
+void listFlipped(std::uint64_t face, PrimitiveReport& report) {
     ++report.winding_mended_count;
     std::vector<FaceRange>& ranges = report.winding_mended;
     if (!ranges.empty() && ranges.back().first + ranges.back().count == face)
@@ -119,15 +119,15 @@ void listTurned(std::uint64_t face, PrimitiveReport& report) {
         ranges.push_back({face, 1});
 }
 
-void countTurned(const WindingPlan& plan, std::vector<PrimitiveReport>& primitives) {
-    for (std::size_t i = 0; i < plan.turned.size(); ++i) {
-        for (std::size_t face = 0; face < plan.turned[i].size(); ++face) {
-            if (plan.turned[i][face] != 0) listTurned(face, primitives[i]);
+void countFlipped(const WindingPlan& plan, std::vector<PrimitiveReport>& primitives) {
+    for (std::size_t i = 0; i < plan.flipped.size(); ++i) {
+        for (std::size_t face = 0; face < plan.flipped[i].size(); ++face) {
+            if (plan.flipped[i][face] != 0) listFlipped(face, primitives[i]);
         }
     }
 }
 
-std::vector<std::uint8_t> mendObjWinding(obj::Model& model, const GenerateOptions& options, GenerateReport& report) {
+std::vector<std::uint8_t> fixObjWinding(obj::Model& model, const GenerateOptions& options, GenerateReport& report) {
     std::vector<std::uint32_t> indices, normals, sizes;
     const auto no_normal = static_cast<std::uint32_t>(model.normals.size());
     std::vector<Vec3> directions = model.normals;
@@ -148,15 +148,15 @@ std::vector<std::uint8_t> mendObjWinding(obj::Model& model, const GenerateOption
     mesh.face_sizes = sizes;
     const WindingOptions how{.use_normals = !options.normals.overwrite,
                              .weld_distance = options.normals.compute.weld_distance};
-    std::vector<std::uint8_t> turned(model.faces.size());
+    std::vector<std::uint8_t> flipped(model.faces.size());
     MendedWindingReport& mended = report.windings.emplace_back();
-    mended.winding = valueOrThrow(mendWinding(mesh, how, turned, options.execution));
-    for (std::size_t f = 0; f < turned.size(); ++f) {
+    mended.winding = valueOrThrow(mendWinding(mesh, how, flipped, options.execution));
+    for (std::size_t f = 0; f < flipped.size(); ++f) {
         const auto begin = model.corners.begin() + model.faces[f].first_corner;
         // The first corner of the face remains the first.
-        if (turned[f] != 0) std::reverse(begin + 1, begin + model.faces[f].corner_count);
+        if (flipped[f] != 0) std::reverse(begin + 1, begin + model.faces[f].corner_count);
     }
-    return turned;
+    return flipped;
 }
 
 }  // namespace tspace

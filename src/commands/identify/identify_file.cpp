@@ -36,9 +36,10 @@ void addTo(Explanation& sum, const Explanation& part) {
 }
 
 bool hasTwoReadings(const PrimitiveIdentity& primitive) {
-    const Explanation *turned = bestReading(primitive, true), *plain = bestReading(primitive, false);
-    return turned != nullptr && plain != nullptr &&
-           (turned->near_count != plain->near_count || turned->gltf_sign_count != plain->gltf_sign_count);
+    const Explanation *with_transform = bestReading(primitive, true), *plain = bestReading(primitive, false);
+    return with_transform != nullptr && plain != nullptr &&
+           (with_transform->near_count != plain->near_count ||
+            with_transform->gltf_sign_count != plain->gltf_sign_count);
 }
 
 /// Returns the explanation by a method along the UV set of the texture, in the interpretation that explains more; on

@@ -237,10 +237,10 @@ const Explanation* bestReading(const PrimitiveIdentity& primitive, bool is_trans
 }
 
 bool followsTransform(const PrimitiveIdentity& primitive) {
-    const Explanation *turned = bestReading(primitive, true), *plain = bestReading(primitive, false);
-    if (turned == nullptr || plain == nullptr) return turned != nullptr;
-    if (turned->near_count != plain->near_count) return turned->near_count > plain->near_count;
-    return turned->gltf_sign_count >= plain->gltf_sign_count;
+    const Explanation *with_transform = bestReading(primitive, true), *plain = bestReading(primitive, false);
+    if (with_transform == nullptr || plain == nullptr) return with_transform != nullptr;
+    if (with_transform->near_count != plain->near_count) return with_transform->near_count > plain->near_count;
+    return with_transform->gltf_sign_count >= plain->gltf_sign_count;
 }
 
 namespace {
@@ -327,7 +327,7 @@ std::string tiesOf(const std::vector<Explanation>& explanations) {
 }
 
 /// Returns whether, at nearly every vertex, the stored tangent equals the computed tangent of one of its corners.
-bool keptOnePerVertex(const Explanation& entry) {
+bool keepsOnePerVertex(const Explanation& entry) {
     return entry.nearAnyShare() >= kSureShare && entry.method != Method::flat;
 }
 
@@ -338,7 +338,7 @@ std::string makerSentence(const Identification& result) {
     const std::string name = makerOf(best), ties = tiesOf(result.explanations);
     if (best.nearShare() >= kSureShare)
         return "Made by " + name + ": it explains " + percent(best.nearShare()) + " of the corners" + ties + ".";
-    if (keptOnePerVertex(best)) {
+    if (keepsOnePerVertex(best)) {
         return "Made by " + name +
                ", but only one tangent per vertex was kept where corners differ: " + percent(best.nearShare()) +
                " of the corners fit, " + percent(best.nearAnyShare()) + " at some corner of their vertex" +
@@ -374,7 +374,7 @@ std::string exceptionsSentence(const Identification& result) {
 std::string signSentence(const Identification& result) {
     const Explanation& best = result.explanations.front();
     // The meaning of signs depends on the method, so signs are not described if the method is unknown.
-    if (best.nearShare() < kLikelyShare && !keptOnePerVertex(best) && differentMakers(result).empty()) return "";
+    if (best.nearShare() < kLikelyShare && !keepsOnePerVertex(best) && differentMakers(result).empty()) return "";
     switch (best.signs()) {
         case SignReading::gltf:
             return " The signs follow glTF.";

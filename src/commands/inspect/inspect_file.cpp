@@ -6,7 +6,7 @@
 
 #include "commands/inspect/inspect.h"
 #include "commands/inspect/inspect_report.h"
-#include "commands/shared/noted_noise.h"
+#include "commands/shared/reportable_noise.h"
 #include "core/mesh/surface/uvs.h"
 #include "model/gltf/accessor.h"
 #include "model/gltf/draco_primitives.h"
@@ -146,8 +146,8 @@ void describeTriangles(const Document& document, const Primitive& primitive, boo
     MeshView triangles;
     triangles.positions = std::span(positions);
     triangles.indices = IndexView(std::span(corners));
-    if (document.memory->has(bytes + noteMemory(triangles)))
-        info.position_noise = notedNoise(triangles, stepOf(readAccessor(document, *primitive.find("POSITION"))));
+    if (document.memory->has(bytes + reportableNoiseMemory(triangles)))
+        info.position_noise = reportableNoise(triangles, stepOf(readAccessor(document, *primitive.find("POSITION"))));
 }
 
 void describeUses(const std::vector<TangentUse>& uses, PrimitiveInfo& info) {
@@ -301,7 +301,7 @@ PrimitiveInfo describePrimitive(const obj::Model& model, const ObjPrimitive& pri
     MeshView cut;  // triangulated like in check
     cut.positions = std::span(mesh.positions);
     cut.indices = IndexView(std::span(corners));
-    if (model.memory->has(noteMemory(cut))) info.position_noise = notedNoise(cut, 0);
+    if (model.memory->has(reportableNoiseMemory(cut))) info.position_noise = reportableNoise(cut, 0);
     return info;
 }
 

@@ -122,7 +122,7 @@ void listFrames(Measuring& state, const std::string& low, const LowModel& known)
                                 {"best", Method::best, Faces::triangles}};
     for (const Tried& tried : kTried) {
         state.bake.tangents.method = tried.method;
-        const std::optional<LowModel> model = readLowAnew(low, state.bake, tried.faces, known);
+        const std::optional<LowModel> model = readLowRecomputed(low, state.bake, tried.faces, known);
         if (!model) continue;
         std::vector<Vec4> tangents = shownPart(*model, state.options).part.corners.tangents;
         const auto is_known = [&](const TriedFrames& frames) { return frames.tangents == tangents; };
@@ -184,7 +184,7 @@ void listReadings(Measuring& state) {
     }
 }
 
-void takeErrors(Measuring& state, const std::vector<MapError>& errors) {
+void storeErrors(Measuring& state, const std::vector<MapError>& errors) {
     for (std::size_t i = 0; i < errors.size(); ++i) state.report.readings[i].error = errors[i];
 }
 
@@ -406,7 +406,7 @@ MapErrorFileReport measureFile(Measuring& state, const std::string& map, const s
                                                 state.options.execution, state.options.progress));
         });
     };
-    takeErrors(state, measure(state.candidates, state.options.map));
+    storeErrors(state, measure(state.candidates, state.options.map));
     // The first interpretation is the requested one.
     state.report.error = state.report.readings.front().error;
     tryRays(state, measure);
@@ -414,7 +414,7 @@ MapErrorFileReport measureFile(Measuring& state, const std::string& map, const s
         MapErrorOptions with_best = state.options.map;
         with_best.rays = state.tried.front().options;
         with_best.reach = state.tried.front().reach;
-        takeErrors(state, measure(state.candidates, with_best));
+        storeErrors(state, measure(state.candidates, with_best));
     }
     state.shows_several = models.low.images.size() > 1 && state.options.material.empty();
     judge(state, state.report.readings.front());

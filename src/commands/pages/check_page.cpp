@@ -44,49 +44,49 @@ std::optional<GenerateOptions> optionsOf(const RemedyCommand& command) {
     return result;
 }
 
-DrawnScene mendedScene(const std::string& input, const FileOptions& file, GenerateOptions options) {
+DrawnScene fixedScene(const std::string& input, const FileOptions& file, GenerateOptions options) {
     options.file = file;
     return generateModel(input, options, true).model.drawnScene(true);
 }
 
 struct FindingPictures::Model {
     /// The model after a command was applied.
-    struct MendedModel {
-        MendedModel(const std::string& input, const FileOptions& options, const Scene& before,
-                    const GenerateOptions& command)
-            : model(mendedScene(input, options, command)), pairs(pairPrimitives(before, model.scene())) {}
+    struct FixedModel {
+        FixedModel(const std::string& input, const FileOptions& options, const Scene& before,
+                   const GenerateOptions& command)
+            : model(fixedScene(input, options, command)), pairs(pairPrimitives(before, model.scene())) {}
 
         PicturedModel model;
         std::vector<PrimitivePair> pairs;
     };
 
     /// The result of running a command: a model, or the reason why there is none.
-    struct Mending {
-        std::unique_ptr<MendedModel> model = {};
+    struct FixResult {
+        std::unique_ptr<FixedModel> model = {};
         std::string why_not = {};
     };
 
     Model(std::string path, const FileOptions& options) : input(std::move(path)), file(options), before(input, file) {}
 
     /// Returns the result of a command, which is run once. `line`: the command line with these options.
-    Mending& mendedBy(const std::string& line, const GenerateOptions& command) {
-        const auto [mending, is_new] = mended.try_emplace(line);
-        if (is_new) run(command, mending->second);
-        return mending->second;
+    FixResult& resultOf(const std::string& line, const GenerateOptions& command) {
+        const auto [fix, is_new] = fixes.try_emplace(line);
+        if (is_new) run(command, fix->second);
+        return fix->second;
     }
 
-    void run(const GenerateOptions& command, Mending& mending) {
+    void run(const GenerateOptions& command, FixResult& fix) {
         try {
-            mending.model = std::make_unique<MendedModel>(input, file, before.scene(), command);
+            fix.model = std::make_unique<FixedModel>(input, file, before.scene(), command);
         } catch (const FileError& failure) {
-            mending.why_not = "The fix could not be run for this report: " + failure.error.message + ".";
+            fix.why_not = "The fix could not be run for this report: " + failure.error.message + ".";
         }
     }
 
     std::string input;
     FileOptions file;
     PicturedModel before;
-    std::map<std::string, Mending> mended = {};
+    std::map<std::string, FixResult> fixes = {};
 };
 
 FindingPictures::FindingPictures(const std::string& input, const FileOptions& options)
@@ -117,14 +117,13 @@ std::string FindingPictures::drawAfter(const RemedyCommand& command, std::size_t
                                        FindingPicture& result) {
     const std::optional<GenerateOptions> options = optionsOf(command);
     if (!options) return "No picture of the fix was made, because the fix requires a decision.";
-    const Model::Mending& mending = model_->mendedBy(commandLine(command), *options);
-    if (!mending.model) return mending.why_not;
-    const auto pair = std::find_if(mending.model->pairs.begin(), mending.model->pairs.end(),
+    const Model::FixResult& fix = model_->resultOf(commandLine(command), *options);
+    if (!fix.model) return fix.why_not;
+    const auto pair = std::find_if(fix.model->pairs.begin(), fix.model->pairs.end(),
                                    [&](const PrimitivePair& candidate) { return candidate.a == primitive; });
-    if (pair == mending.model->pairs.end() || pair->b == kNoPrimitive)
-        return "The fix triangulates this area differently.";
+    if (pair == fix.model->pairs.end() || pair->b == kNoPrimitive) return "The fix triangulates this area differently.";
     PicturePair drawn =
-        drawPair({model_->before.lit(frames), primitive}, triangles, {mending.model->model.lit(frames), pair->b});
+        drawPair({model_->before.lit(frames), primitive}, triangles, {fix.model->model.lit(frames), pair->b});
     if (drawn.before.empty()) return kNothingToSee;
     result.before = std::move(drawn.before);
     result.after = std::move(drawn.after);
@@ -160,7 +159,7 @@ std::string whereHtml(const Finding& finding) {
 }
 
 /// Returns whether a finding is about morph targets, which pictures of the base mesh do not show.
-bool isOfTargets(const Finding& finding) { return finding.place.find("/targets/") != std::string::npos; }
+bool concernsTargets(const Finding& finding) { return finding.place.find("/targets/") != std::string::npos; }
 
 std::string figuresOf(const Finding& finding, const FindingPicture& picture) {
     if (picture.before.empty())
@@ -168,7 +167,7 @@ std::string figuresOf(const Finding& finding, const FindingPicture& picture) {
                    ? ""
                    : noFigureHtml(
                          "No pictures: " + picture.command + " changes nothing that is visible in a picture" +
-                         (isOfTargets(finding) ? " of the base mesh; the fault appears when it deforms." : "."));
+                         (concernsTargets(finding) ? " of the base mesh; the fault appears when it deforms." : "."));
     const std::string command = "after " + picture.command;
     std::string figures = figureHtml(picture.before, kPlaceWidth, kPlaceHeight,
                                      picture.is_clay ? "as in the file, without base color" : "as in the file");
@@ -191,7 +190,7 @@ class PictureSource {
     [[nodiscard]] const std::string& input() const { return input_; }
 
     std::string html(const Finding& finding) {
-        if (finding.place.empty() || is_over_ || input_ == "-") return {};
+        if (finding.place.empty() || is_exhausted_ || input_ == "-") return {};
         std::string figures;
         if (progress_) progress_("drawing pictures", count_, kMaxPicturedFindings);
         try {
@@ -199,10 +198,10 @@ class PictureSource {
             figures = figuresOf(finding, pictures_->draw(finding));
         } catch (const FileError&) {
             // The error of the file has already been reported.
-            is_over_ = true;
+            is_exhausted_ = true;
         }
         if (figures.empty()) return {};
-        is_over_ = is_over_ || figures.size() > room_ || ++count_ >= kMaxPicturedFindings;
+        is_exhausted_ = is_exhausted_ || figures.size() > room_ || ++count_ >= kMaxPicturedFindings;
         if (figures.size() > room_) return {};
         room_ -= figures.size();
         return figuresHtml(figures);
@@ -214,7 +213,7 @@ class PictureSource {
     const Progress& progress_;
     std::unique_ptr<FindingPictures> pictures_ = {};
     std::size_t room_, count_ = 0;
-    bool is_over_ = false;
+    bool is_exhausted_ = false;
 };
 
 /// Returns a finding as HTML. `pictures` may be null: no pictures.
@@ -225,7 +224,7 @@ std::string findingHtml(const Finding& finding, PictureSource* pictures) {
     html += "<p>Fix: " + htmlText(finding.remedy) + "</p>\n";
     if (pictures == nullptr) return html + "</article>\n";
     html += pictures->html(finding);
-    if (const char* look = findingLook(finding.code);
+    if (const char* look = findingView(finding.code);
         *look != '\0' && pictures->input() != "-" && !finding.place.empty())
         html += "<p>A larger picture: <code>" +
                 htmlText("tspace render " + shellWord(pictures->input()) + " -o picture.png --show " + look) +

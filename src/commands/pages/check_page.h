@@ -26,7 +26,7 @@ std::optional<GenerateOptions> optionsOf(const RemedyCommand& command);
 
 /// Returns the result of a command on a model, with its images, as a scene to draw. `file`: options for reading
 /// `input`. Throws FileError.
-DrawnScene mendedScene(const std::string& input, const FileOptions& file, GenerateOptions options);
+DrawnScene fixedScene(const std::string& input, const FileOptions& file, GenerateOptions options);
 
 // Pictures of the locations of findings.
 

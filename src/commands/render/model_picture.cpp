@@ -306,7 +306,7 @@ void ModelPicture::place() {
                        .is_double_sided = show_ == RenderShow::uv || drawn_.looks[primitive].is_double_sided};
         if (show_ != RenderShow::uv && shown.alpha_cutoff > 0) {
             mesh.is_there = [&shown](std::size_t triangle, const std::array<double, 3>& weights) {
-                return isThere(shown, triangle, weights);
+                return isOpaqueAt(shown, triangle, weights);
             };
         }
         meshes_.push_back(std::move(mesh));
@@ -449,7 +449,7 @@ SurfacePicture drawModel(const ModelPicture& model, const RenderOptions& options
     return picture;
 }
 
-RgbImage besideEachOther(const RgbImage& left, const RgbImage& right) {
+RgbImage sideBySide(const RgbImage& left, const RgbImage& right) {
     RgbImage image = left;
     const std::size_t row = std::size_t{3} * image.width, middle = std::size_t{3} * (image.width / 2);
     for (std::size_t y = 0; y < image.height; ++y)
@@ -482,7 +482,8 @@ std::vector<std::string> showHeights(Method method, const Execution& execution, 
             const auto [entry, is_new] = shown_of.try_emplace(use.material);
             Shown& shown = entry->second;
             if (is_new) {
-                MadeOfHeights made = makeOfHeights(scene, use.material, *use.image, look.normal_scale, options);
+                ConvertedHeights made =
+                    normalMapFromHeights(scene, use.material, *use.image, look.normal_scale, options);
                 shown.is_height_map = made.is_height_map;
                 const std::string name = scene.images[*use.image].uri;
                 if (!made.file.empty()) {

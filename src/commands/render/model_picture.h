@@ -138,7 +138,7 @@ class ModelPicture {
 SurfacePicture drawModel(const ModelPicture& model, const RenderOptions& options);
 
 /// Joins two pictures of equal size with a line between them.
-RgbImage besideEachOther(const RgbImage& left, const RgbImage& right);
+RgbImage sideBySide(const RgbImage& left, const RgbImage& right);
 
 /// Encodes an 8-bit PNG. Throws FileError (unsupportedFile) if this build cannot write PNG.
 std::vector<std::uint8_t> encodePicture(const RgbImage& image);

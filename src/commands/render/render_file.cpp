@@ -82,7 +82,7 @@ class ModelPictures {
         options.legend = false;
         options.height -= rows;
         SurfacePicture picture{
-            .image = besideEachOther(drawModel(models_[0], options).image, drawModel(models_[1], options).image)};
+            .image = sideBySide(drawModel(models_[0], options).image, drawModel(models_[1], options).image)};
         addLegend(legend, rows, picture.image);
         return picture;
     }

@@ -204,7 +204,7 @@ void keepTile(std::uint32_t tile, std::size_t first, OwnedMesh& mesh) {
     mesh.tangents.resize(kept);
 }
 
-void tellPrimitive(const ScenePrimitive& primitive, bool frames_made, MapMesh& mesh) {
+void reportPrimitive(const ScenePrimitive& primitive, bool frames_made, MapMesh& mesh) {
     MapMeshReport& report = mesh.report;
     report.tangents_made = report.tangents_made || frames_made;
     if (std::find(report.materials.begin(), report.materials.end(), primitive.material_name) == report.materials.end())
@@ -263,7 +263,7 @@ MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const
         scene.memory->take(4 * kCornerBytes * one.primitive->corners.size(), one.primitive->place);
         const bool frames_made = addMapCorners(*one.primitive, one.use, tangents, execution, mesh.corners);
         if (choice.tile != 0) keepTile(choice.tile, first, mesh.corners);
-        if (mesh.corners.uvs.size() != first) tellPrimitive(*one.primitive, frames_made, mesh);
+        if (mesh.corners.uvs.size() != first) reportPrimitive(*one.primitive, frames_made, mesh);
         if (place) placeCorners(*place, first, mesh);
     }
     if (mesh.corners.uvs.empty() && choice.tile != 0)

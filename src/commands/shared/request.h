@@ -47,8 +47,8 @@ std::string finish(const Given& given, GenerateOptions& options);
 std::string finish(const Given& given, ConvertMapFileOptions& options);
 
 /// Removes the findings that the request omits, and recomputes the counts.
-void leaveOut(const CheckRequest& request, CheckReport& report);
+void removeOmitted(const CheckRequest& request, CheckReport& report);
 /// Returns whether a finding makes the check fail.
-bool failsBy(const CheckRequest& request, const CheckReport& report);
+bool makesCheckFail(const CheckRequest& request, const CheckReport& report);
 
 }  // namespace tspace::options

@@ -96,7 +96,7 @@ bool endsCommand(std::string_view word) {
 
 /// Returns whether a word belongs to the same command as the previous word `before`: it is an option, the value of an
 /// option, or a name such as IN or OUT.png. Choices in a usage line do not belong to it.
-bool goesOn(std::string_view before, std::string_view word) {
+bool continuesCommand(std::string_view before, std::string_view word) {
     if (word.starts_with('{') || word.starts_with('[')) return false;
     if (word.starts_with('-') || before.starts_with('-')) return true;
     const bool is_path =
@@ -112,7 +112,7 @@ void keepCommandsWhole(std::string& line) {
         for (std::size_t space = at + kTool.size() - 1; space < line.size() && line[space] == ' ';) {
             const std::size_t end = std::min(line.find(' ', space + 1), line.size());
             const std::string_view word = std::string_view(line).substr(space + 1, end - space - 1);
-            if (word.empty() || !goesOn(before, word)) break;
+            if (word.empty() || !continuesCommand(before, word)) break;
             line[space] = kNoBreak;
             if (endsCommand(word)) break;
             before = before == "--" ? std::string_view("tspace") : word;
@@ -122,7 +122,7 @@ void keepCommandsWhole(std::string& line) {
 }
 
 /// Returns the number of columns by which continuation lines are indented.
-std::size_t hangOf(std::string_view line, std::size_t width, std::size_t hang) {
+std::size_t hangingIndentOf(std::string_view line, std::size_t width, std::size_t hang) {
     const std::size_t start = std::min(line.find_first_not_of(' '), line.size()), gap = line.find("  ", start);
     if (gap == std::string_view::npos) return start + hang;
     const std::size_t text = columnCount(line.substr(0, std::min(line.find_first_not_of(' ', gap), line.size())));
@@ -131,7 +131,7 @@ std::size_t hangOf(std::string_view line, std::size_t width, std::size_t hang) {
 
 void appendFitted(std::string& out, std::string line, std::size_t width, std::size_t hang) {
     keepCommandsWhole(line);
-    const std::string margin(hangOf(line, width, hang), ' ');
+    const std::string margin(hangingIndentOf(line, width, hang), ' ');
     std::string_view rest = line;
     while (columnCount(rest) > width) {
         // Breaks at the last space that fits, or at the first space if none fits.

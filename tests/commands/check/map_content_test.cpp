@@ -17,11 +17,11 @@
 namespace tspace::test {
 namespace {
 
-MapLook lookAt(const RgbImage& image, std::span<const std::uint8_t> alpha = {},
-               std::span<const TexelOnSurface> surface = {}) {
+MapAnalysis analyze(const RgbImage& image, std::span<const std::uint8_t> alpha = {},
+                    std::span<const TexelOnSurface> surface = {}) {
     TexelMask all(image.width, image.height);
     all.fillAll();
-    return lookAtTexels(sampleTexels(image, alpha, all), !alpha.empty(), surface);
+    return analyzeTexels(sampleTexels(image, alpha, all), !alpha.empty(), surface);
 }
 
 /// Calls change(texel) with the three bytes of each texel.
@@ -52,11 +52,11 @@ TEST(MapContent, IsNormalsForValidMaps) {
     const auto steep = [](double x, double y) { return 10 * bumps(x, y); };
     for (const RgbImage& map : {sound(), normalMapOf(1, flat), normalMapOf(4, flat), normalMapOf(64, flat),
                                 normalMapOf(64, stripes), normalMapOf(64, steep), normalMapOf(128, bumps, true)}) {
-        EXPECT_EQ(lookAt(map).content, MapContent::normals) << map.width;
+        EXPECT_EQ(analyze(map).content, MapContent::normals) << map.width;
         std::string why;
         for (const int quality : {50, 90}) {
             const std::string file = jpegFile(map, quality);
-            EXPECT_EQ(lookAt(*decodeImage(bytesOf(file), 1 << 20, why)).content, MapContent::normals) << quality;
+            EXPECT_EQ(analyze(*decodeImage(bytesOf(file), 1 << 20, why)).content, MapContent::normals) << quality;
         }
     }
 }
@@ -67,7 +67,7 @@ TEST(MapContent, IsNormalsForLengthsThatFilteringShortened) {
             const double lean = (255 - texel[2]) / 40.0, size = 1 - (1 - shortest) * std::min(1.0, lean);
             for (int k = 0; k < 3; ++k) texel[k] = byteOf(0.5 + size * (texel[k] / 255.0 - 0.5));
         });
-        EXPECT_EQ(lookAt(map).content, MapContent::normals) << shortest;
+        EXPECT_EQ(analyze(map).content, MapContent::normals) << shortest;
     }
 }
 
@@ -78,11 +78,11 @@ TEST(MapContent, IsNormalsForVectorsOfOneLengthBelowOne) {
             const RgbImage map = changed(unit, [&](std::uint8_t* texel) {
                 for (int k = 0; k < 3; ++k) texel[k] = byteOf(0.5 + size * (texel[k] / 255.0 - 0.5));
             });
-            EXPECT_EQ(lookAt(map).content, MapContent::normals) << size << ' ' << relief;
+            EXPECT_EQ(analyze(map).content, MapContent::normals) << size << ' ' << relief;
             for (const std::uint8_t blue : {0, 60, 128, 153, 180, 204, 230, 255}) {
                 const RgbImage two = changed(unit, [&](std::uint8_t* texel) { texel[2] = blue; });
-                const MapContent wanted = blue > 245 && relief < 2 ? lookAt(two).content : MapContent::twoChannels;
-                EXPECT_EQ(lookAt(two).content, wanted) << int(blue) << ' ' << relief;
+                const MapContent wanted = blue > 245 && relief < 2 ? analyze(two).content : MapContent::twoChannels;
+                EXPECT_EQ(analyze(two).content, wanted) << int(blue) << ' ' << relief;
             }
         }
     }
@@ -93,23 +93,23 @@ TEST(MapContent, IsNormalsForMapsThatAreFlatNearlyEverywhere) {
     const auto rivet = [](double x, double y) {
         return 0.02 * std::exp(-900 * ((x - .5) * (x - .5) + (y - .5) * (y - .5)));
     };
-    EXPECT_EQ(lookAt(normalMapOf(256, rivet)).content, MapContent::normals);
+    EXPECT_EQ(analyze(normalMapOf(256, rivet)).content, MapContent::normals);
 }
 
 TEST(MapContent, DetectsTwoChannels) {
     for (const int blue : {0, 127, 255}) {
-        const MapLook look =
-            lookAt(changed(sound(), [&](std::uint8_t* texel) { texel[2] = static_cast<std::uint8_t>(blue); }));
-        EXPECT_EQ(look.content, MapContent::twoChannels) << blue;
-        EXPECT_EQ(look.layout.z.channel, MapChannel::none);
+        const MapAnalysis analysis =
+            analyze(changed(sound(), [&](std::uint8_t* texel) { texel[2] = static_cast<std::uint8_t>(blue); }));
+        EXPECT_EQ(analysis.content, MapContent::twoChannels) << blue;
+        EXPECT_EQ(analysis.layout.z.channel, MapChannel::none);
     }
     const RgbImage flat{8, 8, std::vector<std::uint8_t>(192, 128)};
-    EXPECT_EQ(lookAt(changed(flat, [](std::uint8_t* texel) { texel[2] = 0; })).content, MapContent::twoChannels);
+    EXPECT_EQ(analyze(changed(flat, [](std::uint8_t* texel) { texel[2] = 0; })).content, MapContent::twoChannels);
 }
 
 TEST(MapContent, DetectsZFromZeroToOne) {
     const RgbImage map = changed(sound(), [](std::uint8_t* texel) { texel[2] = byteOf(texel[2] / 127.5 - 1); });
-    EXPECT_EQ(lookAt(map).content, MapContent::unsignedZ);
+    EXPECT_EQ(analyze(map).content, MapContent::unsignedZ);
 }
 
 TEST(MapContent, DetectsZFromZeroToOneInJpeg) {
@@ -117,16 +117,16 @@ TEST(MapContent, DetectsZFromZeroToOneInJpeg) {
     for (const int quality : {70, 85, 95}) {
         std::string why;
         const std::string file = jpegFile(map, quality);
-        EXPECT_EQ(lookAt(*decodeImage(bytesOf(file), 1 << 20, why)).content, MapContent::unsignedZ) << quality;
+        EXPECT_EQ(analyze(*decodeImage(bytesOf(file), 1 << 20, why)).content, MapContent::unsignedZ) << quality;
     }
 }
 
 TEST(MapContent, DetectsTwoChannelsThatTiltToOneSide) {
     const RgbImage leaning = normalMapOf(128, [](double x, double y) { return 2 * bumps(x, y) + 0.4 * x; });
-    EXPECT_EQ(lookAt(leaning).content, MapContent::normals);
+    EXPECT_EQ(analyze(leaning).content, MapContent::normals);
     for (const int blue : {0, 128, 255}) {
         const RgbImage map = changed(leaning, [&](std::uint8_t* texel) { texel[2] = static_cast<std::uint8_t>(blue); });
-        EXPECT_EQ(lookAt(map).content, MapContent::twoChannels) << blue;
+        EXPECT_EQ(analyze(map).content, MapContent::twoChannels) << blue;
     }
 }
 
@@ -137,15 +137,15 @@ TEST(MapContent, DistinguishesXInAlphaFromHeightsWithAMask) {
         const RgbImage map = changed(sound(), [&](std::uint8_t* texel) {
             texel[0] = texel[2] = other < 0 ? texel[1] : static_cast<std::uint8_t>(other);
         });
-        const MapLook look = lookAt(map, alpha);
-        EXPECT_EQ(look.content, MapContent::xInAlpha) << other;
-        EXPECT_EQ(look.layout.x.channel, MapChannel::alpha);
+        const MapAnalysis analysis = analyze(map, alpha);
+        EXPECT_EQ(analysis.content, MapContent::xInAlpha) << other;
+        EXPECT_EQ(analysis.layout.x.channel, MapChannel::alpha);
     }
     const RgbImage heights = changed(sound(), [](std::uint8_t* texel) { texel[0] = texel[2] = texel[1]; });
-    EXPECT_EQ(lookAt(heights).content, MapContent::height);
+    EXPECT_EQ(analyze(heights).content, MapContent::height);
     std::vector<std::uint8_t> mask(alpha.size(), 255);
     std::fill(mask.begin(), mask.begin() + 1000, 0);
-    EXPECT_EQ(lookAt(heights, mask).content, MapContent::height);
+    EXPECT_EQ(analyze(heights, mask).content, MapContent::height);
 }
 
 TEST(MapContent, DetectsExchangedAndInvertedChannels) {
@@ -160,10 +160,10 @@ TEST(MapContent, DetectsExchangedAndInvertedChannels) {
             const std::uint8_t old[3] = {texel[0], texel[1], texel[2]};
             for (int k = 0; k < 3; ++k) texel[k] = old[one.order[k]];
         });
-        const MapLook look = lookAt(map);
-        ASSERT_EQ(look.content, MapContent::exchanged) << one.order[0] << one.order[1] << one.order[2];
+        const MapAnalysis analysis = analyze(map);
+        ASSERT_EQ(analysis.content, MapContent::exchanged) << one.order[0] << one.order[1] << one.order[2];
         RgbImage read = map;
-        readByLayout(read, {}, look.layout);
+        readByLayout(read, {}, analysis.layout);
         EXPECT_EQ(read.rgb, sound().rgb);
     }
 }
@@ -174,7 +174,8 @@ TEST(MapContent, DetectsColors) {
             for (int k = 0; k < 3; ++k) texel[k] = curve(texel[k]);
         };
     };
-    const MapLook on = lookAt(changed(sound(), encode(withSrgb))), off = lookAt(changed(sound(), encode(withoutSrgb)));
+    const MapAnalysis on = analyze(changed(sound(), encode(withSrgb))),
+                      off = analyze(changed(sound(), encode(withoutSrgb)));
     EXPECT_EQ(on.content, MapContent::encoded);
     EXPECT_EQ(on.layout.curve, MapCurve::srgb);
     EXPECT_EQ(off.content, MapContent::encoded);
@@ -200,15 +201,15 @@ TEST(MapContent, DetectsObjectSpaceByTheMesh) {
                 surface.push_back({{float(n[0]), float(n[1]), float(n[2])}, texel, std::sin(v)});
             }
         }
-        const MapLook look = lookAt(map, {}, surface);
-        ASSERT_EQ(look.content, MapContent::objectSpace);
-        EXPECT_TRUE(look.follows_mesh);
-        EXPECT_EQ(look.layout == MapLayout{}, !is_z_up);
-        const MapLook elsewhere = lookAt(map);
+        const MapAnalysis analysis = analyze(map, {}, surface);
+        ASSERT_EQ(analysis.content, MapContent::objectSpace);
+        EXPECT_TRUE(analysis.follows_mesh);
+        EXPECT_EQ(analysis.layout == MapLayout{}, !is_z_up);
+        const MapAnalysis elsewhere = analyze(map);
         EXPECT_EQ(elsewhere.content, MapContent::objectSpace) << "the vectors point all around";
         EXPECT_FALSE(elsewhere.follows_mesh);
         for (TexelOnSurface& point : surface) point.texel = {128, 128, 255, 255};
-        EXPECT_EQ(lookAt(sound(), {}, surface).content, MapContent::normals);
+        EXPECT_EQ(analyze(sound(), {}, surface).content, MapContent::normals);
     }
 }
 
@@ -233,7 +234,7 @@ Shown shownBy(const NormalOf& normalOf, const TexelOf& texelOf) {
     return shown;
 }
 
-MapLook lookAt(const Shown& shown) { return lookAt(shown.map, {}, shown.surface); }
+MapAnalysis analyze(const Shown& shown) { return analyze(shown.map, {}, shown.surface); }
 
 /// Relief with the shape of the mesh correlates with its normals, but is in tangent space nevertheless.
 TEST(MapContent, IsNormalsForABulgeOnABulge) {
@@ -243,8 +244,8 @@ TEST(MapContent, IsNormalsForABulgeOnABulge) {
     const auto faces_y = [](double u, double) { return DVec3{std::sin(u), std::cos(u), 0}; };
     for (const double relief : {0.17, 0.5, 0.9}) {
         for (const double mesh : {0.17, 0.5, 0.9, 1.2})
-            EXPECT_EQ(lookAt(shownBy(bulge(mesh), bulge(relief))).content, MapContent::normals) << relief << mesh;
-        EXPECT_EQ(lookAt(shownBy(faces_y, bulge(relief))).content, MapContent::normals) << relief;
+            EXPECT_EQ(analyze(shownBy(bulge(mesh), bulge(relief))).content, MapContent::normals) << relief << mesh;
+        EXPECT_EQ(analyze(shownBy(faces_y, bulge(relief))).content, MapContent::normals) << relief;
     }
 }
 
@@ -260,14 +261,14 @@ TEST(MapContent, IsInObjectSpaceOnlyWhereItFollowsTheMesh) {
         const DVec3 n = hills(u, v);
         return DVec3{n.x, n.z, -n.y};
     };
-    for (const MapLook& look :
-         {lookAt(shownBy(hills, hills)), lookAt(shownBy(turned, hills)), lookAt(shownBy(turned, turned))}) {
-        EXPECT_EQ(look.content, MapContent::objectSpace);
-        EXPECT_TRUE(look.follows_mesh);
+    for (const MapAnalysis& analysis :
+         {analyze(shownBy(hills, hills)), analyze(shownBy(turned, hills)), analyze(shownBy(turned, turned))}) {
+        EXPECT_EQ(analysis.content, MapContent::objectSpace);
+        EXPECT_TRUE(analysis.follows_mesh);
     }
     // Green and blue exchanged, on hills that face y like the vectors.
     const auto weak = [](double u, double v) { return DVec3{0.07 * std::sin(40 * u), 0.995, 0.07 * std::sin(37 * v)}; };
-    EXPECT_EQ(lookAt(shownBy(turned, weak)).content, MapContent::exchanged);
+    EXPECT_EQ(analyze(shownBy(turned, weak)).content, MapContent::exchanged);
 }
 
 /// Terrain with slopes of at most 20 degrees, and relief of over 40 degrees, which dominates single texels.
@@ -301,11 +302,11 @@ TEST(MapContent, IsInObjectSpaceUnderStrongReliefToo) {
             return DVec3{n.x, n.z, -n.y};
         };
     };
-    EXPECT_EQ(lookAt(shownBy(of_mesh, on_mesh)).content, MapContent::objectSpace) << "faces z";
-    EXPECT_EQ(lookAt(shownBy(turned(of_mesh), turned(on_mesh))).content, MapContent::objectSpace) << "faces y";
-    EXPECT_EQ(lookAt(shownBy(of_mesh, in_tangent_space)).content, MapContent::normals);
-    EXPECT_EQ(lookAt(shownBy(turned(of_mesh), in_tangent_space)).content, MapContent::normals);
-    EXPECT_EQ(lookAt(shownBy(turned(of_mesh), turned(in_tangent_space))).content, MapContent::exchanged);
+    EXPECT_EQ(analyze(shownBy(of_mesh, on_mesh)).content, MapContent::objectSpace) << "faces z";
+    EXPECT_EQ(analyze(shownBy(turned(of_mesh), turned(on_mesh))).content, MapContent::objectSpace) << "faces y";
+    EXPECT_EQ(analyze(shownBy(of_mesh, in_tangent_space)).content, MapContent::normals);
+    EXPECT_EQ(analyze(shownBy(turned(of_mesh), in_tangent_space)).content, MapContent::normals);
+    EXPECT_EQ(analyze(shownBy(turned(of_mesh), turned(in_tangent_space))).content, MapContent::exchanged);
 }
 
 /// colorOf(u, v, random) returns red, green and blue from 0 to 1.
@@ -327,11 +328,11 @@ RgbImage tinted(const DVec3& tint, double least = 0, double most = 1) {
 }
 
 void isPicture(const RgbImage& image, const char* what) {
-    EXPECT_EQ(static_cast<int>(lookAt(image).content), static_cast<int>(MapContent::picture)) << what;
+    EXPECT_EQ(static_cast<int>(analyze(image).content), static_cast<int>(MapContent::picture)) << what;
     std::string why;
     const std::string file = jpegFile(image, 85);
     const RgbImage jpeg = *decodeImage(bytesOf(file), 1 << 20, why);
-    EXPECT_EQ(static_cast<int>(lookAt(jpeg).content), static_cast<int>(MapContent::picture)) << what << " as JPEG";
+    EXPECT_EQ(static_cast<int>(analyze(jpeg).content), static_cast<int>(MapContent::picture)) << what << " as JPEG";
 }
 
 TEST(MapContent, DetectsPictures) {
@@ -368,10 +369,10 @@ TEST(MapContent, DetectsPictures) {
 TEST(MapContent, DetectsTintedHeights) {
     for (const double tint : {0.99, 0.96, 0.92}) {
         const RgbImage map = tinted({1, (1 + tint) / 2, tint});
-        EXPECT_EQ(lookAt(map).content, MapContent::height) << tint;
+        EXPECT_EQ(analyze(map).content, MapContent::height) << tint;
         std::string why;
         const std::string file = jpegFile(map, 85);
-        EXPECT_EQ(lookAt(*decodeImage(bytesOf(file), 1 << 20, why)).content, MapContent::height) << tint;
+        EXPECT_EQ(analyze(*decodeImage(bytesOf(file), 1 << 20, why)).content, MapContent::height) << tint;
     }
 }
 
@@ -380,23 +381,23 @@ TEST(MapContent, IsNotAPictureIfItMayBeVectors) {
     for (const TexelBytes& color :
          {TexelBytes{0, 0, 255, 255}, TexelBytes{128, 128, 255, 255}, TexelBytes{200, 90, 10, 255}}) {
         const RgbImage one{1, 1, {color[0], color[1], color[2]}};
-        EXPECT_EQ(lookAt(one).content, MapContent::normals) << "an image of one color says nothing";
+        EXPECT_EQ(analyze(one).content, MapContent::normals) << "an image of one color says nothing";
     }
     int n = 0;
     const RgbImage half_black = changed(sound(), [&n](std::uint8_t* texel) {
         if (n++ % 4 != 0) texel[0] = texel[1] = texel[2] = 0;
     });
-    EXPECT_EQ(lookAt(half_black).content, MapContent::normals) << "most was never baked";
+    EXPECT_EQ(analyze(half_black).content, MapContent::normals) << "most was never baked";
     for (const double size : {0.3, 0.6}) {
         const RgbImage map = changed(sound(), [&](std::uint8_t* texel) {
             for (int k = 0; k < 3; ++k) texel[k] = byteOf(0.5 + size * (texel[k] / 255.0 - 0.5));
         });
-        EXPECT_EQ(lookAt(map).content, MapContent::normals) << "vectors that are short, by " << size;
+        EXPECT_EQ(analyze(map).content, MapContent::normals) << "vectors that are short, by " << size;
     }
     const RgbImage strong = changed(sound(), [](std::uint8_t* texel) {
         for (int k = 0; k < 2; ++k) texel[k] = byteOf(0.5 + 3 * (texel[k] / 255.0 - 0.5));
     });
-    EXPECT_EQ(lookAt(strong).content, MapContent::normals) << "x and y are strengthened, and z is not";
+    EXPECT_EQ(analyze(strong).content, MapContent::normals) << "x and y are strengthened, and z is not";
 }
 
 TEST(MapContent, IsInWorldSpaceWhereANodeTurnsTheNormals) {
@@ -414,12 +415,12 @@ TEST(MapContent, IsInWorldSpaceWhereANodeTurnsTheNormals) {
         const std::vector<TexelOnSurface> turned = shownBy(in_world, in_world).surface;
         TexelMask all(64, 64);
         all.fillAll();
-        const MapLook look = lookAtTexels(sampleTexels(shown.map, {}, all), false, shown.surface, turned);
-        EXPECT_EQ(look.content, MapContent::objectSpace);
-        EXPECT_TRUE(look.follows_mesh && look.is_in_world) << angle;
+        const MapAnalysis analysis = analyzeTexels(sampleTexels(shown.map, {}, all), false, shown.surface, turned);
+        EXPECT_EQ(analysis.content, MapContent::objectSpace);
+        EXPECT_TRUE(analysis.follows_mesh && analysis.is_in_world) << angle;
         std::vector<TexelOnSurface> of_mesh = turned;
         for (std::size_t i = 0; i < of_mesh.size(); ++i) of_mesh[i].texel = baked.surface[i].texel;
-        const MapLook other = lookAtTexels(sampleTexels(baked.map, {}, all), false, baked.surface, of_mesh);
+        const MapAnalysis other = analyzeTexels(sampleTexels(baked.map, {}, all), false, baked.surface, of_mesh);
         EXPECT_TRUE(other.follows_mesh && !other.is_in_world) << angle;
     }
 }
@@ -431,11 +432,11 @@ TEST(MapContent, OfAnyReliefIsDistinguishedFromAllOtherKinds) {
             return 1.0 / (a + b + std::abs(c)) * std::sin(a * x + c * y) * std::cos(b * y);
         };
         const RgbImage map = normalMapOf(64, height);
-        RC_ASSERT(lookAt(map).content == MapContent::normals);
-        RC_ASSERT(lookAt(changed(map, [](std::uint8_t* t) { t[2] = 0; })).content == MapContent::twoChannels);
-        RC_ASSERT(lookAt(changed(map, [](std::uint8_t* t) { std::swap(t[0], t[2]); })).content ==
+        RC_ASSERT(analyze(map).content == MapContent::normals);
+        RC_ASSERT(analyze(changed(map, [](std::uint8_t* t) { t[2] = 0; })).content == MapContent::twoChannels);
+        RC_ASSERT(analyze(changed(map, [](std::uint8_t* t) { std::swap(t[0], t[2]); })).content ==
                   MapContent::exchanged);
-        RC_ASSERT(lookAt(changed(map, [](std::uint8_t* t) {
+        RC_ASSERT(analyze(changed(map, [](std::uint8_t* t) {
                       for (int k = 0; k < 3; ++k) t[k] = withSrgb(t[k]);
                   })).content == MapContent::encoded);
     }));

@@ -16,10 +16,10 @@ namespace {
 
 using Height = std::function<double(double, double)>;
 
-MapLook lookAtImage(const RgbImage& image, std::span<const std::uint8_t> alpha = {}) {
+MapAnalysis analyzeImage(const RgbImage& image, std::span<const std::uint8_t> alpha = {}) {
     TexelMask all(image.width, image.height);
     all.fillAll();
-    return lookAtMap({image, alpha, all});
+    return analyzeMap({image, alpha, all});
 }
 
 double roundBumps(double x, double y) {
@@ -70,12 +70,12 @@ TEST(MapSlopes, DistinguishHemiOctahedralMapsFromXAndY) {
                     if (is_swapped) std::swap(x, y);
                     z = blue;
                 });
-                EXPECT_EQ(lookAtImage(map).content, MapContent::hemiOctahedral)
+                EXPECT_EQ(analyzeImage(map).content, MapContent::hemiOctahedral)
                     << &relief - kReliefs.data() << ' ' << scale << ' ' << blue;
             }
-            const MapLook look = lookAtImage(stored(height, [&](double&, double&, double& z) { z = -1; }));
-            EXPECT_EQ(look.content, MapContent::twoChannels) << &relief - kReliefs.data() << ' ' << scale;
-            EXPECT_FALSE(look.is_doubtful) << &relief - kReliefs.data() << ' ' << scale;
+            const MapAnalysis analysis = analyzeImage(stored(height, [&](double&, double&, double& z) { z = -1; }));
+            EXPECT_EQ(analysis.content, MapContent::twoChannels) << &relief - kReliefs.data() << ' ' << scale;
+            EXPECT_FALSE(analysis.is_doubtful) << &relief - kReliefs.data() << ' ' << scale;
         }
     }
 }
@@ -96,19 +96,19 @@ TEST(MapSlopes, DoubtTwoChannelsThatFitBetterAsOctahedral) {
                     return std::to_string(&relief - kReliefs.data()) + ' ' + std::to_string(scale) + ' ' +
                            std::to_string(blue);
                 };
-                const MapLook look = lookAtImage(stored(height, [&](double& x, double& y, double& z) {
+                const MapAnalysis analysis = analyzeImage(stored(height, [&](double& x, double& y, double& z) {
                     encodeOctahedral(x, y, z);
                     z = blue;
                 }));
                 // Blue 255 is near z of gentle relief. Gentle waves fit both encodings equally.
                 const bool is_clear = scale > 1 || (blue != 1 && &relief != &kReliefs[2]);
                 if (blue != 1) {
-                    EXPECT_EQ(look.content, MapContent::twoChannels) << where();
+                    EXPECT_EQ(analysis.content, MapContent::twoChannels) << where();
                 }
-                if (is_clear && look.content == MapContent::twoChannels) {
-                    EXPECT_TRUE(look.may_be_octahedral) << where();
+                if (is_clear && analysis.content == MapContent::twoChannels) {
+                    EXPECT_TRUE(analysis.may_be_octahedral) << where();
                 }
-                const MapLook plain = lookAtImage(stored(height, [&](double&, double&, double& z) { z = blue; }));
+                const MapAnalysis plain = analyzeImage(stored(height, [&](double&, double&, double& z) { z = blue; }));
                 EXPECT_FALSE(plain.is_doubtful) << where();
             }
         }
@@ -122,9 +122,9 @@ TEST(MapSlopes, DetectHemiOctahedralMapsInAlphaAndGreen) {
         alpha.push_back(map.rgb[i]);
         map.rgb[i] = map.rgb[i + 2] = 255;
     }
-    const MapLook look = lookAtImage(map, alpha);
-    EXPECT_EQ(look.content, MapContent::hemiOctahedral);
-    EXPECT_EQ(look.layout.x.channel, MapChannel::alpha);
+    const MapAnalysis analysis = analyzeImage(map, alpha);
+    EXPECT_EQ(analysis.content, MapContent::hemiOctahedral);
+    EXPECT_EQ(analysis.layout.x.channel, MapChannel::alpha);
 }
 
 /// If green contains the slopes of a different height field, the map matches a single height field as little as an
@@ -136,9 +136,9 @@ TEST(MapSlopes, DoubtTwoChannelsThatAreTheSlopesOfNoHeight) {
         map.rgb[i + 1] = other.rgb[i + 1];
         map.rgb[i + 2] = 0;
     }
-    const MapLook look = lookAtImage(map);
-    EXPECT_EQ(look.content, MapContent::twoChannels);
-    EXPECT_TRUE(look.is_doubtful);
+    const MapAnalysis analysis = analyzeImage(map);
+    EXPECT_EQ(analysis.content, MapContent::twoChannels);
+    EXPECT_TRUE(analysis.is_doubtful);
 }
 
 TEST(MapSlopes, DetectImagesRotatedWithoutTheirVectors) {
@@ -149,10 +149,10 @@ TEST(MapSlopes, DetectImagesRotatedWithoutTheirVectors) {
             x = is_clockwise ? -y : y;
             y = is_clockwise ? old_x : -old_x;
         });
-        const MapLook look = lookAtImage(map);
-        ASSERT_EQ(look.content, MapContent::exchanged);
-        EXPECT_TRUE(isTurned(look, true));
-        EXPECT_FALSE(isTurned(look, false)) << "exchanged alone";
+        const MapAnalysis analysis = analyzeImage(map);
+        ASSERT_EQ(analysis.content, MapContent::exchanged);
+        EXPECT_TRUE(isTurned(analysis, true));
+        EXPECT_FALSE(isTurned(analysis, false)) << "exchanged alone";
     }
 }
 

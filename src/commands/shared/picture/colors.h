@@ -30,7 +30,7 @@ inline constexpr Vec3 kSignPlus{0.42f, 0.60f, 0.86f}, kSignMinus{0.95f, 0.66f, 0
     kSignNeither{0.90f, 0.20f, 0.80f}, kSignWrong{0.80f, 0.08f, 0.10f}, kSignStripes{0.20f, 0.20f, 0.24f};
 
 /// Color of surfaces without data, and the first of the island colors.
-inline constexpr Vec3 kNothingKnown{0.55f, 0.55f, 0.55f}, kIslandColor{0.55f, 0.74f, 0.89f};
+inline constexpr Vec3 kNoData{0.55f, 0.55f, 0.55f}, kIslandColor{0.55f, 0.74f, 0.89f};
 
 /// Returns a vector with components from -1 to 1 as a color: 0.5 v + 0.5.
 inline Vec3 vectorColor(const Vec3& v) { return {0.5f * v.x + 0.5f, 0.5f * v.y + 0.5f, 0.5f * v.z + 0.5f}; }

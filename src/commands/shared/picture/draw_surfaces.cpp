@@ -158,11 +158,11 @@ Vec3 litColor(const ShownSurface& surface, const Affine& to_world, const Lightin
 }
 
 Vec3 tangentColor(const ShownSurface& surface, const Affine& to_world, const SurfacePoint& point) {
-    if (surface.tangents.empty()) return kNothingKnown;
+    if (surface.tangents.empty()) return kNoData;
     DVec3 tangent = frameAt(surface, surface.normals, surface.tangents, point).tangent;
     normalize(tangent);
     DVec3 world = to_world.direction(tangent);
-    return normalize(world) ? vectorColor(toFloat(world)) : kNothingKnown;
+    return normalize(world) ? vectorColor(toFloat(world)) : kNoData;
 }
 
 UvSide uvSideOf(const ShownSurface& surface, const SurfacePoint& point) {
@@ -178,7 +178,7 @@ Vec3 islandColor(const ShownSurface& surface, const SurfacePoint& point) {
                                                {0.80f, 0.68f, 0.60f},
                                                {0.93f, 0.72f, 0.84f},
                                                {0.84f, 0.84f, 0.50f}}};
-    if (surface.islands.empty()) return kNothingKnown;
+    if (surface.islands.empty()) return kNoData;
     const Vec3& color = kIslands[surface.islands[point.triangle] % kIslands.size()];
     // Adjacent triangles have slightly different shades, so that they can be distinguished.
     const float shade = (point.triangle % 2 != 0 ? 0.93f : 1.0f) *
@@ -189,7 +189,7 @@ Vec3 islandColor(const ShownSurface& surface, const SurfacePoint& point) {
 Vec3 signColor(const ShownSurface& surface, const SurfacePoint& point) {
     const UvSide side = uvSideOf(surface, point);
     const bool is_mirrored = side == UvSide::mirrored;
-    Vec3 color = kNothingKnown;
+    Vec3 color = kNoData;
     bool disagrees = false;
     if (!surface.tangents.empty()) {
         const std::array<Vec4, 3> tangents = valuesAt(surface.tangents, shownTriangle(surface, point.triangle));
@@ -205,7 +205,7 @@ Vec3 signColor(const ShownSurface& surface, const SurfacePoint& point) {
 
 }  // namespace
 
-bool isThere(const ShownSurface& surface, std::size_t triangle, const Weights& weights) {
+bool isOpaqueAt(const ShownSurface& surface, std::size_t triangle, const Weights& weights) {
     return alphaOf(surface, triangle, weights) >= surface.alpha_cutoff;
 }
 
@@ -263,13 +263,13 @@ Vec3 shadePoint(RenderShow show, const ShownSurface& surface, const Affine& to_w
             return shaped(signColor(surface, point), plainNormal(surface, to_world, point), lighting);
         case RenderShow::error: {
             const double degrees = frameError(surface, point);
-            const Vec3 color = std::isfinite(degrees) ? heatColor(static_cast<float>(degrees)) : kNothingKnown;
+            const Vec3 color = std::isfinite(degrees) ? heatColor(static_cast<float>(degrees)) : kNoData;
             return shaped(color, plainNormal(surface, to_world, point), lighting);
         }
         case RenderShow::uv:
             return islandColor(surface, point);
     }
-    return kNothingKnown;
+    return kNoData;
 }
 
 namespace {

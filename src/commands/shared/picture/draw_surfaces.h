@@ -105,7 +105,7 @@ struct SurfacePoint {
 };
 
 /// Returns whether the surface is opaque at a point: its alpha is not below the cutoff.
-bool isThere(const ShownSurface& surface, std::size_t triangle, const std::array<double, 3>& weights);
+bool isOpaqueAt(const ShownSurface& surface, std::size_t triangle, const std::array<double, 3>& weights);
 
 /// Returns linear light for the view `lit`, and the stored color for other views. `to_world`: transform of the surface.
 Vec3 shadePoint(RenderShow show, const ShownSurface& surface, const Affine& to_world, const Lighting& lighting,

@@ -182,8 +182,8 @@ Legend legendOf(RenderShow show, const TangentSources& sources, Method method) {
     Legend legend;
     std::vector<LegendEntry>& entries = legend.entries;
     const auto say = [&](std::string text) { entries.push_back({{}, {}, std::move(text)}); };
-    const auto sayMissing = [&](const char* what) {
-        if (sources.missing) entries.push_back({kNothingKnown, {}, what});
+    const auto labelMissing = [&](const char* what) {
+        if (sources.missing) entries.push_back({kNoData, {}, what});
     };
     switch (show) {
         case RenderShow::lit:
@@ -201,7 +201,7 @@ Legend legendOf(RenderShow show, const TangentSources& sources, Method method) {
             break;
         case RenderShow::tangents:
             entries = axes;
-            sayMissing("NO TANGENTS");
+            labelMissing("NO TANGENTS");
             if (sources.stored || sources.computed) appendEntries(entries, tangents);
             break;
         case RenderShow::sign:
@@ -210,13 +210,13 @@ Legend legendOf(RenderShow show, const TangentSources& sources, Method method) {
                        {kSignMinus, kSignStripes, "UV MIRRORED"},
                        {kSignPlus, kSignWrong, "WRONG SIGN"},
                        {kSignNeither, {}, "NEITHER"}};
-            sayMissing("NO TANGENTS");
+            labelMissing("NO TANGENTS");
             if (sources.stored || sources.computed) appendEntries(entries, tangents);
             break;
         case RenderShow::error:
             legend.has_heat_scale = true;
             say("DEGREES FROM " + (sources.has_other ? "THE OTHER MODEL" : upperCase(methodName(method))));
-            sayMissing("NOT COMPARED");
+            labelMissing("NOT COMPARED");
             break;
         case RenderShow::uv:
             entries = {{kIslandColor, {}, "AN ISLAND"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "commands/shared/noted_noise.h"
+#include "commands/shared/reportable_noise.h"
 
 #include "core/base/border.h"
 #include "core/base/near_positions.h"
@@ -9,12 +9,12 @@
 
 namespace tspace {
 
-std::uint64_t noteMemory(const MeshView& mesh) {
+std::uint64_t reportableNoiseMemory(const MeshView& mesh) {
     constexpr std::uint64_t kCornerBytes = 96, kVertexBytes = 112;
     return kCornerBytes * mesh.cornerCount() + kVertexBytes * mesh.positions.count;
 }
 
-double notedNoise(const MeshView& mesh, double position_step, float weld_distance) {
+double reportableNoise(const MeshView& mesh, double position_step, float weld_distance) {
     constexpr std::size_t kMinFaces = 1000;
     constexpr double kMinNoise = 0.03;
     if (mesh.faceCount() < kMinFaces) return 0;
