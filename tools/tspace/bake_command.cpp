@@ -43,7 +43,7 @@ Result<BakeFileReport> bake(const BakeArguments& arguments, InputFiles& read) {
 ExitCode runBake(const BakeArguments& arguments) {
     const BakeFileOptions& options = arguments.options;
     std::vector<std::string> outputs =
-        outputsBeside({arguments.report}, arguments.low, {.output = arguments.output}, options);
+        outputsToCompare({arguments.report}, arguments.low, {.output = arguments.output}, options);
     outputs.push_back(arguments.report);
     const Result<Done> fit = prepareOutputs(
         outputs, {arguments.low, arguments.high, options.cage, options.skew, matchFileOf(options.match)});

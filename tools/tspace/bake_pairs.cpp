@@ -159,8 +159,8 @@ class PairsRun {
 
     ExitCode run() {
         runBatch(
-            pairs_.size(), workers_, [this](std::size_t pair) { work(pair); }, [this](std::size_t pair) { tell(pair); },
-            [this] { return wasInterrupted() || output_is_closed_; });
+            pairs_.size(), workers_, [this](std::size_t pair) { work(pair); },
+            [this](std::size_t pair) { finishPair(pair); }, [this] { return wasInterrupted() || output_is_closed_; });
         if (wasInterrupted()) endByInterrupt();
         if (output_is_closed_) return ExitCode::cannotReadOrWrite;
         const auto is_written = [](const report::BakedPair& pair) { return pair.outcome.result.ok(); };
@@ -264,7 +264,7 @@ class PairsRun {
     }
 
     /// Reports a bake. Called in the order of the table, one call at a time.
-    void tell(std::size_t number) {
+    void finishPair(std::size_t number) {
         report::BakedPair& done = done_[number];
         if (!done.outcome.result) {
             done.exit_code = printErrorOfFiles({done.outcome.input, done.high}, done.outcome.result.error());
@@ -302,8 +302,8 @@ ExitCode runBakePairs(const BakePairsArguments& arguments) {
         return printError(arguments.table, *failure);
     std::vector<PairOutputs> written;
     for (const Pair& pair : pairs)
-        written.push_back({pair.line, outputsBeside({arguments.batch.manifest, arguments.report}, pair.job.input,
-                                                    {.output = pair.job.output}, optionsOf(arguments, pair))});
+        written.push_back({pair.line, outputsToCompare({arguments.batch.manifest, arguments.report}, pair.job.input,
+                                                       {.output = pair.job.output}, optionsOf(arguments, pair))});
     if (const std::string shared = sharedOutput(written); !shared.empty()) return printUsageError(shared);
     addWords(arguments, pairs, written);
     if (const std::string shared = sharedOutput(written); !shared.empty()) return printUsageError(shared);

@@ -85,7 +85,7 @@ Result<CheckReport> check(const Job& job, CheckOptions options, const CheckArgum
     Result<CheckReport> report = checkFile(job.input, options);
     if (!report) return report;
     if (isOtherImage(job, *report)) report->findings.clear();
-    options::leaveOut(arguments.request, *report);
+    options::removeOmitted(arguments.request, *report);
     return report;
 }
 
@@ -112,7 +112,7 @@ ExitCode runCheck(const CheckArguments& arguments) {
     if (files.output_is_closed) return ExitCode::cannotReadOrWrite;
     ExitCode exit_code = files.exit_code;
     for (const report::CheckOutcome& outcome : files.outcomes) {
-        if (outcome.result && options::failsBy(arguments.request, *outcome.result))
+        if (outcome.result && options::makesCheckFail(arguments.request, *outcome.result))
             exit_code = worse(exit_code, ExitCode::findings);
     }
     // A report contains files that cannot be read. An exception is a single file that did not fit into memory.

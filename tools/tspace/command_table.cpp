@@ -29,7 +29,7 @@ constexpr bool kHasBaking = false;
 struct Entry {
     const char* name;
     Command (*make)();
-    bool is_there = true;  ///< false: not available in this build, and not listed; if started, it prints the reason
+    bool is_available = true;  ///< false: not available in this build, and not listed; if started, it prints the reason
 };
 Command helpCommand();
 constexpr Entry kCommands[] = {
@@ -88,7 +88,7 @@ Command helpCommand() {
     };
     Option about = text("", "COMMAND", *topic, "Name of the command.");
     for (const Entry& entry : kCommands) {
-        if (entry.is_there) about.choices.emplace_back(entry.name);
+        if (entry.is_available) about.choices.emplace_back(entry.name);
     }
     command.add("Input and output", about);
     command.add("Reporting", helpOption());
@@ -103,7 +103,7 @@ Command helpCommand() {
 ToolTable toolTable() {
     ToolTable tool;
     for (const Entry& entry : kCommands) {
-        if (entry.is_there) tool.commands.push_back(commandOf(entry));
+        if (entry.is_available) tool.commands.push_back(commandOf(entry));
     }
     Option help = helpOption();
     help.group = "Options";
@@ -121,7 +121,7 @@ std::string unknownCommand(const std::string& word) {
     if (isModelName(word) || isImageName(word)) return unknown + "; use tspace check IN to examine a file";
     std::vector<std::string> names;
     for (const Entry& entry : kCommands)
-        if (entry.is_there) names.emplace_back(entry.name);
+        if (entry.is_available) names.emplace_back(entry.name);
     return unknown + didYouMean(known, names);
 }
 

@@ -32,7 +32,7 @@ void appendName(std::string& rule, const std::string& name) {
 }
 
 /// Returns whether an option names a file that a command writes.
-bool namesOutput(const Option& option) {
+bool isOutputOption(const Option& option) {
     constexpr std::string_view kOutputOptions[] = {"--output", "--html", "--sarif", "--report"};
     return std::find(std::begin(kOutputOptions), std::end(kOutputOptions), option.name()) != std::end(kOutputOptions);
 }
@@ -88,7 +88,7 @@ Result<std::string> depfileText(const std::vector<std::string>& outputs, const s
 }
 
 void addDepfile(Command& command) {
-    const bool writes = std::any_of(command.options.begin(), command.options.end(), namesOutput);
+    const bool writes = std::any_of(command.options.begin(), command.options.end(), isOutputOption);
     if (!writes) return;
     const auto path = std::make_shared<std::string>();
     Option& depfile =
@@ -101,7 +101,7 @@ void addDepfile(Command& command) {
         std::string wrong = finish ? finish(given) : std::string();
         if (!wrong.empty() || path->empty()) return wrong;
         const bool has_output = std::any_of(given.items.begin(), given.items.end(), [&](const Given::Item& item) {
-            return item.value != "-" && namesOutput(*item.option);
+            return item.value != "-" && isOutputOption(*item.option);
         });
         return std::string(has_output ? "" : "--depfile can only be used with an output file");
     };

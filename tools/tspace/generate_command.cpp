@@ -175,8 +175,8 @@ class GenerateRun {
         const bool is_alone = jobs_.size() == 1;
         if (arguments_.json && is_alone) return report::generateJson({outcome}, ExitCode::done, secondsSince(start_));
         if (!wants_text_) return {};
-        const bool wants_details = is_alone || arguments_.batch.verbose;
-        return fitted(wants_details ? report::generateText(outcome) : report::generateLine(outcome), report_to_);
+        const bool shows_details = is_alone || arguments_.batch.verbose;
+        return fitted(shows_details ? report::generateText(outcome) : report::generateLine(outcome), report_to_);
     }
 
     void record(const Job& job, const report::GenerateOutcome& outcome) {

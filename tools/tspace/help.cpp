@@ -23,7 +23,7 @@ std::string optionsText(const std::vector<Option>& options) {
 
 }  // namespace
 
-std::string leftOut() {
+std::string missingFeatures() {
     const std::string parts = TSPACE_LEFT_OUT;
     return parts.empty() ? "" : "Built without: " + parts + ".\n";
 }
@@ -66,7 +66,7 @@ std::string helpPage(const ToolTable& tool) {
         page += "  " + command.name + "\n        " + command.summary + "\n";
     }
     page += optionsText(tool.options) + "\nRun 'tspace help COMMAND' for the options of a command.\n\n" + kExitCodes;
-    if (const std::string parts = leftOut(); !parts.empty()) page += "\n" + parts;
+    if (const std::string parts = missingFeatures(); !parts.empty()) page += "\n" + parts;
     return page;
 }
 

@@ -14,7 +14,7 @@ namespace tspace::tool {
 extern const char* const kExitCodes;
 
 /// Returns a line such as "Built without: PNG and JPEG, WebP."; empty if the build is complete.
-std::string leftOut();
+std::string missingFeatures();
 
 /// Returns the page of the whole tool, with lines of any length.
 std::string helpPage(const ToolTable& tool);

@@ -40,7 +40,7 @@ void keepFreedMemory() {
 
 /// Returns large freed blocks to the system. All other commands keep small results between them: in one heap, freed
 /// blocks would be fragmented, and files with many primitives would need a multiple of the memory.
-void giveMemoryBack() {
+void returnFreedMemory() {
 #ifdef __GLIBC__
     mallopt(M_MMAP_THRESHOLD, 256 << 10);
 #endif
@@ -53,7 +53,8 @@ ExitCode runWithoutCommand(const std::string& word) {
     const ToolTable tool = toolTable();
     if (word == "-h" || word == "--help") return printPage(helpPage(tool));
     if (word == "-V" || word == "--version") {
-        return printResult("tspace " TSPACE_VERSION "\n" + leftOut()) ? ExitCode::done : ExitCode::cannotReadOrWrite;
+        return printResult("tspace " TSPACE_VERSION "\n" + missingFeatures()) ? ExitCode::done
+                                                                              : ExitCode::cannotReadOrWrite;
     }
     const char* see = " (see tspace --help)";
     if (!word.starts_with('-')) return printUsageError(unknownCommand(word) + see);
@@ -76,7 +77,7 @@ ExitCode run(int argc, char** argv) {
     if (given.has("--help")) return printPage(helpPage(*command));
     const std::string wrong_kind = wrongKindOfInput(*command, given);
     if (!wrong_kind.empty()) return printUsageError(wrong_kind);
-    command->keeps_freed_memory ? keepFreedMemory() : giveMemoryBack();
+    command->keeps_freed_memory ? keepFreedMemory() : returnFreedMemory();
     if (!given.has("--quiet")) progressLine().start();
     ExitCode exit_code = command->prepare ? command->prepare() : ExitCode::done;
     if (exit_code == ExitCode::done) exit_code = command->run();

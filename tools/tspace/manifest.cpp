@@ -102,9 +102,9 @@ Error fileError(ErrorCode code, const std::string& path) {
 /// killed within its first line.
 bool isManifest(const std::string& path) {
     constexpr std::string_view kBegin = R"({"schema":"tspace.manifest/)";
-    constexpr std::size_t kLookedAt = std::size_t{1} << 16;
+    constexpr std::size_t kSearchedBytes = std::size_t{1} << 16;
     std::ifstream file(std::filesystem::path(Path(path)), std::ios::binary);
-    std::string found(kLookedAt, '\0');
+    std::string found(kSearchedBytes, '\0');
     file.read(found.data(), static_cast<std::streamsize>(found.size()));
     found.resize(static_cast<std::size_t>(file.gcount()));
     return kBegin.starts_with(found) || found.find(kBegin) != std::string::npos;

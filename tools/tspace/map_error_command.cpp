@@ -22,7 +22,7 @@ struct MapErrorArguments {
     bool quiet = false;
 };
 
-ExitCode runBesideSource(const MapErrorArguments& arguments) {
+ExitCode compareWithSource(const MapErrorArguments& arguments) {
     progressLine().update(arguments.map, "comparing", 0, 0);
     const Result<TextureErrorReport> result = textureErrorFile(arguments.map, arguments.source,
                                                                {.file = arguments.options.file,
@@ -40,7 +40,7 @@ ExitCode runBesideSource(const MapErrorArguments& arguments) {
 }
 
 ExitCode runMapError(const MapErrorArguments& arguments) {
-    if (!arguments.source.empty()) return runBesideSource(arguments);
+    if (!arguments.source.empty()) return compareWithSource(arguments);
     const Result<Done> fit = prepareOutputs({arguments.options.heat}, {arguments.map, arguments.low, arguments.high,
                                                                        arguments.options.cage, arguments.options.skew});
     if (!fit) return printUsageError(fit.error().message);
@@ -65,7 +65,7 @@ ExitCode runMapError(const MapErrorArguments& arguments) {
 }
 
 /// Returns the options of a comparison with a high poly that do not apply to a comparison with a source.
-std::vector<std::string> onlyWithHigh(const OptionList& of_high) {
+std::vector<std::string> optionsOfHigh(const OptionList& of_high) {
     const std::set<std::string> shared = {"--two-channels", "--threads", "--no-sync", "--memory-limit",
                                           "--import-seconds"};
     std::vector<std::string> names = {"--high", "LOW"};
@@ -105,7 +105,7 @@ Command mapErrorCommand() {
              "Normal map from which the texture MAP was made. MAP is compared with this image instead of a high poly.");
     source.is_file = true;
     const OptionList of_high = mapErrorOptions(arguments.options);
-    source.excludes = onlyWithHigh(of_high);
+    source.excludes = optionsOfHigh(of_high);
     command.add(group, source);
     command.add(of_high);
     addReporting(command, arguments.json, arguments.quiet);

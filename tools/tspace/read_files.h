@@ -25,7 +25,7 @@ struct ReadFiles {
 template <class Value, class Read, class TextOf>
 ReadFiles<Value> readFiles(const std::vector<Job>& jobs, const BatchArguments& batch, bool wants_text, Read read,
                            TextOf textOf) {
-    const bool wants_details = jobs.size() == 1 || batch.verbose;
+    const bool shows_details = jobs.size() == 1 || batch.verbose;
     ReadFiles<Value> files;
     files.outcomes.resize(jobs.size());
     std::atomic<bool> output_is_closed = false;
@@ -42,9 +42,9 @@ ReadFiles<Value> readFiles(const std::vector<Job>& jobs, const BatchArguments& b
         if (!outcome.result) {
             files.exit_code = worse(files.exit_code, printError(outcome.input, outcome.result.error()));
         } else if (wants_text && !output_is_closed) {
-            std::string text = wants_details && number > 0 ? "\n" : "";
+            std::string text = shows_details && number > 0 ? "\n" : "";
             text.append(textOf(outcome));
-            if (!wants_details) text.erase(text.find('\n') + 1);
+            if (!shows_details) text.erase(text.find('\n') + 1);
             output_is_closed = !printText(text);
         }
     };

@@ -19,23 +19,23 @@ constexpr std::uint64_t kMaxBytes = std::uint64_t{4} << 30;  // maximum size of 
 
 /// Returns whether the first bytes may be those of a GLB or of JSON, which may start with a UTF-8 byte order mark and
 /// whitespace.
-bool looksLikeModel(std::string_view text) {
+bool mayBeModel(std::string_view text) {
     if (text.starts_with("glTF")) return true;
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
     const std::size_t begin = text.find_first_not_of(" \t\r\n");
     return begin != std::string_view::npos && text[begin] == '{';
 }
 
-bool looksLikeModelOrImage(std::string_view text) {
+bool mayBeModelOrImage(std::string_view text) {
     const std::span bytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
     const ImageFormat format = imageFormat(bytes);
-    return looksLikeModel(text) || (format != ImageFormat::unknown && format != ImageFormat::tga);
+    return mayBeModel(text) || (format != ImageFormat::unknown && format != ImageFormat::tga);
 }
 
 }  // namespace
 
 Result<std::vector<std::uint8_t>> readStandardInput(const char* what, std::uint64_t memory_limit_bytes,
-                                                    bool (*looks_right)(std::string_view), const char* why_not) {
+                                                    bool (*is_valid)(std::string_view), const char* why_not) {
     if (isTerminal(stdin))
         return Error{ErrorCode::cannotRead, std::string("standard input is a terminal, not ") + what};
     const bool is_limited = memory_limit_bytes != 0 && memory_limit_bytes != kNoMemoryLimit;
@@ -43,7 +43,7 @@ Result<std::vector<std::uint8_t>> readStandardInput(const char* what, std::uint6
     std::vector<std::uint8_t> bytes, block(std::size_t{1} << 20);
     while (const std::size_t count = std::fread(block.data(), 1, block.size(), stdin)) {
         const std::string_view text(reinterpret_cast<const char*>(block.data()), count);
-        if (bytes.empty() && !looks_right(text)) return Error{ErrorCode::unsupportedFile, why_not};
+        if (bytes.empty() && !is_valid(text)) return Error{ErrorCode::unsupportedFile, why_not};
         if (count > most - bytes.size()) return Error{ErrorCode::tooLarge, "standard input timed out"};
         bytes.insert(bytes.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(count));
     }
@@ -56,7 +56,7 @@ Result<std::vector<std::uint8_t>> readStandardInput(const char* what, std::uint6
 Result<Done> StandardInput::open(const std::string& input, FileOptions& options, bool takes_images) {
     if (input != "-") return Done{};
     Result<std::vector<std::uint8_t>> bytes =
-        readStandardInput("a model", options.memory_limit_bytes, takes_images ? looksLikeModelOrImage : looksLikeModel,
+        readStandardInput("a model", options.memory_limit_bytes, takes_images ? mayBeModelOrImage : mayBeModel,
                           "standard input is neither a GLB nor a glTF; other formats must be read from files");
     if (!bytes) return std::move(bytes).error();
     bytes_ = *std::move(bytes);

@@ -16,12 +16,12 @@ namespace tspace::tool {
 ///
 /// what                  noun for messages: "a model"
 /// memory_limit_bytes    see FileOptions::memory_limit_bytes
-/// looks_right           checks the first bytes
+/// is_valid           checks the first bytes
 /// why_not               message if the first bytes are wrong
 ///
 /// Fails with cannotRead, unsupportedFile, invalidFile (no data) and tooLarge.
 Result<std::vector<std::uint8_t>> readStandardInput(const char* what, std::uint64_t memory_limit_bytes,
-                                                    bool (*looks_right)(std::string_view), const char* why_not);
+                                                    bool (*is_valid)(std::string_view), const char* why_not);
 
 /// Bytes of a model or image from standard input.
 class StandardInput {

@@ -95,12 +95,12 @@ bool matchesName(const std::string& pattern_text, const std::string& name_text) 
     if (name.starts_with('.') && !pattern.starts_with('.')) return false;
     // State of backtracking: the pattern after the last *, and the text after its match. The * matches one more
     // character if the rest fails.
-    std::string_view behind_star, left;
+    std::string_view after_star, left;
     bool has_star = false;
     while (!name.empty() || !pattern.empty()) {
         if (pattern.starts_with('*')) {
             pattern.remove_prefix(1);
-            behind_star = pattern;
+            after_star = pattern;
             left = name;
             has_star = true;
         } else if (!name.empty() && !pattern.empty() && takeOne(pattern, name.front())) {
@@ -108,7 +108,7 @@ bool matchesName(const std::string& pattern_text, const std::string& name_text) 
         } else if (has_star && !left.empty()) {
             left.remove_prefix(1);
             name = left;
-            pattern = behind_star;
+            pattern = after_star;
         } else {
             return false;
         }

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "mend.h"
 #include "model/gltf/document_builder.h"
+#include "repair.h"
 
 namespace tspace::import {
 
@@ -14,11 +14,11 @@ class GlbBuilder : public gltf::DocumentBuilder {
   public:
     GlbBuilder() : DocumentBuilder(Json::object({{"version", "2.0"}})) {}
 
-    Mended& mended() { return mended_; }
+    RepairCounts& repairs() { return repairs_; }
     std::vector<std::uint8_t> finish();
 
   private:
-    Mended mended_ = {};
+    RepairCounts repairs_ = {};
 };
 
 }  // namespace tspace::import

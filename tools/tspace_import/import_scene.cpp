@@ -14,12 +14,12 @@
 
 #include "glb_builder.h"
 #include "materials.h"
-#include "mend.h"
 #include "meshes.h"
 #include "model_files.h"
 #include "moved_meshes.h"
 #include "near_origin/near_origin.h"
 #include "number_text.h"
+#include "repair.h"
 #include "stored_tangents.h"
 
 namespace tspace::import {
@@ -49,7 +49,7 @@ class SceneWriter {
         return builder_.finish();
     }
 
-    [[nodiscard]] Mended& mended() { return builder_.mended(); }
+    [[nodiscard]] RepairCounts& repairs() { return builder_.repairs(); }
 
   private:
     /// Lists nodes breadth first, so that deep hierarchies need no stack.
@@ -72,8 +72,8 @@ class SceneWriter {
         }
         aiMatrix4x4 place = node.mTransformation;
         if (i == 0) place = inMeters() * place;
-        const std::vector<float> matrix = columnsOf(place, builder_.mended());
-        if (i > 0) countCoarsePlace(node.mTransformation, meters_, builder_.mended());
+        const std::vector<float> matrix = columnsOf(place, builder_.repairs());
+        if (i > 0) countCoarsePlace(node.mTransformation, meters_, builder_.repairs());
         if (isAnimated(node) && isFinite(place[0], 16)) {
             // Animated nodes need separate translation, rotation and scale, because glTF does not allow animating a
             // matrix.
@@ -84,7 +84,7 @@ class SceneWriter {
             rotation = unitRotation(rotation);
             json["rotation"] = {rotation.x, rotation.y, rotation.z, rotation.w};
             json["scale"] = {scale.x, scale.y, scale.z};
-        } else if (matrix != columnsOf(aiMatrix4x4(), builder_.mended())) {
+        } else if (matrix != columnsOf(aiMatrix4x4(), builder_.repairs())) {
             json["matrix"] = matrix;
         }
         return json;
@@ -194,15 +194,15 @@ class SceneWriter {
     std::size_t materialFor(std::size_t number, const Json& primitive) {
         Json material = builder_.json()["materials"][number];
         bool changed = false;
-        const auto leaveOut = [&](Json& object, const char* name) {
+        const auto eraseMember = [&](Json& object, const char* name) {
             if (!object.contains(name)) return;
             const Json* uv_set = object[name].find("texCoord");
             const std::string set = std::to_string(uv_set == nullptr ? 0 : uv_set->get<int>());
             changed = changed || !primitive["attributes"].contains("TEXCOORD_" + set);
             if (!primitive["attributes"].contains("TEXCOORD_" + set)) object.erase(name);
         };
-        leaveOut(material["pbrMetallicRoughness"], "baseColorTexture");
-        leaveOut(material, "normalTexture");
+        eraseMember(material["pbrMetallicRoughness"], "baseColorTexture");
+        eraseMember(material, "normalTexture");
         if (!changed) return number;
         const auto [entry, is_new] = reduced_materials_.try_emplace(material.dump(-1, ' ', BadUtf8::replace), 0);
         if (is_new) entry->second = builder_.append("materials", std::move(material));
@@ -228,7 +228,7 @@ class SceneWriter {
                          .second)
                     continue;
                 skin.joints.push_back(node->second);
-                const std::vector<float> matrix = columnsOf(bone.mOffsetMatrix, builder_.mended());
+                const std::vector<float> matrix = columnsOf(bone.mOffsetMatrix, builder_.repairs());
                 skin.inverse_bind.insert(skin.inverse_bind.end(), matrix.begin(), matrix.end());
             }
         }
@@ -328,9 +328,9 @@ std::string readNearOrigin(const Reading& reading, const aiScene& scene, Importe
     const MovedMeshes meshes = movedMeshes(*near, first_vertices, moved->offset);
     SceneWriter writer(*near, reading.takes_tangents, meshes);
     std::vector<std::uint8_t> glb = writer.write();
-    if (writer.mended().isCoarse()) return no_common;
+    if (writer.repairs().isCoarse()) return no_common;
     imported.glb = std::move(glb);
-    imported.warnings = writer.mended().warnings();
+    imported.warnings = writer.repairs().warnings();
     const double offset[3] = {moved->offset.x, moved->offset.y, moved->offset.z};
     std::copy_n(offset, 3, imported.offset);
     imported.warnings.push_back(
@@ -343,8 +343,8 @@ std::string readNearOrigin(const Reading& reading, const aiScene& scene, Importe
 
 /// Subtracts an offset if the edges of a scene are coarse, or records why this is not possible. `scene` may be invalid
 /// afterwards.
-void mendCoarse(const Reading& reading, const aiScene& scene, const Mended& mended, Imported& imported) {
-    const std::string coarse = mended.coarseness();
+void moveNearOrigin(const Reading& reading, const aiScene& scene, const RepairCounts& repairs, Imported& imported) {
+    const std::string coarse = repairs.coarseness();
     std::string why;
     if (!isReadInDouble(reading.path)) {
         why =
@@ -389,9 +389,9 @@ Imported importScene(const std::string& path, const ImportRules& rules) {
     const bool takes_tangents = stored == StoredTangents::withBitangents;
     SceneWriter writer(*scene, takes_tangents, {});
     Imported imported{.glb = writer.write()};
-    imported.warnings = writer.mended().warnings();
-    if (writer.mended().isCoarse())
-        mendCoarse({path, rules, importer, takes_tangents}, *scene, writer.mended(), imported);
+    imported.warnings = writer.repairs().warnings();
+    if (writer.repairs().isCoarse())
+        moveNearOrigin({path, rules, importer, takes_tangents}, *scene, writer.repairs(), imported);
     imported.warnings.insert(imported.warnings.end(), not_read.begin(), not_read.end());
     imported.has_no_tangents = stored == StoredTangents::none;
     return imported;

@@ -11,8 +11,8 @@
 #include <span>
 #include <string>
 
-#include "mend.h"
 #include "model/io/legacy_text.h"
+#include "repair.h"
 
 namespace tspace::import {
 

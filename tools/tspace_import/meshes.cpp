@@ -10,7 +10,7 @@
 #include <string>
 #include <unordered_map>
 
-#include "mend.h"
+#include "repair.h"
 #include "tspace/mesh.h"
 
 namespace tspace::import {
@@ -107,18 +107,19 @@ Attribute tangentsOf(const aiMesh& mesh) {
 }
 
 std::vector<Attribute> attributesOf(const aiMesh& mesh, const std::vector<std::uint16_t>& joints,
-                                    const std::vector<std::uint32_t>& triangles, bool takes_tangents, Mended& mended) {
+                                    const std::vector<std::uint32_t>& triangles, bool takes_tangents,
+                                    RepairCounts& repairs) {
     const std::size_t count = mesh.mNumVertices;
     std::vector<Attribute> attributes;
     attributes.push_back({"POSITION", 3, vectors(mesh.mVertices, count, 3)});
-    mended.positions += zeroNotFinite(attributes.back().values, 3);
+    repairs.positions += zeroNotFinite(attributes.back().values, 3);
     if (mesh.HasNormals()) {
         Attribute normals{"NORMAL", 3, vectors(mesh.mNormals, count, 3)};
-        mended.normals += mendNormals(normals.values, attributes.back().values, triangles);
+        repairs.normals += repairNormals(normals.values, attributes.back().values, triangles);
         attributes.push_back(std::move(normals));
         if (takes_tangents && mesh.HasTangentsAndBitangents()) {
             attributes.push_back(tangentsOf(mesh));
-            mended.tangents += zeroNotFinite(attributes.back().values, 4);
+            repairs.tangents += zeroNotFinite(attributes.back().values, 4);
         }
     }
     std::size_t uv_set = 0;
@@ -126,7 +127,7 @@ std::vector<Attribute> attributesOf(const aiMesh& mesh, const std::vector<std::u
         if (mesh.mTextureCoords[set] == nullptr) continue;
         attributes.push_back(
             {"TEXCOORD_" + std::to_string(uv_set++), 2, vectors(mesh.mTextureCoords[set], count, 2, true)});
-        mended.uvs += zeroNotFinite(attributes.back().values, 2);
+        repairs.uvs += zeroNotFinite(attributes.back().values, 2);
     }
     std::size_t color_set = 0;
     for (unsigned set = 0; set < AI_MAX_NUMBER_OF_COLOR_SETS; ++set) {
@@ -233,8 +234,8 @@ std::optional<Json> addPrimitive(GlbBuilder& builder, const aiMesh& mesh, const 
                                  bool takes_tangents) {
     std::vector<std::uint32_t> triangles = trianglesOf(mesh);
     if (triangles.empty()) return {};
-    const std::vector<Attribute> attributes = attributesOf(mesh, joints, triangles, takes_tangents, builder.mended());
-    countCoarseEdges(attributes.front().values, triangles, builder.mended());
+    const std::vector<Attribute> attributes = attributesOf(mesh, joints, triangles, takes_tangents, builder.repairs());
+    countCoarseEdges(attributes.front().values, triangles, builder.repairs());
     const Joined joined = joinEqual(attributes, mesh.mNumVertices);
     for (std::uint32_t& vertex : triangles) vertex = joined.place[vertex];
 

@@ -12,7 +12,7 @@
 namespace tspace::import {
 
 /// Counts of repaired values.
-struct Mended {
+struct RepairCounts {
     std::size_t positions = 0, uvs = 0, normals = 0, tangents = 0, transforms = 0;
     std::size_t edges = 0, coarse_edges = 0;  ///< edges of triangles; see countCoarseEdges
     /// Number of nodes whose translation floats represent less precisely than a millimeter.
@@ -38,21 +38,22 @@ std::size_t zeroNotFinite(std::vector<float>& values, std::size_t components);
 
 /// Normalizes normals. A normal without direction becomes that of the first nondegenerate triangle of its vertex, or
 /// (0, 0, 1) if there is none. Returns the number of normals without direction. `triangles`: three vertices each.
-std::size_t mendNormals(std::vector<float>& normals, const std::vector<float>& positions,
-                        const std::vector<std::uint32_t>& triangles);
+std::size_t repairNormals(std::vector<float>& normals, const std::vector<float>& positions,
+                          const std::vector<std::uint32_t>& triangles);
 
 /// Counts the edges of triangles, and those too far from the origin: rounding to floats (Assimp reads all numbers as
 /// floats) may change them by more than 1/500 of their length along an axis. Counts all edges if all have length zero,
 /// and the mesh is so far away that rounding may be the cause.
-void countCoarseEdges(const std::vector<float>& positions, const std::vector<std::uint32_t>& triangles, Mended& mended);
+void countCoarseEdges(const std::vector<float>& positions, const std::vector<std::uint32_t>& triangles,
+                      RepairCounts& repairs);
 
 /// Counts a node whose translation is so large that rounding to floats may move the node by a millimeter or more.
 /// `meters`: meters per unit of the translation.
-void countCoarsePlace(const aiMatrix4x4& matrix, double meters, Mended& mended);
+void countCoarsePlace(const aiMatrix4x4& matrix, double meters, RepairCounts& repairs);
 
 /// Returns the matrix in column-major order, as in glTF (Assimp is row-major). The last row is exactly 0 0 0 1. Returns
 /// the identity, and counts it, if a number is not finite.
-std::vector<float> columnsOf(const aiMatrix4x4& matrix, Mended& mended);
+std::vector<float> columnsOf(const aiMatrix4x4& matrix, RepairCounts& repairs);
 
 /// Normalizes a rotation; returns the identity if it has no direction.
 aiQuaternion unitRotation(const aiQuaternion& rotation);

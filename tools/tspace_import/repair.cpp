@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Replaces and counts invalid numbers by the rules for OBJ (src/model/obj).
-#include "mend.h"
+#include "repair.h"
 
 #include <algorithm>
 #include <array>
@@ -37,7 +37,7 @@ Vec crossOf(const Vec& a, const Vec& b, const Vec& c) {
 
 }  // namespace
 
-std::vector<std::string> Mended::warnings() const {
+std::vector<std::string> RepairCounts::warnings() const {
     std::vector<std::string> list;
     const auto add = [&list](std::size_t count, const char* text) {
         if (count != 0) list.push_back(text + (": " + std::to_string(count)));
@@ -58,7 +58,7 @@ std::vector<std::string> Mended::warnings() const {
     return list;
 }
 
-std::string Mended::coarseness() const {
+std::string RepairCounts::coarseness() const {
     return "positions are so far from the origin that 32-bit floats distort the shape: " +
            std::to_string(coarse_edges) + " of " + std::to_string(edges) + " edges of triangles";
 }
@@ -81,8 +81,8 @@ std::size_t zeroNotFinite(std::vector<float>& values, std::size_t components) {
     return count;
 }
 
-std::size_t mendNormals(std::vector<float>& normals, const std::vector<float>& positions,
-                        const std::vector<std::uint32_t>& triangles) {
+std::size_t repairNormals(std::vector<float>& normals, const std::vector<float>& positions,
+                          const std::vector<std::uint32_t>& triangles) {
     const std::size_t vertex_count = normals.size() / 3;
     std::vector<bool> is_bad(vertex_count, false);
     std::size_t count = 0;
@@ -111,7 +111,7 @@ std::size_t mendNormals(std::vector<float>& normals, const std::vector<float>& p
 }
 
 void countCoarseEdges(const std::vector<float>& positions, const std::vector<std::uint32_t>& triangles,
-                      Mended& mended) {
+                      RepairCounts& repairs) {
     constexpr double kMinSteps = 500, kFar = 1 << 14;
     // In floats of integers and short fractions the last bits are zero; in rounded numbers they rarely are.
     constexpr std::uint32_t kLastBits = 63;
@@ -120,7 +120,7 @@ void countCoarseEdges(const std::vector<float>& positions, const std::vector<std
         const float size = std::fabs(value);
         return double{std::nextafter(size, std::numeric_limits<float>::infinity())} - double{size};
     };
-    const std::size_t edges_before = mended.edges;
+    const std::size_t edges_before = repairs.edges;
     bool is_far = false;
     for (std::size_t c = 0; c < triangles.size(); ++c) {
         const float* const a = &positions[std::size_t{3} * triangles[c]];
@@ -128,20 +128,20 @@ void countCoarseEdges(const std::vector<float>& positions, const std::vector<std
         const double length = lengthOf({double{b[0]} - a[0], double{b[1]} - a[1], double{b[2]} - a[2]});
         is_far = is_far || lengthOf({a[0], a[1], a[2]}) > kFar;
         if (!(length > 0)) continue;
-        ++mended.edges;
+        ++repairs.edges;
         bool is_coarse = false;
         for (std::size_t k = 0; k < 3; ++k) {
             const double step = std::max(stepAt(a[k]), stepAt(b[k]));
             is_coarse = is_coarse || (step * kMinSteps > length && !(isRound(a[k]) && isRound(b[k])));
         }
-        mended.coarse_edges += is_coarse;
+        repairs.coarse_edges += is_coarse;
     }
-    if (mended.edges != edges_before || !is_far) return;
-    mended.edges += triangles.size();
-    mended.coarse_edges += triangles.size();
+    if (repairs.edges != edges_before || !is_far) return;
+    repairs.edges += triangles.size();
+    repairs.coarse_edges += triangles.size();
 }
 
-void countCoarsePlace(const aiMatrix4x4& matrix, double meters, Mended& mended) {
+void countCoarsePlace(const aiMatrix4x4& matrix, double meters, RepairCounts& repairs) {
     constexpr double kMinMeters = 0.001;
     float largest = 0;
     for (const float value : {matrix.a4, matrix.b4, matrix.c4}) {
@@ -150,15 +150,15 @@ void countCoarsePlace(const aiMatrix4x4& matrix, double meters, Mended& mended) 
     const double step = double{std::nextafter(largest, std::numeric_limits<float>::infinity())} - double{largest};
     const double error = meters * step / 2;
     if (!std::isfinite(error) || error < kMinMeters) return;
-    ++mended.coarse_places;
-    mended.worst_place = std::max(mended.worst_place, error);
+    ++repairs.coarse_places;
+    repairs.worst_place = std::max(repairs.worst_place, error);
 }
 
-std::vector<float> columnsOf(const aiMatrix4x4& matrix, Mended& mended) {
+std::vector<float> columnsOf(const aiMatrix4x4& matrix, RepairCounts& repairs) {
     aiMatrix4x4 m = matrix;
     if (!isFinite(m[0], 16)) {
         m = aiMatrix4x4();
-        ++mended.transforms;
+        ++repairs.transforms;
     }
     return {m.a1, m.b1, m.c1, 0, m.a2, m.b2, m.c2, 0, m.a3, m.b3, m.c3, 0, m.a4, m.b4, m.c4, 1};
 }
