@@ -48,10 +48,11 @@ Command compressMapCommand() {
     CompressMapArguments& arguments = *owned;
     arguments.options.execution.thread_count = kAllThreads;
     Command command{
-        .summary = "pack a normal map as a texture for engines (BC5, EAC RG11)",
+        .summary = "compress a normal map to a texture for engines (BC5, EAC RG11)",
         .operands = "IN -o OUT",
         .description =
-            "Packs a normal map in tangent space as BC5 or EAC RG11, one byte per texel: x in red, y in green; the "
+            "Compresses a normal map in tangent space to BC5 or EAC RG11, one byte per texel: x in red, y in green; "
+            "the "
             "reader reconstructs z. The encoder minimizes the error of the filtered texture and uses all bits of the "
             "image, so 16-bit input results in a smaller error than 8-bit input. Mip levels are computed from mean "
             "directions. If a roughness texture is given, its mip levels are made rougher according to the spread of "

@@ -210,7 +210,7 @@ class SceneWriter {
     }
 
     struct Skin {
-        std::vector<std::size_t> joints = {};  ///< nodes
+        std::vector<std::size_t> joints = {};  ///< indices of the nodes that are joints
         std::vector<float> inverse_bind = {};
         std::map<std::string, std::uint16_t> place_of = {};
     };
@@ -301,7 +301,7 @@ class SceneWriter {
     std::vector<std::size_t> first_child_ = {};
     std::map<std::string, std::size_t> index_of_ = {};
     std::map<std::vector<unsigned>, MeshNumbers> mesh_of_ = {};
-    std::map<std::string, std::size_t> reduced_materials_ = {};  ///< by their JSON
+    std::map<std::string, std::size_t> reduced_materials_ = {};  ///< index of each reduced material, by its JSON
 };
 
 /// Parameters for reading a file once more.
@@ -384,7 +384,8 @@ Imported importScene(const std::string& path, const ImportRules& rules) {
     }
     bool has_faces = false;
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) has_faces = has_faces || scene->mMeshes[i]->HasFaces();
-    if (!has_faces) return {.error = not_read.empty() ? "it has no faces" : "it has no faces; " + not_read[0]};
+    if (!has_faces)
+        return {.error = not_read.empty() ? "the file has no faces" : "the file has no faces; " + not_read[0]};
     const StoredTangents stored = storedTangents(path);
     const bool takes_tangents = stored == StoredTangents::withBitangents;
     SceneWriter writer(*scene, takes_tangents, {});

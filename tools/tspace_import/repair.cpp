@@ -39,21 +39,25 @@ Vec crossOf(const Vec& a, const Vec& b, const Vec& c) {
 
 std::vector<std::string> RepairCounts::warnings() const {
     std::vector<std::string> list;
-    const auto add = [&list](std::size_t count, const char* text) {
-        if (count != 0) list.push_back(text + (": " + std::to_string(count)));
+    const auto add = [&list](std::size_t count, const char* one, const char* several) {
+        if (count != 0) list.push_back(std::to_string(count) + " " + (count == 1 ? one : several));
     };
-    add(positions, "number of positions that are not finite and were moved to the origin");
-    add(uvs, "number of texture coordinates that are not finite and were set to 0");
-    add(normals, "number of normals that are zero or not finite and were replaced by face normals");
-    add(tangents, "number of tangents that are not finite and were set to 0");
-    add(transforms, "number of node or joint matrices that are not finite and were ignored");
+    add(positions, "position is not finite and was moved to the origin",
+        "positions are not finite and were moved to the origin");
+    add(uvs, "texture coordinate is not finite and was set to 0",
+        "texture coordinates are not finite and were set to 0");
+    add(normals, "normal is zero or not finite and was replaced by a face normal",
+        "normals are zero or not finite and were replaced by face normals");
+    add(tangents, "tangent is not finite and was set to 0", "tangents are not finite and were set to 0");
+    add(transforms, "node or joint matrix is not finite and was ignored",
+        "node or joint matrices are not finite and were ignored");
     if (coarse_places != 0) {
         char meters[32];
         const auto end = std::to_chars(meters, meters + sizeof meters, worst_place, std::chars_format::general, 2);
-        list.push_back(
-            "some node translations are so far from the origin that rounding to 32-bit floats in the importer may move "
-            "them by up to " +
-            std::string(meters, end.ptr) + " m; number of these nodes: " + std::to_string(coarse_places));
+        list.push_back(std::to_string(coarse_places) + (coarse_places == 1 ? " node is" : " nodes are") +
+                       " so far from the origin that rounding of the translation to 32-bit floats in the importer may "
+                       "change the position by up to " +
+                       std::string(meters, end.ptr) + " m");
     }
     return list;
 }

@@ -35,15 +35,17 @@ void addWarnings(const FloatImage& packed, std::vector<std::string>& warnings) {
             "all normals");
     if (packed.texture.layout == MapLayout{} && isGrayImage(packed))
         warnings.emplace_back(
-            "its channels are equal or nearly equal, so it is a height map or a single channel, not a normal map");
+            "the channels of the texture are equal or nearly equal, so it is a height map or a single channel, not a "
+            "normal map");
 }
 
 TextureErrorReport measure(const std::string& texture, const std::string& source, const TextureErrorOptions& options) {
     FloatImage packed = readMapImage(texture, {}, options.file), map = readSource(source, options.file);
     TextureErrorReport report{.width = packed.width, .height = packed.height, .format = packed.texture.name};
     if (packed.width != map.width || packed.height != map.height)
-        failFile(ErrorCode::countMismatch, "its " + sizeText(packed) + " texels are not the " + sizeText(map) +
-                                               " of the source; only the first mip level was compared");
+        failFile(ErrorCode::countMismatch, "the texture has " + sizeText(packed) + " texels, but the source has " +
+                                               sizeText(map) +
+                                               "; the first mip level must have the size of the source");
     addWarnings(packed, report.warnings);
     report.makes_z = options.two_channels || packed.texture.layout.z.channel == MapChannel::none;
     for (FloatImage* image : {&packed, &map}) {

@@ -64,7 +64,7 @@ void checkRoot(const Json& root) {
     // Member lookup is a linear search, done for every accessor.
     constexpr std::size_t kMaxRootMembers = 1000;
     if (root.size() > kMaxRootMembers)
-        failFile(ErrorCode::invalidFile, "the root object has more than 1000 members", "");
+        failFile(ErrorCode::invalidFile, "the root object has more than 1000 members, which is not supported", "");
     for (const char* name :
          {"accessors", "bufferViews", "buffers", "images", "materials", "meshes", "nodes", "skins", "animations"}) {
         readArray(root, name, "", true);

@@ -101,14 +101,16 @@ void checkEnd(const ImportResult& result, const ImportLimits& limits) {
                   " s; use --import-seconds to allow more";
             break;
         case ImportEnd::outOfSpace:
-            why = "the importer was stopped because its result exceeded the size limit";
+            why =
+                "the importer was stopped because its result exceeded the memory limit; use --memory-limit to raise it";
             break;
         case ImportEnd::crashed:
-            why = "the importer crashed on this file";
+            why = "the importer crashed on this file; convert it to glTF with the program that made it";
             break;
         case ImportEnd::refused:
             why = firstLine(result.messages);
-            if (why.empty()) why = "the importer cannot read the file";
+            if (why.empty())
+                why = "the importer cannot read the file; convert it to glTF with the program that made it";
             break;
     }
     failFile(ErrorCode::invalidFile, why);

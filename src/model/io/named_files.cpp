@@ -65,7 +65,8 @@ Bytes NamedFiles::read(const Path& file, const std::string& place) const {
         return readFile(file, place);
     }
     const Result<std::span<const std::uint8_t>> found = find(file);
-    if (!found) failFile(ErrorCode::invalidFile, "the file " + pathInQuotes(file) + " was not given", place);
+    if (!found)
+        failFile(ErrorCode::invalidFile, "the file " + pathInQuotes(file) + " was not provided with the model", place);
     return Bytes(found->begin(), found->end());
 }
 

@@ -450,26 +450,28 @@ void checkIndices(Build& build) {
 void addWarnings(const Build& build, Model& model) {
     const LineNotes& notes = *build.notes;
     const auto warn = [&model](const std::string& text) { model.warnings.push_back(text); };
-    const auto warnCount = [&](std::uint64_t count, const char* text) {
-        if (count != 0) warn(text + (": " + std::to_string(count)));
+    const auto warnCount = [&](std::uint64_t count, const char* one, const char* several,
+                               const std::string& rest = {}) {
+        if (count != 0) warn(std::to_string(count) + " " + (count == 1 ? one : several) + rest);
     };
-    if (notes.unreadable_number_count != 0) {
-        warn("number of invalid values, which were read as 0: " + std::to_string(notes.unreadable_number_count) +
-             ", the first in line " + std::to_string(notes.unreadable_number_line));
-    }
+    const auto firstIn = [](std::uint64_t line) { return ", the first in line " + std::to_string(line); };
+    warnCount(notes.unreadable_number_count, "invalid value was read as 0", "invalid values were read as 0",
+              firstIn(notes.unreadable_number_line));
     if (!notes.is_utf8) warn(kNotUtf8);
-    warnCount(build.bad_position_count, "number of positions that are not finite and were moved to the origin");
-    warnCount(build.bad_uv_count, "number of texture coordinates that are not finite and were set to 0");
-    warnCount(build.bad_normal_count,
-              "number of normals that are zero or not finite (faces that use them get new normals)");
+    warnCount(build.bad_position_count, "position is not finite and was moved to the origin",
+              "positions are not finite and were moved to the origin");
+    warnCount(build.bad_uv_count, "texture coordinate is not finite and was set to 0",
+              "texture coordinates are not finite and were set to 0");
+    warnCount(build.bad_normal_count, "normal is zero or not finite", "normals are zero or not finite",
+              "; faces that use such normals get new ones");
     const auto warnDead = [&](const DeadIndices& dead, const std::string& what, const char* result) {
-        if (dead.count == 0) return;
-        warn("number of indices of " + what + " that do not exist: " + std::to_string(dead.count) +
-             ", the first in line " + std::to_string(dead.first_line) + "; " + result);
+        warnCount(dead.count, "index refers to ", "indices refer to ",
+                  what + " that do not exist" + firstIn(dead.first_line) + "; " + result);
     };
     warnDead(build.dead_uvs, "texture coordinates", "faces that use them are treated as having no texture coordinates");
     warnDead(build.dead_normals, "normals", "faces that use them get new normals");
-    warnCount(build.small_face_count, "number of faces with fewer than 3 corners, which were ignored");
+    warnCount(build.small_face_count, "face with fewer than 3 corners was ignored",
+              "faces with fewer than 3 corners were ignored");
     if (notes.has_vertex_colors) warn("vertex colors are ignored");
     if (notes.has_lines_or_points) warn("lines and points are ignored");
     if (notes.has_free_form) warn("free-form curves and surfaces are ignored");

@@ -350,7 +350,8 @@ TEST(CheckFile, PassesOnWarningsOfTheReader) {
     const Result<CheckReport> report = checkFile(file);
     ASSERT_TRUE(report);
     ASSERT_EQ(codes(*report), CodeCounts{"note fileRemark"});
-    EXPECT_NE(report->findings[0].message.find("texture coordinates that do not exist: 1, the first in line 7"),
+    EXPECT_NE(report->findings[0].message.find(
+                  "1 index refers to texture coordinates that do not exist, the first in line 7"),
               std::string::npos)
         << report->findings[0].message;
     EXPECT_EQ(report->findings[0].place, "") << "it is about the whole file";

@@ -190,8 +190,7 @@ TEST(Import, ValuesThatAreNotFiniteAreReplacedAndReported) {
                      "end_header\n0 0 0\n3 0 nan\n1 inf 0\n3 0 1 2\n");
     const gltf::Document document = readable([&] { return importDocument(path, kWithImporter); });
     EXPECT_EQ(document.json.dump().find("null"), std::string::npos) << "JSON has no word for NaN";
-    EXPECT_EQ(document.warnings,
-              (std::vector<std::string>{"number of positions that are not finite and were moved to the origin: 2"}));
+    EXPECT_EQ(document.warnings, (std::vector<std::string>{"2 positions are not finite and were moved to the origin"}));
     const Scene scene = sceneOf(path);
     ASSERT_EQ(scene.primitives[0].positions.size(), 1U) << "all three are at the origin now";
     EXPECT_EQ(scene.primitives[0].positions[0], (Vec3{0, 0, 0}));
@@ -323,8 +322,7 @@ TEST(Import, NormalsBecomeUnitAndColorsNumbers) {
     const gltf::Document document = readable([&] { return importDocument(path, kWithImporter); });
     EXPECT_EQ(document.json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"], Json({1.0, 1.0, 0.0, 1.0}));
     EXPECT_EQ(document.warnings,
-              (std::vector<std::string>{
-                  "number of normals that are zero or not finite and were replaced by face normals: 1"}));
+              (std::vector<std::string>{"1 normal is zero or not finite and was replaced by a face normal"}));
 }
 
 TEST(Import, MeshesWithoutUvsGetNoTextures) {

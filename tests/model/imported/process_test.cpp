@@ -73,7 +73,7 @@ TEST(ImportProcess, AnEndlessResultIsStopped) {
     FileOptions options{.importer = script(folder, "exec cat /dev/zero\n")};
     options.memory_limit_bytes = std::uint64_t{1} << 20;
     options.import_max_seconds = 60;
-    EXPECT_NE(errorOf(inspectFile(folder.write("a.ply", "ply"), options)).find("exceeded the size limit"),
+    EXPECT_NE(errorOf(inspectFile(folder.write("a.ply", "ply"), options)).find("exceeded the memory limit"),
               std::string::npos);
 }
 

@@ -509,8 +509,9 @@ TEST(Obj, InvalidIndicesAreCountedAndReported) {
     const TempFolder folder;
     const ObjModel made =
         make(folder, std::string(kQuad) + "f 1/1/1 2/5/2 3/-9/3\nf 1/-5 2/2 3/3\n# ahead:\nf 1/5/1 3/3/1 4/4/1\n");
-    EXPECT_TRUE(mentions(made.report.warnings, "texture coordinates that do not exist: 4, the first in line 9;"));
-    EXPECT_TRUE(mentions(made.report.warnings, "normals that do not exist: 6, the first in line 9;"));
+    EXPECT_TRUE(mentions(made.report.warnings,
+                         "4 indices refer to texture coordinates that do not exist, the first in line 9;"));
+    EXPECT_TRUE(mentions(made.report.warnings, "6 indices refer to normals that do not exist, the first in line 9;"));
     EXPECT_TRUE(make(folder, std::string(kQuad) + "f 1/0/0 2/0/0 3/0/0\n").report.warnings.empty())
         << "0 says that there is none";
 }

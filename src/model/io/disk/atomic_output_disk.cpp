@@ -389,12 +389,12 @@ AtomicOutput::File AtomicOutput::planFile(const Path& requested) {
     if (is_link && (fs::is_symlink(fs::path(target), error) || !fs::exists(fs::path(target), error)))
         failToWrite(requested, "it is a dangling symbolic link");
     if (way_.inputs != nullptr && !way_.replaces_inputs && way_.inputs->has(target))
-        failToWrite(requested, "it is an input");
+        failToWrite(requested, "it is an input; choose another output");
     const std::string identity = identityOf(target);
     const HeldOutputs* const held = HeldOutputs::ofThread();
     const bool is_held = held != nullptr && held->all_.identities_.contains(identity);
     if (isKept(identity) || is_held || !identities_.insert(identity).second)
-        failToWrite(requested, "another output of this run is the same file");
+        failToWrite(requested, "another output of this run is the same file; give each output its own name");
     return {.target = target, .temporary = temporaryName(target, kTemporaryEnding), .call = call};
 }
 
