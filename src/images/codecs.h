@@ -34,8 +34,8 @@ ImageClaim claimOfExr(ByteSpan bytes);
 ImageClaim claimOfTexture(ByteSpan bytes);
 
 std::optional<RgbImage> decodePng(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
-/// Like decodeFloatImage, for PNG; samples of fewer than 16 bits are widened by repeating their bits, which preserves
-/// the ratio to the largest value.
+/// Decodes a PNG to floats with all bits of the file. Samples of fewer than 16 bits are widened by repeating their
+/// bits, which preserves the ratio to the largest value.
 std::optional<FloatImage> decodeDeepPng(ByteSpan bytes, std::uint64_t most_pixels, std::string& why);
 /// Decodes a PNG to red, green, blue and alpha, 8 bits each. Returns an empty array if the file is corrupt or has no
 /// alpha.

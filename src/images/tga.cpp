@@ -34,7 +34,7 @@ void addFoot(std::vector<std::uint8_t>& file) {
 }
 
 std::uint8_t channelByte(float channel) {
-    if (!(channel > 0)) return 0;  // also for NaN
+    if (!(channel > 0)) return 0;  // also true for NaN
     return channel >= 1 ? 255 : static_cast<std::uint8_t>(std::floor(channel * 255.0F + 0.5F));
 }
 

@@ -50,7 +50,7 @@ void workOnThreads(unsigned count, const std::function<void()>& work) {
     try {
         threads.reserve(count);
         while (threads.size() < count) threads.emplace_back(guarded);
-    } catch (const std::exception&) {  // std::system_error, std::bad_alloc
+    } catch (const std::exception&) {  // std::system_error or std::bad_alloc
     }
     guarded();
     for (std::thread& thread : threads) thread.join();

@@ -26,8 +26,8 @@ struct Command {
     std::string name = {};                   ///< set by the table
     std::string summary = {};                ///< such as "add the tangents that normal maps need"
     std::string operands = {};               ///< "IN... -o OUT", for the usage line
-    std::string description = {};            ///< a paragraph
-    std::vector<std::string> examples = {};  ///< whole command lines
+    std::string description = {};            ///< a paragraph of sentences
+    std::vector<std::string> examples = {};  ///< complete command lines
     OptionList options = {};
     /// Called after all options are parsed. Returns an error message for an invalid combination of options, or an empty
     /// string.

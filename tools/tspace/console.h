@@ -34,7 +34,7 @@ void printPlain(std::string_view text) noexcept;
 
 /// Prints "tspace: FILE: message (at PLACE)" to stderr as exactly one line, and returns the exit code for the error.
 ExitCode printError(const std::string& file, const Error& error);
-/// Like printError, for a call on several files: names the file whose index is the error's element, otherwise the first
+/// Prints an error of a call on several files: names the file whose index is the error's element, otherwise the first
 /// file.
 ExitCode printErrorOfFiles(const std::vector<std::string>& files, const Error& error);
 /// Prints "tspace: message" for an invalid command line, and returns the exit code for it.

@@ -37,7 +37,7 @@ auto callWithOutput(const std::string& output, Options options, const Call& call
     return report;
 }
 
-/// Like callWithOutput, with an image from stdin if `input` is "-".
+/// Runs a command on an image, which is read from stdin if `input` is "-", and calls callWithOutput().
 template <class Options, class Call>
 auto callOnImage(const std::string& input, const std::string& output, std::uint64_t memory_limit_bytes, Options options,
                  const Call& call) -> decltype(call(options)) {

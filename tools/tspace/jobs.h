@@ -51,8 +51,8 @@ enum class SearchedFiles {
 /// match a pattern (glob.h) that is not itself a file.
 std::vector<Job> inputJobs(const std::vector<std::string>& inputs, SearchedFiles searched = SearchedFiles::models);
 
-/// Like inputJobs(), with outputs. Creates no folders; they are created when files are written. An error with code
-/// invalidOption describes a fault of the command line.
+/// Returns the input files with their outputs. Creates no folders; they are created when files are written. An error
+/// with code invalidOption describes a fault of the command line.
 Result<std::vector<Job>> generateJobs(const JobRequest& request);
 
 /// Returns the folders that the jobs write into; folders inside another listed folder are omitted.

@@ -33,9 +33,9 @@ namespace {
 std::uint64_t rightsOf(long version) {
     constexpr unsigned kOfFirst = 13;
     unsigned count = kOfFirst;
-    if (version >= 2) ++count;  // linking and renaming into another folder
-    if (version >= 3) ++count;  // truncate
-    if (version >= 5) ++count;  // ioctl
+    if (version >= 2) ++count;  // version 2 adds linking and renaming into another folder
+    if (version >= 3) ++count;  // version 3 adds truncation of files
+    if (version >= 5) ++count;  // version 5 adds ioctl
     return (std::uint64_t{1} << count) - 1;
 }
 

@@ -49,7 +49,7 @@ class HighDetail {
     std::uint64_t id_count_ = 0;
     std::vector<BakedId> listed_ = {};
     std::deque<std::vector<Vec2>> uvs_ = {};  ///< UVs of the textures, one per vertex
-    std::deque<Material> materials_ = {};     ///< one per primitive
+    std::deque<Material> materials_ = {};     ///< materials of the high poly, one per primitive
     std::vector<std::string> warnings_ = {};
 };
 

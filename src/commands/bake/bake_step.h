@@ -19,10 +19,10 @@ struct BakeStep {
     bool notes_noise = true;  ///< warns of noisy positions of the high poly
     InputFiles& inputs;       ///< receives the names of the files that are read
     AtomicOutput& map_files;
-    AtomicOutput& model_files;  ///< files of BakeFileOptions::out_mesh
+    AtomicOutput& model_files;  ///< files of BakeFileOptions::out_mesh are added to this output
 };
 
-/// Like bakeFile, but commits nothing. If the report names no output files, nothing must be committed. Throws
+/// Bakes like bakeFile, but commits nothing. If the report names no output files, nothing must be committed. Throws
 /// FileError.
 BakeFileReport bakeAsStep(const std::string& low, const std::string& high, const std::string& output,
                           const BakeFileOptions& options, const BakeStep& step);

@@ -14,8 +14,8 @@ namespace tspace {
 /// Object groups of both models, for LowPoly::groups and HighPoly::groups.
 struct MeshMatch {
     bool is_used = false;                    ///< false: all rays may hit all meshes
-    std::vector<std::uint32_t> low = {};     ///< one per primitive
-    std::vector<std::uint32_t> high = {};    ///< one per placement
+    std::vector<std::uint32_t> low = {};     ///< group of each primitive of the low poly
+    std::vector<std::uint32_t> high = {};    ///< group of each placement of the high poly
     std::vector<std::string> warnings = {};  ///< one sentence per object without a partner
 };
 

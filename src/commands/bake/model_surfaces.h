@@ -46,7 +46,7 @@ struct ModelMap {
 
 struct ModelWithMaps {
     gltf::Model model;        ///< with the frames for which the maps were baked
-    std::string output = {};  ///< .glb or .gltf
+    std::string output = {};  ///< path of the output, .glb or .gltf
     std::vector<ModelMap> maps = {};
 };
 
@@ -72,7 +72,7 @@ struct LowPart {
     OwnedMesh corners = {};  ///< one vertex per corner
     std::vector<Vec3> cage = {};
     std::vector<std::uint32_t> groups = {};
-    std::vector<Vec3> rest_positions = {}, rest_normals = {};  ///< see LowPoly
+    std::vector<Vec3> rest_positions = {}, rest_normals = {};  ///< positions and normals of the rest pose, see LowPoly
 
     [[nodiscard]] LowPoly view() const {
         return {.positions = corners.positions,
@@ -117,7 +117,7 @@ struct HighPart {
 };
 
 struct HighModel {
-    std::vector<HighPart> parts = {};  ///< in ascending order
+    std::vector<HighPart> parts = {};  ///< parts in ascending order of their first triangle
     OwnedMesh mesh = {};               ///< has tangents and UVs if the high poly has normal maps
     std::vector<std::uint32_t> groups = {};
     std::vector<std::uint32_t> map_of = {};  ///< map index per triangle; empty if there are no maps

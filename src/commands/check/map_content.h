@@ -36,7 +36,7 @@ using TexelBytes = std::array<std::uint8_t, 4>;
 struct TexelOnSurface {
     Vec3 normal = {};  ///< normal of the mesh, possibly rotated by a node; unit
     TexelBytes texel = {};
-    double weight = 0;  ///< area
+    double weight = 0;  ///< weight of the sample: the surface area that it represents
     Vec2 uv = {};
 };
 

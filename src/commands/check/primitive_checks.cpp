@@ -191,7 +191,8 @@ void checkWinding(PrimitiveFacts& facts, const Directions& directions) {
 void checkFarNormals(PrimitiveFacts& facts, const Directions& directions) {
     const TangentView& mesh = facts.mesh;
     const EqualVertices equal = findEqualVertices(mesh, false);
-    std::vector<double> nearest(equal.class_count, -1);  // cosines
+    // Cosine to the nearest triangle normal, by class of equal normals.
+    std::vector<double> nearest(equal.class_count, -1);
     for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
         const SurfaceFrame& face = facts.surface.faces[c / 3];
         if (face.area == 0) continue;

@@ -15,7 +15,7 @@ struct Tally {
     static constexpr std::size_t kMaxVertices = 8;
 
     std::uint64_t count = 0;
-    std::uint64_t total = 0;  ///< number of candidates
+    std::uint64_t total = 0;  ///< number of candidates, such as vertices or triangles
     double area = 0;
     double surface_share = 0;  ///< share of the area of the mesh; set by finish()
     double worst_deg = 0;

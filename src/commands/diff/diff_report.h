@@ -23,7 +23,7 @@ using TextTable = std::vector<std::vector<std::string>>;
 /// Sentences and tables of a comparison. Names from files are not escaped.
 struct DiffWords {
     std::string summary = {};               ///< "A against B: ..."
-    std::vector<std::string> remarks = {};  ///< further sentences
+    std::vector<std::string> remarks = {};  ///< further sentences of the report
     TextTable angles = {};                  ///< angles of the whole file
     TextTable primitives = {};
     TextTable worst = {};

@@ -284,7 +284,7 @@ class Pairer {
     const Scene& b_;
     std::vector<std::size_t> partner_;  ///< index in B per primitive of A
     std::vector<std::string> how_;
-    std::vector<bool> taken_ = {};  ///< per primitive of B; true also for those without triangles
+    std::vector<bool> taken_ = {};  ///< per primitive of B: paired, or without triangles
 };
 
 /// Returns the geometry keys of all primitives, which are computed once because they are used several times.

@@ -36,7 +36,7 @@ inline constexpr std::size_t kNoPrimitive = ~std::size_t{0};
 
 struct PrimitivePair {
     std::size_t a = kNoPrimitive, b = kNoPrimitive;  ///< indices in their scenes; kNoPrimitive: no partner
-    std::string paired_by = "none";                  ///< PrimitiveDiff::paired_by
+    std::string paired_by = "none";                  ///< value for PrimitiveDiff::paired_by
     std::vector<TrianglePair> triangles = {};
 };
 

@@ -361,7 +361,8 @@ std::vector<std::vector<std::size_t>> findBrokenValues(Model& model, const Gener
     for (const PoolPlan& pool : plan.pools) {
         for (const std::size_t number : pool.primitives) is_computed[number] = !pool.keeps_tangents;
     }
-    std::map<std::size_t, std::vector<std::size_t>> sharing;  // accessor -> primitives
+    // Indices of the primitives that share an accessor, by accessor.
+    std::map<std::size_t, std::vector<std::size_t>> sharing;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         const auto accessor = primitives[i].find("TANGENT");
         // Primitives without positions are not drawn, and have no accessor whose compression new elements could

@@ -209,9 +209,10 @@ class TextureUses {
     }
 
     Document& document_;
-    std::vector<Use> uses_ = {};                                        ///< by texture
-    std::map<std::size_t, std::vector<std::size_t>> textures_of_ = {};  ///< by image
-    std::map<std::size_t, std::size_t> own_textures_ = {};              ///< shared texture -> its copy for normal maps
+    std::vector<Use> uses_ = {};  ///< uses of each texture, by index
+    /// Indices of the textures that show an image, by image.
+    std::map<std::size_t, std::vector<std::size_t>> textures_of_ = {};
+    std::map<std::size_t, std::size_t> own_textures_ = {};  ///< shared texture -> its copy for normal maps
 };
 
 /// Images that may be shown instead of one another, such as a PNG and a WebP of one texture, are inverted together. If
@@ -256,7 +257,7 @@ class Alternatives {
         }
     }
 
-    /// Returns why the image is not inverted; empty: it is. Inverts images that were not judged.
+    /// Returns why the image is not inverted; empty if it is. Inverts the image first if it was not judged yet.
     std::string whyUnchanged(std::size_t image) {
         const std::string start = "image " + std::to_string(image) + " is the same map in another format, and ";
         const auto judged = judged_.find(image);
@@ -274,7 +275,7 @@ class Alternatives {
     Document& document_;
     TextureUses uses_;
     MapFlips& flips_;
-    std::map<std::size_t, NormalMapReport*> judged_ = {};  ///< by image
+    std::map<std::size_t, NormalMapReport*> judged_ = {};  ///< reports of the judged images, by image
     std::set<std::size_t> is_settled_ = {};
 };
 

@@ -16,7 +16,7 @@
 namespace tspace {
 namespace {
 
-/// Returns why maps cannot be converted with these options; empty: they can, or conversion was not requested.
+/// Returns why maps cannot be converted with these options; empty if they can, or if conversion was not requested.
 std::string whyMapsUnchanged(const std::string& input, const GenerateOptions& options) {
     if (!options.maps.convert) return {};
     if (options.normals.overwrite) return "normal maps can only be converted for new tangents, not for new normals";

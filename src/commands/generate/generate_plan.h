@@ -25,9 +25,10 @@ namespace tspace::gltf {
 
 /// Primitives that draw the same triangles of one pool. They are computed once.
 struct GeometryPlan {
-    std::vector<std::size_t> primitives = {};         ///< indices of primitives; never empty
-    Mends mends = {};                                 ///< faults of the existing tangents
-    std::shared_ptr<const Surroundings> around = {};  ///< see PrimitiveGeometry::around
+    std::vector<std::size_t> primitives = {};  ///< indices of primitives; never empty
+    Mends mends = {};                          ///< faults of the existing tangents
+    /// Adjacent triangles of other primitives, see PrimitiveGeometry::around.
+    std::shared_ptr<const Surroundings> around = {};
 };
 
 /// Primitives with the same attribute accessors and morph targets, whose tangents follow the same UV set with the same

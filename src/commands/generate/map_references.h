@@ -77,7 +77,7 @@ class MapReferences {
     /// must be one that all viewers support. Removes extensions for other formats that no texture uses any more.
     void makeOnlySource(std::size_t image);
 
-    /// Returns why these primitives cannot have an image of their own (half a sentence); empty: they can.
+    /// Returns why these primitives cannot have an image of their own, as a clause; empty if they can.
     [[nodiscard]] std::string whyNotApart(std::span<const MapUser> users) const;
 
     /// Makes these primitives show another image. Copies their textures, and materials that other primitives use too.

@@ -38,7 +38,7 @@ const char* formerContent(MapContent content) {
     return "";
 }
 
-/// Returns why an image with such contents is unchanged; empty: it is rewritten. `claims_srgb`: the file declares sRGB
+/// Returns why an image with such contents is not rewritten; empty if it is. `claims_srgb`: the file declares sRGB
 /// encoding.
 std::string whyUnchanged(const JudgedMap& map, bool claims_srgb) {
     const MapAnalysis& analysis = map.analysis;

@@ -51,7 +51,7 @@ class MeshSurface {
 
   private:
     struct Piece {
-        std::size_t first = 0, count = 0;  ///< triangles
+        std::size_t first = 0, count = 0;  ///< first triangle and number of triangles
         std::vector<std::size_t> numbers = {};
     };
 

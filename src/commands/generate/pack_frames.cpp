@@ -95,7 +95,7 @@ class PackedWriter {
                            [&](const PackedPart& part) { return alone == part.attribute; });
     }
 
-    /// Returns why the primitive cannot be packed (half a sentence); empty: it can.
+    /// Returns why the primitive cannot be packed, as a clause; empty if it can.
     [[nodiscard]] std::string whyNot(const Primitive& primitive, const PrimitiveReport& report) const {
         if (const std::string alone = packedAlone(document_, primitive); !alone.empty())
             return "it has only other packed frames in " + alone +

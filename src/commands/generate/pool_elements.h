@@ -44,7 +44,7 @@ struct PoolElements {
     std::vector<std::vector<std::uint32_t>> corners = {};
     ElementData normals = {}, tangents = {}, bitangents = {};
     bool has_tangent_deltas = false;       ///< `morphs` contains tangent deltas
-    std::vector<MorphFrames> morphs = {};  ///< see PoolFrames
+    std::vector<MorphFrames> morphs = {};  ///< offsets of each morph target, see PoolFrames
     std::uint64_t differing_count = 0;
 };
 

@@ -224,7 +224,7 @@ std::uint64_t brightnessDifference(const RgbImage& a, const RgbImage& b, std::si
 
 struct Compared {
     RgbImage before = {}, after = {};
-    std::uint64_t sum = 0;  ///< of brightness differences
+    std::uint64_t sum = 0;  ///< sum of brightness differences
     std::size_t seen_count = 0;
     int most = 0;
 };

@@ -474,7 +474,7 @@ std::vector<std::string> showHeights(Method method, const Execution& execution, 
         bool is_height_map = false;
         std::optional<std::size_t> image = {};
     };
-    std::map<std::size_t, Shown> shown_of;  // per material
+    std::map<std::size_t, Shown> shown_of;  // converted height map of each material
     for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
         SurfaceLook& look = drawn.looks[i];
         for (const TangentUse& use : scene.primitives[i].uses) {

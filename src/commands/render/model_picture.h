@@ -51,7 +51,7 @@ class ModelTextures {
     enum class Use : std::uint8_t {
         normals,
         color,   ///< stored as sRGB, converted to linear
-        factors  ///< roughness and metalness
+        factors  ///< roughness and metalness, stored linearly
     };
     struct Wanted {
         std::size_t image = 0;
@@ -80,11 +80,11 @@ class ModelTextures {
 /// One primitive with its computed frames and textures.
 struct ModelSurface {
     std::vector<Vec3> flat_normals = {};  ///< one per corner, if the file has no normals
-    std::vector<Vec4> computed = {};      ///< one per corner
+    std::vector<Vec4> computed = {};      ///< computed tangents, one per corner
     std::vector<Vec2> base_uvs = {}, normal_uvs = {};
     std::vector<UvSide> sides = {};
     std::vector<std::uint32_t> islands = {};
-    std::vector<Vec3> uv_positions = {};  ///< (u, -v, 0)
+    std::vector<Vec3> uv_positions = {};  ///< (u, -v, 0) of each vertex, for pictures of the UV map
     ShownSurface shown = {};
 };
 
@@ -125,7 +125,7 @@ class ModelPicture {
     MapReading reading_;
     ModelTextures* textures_;
     std::span<const ScenePose> poses_;
-    std::deque<ModelSurface> surfaces_ = {};  ///< one per primitive
+    std::deque<ModelSurface> surfaces_ = {};  ///< prepared primitives, in the order of the scene
     std::deque<PosedSurface> posed_ = {};
     std::vector<DrawnMesh> meshes_ = {};
     std::vector<const ShownSurface*> shown_ = {};

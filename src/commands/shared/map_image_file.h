@@ -38,10 +38,10 @@ bool addMapCorners(const ScenePrimitive& primitive, const TangentUse* use, const
                    const Execution& execution, OwnedMesh& mesh);
 
 struct MapMeshChoice {
-    std::string material = {};    ///< ConvertMapFileOptions::material
+    std::string material = {};    ///< name of the material, see ConvertMapFileOptions::material
     std::string image_name = {};  ///< file name of the map, without folder
     bool in_world = false;        ///< transform normals and tangents by the nodes of the scene
-    std::uint32_t tile = 0;       ///< ConvertMapFileOptions::tile
+    std::uint32_t tile = 0;       ///< number of the UDIM tile, see ConvertMapFileOptions::tile
     /// If true, reading fails if neither the name of the material nor that of the image identifies the materials that
     /// show the map, and their UVs overlap.
     bool needs_material = false;

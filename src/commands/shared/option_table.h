@@ -34,7 +34,7 @@ struct Option {
     HelpText help = {};      ///< one or more sentences
     /// Default value, printed after the help text. Empty if the help text states the default, or if there is none.
     std::string default_text = {};
-    std::string group = {};                 ///< heading in help
+    std::string group = {};                 ///< heading of the help under which the option is listed
     std::vector<std::string> choices = {};  ///< allowed values; empty: all values that `take` accepts
     bool is_file = false;                   ///< the value is a path; used by completions
     bool is_required = false;

@@ -180,7 +180,7 @@ std::int64_t exrByteCount(exr_const_context_t, void* data) {
 struct ExrChannels {
     /// Channels of red, green and blue. The second is empty if there is one channel, the third if there are only x and y.
     std::array<std::string, 3> colors = {};
-    std::string alpha = {};  ///< empty: opaque
+    std::string alpha = {};  ///< name of the alpha channel; empty if the image is opaque
 
     [[nodiscard]] bool has(std::string_view name) const {
         return !name.empty() && (name == alpha || std::find(colors.begin(), colors.end(), name) != colors.end());
@@ -196,7 +196,7 @@ struct ExrChannels {
 
 /// Channel names of one layer ("layer.R"; empty: no layer), without the layer name, in lower case.
 struct ExrLayer {
-    std::string prefix = {};  ///< including the dot
+    std::string prefix = {};  ///< name of the layer with the dot
     std::vector<std::string_view> names = {};
 
     /// Returns the channel with this lower-case letter; empty if there is none.

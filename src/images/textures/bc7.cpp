@@ -64,7 +64,7 @@ struct Bc7Block {
     std::uint32_t partition = 0, rotation = 0, selection = 0;
     /// 8-bit endpoints: [subset * 2 + end][channel].
     std::array<std::array<std::uint8_t, 4>, 6> ends = {};
-    std::array<std::uint8_t, kBc7Texels> first = {}, second = {};  ///< indices
+    std::array<std::uint8_t, kBc7Texels> first = {}, second = {};  ///< both sets of interpolation indices
 
     [[nodiscard]] std::size_t subsetOf(std::size_t texel) const {
         if (mode.subsets == 2) return kTwoSubsets[partition] >> texel & 1;

@@ -91,7 +91,8 @@ struct UastcBlock {
     std::size_t number = 0;
     UastcMode mode = {};
     std::uint32_t pattern = 0, selected = 3;
-    std::array<std::array<std::uint32_t, 4>, 6> ends = {};  ///< [subset * 2 + end][channel], 8 bits each
+    /// Endpoint colors with 8 bits per channel: [subset * 2 + end][channel].
+    std::array<std::array<std::uint32_t, 4>, 6> ends = {};
     std::array<std::array<std::uint8_t, kUastcTexels>, 2> weights = {};
 
     [[nodiscard]] std::size_t subsetOf(std::size_t texel) const {

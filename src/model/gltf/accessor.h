@@ -20,7 +20,7 @@ struct BufferView {
     std::size_t buffer = 0;
     std::size_t begin = 0;
     std::size_t byte_count = 0;
-    std::size_t stride = 0;  ///< 0: tightly packed
+    std::size_t stride = 0;  ///< distance between elements; 0: tightly packed
 };
 BufferView readBufferView(const Document& document, std::size_t index);
 

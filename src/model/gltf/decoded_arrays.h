@@ -46,7 +46,7 @@ class DecodedArrays {
     SharedArray<Vec3> borrowVec3(const Primitive& primitive, const char* attribute);
     SharedArray<Vec4> borrowTangents(const Primitive& primitive);
     SharedArray<std::uint32_t> borrowCorners(const Primitive& primitive);
-    /// Like corners(), but returns a list that the caller owns.
+    /// Returns the triangles as a list that the caller owns.
     std::vector<std::uint32_t> copyCorners(const Primitive& primitive);
 
     /// Must be called after the document has changed: accessors are then decoded again. Arrays in use are not changed.
@@ -71,7 +71,7 @@ class DecodedArrays {
 
     const Document& document_;
     mutable std::mutex mutex_ = {};
-    std::map<std::size_t, Known<Vec2>> vec2_ = {};  ///< keyed by accessor
+    std::map<std::size_t, Known<Vec2>> vec2_ = {};  ///< decoded vectors, keyed by accessor
     std::map<std::size_t, Known<Vec3>> vec3_ = {};
     std::map<std::size_t, Known<Vec4>> vec4_ = {};
     /// Keyed by the accessors of the base and of the array.

@@ -37,7 +37,7 @@ enum class Container { glb, gltf };
 
 /// Source of the bytes of a buffer.
 enum class BufferSource {
-    bin,  ///< the BIN chunk
+    bin,  ///< the BIN chunk of the GLB
     dataUri,
     file,
     absent,   ///< no bytes: fallback buffer of a compression extension, or data that an extension provides
@@ -94,7 +94,7 @@ struct Document {
     FileOptions options = {};
     /// Images that are written next to the output, keyed by the path of their URI.
     std::map<std::string, Bytes> new_files = {};
-    std::vector<std::string> warnings = {};                                   ///< warnings from reading
+    std::vector<std::string> warnings = {};                                   ///< warnings from reading the file
     std::optional<ScaledNormalsWarning> scaled_normals = {};                  ///< describes one of the warnings
     std::shared_ptr<MemoryBudget> memory = std::make_shared<MemoryBudget>();  ///< remaining memory budget
 };

@@ -99,8 +99,8 @@ class Editor {
     std::vector<std::size_t> view_uses_;
     std::vector<Extent> extents_;  ///< extents before any edit
     std::vector<ByteRange> vacated_;
-    std::vector<std::size_t> spare_views_;             ///< entries without uses
-    std::map<std::size_t, MeshoptRequest> to_encode_;  ///< keyed by view
+    std::vector<std::size_t> spare_views_;             ///< indices of views without uses, which are reused
+    std::map<std::size_t, MeshoptRequest> to_encode_;  ///< views to encode with meshopt, by index
     std::set<std::size_t> changed_accessors_;
     bool changed_ = false;
 };

@@ -82,8 +82,8 @@ class GatheredBytes final : public ByteMaker {
 /// change them; the elements are stored in the same form as those of the accessor.
 ElementData gatherElements(const Document& document, const Accessor& accessor, std::span<const std::uint32_t> sources);
 
-/// Like gatherElements, for split vertices. Elements that are part of the model file's bytes are copied when they are
-/// written.
+/// Gathers elements like gatherElements, for split vertices. Elements that are part of the model file's bytes are
+/// copied when they are written.
 ElementData gatherSplit(const Document& document, const Accessor& accessor, const SplitSources& sources);
 
 /// Updates min and max of float vectors if they exist; removes both if an element is not finite, because JSON cannot

@@ -44,8 +44,8 @@ const Json* findMember(const Json& object, const char* key);
 std::uint64_t readWhole(const Json& object, const char* key, const std::string& place,
                         std::optional<std::uint64_t> fallback = {});
 
-/// Like readWhole, for counts of items in memory. Fails for numbers beyond size_t (32 bits in WebAssembly): such data
-/// cannot exist there.
+/// Reads a count of items in memory like readWhole. Also fails for numbers beyond size_t (32 bits in WebAssembly),
+/// because such data cannot be in memory.
 std::size_t readSize(const Json& object, const char* key, const std::string& place,
                      std::optional<std::size_t> fallback = {});
 
@@ -53,7 +53,7 @@ std::size_t readSize(const Json& object, const char* key, const std::string& pla
 std::optional<std::size_t> readIndex(const Json& object, const char* key, const std::string& place, std::size_t limit,
                                      const char* what);
 
-/// Like readIndex, for a value that was already looked up.
+/// Converts a value that was already looked up to an index, with the checks of readIndex.
 std::size_t toIndex(const Json& value, const std::string& place, std::size_t limit, const char* what);
 
 double readNumber(const Json& object, const char* key, const std::string& place, double fallback);

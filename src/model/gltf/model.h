@@ -25,7 +25,7 @@ class Model {
     [[nodiscard]] Document& document() { return *document_; }
     [[nodiscard]] DecodedArrays& arrays() { return *arrays_; }
 
-    /// Like readPrimitives, cached.
+    /// Returns the primitives of the document; they are read once and cached.
     [[nodiscard]] std::vector<Primitive>& primitives();
 
     /// Returns all primitives as a Scene, which is valid, with its arrays, until dropScene. Copies of it share the

@@ -20,8 +20,8 @@ namespace tspace {
 
 struct ImportLimits {
     std::uint64_t memory_bytes = 0;       ///< address space; the result cannot be larger
-    std::uint32_t processor_seconds = 0;  ///< processor time
-    std::uint32_t seconds = 0;            ///< wall-clock time
+    std::uint32_t processor_seconds = 0;  ///< limit of processor time, in seconds
+    std::uint32_t seconds = 0;            ///< limit of wall-clock time, in seconds
     bool reads_anywhere = false;          ///< may read files outside the model's folder
 };
 

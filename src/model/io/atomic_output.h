@@ -189,9 +189,8 @@ class AtomicOutput {
     }
     void add(const Path& target, std::span<const std::uint8_t> bytes) { add(target, {OutputPiece(bytes)}); }
 
-    /// Like add(), for a file that several outputs may write (such as a shared texture) and that does not exist yet. If
-    /// it exists at commit() with equal bytes, it is kept; with different bytes commit() fails. Atomic among the
-    /// threads of this process.
+    /// Adds a file that several outputs may write, such as a shared texture. If the file exists at commit(), it is kept
+    /// if its bytes are equal; otherwise commit() fails. Atomic among the threads of this process.
     void addShared(const Path& target, std::span<const std::uint8_t> bytes) {
         add(target, bytes);
         files_.back().is_shared = true;
@@ -223,7 +222,7 @@ class AtomicOutput {
         bool is_made = false;  ///< the temporary file exists
         Bytes held = {};       ///< content of a stream output
         bool is_stream = false;
-        bool is_shared = false;  ///< see addShared()
+        bool is_shared = false;  ///< the file was added by addShared()
         std::uint64_t call = 0;  ///< InputFiles::call() of the call; 0: none
     };
 

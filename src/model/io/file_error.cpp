@@ -12,7 +12,7 @@ namespace tspace {
 namespace {
 
 struct Character {
-    std::size_t length = 1;  ///< in bytes
+    std::size_t length = 1;  ///< length in bytes
     bool printable = false;
 };
 

@@ -34,7 +34,7 @@ class NamedFiles {
     [[nodiscard]] Path resolve(std::string_view uri, const std::string& place) const {
         return resolve(folder_, uri, place);
     }
-    /// Like resolve() above, for a URI in a file of another folder.
+    /// Returns the path for a URI in a file of another folder, like the overload above.
     [[nodiscard]] Path resolve(const Path& folder, std::string_view uri, const std::string& place) const;
 
     [[nodiscard]] Kind kindOf(const Path& file) const;

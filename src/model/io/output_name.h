@@ -15,7 +15,7 @@ namespace tspace {
 /// Calls failEnding() unless the name ends in one of `endings` (".png", in lower case), ignoring case.
 void requireEnding(const Path& output, std::initializer_list<std::string_view> endings);
 
-/// Like requireEnding, but accepts an empty name (no output), and names without an extension, such as pipes.
+/// Calls requireEnding() unless the name is empty (no output) or has no extension, such as that of a pipe.
 void requireEndingIfAny(const Path& output, std::initializer_list<std::string_view> endings);
 
 }  // namespace tspace

@@ -21,8 +21,8 @@ struct CloseFile {
 };
 using CFile = std::unique_ptr<std::FILE, CloseFile>;
 
-/// Like fopen, for UTF-8 paths: returns null and sets errno on failure. Like all functions here that are not noexcept,
-/// it throws std::bad_alloc if the system is out of memory.
+/// Opens a file like fopen, for UTF-8 paths: returns null and sets errno on failure. Functions of this header that are
+/// not noexcept throw std::bad_alloc if the system is out of memory.
 CFile openFile(const Path& path, const char* mode);
 
 /// Fills `to` with the bytes of an open file from `begin` on, independently of the file position. Thread-safe. Returns

@@ -40,8 +40,8 @@ std::string percentEncode(std::string_view path);
 /// is removed, and ".." remains only at the front.
 std::string pathOfUri(std::string_view uri);
 
-/// Like pathOfUri, with checks. Fails with forbiddenPath if the path is absolute (including Windows drives), has a
-/// scheme or leaves the folder; `allow_external` allows all of these except a scheme.
+/// Returns pathOfUri() after checks. Fails with forbiddenPath if the path is absolute (including Windows drives), has a
+/// scheme or leaves the folder. `allow_external` allows all of these except a scheme.
 std::string checkedPathOfUri(std::string_view uri, bool allow_external, const std::string& place);
 
 /// End of messages about rejected paths, which names the option that allows them.

@@ -43,8 +43,8 @@ class JsonMemory {
 
 /// Handling of invalid UTF-8 when text is written.
 enum class BadUtf8 {
-    refuse,   ///< throw JsonError
-    replace,  ///< write U+FFFD
+    refuse,   ///< throws JsonError
+    replace,  ///< writes U+FFFD instead
 };
 
 /// Maximum nesting depth of objects and arrays. Deeper text is rejected, so no later step can exhaust the stack.
@@ -103,7 +103,7 @@ class Json {
     /// Parses text. Throws JsonError for syntax errors, numbers beyond the range of double, duplicate members, and
     /// excessive nesting. `memory` may be null.
     static Json parse(std::string_view text, JsonMemory* memory = nullptr);
-    /// Like parse() without exceptions: returns nullopt on failure, and sets `error` to the reason.
+    /// Parses text without exceptions: returns nullopt on failure, and sets `error` to the reason.
     static std::optional<Json> read(std::string_view text, JsonError& error, JsonMemory* memory = nullptr);
     /// Formats the value. `indent`: characters per level; -1: everything on one line.
     [[nodiscard]] std::string dump(int indent = -1, char indent_char = ' ', BadUtf8 bad = BadUtf8::refuse) const;
@@ -195,7 +195,7 @@ class Json {
     friend std::partial_ordering operator<=>(const Json& a, const Json& b) { return a.compare(b); }
 
   private:
-    friend class JsonBuilder;  // json.cpp
+    friend class JsonBuilder;  // defined in json.cpp
     friend class JsonWriter;
 
     enum class Kind : std::uint8_t { null, boolean, integer, natural, real, text, array, object };

@@ -49,8 +49,8 @@ std::vector<std::uint32_t> triangleCorners(const OwnedMesh& mesh);
 /// of normal maps. Throws FileError.
 Scene sceneOf(const Model& model, std::span<const ObjPrimitive> primitives, bool with_images);
 
-/// Like sceneOf, with materials for rendering; `with_images`: with base colors too. Faces are double-sided, since OBJ
-/// has no culling.
+/// Returns the scene with materials for rendering. `with_images`: with the bytes of base color images and normal maps.
+/// Faces are double-sided, since OBJ has no culling.
 DrawnScene drawnSceneOf(const Model& model, std::span<const ObjPrimitive> primitives, bool with_images);
 
 }  // namespace tspace::obj

@@ -35,15 +35,15 @@ struct LineNotes {
     std::uint32_t unreadable_number_line = 0;   ///< line of the first unreadable number
     bool has_vertex_colors = false;
     bool has_lines_or_points = false;
-    bool has_free_form = false;  ///< has curves or surfaces
+    bool has_free_form = false;  ///< the file has curves or surfaces
 };
 
 /// Converts all line ends to line feeds, and replaces NUL bytes and a byte order mark by blanks.
 void makeLineEndsPlain(std::string& text);
 
-/// Like makeLineEndsPlain; also joins lines that end in a backslash (the line end becomes spaces) and blanks comments
-/// after faces. Fails with invalidFile for an index with more than 9 digits, which would overflow in the parser without
-/// an error. Linear.
+/// Prepares the text of an OBJ file: calls makeLineEndsPlain, joins lines that end in a backslash (the line end becomes
+/// spaces), and blanks comments after faces. Fails with invalidFile for an index with more than 9 digits, which would
+/// overflow in the parser without an error. Linear.
 LineNotes prepareLines(std::string& text);
 
 // OBJ file in memory: checked, with its original faces, corners and smoothing groups.

@@ -92,7 +92,7 @@ class ImageBuilder {
         if (entry->second >= 0) material[key] = {{"index", static_cast<unsigned>(entry->second)}};
     }
 
-    /// Like addReference(), for an image in memory.
+    /// Sets material[key] to a reference to an image in memory, like addReference().
     void addConverted(const Texture& like, const Bytes& bytes, Json& material, const char* key) {
         const fs::path path = Path(like.file);
         material[key] = {{"index", append(imageJson(path, bytes, mimeType(imageFormat(bytes)), false))}};

@@ -24,7 +24,7 @@ struct FinishedPrimitive {
     std::uint32_t shape = 0;
     std::uint32_t material = 0;
     OwnedMesh mesh = {};                ///< triangles with indices
-    std::vector<Vec3> bitangents = {};  ///< empty: none
+    std::vector<Vec3> bitangents = {};  ///< one per vertex; empty if there are none
     std::vector<PackedAttribute> packed = {};
     VectorFormat normal_format = VectorFormat::float32, tangent_format = VectorFormat::float32;
 };

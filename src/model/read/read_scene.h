@@ -31,12 +31,12 @@ namespace tspace {
 /// like generateFile, and with tooLarge if the arrays of a small file are far larger than the file. Throws FileError.
 Scene readScene(const std::string& input, const FileOptions& options, bool with_images);
 
-/// Like readScene, with placements and looks; `with_images`: also the bytes of images that pictures need. Faces of an
-/// OBJ file without normals get those that generateFile computes.
+/// Reads a scene with placements and surface looks. `with_images`: also the bytes of images that pictures need. Faces
+/// of an OBJ file without normals get those that generateFile computes.
 DrawnScene readDrawnScene(const std::string& input, const FileOptions& options, bool with_images);
 
-/// Like readDrawnScene, with everything that materials use: images of base color, metalness and emission, and vertex
-/// colors as stored. `with_normal_maps`: normal maps too. OBJ has only base color images.
+/// Reads a scene like readDrawnScene, with everything that materials use: images of base color, metalness and emission,
+/// and vertex colors as stored. `with_normal_maps`: also normal maps. OBJ has only base color images.
 DrawnScene readMaterialScene(const std::string& input, const FileOptions& options, bool with_normal_maps);
 
 /// Reads a scene like readDrawnScene, with all textures of materials, and with the pose stored in the file.

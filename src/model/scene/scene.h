@@ -62,9 +62,9 @@ struct TangentUse {
     /// The file declares that green of its normal maps points down, and readers of the file respect it.
     bool is_declared_down = false;
     bool may_be_heights = false;  ///< the format would interpret a gray image as a height map (map_bump of OBJ)
-    bool reads_levels = true;     ///< see TextureReading::reads_levels
+    bool reads_levels = true;     ///< false if the sampler uses only the largest mip level
     std::size_t material = 0;
-    std::string material_name = {};  ///< may be empty
+    std::string material_name = {};  ///< name of the material; may be empty
     bool only_in_variant = false;    ///< the material is one of KHR_materials_variants, not the primitive's own
 };
 
@@ -224,7 +224,7 @@ inline std::uint64_t checkBytes(std::uint64_t corner_count, std::uint64_t vertex
 }
 
 struct SceneImage {
-    std::string name = {};  ///< may be empty
+    std::string name = {};  ///< name of the image; may be empty
     std::string uri = {};   ///< URI in the file; empty if embedded
     /// The encoded image (PNG, JPEG, ...); empty if it was not requested or cannot be read.
     std::vector<std::uint8_t> bytes = {};
@@ -234,7 +234,7 @@ struct SceneImage {
 
 struct Scene {
     std::string format = {};                      ///< "glb", "gltf", "obj"
-    std::string generator = {};                   ///< may be empty
+    std::string generator = {};                   ///< program that wrote the file; may be empty
     std::vector<ScenePrimitive> primitives = {};  ///< in file order
     std::vector<SceneImage> images = {};          ///< referenced by TangentUse::image
     std::vector<std::string> warnings = {};       ///< warnings of the reader
@@ -248,20 +248,20 @@ struct Scene {
 
 /// Properties of a primitive's own material.
 struct SurfaceLook {
-    std::array<float, 4> base_color = {1, 1, 1, 1};  ///< linear color
+    std::array<float, 4> base_color = {1, 1, 1, 1};  ///< linear color and alpha
     std::optional<TextureReading> base_texture = {};
     std::optional<TextureReading> normal_texture = {};
     double normal_scale = 1;
     double metalness = 0, roughness = 1;
     std::optional<TextureReading> metal_texture = {};  ///< green: roughness; blue: metalness
     std::array<double, 3> emission = {0, 0, 0};        ///< linear color
-    double emission_strength = 1;                      ///< KHR_materials_emissive_strength
+    double emission_strength = 1;                      ///< factor of `emission` (KHR_materials_emissive_strength)
     std::optional<TextureReading> emission_texture = {};
     /// Alpha below which the surface is discarded; 0: no cutoff.
     double alpha_cutoff = 0;
     bool is_double_sided = false;
     bool is_unlit = false;
-    bool is_blended = false;  ///< transparent by alpha
+    bool is_blended = false;  ///< the surface is transparent where alpha is below 1
 };
 
 /// Placement of a primitive by a node.

@@ -276,7 +276,7 @@ namespace {
 
 /// The surface that is visible at one sample.
 struct SeenSample {
-    const ShownSurface* surface = nullptr;  ///< null: background
+    const ShownSurface* surface = nullptr;  ///< visible surface; null if the sample shows the background
     SurfacePoint point = {};
     Vec3 color = {};
 };

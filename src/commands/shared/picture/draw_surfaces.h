@@ -61,7 +61,7 @@ struct CornerValues {
 /// A texture and its UVs.
 struct PlacedTexture {
     TextureShape shape = {};
-    const PictureTexture* image = nullptr;  ///< null: none
+    const PictureTexture* image = nullptr;  ///< null if there is no texture
     std::span<const Vec2> uvs = {};         ///< one per vertex, after any transform
 };
 
@@ -76,14 +76,14 @@ enum class UvSide : std::uint8_t { unknown, plain, mirrored };
 struct ShownSurface {
     std::span<const std::uint32_t> corners = {};
     CornerValues<Vec3> normals = {};
-    CornerValues<Vec4> tangents = {};  ///< empty: none
+    CornerValues<Vec4> tangents = {};  ///< stored tangents; empty if there are none
     CornerValues<Vec4> expected = {};  ///< tangents to compare with in `error`; empty: none
     /// Normals to compare with in `error`; empty: normals are not compared.
     CornerValues<Vec3> expected_normals = {};
     std::span<const UvSide> sides = {};              ///< one per triangle; empty: all unknown
     std::span<const std::uint32_t> islands = {};     ///< one per triangle; used by `uv`
-    std::array<float, 4> base_color = {1, 1, 1, 1};  ///< linear
-    PlacedTexture base = {};                         ///< linear
+    std::array<float, 4> base_color = {1, 1, 1, 1};  ///< linear color and alpha
+    PlacedTexture base = {};                         ///< texture of the base color, converted to linear
     PlacedTexture normal_map = {};
     MapReading reading = {};
     float alpha_cutoff = 0;
@@ -100,7 +100,7 @@ struct Lighting {
 struct SurfacePoint {
     std::size_t triangle = 0;
     std::array<double, 3> weights = {};
-    bool is_back = false;  ///< seen from behind
+    bool is_back = false;  ///< the point is seen from behind
     std::uint32_t column = 0, row = 0;
 };
 

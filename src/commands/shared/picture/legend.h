@@ -18,7 +18,7 @@ namespace tspace {
 struct LegendEntry {
     std::optional<Vec3> color;
     std::optional<Vec3> stripes;
-    std::string text;  ///< in capital letters
+    std::string text;  ///< text in capital letters
 };
 
 struct Legend {
