@@ -14,7 +14,7 @@ namespace tspace::c_files {
 GrowingBytes::~GrowingBytes() { std::free(data_); }
 
 void GrowingBytes::append(std::span<const std::uint8_t> bytes) {
-    // One additional byte for the terminating 0.
+    // The capacity includes one byte for the terminating 0.
     if (bytes.size() >= capacity_ - size_ || data_ == nullptr) {
         const std::size_t capacity = std::max(size_ + bytes.size() + 1, size_ + size_ / 2);
         void* grown = std::realloc(data_, capacity);

@@ -240,7 +240,7 @@ std::vector<std::uint8_t> decodeAlpha([[maybe_unused]] ByteSpan bytes) {
         if (image && image->channels == 4) pixels = std::move(image->pixels);
     }
 #endif
-    // In place: byte i is written after byte 4 i + 3 was read.
+    // The conversion works in place, because byte i is written after byte 4 i + 3 was read.
     for (std::size_t i = 0; 4 * i < pixels.size(); ++i) pixels[i] = pixels[4 * i + 3];
     pixels.resize(pixels.size() / 4);
     return pixels;

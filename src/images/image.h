@@ -19,7 +19,7 @@ ImageFormat imageFormat(ByteSpan bytes);
 const char* formatName(ImageFormat format);
 /// Returns "image/png"; empty for an unknown format, and for TGA, which has no MIME type.
 const char* mimeType(ImageFormat format);
-/// Returns why this build cannot read pixels of the format, as half a sentence ("it is AVIF, which is not read"), or
+/// Returns why this build cannot read pixels of the format, as a clause ("it is AVIF, which is not read"), or
 /// null if it can.
 const char* whyNotRead(ImageFormat format);
 
@@ -30,7 +30,7 @@ std::uint64_t imageWorkBytes(ByteSpan bytes);
 ImageSize claimedSize(ByteSpan bytes);
 
 /// Decodes PNG, JPEG, WebP, EXR, KTX2, DDS and TGA, distinguished by content, rounded to 8 bits. Returns nullopt, with
-/// the reason in `why` (half a sentence), for other formats, corrupt files, more than `most_pixels` pixels, and images
+/// the reason in `why` (a clause), for other formats, corrupt files, more than `most_pixels` pixels, and images
 /// that are out of proportion to their file size.
 std::optional<RgbImage> decodeImage(ByteSpan bytes, std::uint64_t most_pixels, std::string& why,
                                     ImageUse use = ImageUse::vectors);

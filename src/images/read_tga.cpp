@@ -14,7 +14,7 @@ constexpr std::size_t kHeadBytes = 18, kMaxOfPacket = 128;
 
 enum class TgaKind : std::uint8_t { palette = 1, colors = 2, gray = 3 };
 
-struct TgaHead {
+struct TgaHeader {
     TgaKind kind = TgaKind::colors;
     bool is_packed = false, is_from_the_top = false, is_from_the_right = false;
     ImageSize size = {};
@@ -32,7 +32,7 @@ struct TgaHead {
     }
 };
 
-bool areBitsRight(const TgaHead& head) {
+bool areBitsRight(const TgaHeader& head) {
     const auto is_color = [](unsigned bits) { return bits == 16 || bits == 24 || bits == 32; };
     const unsigned pixel = head.pixel_bits, alpha = head.alpha_bits;
     if (alpha != 0 && alpha != 8 && !(alpha == 1 && head.kind != TgaKind::gray && head.storedBits() == 16))
@@ -49,14 +49,14 @@ bool areBitsRight(const TgaHead& head) {
 }
 
 /// Returns the minimum size of the pixel data: packets of 128 equal pixels if it is run-length encoded.
-std::uint64_t minBytes(const TgaHead& head) {
+std::uint64_t minBytes(const TgaHeader& head) {
     const std::uint64_t pixels = head.size.pixels();
     if (!head.is_packed) return pixels * head.pixelBytes();
     return (pixels + kMaxOfPacket - 1) / kMaxOfPacket * (1 + head.pixelBytes());
 }
 
 /// Parses the header. Returns nullopt if the file is not a supported TGA, or is too short for its pixels.
-std::optional<TgaHead> readTgaHead(ByteSpan bytes) {
+std::optional<TgaHeader> readTgaHeader(ByteSpan bytes) {
     constexpr std::uint8_t kPacked = 8, kFromTheRight = 0x10, kFromTheTop = 0x20, kReserved = 0xc0, kAlphaBits = 0x0f;
     if (bytes.size() < kHeadBytes) return {};
     const auto number = [&](std::size_t at) { return loadLittleEndian<std::uint16_t>(bytes.data() + at); };
@@ -65,7 +65,7 @@ std::optional<TgaHead> readTgaHead(ByteSpan bytes) {
     const bool has_palette = kind == 1;
     const bool has_entries = bytes[3] != 0 || bytes[4] != 0 || bytes[5] != 0 || bytes[6] != 0 || bytes[7] != 0;
     if (bytes[1] != (has_palette ? 1 : 0) || (has_entries && !has_palette)) return {};
-    TgaHead head{.kind = static_cast<TgaKind>(kind), .is_packed = (bytes[2] & kPacked) != 0};
+    TgaHeader head{.kind = static_cast<TgaKind>(kind), .is_packed = (bytes[2] & kPacked) != 0};
     const std::uint8_t descriptor = bytes[17];
     head.is_from_the_top = (descriptor & kFromTheTop) != 0;
     head.is_from_the_right = (descriptor & kFromTheRight) != 0;
@@ -101,7 +101,7 @@ Texel colorOf(const std::uint8_t* at, unsigned bits) {
 
 class TgaReader {
   public:
-    TgaReader(ByteSpan bytes, const TgaHead& head) : bytes_(bytes), head_(head) {
+    TgaReader(ByteSpan bytes, const TgaHeader& head) : bytes_(bytes), head_(head) {
         if (head.kind != TgaKind::palette) return;
         palette_.fill({.exists = false});
         for (std::size_t i = 0; i < head.entry_count && head.first_entry + i < palette_.size(); ++i)
@@ -160,24 +160,24 @@ class TgaReader {
     }
 
     ByteSpan bytes_;
-    const TgaHead& head_;
+    const TgaHeader& head_;
     std::array<Texel, 256> palette_ = {};
     std::size_t column_ = 0, row_ = 0;  ///< position of the next pixel, relative to the corner where the file starts
 };
 
 }  // namespace
 
-bool isTga(ByteSpan bytes) { return readTgaHead(bytes).has_value(); }
+bool isTga(ByteSpan bytes) { return readTgaHeader(bytes).has_value(); }
 
 ImageClaim claimOfTga(ByteSpan bytes) {
-    const std::optional<TgaHead> head = readTgaHead(bytes);
+    const std::optional<TgaHeader> head = readTgaHeader(bytes);
     if (!head) return {};
     return {head->size, 4 * head->size.pixels()};
 }
 
 std::optional<TgaImage> decodeTgaPixels(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
     why = "the TGA is damaged";
-    const std::optional<TgaHead> head = readTgaHead(bytes);
+    const std::optional<TgaHeader> head = readTgaHeader(bytes);
     if (!head || isTooLarge(head->size, bytes.size(), most_pixels, why)) return {};
     TgaImage out;
     if (!TgaReader(bytes, *head).read(out)) return {};

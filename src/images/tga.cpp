@@ -26,7 +26,7 @@ std::optional<std::vector<std::uint8_t>> headOf(std::uint32_t width, std::uint32
 }
 
 /// Appends the footer, which declares that there are no developer and extension areas.
-void addFoot(std::vector<std::uint8_t>& file) {
+void addFooter(std::vector<std::uint8_t>& file) {
     constexpr std::string_view kSignature = "TRUEVISION-XFILE.";
     file.insert(file.end(), 8, 0);
     file.insert(file.end(), kSignature.begin(), kSignature.end());
@@ -50,7 +50,7 @@ std::optional<std::vector<std::uint8_t>> encodeTga(const FloatImage& image) {
             file->push_back(std::isfinite(channel) ? channelByte(channel) : 0);
         if (has_alpha) file->push_back(channelByte(image.alpha[i]));
     }
-    addFoot(*file);
+    addFooter(*file);
     return file;
 }
 
@@ -59,7 +59,7 @@ std::optional<std::vector<std::uint8_t>> encodeTga(const RgbImage& image) {
     if (!file) return {};
     for (std::size_t i = 0; i + 2 < image.rgb.size(); i += 3)
         file->insert(file->end(), {image.rgb[i + 2], image.rgb[i + 1], image.rgb[i]});
-    addFoot(*file);
+    addFooter(*file);
     return file;
 }
 

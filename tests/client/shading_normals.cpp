@@ -43,7 +43,7 @@ std::vector<float> normalsOf(const std::string& path, std::uint32_t size) {
             }
         },
         {}, 0, size, size);
-    Effort effort(std::uint64_t{1} << 40);
+    WorkLimit effort(std::uint64_t{1} << 40);
     const VisibleTriangles visible(model.meshes(), camera, size, size, effort);
     std::vector<float> pixels;
     for (std::uint32_t y = 0; y < size; ++y) {

@@ -35,7 +35,7 @@ TEST(WriteTexture, WrittenTexturesRoundTrip) {
         EXPECT_EQ(from_ktx2->texture.name, std::string(texelFormat(kind).name) + " in a KTX2");
         EXPECT_EQ(from_ktx2->texture.layout.z.channel == MapChannel::none, kind != TexelKind::rgba8);
         EXPECT_FALSE(from_ktx2->texture.is_srgb);
-        const auto head = readTextureHead(*ktx2);
+        const auto head = readTextureHeader(*ktx2);
         ASSERT_TRUE(head);
         ASSERT_EQ(head->levels.size(), texture.levels.size());
         for (std::size_t i = 0; i < texture.levels.size(); ++i)
@@ -56,7 +56,7 @@ TEST(WriteTexture, WrittenTexturesRoundTrip) {
             ASSERT_TRUE(from_old) << why;
             EXPECT_EQ(from_old->texels, from_ktx2->texels);
             EXPECT_EQ(from_old->texture.layout, from_ktx2->texture.layout);
-            EXPECT_EQ(readTextureHead(file)->levels.size(), texture.levels.size());
+            EXPECT_EQ(readTextureHeader(file)->levels.size(), texture.levels.size());
         }
     }
 }

@@ -36,7 +36,7 @@ Result<BakeFileReport> bake(const BakeArguments& arguments, InputFiles& read) {
     BakeFileOptions options = arguments.options;
     read.watch(options.file);
     options.progress = progressOf(arguments.low);
-    const KeptFiles kept({arguments.report});
+    const ProtectedFiles kept({arguments.report});
     return bakeFile(arguments.low, arguments.high, arguments.output, options);
 }
 

@@ -115,7 +115,8 @@ BakeFileOptions optionsOf(const BakePairsArguments& arguments, const Pair& pair)
 
 /// Adds file names that depend on materials and tiles. A low poly is read for them only if another pair has a name that
 /// this pair may write.
-void addWords(const BakePairsArguments& arguments, const std::vector<Pair>& pairs, std::vector<PairOutputs>& outputs) {
+void addSuffixedFiles(const BakePairsArguments& arguments, const std::vector<Pair>& pairs,
+                      std::vector<PairOutputs>& outputs) {
     std::map<std::string, std::size_t> plain;  // index of the pair by the identity of each of its files
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         for (const std::string& file : outputs[i].files) plain.emplace(identityOf(file), i);
@@ -123,7 +124,7 @@ void addWords(const BakePairsArguments& arguments, const std::vector<Pair>& pair
     std::set<std::size_t> asked;
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         for (const std::string& file : outputs[i].files) {
-            for (const std::string& shorter : withoutWords(file)) {
+            for (const std::string& shorter : withoutSuffixes(file)) {
                 const auto other = plain.find(identityOf(shorter));
                 if (other != plain.end() && other->second != i) asked.insert({i, other->second});
             }
@@ -305,7 +306,7 @@ ExitCode runBakePairs(const BakePairsArguments& arguments) {
         written.push_back({pair.line, outputsToCompare({arguments.batch.manifest, arguments.report}, pair.job.input,
                                                        {.output = pair.job.output}, optionsOf(arguments, pair))});
     if (const std::string shared = sharedOutput(written); !shared.empty()) return printUsageError(shared);
-    addWords(arguments, pairs, written);
+    addSuffixedFiles(arguments, pairs, written);
     if (const std::string shared = sharedOutput(written); !shared.empty()) return printUsageError(shared);
     std::vector<std::string> outputs = {arguments.batch.manifest, arguments.report},
                              inputs = {arguments.table, matchFileOf(arguments.options.match)};

@@ -42,7 +42,7 @@ ExitCode runRecorded(const std::string& path, const std::function<ExitCode()>& r
     ExitCode exit_code = ExitCode::done;
     {
         const RecordedFiles recorded;
-        const KeptFiles kept({path});
+        const ProtectedFiles kept({path});
         exit_code = run();
         inputs = recorded.inputs();
         outputs = recorded.outputs();

@@ -33,7 +33,7 @@ Result<FinishReport> finish(const FinishArguments& arguments, InputFiles& read, 
     options.page_command = origin.command;
     read.watch(options.file);
     options.progress = progressOf(arguments.input);
-    const KeptFiles kept({arguments.report});
+    const ProtectedFiles kept({arguments.report});
     return finishFile(arguments.input, arguments.output, options);
 }
 

@@ -75,7 +75,7 @@ class BatchRecord {
   private:
     std::string path_ = {};
     std::optional<ManifestRecord> record_ = {};
-    std::optional<KeptFiles> kept_ = {};
+    std::optional<ProtectedFiles> kept_ = {};
     OneRun one_run_ = {};
     std::mutex mutex_ = {};  ///< protects the writer
     std::optional<ManifestWriter> writer_ = {};

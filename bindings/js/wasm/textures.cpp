@@ -179,7 +179,7 @@ std::uint32_t readTexture(const std::uint8_t* data, std::size_t size, std::size_
     std::optional<FloatImage> image =
         decodeFloatTexture(file, kMostPixels, why, level, makes_vectors ? ImageUse::vectors : ImageUse::numbers);
     if (!image) return fail(ErrorCode::invalidFile, why);
-    const TextureFile head = *readTextureHead(file);
+    const TextureFile head = *readTextureHeader(file);
     const MapLayout layout = image->texture.layout;
     splitName(image->texture.name);
     words = {.width = image->width,

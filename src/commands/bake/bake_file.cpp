@@ -246,11 +246,11 @@ std::optional<MapSlot> slotOf(const FileBaking& state, MapLayer layer) {
     }
 }
 
-void addLayers(FileBaking& state, const LowModel::Image& image, const std::string& word,
+void addLayers(FileBaking& state, const LowModel::Image& image, const std::string& suffix,
                std::vector<BakedLayer>& layers, BakedFile& file) {
     for (BakedLayer& layer : layers) {
         const std::string& base = state.step.layers_output.empty() ? state.output : state.step.layers_output;
-        BakedLayerFile made{.path = withWord(withLayer(base, layer.layer), word)};
+        BakedLayerFile made{.path = withSuffix(withLayer(base, layer.layer), suffix)};
         const std::vector<std::uint8_t> png =
             layerPng(layer, file.map, state.options.map.bits, state.models.low.origin, made);
         if (layer.layer == MapLayer::id) {
@@ -272,7 +272,7 @@ void warnOfRays(FileBaking& state, const BakedFile& file) {
         pathInQuotes(file.path) + " shows; use --rays outermost to bake the outer one");
 }
 
-void bakeImage(FileBaking& state, const LowModel::Image& image, const std::string& word, std::uint32_t tile,
+void bakeImage(FileBaking& state, const LowModel::Image& image, const std::string& suffix, std::uint32_t tile,
                const LowPart& part, std::uint64_t outside = 0) {
     BakeOptions options = state.options.map;
     options.heat = options.heat || !state.options.heat.empty();
@@ -286,7 +286,7 @@ void bakeImage(FileBaking& state, const LowModel::Image& image, const std::strin
                                              state.options.execution, state.options.progress, state.shared));
     });
     BakedFile file{
-        .path = state.options.layers.has_normal ? withWord(state.output, word) : "",
+        .path = state.options.layers.has_normal ? withSuffix(state.output, suffix) : "",
         .material = image.material,
         .tile = tile,
         .triangle_count = part.triangleCount(),
@@ -303,12 +303,13 @@ void bakeImage(FileBaking& state, const LowModel::Image& image, const std::strin
         return;
     }
     if (state.options.layers.has_normal) addMap(state, file.path, takeNormalFile(state, map), MapSlot::normal, image);
-    addLayers(state, image, word, maps.layers, file);
+    addLayers(state, image, suffix, maps.layers, file);
     if (!state.options.misses.empty())
-        state.files.add(withWord(state.options.misses, word), pngOf(map.width, map.height, pictureOfOrigins(map), 8));
+        state.files.add(withSuffix(state.options.misses, suffix),
+                        pngOf(map.width, map.height, pictureOfOrigins(map), 8));
     if (!state.options.heat.empty()) {
         file.heat_top_deg = map.error.p99_deg;
-        state.files.add(withWord(state.options.heat, word),
+        state.files.add(withSuffix(state.options.heat, suffix),
                         pngOf(map.width, map.height, pictureOfHeat(map.error.heat, file.heat_top_deg), 8));
     }
     map.origins = {};
@@ -320,7 +321,7 @@ void bakeImage(FileBaking& state, const LowModel::Image& image, const std::strin
 
 // -- 5. tiles --
 
-void bakeTiles(FileBaking& state, const LowModel::Image& image, const std::string& word) {
+void bakeTiles(FileBaking& state, const LowModel::Image& image, const std::string& suffix) {
     const auto addOtherImages = [&](LowPart& part) {
         for (const LowModel::Image& other : state.models.low.images) {
             for (std::size_t i = 0; &other != &image && i < other.part.triangleCount(); ++i)
@@ -335,7 +336,7 @@ void bakeTiles(FileBaking& state, const LowModel::Image& image, const std::strin
                                             nameOf(image) +
                                             ", whose wrap mode is clamp, so they show its edge texels there");
         addOtherImages(part);
-        bakeImage(state, image, word, 0, part, outside);
+        bakeImage(state, image, suffix, 0, part, outside);
         return;
     }
     std::map<std::uint32_t, LowPart> tiles;
@@ -363,7 +364,7 @@ void bakeTiles(FileBaking& state, const LowModel::Image& image, const std::strin
             if (tileOf(&image.part.corners.uvs[3 * i]) != tile) part.addToRest(image.part, i);
         }
         addOtherImages(part);
-        bakeImage(state, image, tileWord(word, tile), tile, part);
+        bakeImage(state, image, tileSuffix(suffix, tile), tile, part);
     }
 }
 
@@ -393,8 +394,8 @@ BakeFileReport bakeModels(FileBaking& state, const std::string& low, const std::
     tagInput(BakeInput::high, [&] { return &state.detail.emplace(state.models, high, state.options); });
     const std::vector<std::string>& seen = state.detail->warnings();
     state.report.warnings.insert(state.report.warnings.end(), seen.begin(), seen.end());
-    const std::vector<std::string> words = imageWords(state.models.low);
-    for (std::size_t i = 0; i < words.size(); ++i) bakeTiles(state, state.models.low.images[i], words[i]);
+    const std::vector<std::string> suffixes = imageSuffixes(state.models.low);
+    for (std::size_t i = 0; i < suffixes.size(); ++i) bakeTiles(state, state.models.low.images[i], suffixes[i]);
     if (!state.options.out_mesh.empty() && !state.is_without_map)
         addModelWithMaps({*std::move(state.models.low_model), state.options.out_mesh, std::move(state.maps)},
                          state.step.model_files, state.files, state.report.warnings);

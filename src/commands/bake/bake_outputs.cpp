@@ -21,23 +21,23 @@ std::size_t extensionOf(const std::string& path) {
 }
 
 /// Returns the name of a material with all characters replaced that are unsuitable for file names.
-std::string fileWord(const std::string& name) {
-    std::string word;
+std::string fileNamePart(const std::string& name) {
+    std::string suffix;
     for (const char letter : name) {
         const bool is_plain = (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
                               (letter >= '0' && letter <= '9') || letter == '-' || letter == '_';
-        word += is_plain ? letter : '_';
+        suffix += is_plain ? letter : '_';
     }
-    return word.empty() ? "material" : word;
+    return suffix.empty() ? "material" : suffix;
 }
 
 /// Returns the file names of the images of a low poly, and of the additional pictures.
 std::vector<std::string> outputsOf(const BakeNames& bake, const BakeFileOptions& options,
-                                   const std::vector<std::string>& words) {
+                                   const std::vector<std::string>& suffixes) {
     std::vector<std::string> names;
     const auto add = [&](const std::string& path) {
         if (path.empty()) return;
-        for (const std::string& word : words) names.push_back(withWord(path, word));
+        for (const std::string& suffix : suffixes) names.push_back(withSuffix(path, suffix));
     };
     if (options.layers.has_normal) add(bake.output);
     const std::string& layers_output = bake.layers_output.empty() ? bake.output : bake.layers_output;
@@ -52,7 +52,7 @@ std::vector<std::string> outputsOf(const BakeNames& bake, const BakeFileOptions&
 
 /// Returns whether inserting names of materials and tiles can turn one of the paths `plain` into `path`.
 bool mayBecome(const std::vector<std::string>& plain, const std::string& path) {
-    for (const std::string& shorter : withoutWords(path)) {
+    for (const std::string& shorter : withoutSuffixes(path)) {
         const std::string identity = identityOf(shorter);
         if (std::any_of(plain.begin(), plain.end(),
                         [&](const std::string& name) { return identityOf(name) == identity; }))
@@ -63,10 +63,10 @@ bool mayBecome(const std::vector<std::string>& plain, const std::string& path) {
 
 }  // namespace
 
-std::string withWord(const std::string& path, const std::string& word) {
-    if (path.empty() || word.empty()) return path;
+std::string withSuffix(const std::string& path, const std::string& suffix) {
+    if (path.empty() || suffix.empty()) return path;
     const std::size_t at = extensionOf(path);
-    return path.substr(0, at) + "." + word + path.substr(at);
+    return path.substr(0, at) + "." + suffix + path.substr(at);
 }
 
 std::string withLayer(const std::string& path, MapLayer layer) {
@@ -74,20 +74,20 @@ std::string withLayer(const std::string& path, MapLayer layer) {
     return path.substr(0, at) + "_" + layerName(layer) + path.substr(at);
 }
 
-std::vector<std::string> imageWords(const LowModel& low) {
+std::vector<std::string> imageSuffixes(const LowModel& low) {
     if (low.images.size() < 2) return std::vector<std::string>(low.images.size());
-    std::vector<std::string> words;
+    std::vector<std::string> suffixes;
     std::set<std::string> known;
     for (const LowModel::Image& image : low.images) {
-        const std::string word = fileWord(image.material);
-        std::string fresh = word;
-        for (int i = 2; !known.insert(fresh).second; ++i) fresh = word + "_" + std::to_string(i);
-        words.push_back(std::move(fresh));
+        const std::string suffix = fileNamePart(image.material);
+        std::string fresh = suffix;
+        for (int i = 2; !known.insert(fresh).second; ++i) fresh = suffix + "_" + std::to_string(i);
+        suffixes.push_back(std::move(fresh));
     }
-    return words;
+    return suffixes;
 }
 
-std::string tileWord(const std::string& image, std::uint32_t tile) {
+std::string tileSuffix(const std::string& image, std::uint32_t tile) {
     return image.empty() ? std::to_string(tile) : image + "." + std::to_string(tile);
 }
 
@@ -108,20 +108,20 @@ std::vector<std::string> outputsToCompare(const std::vector<std::string>& others
 
 std::vector<std::string> outputsFor(const std::string& low, const BakeNames& bake, const BakeFileOptions& options) {
     const LowModel model = readLowImages(low, options);
-    std::vector<std::string> words = imageWords(model);
-    if (!options.udim) return outputsOf(bake, options, words);
+    std::vector<std::string> suffixes = imageSuffixes(model);
+    if (!options.udim) return outputsOf(bake, options, suffixes);
     std::set<std::string> of_tiles;
-    for (std::size_t i = 0; i < words.size(); ++i) {
+    for (std::size_t i = 0; i < suffixes.size(); ++i) {
         const LowPart& part = model.images[i].part;
         for (std::size_t triangle = 0; triangle < part.triangleCount(); ++triangle) {
             if (const std::uint32_t tile = tileOf(&part.corners.uvs[3 * triangle]); tile != 0)
-                of_tiles.insert(tileWord(words[i], tile));
+                of_tiles.insert(tileSuffix(suffixes[i], tile));
         }
     }
     return outputsOf(bake, options, {of_tiles.begin(), of_tiles.end()});
 }
 
-std::vector<std::string> withoutWords(const std::string& path) {
+std::vector<std::string> withoutSuffixes(const std::string& path) {
     const std::size_t end = extensionOf(path);
     const std::string extension = path.substr(end);
     std::vector<std::string> names;

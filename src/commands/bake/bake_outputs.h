@@ -10,18 +10,18 @@
 
 namespace tspace {
 
-/// Returns "dir/name.WORD.png" for "dir/name.png", or the path itself for an empty word.
-std::string withWord(const std::string& path, const std::string& word);
+/// Returns "dir/name.SUFFIX.png" for "dir/name.png", or the path itself for an empty suffix.
+std::string withSuffix(const std::string& path, const std::string& suffix);
 
 /// Returns "dir/name_LAYER.png" for "dir/name.png".
 std::string withLayer(const std::string& path, MapLayer layer);
 
-/// Returns the word of each image of a low poly, in order: the name of its material, made unique if names repeat. A
-/// single image has an empty word.
-std::vector<std::string> imageWords(const LowModel& low);
+/// Returns the file name suffix of each image of a low poly, in order: the name of its material, made unique if names
+/// repeat. A single image has an empty suffix.
+std::vector<std::string> imageSuffixes(const LowModel& low);
 
-/// Returns the word of a tile of an image.
-std::string tileWord(const std::string& image, std::uint32_t tile);
+/// Returns the file name suffix of a UDIM tile of an image.
+std::string tileSuffix(const std::string& image, std::uint32_t tile);
 
 /// Paths from which the names of maps are derived.
 struct BakeNames {
@@ -40,7 +40,7 @@ std::vector<std::string> outputsFor(const std::string& low, const BakeNames& bak
 std::vector<std::string> outputsToCompare(const std::vector<std::string>& others, const std::string& low,
                                           const BakeNames& bake, const BakeFileOptions& options);
 
-/// Returns the paths from which an image word can lead to this path: "dir/a.b.png" and "dir/a.png" for "dir/a.b.c.png".
-std::vector<std::string> withoutWords(const std::string& path);
+/// Returns the paths that become this path with a suffix: "dir/a.b.png" and "dir/a.png" for "dir/a.b.c.png".
+std::vector<std::string> withoutSuffixes(const std::string& path);
 
 }  // namespace tspace

@@ -303,7 +303,7 @@ class MapPlacing {
     [[nodiscard]] std::optional<std::string> relativeUri(const std::string& path) const {
         if (target_.container == gltf::Container::glb) return {};
         std::string name = pathBelow(folderOf(target_.path), path);
-        if (name.empty() || gltf::namesFile(document_, name)) return {};
+        if (name.empty() || gltf::referencesFile(document_, name)) return {};
         return name;
     }
 

@@ -129,7 +129,7 @@ Affine firstPlace(const DrawnScene& drawn, std::size_t primitive) {
 
 /// Returns the offset to subtract if the model is so far from the origin that floats would not preserve its shape;
 /// otherwise zero.
-DVec3 farPlace(const DrawnScene& drawn) {
+DVec3 originOffset(const DrawnScene& drawn) {
     return offsetForFloats([&](const auto& visit) {
         for (const ScenePlacement& placement : drawn.placements) {
             const ScenePrimitive& primitive = drawn.scene.primitives[placement.primitive];
@@ -452,7 +452,7 @@ BakeModels readBakeModels(const std::string& low_path, const std::string& high_p
                           const BakeSources& sources) {
     BakeModels models;
     const OpenedModel low(low_path, sources.low, options.file), high(high_path, sources.high, options.file);
-    const auto tell = [&] {
+    const auto reportProgress = [&] {
         if (options.progress) options.progress("reading", 0, 1);
     };
     DrawnScene low_scene = tagInput(BakeInput::low, [&] {
@@ -470,14 +470,14 @@ BakeModels readBakeModels(const std::string& low_path, const std::string& high_p
             return read;
         });
     }
-    tell();
+    reportProgress();
     DrawnScene high_scene = tagInput(BakeInput::high, [&] {
         return showsMaterials(options.layers) ? readMaterialScene(high.name, high.file, !options.ignore_high_maps)
                                               : readDrawnScene(high.name, high.file, !options.ignore_high_maps);
     });
-    tell();
-    const DVec3 of_high = farPlace(high_scene);
-    const DVec3 origin = length(of_high) > 0 ? of_high : farPlace(low_scene);
+    reportProgress();
+    const DVec3 of_high = originOffset(high_scene);
+    const DVec3 origin = length(of_high) > 0 ? of_high : originOffset(low_scene);
     for (DrawnScene* const scene : {&low_scene, &cage_scene, &high_scene}) moveBy(origin, *scene);
     const MeshMatch match = matchMeshes(low_scene, high_scene, options.match, options.file);
     models.matched_by_name = match.is_used;
@@ -487,14 +487,14 @@ BakeModels readBakeModels(const std::string& low_path, const std::string& high_p
     models.low.frames_made = frames_made;
     models.low.warnings.insert(models.low.warnings.begin(), warnings.begin(), warnings.end());
     models.low.origin = origin;
-    tell();
+    reportProgress();
     models.high = tagInput(BakeInput::high, [&] { return highModel(high_scene, used, high.name, options); });
     if (showsMaterials(options.layers) || shows(options.layers, MapLayer::id))
         models.high_scene = std::move(high_scene);
     if (!options.skew.empty())
         models.skew =
             tagInput(BakeInput::skew, [&] { return readFloatImage(options.skew, options.file, ImageUse::numbers); });
-    tell();
+    reportProgress();
     models.high.warnings.insert(models.high.warnings.end(), match.warnings.begin(), match.warnings.end());
     const std::string why = misplacement(models.lowBox(), PositionBox(models.high.view().positions));
     if (!why.empty()) models.high.warnings.push_back(why);

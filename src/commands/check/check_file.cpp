@@ -66,7 +66,7 @@ Finding fileRemark(const std::string& warning) {
 
 /// Sorts and counts the findings, and writes their remedies as text.
 void finishFindings(CheckReport& report) {
-    spellRemedies(report.findings);
+    formatRemedies(report.findings);
     sortStably(report.findings.begin(), report.findings.end(),
                [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
     for (const Finding& finding : report.findings) {
@@ -85,12 +85,12 @@ CheckedModel checkModel(const std::string& input, const CheckOptions& options) {
         finishFindings(report);
         return {.report = std::move(report)};
     }
-    const auto tell = [&](const char* what, std::uint64_t done) {
+    const auto reportProgress = [&](const char* what, std::uint64_t done) {
         if (options.progress) options.progress(what, done, 1);
     };
-    tell("reading", 0);
+    reportProgress("reading", 0);
     const Scene scene = readScene(input, options.file, options.images);
-    tell("reading", 1);
+    reportProgress("reading", 1);
     CheckedModel checked;
     CheckReport& report = checked.report;
     report.format = scene.format;
@@ -98,9 +98,9 @@ CheckedModel checkModel(const std::string& input, const CheckOptions& options) {
     report.primitive_count = scene.primitives.size();
     std::vector<PrimitiveJudgement> judgements = judgePrimitives(scene, options);
     ImageFindings images;
-    tell("checking normal maps", 0);
+    reportProgress("checking normal maps", 0);
     if (options.images) images = checkImages(scene, options);
-    tell("comparing primitives", 0);
+    reportProgress("comparing primitives", 0);
     report.image_count = images.examined_count;
     report.green_count = images.green_known_count;
     applyImageVerdicts(scene, options, images, judgements);

@@ -123,7 +123,7 @@ class SmoothPiece {
 };
 
 struct Seam {
-    // `places`: points where normals differ. `likely`: those of them that look like a seam.
+    // `places` are the points where normals differ, and `likely` are those of them that look like a seam.
     std::set<std::uint32_t> places = {}, likely = {};
     double worst_deg = 0;
     std::vector<std::uint32_t> vertices = {};
@@ -179,13 +179,13 @@ class MeshSeams {
             DVec3 normal_a = toDouble(primitives_[a.piece]->normals[vertex_a]);
             DVec3 normal_b = toDouble(primitives_[b.piece]->normals[vertex_b]);
             if (!normalize(normal_a) || !normalize(normal_b)) continue;
-            const double apart = angleBetween(normal_a, normal_b) * kToDegrees;
-            if (apart <= kMinSeamDeg) continue;
+            const double angle_deg = angleBetween(normal_a, normal_b) * kToDegrees;
+            if (angle_deg <= kMinSeamDeg) continue;
             seam.places.insert(point);
             if (!is_smooth || !side_a.isOwn(vertex_a) || !side_b.isOwn(vertex_b)) continue;
             if (seam.likely.insert(point).second && seam.vertices.size() < Tally::kMaxVertices)
                 seam.vertices.push_back(vertex_a);
-            seam.worst_deg = std::max(seam.worst_deg, apart);
+            seam.worst_deg = std::max(seam.worst_deg, angle_deg);
         }
     }
 

@@ -346,7 +346,7 @@ Result<Done> checkTangents(PrimitiveFacts& facts) {
         return Done{};
     }
     Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
-    if (facts.primitive.uses.empty() && !facts.primitive.hasFreeTangents()) {
+    if (facts.primitive.uses.empty() && !facts.primitive.mayHaveAuthoredTangents()) {
         // No material reads these tangents, so faults in them are invisible.
         facts.add(FindingCode::tangentsUnused, Severity::note, all, "vertices",
                   "the file is larger than necessary: the primitive has tangents, but its material needs none");
@@ -388,7 +388,7 @@ Result<Done> checkTangents(PrimitiveFacts& facts) {
                                "), so the mesh was rotated to other axes without its tangents";
         }
         // Without a texture, the direction in which v increases is seldom visible.
-        if (finding.code == FindingCode::signsMixed && facts.primitive.hasFreeTangents())
+        if (finding.code == FindingCode::signsMixed && facts.primitive.mayHaveAuthoredTangents())
             finding.severity = Severity::warning;
         facts.findings.push_back(std::move(finding));
     }

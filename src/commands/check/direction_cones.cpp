@@ -84,7 +84,7 @@ void excludeThinCorners(const TangentView& mesh, const Surface& surface, double 
     }
 }
 
-/// For each vertex, the nearest directions of its triangles on both sides of its tangent.
+/// Finds, for each vertex, the nearest directions of its triangles on both sides of its tangent.
 class NearestDirections {
   public:
     explicit NearestDirections(const TangentView& mesh)
@@ -132,7 +132,7 @@ class NearestDirections {
     std::vector<float> left_, right_;
 };
 
-/// For vertices beyond the tolerance, also uses the triangles around equal vertices, except those of the opposite
+/// Uses, for vertices beyond the tolerance, also the triangles around equal vertices, except those of the opposite
 /// orientation.
 void considerEqualVertices(const TangentView& mesh, const Surface& surface, double tolerance_deg,
                            std::vector<float>& distances) {

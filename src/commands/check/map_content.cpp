@@ -293,32 +293,33 @@ class MapAnalyzer {
     }
 
     /// Axis (0 to 2) and sign of the mean direction of the vectors; none if they have no main axis.
-    struct Up {
+    struct MainDirection {
         std::size_t axis = 2;
         bool is_inverted = false;
     };
-    [[nodiscard]] std::optional<Up> upAxis() const {
+    [[nodiscard]] std::optional<MainDirection> mainDirection() const {
         constexpr double kMinMean = 0.6, kMaxAside = 0.3, kMaxBelow = 0.02;
         const std::array<double, 3> mean{plain_.mean.x, plain_.mean.y, plain_.mean.z};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double below = mean[axis] < 0 ? 1 - plain_.below_share[axis] : plain_.below_share[axis];
             if (std::fabs(mean[axis]) < kMinMean || below > kMaxBelow) continue;
             if (std::fabs(mean[(axis + 1) % 3]) > kMaxAside || std::fabs(mean[(axis + 2) % 3]) > kMaxAside) continue;
-            return Up{axis, mean[axis] < 0};
+            return MainDirection{axis, mean[axis] < 0};
         }
         return {};
     }
 
     /// Agreement of the map's vectors with normals: the mean cosine; 0 if they do not follow the normals.
-    struct Followed {
+    struct NormalAgreement {
         MapLayout layout = {};
         double agreement = 0;
     };
-    [[nodiscard]] Followed followed(std::span<const TexelOnSurface> surface, const std::optional<Up>& up) const;
+    [[nodiscard]] NormalAgreement agreementWithNormals(std::span<const TexelOnSurface> surface,
+                                                       const std::optional<MainDirection>& up) const;
     [[nodiscard]] std::optional<MapAnalysis> objectSpace() const;
 
     [[nodiscard]] std::optional<MapAnalysis> exchanged() const {
-        const std::optional<Up> up = upAxis();
+        const std::optional<MainDirection> up = mainDirection();
         if (plain_.unit_share < 0.7 || !up || (up->axis == 2 && !up->is_inverted)) return {};
         MapLayout layout;
         if (up->axis == 0) std::swap(layout.x, layout.z);
@@ -406,7 +407,7 @@ class MapAnalyzer {
         // The vectors may have one main direction that is not an axis. The vectors of a wall in object space do not
         // correlate like those of a picture.
         // like this.
-        const bool is_aside = strongest >= kMuchTogether && !upAxis() && length(plain_.mean) > kOneWay;
+        const bool is_aside = strongest >= kMuchTogether && !mainDirection() && length(plain_.mean) > kOneWay;
         const double unit = unitShareOf(painted);
         const double max_unit = !mayPointUp(painted, mean) ? kMaxUnit : weakest >= kTogether ? kFewUnit : 0;
         const bool is_none = is_diagonal || is_aside;
@@ -443,13 +444,13 @@ Moments momentsOf(std::span<const TexelOnSurface> surface) {
 /// Correlation of the map's vectors with the mesh normals: the slope of the regression of vectors on normals. It is
 /// about 1 in object space, and 0 for a map that is unrelated to the mesh. Relief that resembles the mesh (a bulge on a
 /// bulge) correlates too, so the `bent` values are computed after removing all that is linear in u and v.
-struct Following {
+struct NormalRegression {
     double spread = 0;  ///< mean squared distance of the normals from their mean
     double slope = 0;
     double bent_share = 0, bent_slope = 0;
 };
 
-Following followingOf(std::span<const TexelOnSurface> surface, const MapLayout& layout) {
+NormalRegression regressionOf(std::span<const TexelOnSurface> surface, const MapLayout& layout) {
     // Sums of products of the values 1, u, v, the normal and the vector of the map.
     std::array<std::array<double, 9>, 9> sums{};
     const LayoutReader reader(layout);
@@ -477,22 +478,22 @@ Following followingOf(std::span<const TexelOnSurface> surface, const MapLayout& 
     constexpr double kRounding = 1e-9;
     const double min_u = kRounding * sums[1][1], min_v = kRounding * sums[2][2];
     eliminate(0, 0);
-    Following following{.spread = spread() / weight, .slope = slope()};
+    NormalRegression regression{.spread = spread() / weight, .slope = slope()};
     eliminate(1, min_u);
     eliminate(2, min_v);
-    following.bent_share = following.spread > 0 ? spread() / weight / following.spread : 0;
-    following.bent_slope = slope();
-    return following;
+    regression.bent_share = regression.spread > 0 ? spread() / weight / regression.spread : 0;
+    regression.bent_slope = slope();
+    return regression;
 }
 
 /// Returns whether the vectors are the normals of the mesh. `may_be_tangent`: they can also be in tangent space, which
 /// is assumed in doubtful cases.
 bool isOfMesh(std::span<const TexelOnSurface> surface, const MapLayout& layout, bool may_be_tangent) {
     constexpr double kFlat = 0.002, kMinSlope = 0.5, kMinBent = 0.25;
-    const Following following = followingOf(surface, layout);
-    if (!may_be_tangent) return following.spread < kFlat || following.slope > kMinSlope;
-    return following.spread >= kFlat && following.slope > kMinSlope && following.bent_share > kMinBent &&
-           following.bent_slope > kMinSlope;
+    const NormalRegression regression = regressionOf(surface, layout);
+    if (!may_be_tangent) return regression.spread < kFlat || regression.slope > kMinSlope;
+    return regression.spread >= kFlat && regression.slope > kMinSlope && regression.bent_share > kMinBent &&
+           regression.bent_slope > kMinSlope;
 }
 
 /// Variant of isOfMesh for strong relief, which hides the mesh in single vectors and lowers slopes. All quarters of the
@@ -501,19 +502,19 @@ bool isOfMeshUnderRelief(std::span<const TexelOnSurface> surface, const MapLayou
     constexpr std::size_t kQuarters = 4, kManyPoints = 1024;
     constexpr double kFlat = 0.002, kMinSlope = 0.4, kMinOfQuarter = 0.25, kMinBent = 0.25;
     if (surface.size() < kManyPoints) return false;
-    const Following following = followingOf(surface, layout);
-    if (following.spread < kFlat || following.slope < kMinSlope) return false;
-    if (may_be_tangent && (following.bent_share < kMinBent || following.bent_slope < kMinSlope)) return false;
+    const NormalRegression regression = regressionOf(surface, layout);
+    if (regression.spread < kFlat || regression.slope < kMinSlope) return false;
+    if (may_be_tangent && (regression.bent_share < kMinBent || regression.bent_slope < kMinSlope)) return false;
     for (std::size_t i = 0; i < kQuarters; ++i) {
         const std::size_t begin = i * surface.size() / kQuarters, end = (i + 1) * surface.size() / kQuarters;
-        const Following quarter = followingOf(surface.subspan(begin, end - begin), layout);
+        const NormalRegression quarter = regressionOf(surface.subspan(begin, end - begin), layout);
         if (quarter.spread < kFlat || quarter.slope < kMinOfQuarter) return false;
     }
     return true;
 }
 
-MapAnalyzer::Followed MapAnalyzer::followed(std::span<const TexelOnSurface> surface,
-                                            const std::optional<Up>& up) const {
+MapAnalyzer::NormalAgreement MapAnalyzer::agreementWithNormals(std::span<const TexelOnSurface> surface,
+                                                               const std::optional<MainDirection>& up) const {
     constexpr std::size_t kMinPoints = 8;
     constexpr double kMinAgreement = 0.5, kSureAgreement = 0.9, kOfTheBest = 0.97, kOfTheRest = 0.4;
     const Moments moments = momentsOf(surface);
@@ -542,10 +543,10 @@ MapAnalyzer::Followed MapAnalyzer::followed(std::span<const TexelOnSurface> surf
 std::optional<MapAnalysis> MapAnalyzer::objectSpace() const {
     constexpr double kMuchBelow = 0.2, kRounding = 1e-6;
     if (plain_.unit_share < 0.7) return {};
-    const std::optional<Up> up = upAxis();
-    const Followed mesh = followed(surface_, up), world = followed(in_world_, up);
+    const std::optional<MainDirection> up = mainDirection();
+    const NormalAgreement mesh = agreementWithNormals(surface_, up), world = agreementWithNormals(in_world_, up);
     const bool is_in_world = world.agreement > mesh.agreement + kRounding;
-    if (const Followed& best = is_in_world ? world : mesh; best.agreement > 0) {
+    if (const NormalAgreement& best = is_in_world ? world : mesh; best.agreement > 0) {
         MapAnalysis analysis = made(MapContent::objectSpace, best.layout, plain_.unit_share);
         analysis.follows_mesh = true;
         analysis.is_in_world = is_in_world;

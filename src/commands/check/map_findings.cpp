@@ -196,7 +196,7 @@ Remedy remedyOf(const NamedImage& image, const MapAnalysis& analysis, bool green
     MapLayout layout = analysis.layout;
     const bool has_own_green = layout.y == MapLayout{}.y && layout.curve == MapCurve::none;
     if (green_is_down && !has_own_green) layout.y.is_inverted = !layout.y.is_inverted;
-    if (isTurned(analysis, green_is_down)) {
+    if (isRotated(analysis, green_is_down)) {
         const MapLayout left = layout.x.is_inverted ? layout : invertedRelief(layout);
         return {
             "If the image was rotated by 90 degrees counterclockwise: {}. If it was rotated clockwise: {}. The slopes "
@@ -230,7 +230,7 @@ std::optional<Finding> contentFinding(const NamedImage& image, const MapAnalysis
     if (analysis.content == MapContent::normals) return {};
     const Tally texels{.count = analysis.count, .total = analysis.total};
     std::string message = messageOf(image, analysis);
-    if (isTurned(analysis, green_is_down))
+    if (isRotated(analysis, green_is_down))
         message += ", and one of them is inverted, as in an image that was rotated without its vectors";
     else if (green_is_down)
         message += "; y is inverted as well";

@@ -85,8 +85,8 @@ RgbImage decodeOctahedral(const DecodedMap& map, const MapLayout& layout, bool i
 /// to 300 if slopes reach 0.3.
 bool fitsBetter(const GreenTest& decoded, const GreenTest& plain) {
     constexpr double kClear = 1.15;
-    const auto misfit = [](const GreenTest& test) { return 1 - std::fabs(test.correlation); };
-    return fitsWell(decoded) && misfit(plain) > kClear * misfit(decoded);
+    const auto deviation = [](const GreenTest& test) { return 1 - std::fabs(test.correlation); };
+    return fitsWell(decoded) && deviation(plain) > kClear * deviation(decoded);
 }
 
 /// Tests by slopes whether two channels are x and y. For a periodic height h, the products h_xx h_yy and h_xy h_xy have
@@ -154,7 +154,7 @@ MapLayout invertedRelief(MapLayout layout) {
     return layout;
 }
 
-bool isTurned(const MapAnalysis& analysis, bool is_y_inverted) {
+bool isRotated(const MapAnalysis& analysis, bool is_y_inverted) {
     const MapLayout& layout = analysis.layout;
     return analysis.content == MapContent::exchanged && !analysis.is_declared && layout.z == MapLayout{}.z &&
            layout.x.channel == MapChannel::green && (layout.x.is_inverted != layout.y.is_inverted) != is_y_inverted;

@@ -505,7 +505,7 @@ Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const C
     facts.mesh = {.positions = primitive.positions.span(),
                   .normals = primitive.normals.span(),
                   .tangents = primitive.tangents.span(),
-                  .uvs = primitive.hasFreeTangents() ? std::span<const Vec2>{} : facts.reading.uvs,
+                  .uvs = primitive.mayHaveAuthoredTangents() ? std::span<const Vec2>{} : facts.reading.uvs,
                   .corners = primitive.corners.span(),
                   .position_step = primitive.position_step};
     facts.surface = describeSurface(facts.mesh);
@@ -531,7 +531,7 @@ Result<std::vector<Finding>> checkPrimitive(const ScenePrimitive& primitive, con
                                             bool is_gltf) {
     Result<PrimitiveVerdict> verdict = judgePrimitive(primitive, options, is_gltf);
     if (!verdict) return verdict.error();
-    spellRemedies(verdict->findings);
+    formatRemedies(verdict->findings);
     return std::move(verdict->findings);
 }
 

@@ -218,7 +218,7 @@ const char* findingRemedy(FindingCode code) {
         for (std::uint32_t number = 0; number < kFindingCodeCount; ++number) {
             Finding finding;
             setRemedy(finding, usualRemedy(static_cast<FindingCode>(number)));
-            spellRemedies({&finding, 1});
+            formatRemedies({&finding, 1});
             all.push_back(std::move(finding.remedy));
         }
         return all;
@@ -277,7 +277,7 @@ void setRemedy(Finding& finding, Remedy remedy) {
     finding.commands = std::move(remedy.commands);
 }
 
-void spellRemedies(std::span<Finding> findings) {
+void formatRemedies(std::span<Finding> findings) {
     constexpr std::string_view kPlace = "{}";
     for (Finding& finding : findings) {
         std::size_t at = 0;

@@ -28,12 +28,12 @@ RemedyCommand withOption(RemedyCommand command, std::string name, std::string va
 /// Returns the usual remedy of a code (findingRemedy).
 Remedy usualRemedy(FindingCode code);
 
-/// Sets Finding::remedy and Finding::commands. Each "{}" of the text remains until spellRemedies, so that commands may
+/// Sets Finding::remedy and Finding::commands. Each "{}" of the text remains until formatRemedies, so that commands may
 /// change.
 void setRemedy(Finding& finding, Remedy remedy);
 inline void setRemedy(Finding& finding, std::string text) { setRemedy(finding, Remedy{std::move(text), {}}); }
 
 /// Replaces each "{}" in the remedies of findings by its command. Must be called once per finding.
-void spellRemedies(std::span<Finding> findings);
+void formatRemedies(std::span<Finding> findings);
 
 }  // namespace tspace

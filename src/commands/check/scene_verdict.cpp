@@ -123,19 +123,19 @@ std::vector<Judged> judgeAll(const Scene& scene, const Work& work, const CheckOp
     };
     Parallel parallel(options.execution);
     const bool is_alone = parallel.width() == 1;
-    const auto tell = [&](std::size_t done) {
+    const auto reportProgress = [&](std::size_t done) {
         if (options.progress) options.progress("checking", done, results.size());
     };
-    tell(0);
+    reportProgress(0);
     workTogether(scene.memory.get(), results.size(), parallel, bytesOf, [&](std::size_t i) {
-        if (is_alone && i != 0) tell(i);
+        if (is_alone && i != 0) reportProgress(i);
         PrimitiveVerdict verdict = valueOrThrow(judgePrimitive(primitiveAt(i), options, is_gltf, scene.primitives));
         results[i].findings = std::move(verdict.findings);
         results[i].wrong_sign_share = verdict.wrong_sign_share;
         results[i].compared_share = verdict.compared_share;
         if (with_faults) results[i].faults = keptFaults(verdict.faults, primitiveAt(i), scene.memory.get());
     });
-    tell(results.size());
+    reportProgress(results.size());
     return results;
 }
 
@@ -402,7 +402,7 @@ class Advice {
             return addConvention(options_, finding);
         }
         if (finding.code == FindingCode::tangentsMissing || finding.code == FindingCode::tangentsIgnored) {
-            if (!can_compute) setRemedy(finding, primitive.uvsDecide() ? kUnwrapFirst : kNoUvsToFollow);
+            if (!can_compute) setRemedy(finding, primitive.uvsDetermineDirection() ? kUnwrapFirst : kNoUvsToFollow);
             return addConvention(options_, finding);
         }
         if (!concernsTangents(finding.code)) return;
@@ -411,7 +411,7 @@ class Advice {
         const bool is_error = finding.severity == Severity::error;
         if (concernsValues(finding.code) || (finding.code == FindingCode::tangentsNotOrthogonal && is_error)) {
             // The usual remedy repairs forbidden values, regardless of UVs and signs.
-        } else if (primitive.hasFreeTangents()) {
+        } else if (primitive.mayHaveAuthoredTangents()) {
             setRemedy(finding, kAuthoredTangents);
         } else if (!can_compute) {
             setRemedy(finding, kUnwrapFirst);

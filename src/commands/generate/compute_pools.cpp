@@ -146,7 +146,7 @@ PoolView lendVertices(const Document& document, DecodedArrays& arrays, const Pri
     return vertices;
 }
 
-/// Returns a warning (half a sentence) if frames are computed from positions whose rounding error is too large;
+/// Returns a warning (a clause) if frames are computed from positions whose rounding error is too large;
 /// otherwise empty.
 std::string warnOfRounding(const PoolView& vertices, std::span<const PrimitiveGeometry> geometries,
                            const Allocator* allocator) {
@@ -313,7 +313,7 @@ PoolComputer::PoolComputer(const Document& document, DecodedArrays& arrays, std:
 
 PoolComputer::~PoolComputer() = default;
 
-void PoolComputer::tell(const PoolProgress* progress) const {
+void PoolComputer::reportProgress(const PoolProgress* progress) const {
     if (progress != nullptr && options_.progress)
         options_.progress("computing tangents", progress->done, progress->total);
 }
@@ -323,7 +323,7 @@ PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& exe
     FramesOptions options = framesOptions(options_);
     options.execution = execution;
     if (progress != nullptr && options_.progress)
-        options.progress = [this, progress](const char*, std::uint64_t, std::uint64_t) { tell(progress); };
+        options.progress = [this, progress](const char*, std::uint64_t, std::uint64_t) { reportProgress(progress); };
     const Primitive& first = primitives_[pool.primitives[0]];
     DecodedVertices decoded;
     PoolView vertices = lendVertices(document_, arrays_, first, pool, decoded);
@@ -351,13 +351,13 @@ PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& exe
                               geometries);
     std::vector<FramesReport> computed(pool.geometries.size());
     const bool computes = pool.makes_tangents || !pool.has_normals;
-    tell(progress);
+    reportProgress(progress);
     PoolFrames frames =
         computes ? valueOrThrow(computeFrames(vertices, geometries, options, computed)) : unchangedFrames(vertices);
     if (pool.makes_tangents && frames.tangents.size() != frames.source_vertices.size()) {
         failFile(ErrorCode::internal, "no tangents were computed", first.place());
     }
-    tell(progress);
+    reportProgress(progress);
     for (std::size_t i = 0; i < pool.geometries.size(); ++i) {
         for (const std::size_t number : pool.geometries[i].primitives) {
             (pool.keeps_tangents ? copyReportOfKept : copyReport)(computed[i], reports[number]);

@@ -53,7 +53,7 @@ class PoolComputer {
     /// Computes one pool. `progress`: null if this is not the calling thread.
     PoolElements computeOne(const PoolPlan& pool, const Execution& execution, const PoolProgress* progress,
                             std::span<PrimitiveReport> reports);
-    void tell(const PoolProgress* progress) const;
+    void reportProgress(const PoolProgress* progress) const;
 
     const Document& document_;
     DecodedArrays& arrays_;

@@ -173,8 +173,8 @@ class OneMap {
         return std::any_of(shown_.begin(), shown_.end(), [](const ShownMap& one) { return one.is_new; });
     }
 
-    /// Returns the groups that need a new map, each with its map. If there is none, `why` is the reason (half a
-    /// sentence).
+    /// Returns the groups that need a new map, each with its map. If there is none, `why` is the reason
+    /// (a clause).
     std::vector<std::pair<MapGroup, NewMap>> convert(std::string& why) {
         const std::optional<FloatImage> image = decode(why);
         if (!image) return {};
@@ -265,7 +265,7 @@ class MapPlacer {
             references_.makeOnlySource(image);
             return;
         }
-        report.reason = references_.whyNotApart(users);
+        report.reason = references_.whyNotSeparate(users);
         report.converted = report.reason.empty();
         if (!report.converted) return;
         report.new_image = static_cast<std::uint32_t>(placer_.add(image, std::move(map.file)));

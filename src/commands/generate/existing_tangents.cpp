@@ -70,7 +70,7 @@ bool needsRepair(const Finding& finding) {
     return parts != 0 && (finding.severity == Severity::error || is_of_values);
 }
 
-/// Returns half a sentence about tangents that are kept.
+/// Returns a clause about tangents that are kept.
 std::string whyKept(const PrimitiveJudgement& judgement, bool is_free) {
     constexpr double kNearlyAll = 0.99;
     std::string warnings;
@@ -148,7 +148,7 @@ std::vector<Verdict> judge(Model& model, const GenerateOptions& options) {
     }
     std::vector<Verdict> verdicts;
     for (std::size_t i = 0; i < judgements.size(); ++i)
-        verdicts.push_back(verdictOf(judgements[i], scene.primitives[i].hasFreeTangents()));
+        verdicts.push_back(verdictOf(judgements[i], scene.primitives[i].mayHaveAuthoredTangents()));
     document.memory->restore(left);
     return verdicts;
 }

@@ -29,7 +29,7 @@ struct JudgedMap {
 };
 
 /// Returns the image file with its green channel inverted. If that is not possible, returns nothing, and `why` is the
-/// reason (half a sentence).
+/// reason (a clause).
 Bytes flipImage(std::span<const std::uint8_t> bytes, const MemoryBudget& budget, std::string& why);
 
 /// Examines the normal maps of the scene, whose images must be loaded, and inverts those that FlipGreen selects
@@ -54,7 +54,7 @@ struct ConvertedHeights {
     /// The image is gray, or cannot be decoded. Other images are treated as normal maps.
     bool is_height_map = false;
     Bytes file = {};           ///< PNG; empty: not converted
-    std::string why_not = {};  ///< reason why it was not converted, as half a sentence
+    std::string why_not = {};  ///< reason why it was not converted, as a clause
     double mean_lean_deg = 0;  ///< as HeightToNormalReport::mean_lean_deg
 };
 

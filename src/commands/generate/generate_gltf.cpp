@@ -29,7 +29,7 @@ namespace {
 /// of results that wait to be stored.
 constexpr std::size_t kCornersPerThread = 500'000;
 
-void tell(const GenerateOptions& options, const char* what, std::uint64_t done, std::uint64_t total) {
+void reportProgress(const GenerateOptions& options, const char* what, std::uint64_t done, std::uint64_t total) {
     if (options.progress) options.progress(what, done, total);
 }
 
@@ -146,7 +146,7 @@ void computeAndApply(Input& input, Decisions& decisions, Editor& editor, std::ve
     for (const PoolPlan& pool : plan.pools) total += pool.corner_count;
     PoolComputer computer(document, input.model.arrays(), primitives, input.options);
     for (std::span<const PoolPlan> rest = plan.pools; !rest.empty();) {
-        tell(input.options, "computing tangents", done, total);
+        reportProgress(input.options, "computing tangents", done, total);
         const std::span<const PoolPlan> pools =
             rest.first(countTogether(rest, document, primitives, input.options.execution));
         rest = rest.subspan(pools.size());
@@ -158,7 +158,7 @@ void computeAndApply(Input& input, Decisions& decisions, Editor& editor, std::ve
             done += pools[i].corner_count;
         }
     }
-    tell(input.options, "computing tangents", total, total);
+    reportProgress(input.options, "computing tangents", total, total);
     // Runs after new frames are stored, in other accessors, and before tangents are removed, so that notes have this
     // order.
     repairInvalidValues(editor, document, primitives, decisions.broken, plan.reports);
@@ -166,7 +166,7 @@ void computeAndApply(Input& input, Decisions& decisions, Editor& editor, std::ve
 }
 
 /// Executes the decisions. Fills the report except for its files.
-WorkedOn edit(Input& input, const Storage& storage, Decisions&& decisions, GenerateReport& report) {
+OptionEffects edit(Input& input, const Storage& storage, Decisions&& decisions, GenerateReport& report) {
     Document& document = input.model.document();
     const GenerateOptions& options = input.options;
     const std::span<const Primitive> primitives = input.model.primitives();
@@ -181,14 +181,14 @@ WorkedOn edit(Input& input, const Storage& storage, Decisions&& decisions, Gener
     stripTangents(editor, primitives, reports);
     // The following steps read the new tangents.
     input.model.wasEdited();
-    tell(options, "writing", 0, 1);
+    reportProgress(options, "writing", 0, 1);
     if (decisions.maps) report.converted_maps = decisions.maps->run(editor, input.target, reports);
     if (options.storage.pack) writePackedFrames(editor, document, options, reports);
     MapFlips& flips = decisions.flips;
     report.normal_maps = std::move(flips.reports);
     if (!flips.images.empty() || !flips.mended.empty()) applyFlips(document, editor, input.target, std::move(flips));
     editor.finish();
-    tell(options, "writing", 0, 1);
+    reportProgress(options, "writing", 0, 1);
     const bool is_packed = packGeometry(document, options.storage.compression, storage.new_file);
     report.primitives = std::move(reports);
     report.changed = editor.changed() || input.is_converted || storage.is_unpacked || is_packed;
@@ -203,7 +203,7 @@ bool flipWrongTriangles(Input& input, const Storage& storage, std::span<const st
                         WindingPlan& plan, std::vector<std::string>& warnings) {
     if (!input.options.mend_winding) return false;
     plan = planWinding(input.model, input.options, kept);
-    if (!plan.turnsAny()) return false;
+    if (!plan.flipsAny()) return false;
     Document& document = input.model.document();
     if (input.options.storage.compression == Compression::keep && !is_converted)
         convertContainer(document, input.target, true, warnings);
@@ -256,7 +256,7 @@ void noteUnitNormals(std::span<const std::size_t> scaled, const ScaledNormalsWar
 }
 
 /// Runs all steps between reading and writing.
-WorkedOn generate(Input& input, bool with_images, const GenerateStep& step, GenerateReport& report) {
+OptionEffects generate(Input& input, bool with_images, const GenerateStep& step, GenerateReport& report) {
     Document& document = input.model.document();
     std::vector<std::size_t> scaled;
     for (std::size_t i = 0; i < input.model.primitives().size(); ++i) {
@@ -272,12 +272,12 @@ WorkedOn generate(Input& input, bool with_images, const GenerateStep& step, Gene
     RecomputedNormals recomputed = step.normals;
     const bool was_repaired = repairFaults(input, storage, step.repairs_attributes, recomputed, report.warnings);
     const bool were_repaired = normalizeNormals(input, storage, report.warnings);
-    tell(input.options, "reading", 1, 1);
+    reportProgress(input.options, "reading", 1, 1);
     WindingPlan winding;
     const bool was_turned =
         flipWrongTriangles(input, storage, step.wound_meshes, were_repaired || was_repaired, winding, report.warnings);
     report.windings = std::move(winding.reports);
-    tell(input.options, "reading", 1, 1);
+    reportProgress(input.options, "reading", 1, 1);
     Decisions decisions = decide(input.model, input.options, recomputed, report.warnings);
     report.input_bytes = document.input_bytes;
     if (input.options.storage.compression == Compression::keep && !was_turned && !were_repaired && !was_repaired) {
@@ -286,12 +286,12 @@ WorkedOn generate(Input& input, bool with_images, const GenerateStep& step, Gene
     }
     // Images are embedded after the decisions on maps, which find images by their names.
     if (with_images) embedImagesInGlb(document, input.target, report.warnings);
-    tell(input.options, "reading", 1, 1);
-    const WorkedOn worked_on = edit(input, storage, std::move(decisions), report);
+    reportProgress(input.options, "reading", 1, 1);
+    const OptionEffects effects = edit(input, storage, std::move(decisions), report);
     report.changed = report.changed || was_turned || were_repaired || was_repaired;
     if (scaled_normals) noteUnitNormals(scaled, *scaled_normals, report);
     countFlipped(winding, report.primitives);
-    return worked_on;
+    return effects;
 }
 
 /// Adds the file names to the report.
@@ -315,34 +315,34 @@ GenerateReport generateToFile(const std::string& path, const std::string& output
     InputFiles inputs;
     GenerateOptions options = requested;
     inputs.watch(options.file);
-    tell(options, "reading", 0, 1);
+    reportProgress(options, "reading", 0, 1);
     Input input = toInput(Model(loadDocument(path, options.file, options.execution, options.progress)), output,
                           options.sink != nullptr, options);
-    const WorkedOn worked_on = generate(input, true, step != nullptr ? *step : GenerateStep{}, report);
-    writeGenerated(path, input.model.document(), input.target, requested, worked_on, inputs, step != nullptr, report);
+    const OptionEffects effects = generate(input, true, step != nullptr ? *step : GenerateStep{}, report);
+    writeGenerated(path, input.model.document(), input.target, requested, effects, inputs, step != nullptr, report);
     return report;
 }
 
 }  // namespace
 
 void writeGenerated(const std::string& input, Document& document, const OutputTarget& target,
-                    const GenerateOptions& options, const WorkedOn& worked_on, const InputFiles& inputs, bool is_step,
-                    GenerateReport& report) {
+                    const GenerateOptions& options, const OptionEffects& effects, const InputFiles& inputs,
+                    bool is_step, GenerateReport& report) {
     AtomicOutput files({.sink = options.sink,
                         .is_dry_run = options.dry_run,
                         .sync = options.file.sync,
                         .inputs = &inputs,
                         .replaces_inputs = target.in_place});
-    tell(options, "writing", 0, 1);
+    reportProgress(options, "writing", 0, 1);
     if (report.changed) {
         writeDocument(document, target, files, report.warnings, options.execution);
     } else {
         writeUnchanged(document, target, files, report.warnings);
     }
-    tell(options, "writing", 1, 1);
+    reportProgress(options, "writing", 1, 1);
     reportFiles(input, document, files, report);
-    addWarnings(options, worked_on, is_step, report);
-    tell(options, "writing", 1, 1);
+    addWarnings(options, effects, is_step, report);
+    reportProgress(options, "writing", 1, 1);
     // No step that can fail may follow.
     files.commit();
 }

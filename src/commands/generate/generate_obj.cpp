@@ -206,7 +206,7 @@ void packWritten(const GenerateOptions& options, FinishedPrimitive& finished, Pr
     if (report.normals_dropped) mesh.normals.clear();
 }
 
-void tell(const GenerateOptions& options, const char* what, std::uint64_t done, std::uint64_t total) {
+void reportProgress(const GenerateOptions& options, const char* what, std::uint64_t done, std::uint64_t total) {
     if (options.progress) options.progress(what, done, total);
 }
 
@@ -220,7 +220,7 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool
     FinishedPrimitive finished{
         .shape = primitive.shape, .material = primitive.material, .mesh = buildMesh(model, primitive)};
     OwnedMesh& mesh = finished.mesh;
-    tell(options, "computing tangents", 0, 0);
+    reportProgress(options, "computing tangents", 0, 0);
     // Normals are rounded before tangents are computed, because tangents must match the written normals.
     if (primitive.normals_generated) roundUnits(mesh.normals, options.storage.format);
     if (decide(material, primitive, options, report)) {
@@ -228,7 +228,7 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool
     } else {
         cutPolygons(mesh, report);
     }
-    tell(options, "computing tangents", 0, 0);
+    reportProgress(options, "computing tangents", 0, 0);
     report.normals_generated = primitive.normals_generated;
     report.normals_replaced = replaced;
     if (primitive.normals_generated) {
@@ -244,26 +244,26 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool
 }
 
 /// A glTF document that was created from an OBJ file, and the options that had an effect.
-struct Made {
+struct ConvertedObj {
     gltf::Document document = {};
-    WorkedOn worked_on = {};
+    OptionEffects effects = {};
 };
 
 /// Generates the document. Fills the report, except for the values that the writer adds.
-Made generate(const std::string& input, const std::string& output, const GenerateOptions& options,
-              GenerateReport& report) {
+ConvertedObj generate(const std::string& input, const std::string& output, const GenerateOptions& options,
+                      GenerateReport& report) {
     if (options.storage.compression == Compression::meshopt || options.storage.compression == Compression::draco) {
         failFile(ErrorCode::invalidOption,
                  "the output of an OBJ file cannot be compressed in the same run; compress the result in a second run");
     }
-    tell(options, "reading", 0, 0);
+    reportProgress(options, "reading", 0, 0);
     Model model = readModel(input, options.file);
-    tell(options, "reading", 1, 1);
+    reportProgress(options, "reading", 1, 1);
     std::vector<std::uint8_t> flipped;
     if (options.mend_winding) flipped = fixObjWinding(model, options, report);
-    tell(options, "reading", 1, 1);
+    reportProgress(options, "reading", 1, 1);
     std::vector<ObjPrimitive> primitives = collectPrimitives(model);
-    tell(options, "computing normals", 0, 0);
+    reportProgress(options, "computing normals", 0, 0);
     std::vector<bool> had_normals;
     for (const ObjPrimitive& primitive : primitives) had_normals.push_back(hasSomeNormals(model, primitive));
     if (options.normals.overwrite) {
@@ -275,7 +275,7 @@ Made generate(const std::string& input, const std::string& output, const Generat
     std::vector<FinishedPrimitive> finished;
     std::vector<std::uint32_t> next_in_mesh(model.shape_names.size(), 0);
     for (const ObjPrimitive& primitive : primitives) {
-        tell(options, "computing tangents", finished.size(), primitives.size());
+        reportProgress(options, "computing tangents", finished.size(), primitives.size());
         PrimitiveReport& entry = report.primitives.emplace_back();
         entry.source_list = entry.split_list = static_cast<std::uint32_t>(finished.size());
         const bool replaced = options.normals.overwrite && had_normals[finished.size()];
@@ -288,7 +288,7 @@ Made generate(const std::string& input, const std::string& output, const Generat
         // counts.
         if (primitive.normals_generated) entry.normals = std::exchange(normals, {});
     }
-    tell(options, "writing", 0, 1);
+    reportProgress(options, "writing", 0, 1);
     report.changed = true;
     report.input_bytes = model.input_bytes;
     report.warnings = model.warnings;
@@ -296,7 +296,8 @@ Made generate(const std::string& input, const std::string& output, const Generat
     report.coordinate_offset[1] = model.offset.y;
     report.coordinate_offset[2] = model.offset.z;
     const bool keeps_offset = model.keeps_offset;
-    Made made{toDocument(std::move(model), finished, output, report.warnings), {.far_coordinates = keeps_offset}};
+    ConvertedObj made{toDocument(std::move(model), finished, output, report.warnings),
+                      {.far_coordinates = keeps_offset}};
     made.document.path = input;
     made.document.options = options.file;
     return made;
@@ -312,10 +313,10 @@ GenerateReport generateToFile(const std::string& input, const std::string& outpu
     InputFiles inputs;
     GenerateOptions options = requested;
     inputs.watch(options.file);
-    Made made = generate(input, output, options, report);
+    ConvertedObj made = generate(input, output, options, report);
     // All referenced files are in the destination folder, so none is copied.
     const gltf::OutputTarget target{.path = output, .container = made.document.container, .same_folder = true};
-    gltf::writeGenerated(input, made.document, target, requested, made.worked_on, inputs, is_step, report);
+    gltf::writeGenerated(input, made.document, target, requested, made.effects, inputs, is_step, report);
     return report;
 }
 

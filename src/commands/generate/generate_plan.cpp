@@ -193,7 +193,7 @@ std::string poolKey(const Primitive& primitive, std::int32_t uv_set, const UvMat
     return key + vertexKey(primitive);
 }
 
-bool comesFromBlender(const Document& document) {
+bool isFromBlender(const Document& document) {
     const Json* asset = readObject(document.json, "asset", "");
     return asset != nullptr && readString(*asset, "generator", "/asset").find("Blender") != std::string::npos;
 }
@@ -211,7 +211,7 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
     const auto isIn = [](const std::vector<bool>& list, std::size_t i) { return i < list.size() && list[i]; };
     GeneratePlan plan;
     const std::set<std::string> animated = animatedPointers(document);
-    const bool is_blenders = comesFromBlender(document);
+    const bool is_blenders = isFromBlender(document);
     plan.reports.resize(primitives.size());
     std::map<std::string, std::size_t> pool_of;
     VertexLists lists;

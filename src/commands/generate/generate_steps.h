@@ -27,7 +27,7 @@ struct WindingPlan {
     /// Per primitive: one entry per triangle, 1 to flip it; or empty: no triangle is flipped.
     std::vector<std::vector<std::uint8_t>> flipped = {};
 
-    [[nodiscard]] bool turnsAny() const;
+    [[nodiscard]] bool flipsAny() const;
 };
 
 /// Plans the winding of a glTF model, mesh by mesh. Node transforms are ignored, even if they mirror a mesh, because
@@ -104,7 +104,7 @@ namespace tspace {
 // Warnings about the whole file.
 
 /// Effects of options that the report does not contain.
-struct WorkedOn {
+struct OptionEffects {
     bool far_coordinates = false;     ///< coordinates far from the origin kept their offset
     bool texture_transforms = false;  ///< tangents that were computed or examined follow textures with transforms
     bool compression = false;         ///< geometry was compressed or decompressed
@@ -116,15 +116,15 @@ void warnOfWinding(const GenerateOptions& options, GenerateReport& report);
 
 /// Adds the warnings of warnOfWinding, and a warning for each option without effect. Adds nothing for a step, which may
 /// be one of several.
-void addWarnings(const GenerateOptions& options, const WorkedOn& worked_on, bool is_step, GenerateReport& report);
+void addWarnings(const GenerateOptions& options, const OptionEffects& effects, bool is_step, GenerateReport& report);
 
 namespace gltf {
 
 /// Writes the generated document and completes the report with the output files and sizes. Must be the last step of a
 /// call, because nothing that can fail may follow. `inputs`: files that the call read.
 void writeGenerated(const std::string& input, Document& document, const OutputTarget& target,
-                    const GenerateOptions& options, const WorkedOn& worked_on, const InputFiles& inputs, bool is_step,
-                    GenerateReport& report);
+                    const GenerateOptions& options, const OptionEffects& effects, const InputFiles& inputs,
+                    bool is_step, GenerateReport& report);
 
 }  // namespace gltf
 }  // namespace tspace

@@ -160,30 +160,30 @@ void warnOfTangents(const GenerateOptions& options, GenerateReport& report) {
          report);
 }
 
-void warnOfFile(const GenerateOptions& options, const WorkedOn& worked_on, GenerateReport& report) {
+void warnOfFile(const GenerateOptions& options, const OptionEffects& effects, GenerateReport& report) {
     if (options.tangents.texture_transform != GenerateOptions{}.tangents.texture_transform &&
-        !worked_on.texture_transforms)
+        !effects.texture_transforms)
         warn({"--texture-transform"}, "no computed tangents are used by a texture with KHR_texture_transform", report);
-    if (options.storage.compression != Compression::keep && !worked_on.compression)
+    if (options.storage.compression != Compression::keep && !effects.compression)
         warn({"--compress"},
              options.storage.compression == Compression::none
                  ? "no geometry is compressed"
                  : "the geometry already has this compression, or cannot be compressed",
              report);
-    if (options.file.keep_coordinates && !worked_on.far_coordinates)
+    if (options.file.keep_coordinates && !effects.far_coordinates)
         warn({"--keep-coordinates"}, "the coordinates need no offset", report);
 }
 
 }  // namespace
 
-void addWarnings(const GenerateOptions& options, const WorkedOn& worked_on, bool is_step, GenerateReport& report) {
+void addWarnings(const GenerateOptions& options, const OptionEffects& effects, bool is_step, GenerateReport& report) {
     noteFoundValues(options.normals.compute, report);
     if (is_step) return;
     warnOfWinding(options, report);
     if (report.primitives.empty()) return;
     warnOfIdleNormals(options, report);
     warnOfTangents(options, report);
-    warnOfFile(options, worked_on, report);
+    warnOfFile(options, effects, report);
     if (options.maps.flip_green != FlipGreen::none && report.normal_maps.empty())
         warn({options.maps.flip_green == FlipGreen::all ? "--flip-green-all" : "--flip-green"},
              "the file has no normal map", report);

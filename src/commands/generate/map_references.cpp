@@ -94,7 +94,7 @@ void MapReferences::makeOnlySource(std::size_t image) {
     });
 }
 
-std::string MapReferences::whyNotApart(std::span<const MapUser> users) const {
+std::string MapReferences::whyNotSeparate(std::span<const MapUser> users) const {
     const Json& used = rootArray(document_, "extensionsUsed");
     const bool has_pointers = std::any_of(used.begin(), used.end(), [](const Json& name) {
         return name.is_string() && name.text() == "KHR_animation_pointer";
@@ -221,7 +221,7 @@ std::string ImagePlacer::freeName(const std::string& uri, const Bytes& bytes) {
         changed += ending;
         changed += becomes_png ? fs::path(".png") : old.extension();
         const Path name = changed, file = folderOf(target_.path) / name.string();
-        if (namesFile(document_, name.string())) continue;
+        if (referencesFile(document_, name.string())) continue;
         if (!isThere(file)) return name.string();
         std::error_code error;
         const bool may_be_same =

@@ -78,7 +78,7 @@ class MapReferences {
     void makeOnlySource(std::size_t image);
 
     /// Returns why these primitives cannot have an image of their own, as a clause; empty if they can.
-    [[nodiscard]] std::string whyNotApart(std::span<const MapUser> users) const;
+    [[nodiscard]] std::string whyNotSeparate(std::span<const MapUser> users) const;
 
     /// Makes these primitives show another image. Copies their textures, and materials that other primitives use too.
     void redirect(std::span<const MapUser> users, std::size_t to_image);

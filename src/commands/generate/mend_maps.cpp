@@ -13,7 +13,7 @@
 namespace tspace {
 namespace {
 
-/// Returns what the image contained, as half a sentence.
+/// Returns what the image contained, as a clause.
 const char* formerContent(MapContent content) {
     switch (content) {
         case MapContent::twoChannels:
@@ -56,7 +56,7 @@ std::string whyUnchanged(const JudgedMap& map, bool claims_srgb) {
     if (analysis.is_doubtful)
         return "its two channels may use another encoding, because they are not the slopes of any height field (see "
                "tspace check)";
-    if (isTurned(analysis, map.is_y_inverted))
+    if (isRotated(analysis, map.is_y_inverted))
         return "the image was rotated by 90 or 270 degrees without its vectors, and its slopes do not show which (see "
                "tspace check)";
     return {};

@@ -83,7 +83,7 @@ class MeshSurface {
 
 }  // namespace
 
-bool WindingPlan::turnsAny() const {
+bool WindingPlan::flipsAny() const {
     return std::any_of(flipped.begin(), flipped.end(), [](const auto& faces) { return !faces.empty(); });
 }
 

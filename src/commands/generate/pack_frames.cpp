@@ -141,7 +141,7 @@ class PackedWriter {
         for (const std::size_t accessor : spare) {
             for (std::size_t i = 0; i < numbers.size(); ++i) editor_.release(accessor);
         }
-        for (const std::size_t number : numbers) tell(reports_[number], dropped, packing);
+        for (const std::size_t number : numbers) reportPacking(reports_[number], dropped, packing);
     }
 
     /// Removes the attributes. Returns accessors without other uses; packed attributes reuse their entries.
@@ -159,7 +159,7 @@ class PackedWriter {
         return spare;
     }
 
-    void tell(PrimitiveReport& report, const Dropped& dropped, const PackReport& packing) const {
+    void reportPacking(PrimitiveReport& report, const Dropped& dropped, const PackReport& packing) const {
         report.frames_packed = true;
         report.packing = packing;
         report.tangents_dropped = dropped.tangents;

@@ -80,7 +80,7 @@ PoolElements packFrames(const Document& document, std::span<const Primitive> pri
     if (elements.was_split) {
         const bool names_vertices =
             std::any_of(pool.primitives.begin(), pool.primitives.end(),
-                        [&](std::size_t number) { return mayNameVertices(document, primitives[number]); });
+                        [&](std::size_t number) { return mayReferenceVertices(document, primitives[number]); });
         if (names_vertices) {
             elements.sources = frames.source_vertices;
             elements.corners = frames.indices;

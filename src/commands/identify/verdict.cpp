@@ -21,7 +21,7 @@ namespace tspace {
 namespace {
 
 /// Returns the UV set of the first texture, or the first existing set if there is no texture.
-std::size_t texturesSet(const ScenePrimitive& primitive) {
+std::size_t uvSetOfTexture(const ScenePrimitive& primitive) {
     if (!primitive.uses.empty()) return primitive.uses.front().uv_set;
     std::size_t set = 0;
     while (set + 1 < primitive.uv_sets.size() && primitive.uv_sets[set].empty()) ++set;
@@ -34,7 +34,7 @@ std::vector<UvReading> readingsOf(const ScenePrimitive& primitive) {
     std::vector<UvReading> readings;
     for (std::size_t set = 0; set < primitive.uv_sets.size(); ++set) {
         if (primitive.uv_sets[set].empty()) continue;
-        if (!primitive.uses.empty() && set == texturesSet(primitive)) {
+        if (!primitive.uses.empty() && set == uvSetOfTexture(primitive)) {
             UvReading transformed = readingOf(primitive, primitive.uses.front());
             if (transformed.transformed) readings.push_back(std::move(transformed));
         }
@@ -147,7 +147,7 @@ class Explainer {
         explanation.method = method;
         explanation.faces = faces;
         explanation.uv_set = static_cast<std::int32_t>(reading_.uv_set);
-        explanation.is_textures_set = reading_.uv_set == texturesSet(primitive_);
+        explanation.is_textures_set = reading_.uv_set == uvSetOfTexture(primitive_);
         explanation.is_transformed = reading_.transformed;
         compare(primitive_, votes_, computed, options_.tolerance_deg, explanation);
         return explanation;

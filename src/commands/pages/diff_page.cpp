@@ -110,7 +110,7 @@ std::string histogramHtml(const AngleStatistics& tangents) {
 }
 
 /// Limits the total size of figures.
-class Room {
+class SizeLimit {
   public:
     /// Returns `figures`, or nothing once the limit is exceeded.
     std::string take(std::string figures) {
@@ -135,7 +135,7 @@ std::string heatHtml(DiffPictures& pictures) {
                            : figures;
 }
 
-std::string placesHtml(const FrameDiff& diff, DiffPictures& pictures, Room& room) {
+std::string placesHtml(const FrameDiff& diff, DiffPictures& pictures, SizeLimit& size_limit) {
     constexpr std::size_t kMaxPlaces = 12;
     std::string html;
     for (std::size_t i = 0; i < std::min(kMaxPlaces, diff.worst.size()); ++i) {
@@ -145,7 +145,7 @@ std::string placesHtml(const FrameDiff& diff, DiffPictures& pictures, Room& room
         const std::string figures = figureHtml(pair.a, kPlaceWidth, kPlaceHeight, "A") +
                                     figureHtml(pair.b, kPlaceWidth, kPlaceHeight, "B") +
                                     figureHtml(pair.angle, kPlaceWidth, kPlaceHeight, "the angle between them");
-        const std::string taken = room.take(figures);
+        const std::string taken = size_limit.take(figures);
         if (taken.empty()) break;
         html += "<article>\n<h3>" + std::to_string(place.mesh_a) + ":" + std::to_string(place.primitive_a) +
                 ", vertex " + std::to_string(place.vertex_a) + " of A, " + std::to_string(place.vertex_b) +
@@ -162,9 +162,9 @@ std::string diffPage(const std::string& a, const std::string& b, const FrameDiff
     std::string heat, places;
     try {
         DiffPictures pictures(a, b, options);
-        Room room;
-        heat = room.take(heatHtml(pictures));
-        places = placesHtml(diff, pictures, room);
+        SizeLimit size_limit;
+        heat = size_limit.take(heatHtml(pictures));
+        places = placesHtml(diff, pictures, size_limit);
     } catch (const FileError& failure) {
         if (heat.empty()) heat = figuresHtml(noFigureHtml("No pictures: " + failure.error.message + "."));
     }

@@ -112,9 +112,9 @@ class PairSearch {
 
     /// Returns the triangles around the largest difference of a view that shows only the primitive.
     [[nodiscard]] std::vector<std::size_t> trianglesAt(const Trial& trial) const {
-        Effort effort(std::uint64_t{1} << 30);
+        WorkLimit work_limit(std::uint64_t{1} << 30);
         const std::span<const DrawnMesh> meshes = before_.model.meshes().subspan(before_.number, 1);
-        const VisibleTriangles visible(meshes, trial.view.camera(kTrial), kTrial.width, kTrial.height, effort);
+        const VisibleTriangles visible(meshes, trial.view.camera(kTrial), kTrial.width, kTrial.height, work_limit);
         const std::uint32_t seen =
             visible.row(static_cast<std::uint32_t>(trial.pixel / kTrial.width))[trial.pixel % kTrial.width];
         if (seen == VisibleTriangles::kNone) return {};

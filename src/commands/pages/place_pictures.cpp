@@ -82,8 +82,8 @@ PlaceView viewOver(std::span<const DrawnMesh> meshes, std::size_t mesh, std::spa
         view.angles = {over.yaw_deg + turn.yaw_deg, std::clamp(over.pitch_deg + turn.pitch_deg, -90.0, 90.0)};
         if (&turn == kTurns) best.angles = view.angles;
         if (triangle_count > kMaxTriangles) return view;
-        Effort effort(std::uint64_t{1} << 28);
-        const VisibleTriangles visible(meshes, view.camera(kGlance), kGlance.width, kGlance.height, effort);
+        WorkLimit work_limit(std::uint64_t{1} << 28);
+        const VisibleTriangles visible(meshes, view.camera(kGlance), kGlance.width, kGlance.height, work_limit);
         std::size_t count = 0;
         for (std::uint32_t y = 0; y < kGlance.height; ++y) {
             for (const std::uint32_t number : visible.row(y)) {
@@ -109,10 +109,10 @@ std::optional<std::size_t> meshOf(const ModelPicture& model, std::size_t primiti
 RgbImage drawView(RenderShow show, std::span<const DrawnMesh> meshes, std::span<const ShownSurface* const> surfaces,
                   std::size_t mesh, const PlaceView& view, const PictureSize& size, const DVec3& to_light) {
     const std::size_t first = view.is_alone ? mesh : 0, count = view.is_alone ? 1 : surfaces.size();
-    Effort effort(std::uint64_t{1} << 30);
+    WorkLimit work_limit(std::uint64_t{1} << 30);
     Parallel parallel({});
     return drawSurfaces(show, meshes.subspan(first, count), surfaces.subspan(first, count), view.camera(size), to_light,
-                        size, effort, parallel)
+                        size, work_limit, parallel)
         .image;
 }
 

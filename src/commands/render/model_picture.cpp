@@ -380,12 +380,12 @@ namespace {
 
 /// Visits points of a cylinder around the model, so that all pictures of a rotation about the vertical axis have the
 /// same camera distance.
-void visitCylinder(const ModelPicture& model, Effort& effort, double yaw_deg,
+void visitCylinder(const ModelPicture& model, WorkLimit& work_limit, double yaw_deg,
                    const std::function<void(const DVec3&)>& visit) {
     DVec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     const auto forPoints = [&](const auto& take) {
         for (const DrawnMesh& mesh : model.meshes()) {
-            effort.spend(1 + mesh.corners.size());
+            work_limit.spend(1 + mesh.corners.size());
             for (const std::uint32_t vertex : mesh.corners) {
                 const DVec3 point = mesh.to_world.point(toDouble(mesh.positions[vertex]));
                 if (std::isfinite(point.x + point.y + point.z)) take(point);
@@ -409,10 +409,10 @@ void visitCylinder(const ModelPicture& model, Effort& effort, double yaw_deg,
 }
 
 /// Visits all points of the picture; called twice, for the direction and the distance of the camera.
-void visitPoints(const ModelPicture& model, Effort& effort, bool is_uv,
+void visitPoints(const ModelPicture& model, WorkLimit& work_limit, bool is_uv,
                  const std::function<void(const DVec3&)>& visit) {
     for (const DrawnMesh& mesh : model.meshes()) {
-        effort.spend(1 + 2 * mesh.corners.size());
+        work_limit.spend(1 + 2 * mesh.corners.size());
         for (const std::uint32_t vertex : mesh.corners) visit(mesh.to_world.point(toDouble(mesh.positions[vertex])));
     }
     if (!is_uv) return;
@@ -428,14 +428,14 @@ SurfacePicture drawModel(const ModelPicture& model, const RenderOptions& options
     const std::uint32_t rows = legendRows(legend, options.width, options.height), height = options.height - rows;
     const std::uint64_t samples = std::uint64_t{options.width} * options.samples * options.height * options.samples;
     constexpr std::uint64_t kSteps = std::uint64_t{1} << 28, kMaxLayers = 100, kCornerSteps = 64;
-    Effort effort(kSteps + kMaxLayers * samples + kCornerSteps * model.cornerCount());
+    WorkLimit work_limit(kSteps + kMaxLayers * samples + kCornerSteps * model.cornerCount());
     const ViewAngles angles = is_uv ? ViewAngles{} : ViewAngles{options.yaw_deg, options.pitch_deg};
     const Camera camera = Camera::around(
         [&](const std::function<void(const DVec3&)>& visit) {
             if (options.turntable > 1 && !is_uv)
-                visitCylinder(model, effort, options.yaw_deg, visit);
+                visitCylinder(model, work_limit, options.yaw_deg, visit);
             else
-                visitPoints(model, effort, is_uv, visit);
+                visitPoints(model, work_limit, is_uv, visit);
         },
         angles, is_uv ? 0 : options.field_of_view_deg, options.width * options.samples, height * options.samples);
     const DVec3 light = toDouble(options.to_light);
@@ -443,7 +443,7 @@ SurfacePicture drawModel(const ModelPicture& model, const RenderOptions& options
     normalize(to_light);
     Parallel parallel(options.execution);
     SurfacePicture picture = drawSurfaces(options.show, model.meshes(), model.surfaces(), camera, to_light,
-                                          {options.width, height, options.samples}, effort, parallel);
+                                          {options.width, height, options.samples}, work_limit, parallel);
     if (is_uv) drawUvSquare(picture.image, camera, options.samples);
     addLegend(legend, rows, picture.image);
     return picture;

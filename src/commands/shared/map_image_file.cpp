@@ -148,7 +148,7 @@ void checkMaterials(std::span<const ChosenPrimitive> chosen) {
 }
 
 /// Returns whether two transforms rotate directions equally; translation and uniform scale are ignored.
-bool turnsAlike(const Affine& a, const Affine& b) {
+bool rotateAlike(const Affine& a, const Affine& b) {
     constexpr double kSame = 1e-6;
     const auto size = [](const Affine& place) {
         return std::sqrt(dot(place.x, place.x) + dot(place.y, place.y) + dot(place.z, place.z));
@@ -163,7 +163,7 @@ std::optional<Affine> placeOf(const DrawnScene& drawn, const ChosenPrimitive& ch
     for (const ScenePlacement& placement : drawn.placements) {
         if (placement.primitive != chosen.number) continue;
         if (!place) place = placement.to_world;
-        if (turnsAlike(*place, placement.to_world)) continue;
+        if (rotateAlike(*place, placement.to_world)) continue;
         failFile(ErrorCode::invalidFile,
                  "several nodes use the mesh " + inQuotes(chosen.primitive->mesh_name) +
                      " with different rotations or scales, but a map in world space fits only one of them");
@@ -329,7 +329,7 @@ std::optional<std::vector<std::uint8_t>> encodeByName(const std::string& name, c
 }
 
 void writeMapImage(const FloatImage& image, ImageFormat format, unsigned bits, const std::string& output,
-                   const OutputWay& way) {
+                   const OutputOptions& way) {
     const std::optional<std::vector<std::uint8_t>> file =
         format == ImageFormat::exr ? encodeExr(image, bits) : encodeByName(way.sink ? "" : output, image, bits);
     if (!file) failFile(ErrorCode::outOfMemory, "the image cannot be encoded");

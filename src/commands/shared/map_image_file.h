@@ -75,7 +75,7 @@ std::optional<std::vector<std::uint8_t>> encodeByName(const std::string& name, c
 /// Writes the image as a TGA, PNG or EXR, depending on `format` and on the extension of the output. `way`: options of
 /// AtomicOutput.
 void writeMapImage(const FloatImage& image, ImageFormat format, unsigned bits, const std::string& output,
-                   const OutputWay& way);
+                   const OutputOptions& way);
 
 /// Returns whether the channels of all texels are nearly equal: a height map, or an image without colors.
 bool isGrayImage(const FloatImage& image);

@@ -105,7 +105,7 @@ bool continuesCommand(std::string_view before, std::string_view word) {
 }
 
 /// Replaces the spaces inside each command ("tspace check IN") by non-breaking spaces.
-void keepCommandsWhole(std::string& line) {
+void keepCommandsUnbroken(std::string& line) {
     constexpr std::string_view kTool = "tspace ";
     for (std::size_t at = line.find(kTool); at != std::string::npos; at = line.find(kTool, at + 1)) {
         std::string_view before = "--";  // the first word, the name of the command, may follow anything
@@ -130,7 +130,7 @@ std::size_t hangingIndentOf(std::string_view line, std::size_t width, std::size_
 }
 
 void appendFitted(std::string& out, std::string line, std::size_t width, std::size_t hang) {
-    keepCommandsWhole(line);
+    keepCommandsUnbroken(line);
     const std::string margin(hangingIndentOf(line, width, hang), ' ');
     std::string_view rest = line;
     while (columnCount(rest) > width) {

@@ -23,21 +23,21 @@ namespace tspace {
 namespace {
 
 /// Header fields that are needed before the library reads the file.
-struct ExrHead {
+struct ExrHeader {
     ImageSize size = {};
     std::uint64_t channel_count = 0, chunk_pixels = 0;
     bool has_more = false;  ///< multiple parts, or multiple values per pixel
     bool is_plain = false;  ///< uses a compression that all readers have supported for a long time
 };
 
-class ExrHeadReader {
+class ExrHeaderReader {
   public:
-    explicit ExrHeadReader(ByteSpan bytes) : bytes_(bytes) {}
+    explicit ExrHeaderReader(ByteSpan bytes) : bytes_(bytes) {}
 
     /// Returns nullopt for an invalid header.
-    std::optional<ExrHead> read() {
+    std::optional<ExrHeader> read() {
         at_ = 4;  // after the magic number
-        ExrHead head;
+        ExrHeader head;
         constexpr std::uint32_t kDeepOrParts = 0x1800;
         head.has_more = (number() & kDeepOrParts) != 0;
         std::uint64_t tile_pixels = 0;
@@ -266,7 +266,7 @@ std::optional<ExrChannels> chooseExrChannels(std::span<const std::string_view> n
 
 class ExrReader {
   public:
-    ExrReader(ByteSpan bytes, const ExrHead& head, ImageUse use, std::string& why)
+    ExrReader(ByteSpan bytes, const ExrHeader& head, ImageUse use, std::string& why)
         : bytes_(bytes), size_(head.size), use_(use), why_(why) {}
 
     std::optional<FloatImage> read() {
@@ -494,7 +494,7 @@ bool writeExrRows(exr_context_t file, const FloatImage& image, std::uint32_t row
 bool hasOpenExr() { return openExr().is_loaded; }
 
 ImageClaim claimOfExr(ByteSpan bytes) {
-    const std::optional<ExrHead> head = ExrHeadReader(bytes).read();
+    const std::optional<ExrHeader> head = ExrHeaderReader(bytes).read();
     if (!head) return {};
     // Memory of the pixels, and of the compressed, decompressed and intermediate data of one chunk with 4 bytes per
     // channel.
@@ -507,7 +507,7 @@ ImageClaim claimOfExr(ByteSpan bytes) {
 std::optional<FloatImage> decodeExr(ByteSpan bytes, std::uint64_t most_pixels, std::string& why, ImageUse use) {
     constexpr std::uint64_t kMaxChannels = 64;
     why = "the EXR is damaged";
-    const std::optional<ExrHead> head = ExrHeadReader(bytes).read();
+    const std::optional<ExrHeader> head = ExrHeaderReader(bytes).read();
     if (!head || isTooLarge(head->size, bytes.size(), most_pixels, why)) return {};
     if (head->channel_count > kMaxChannels) why = "the EXR has more channels than tspace supports";
     if (head->has_more) why = "the EXR has several parts or deep pixels, which are not supported";

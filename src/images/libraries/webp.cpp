@@ -14,7 +14,7 @@ namespace tspace {
 namespace {
 
 /// Returns the header of a still image; nullopt, with the reason in `why`, for other files.
-std::optional<WebPBitstreamFeatures> readHead(ByteSpan bytes, std::string& why) {
+std::optional<WebPBitstreamFeatures> readHeader(ByteSpan bytes, std::string& why) {
     WebPBitstreamFeatures features;
     why = "the WebP is damaged";
     if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK) return {};
@@ -56,7 +56,7 @@ ImageClaim claimOfWebp(ByteSpan bytes) {
 }
 
 std::optional<RgbImage> decodeWebp(ByteSpan bytes, std::uint64_t most_pixels, std::string& why) {
-    const std::optional<WebPBitstreamFeatures> head = readHead(bytes, why);
+    const std::optional<WebPBitstreamFeatures> head = readHeader(bytes, why);
     if (!head || isTooLarge(sizeOf(*head), bytes.size(), most_pixels, why)) return {};
     const ImageSize size = sizeOf(*head);
     RgbImage image{size.width, size.height, std::vector<std::uint8_t>(3 * size.pixels())};
@@ -66,7 +66,7 @@ std::optional<RgbImage> decodeWebp(ByteSpan bytes, std::uint64_t most_pixels, st
 
 Result<ChannelImage> readWebpPixels(ByteSpan bytes) {
     std::string why;
-    const std::optional<WebPBitstreamFeatures> head = readHead(bytes, why);
+    const std::optional<WebPBitstreamFeatures> head = readHeader(bytes, why);
     if (!head)
         return Error{
             why == "the WebP is animated, which is not supported" ? ErrorCode::unsupportedFile : ErrorCode::invalidFile,

@@ -124,7 +124,7 @@ class DdsReader {
             why_ = unsupported("the DDS has the format " + codeText(code) + ", which is not supported");
             return false;
         }
-        // Used by the game Doom 3: DXT5 with red in alpha.
+        // The game Doom 3 uses this code for DXT5 with red in alpha.
         if (code == codeOf("RXGB")) texture_.layout.x.channel = MapChannel::alpha;
         return true;
     }
@@ -214,6 +214,6 @@ class DdsReader {
 
 }  // namespace
 
-Result<TextureFile> readDdsHead(ByteSpan bytes) { return DdsReader(bytes).read(); }
+Result<TextureFile> readDdsHeader(ByteSpan bytes) { return DdsReader(bytes).read(); }
 
 }  // namespace tspace

@@ -253,6 +253,6 @@ class Ktx2Reader {
 
 }  // namespace
 
-Result<TextureFile> readKtx2Head(ByteSpan bytes) { return Ktx2Reader(bytes).read(); }
+Result<TextureFile> readKtx2Header(ByteSpan bytes) { return Ktx2Reader(bytes).read(); }
 
 }  // namespace tspace

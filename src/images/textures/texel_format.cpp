@@ -158,7 +158,7 @@ namespace {
 float halfValue(std::uint32_t half) {
     const std::uint32_t sign = (half & 0x8000) << 16, exponent = half >> 10 & 31, fraction = half & 1023;
     if (exponent == 0) {
-        // Subnormal: a multiple of 2^-24.
+        // Subnormal numbers are multiples of 2^-24.
         const float value = static_cast<float>(fraction) * 0x1p-24F;
         return sign != 0 ? -value : value;
     }
@@ -183,7 +183,7 @@ void decodeBytes(const TexelFormat& format, const std::uint8_t* block, Rgba* tex
 }
 
 /// Decodes texels whose channels are stored in the order blue, green, red.
-void decodeTurnedBytes(const TexelFormat& format, const std::uint8_t* block, Rgba* texels) {
+void decodeBgrBytes(const TexelFormat& format, const std::uint8_t* block, Rgba* texels) {
     decodeBytes(format, block, texels);
     const float blue = (*texels)[0];
     (*texels)[0] = (*texels)[2];
@@ -286,7 +286,7 @@ constexpr TexelFormat blockFormat(const char* name, std::uint8_t bytes, std::uin
 }
 
 constexpr TexelFormat bgrxFormat() {
-    TexelFormat format = plainFormat("B8G8R8X8", 3, 8, decodeTurnedBytes);
+    TexelFormat format = plainFormat("B8G8R8X8", 3, 8, decodeBgrBytes);
     format.block_bytes = 4;
     return format;
 }
@@ -314,10 +314,10 @@ constexpr TexelFormat kFormats[] = {
     plainFormat("R8G8 signed", 2, 8, decodeBytes, true),
     plainFormat("R8G8B8", 3, 8, decodeBytes),
     plainFormat("R8G8B8 signed", 3, 8, decodeBytes, true),
-    plainFormat("B8G8R8", 3, 8, decodeTurnedBytes),
+    plainFormat("B8G8R8", 3, 8, decodeBgrBytes),
     plainFormat("R8G8B8A8", 4, 8, decodeBytes),
     plainFormat("R8G8B8A8 signed", 4, 8, decodeBytes, true),
-    plainFormat("B8G8R8A8", 4, 8, decodeTurnedBytes),
+    plainFormat("B8G8R8A8", 4, 8, decodeBgrBytes),
     bgrxFormat(),
     tenBitFormat(),
     plainFormat("R16", 1, 16, decodeWords),

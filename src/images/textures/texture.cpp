@@ -101,7 +101,7 @@ std::uint8_t byteOf(float part) {
 
 std::optional<TextureFile> openTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why,
                                        std::size_t level = 0) {
-    Result<TextureFile> texture = readTextureHead(bytes);
+    Result<TextureFile> texture = readTextureHeader(bytes);
     if (!texture) {
         why = texture.error().message;
         return {};
@@ -138,14 +138,14 @@ void guessLayout(FloatImage& image) {
 
 }  // namespace
 
-Result<TextureFile> readTextureHead(ByteSpan bytes) {
-    return imageFormat(bytes) == ImageFormat::ktx2 ? readKtx2Head(bytes) : readDdsHead(bytes);
+Result<TextureFile> readTextureHeader(ByteSpan bytes) {
+    return imageFormat(bytes) == ImageFormat::ktx2 ? readKtx2Header(bytes) : readDdsHeader(bytes);
 }
 
 std::optional<TextureFacts> textureFacts(ByteSpan bytes) {
     const ImageFormat format = imageFormat(bytes);
     if (format != ImageFormat::ktx2 && format != ImageFormat::dds) return {};
-    const Result<TextureFile> texture = readTextureHead(bytes);
+    const Result<TextureFile> texture = readTextureHeader(bytes);
     if (!texture) return {};
     return TextureFacts{.name = texture->name(),
                         .layout = texture->layout,
@@ -155,7 +155,7 @@ std::optional<TextureFacts> textureFacts(ByteSpan bytes) {
 }
 
 ImageClaim claimOfTexture(ByteSpan bytes) {
-    const Result<TextureFile> texture = readTextureHead(bytes);
+    const Result<TextureFile> texture = readTextureHeader(bytes);
     if (!texture) return {};
     const std::uint64_t pixel_bytes = texture->format.is_float ? 16 + 3 : 3;
     std::uint64_t unpacked = texture->repacking == Repacking::none ? 0 : texture->levelBytes();
@@ -217,7 +217,7 @@ std::optional<RgbImage> decodeTexture(ByteSpan bytes, std::uint64_t most_pixels,
 }
 
 std::vector<std::uint8_t> decodeTextureAlpha(ByteSpan bytes) {
-    const Result<TextureFile> texture = readTextureHead(bytes);
+    const Result<TextureFile> texture = readTextureHeader(bytes);
     if (!texture || !hasAlpha(*texture)) return {};
     TextureLevel level(*texture);
     if (!level.unpack()) return {};
@@ -232,7 +232,7 @@ std::vector<std::uint8_t> decodeTextureAlpha(ByteSpan bytes) {
 // Inverts green of a texture file in place, in all levels.
 
 Result<FlippedImage> flipTexture(ByteSpan bytes, ImageFileFormat format) {
-    const Result<TextureFile> texture = readTextureHead(bytes);
+    const Result<TextureFile> texture = readTextureHeader(bytes);
     if (!texture) return texture.error();
     const TexelFormat& texels = texture->format;
     constexpr const char* kWritePng = "; use flip-green -o OUT.png to write a PNG";

@@ -58,9 +58,9 @@ struct TextureFile {
 };
 
 /// Parses the header. A corrupt file is an error, and so are cube maps, volumes, arrays and unsupported formats.
-Result<TextureFile> readTextureHead(ByteSpan bytes);
-Result<TextureFile> readKtx2Head(ByteSpan bytes);
-Result<TextureFile> readDdsHead(ByteSpan bytes);
+Result<TextureFile> readTextureHeader(ByteSpan bytes);
+Result<TextureFile> readKtx2Header(ByteSpan bytes);
+Result<TextureFile> readDdsHeader(ByteSpan bytes);
 
 /// Unpacks the blocks of the first level from BasisLZ. Returns false if it is corrupt.
 bool unpackBasisLz(const TextureFile& texture, std::span<std::uint8_t> blocks);

@@ -35,7 +35,7 @@ void putWord(Bytes& bytes, std::uint64_t value) {
     for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::uint8_t>(value >> shift));
 }
 
-void putChunkHead(Bytes& bytes, std::size_t length, std::uint32_t type) {
+void putChunkHeader(Bytes& bytes, std::size_t length, std::uint32_t type) {
     putWord(bytes, length);
     putWord(bytes, type);
 }
@@ -112,15 +112,15 @@ GlbFrame frameGlb(const std::string& json, std::optional<std::size_t> bin_bytes,
     putWord(frame.head, kMagic);
     putWord(frame.head, 2);
     putWord(frame.head, total);
-    putChunkHead(frame.head, json_bytes, kJsonType);
+    putChunkHeader(frame.head, json_bytes, kJsonType);
     frame.head.insert(frame.head.end(), json.begin(), json.end());
     frame.head.insert(frame.head.end(), paddingOf(json.size()), ' ');
     if (bin_bytes) {
-        putChunkHead(frame.head, *bin_bytes + paddingOf(*bin_bytes), kBinType);
+        putChunkHeader(frame.head, *bin_bytes + paddingOf(*bin_bytes), kBinType);
         frame.tail.insert(frame.tail.end(), paddingOf(*bin_bytes), 0);
     }
     for (const ExtraChunk& chunk : extra) {
-        putChunkHead(frame.tail, chunk.bytes.size() + paddingOf(chunk.bytes.size()), chunk.type);
+        putChunkHeader(frame.tail, chunk.bytes.size() + paddingOf(chunk.bytes.size()), chunk.type);
         frame.tail.insert(frame.tail.end(), chunk.bytes.begin(), chunk.bytes.end());
         frame.tail.insert(frame.tail.end(), paddingOf(chunk.bytes.size()), 0);
     }
@@ -363,7 +363,7 @@ OutputTarget outputTarget(const Document& document, const Path& path, bool is_st
     return target;
 }
 
-bool namesFile(const Document& document, const std::string& name) {
+bool referencesFile(const Document& document, const std::string& name) {
     for (const char* list : {"buffers", "images"}) {
         for (const Json& entry : rootArray(document, list)) {
             const Json* uri = findMember(entry, "uri");
@@ -377,7 +377,7 @@ std::string freeFileName(const Document& document, const OutputTarget& target, c
     const std::string stem = stemOf(target.path);
     const std::size_t dot = ending.rfind('.');
     std::string name = stem + ending;
-    for (int number = 2; namesFile(document, name); ++number) {
+    for (int number = 2; referencesFile(document, name); ++number) {
         name = stem + ending.substr(0, dot) + "-" + std::to_string(number) + ending.substr(dot);
     }
     return name;

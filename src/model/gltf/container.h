@@ -64,7 +64,7 @@ void convertContainer(Document& document, const OutputTarget& target, bool will_
 void embedImagesInGlb(Document& document, const OutputTarget& target, std::vector<std::string>& warnings);
 
 /// Returns whether a buffer or image of the document references this file (a path relative to the model's folder).
-bool namesFile(const Document& document, const std::string& name);
+bool referencesFile(const Document& document, const std::string& name);
 
 /// Returns a name for a buffer file of the output that no URI of the document uses: "<stem><ending>".
 std::string freeFileName(const Document& document, const OutputTarget& target, const std::string& ending);

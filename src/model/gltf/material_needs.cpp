@@ -177,7 +177,7 @@ std::vector<std::string> extensionsOf(const Json& object) {
 }
 
 /// Returns whether a name suggests hand-authored surface directions (flow maps, hair, brushed metal).
-bool namesFlow(const std::string& text) {
+bool suggestsFlow(const std::string& text) {
     const std::string name = lowerAscii(text);
     static constexpr std::array kWords{"tangent", "flow", "aniso", "hair", "brush"};
     return std::any_of(kWords.begin(), kWords.end(), [&](const char* word) {
@@ -192,7 +192,8 @@ bool mentionsFlow(const Json& object) {
     if (extras == nullptr || !extras->is_object()) return false;
     for (const auto& [name, value] : extras->items()) {
         const bool is_off = value.is_null() || (value.is_boolean() && !value.get<bool>());
-        if (!is_off && (namesFlow(name) || (value.is_string() && namesFlow(value.get<std::string>())))) return true;
+        if (!is_off && (suggestsFlow(name) || (value.is_string() && suggestsFlow(value.get<std::string>()))))
+            return true;
     }
     return false;
 }
@@ -347,10 +348,10 @@ std::string otherTangentReader(const Document& document, const Primitive& primit
     if (mentionsFlow(object)) return "extras of the primitive";
     if (mentionsFlow(mesh)) return "extras of the mesh";
     for (const auto& [name, accessor] : primitive.attributes) {
-        if (name[0] == '_' && !isPackedAttribute(name) && namesFlow(name)) return "the attribute " + name;
+        if (name[0] == '_' && !isPackedAttribute(name) && suggestsFlow(name)) return "the attribute " + name;
     }
     for (const std::string& name : extensionsOf(object)) {
-        if (namesFlow(name)) return "the extension " + name;
+        if (suggestsFlow(name)) return "the extension " + name;
     }
     return {};
 }

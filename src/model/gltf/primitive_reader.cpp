@@ -32,7 +32,7 @@ AttributeList readAttributes(const Json& object, const std::string& place, std::
 
 /// Moves packed frames with a wrong number of elements to `miscounted`. They do not make a file invalid, because they
 /// can be recomputed.
-void setMiscountedApart(const Document& document, Primitive& primitive) {
+void separateMiscounted(const Document& document, Primitive& primitive) {
     const auto is_good = [&](const auto& entry) {
         return !isPackedAttribute(entry.first) || readAccessor(document, entry.second).count == primitive.vertex_count;
     };
@@ -55,7 +55,7 @@ std::string whyUnreadable(const Accessor& accessor, bool is_base, std::size_t ve
 }
 
 /// Moves TANGENT attributes that cannot be read to unreadable_tangents, so that they do not make the file invalid.
-void setUnreadableApart(const Document& document, Primitive& primitive) {
+void separateUnreadable(const Document& document, Primitive& primitive) {
     const auto setApart = [&](AttributeList& list, std::ptrdiff_t target) {
         const auto entry =
             std::find_if(list.begin(), list.end(), [](const auto& attribute) { return attribute.first == "TANGENT"; });
@@ -130,7 +130,7 @@ std::optional<AttributeFault> attributeFault(const Document& document, const Pri
 
 /// Moves attributes that cannot be read to `attribute_faults`. They do not make a file invalid: findings state the
 /// remedy, and the rest of the model is processed.
-void setFaultyApart(const Document& document, Primitive& primitive) {
+void separateFaulty(const Document& document, Primitive& primitive) {
     const auto goodOf = [&](const AttributeList& list, std::ptrdiff_t target) {
         AttributeList good;
         for (const auto& attribute : list) {
@@ -178,9 +178,9 @@ Primitive readPrimitive(const Document& document, const Json& object, std::uint3
         const auto position = primitive.find("POSITION");
         primitive.vertex_count = readAccessor(document, position.value_or(primitive.attributes[0].second)).count;
     }
-    setMiscountedApart(document, primitive);
-    setUnreadableApart(document, primitive);
-    setFaultyApart(document, primitive);
+    separateMiscounted(document, primitive);
+    separateUnreadable(document, primitive);
+    separateFaulty(document, primitive);
     primitive.corner_count =
         primitive.indices ? readAccessor(document, *primitive.indices).count : primitive.vertex_count;
     return primitive;

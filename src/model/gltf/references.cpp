@@ -248,7 +248,7 @@ std::vector<Extent> collectExtents(const Document& document) {
 bool overlaps(const Extent& a, const Extent& b) {
     if (a.buffer != b.buffer || a.begin >= b.end || b.begin >= a.end) return false;
     if (a.stride == 0 || a.stride != b.stride) return true;
-    // For equal strides, compare the positions within one stride.
+    // Extents with equal strides overlap only if their positions within one stride do.
     const std::size_t distance =
         a.begin >= b.begin ? (a.begin - b.begin) % a.stride : (a.stride - (b.begin - a.begin) % a.stride) % a.stride;
     return distance < b.element_bytes || a.stride - distance < a.element_bytes;

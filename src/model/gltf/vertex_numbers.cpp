@@ -142,7 +142,7 @@ bool isImplicit(const Json& feature_id) {
 
 }  // namespace
 
-bool mayNameVertices(const Document& document, const Primitive& primitive) {
+bool mayReferenceVertices(const Document& document, const Primitive& primitive) {
     bool may = hasCounts(document);
     visitExtensions(document, primitive, [&](const std::string& name) {
         may = may || name == kOutline || name == kFeatures || !isHarmless(name);

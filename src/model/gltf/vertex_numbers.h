@@ -16,7 +16,7 @@
 namespace tspace::gltf {
 
 /// Returns whether a primitive or its mesh has an extension that may reference vertices.
-bool mayNameVertices(const Document& document, const Primitive& primitive);
+bool mayReferenceVertices(const Document& document, const Primitive& primitive);
 
 /// New vertices of primitives that share vertices and triangles.
 struct NewVertices {

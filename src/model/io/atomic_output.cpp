@@ -87,14 +87,14 @@ void AtomicOutput::add(const Path& requested_path, std::span<const OutputPiece> 
     for (const OutputPiece& piece : pieces) byte_count_ += piece.size();
     const bool any_made = std::any_of(pieces.begin(), pieces.end(), [](const OutputPiece& p) { return !p.isThere(); });
     Parallel parallel(any_made ? execution : Execution{.thread_count = 1});
-    if (way_.sink) {
+    if (options_.sink) {
         files_.push_back({requested_path});
-        const int failure = way_.is_dry_run ? 0 : writePieces(way_.sink, pieces, parallel);
+        const int failure = options_.is_dry_run ? 0 : writePieces(options_.sink, pieces, parallel);
         if (failure != 0) failToWrite(requested_path, std::strerror(failure));
         return;
     }
     File planned = planFile(requested_path);
-    if (way_.is_dry_run) {
+    if (options_.is_dry_run) {
         planned.target = requested_path;
         files_.push_back(std::move(planned));
         return;
@@ -104,7 +104,7 @@ void AtomicOutput::add(const Path& requested_path, std::span<const OutputPiece> 
 
 void AtomicOutput::commit() {
     HeldOutputs* const held = HeldOutputs::ofThread();
-    if (!way_.sink && !way_.is_dry_run) held != nullptr ? held->take(*this) : renameFiles();
+    if (!options_.sink && !options_.is_dry_run) held != nullptr ? held->take(*this) : renameFiles();
     committed_ = true;
 }
 
@@ -138,7 +138,7 @@ void HeldOutputs::take(AtomicOutput& output) {
     std::move(output.created_folders_.begin(), output.created_folders_.end(),
               std::back_inserter(all_.created_folders_));
     all_.identities_.merge(output.identities_);
-    all_.way_.sync = all_.way_.sync || output.way_.sync;
+    all_.options_.sync = all_.options_.sync || output.options_.sync;
     output.files_.clear();
     output.created_folders_.clear();
 }

@@ -135,12 +135,12 @@ class InputFiles {
 /// Prevents all outputs of this process from replacing these files while it exists. Used for reports and manifests,
 /// which other code writes, possibly later (the names of derived outputs are known only when they are written). Empty
 /// paths and "-" are ignored.
-class KeptFiles {
+class ProtectedFiles {
   public:
-    explicit KeptFiles(const std::vector<std::string>& paths);
-    ~KeptFiles();
-    KeptFiles(const KeptFiles&) = delete;
-    KeptFiles& operator=(const KeptFiles&) = delete;
+    explicit ProtectedFiles(const std::vector<std::string>& paths);
+    ~ProtectedFiles();
+    ProtectedFiles(const ProtectedFiles&) = delete;
+    ProtectedFiles& operator=(const ProtectedFiles&) = delete;
 
   private:
     std::vector<std::string> identities_ = {};
@@ -158,7 +158,7 @@ class OneRun {
 };
 
 /// Options for writing outputs.
-struct OutputWay {
+struct OutputOptions {
     /// If set, the sink receives the single output file, and nothing is written to disk.
     Sink sink = {};
     bool is_dry_run = false;  ///< no output is written
@@ -176,7 +176,7 @@ struct OutputWay {
 /// permissions of the file it replaces, and the temporary file never has more permissions.
 class AtomicOutput {
   public:
-    explicit AtomicOutput(OutputWay way = {}) : way_(std::move(way)) {}
+    explicit AtomicOutput(OutputOptions options = {}) : options_(std::move(options)) {}
     ~AtomicOutput();
     AtomicOutput(const AtomicOutput&) = delete;
     AtomicOutput& operator=(const AtomicOutput&) = delete;
@@ -200,7 +200,7 @@ class AtomicOutput {
     /// it.
     bool leave(const Path& target, std::span<const std::uint8_t> bytes);
 
-    [[nodiscard]] bool isStream() const { return way_.sink != nullptr; }
+    [[nodiscard]] bool isStream() const { return options_.sink != nullptr; }
 
     /// Records a file whose content became part of an output.
     void addSource(const Path& source);
@@ -239,7 +239,7 @@ class AtomicOutput {
     void renameFiles();
     void removeTemporaryFiles() noexcept;
 
-    OutputWay way_;
+    OutputOptions options_;
     std::vector<File> files_;
     std::vector<Path> created_folders_;
     std::set<std::string> identities_;  ///< file identities of the targets

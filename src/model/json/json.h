@@ -142,7 +142,7 @@ class Json {
         return *value_.text;
     }
 
-    // Arrays and objects. Other values have no children.
+    // Access to the children of arrays and objects. Other values have no children.
 
     [[nodiscard]] std::size_t size() const { return is_structured() ? value_.children->values.size() : 0; }
     [[nodiscard]] bool empty() const { return size() == 0; }

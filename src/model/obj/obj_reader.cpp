@@ -88,7 +88,7 @@ void noteNumbers(std::string_view rest, std::uint32_t line, bool is_position, Li
 void blankFaceComment(std::string& text, std::size_t begin, std::size_t end) {
     while (begin < end && isBlank(text[begin])) ++begin;
     if (begin + 1 >= end || text[begin] != 'f' || !isBlank(text[begin + 1])) return;
-    // Limited to the line, because text.find() would search the rest of the file for each face.
+    // The search is limited to the line, because text.find() would search the rest of the file for each face.
     const auto first = text.begin() + static_cast<std::ptrdiff_t>(begin);
     const auto last = text.begin() + static_cast<std::ptrdiff_t>(end);
     std::fill(std::find(first, last, '#'), last, ' ');

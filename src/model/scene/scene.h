@@ -189,7 +189,7 @@ struct ScenePrimitive {
     }
 
     /// Returns whether a texture is read with the tangents, so that its UVs determine their direction.
-    [[nodiscard]] bool uvsDecide() const {
+    [[nodiscard]] bool uvsDetermineDirection() const {
         return std::any_of(uses.begin(), uses.end(), [](const TangentUse& use) { return use.has_texture; });
     }
 
@@ -202,8 +202,8 @@ struct ScenePrimitive {
 
     /// Returns whether tangents exist that something may read, but without a texture. An artist may have authored them,
     /// along hair or brushed metal, so that UVs do not determine their direction.
-    [[nodiscard]] bool hasFreeTangents() const {
-        return !tangents.empty() && (uses.empty() ? !other_reader.empty() : !uvsDecide());
+    [[nodiscard]] bool mayHaveAuthoredTangents() const {
+        return !tangents.empty() && (uses.empty() ? !other_reader.empty() : !uvsDetermineDirection());
     }
 
     /// Returns the packed frames if they are the primitive's only frames, otherwise null. `generate` does not change

@@ -151,8 +151,8 @@ TEST(MapSlopes, DetectImagesRotatedWithoutTheirVectors) {
         });
         const MapAnalysis analysis = analyzeImage(map);
         ASSERT_EQ(analysis.content, MapContent::exchanged);
-        EXPECT_TRUE(isTurned(analysis, true));
-        EXPECT_FALSE(isTurned(analysis, false)) << "exchanged alone";
+        EXPECT_TRUE(isRotated(analysis, true));
+        EXPECT_FALSE(isRotated(analysis, false)) << "exchanged alone";
     }
 }
 

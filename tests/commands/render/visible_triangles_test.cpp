@@ -32,7 +32,7 @@ RC_GTEST_PROP(VisibleTriangles, NeighborsLeaveNoGapAndNoSampleTwice, ()) {
     std::vector<int> seen(kSize * kSize, 0);
     for (std::size_t i = 0; i < 4; ++i) {
         const DrawnMesh mesh{.positions = points, .corners = std::span(corners).subspan(3 * i, 3)};
-        Effort effort(1 << 20);
+        WorkLimit effort(1 << 20);
         const VisibleTriangles visible(std::span(&mesh, 1), camera, kSize, kSize, effort);
         for (std::uint32_t y = 0; y < kSize; ++y) {
             for (std::uint32_t x = 0; x < kSize; ++x) seen[y * kSize + x] += visible.row(y)[x] == 0;
@@ -57,7 +57,7 @@ RC_GTEST_PROP(VisibleTriangles, TheNearestTriangleIsVisible, ()) {
     for (std::uint32_t i = 0; i < points.size(); ++i) corners.push_back(i);
     const DrawnMesh mesh{.positions = points, .corners = corners, .is_double_sided = true};
     const Camera camera = cameraFor(points, 0);
-    Effort effort(1 << 20);
+    WorkLimit effort(1 << 20);
     const VisibleTriangles visible(std::span(&mesh, 1), camera, kSize, kSize, effort);
     for (std::uint32_t y = 0; y < kSize; y += 3) {
         for (std::uint32_t x = 0; x < kSize; x += 3) {
@@ -110,7 +110,7 @@ RC_GTEST_PROP(VisibleTriangles, WeightsLeadToTheSample, ()) {
                   {static_cast<double>(*rc::gen::inRange(-180, 180)), static_cast<double>(*rc::gen::inRange(-90, 90))});
     const std::vector<std::uint32_t> corners = {0, 1, 2};
     const DrawnMesh mesh{.positions = points, .corners = corners, .is_double_sided = true};
-    Effort effort(1 << 20);
+    WorkLimit effort(1 << 20);
     const VisibleTriangles visible(std::span(&mesh, 1), camera, kSize, kSize, effort);
     const SeenTriangle seen = visible.seen({0, 0});
     // Corners are rounded to 1/256, by at most sqrt(2) / 512 = 0.0028. A sample next to an edge is therefore moved to
@@ -135,7 +135,7 @@ TEST(VisibleTriangles, TrianglesBehindTheCameraAreClipped) {
     const std::vector<std::uint32_t> corners = {0, 1, 2, 0, 2, 3};
     const DrawnMesh mesh{.positions = points, .corners = corners, .is_double_sided = true};
     const Camera camera = cameraFor({{-1, -1, -1}, {1, 1, 1}}, 60);
-    Effort effort(1 << 20);
+    WorkLimit effort(1 << 20);
     const VisibleTriangles visible(std::span(&mesh, 1), camera, kSize, kSize, effort);
     EXPECT_EQ(visible.row(2)[32], VisibleTriangles::kNone);
     for (const std::uint32_t x : {0U, 32U, 63U}) EXPECT_NE(visible.row(63)[x], VisibleTriangles::kNone);

@@ -368,7 +368,7 @@ void ErrorStatistics::add(const ErrorStatistics& other) {
 
 SurfacePicture drawSurfaces(RenderShow show, std::span<const DrawnMesh> meshes,
                             std::span<const ShownSurface* const> surfaces, const Camera& camera, const DVec3& to_light,
-                            const PictureSize& size, Effort& effort, Parallel& parallel) {
+                            const PictureSize& size, WorkLimit& work_limit, Parallel& parallel) {
     const std::uint32_t width = size.width * size.samples, height = size.height * size.samples;
     const RowShader shader(show, meshes, surfaces, camera, to_light, size);
     SurfacePicture picture{.image = {.width = size.width, .height = size.height}};
@@ -377,7 +377,7 @@ SurfacePicture drawSurfaces(RenderShow show, std::span<const DrawnMesh> meshes,
     const auto pixels = [&](std::size_t row) {
         return std::span(picture.image.rgb).subspan(row * row_bytes, row_bytes);
     };
-    const VisibleTriangles visible(meshes, camera, width, height, effort);
+    const VisibleTriangles visible(meshes, camera, width, height, work_limit);
     std::vector<ErrorStatistics> errors(size.height);
     parallel.forRanges(size.height, 8, [&](std::size_t begin, std::size_t end) {
         for (std::size_t row = begin; row < end; ++row)

@@ -139,9 +139,9 @@ struct SurfacePicture {
 };
 
 /// Draws a picture. `surfaces`: one per mesh. `camera`: for width * samples by height * samples. Throws FileError if
-/// `effort` is exhausted. The result does not depend on the number of threads.
+/// `work_limit` is exhausted. The result does not depend on the number of threads.
 SurfacePicture drawSurfaces(RenderShow show, std::span<const DrawnMesh> meshes,
                             std::span<const ShownSurface* const> surfaces, const Camera& camera, const DVec3& to_light,
-                            const PictureSize& size, Effort& effort, Parallel& parallel);
+                            const PictureSize& size, WorkLimit& work_limit, Parallel& parallel);
 
 }  // namespace tspace

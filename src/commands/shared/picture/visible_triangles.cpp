@@ -171,7 +171,7 @@ FixedCorner fixedCorner(const SeenPoint& p) {
 
 }  // namespace
 
-void Effort::spend(std::uint64_t steps) {
+void WorkLimit::spend(std::uint64_t steps) {
     if (steps > left_) {
         failFile(ErrorCode::tooLarge,
                  "drawing the model would take too long: it has too many instances, or its triangles cover the picture "
@@ -206,7 +206,7 @@ DVec3 SeenTriangle::nearness() const {
 }
 
 VisibleTriangles::VisibleTriangles(std::span<const DrawnMesh> meshes, const Camera& camera, std::uint32_t width,
-                                   std::uint32_t height, Effort& effort)
+                                   std::uint32_t height, WorkLimit& work_limit)
     : meshes_(meshes),
       camera_(camera),
       width_(width),
@@ -219,26 +219,26 @@ VisibleTriangles::VisibleTriangles(std::span<const DrawnMesh> meshes, const Came
         count += mesh.corners.size() / 3;
         if (count >= kNone) failFile(ErrorCode::tooLarge, "the model draws more than 4,294,967,294 triangles");
     }
-    for (std::size_t i = 0; i < meshes.size(); ++i) draw(i, effort);
+    for (std::size_t i = 0; i < meshes.size(); ++i) draw(i, work_limit);
 }
 
-void VisibleTriangles::draw(std::size_t mesh, Effort& effort) {
+void VisibleTriangles::draw(std::size_t mesh, WorkLimit& work_limit) {
     const DrawnMesh& drawn = meshes_[mesh];
     constexpr std::uint64_t kVertexSteps = 4, kTriangleSteps = 16;
-    effort.spend(1 + kVertexSteps * drawn.positions.size());
+    work_limit.spend(1 + kVertexSteps * drawn.positions.size());
     std::vector<SeenPoint> points;
     points.reserve(drawn.positions.size());
     for (const Vec3& position : drawn.positions)
         points.push_back(camera_.see(drawn.to_world.point(toDouble(position))));
     for (std::size_t i = 0; i < drawn.corners.size() / 3; ++i) {
-        effort.spend(kTriangleSteps);
+        work_limit.spend(kTriangleSteps);
         const std::uint32_t* corners = drawn.corners.data() + 3 * i;
-        drawTriangle(mesh, i, {points[corners[0]], points[corners[1]], points[corners[2]]}, effort);
+        drawTriangle(mesh, i, {points[corners[0]], points[corners[1]], points[corners[2]]}, work_limit);
     }
 }
 
 void VisibleTriangles::drawTriangle(std::size_t mesh, std::size_t triangle, const std::array<SeenPoint, 3>& points,
-                                    Effort& effort) {
+                                    WorkLimit& work_limit) {
     const DrawnMesh& drawn = meshes_[mesh];
     const SeenTriangle seen(points);
     if (!seen.isSeen()) return;
@@ -248,15 +248,15 @@ void VisibleTriangles::drawTriangle(std::size_t mesh, std::size_t triangle, cons
     const bool is_whole =
         std::all_of(points.begin(), points.end(), [&](const SeenPoint& p) { return isDrawable(p, camera_.minW()); });
     if (is_whole) {
-        drawPart(job, points[0], points[1], points[2], effort);
+        drawPart(job, points[0], points[1], points[2], work_limit);
         return;
     }
     const Polygon polygon = cutToPicture(points, camera_.minW());
-    for (std::size_t k = 2; k < polygon.size(); ++k) drawPart(job, polygon[0], polygon[k - 1], polygon[k], effort);
+    for (std::size_t k = 2; k < polygon.size(); ++k) drawPart(job, polygon[0], polygon[k - 1], polygon[k], work_limit);
 }
 
 void VisibleTriangles::drawPart(const Job& job, const SeenPoint& a, const SeenPoint& b, const SeenPoint& c,
-                                Effort& effort) {
+                                WorkLimit& work_limit) {
     const FixedTriangle part(fixedCorner(a), fixedCorner(b), fixedCorner(c));
     // Corners were rounded, so a sample may lie outside the triangle, where a steep plane would give a wrong depth.
     const auto [least, most] = std::minmax({nearnessOf(a), nearnessOf(b), nearnessOf(c)});
@@ -265,7 +265,7 @@ void VisibleTriangles::drawPart(const Job& job, const SeenPoint& a, const SeenPo
     for (part.rows(height_, row, end_row); row < end_row; ++row) {
         std::int64_t begin = 0, end = 0;
         part.span(row, width_, begin, end);
-        effort.spend(kRowSteps + static_cast<std::uint64_t>(std::max<std::int64_t>(0, end - begin)));
+        work_limit.spend(kRowSteps + static_cast<std::uint64_t>(std::max<std::int64_t>(0, end - begin)));
         const double y = static_cast<double>(row) + 0.5, at_row = job.plane.y * y + job.plane.z;
         const std::size_t first = static_cast<std::size_t>(row) * width_;
         for (std::int64_t column = begin; column < end; ++column) {

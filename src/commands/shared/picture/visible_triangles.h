@@ -73,9 +73,9 @@ struct DrawnMesh {
 
 /// Work limit of a picture; one step takes a few nanoseconds. Hostile models have huge numbers of triangles, each as
 /// large as the picture. Throws FileError (tooLarge) at the limit.
-class Effort {
+class WorkLimit {
   public:
-    explicit Effort(std::uint64_t steps) : left_(steps) {}
+    explicit WorkLimit(std::uint64_t steps) : left_(steps) {}
     void spend(std::uint64_t steps);
 
   private:
@@ -112,9 +112,9 @@ class VisibleTriangles {
     };
 
     /// Draws all meshes. Of triangles at equal distance the first is visible. Triangles that share an edge leave no gap
-    /// and no sample twice. Throws FileError: tooLarge for 2^32 - 1 triangles or more, and if `effort` is exhausted.
+    /// and no sample twice. Throws FileError: tooLarge for 2^32 - 1 triangles or more, and if `work_limit` is exhausted.
     VisibleTriangles(std::span<const DrawnMesh> meshes, const Camera& camera, std::uint32_t width, std::uint32_t height,
-                     Effort& effort);
+                     WorkLimit& work_limit);
 
     /// Returns a row of samples, counted from the top.
     [[nodiscard]] std::span<const std::uint32_t> row(std::uint32_t y) const {
@@ -132,9 +132,10 @@ class VisibleTriangles {
         std::size_t triangle = 0;
         std::uint32_t number = 0;
     };
-    void draw(std::size_t mesh, Effort& effort);
-    void drawTriangle(std::size_t mesh, std::size_t triangle, const std::array<SeenPoint, 3>& points, Effort& effort);
-    void drawPart(const Job& job, const SeenPoint& a, const SeenPoint& b, const SeenPoint& c, Effort& effort);
+    void draw(std::size_t mesh, WorkLimit& work_limit);
+    void drawTriangle(std::size_t mesh, std::size_t triangle, const std::array<SeenPoint, 3>& points,
+                      WorkLimit& work_limit);
+    void drawPart(const Job& job, const SeenPoint& a, const SeenPoint& b, const SeenPoint& c, WorkLimit& work_limit);
 
     std::span<const DrawnMesh> meshes_;
     Camera camera_;

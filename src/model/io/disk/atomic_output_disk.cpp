@@ -145,7 +145,7 @@ std::optional<Abandoned> abandoned(std::string_view name) {
 }
 
 bool removeAbandoned(const Path& folder, const FolderEntry& entry) {
-    // Skips links: abandoned files are always regular files.
+    // Links are skipped, because abandoned files are always regular files.
     if (entry.kind != PathKind::file || entry.is_link) return false;
     const std::optional<Abandoned> found = abandoned(entry.name);
     if (!found) return false;
@@ -226,7 +226,7 @@ int writeStream(const Path& path, std::span<const std::uint8_t> bytes) {
     return std::fclose(stream.release()) == 0 || failure != 0 ? failure : errno;
 }
 
-/// Identities of files that outputs must not replace, from all KeptFiles.
+/// Identities of files that outputs must not replace, from all ProtectedFiles.
 struct KeptIdentities {
     std::mutex mutex = {};
     std::multiset<std::string> identities = {};
@@ -302,7 +302,7 @@ OneRun::~OneRun() {
     runFiles().files.clear();
 }
 
-KeptFiles::KeptFiles(const std::vector<std::string>& paths) {
+ProtectedFiles::ProtectedFiles(const std::vector<std::string>& paths) {
     for (const std::string& path : paths) {
         if (!path.empty() && path != "-") identities_.push_back(identityOf(path));
     }
@@ -311,7 +311,7 @@ KeptFiles::KeptFiles(const std::vector<std::string>& paths) {
     kept.identities.insert(identities_.begin(), identities_.end());
 }
 
-KeptFiles::~KeptFiles() {
+ProtectedFiles::~ProtectedFiles() {
     KeptIdentities& kept = keptIdentities();
     const std::lock_guard lock(kept.mutex);
     for (const std::string& identity : identities_) kept.identities.erase(kept.identities.find(identity));
@@ -380,7 +380,7 @@ AtomicOutput::File AtomicOutput::planFile(const Path& requested) {
         failToWrite(requested, "it is a symbolic link that another user created in a world-writable folder");
     // A stream keeps its name: /dev/stdout links into /proc, where a pipe has no path.
     const PathKind kind = kindOf(requested);
-    const std::uint64_t call = way_.inputs != nullptr ? way_.inputs->call() : 0;
+    const std::uint64_t call = options_.inputs != nullptr ? options_.inputs->call() : 0;
     if (kind == PathKind::stream) return {.target = requested, .is_stream = true, .call = call};
     if (kind == PathKind::folder) failToWrite(requested, "it is a folder");
     if (kind == PathKind::other) failToWrite(requested, "it is neither a file nor a stream");
@@ -388,7 +388,7 @@ AtomicOutput::File AtomicOutput::planFile(const Path& requested) {
     const Path target = is_link ? canonicalPath(requested) : requested;
     if (is_link && (fs::is_symlink(fs::path(target), error) || !fs::exists(fs::path(target), error)))
         failToWrite(requested, "it is a dangling symbolic link");
-    if (way_.inputs != nullptr && !way_.replaces_inputs && way_.inputs->has(target))
+    if (options_.inputs != nullptr && !options_.replaces_inputs && options_.inputs->has(target))
         failToWrite(requested, "it is an input; choose another output");
     const std::string identity = identityOf(target);
     const HeldOutputs* const held = HeldOutputs::ofThread();
@@ -451,7 +451,7 @@ void AtomicOutput::addFile(File planned, const std::function<int(const Sink&)>& 
     if (failure != 0) failToWrite(added.target, std::strerror(failure));
     if (std::fflush(file.get()) != 0) failToWrite(added.target, std::strerror(errno));
     takePermissions(file.get(), added.target);
-    if (way_.sync && !syncFile(file.get())) failToWrite(added.target, std::strerror(errno));
+    if (options_.sync && !syncFile(file.get())) failToWrite(added.target, std::strerror(errno));
     if (std::fclose(file.release()) != 0) failToWrite(added.target, std::strerror(errno));
 }
 
@@ -487,8 +487,8 @@ void AtomicOutput::leaveSharedFiles() {
 bool AtomicOutput::leave(const Path& target, std::span<const std::uint8_t> bytes) {
     const std::lock_guard lock(renaming());
     if (!hasBytes(target, bytes)) return false;
-    if (!way_.is_dry_run && way_.inputs != nullptr)
-        inRun(target, [&](RunFile& known) { known.owner = way_.inputs->call(); });
+    if (!options_.is_dry_run && options_.inputs != nullptr)
+        inRun(target, [&](RunFile& known) { known.owner = options_.inputs->call(); });
     return true;
 }
 
@@ -512,7 +512,7 @@ void AtomicOutput::renameFiles() {
     std::vector<Path> folders;
     const auto addFolder = [&](Path folder) {
         const auto isIt = [&](const Path& known) { return known.string() == folder.string(); };
-        if (way_.sync && std::none_of(folders.begin(), folders.end(), isIt)) folders.push_back(std::move(folder));
+        if (options_.sync && std::none_of(folders.begin(), folders.end(), isIt)) folders.push_back(std::move(folder));
     };
     for (std::size_t i = 0; i < files_.size(); ++i) {
         if (!files_[i].is_made) continue;

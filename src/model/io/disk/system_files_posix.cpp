@@ -204,7 +204,7 @@ std::string processSpace() {
     ::gethostname(name.data(), name.size() - 1);
     std::string text = name.data();
     std::string line;
-    // Linux only: the ID of this boot, and of the PID namespace. Empty on other systems.
+    // The text consists of the IDs of this boot and of the PID namespace of Linux. It is empty on other systems.
     if (std::ifstream boot("/proc/sys/kernel/random/boot_id"); std::getline(boot, line)) text += line;
     std::error_code ignored;
     text += fs::read_symlink("/proc/self/ns/pid", ignored).string();
