@@ -43,7 +43,7 @@ Command heightToNormalCommand() {
     HeightToNormalArguments& arguments = *owned;
     arguments.options.execution.thread_count = kAllThreads;
     Command command{
-        .summary = "make a normal map from a height map",
+        .summary = "convert a height map to a normal map",
         .operands = "IN -o OUT",
         .description =
             "Computes a normal map from a gray image in which white is high and black is low (a bump map): the slopes "

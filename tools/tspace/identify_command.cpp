@@ -49,7 +49,7 @@ Command identifyCommand() {
     IdentifyArguments& arguments = *owned;
     arguments.options.execution.thread_count = kAllThreads;
     Command command{
-        .summary = "find out which method made the tangents of a model",
+        .summary = "identify the method that computed the tangents of a model",
         .operands = "IN...",
         .description =
             "Runs every method on the positions, normals and UVs of the model, for each UV set. Reports what share of "
