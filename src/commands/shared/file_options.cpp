@@ -16,7 +16,8 @@ bool parseMemory(const std::string& text, std::uint64_t& bytes) {
         return true;
     }
     const std::size_t unit = text.find_first_not_of("0123456789");
-    const std::size_t power = unit + 1 == text.size() ? std::string("KMGT").find(text[unit]) : std::string::npos;
+    const bool has_unit = unit != std::string::npos && unit + 1 == text.size();
+    const std::size_t power = has_unit ? std::string("KMGT").find(text[unit]) : std::string::npos;
     std::uint64_t count = 0;
     if (power == std::string::npos || !parseNumber(text.substr(0, unit), count)) return false;
     const std::uint64_t factor = std::uint64_t{1} << (10 * (power + 1));
