@@ -64,7 +64,7 @@ std::string nameOf(const tspace_Model& model) {
 }
 
 void openModel(const tspace_Model* model, FileOptions& options) {
-    if (const Error error = c_api::checkNeeded(model, "tspace_Model"); error.code != ErrorCode::ok)
+    if (const Error error = c_api::checkRequired(model, "tspace_Model"); error.code != ErrorCode::ok)
         throw FileError{error};
     if (model->data == nullptr) failFile(ErrorCode::nullData, "the data of the model is null");
     options.content = {model->data, model->size};

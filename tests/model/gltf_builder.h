@@ -31,7 +31,7 @@ Bytes bytesOfValues(const std::vector<T, Allocator>& values) {
     const auto* first = reinterpret_cast<const std::uint8_t*>(values.data());
     Bytes bytes(first, first + values.size() * sizeof(T));
     // Vectors consist of floats.
-    turnLittleEndian(bytes, std::is_arithmetic_v<T> ? sizeof(T) : sizeof(float));
+    convertLittleEndian(bytes, std::is_arithmetic_v<T> ? sizeof(T) : sizeof(float));
     return bytes;
 }
 

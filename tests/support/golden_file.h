@@ -34,7 +34,7 @@ struct GoldenFile {
         std::ifstream file(path, std::ios::binary);
         std::vector<std::uint32_t> words(std::filesystem::file_size(path) / 4);
         file.read(reinterpret_cast<char*>(words.data()), static_cast<std::streamsize>(words.size() * 4));
-        turnLittleEndian({reinterpret_cast<std::uint8_t*>(words.data()), words.size() * 4}, 4);
+        convertLittleEndian({reinterpret_cast<std::uint8_t*>(words.data()), words.size() * 4}, 4);
         if (!file || words.size() < kHeadWords || words[0] != 0x31475354u) return;
         const std::size_t faces = words[1], corners = words[2];
         if (words.size() != kHeadWords + faces + corners * (kInputWords + kResultWords)) return;

@@ -44,12 +44,12 @@ std::byte* reserveSpace(std::size_t bytes) {
     constexpr unsigned long kReserve = 0x2000, kNoAccess = 0x01;
     return static_cast<std::byte*>(VirtualAlloc(nullptr, bytes, kReserve, kNoAccess));
 }
-bool putMemoryBehind(std::byte* begin, std::size_t bytes) {
+bool commitMemory(std::byte* begin, std::size_t bytes) {
     constexpr unsigned long kCommit = 0x1000, kReadWrite = 0x04;
     return VirtualAlloc(begin, bytes, kCommit, kReadWrite) != nullptr;
 }
-bool takeMemoryAway(std::byte* begin, std::size_t bytes) { return VirtualFree(begin, bytes, 0x4000) != 0; }
-void endSpace(std::byte* space, std::size_t) { VirtualFree(space, 0, 0x8000); }
+bool decommitMemory(std::byte* begin, std::size_t bytes) { return VirtualFree(begin, bytes, 0x4000) != 0; }
+void releaseSpace(std::byte* space, std::size_t) { VirtualFree(space, 0, 0x8000); }
 
 #elif defined(__unix__) || defined(__APPLE__)
 
@@ -57,24 +57,24 @@ std::byte* reserveSpace(std::size_t bytes) {
     void* space = mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     return space != MAP_FAILED ? static_cast<std::byte*>(space) : nullptr;
 }
-bool putMemoryBehind(std::byte* begin, std::size_t bytes) {
+bool commitMemory(std::byte* begin, std::size_t bytes) {
     if (mprotect(begin, bytes, PROT_READ | PROT_WRITE) != 0) return false;
-    askForPages(begin, bytes);
+    populatePages(begin, bytes);
     return true;
 }
 /// Decommits memory; the address space stays reserved. A new mapping also releases its share of the system's commit
 /// limit.
-bool takeMemoryAway(std::byte* begin, std::size_t bytes) {
+bool decommitMemory(std::byte* begin, std::size_t bytes) {
     return mmap(begin, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0) != MAP_FAILED;
 }
-void endSpace(std::byte* space, std::size_t bytes) { munmap(space, bytes); }
+void releaseSpace(std::byte* space, std::size_t bytes) { munmap(space, bytes); }
 
 #else  // all memory comes from operator new
 
 std::byte* reserveSpace(std::size_t) { return nullptr; }
-bool putMemoryBehind(std::byte*, std::size_t) { return false; }
-bool takeMemoryAway(std::byte*, std::size_t) { return false; }
-void endSpace(std::byte*, std::size_t) {}
+bool commitMemory(std::byte*, std::size_t) { return false; }
+bool decommitMemory(std::byte*, std::size_t) { return false; }
+void releaseSpace(std::byte*, std::size_t) {}
 
 #endif
 
@@ -88,7 +88,7 @@ class Arena::Impl {
         std::byte* space = nullptr;
         while (bytes >= kLeastReserved && (space = reserveSpace(bytes)) == nullptr) bytes /= 4;
         if (space != nullptr && bytes < kReserved) {
-            endSpace(space, bytes);
+            releaseSpace(space, bytes);
             bytes /= 4;
             space = bytes >= kLeastReserved ? reserveSpace(bytes) : nullptr;
         }
@@ -104,7 +104,7 @@ class Arena::Impl {
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
     ~Impl() {
-        if (space_ != nullptr) endSpace(space_, space_bytes_);
+        if (space_ != nullptr) releaseSpace(space_, space_bytes_);
     }
 
     void* allocate(std::size_t bytes) noexcept {
@@ -131,7 +131,7 @@ class Arena::Impl {
 
     void trim() {
         const std::size_t needed = roundUp(end(), kStep);
-        if (needed < held_ && takeMemoryAway(begin_ + needed, held_ - needed)) held_ = needed;
+        if (needed < held_ && decommitMemory(begin_ + needed, held_ - needed)) held_ = needed;
     }
 
     [[nodiscard]] std::size_t heldBytes() const { return held_ + elsewhere_; }
@@ -153,7 +153,7 @@ class Arena::Impl {
                     best = block;
             }
             if (best == blocks_.end()) {
-                if (!holdUpTo(end(), bytes)) return nullptr;
+                if (!commitUpTo(end(), bytes)) return nullptr;
                 blocks_.push_back({end(), bytes, false});
                 return begin_ + blocks_.back().begin;
             }
@@ -183,11 +183,11 @@ class Arena::Impl {
     /// Offset just past the last block in use.
     [[nodiscard]] std::size_t end() const { return blocks_.empty() ? 0 : blocks_.back().begin + blocks_.back().bytes; }
 
-    bool holdUpTo(std::size_t begin, std::size_t bytes) {
+    bool commitUpTo(std::size_t begin, std::size_t bytes) {
         if (bytes > room_ - begin) return false;
         const std::size_t needed = roundUp(begin + bytes, kStep);  // room_ is a multiple of kStep
         assert(held_ <= room_ && needed <= room_);
-        if (needed > held_ && !putMemoryBehind(begin_ + held_, needed - held_)) return false;
+        if (needed > held_ && !commitMemory(begin_ + held_, needed - held_)) return false;
         held_ = std::max(held_, needed);
         return true;
     }

@@ -40,7 +40,7 @@ inline std::size_t defaultAlignment([[maybe_unused]] std::size_t bytes) {
 }
 
 /// Requests huge pages for a block. This is a hint, which the system may ignore.
-inline void askForHugePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
+inline void requestHugePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
     if (bytes >= kHugePage) madvise(memory, bytes, MADV_HUGEPAGE);
 #endif
@@ -48,11 +48,11 @@ inline void askForHugePages([[maybe_unused]] void* memory, [[maybe_unused]] std:
 
 /// Populates a large block at once, with huge pages: page faults of fresh memory can cost as much as all computations
 /// on it (0.5 us and more for each 4 KB on a virtual machine). This is a hint, which the system may ignore.
-inline void askForPages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
+inline void populatePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__) && defined(MADV_POPULATE_WRITE)
     constexpr std::size_t kPage = 4096, kWorthACall = 32 * kPage;
     if (bytes < kWorthACall) return;
-    askForHugePages(memory, bytes);
+    requestHugePages(memory, bytes);
     const std::size_t skip = -reinterpret_cast<std::uintptr_t>(memory) % kPage;
     madvise(static_cast<std::byte*>(memory) + skip, (bytes - skip) / kPage * kPage, MADV_POPULATE_WRITE);
 #endif
@@ -71,7 +71,7 @@ inline void askForPages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
     }
     void* memory = ::operator new(bytes, std::align_val_t(defaultAlignment(bytes)), std::nothrow);
     if (memory == nullptr) throwOutOfMemory();
-    askForPages(memory, bytes);
+    populatePages(memory, bytes);
     return memory;
 }
 

@@ -149,15 +149,15 @@ NearPositions::NearPositions(const MeshView& mesh, float distance, const Allocat
         distance_ = kSpacings * spacingAt(most);
     }
     std::size_t most = 0;
-    const auto takesPart = [&](std::uint32_t v) {
+    const auto isWeldable = [&](std::uint32_t v) {
         return roots[v] == v && (edges.empty() || edges[v] >= kLeastEdge * distance_) && isFinite(mesh.positions[v]);
     };
-    for (std::uint32_t v = 0; v < count; ++v) most += takesPart(v) ? 1 : 0;
+    for (std::uint32_t v = 0; v < count; ++v) most += isWeldable(v) ? 1 : 0;
     if (!(distance_ > 0) || most < 2) return;
     PositionCells cells(mesh.positions, distance_, most, allocator);
     bool any = false;
     for (std::uint32_t v = 0; v < count; ++v) {
-        if (!takesPart(v)) {
+        if (!isWeldable(v)) {
             roots[v] = roots[roots[v]];
             continue;
         }

@@ -16,7 +16,7 @@ namespace tspace {
 // Little-endian numbers, as in glTF, on machines of either byte order.
 
 /// Converts numbers of `number_bytes` bytes each from native to little-endian byte order, or back.
-inline void turnLittleEndian(std::span<std::uint8_t> bytes, std::size_t number_bytes) {
+inline void convertLittleEndian(std::span<std::uint8_t> bytes, std::size_t number_bytes) {
     if constexpr (std::endian::native == std::endian::little) return;
     for (std::size_t at = 0; at + number_bytes <= bytes.size(); at += number_bytes)
         std::reverse(bytes.data() + at, bytes.data() + at + number_bytes);
@@ -26,14 +26,14 @@ template <class Number>
 Number loadLittleEndian(const std::uint8_t* from) {
     std::uint8_t bytes[sizeof(Number)];
     std::memcpy(bytes, from, sizeof bytes);
-    turnLittleEndian(bytes, sizeof bytes);
+    convertLittleEndian(bytes, sizeof bytes);
     return std::bit_cast<Number>(bytes);
 }
 
 template <class Number>
 void storeLittleEndian(Number number, std::uint8_t* to) {
     std::memcpy(to, &number, sizeof number);
-    turnLittleEndian({to, sizeof number}, sizeof number);
+    convertLittleEndian({to, sizeof number}, sizeof number);
 }
 
 // Formatting of numbers for messages, with a decimal point in every locale. std::to_chars is not used, because

@@ -14,7 +14,7 @@ namespace {
 
 /// Time for which a thread spins while it waits for the next loop (or the last task of this one), before it sleeps.
 /// Waking a sleeping thread takes about this long, and the loops of a call follow each other quickly.
-constexpr std::chrono::microseconds kLookOut{40};
+constexpr std::chrono::microseconds kSpinTime{40};
 
 void pauseBriefly() {
 #if defined(__x86_64__) || defined(__i386__)
@@ -28,7 +28,7 @@ void pauseBriefly() {
 /// the loop closed; the caller does not wait for it.
 class Parallel::Pool {
   public:
-    explicit Pool(bool looks_out) : look_out_(looks_out ? kLookOut : kLookOut.zero()) {}
+    explicit Pool(bool spins) : spins_(spins ? kSpinTime : kSpinTime.zero()) {}
 
     ~Pool() {
         is_ending_ = true;
@@ -39,7 +39,7 @@ class Parallel::Pool {
     void startHelpers(std::size_t count) {
         const auto start = [&] {
             helpers_.reserve(count);
-            while (helpers_.size() < count) helpers_.emplace_back([this] { serve(); });
+            while (helpers_.size() < count) helpers_.emplace_back([this] { runHelper(); });
         };
 #ifdef __cpp_exceptions
         try {
@@ -76,7 +76,7 @@ class Parallel::Pool {
         calls_.notify_all();
     }
 
-    void serve() {
+    void runHelper() {
         std::uint32_t seen = 0;
         while (true) {
             seen = waitWhile(calls_, [seen](std::uint32_t calls) { return calls == seen; });
@@ -89,7 +89,7 @@ class Parallel::Pool {
     /// Waits while condition(value) holds; returns the value that ended the wait.
     template <class Condition>
     std::uint32_t waitWhile(const std::atomic<std::uint32_t>& number, Condition&& condition) const {
-        const auto end = std::chrono::steady_clock::now() + look_out_;
+        const auto end = std::chrono::steady_clock::now() + spins_;
         std::uint32_t value;
         while (condition(value = number.load(std::memory_order_acquire))) {
             if (std::chrono::steady_clock::now() >= end) {
@@ -101,7 +101,7 @@ class Parallel::Pool {
         return value;
     }
 
-    const std::chrono::microseconds look_out_;
+    const std::chrono::microseconds spins_;
     std::vector<std::thread> helpers_;
     // The current task and its argument, which are written only while the loop is closed.
     void (*task_)(void*, std::size_t) = nullptr;

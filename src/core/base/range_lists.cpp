@@ -159,12 +159,12 @@ RangeLists::Batches::Batches(const TriangleGroups& triangles, const RangeLists& 
     end_ = lists.begin_[range + 1];
 }
 
-bool RangeLists::Batches::next(TriangleBatch& batch, bool wants_vertices) {
+bool RangeLists::Batches::next(TriangleBatch& batch, bool needs_vertices) {
     batch.count = 0;
     if (next_ == end_) return false;
     batch.vertices = batch.own_vertices;
     batch.groups = batch.own_groups;
-    std::uint32_t* const vertices = wants_vertices ? batch.own_vertices : nullptr;
+    std::uint32_t* const vertices = needs_vertices ? batch.own_vertices : nullptr;
     batch.is_block = entries_ == nullptr || (entries_[next_] & kBlock) != 0;
     batch.is_whole = batch.is_block && are_whole_;
     if (!batch.is_block) {

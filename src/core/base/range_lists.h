@@ -122,8 +122,8 @@ class RangeLists {
         /// Iterates over all triangles of some blocks, whatever their groups.
         Batches(const TriangleGroups& triangles, std::size_t block_size, std::size_t begin, std::size_t end)
             : triangles_(triangles), block_size_(block_size), next_(begin), end_(end) {}
-        /// Reads the next batch; returns false at the end. Reads only groups if `wants_vertices` is false.
-        bool next(TriangleBatch& batch, bool wants_vertices = true);
+        /// Reads the next batch; returns false at the end. Reads only groups if `needs_vertices` is false.
+        bool next(TriangleBatch& batch, bool needs_vertices = true);
 
       private:
         const TriangleGroups& triangles_;

@@ -52,7 +52,7 @@ inline void sortRows(void* rows, std::size_t count, std::size_t row_bytes, RowIs
 /// Sorts stably, with one function for all element types, instead of the 1 to 2 KB of code per type in the standard
 /// library.
 template <class Iterator, class Less>
-void sortInLittleCode(Iterator begin, Iterator end, const Less& less) {
+void sortWithSharedCode(Iterator begin, Iterator end, const Less& less) {
     using Element = std::remove_cvref_t<decltype(*begin)>;
     const auto count = static_cast<std::size_t>(end - begin);
     if (count < 2) return;
@@ -65,7 +65,8 @@ void sortInLittleCode(Iterator begin, Iterator end, const Less& less) {
     } else {
         std::vector<Element*> order;
         for (Iterator at = begin; at != end; ++at) order.push_back(&*at);
-        sortInLittleCode(order.begin(), order.end(), [&](const Element* a, const Element* b) { return less(*a, *b); });
+        sortWithSharedCode(order.begin(), order.end(),
+                           [&](const Element* a, const Element* b) { return less(*a, *b); });
         std::vector<Element> sorted;
         for (Element* element : order) sorted.push_back(std::move(*element));
         std::move(sorted.begin(), sorted.end(), begin);
@@ -76,7 +77,7 @@ void sortInLittleCode(Iterator begin, Iterator end, const Less& less) {
 template <class Iterator, class Less = std::less<>>
 void sortList(Iterator begin, Iterator end, const Less& less = {}) {
 #ifdef TSPACE_SMALL
-    sortInLittleCode(begin, end, less);
+    sortWithSharedCode(begin, end, less);
 #else
     std::sort(begin, end, less);
 #endif
@@ -86,7 +87,7 @@ void sortList(Iterator begin, Iterator end, const Less& less = {}) {
 template <class Iterator, class Less>
 void sortStably(Iterator begin, Iterator end, const Less& less) {
 #ifdef TSPACE_SMALL
-    sortInLittleCode(begin, end, less);
+    sortWithSharedCode(begin, end, less);
 #else
     std::stable_sort(begin, end, less);
 #endif

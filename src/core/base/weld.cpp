@@ -125,7 +125,7 @@ class Welder {
         std::size_t distinct = count_;
         parallel_.forRanges(count_, kGrain,
                             [&](std::size_t begin, std::size_t end) { vertices_.hash(begin, end, hashes_.data()); });
-        if (count_ >= kFew) distinct = is_indexed ? listCandidates() : guessDistinct();
+        if (count_ >= kFew) distinct = is_indexed ? listCandidates() : estimateDistinct();
         entry_count_ = list_.empty() ? count_ : distinct;
         roots_ = Buffer<std::uint32_t>(list_.empty() ? allocator_ : transient_, entry_count_);
         std::uint64_t different = 1;
@@ -172,7 +172,7 @@ class Welder {
 
     /// Estimates the number of different vertices from a sample of the hashes, selected by value, so that equal
     /// vertices are either all in it or none.
-    std::size_t guessDistinct() {
+    std::size_t estimateDistinct() {
         constexpr std::uint32_t kShare = 32;
         RepeatedHashes counting(transient_, count_ / kShare, 1);
         for (std::size_t v = 0; v < count_; ++v) {

@@ -41,7 +41,7 @@ Error checkStructSize(std::uint32_t size, std::span<const std::size_t> known, co
                      name, size, known.back());
 }
 
-Error checkPrepared(bool has_defaults, const char* name, const char* fields) {
+Error checkInitialized(bool has_defaults, const char* name, const char* fields) {
     if (has_defaults) return {ErrorCode::ok};
     return makeError(ErrorCode::invalidOption, kNoElement,
                      "%s of %s are all 0: the struct was not initialized with its default values", fields, name);
@@ -58,7 +58,7 @@ IndexView toIndices(const tspace_Indices& indices) {
 }
 
 MeshView toMesh(const tspace_Mesh& given) {
-    const tspace_Mesh mesh = orDefault(&given);
+    const tspace_Mesh mesh = givenOrDefault(&given);
     MeshView view;
     view.positions = toSpan<Vec3>(mesh.positions);
     view.normals = toSpan<Vec3>(mesh.normals);
@@ -72,7 +72,7 @@ MeshView toMesh(const tspace_Mesh& given) {
 }
 
 Error checkMesh(const tspace_Mesh* mesh) {
-    if (Error error = checkNeeded(mesh, "mesh"); error.code != ErrorCode::ok) return error;
+    if (Error error = checkRequired(mesh, "mesh"); error.code != ErrorCode::ok) return error;
     if (mesh->face_sizes == nullptr && mesh->face_count != 0) {
         return {ErrorCode::nullData, "mesh.face_sizes is null, but mesh.face_count is not 0"};
     }
@@ -92,7 +92,7 @@ Convention toConvention(const tspace_Convention& convention) { return std::bit_c
 
 Error checkExecution(const tspace_Execution* given) {
     if (Error error = checkSized(given, "execution"); error.code != ErrorCode::ok) return error;
-    const tspace_Execution execution = orDefault(given);
+    const tspace_Execution execution = givenOrDefault(given);
     if (execution.executor != nullptr && execution.executor->run == nullptr) {
         return {ErrorCode::nullData, "the function execution.executor.run is null"};
     }
@@ -104,7 +104,7 @@ Error checkExecution(const tspace_Execution* given) {
 }
 
 Hooks::Hooks(const tspace_Execution* given) {
-    const tspace_Execution execution = orDefault(given);
+    const tspace_Execution execution = givenOrDefault(given);
     thread_count_ = execution.thread_count;
     simd_ = static_cast<SimdTarget>(execution.simd);
     if (const tspace_Executor* executor = execution.executor; executor != nullptr) {

@@ -80,14 +80,14 @@ Error checkSized(const Struct* sized, const char* name) {
 
 /// Checks the size of a struct, like checkSized, and that the struct is not null.
 template <class Struct>
-Error checkNeeded(const Struct* sized, const char* name) {
+Error checkRequired(const Struct* sized, const char* name) {
     if (sized == nullptr) return makeError(ErrorCode::nullData, kNoElement, "%s is null", name);
     return checkSized(sized, name);
 }
 
 /// Returns the fields that the caller has given, with defaults for the others.
 template <class Struct>
-Struct orDefault(const Struct* given) {
+Struct givenOrDefault(const Struct* given) {
     Struct whole;
     TSPACE_INIT(whole);
     if (given != nullptr) std::memcpy(&whole, given, std::min<std::size_t>(given->struct_size, sizeof(Struct)));
@@ -96,7 +96,7 @@ Struct orDefault(const Struct* given) {
 
 /// Copies a report to the caller's struct: only the fields that the caller's version of the struct has.
 template <class Struct>
-void give(Struct report, Struct* to) {
+void writeReport(Struct report, Struct* to) {
     if (to == nullptr) return;
     report.struct_size = to->struct_size;
     std::memcpy(to, &report, to->struct_size);
@@ -105,7 +105,7 @@ void give(Struct report, Struct* to) {
 /// Checks that options were initialized. `has_defaults` is false if every field with a nonzero default is 0, as in a
 /// zero-filled struct from a language without TSPACE_INIT: such options would silently change the results. `name` is
 /// the one in tspace_init<name>, `fields` lists these fields.
-Error checkPrepared(bool has_defaults, const char* name, const char* fields);
+Error checkInitialized(bool has_defaults, const char* name, const char* fields);
 
 /// Checks that an enumerator or flag does not exceed its largest value.
 Error checkChoice(std::uint32_t value, std::uint32_t largest, const char* name);

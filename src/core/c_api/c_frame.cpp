@@ -200,7 +200,7 @@ tspace_ErrorCode tspace_packFrames(tspace_ConstSpan normals, tspace_ConstSpan ta
             packFrames(toSpan<Vec3>(normals), toSpan<Vec4>(tangents), static_cast<FrameFormat>(format),
                        {static_cast<std::byte*>(out), out_bytes});
         if (!result) return result.error();
-        give(toReport(*result), report);
+        writeReport(toReport(*result), report);
         return Done{};
     });
 }

@@ -12,11 +12,11 @@ namespace tspace::c_api {
 
 Error checkOptions(const tspace_NormalOptions* given) {
     if (Error error = checkSized(given, "options"); error.code != ErrorCode::ok) return error;
-    const tspace_NormalOptions options = orDefault(given);
+    const tspace_NormalOptions options = givenOrDefault(given);
     const bool has_defaults = options.weighting != TSPACE_NORMAL_WEIGHTING_FLAT || options.crease_angle_deg != 0 ||
                               options.weld_positions != 0 || options.refine != 0;
     constexpr const char* kFields = "weighting, crease_angle_deg, weld_positions and refine";
-    return firstError([&] { return checkPrepared(has_defaults, "NormalOptions", kFields); },
+    return firstError([&] { return checkInitialized(has_defaults, "NormalOptions", kFields); },
                       [&] { return checkFields(options); },
                       [&]() -> Error {
                           if (options.smoothing_groups != nullptr || options.smoothing_group_count == 0)
@@ -45,9 +45,9 @@ tspace_ErrorCode tspace_generateNormals(const tspace_Mesh* mesh, const tspace_No
         if (e.code != ErrorCode::ok) return e;
         const Hooks hooks(execution);
         const Result<NormalReport> result =
-            generateNormals(toMesh(*mesh), toOptions(orDefault(options)), toSpan<Vec3>(out), hooks.execution());
+            generateNormals(toMesh(*mesh), toOptions(givenOrDefault(options)), toSpan<Vec3>(out), hooks.execution());
         if (!result) return result.error();
-        give(toReport(*result), report);
+        writeReport(toReport(*result), report);
         return Done{};
     });
 }
@@ -56,12 +56,12 @@ tspace_ErrorCode tspace_measurePositionNoise(const tspace_Mesh* mesh, const tspa
                                              tspace_PositionNoise* noise, tspace_Error* error) noexcept {
     return atCBorder(error, [&]() -> Result<Done> {
         Error e = firstError([&] { return checkMesh(mesh); }, [&] { return checkExecution(execution); },
-                             [&] { return checkNeeded(noise, "noise"); });
+                             [&] { return checkRequired(noise, "noise"); });
         if (e.code != ErrorCode::ok) return e;
         const Hooks hooks(execution);
         const Result<PositionNoise> result = measurePositionNoise(toMesh(*mesh), hooks.execution());
         if (!result) return result.error();
-        give(toReport(*result), noise);
+        writeReport(toReport(*result), noise);
         return Done{};
     });
 }
@@ -75,11 +75,11 @@ namespace {
 
 Error checkOptions(const tspace_WindingOptions* given) {
     if (Error error = checkSized(given, "options"); error.code != ErrorCode::ok) return error;
-    const tspace_WindingOptions options = orDefault(given);
+    const tspace_WindingOptions options = givenOrDefault(given);
     const bool has_defaults =
         options.use_normals != 0 || options.weld_positions != 0 || toConvention(options.convention) != Convention{};
     constexpr const char* kFields = "use_normals, weld_positions and the convention";
-    return firstError([&] { return checkPrepared(has_defaults, "WindingOptions", kFields); },
+    return firstError([&] { return checkInitialized(has_defaults, "WindingOptions", kFields); },
                       [&] { return checkFields(options); });
 }
 
@@ -92,14 +92,14 @@ tspace_ErrorCode tspace_mendWinding(const tspace_Mesh* mesh, const tspace_Windin
         Error e = firstError([&] { return c_api::checkMesh(mesh); }, [&] { return ::checkOptions(options); },
                              [&] { return checkExecution(execution); }, [&] { return checkSized(report, "report"); });
         if (e.code != ErrorCode::ok) return e;
-        const tspace_WindingOptions given = orDefault(options);
+        const tspace_WindingOptions given = givenOrDefault(options);
         WindingOptions how;
         copyFields(given, how);
         const Hooks hooks(execution);
         const Result<WindingReport> result =
             mendWinding(toMesh(*mesh), how, {turned, turned_count, 1}, hooks.execution());
         if (!result) return result.error();
-        give(toReport(*result), report);
+        writeReport(toReport(*result), report);
         return Done{};
     });
 }

@@ -28,10 +28,11 @@ namespace tspace::c_api {
 
 Error checkOptions(const tspace_TangentOptions* given) {
     if (Error error = checkSized(given, "options"); error.code != ErrorCode::ok) return error;
-    const tspace_TangentOptions options = orDefault(given);
+    const tspace_TangentOptions options = givenOrDefault(given);
     const bool has_defaults = options.angular_threshold_deg != 0 || options.refine != 0;
-    return firstError([&] { return checkPrepared(has_defaults, "TangentOptions", "angular_threshold_deg and refine"); },
-                      [&] { return checkFields(options); });
+    return firstError(
+        [&] { return checkInitialized(has_defaults, "TangentOptions", "angular_threshold_deg and refine"); },
+        [&] { return checkFields(options); });
 }
 
 TangentOptions toOptions(const tspace_TangentOptions& options) {
@@ -45,7 +46,7 @@ TangentOptions toOptions(const tspace_TangentOptions& options) {
 namespace {
 
 TangentOutput toOutput(const tspace_TangentOutput& given) {
-    const tspace_TangentOutput out = orDefault(&given);
+    const tspace_TangentOutput out = givenOrDefault(&given);
     const tspace_ByteSpan& mask = out.has_tangent;
     return {toSpan<Vec4>(out.tangents),
             toSpan<Vec3>(out.bitangents),
@@ -63,14 +64,14 @@ tspace_ErrorCode tspace_generateTangents(const tspace_Mesh* mesh, const tspace_T
                                          tspace_TangentReport* report, tspace_Error* error) noexcept {
     return atCBorder(error, [&]() -> Result<Done> {
         Error e = firstError([&] { return checkMesh(mesh); }, [&] { return checkOptions(options); },
-                             [&] { return checkNeeded(out, "out"); }, [&] { return checkExecution(execution); },
+                             [&] { return checkRequired(out, "out"); }, [&] { return checkExecution(execution); },
                              [&] { return checkSized(report, "report"); });
         if (e.code != ErrorCode::ok) return e;
         const Hooks hooks(execution);
         const Result<TangentReport> result =
-            generateTangents(toMesh(*mesh), toOptions(orDefault(options)), toOutput(*out), hooks.execution());
+            generateTangents(toMesh(*mesh), toOptions(givenOrDefault(options)), toOutput(*out), hooks.execution());
         if (!result) return result.error();
-        give(toReport(*result), report);
+        writeReport(toReport(*result), report);
         return Done{};
     });
 }
@@ -86,10 +87,10 @@ tspace_ErrorCode tspace_generateTangentsOfMeshes(const tspace_MeshJob* jobs, siz
         for (std::size_t i = 0; i < job_count; ++i) {
             const tspace_MeshJob& job = jobs[i];
             errors[i] = firstError([&] { return checkMesh(job.mesh); }, [&] { return checkOptions(job.options); },
-                                   [&] { return checkNeeded(job.out, "out"); },
+                                   [&] { return checkRequired(job.out, "out"); },
                                    [&] { return checkSized(job.report, "report"); });
             if (errors[i].code == ErrorCode::ok)
-                converted[i] = {toMesh(*job.mesh), toOptions(orDefault(job.options)), toOutput(*job.out)};
+                converted[i] = {toMesh(*job.mesh), toOptions(givenOrDefault(job.options)), toOutput(*job.out)};
         }
         const Hooks hooks(execution);
         const auto results = generateTangents(converted, hooks.execution());
@@ -101,7 +102,7 @@ tspace_ErrorCode tspace_generateTangentsOfMeshes(const tspace_MeshJob* jobs, siz
             if (failure.code == ErrorCode::ok && !result) failure = result.error();
             finish(failure, jobs[i].error);
             if (failure.code == ErrorCode::ok) {
-                give(toReport(*result), jobs[i].report);
+                writeReport(toReport(*result), jobs[i].report);
             } else {
                 failure.element = i;
                 first = std::move(failure);
@@ -122,7 +123,7 @@ tspace_ErrorCode tspace_planTangents(const tspace_Mesh* mesh, const tspace_Tange
         if (e.code != ErrorCode::ok) return e;
         auto made = std::make_unique<tspace_TangentPlan>(execution);
         Result<TangentPlan> result =
-            planTangents(toMesh(*mesh), toOptions(orDefault(options)), made->hooks.execution());
+            planTangents(toMesh(*mesh), toOptions(givenOrDefault(options)), made->hooks.execution());
         if (!result) return result.error();
         made->plan.emplace(std::move(*result));
         *plan = made.release();
@@ -135,7 +136,7 @@ tspace_ErrorCode tspace_evaluateTangents(const tspace_TangentPlan* plan, const t
                                          tspace_TangentReport* report, tspace_Error* error) noexcept {
     return atCBorder(error, [&]() -> Result<Done> {
         if (plan == nullptr) return Error{ErrorCode::nullData, "plan is null"};
-        Error e = firstError([&] { return checkNeeded(pose, "pose"); }, [&] { return checkNeeded(out, "out"); },
+        Error e = firstError([&] { return checkRequired(pose, "pose"); }, [&] { return checkRequired(out, "out"); },
                              [&] { return checkExecution(execution); }, [&] { return checkSized(report, "report"); });
         if (e.code != ErrorCode::ok) return e;
         const Hooks hooks(execution);
@@ -143,7 +144,7 @@ tspace_ErrorCode tspace_evaluateTangents(const tspace_TangentPlan* plan, const t
         const Result<TangentReport> result =
             evaluateTangents(*plan->plan, converted, toOutput(*out), hooks.execution());
         if (!result) return result.error();
-        give(toReport(*result), report);
+        writeReport(toReport(*result), report);
         return Done{};
     });
 }
@@ -152,7 +153,7 @@ tspace_ErrorCode tspace_describeTangentPlan(const tspace_TangentPlan* plan, tspa
                                             tspace_Error* error) noexcept {
     return atCBorder(error, [&]() -> Result<Done> {
         if (plan == nullptr) return Error{ErrorCode::nullData, "plan is null"};
-        if (Error e = checkNeeded(info, "info"); e.code != ErrorCode::ok) return e;
+        if (Error e = checkRequired(info, "info"); e.code != ErrorCode::ok) return e;
         tspace_TangentPlanInfo made;
         TSPACE_INIT(made);
         made.method = static_cast<tspace_Method>(plan->plan->method());
@@ -160,7 +161,7 @@ tspace_ErrorCode tspace_describeTangentPlan(const tspace_TangentPlan* plan, tspa
         made.corner_count = plan->plan->cornerCount();
         made.output_count = plan->plan->outputCount();
         made.memory_bytes = plan->plan->memoryBytes();
-        give(made, info);
+        writeReport(made, info);
         return Done{};
     });
 }
@@ -174,14 +175,14 @@ tspace_ErrorCode tspace_sanitizeTangents(const tspace_Mesh* mesh, const tspace_S
         Error e = firstError([&] { return checkMesh(mesh); }, [&] { return checkSized(options, "options"); },
                              [&] { return checkExecution(execution); }, [&] { return checkSized(report, "report"); });
         if (e.code != ErrorCode::ok) return e;
-        const tspace_SanitizeOptions given = orDefault(options);
+        const tspace_SanitizeOptions given = givenOrDefault(options);
         e = checkFields(given);
         if (e.code != ErrorCode::ok) return e;
         const Hooks hooks(execution);
         const Result<SanitizeReport> result =
             sanitizeTangents(toMesh(*mesh), {given.orthogonalize_all != 0}, toSpan<Vec4>(tangents), hooks.execution());
         if (!result) return result.error();
-        give(toReport(*result), report);
+        writeReport(toReport(*result), report);
         return Done{};
     });
 }
@@ -222,8 +223,8 @@ struct OwnedFrames : tspace_IndexedFrames {
 };
 
 Error checkOptions(const tspace_IndexedFramesOptions* given) {
-    if (Error error = checkNeeded(given, "options"); error.code != ErrorCode::ok) return error;
-    const tspace_IndexedFramesOptions options = orDefault(given);
+    if (Error error = checkRequired(given, "options"); error.code != ErrorCode::ok) return error;
+    const tspace_IndexedFramesOptions options = givenOrDefault(given);
     return firstError([&] { return c_api::checkOptions(options.tangents); },
                       [&] { return c_api::checkOptions(options.normals); }, [&] { return checkFields(options); });
 }
@@ -239,15 +240,15 @@ tspace_ErrorCode tspace_makeIndexedFrames(const tspace_Mesh* mesh, const tspace_
         const Error e = firstError([&] { return checkMesh(mesh); }, [&] { return checkOptions(options); },
                                    [&] { return checkExecution(execution); });
         if (e.code != ErrorCode::ok) return e;
-        const tspace_IndexedFramesOptions given = orDefault(options);
+        const tspace_IndexedFramesOptions given = givenOrDefault(options);
         const Result<std::vector<CornerAttribute>> keep_apart =
             toAttributes(given.keep_apart, given.keep_apart_count, "keep_apart");
         if (!keep_apart) return keep_apart.error();
         const Hooks hooks(execution);
         IndexedFramesOptions converted;
         copyFields(given, converted);
-        converted.tangents = toOptions(orDefault(given.tangents));
-        converted.normals = toOptions(orDefault(given.normals));
+        converted.tangents = toOptions(givenOrDefault(given.tangents));
+        converted.normals = toOptions(givenOrDefault(given.normals));
         converted.keep_apart = *keep_apart;
         Result<IndexedFrames> made = makeIndexedFrames(toMesh(*mesh), converted, hooks.execution());
         if (!made) return made.error();
@@ -364,7 +365,7 @@ Result<std::span<const std::uint32_t>> toNumbers(const std::uint32_t* data, std:
 
 Error checkBufferOptions(const tspace_PlanBufferOptions* given) {
     if (Error error = checkSized(given, "options"); error.code != ErrorCode::ok) return error;
-    const tspace_PlanBufferOptions options = orDefault(given);
+    const tspace_PlanBufferOptions options = givenOrDefault(given);
     return firstError(
         [&] {
             return options.mesh == nullptr ? Error{ErrorCode::ok, {}} : checkMesh(options.mesh);
@@ -384,14 +385,14 @@ tspace_ErrorCode tspace_planBuffers(const tspace_TangentPlan* plan, const tspace
         const Error e =
             firstError([&] { return checkBufferOptions(options); }, [&] { return checkExecution(execution); });
         if (e.code != ErrorCode::ok) return e;
-        const tspace_PlanBufferOptions given = orDefault(options);
+        const tspace_PlanBufferOptions given = givenOrDefault(options);
         const auto indices = toNumbers(given.indices, given.index_count, "indices");
         if (!indices) return indices.error();
         const auto source_corners = toNumbers(given.source_corners, given.source_corner_count, "source_corners");
         if (!source_corners) return source_corners.error();
         PlanBufferOptions converted{.indices = *indices, .source_corners = *source_corners};
         if (given.mesh != nullptr) converted.mesh = toMesh(*given.mesh);
-        converted.normals = toOptions(orDefault(given.normals));
+        converted.normals = toOptions(givenOrDefault(given.normals));
         const Hooks hooks(execution);
         Result<PlanBuffers> made = planBuffers(*plan->plan, converted, hooks.execution());
         if (!made) return made.error();

@@ -50,12 +50,12 @@ enum class Counted : std::uint8_t {
     fromNeighbor,
     fromBasis,
     badNormal,
-    seeker,
-    sound
+    needsNeighbor,
+    valid
 };
 using Cause = Counted;
-using Cure = Counted;
-constexpr auto kCounted = static_cast<std::size_t>(Counted::sound);
+using Repair = Counted;
+constexpr auto kCounted = static_cast<std::size_t>(Counted::valid);
 
 struct Counts {
     std::array<std::uint64_t, kCounted> of{};
@@ -94,7 +94,7 @@ Cause causeOf(const Vec4& tangent, const DVec3& n) {
     if (std::abs(size - 1) > kUnitTolerance) return Cause::notUnit;
     if (!isUsable(xyz(tangent), n)) return Cause::parallel;
     if (isPlaceholder(tangent, n)) return Cause::placeholder;
-    return isSign(tangent.w) ? Cause::sound : Cause::badSign;
+    return isSign(tangent.w) ? Cause::valid : Cause::badSign;
 }
 
 /// Returns a usable direction made unit and orthogonal to n. Orthogonalizes twice, because close to n the first pass
@@ -115,7 +115,7 @@ bool isOrthonormal(const Vec3& tangent, const DVec3& n) {
 
 /// Conservative fast test: true only for tangents that causeOf considers valid, with a normal that has a direction. All
 /// limits are stricter than the exact ones by far more than float rounding.
-struct SurelySound {
+struct FastValidityTest {
     static constexpr float kSquareTolerance = 9.9e-4f;      // below 2 * kUnitTolerance
     static constexpr float kSquareCosine = 0.99f;           // squared cosine of 5.7 degrees
     static constexpr float kSquareLean = 1e-13f;            // below kOrthogonalTolerance^2
@@ -148,11 +148,12 @@ class Sanitizer {
 
     SanitizeReport run() {
         if (!scan()) return {};
-        causes_ = Buffer<Cause>(allocator_, mesh_.cornerCount(), Cause::sound);
+        causes_ = Buffer<Cause>(allocator_, mesh_.cornerCount(), Cause::valid);
         forEachCandidate(
             [this](std::size_t first, std::uint32_t size, Counts& counts) { detect(first, size, counts); });
-        if (countOf(Counted::seeker) != 0) lookAtPositions();
-        forEachCandidate([this](std::size_t first, std::uint32_t size, Counts& counts) { mend(first, size, counts); });
+        if (countOf(Counted::needsNeighbor) != 0) findTangentsByPosition();
+        forEachCandidate(
+            [this](std::size_t first, std::uint32_t size, Counts& counts) { repair(first, size, counts); });
         if (countOf(Counted::badNormal) != 0) alignWithoutNormals();
         return report();
     }
@@ -205,22 +206,22 @@ class Sanitizer {
         return sumRanges(parallel_, candidates_.size(), kScanGrain, [this](std::size_t begin, std::size_t end) {
                    std::uint64_t count = 0;
                    for (std::size_t block = begin; block < end; ++block)
-                       count += candidates_[block] = options_.orthogonalize_all || !isFine(block) ? 1 : 0;
+                       count += candidates_[block] = options_.orthogonalize_all || !isValidBlock(block) ? 1 : 0;
                    return count;
                }) != 0;
     }
 
-    [[nodiscard]] bool isFine(std::size_t block) const {
+    [[nodiscard]] bool isValidBlock(std::size_t block) const {
         return withIndices(mesh_.indices, [&](auto vertexOf) {
             const bool has_triangles = mesh_.face_sizes.empty() && mesh_.face_size == 3;
             const std::size_t begin = block * kFacesPerBlock;
-            if (has_triangles && begin + kFacesPerBlock <= mesh_.faceCount()) return areFine(3 * begin, vertexOf);
+            if (has_triangles && begin + kFacesPerBlock <= mesh_.faceCount()) return areValid(3 * begin, vertexOf);
             bool fine = true;
             forEachFaceOf(block, [&](std::size_t first, std::uint32_t size) {
                 const float sign = tangents_[first].w;
                 for (std::size_t c = first; c < first + size; ++c) {
                     const Vec4& tangent = tangents_[c];
-                    fine &= SurelySound::of(tangent, mesh_.normals[vertexOf(c)]) & (tangent.w == sign);
+                    fine &= FastValidityTest::of(tangent, mesh_.normals[vertexOf(c)]) & (tangent.w == sign);
                 }
             });
             return fine;
@@ -229,22 +230,22 @@ class Sanitizer {
 
     /// Tests the four triangles of a full block.
     template <class VertexOf>
-    [[nodiscard]] bool areFine(std::size_t first, VertexOf vertexOf) const {
+    [[nodiscard]] bool areValid(std::size_t first, VertexOf vertexOf) const {
         static_assert(kFacesPerBlock == 4);
         constexpr unsigned kFirstTwoOfThree = 0b011'011'011'011;
         unsigned signs = 0;
-        Mask4 sound = Mask4{} - 1;
+        Mask4 valid = Mask4{} - 1;
         for (unsigned i = 0; i < 12; i += 4) {
             const std::size_t c = first + i;
             Float4 x = loadFloat4(&tangents_[c].x), y = loadFloat4(&tangents_[c + 1].x),
                    z = loadFloat4(&tangents_[c + 2].x), w = loadFloat4(&tangents_[c + 3].x);
             transpose4(x, y, z, w);
             const auto normal = [&](unsigned k) -> const Vec3& { return mesh_.normals[vertexOf(c + k)]; };
-            sound &= SurelySound::of({x, y, z}, w, gatherVec3(normal(0), normal(1), normal(2), normal(3)));
+            valid &= FastValidityTest::of({x, y, z}, w, gatherVec3(normal(0), normal(1), normal(2), normal(3)));
             signs |= laneBits(std::bit_cast<Mask4>(w)) << i;
         }
         // Bit i of `signs` equals bit i + 1, except at the end of a triangle.
-        return laneBits(sound) == 0b1111 && ((signs ^ signs >> 1) & kFirstTwoOfThree) == 0;
+        return laneBits(valid) == 0b1111 && ((signs ^ signs >> 1) & kFirstTwoOfThree) == 0;
     }
 
     /// Calls body(first_corner, corner_count, counts) for each face that scan() did not exclude; faces are independent.
@@ -263,44 +264,44 @@ class Sanitizer {
     [[nodiscard]] DVec3 normalAt(std::size_t corner) const { return unitNormal(mesh_.normals[mesh_.indices[corner]]); }
 
     /// Returns the first valid corner of the face, or `first + size`.
-    [[nodiscard]] std::size_t firstSound(std::size_t first, std::uint32_t size) const {
+    [[nodiscard]] std::size_t firstValid(std::size_t first, std::uint32_t size) const {
         std::size_t c = first;
-        while (c < first + size && causes_[c] != Cause::sound) ++c;
+        while (c < first + size && causes_[c] != Cause::valid) ++c;
         return c;
     }
 
     /// Detects the defects of a face's corners, and counts corners that need the valid tangent of another corner at
     /// their position.
     void detect(std::size_t first, std::uint32_t size, Counts& counts) {
-        bool all_sound = true;
+        bool all_valid = true;
         for (std::size_t c = first; c < first + size; ++c) {
-            if (SurelySound::of(tangents_[c], mesh_.normals[mesh_.indices[c]]))
-                continue;  // causes_ is initialized to Cause::sound
+            if (FastValidityTest::of(tangents_[c], mesh_.normals[mesh_.indices[c]]))
+                continue;  // causes_ is initialized to Cause::valid
             const DVec3 n = normalAt(c);
             if (isZero(n)) counts.count(Counted::badNormal);
             causes_[c] = causeOf(tangents_[c], n);
-            all_sound = all_sound && causes_[c] == Cause::sound;
+            all_valid = all_valid && causes_[c] == Cause::valid;
         }
-        if (all_sound) return;
-        const std::size_t sound = firstSound(first, size);
-        const bool has_sound = sound < first + size;
+        if (all_valid) return;
+        const std::size_t valid = firstValid(first, size);
+        const bool has_valid = valid < first + size;
         for (std::size_t c = first; c < first + size; ++c) {
-            if (causes_[c] == Cause::sound) continue;
+            if (causes_[c] == Cause::valid) continue;
             const DVec3 n = normalAt(c);
-            const bool has_sign = has_sound || isSign(tangents_[c].w);
-            if (!has_sign || !(isUsable(xyz(tangents_[c]), n) || (has_sound && isUsable(xyz(tangents_[sound]), n))))
-                counts.count(Counted::seeker);
+            const bool has_sign = has_valid || isSign(tangents_[c].w);
+            if (!has_sign || !(isUsable(xyz(tangents_[c]), n) || (has_valid && isUsable(xyz(tangents_[valid]), n))))
+                counts.count(Counted::needsNeighbor);
         }
     }
 
     /// Finds the first valid tangent at each position.
-    void lookAtPositions() {
+    void findTangentsByPosition() {
         points_ = weldPositions(mesh_, allocator_, parallel_);
         found_ = Buffer<Vec4>(allocator_, mesh_.vertexCount(), Vec4{});
         withIndices(mesh_.indices, [&](auto vertexOf) {
             forEachFace(mesh_, [&](std::size_t, std::size_t first, std::uint32_t size) {
                 for (std::size_t c = first; size >= 3 && c < first + size; ++c) {
-                    if (causes_[c] != Cause::sound) continue;
+                    if (causes_[c] != Cause::valid) continue;
                     Vec4& found = found_[pointOf(vertexOf(c))];
                     if (found.w == 0) found = tangents_[c];
                 }
@@ -312,7 +313,7 @@ class Sanitizer {
         return points_.empty() ? vertex : points_[vertex];
     }
     /// Returns the first valid tangent at a corner's position; null if there is none, or if no such corner needs one.
-    [[nodiscard]] const Vec4* foundBy(std::size_t corner) const {
+    [[nodiscard]] const Vec4* validTangentAt(std::size_t corner) const {
         const std::uint32_t vertex = mesh_.indices[corner];
         const Vec3& p = mesh_.positions[vertex];
         if (found_.empty() || !(p == p)) return nullptr;
@@ -326,7 +327,7 @@ class Sanitizer {
     [[nodiscard]] float signOf(std::size_t first, std::uint32_t size) const {
         const auto votes = [this](std::size_t c, int round) {
             if (round == 2) return isSign(tangents_[c].w);
-            return causes_[c] == Cause::sound && (round == 1 || !isZero(normalAt(c)));
+            return causes_[c] == Cause::valid && (round == 1 || !isZero(normalAt(c)));
         };
         for (int round = 0; round < 3; ++round) {
             std::int64_t sum = 0;
@@ -340,22 +341,22 @@ class Sanitizer {
             if (first_sign != 0) return sum == 0 ? first_sign : (sum > 0 ? 1.0f : -1.0f);
         }
         for (std::size_t c = first; c < first + size; ++c) {
-            if (const Vec4* sound = foundBy(c)) return sound->w;
+            if (const Vec4* valid = validTangentAt(c)) return valid->w;
         }
         return 1.0f;
     }
 
-    void mend(std::size_t first, std::uint32_t size, Counts& counts) {
+    void repair(std::size_t first, std::uint32_t size, Counts& counts) {
         const float sign = signOf(first, size);
-        const std::size_t sound = firstSound(first, size);
-        const Vec4 neighbor = sound < first + size ? tangents_[sound] : Vec4{};
+        const std::size_t valid = firstValid(first, size);
+        const Vec4 neighbor = valid < first + size ? tangents_[valid] : Vec4{};
         for (std::size_t c = first; c < first + size; ++c) {
             Cause cause = causes_[c];
-            if (cause == Cause::sound && tangents_[c].w != sign) cause = Cause::mixedSign;
-            if (cause == Cause::sound && !options_.orthogonalize_all) continue;
+            if (cause == Cause::valid && tangents_[c].w != sign) cause = Cause::mixedSign;
+            if (cause == Cause::valid && !options_.orthogonalize_all) continue;
             const DVec3 n = normalAt(c);
-            if (cause == Cause::sound && isOrthonormal(xyz(tangents_[c]), n)) continue;
-            if (cause == Cause::sound) cause = Cause::notOrthogonal;
+            if (cause == Cause::valid && isOrthonormal(xyz(tangents_[c]), n)) continue;
+            if (cause == Cause::valid) cause = Cause::notOrthogonal;
             const auto [tangent, cure] = mended(c, n, neighbor);
             tangents_[c] = {tangent.x, tangent.y, tangent.z, sign};
             causes_[c] = cure;
@@ -370,21 +371,21 @@ class Sanitizer {
         if (points_.empty()) points_ = weldPositions(mesh_, allocator_, parallel_);
         Buffer<Vec4> made(allocator_, 2 * mesh_.vertexCount(), Vec4{});
         for (std::size_t c = 0; c < mesh_.cornerCount(); ++c) {
-            const bool is_made_up = causes_[c] == Cure::fromNeighbor || causes_[c] == Cure::fromBasis;
+            const bool is_substituted = causes_[c] == Repair::fromNeighbor || causes_[c] == Repair::fromBasis;
             const Vec3& p = mesh_.positions[mesh_.indices[c]];
-            if (!is_made_up || !(p == p) || !isZero(normalAt(c))) continue;
+            if (!is_substituted || !(p == p) || !isZero(normalAt(c))) continue;
             Vec4& first = made[2 * std::size_t{pointOf(mesh_.indices[c])} + (tangents_[c].w < 0 ? 1 : 0)];
             if (first.w == 0) first = tangents_[c];
             tangents_[c] = first;
         }
     }
 
-    [[nodiscard]] std::pair<Vec3, Cure> mended(std::size_t corner, const DVec3& n, const Vec4& neighbor) const {
-        if (isUsable(xyz(tangents_[corner]), n)) return {orthonormal(xyz(tangents_[corner]), n), Cure::fromOwn};
-        if (isUsable(xyz(neighbor), n)) return {orthonormal(xyz(neighbor), n), Cure::fromNeighbor};
-        const Vec4* sound = foundBy(corner);
-        if (sound != nullptr && isUsable(xyz(*sound), n)) return {orthonormal(xyz(*sound), n), Cure::fromNeighbor};
-        return {toFloat(planeAxes(isZero(n) ? DVec3{0, 0, 1} : n).x), Cure::fromBasis};
+    [[nodiscard]] std::pair<Vec3, Repair> mended(std::size_t corner, const DVec3& n, const Vec4& neighbor) const {
+        if (isUsable(xyz(tangents_[corner]), n)) return {orthonormal(xyz(tangents_[corner]), n), Repair::fromOwn};
+        if (isUsable(xyz(neighbor), n)) return {orthonormal(xyz(neighbor), n), Repair::fromNeighbor};
+        const Vec4* valid = validTangentAt(corner);
+        if (valid != nullptr && isUsable(xyz(*valid), n)) return {orthonormal(xyz(*valid), n), Repair::fromNeighbor};
+        return {toFloat(planeAxes(isZero(n) ? DVec3{0, 0, 1} : n).x), Repair::fromBasis};
     }
 
     const MeshView& mesh_;

@@ -70,7 +70,7 @@ std::uint64_t cellOf(float value, float tolerance) {
 [[gnu::noinline]] void resizeAtOnce(std::vector<std::uint32_t>& values, std::size_t count, std::size_t capacity,
                                     std::uint32_t value) {
     values.reserve(capacity);
-    askForPages(values.data(), count * sizeof(std::uint32_t));
+    populatePages(values.data(), count * sizeof(std::uint32_t));
     values.resize(count, value);
 }
 

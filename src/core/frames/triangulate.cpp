@@ -24,7 +24,7 @@ namespace {
 /// Above this many corners ears are not tested for emptiness, which would take quadratic time.
 constexpr std::uint32_t kMaxTestedCorners = 1024;
 
-constexpr std::uint64_t kTaken = ~std::uint64_t{0};  // greater than the order of any remaining vertex
+constexpr std::uint64_t kRemoved = ~std::uint64_t{0};  // greater than the order of any remaining vertex
 
 /// Tolerance, as a fraction of the polygon's extent, within which a point counts as on a line. Coordinates in the plane
 /// have a rounding error of about 1e-15 of the extent; the original floats are a million times coarser than this
@@ -107,7 +107,7 @@ class Cutter {
             if (left == 4) break;
             noteReflex(before);
             noteReflex(after);
-            renew(ear, kTaken);
+            renew(ear, kRemoved);
             renew(before, orderOf(before));
             renew(after, orderOf(after));
         }
@@ -186,7 +186,7 @@ class Cutter {
 
     [[nodiscard]] bool isBefore(std::uint32_t v, std::uint32_t w) const {
         if (vertices_[v].order != vertices_[w].order) return vertices_[v].order < vertices_[w].order;
-        return vertices_[v].order == kTaken ? v < w : isBeforeOfSameOrder(v, w);
+        return vertices_[v].order == kRemoved ? v < w : isBeforeOfSameOrder(v, w);
     }
 
     [[nodiscard, gnu::noinline]] bool isBeforeOfSameOrder(std::uint32_t v, std::uint32_t w) const {

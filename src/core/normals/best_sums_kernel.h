@@ -65,7 +65,7 @@ struct Edges {
     Vectors turn;  ///< normal times twice the area
 
     Edges(const BestSource& source, const std::uint32_t* vertices) {
-        const bool exact = namesLast(vertices, source.faces.last_vertex);
+        const bool exact = includesLast(vertices, source.faces.last_vertex);
         const Floats scale = broadcast(source.scale);
         Vectors p[3];
         for (std::size_t k = 0; k < 3; ++k)
@@ -138,11 +138,11 @@ struct EdgeDoubt {
 };
 
 /// An edge projected to the plane perpendicular to the sharp normal of its first end.
-struct Seen {
+struct ProjectedEdge {
     Floats x, y, slope, b0, b1, b2, misfit, curvature;
 
-    Seen(const Plane& plane, Vectors robust, Vectors e, Floats inverse, Floats size, Floats facing,
-         const EdgeDoubt& doubt) {
+    ProjectedEdge(const Plane& plane, Vectors robust, Vectors e, Floats inverse, Floats size, Floats facing,
+                  const EdgeDoubt& doubt) {
         const Floats scale = facing * inverse, half = broadcast(0.5f);
         x = scale * dot(plane.x, e);
         y = scale * dot(plane.y, e);
@@ -156,7 +156,8 @@ struct Seen {
     }
 };
 
-inline void storeSeen(float* at, const Seen& a, const Seen& b, const EdgeDoubt& i, const EdgeDoubt& o) {
+inline void storeEdges(float* at, const ProjectedEdge& a, const ProjectedEdge& b, const EdgeDoubt& i,
+                       const EdgeDoubt& o) {
     storeRows<kFitStep>(at, a.x * a.x + b.x * b.x, a.x * a.y + b.x * b.y, a.y * a.y + b.y * b.y,
                         a.x * a.slope + b.x * b.slope);
     storeRows<kFitStep>(at + 4, a.y * a.slope + b.y * b.slope, a.x * a.b0 + b.x * b.b0, a.y * a.b0 + b.y * b.b0,
@@ -196,10 +197,10 @@ inline void addFitOf(const BestSource& source, const std::uint32_t* vertices, co
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t previous = (k + 2) % 3;
         const Plane plane(sharp[k]);
-        const Seen out(plane, robust[k], t.edge[k], inverse[k], size[k], one, doubts[k]);
-        const Seen in(plane, robust[k], t.edge[previous], inverse[previous], size[previous], minus(one),
-                      doubts[previous]);
-        storeSeen(rows + 4 * kFitRows * k, out, in, doubts[k], doubts[previous]);
+        const ProjectedEdge out(plane, robust[k], t.edge[k], inverse[k], size[k], one, doubts[k]);
+        const ProjectedEdge in(plane, robust[k], t.edge[previous], inverse[previous], size[previous], minus(one),
+                               doubts[previous]);
+        storeEdges(rows + 4 * kFitRows * k, out, in, doubts[k], doubts[previous]);
     }
 }
 
@@ -333,10 +334,10 @@ void finishFit(float* sums, const float* robust_rows, const float* sharp_rows, s
 
 /// An edge as seen from its first end: projected to the plane perpendicular to the normal there, and divided by its
 /// length.
-struct Pull {
+struct StepEdge {
     Floats x, y, misfit, turn;
 
-    Pull(const Plane& plane, Vectors e, Floats inverse, Vectors here, Vectors there) {
+    StepEdge(const Plane& plane, Vectors e, Floats inverse, Vectors here, Vectors there) {
         const Mask counts = (dot(here, here) > zero()) & (dot(there, there) > zero());
         const Floats scale = keep(counts, inverse);
         x = scale * dot(plane.x, e);
@@ -360,8 +361,8 @@ void addStep(const BestSource& source, const std::uint32_t* vertices, const std:
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t next = (k + 1) % 3, previous = (k + 2) % 3;
             const Plane plane(normal[k]);
-            const Pull a(plane, t.edge[k], inverse[k], normal[k], normal[next]);
-            const Pull b(plane, t.edge[previous], minus(inverse[previous]), normal[k], normal[previous]);
+            const StepEdge a(plane, t.edge[k], inverse[k], normal[k], normal[next]);
+            const StepEdge b(plane, t.edge[previous], minus(inverse[previous]), normal[k], normal[previous]);
             float* const at = rows + kStepStride * g + 4 * kStepRows * k;
             storeRows<kStepStride>(at, weight * (a.x * a.x + b.x * b.x), weight * (a.x * a.y + b.x * b.y),
                                    weight * (a.y * a.y + b.y * b.y), weight * (a.x * a.misfit + b.x * b.misfit));

@@ -56,7 +56,9 @@ struct FaceKernel {
 };
 
 TSPACE_DECLARE_KERNEL(FaceKernel faceKernel())
-inline FaceKernel faceKernelFor(SimdTarget wish) { return simd::choose(wish, TSPACE_KERNEL_TABLE(faceKernel))(); }
+inline FaceKernel faceKernelFor(SimdTarget requested) {
+    return simd::choose(requested, TSPACE_KERNEL_TABLE(faceKernel))();
+}
 
 // Sums of NormalWeighting::best: the contributions of each triangle corner to its point, and the result of a point.
 // There are two rounds, since the second one needs the `max` normals of the first at both ends of an edge, and one per
@@ -98,6 +100,8 @@ struct BestKernels {
 };
 
 TSPACE_DECLARE_KERNEL(BestKernels bestKernels())
-inline BestKernels bestKernelsFor(SimdTarget wish) { return simd::choose(wish, TSPACE_KERNEL_TABLE(bestKernels))(); }
+inline BestKernels bestKernelsFor(SimdTarget requested) {
+    return simd::choose(requested, TSPACE_KERNEL_TABLE(bestKernels))();
+}
 
 }  // namespace tspace::smooth

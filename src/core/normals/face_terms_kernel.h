@@ -73,7 +73,7 @@ struct Steps {
 };
 
 inline void readPositions(const FaceSource& source, const std::uint32_t* vertices, std::size_t t, Steps& steps) {
-    const bool exact = namesLast(vertices, source.last_vertex);
+    const bool exact = includesLast(vertices, source.last_vertex);
 #pragma GCC unroll 3  // keeps the arrays in registers
     for (std::size_t k = 0; k < 3; ++k) {
         const Vectors p = gatherVectors(source.positions, source.stride, vertices + k, exact);

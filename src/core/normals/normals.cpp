@@ -69,8 +69,8 @@ void refine(const NormalsCall& call, const TriangleGroups& triangles, std::size_
         });
     };
     const bool has_sharp = !sharp.empty();
-    if (!has_sharp) sharp = Buffer<Vec3>(call.allocator, count + kBehind, Vec3{});
-    Buffer<Vec3> robust(call.allocator, count + kBehind, Vec3{});
+    if (!has_sharp) sharp = Buffer<Vec3>(call.allocator, count + kPaddingVectors, Vec3{});
+    Buffer<Vec3> robust(call.allocator, count + kPaddingVectors, Vec3{});
     forGroups([&](std::size_t i) { robust[i] = normals[i]; });
 
     const BestKernels kernels = bestKernelsFor(call.options.execution.simd);

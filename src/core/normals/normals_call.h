@@ -181,13 +181,13 @@ NormalReport writeFaceNormals(const NormalsCall& call);
 namespace smooth {
 
 /// Number of vectors of padding after an array: kernels read up to two vectors past the last group.
-inline constexpr std::size_t kBehind = 2;
+inline constexpr std::size_t kPaddingVectors = 2;
 
 /// Converts the means by angle * area to the normals of `best`, in place; then performs options.refine steps.
 ///
 /// adding_corners  3, or 1 if only the first corner of each triangle contributes
 /// normals         one per group, zero where a mean vanished; undefined values there afterwards
-/// sharp           the means by `max`, or zero where one vanished, and kBehind more; empty: computed from the same
+/// sharp           the means by `max`, or zero where one vanished, and kPaddingVectors more; empty: computed from the same
 ///                 triangles. Where one vanished, the mean by angle * area is kept
 ///
 /// Scratch memory: 24 bytes per group with `sharp`, and SumRounds. Linear. Throws OutOfMemory.

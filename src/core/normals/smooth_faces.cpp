@@ -32,9 +32,9 @@ constexpr std::size_t kItemsPerTask = 1024;
 class ComponentCorners final : public TriangleGroups {
   public:
     /// flag of a corner whose face is degenerate and contributes nothing
-    static constexpr std::uint32_t kAside = 0x80000000u;
+    static constexpr std::uint32_t kExcluded = 0x80000000u;
 
-    /// `components`: the lowest corner of each corner's component, with the flag kAside for excluded corners.
+    /// `components`: the lowest corner of each corner's component, with the flag kExcluded for excluded corners.
     ComponentCorners(const MeshView& mesh, const MeshFaces& faces, const Buffer<std::uint32_t>& components)
         : TriangleGroups(components.size()), mesh_(mesh), faces_(faces), components_(components) {}
 
@@ -43,12 +43,12 @@ class ComponentCorners final : public TriangleGroups {
             const auto corner = static_cast<std::uint32_t>(first + i);
             // Excluded corners use index `count`, which has a dummy entry.
             const auto own =
-                (components_[corner] & kAside) != 0 ? static_cast<std::uint32_t>(count) : components_[corner];
+                (components_[corner] & kExcluded) != 0 ? static_cast<std::uint32_t>(count) : components_[corner];
             std::fill_n(groups + 3 * i, 3, own);
             if (vertices == nullptr) continue;
             const MeshFaces::Around around = faces_.around(corner);
             for (std::size_t k = 0; k < 3; ++k) {
-                if (k != 0) groups[3 * i + k] = components_[around.corners[k]] & ~kAside;
+                if (k != 0) groups[3 * i + k] = components_[around.corners[k]] & ~kExcluded;
                 vertices[3 * i + k] = mesh_.indices[around.corners[k]];
             }
         }
@@ -127,7 +127,7 @@ struct Setting {
 };
 
 /// Scratch memory for one range of points.
-struct Room {
+struct RangeMemory {
     FaceRow* rows;      ///< row of each triangle, computed from the pose
     FaceRow* deciding;  ///< rows of the mesh, which determine hard edges; equal to `rows` without a pose
     LocalTriangle* triangles;
@@ -138,7 +138,8 @@ struct Room {
 
 class RangeWork {
   public:
-    RangeWork(const Setting& setting, const Room& room) : setting_(setting), call_(setting.call), room_(room) {}
+    RangeWork(const Setting& setting, const RangeMemory& room)
+        : setting_(setting), call_(setting.call), memory_(room) {}
 
     /// Reads the triangles at the points of a range; returns the number of degenerate faces, each counted once.
     std::uint64_t read(GroupRange range, RangeLists::Batches items) {
@@ -146,7 +147,7 @@ class RangeWork {
         count_ = static_cast<std::uint32_t>(range.size());
         size_ = 0;
         degenerate_ = 0;
-        std::fill_n(room_.begins, count_ + 3, 0u);
+        std::fill_n(memory_.begins, count_ + 3, 0u);
         while (items.next(batch_, call_.are_triangles)) call_.are_triangles ? addTriangles() : addCorners();
         sortByPoint();
         return degenerate_;
@@ -156,10 +157,11 @@ class RangeWork {
     std::uint64_t average() {
         std::uint64_t substitutes = 0;
         for (std::uint32_t p = 0; p < count_; ++p) {
-            const std::uint32_t begin = room_.begins[p], count = room_.begins[p + 1] - begin;
+            const std::uint32_t begin = memory_.begins[p], count = memory_.begins[p + 1] - begin;
             if (count == 0) continue;
-            const PointCorners at{first_ + p, count, room_.entries + begin, room_.triangles};
-            const Link* const links = findComponents(setting_.rule, room_.deciding, at, room_.links, room_.parents);
+            const PointCorners at{first_ + p, count, memory_.entries + begin, memory_.triangles};
+            const Link* const links =
+                findComponents(setting_.rule, memory_.deciding, at, memory_.links, memory_.parents);
             for (std::uint32_t first = 0, past = 0; first < count; first = past) {
                 while (past < count && links[past].key == links[first].key) ++past;
                 for (std::uint32_t i = first; call_.shared != nullptr && i < past; ++i)
@@ -175,36 +177,39 @@ class RangeWork {
     [[nodiscard]] std::uint32_t placeOf(std::uint32_t point) const { return std::min(point - first_, count_); }
     /// Counting sort of entries by point: `begins` counts two entries ahead, so that after summing and filling it
     /// contains the begin of each point.
-    void countAt(std::uint32_t point) { ++room_.begins[placeOf(point) + 2]; }
-    void enter(std::uint32_t point, std::uint32_t entry) { room_.entries[room_.begins[placeOf(point) + 1]++] = entry; }
+    void countAt(std::uint32_t point) { ++memory_.begins[placeOf(point) + 2]; }
+    void enter(std::uint32_t point, std::uint32_t entry) {
+        memory_.entries[memory_.begins[placeOf(point) + 1]++] = entry;
+    }
 
     void addTriangles() {
         const std::size_t count = batch_.count;
         const std::uint32_t* const v = fillGroup(batch_.vertices, count, smooth::kTermGroup, batch_.own_vertices);
-        if (room_.deciding != room_.rows) {
+        if (memory_.deciding != memory_.rows) {
             call_.kernel.compute(call_.source(call_.mesh, false, false), v, count, terms_);
-            std::memcpy(room_.deciding + size_, terms_.normal, count * sizeof(FaceRow));
+            std::memcpy(memory_.deciding + size_, terms_.normal, count * sizeof(FaceRow));
         }
         const std::size_t degenerate =
             call_.kernel.compute(call_.source(call_.posed, call_.by_angle, call_.by_area), v, count, terms_);
-        std::memcpy(room_.rows + size_, terms_.normal, count * sizeof(FaceRow));
+        std::memcpy(memory_.rows + size_, terms_.normal, count * sizeof(FaceRow));
         for (std::size_t t = 0; t < count; ++t) {
             const std::uint32_t* const p = batch_.groups + 3 * t;
-            room_.triangles[size_ + t] = {{p[0], p[1], p[2], p[0], p[1]},
-                                          3 * batch_.number(t),
-                                          {terms_.angle[0][t], terms_.angle[1][t], terms_.angle[2][t]}};
+            memory_.triangles[size_ + t] = {{p[0], p[1], p[2], p[0], p[1]},
+                                            3 * batch_.number(t),
+                                            {terms_.angle[0][t], terms_.angle[1][t], terms_.angle[2][t]}};
             for (std::size_t k = 0; k < 3; ++k) countAt(p[k]);
         }
-        if (degenerate != 0 || call_.weighting == NormalWeighting::max || room_.deciding != room_.rows) mend();
+        if (degenerate != 0 || call_.weighting == NormalWeighting::max || memory_.deciding != memory_.rows)
+            computeSpecialCases();
         size_ += static_cast<std::uint32_t>(count);
     }
 
     /// Computes the cases that the kernel skips: degenerate triangles, weights of `max`, and rows of the mesh in
     /// addition to rows of the pose.
-    void mend() {
+    void computeSpecialCases() {
         for (std::size_t t = size_; t < size_ + batch_.count; ++t) {
-            LocalTriangle& triangle = room_.triangles[t];
-            const FaceRow& row = room_.rows[t];
+            LocalTriangle& triangle = memory_.triangles[t];
+            const FaceRow& row = memory_.rows[t];
             if (row.isDegenerate() && placeOf(triangle.points[0]) < count_) ++degenerate_;
             for (std::uint32_t k = 0; k < 3; ++k) {
                 const std::uint32_t point = triangle.points[k];
@@ -224,31 +229,32 @@ class RangeWork {
             const std::uint32_t next = call_.items.pointOf(call_.faces.next(corner));
             const std::uint32_t previous = call_.items.pointOf(call_.faces.previous(corner));
             addFace(face);
-            const FaceRow& row = room_.rows[size_];
+            const FaceRow& row = memory_.rows[size_];
             if (row.isDegenerate() && corner == call_.faces.first(face)) ++degenerate_;
-            room_.triangles[size_++] = {{point, next, previous, kNoPoint, kNoPoint},
-                                        corner,
-                                        {setting_.weightOf(call_.weighting, point, corner, row), 0, 0}};
+            memory_.triangles[size_++] = {{point, next, previous, kNoPoint, kNoPoint},
+                                          corner,
+                                          {setting_.weightOf(call_.weighting, point, corner, row), 0, 0}};
             countAt(point);
         }
     }
 
     void addFace(std::uint32_t face) {
         if (size_ != 0 && face == last_face_) {
-            room_.rows[size_] = room_.rows[size_ - 1];
-            room_.deciding[size_] = room_.deciding[size_ - 1];
+            memory_.rows[size_] = memory_.rows[size_ - 1];
+            memory_.deciding[size_] = memory_.deciding[size_ - 1];
             return;
         }
         last_face_ = face;
         const std::uint32_t first = call_.faces.first(face), past = call_.faces.past(face);
-        room_.rows[size_] = faceRow(call_.posed, first, past, call_.factor, call_.by_area);
-        if (room_.deciding != room_.rows) room_.deciding[size_] = faceRow(call_.mesh, first, past, call_.factor, false);
+        memory_.rows[size_] = faceRow(call_.posed, first, past, call_.factor, call_.by_area);
+        if (memory_.deciding != memory_.rows)
+            memory_.deciding[size_] = faceRow(call_.mesh, first, past, call_.factor, false);
     }
 
     void sortByPoint() {
-        for (std::uint32_t p = 2; p < count_ + 3; ++p) room_.begins[p] += room_.begins[p - 1];
+        for (std::uint32_t p = 2; p < count_ + 3; ++p) memory_.begins[p] += memory_.begins[p - 1];
         for (std::uint32_t t = 0; t < size_; ++t) {
-            const std::uint32_t* const p = room_.triangles[t].points;
+            const std::uint32_t* const p = memory_.triangles[t].points;
             enter(p[0], 4 * t);
             if (!call_.are_triangles) continue;
             enter(p[1], 4 * t + 1);
@@ -270,24 +276,24 @@ class RangeWork {
 
     void writeSharp(const PointCorners& at, const Link* links, std::uint32_t count, const Vec3& normal) const {
         for (std::uint32_t i = 0; i < count; ++i) {
-            const bool adds = !room_.rows[at.triangle(links[i].slot)].isDegenerate();
+            const bool adds = !memory_.rows[at.triangle(links[i].slot)].isDegenerate();
             setting_.sharp[at.corner(links[i].slot)] = normal;
             setting_.components[at.corner(links[i].slot)] =
-                at.corner(links[0].slot) | (adds ? 0 : ComponentCorners::kAside);
+                at.corner(links[0].slot) | (adds ? 0 : ComponentCorners::kExcluded);
         }
     }
 
     bool mean(const PointCorners& at, const Link* links, std::uint32_t count, Vec3& normal) const {
         Sum sum;
         for (std::uint32_t i = 0; i < count; ++i)
-            sum.add(at.weight(links[i].slot), room_.rows[at.triangle(links[i].slot)]);
+            sum.add(at.weight(links[i].slot), memory_.rows[at.triangle(links[i].slot)]);
         return sum.write(kDoubtful, normal) || exactMean(call_.weighting, at, links, count, normal);
     }
     [[gnu::noinline]] bool exactMean(NormalWeighting weighting, const PointCorners& at, const Link* links,
                                      std::uint32_t count, Vec3& normal) const {
         Sum sum;
         for (std::uint32_t i = 0; i < count; ++i) {
-            const FaceRow& row = room_.rows[at.triangle(links[i].slot)];
+            const FaceRow& row = memory_.rows[at.triangle(links[i].slot)];
             sum.add(setting_.weightOf(weighting, at.point, at.corner(links[i].slot), row), row);
         }
         return sum.write(kVanished, normal);
@@ -298,14 +304,14 @@ class RangeWork {
     [[gnu::noinline]] void writeSubstitutes(const PointCorners& at, const Link* links, std::uint32_t count) {
         for (std::uint32_t i = 0; i < count; ++i) {
             const std::uint32_t corner = at.corner(links[i].slot);
-            const FaceRow& row = room_.rows[at.triangle(links[i].slot)];
+            const FaceRow& row = memory_.rows[at.triangle(links[i].slot)];
             if (!row.isDegenerate()) {
                 call_.out[corner] = toFloat(row.unit());
                 continue;
             }
             if (others_point_ != at.point) {  // computed once per point, however many components vanish
                 others_point_ = at.point;
-                const Link* const all = oneComponent(at.count, room_.links + at.count);
+                const Link* const all = oneComponent(at.count, memory_.links + at.count);
                 if (!mean(at, all, at.count, of_others_)) of_others_ = {0, 0, 1};
             }
             call_.out[corner] = of_others_;
@@ -314,7 +320,7 @@ class RangeWork {
 
     const Setting& setting_;
     const NormalsCall& call_;
-    Room room_;
+    RangeMemory memory_;
     std::uint32_t first_ = 0, count_ = 0;  ///< first point and number of points of the current range
     std::uint32_t size_ = 0;               ///< number of local triangles
     std::uint32_t last_face_ = 0;
@@ -351,7 +357,7 @@ NormalReport smoothFaces(const NormalsCall& call) {
     Buffer<LocalTriangle> triangles(call.allocator, tasks * items);
     Buffer<Link> links(call.allocator, tasks * 2 * corners);
     Buffer<std::uint32_t> numbers(call.allocator, tasks * numbers_each);
-    const auto roomOf = [&](std::size_t task) -> Room {
+    const auto roomOf = [&](std::size_t task) -> RangeMemory {
         std::uint32_t* const mine = numbers.data() + task * numbers_each;
         return {rows.data() + task * items,
                 (has_pose ? deciding : rows).data() + task * items,
@@ -364,7 +370,7 @@ NormalReport smoothFaces(const NormalsCall& call) {
     Buffer<Vec3> sharp;
     Buffer<std::uint32_t> components;
     if (call.is_best) {
-        sharp = Buffer<Vec3>(call.allocator, corner_count + smooth::kBehind, Vec3{});
+        sharp = Buffer<Vec3>(call.allocator, corner_count + smooth::kPaddingVectors, Vec3{});
         components = Buffer<std::uint32_t>(call.allocator, corner_count);
         std::iota(components.begin(), components.end(), 0u);
         setting.sharp = sharp.data();
@@ -384,7 +390,7 @@ NormalReport smoothFaces(const NormalsCall& call) {
         smooth::refine(call, ComponentCorners(call.mesh, call.faces, components), 1, call.out, std::move(sharp));
         parallel.forRanges(corner_count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t c = begin; c < end; ++c) {
-                const std::uint32_t component = components[c] & ~ComponentCorners::kAside;
+                const std::uint32_t component = components[c] & ~ComponentCorners::kExcluded;
                 if (component != c) call.out[c] = call.out[component];
                 components[c] = component;
             }

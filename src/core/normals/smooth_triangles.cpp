@@ -40,7 +40,7 @@ struct PointSum {
     [[nodiscard]] bool isDoubtful() const { return isMarked(loadFloat4(floats())) && weights > 0; }
     static bool isMarked(Float4 normal) { return (laneBits(std::bit_cast<Mask4>(normal)) & 8) != 0; }
 
-    void takeAgain() { *this = {0, 0, 0, -0.0}; }
+    void setMark() { *this = {0, 0, 0, -0.0}; }
     [[nodiscard]] bool isTakenAgain() const { return std::signbit(weights); }
     void add(double weight, const DVec3& term) { *this = {x + term.x, y + term.y, z + term.z, weights - weight}; }
     /// Replaces the sum by the unit mean, or sets the mark.
@@ -142,7 +142,7 @@ class TriangleSmoother {
     void sumDoubtful(std::size_t index, const RangeSums& place) const {
         PointSum* const end = place.rows + place.range.size();
         for (PointSum* row = place.rows; row != end; ++row) {
-            if (row->isDoubtful()) row->takeAgain();
+            if (row->isDoubtful()) row->setMark();
         }
         TriangleBatch batch;
         for (RangeLists::Batches batches(call_.items, lists_, index); batches.next(batch);) {

@@ -38,8 +38,8 @@ struct FrameKernel {
 
 /// Tolerance within which frames count as unit (their squares within twice as much) and orthogonal. They are encoded
 /// unchanged, so that unpacked frames are reproduced exactly.
-inline constexpr double kSoundTolerance = 5e-7;
-TSPACE_DECLARE_KERNEL(std::uint64_t soundFrames(const FrameBlock& frames, std::size_t count))
+inline constexpr double kValidTolerance = 5e-7;
+TSPACE_DECLARE_KERNEL(std::uint64_t validFrames(const FrameBlock& frames, std::size_t count))
 
 TSPACE_DECLARE_KERNEL(FrameKernel frame32Kernel())
 TSPACE_DECLARE_KERNEL(FrameKernel frame48Kernel())

@@ -87,8 +87,8 @@ inline void storeFrames(const FrameRows& rows, std::size_t at, const Frames& f, 
 }
 
 /// Returns the valid frames as bits: N and T of frame i are unit and orthogonal, within float rounding; NaN is invalid.
-std::uint64_t soundFrames(const FrameBlock& frames, std::size_t count) {
-    const Doubles one = broadcastDouble(1.0), tolerance = broadcastDouble(kSoundTolerance);
+std::uint64_t validFrames(const FrameBlock& frames, std::size_t count) {
+    const Doubles one = broadcastDouble(1.0), tolerance = broadcastDouble(kValidTolerance);
     const auto isUnit = [&](DoubleVectors v) { return tolerance + tolerance > absolute(dot(v, v) - one); };
     std::uint64_t sound = 0;
     for (std::size_t at = 0; at < count; at += kPart) {

@@ -69,7 +69,8 @@ constexpr Format formatWith(FrameErrorBound bound, FrameKernel (*kernel)(SimdTar
     return {kBytes, bound, kernel, readWords<kBytes>, writeWords<kBytes>};
 }
 
-#define TSPACE_KERNEL_FOR(kernel) [](SimdTarget wish) { return simd::choose(wish, TSPACE_KERNEL_TABLE(kernel))(); }
+#define TSPACE_KERNEL_FOR(kernel) \
+    [](SimdTarget requested) { return simd::choose(requested, TSPACE_KERNEL_TABLE(kernel))(); }
 
 /// Table of formats, indexed by the value of the enumerator.
 constexpr Format kFormats[] = {
@@ -121,7 +122,7 @@ DVec3 orthogonalized(DVec3 t, const DVec3& n) {
 }
 
 /// Makes N and T unit and orthogonal. Returns the counter of the cause, or null if they were valid.
-std::uint64_t PackReport::*mend(Vec3& normal, Vec3& tangent) {
+std::uint64_t PackReport::*repair(Vec3& normal, Vec3& tangent) {
     std::uint64_t PackReport::*cause = nullptr;
     const auto because = [&](std::uint64_t PackReport::*next) {
         if (cause == nullptr) cause = next;
@@ -156,7 +157,7 @@ void setVector(float (&to)[3][kBlockFrames], std::size_t i, const Vec3& v) {
 Vec3 vectorAt(const float (&from)[3][kBlockFrames], std::size_t i) { return {from[0][i], from[1][i], from[2][i]}; }
 
 /// Returns a block of axis-aligned frames, so that entries that are not set later are valid.
-FrameBlock soundBlock() {
+FrameBlock axisAlignedBlock() {
     FrameBlock frames{};
     for (std::size_t i = 0; i < kBlockFrames; ++i) {
         setVector(frames.normal, i, {0, 0, 1});
@@ -167,7 +168,7 @@ FrameBlock soundBlock() {
 
 /// Reads frames starting with number `begin`, and repairs them.
 void fill(FrameBlock& frames, const StridedSpan<const Vec3>& normals, const StridedSpan<const Vec4>& tangents,
-          std::size_t begin, std::size_t count, SimdTarget wish, PackReport& report) {
+          std::size_t begin, std::size_t count, SimdTarget requested, PackReport& report) {
     std::uint64_t odd_signs = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const Vec4& t = tangents[begin + i];
@@ -177,13 +178,13 @@ void fill(FrameBlock& frames, const StridedSpan<const Vec3>& normals, const Stri
         odd_signs |= std::uint64_t{t.w != 1.0f && t.w != -1.0f} << i;
     }
     const std::uint64_t asked = ~std::uint64_t{0} >> (kBlockFrames - count);
-    const std::uint64_t sound = simd::choose(wish, TSPACE_KERNEL_TABLE(soundFrames))(frames, count);
-    for (std::uint64_t left = asked & (~sound | odd_signs); left != 0; left &= left - 1) {
+    const std::uint64_t valid = simd::choose(requested, TSPACE_KERNEL_TABLE(validFrames))(frames, count);
+    for (std::uint64_t left = asked & (~valid | odd_signs); left != 0; left &= left - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(left));
         std::uint64_t PackReport::*cause = nullptr;
-        if ((sound >> i & 1) == 0) {
+        if ((valid >> i & 1) == 0) {
             Vec3 n = vectorAt(frames.normal, i), t = vectorAt(frames.tangent, i);
-            cause = mend(n, t);
+            cause = repair(n, t);
             setVector(frames.normal, i, n);
             setVector(frames.tangent, i, t);
         }
@@ -210,24 +211,24 @@ Error check(FrameFormat format, const StridedSpan<N>& normals, const StridedSpan
 
 }  // namespace
 
-PackReport pack(const Format& format, SimdTarget wish, const StridedSpan<const Vec3>& normals,
+PackReport pack(const Format& format, SimdTarget requested, const StridedSpan<const Vec3>& normals,
                 const StridedSpan<const Vec4>& tangents, std::byte* bytes) {
-    const FrameKernel kernel = format.kernel(wish);
-    FrameBlock frames = soundBlock();
+    const FrameKernel kernel = format.kernel(requested);
+    FrameBlock frames = axisAlignedBlock();
     WordBlock words{};
     PackReport report;
     for (std::size_t begin = 0; begin < normals.count; begin += kBlockFrames) {
         const std::size_t count = std::min(normals.count - begin, kBlockFrames);
-        fill(frames, normals, tangents, begin, count, wish, report);
+        fill(frames, normals, tangents, begin, count, requested, report);
         kernel.encode(frames, count, words);
         format.write(words, count, bytes + begin * format.bytes);
     }
     return report;
 }
 
-void unpack(const Format& format, SimdTarget wish, const std::byte* bytes, const StridedSpan<Vec3>& normals,
+void unpack(const Format& format, SimdTarget requested, const std::byte* bytes, const StridedSpan<Vec3>& normals,
             const StridedSpan<Vec4>& tangents) {
-    const FrameKernel kernel = format.kernel(wish);
+    const FrameKernel kernel = format.kernel(requested);
     const bool is_dense = normals.stride_bytes == sizeof(Vec3) && tangents.stride_bytes == sizeof(Vec4);
     WordBlock words{};
     alignas(64) float block_normals[3 * kBlockFrames + 1], block_tangents[4 * kBlockFrames];

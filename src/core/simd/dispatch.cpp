@@ -19,8 +19,8 @@ SimdTarget bestOfCpu() {
     std::uint32_t a = 0, b = 0, c = 0, d = 0, kept = 0;
     if (__get_cpuid(1, &a, &b, &c, &d) == 0 || (c & bit_OSXSAVE) == 0) return SimdTarget::sse2;
     __asm__("xgetbv" : "=a"(kept), "=d"(d) : "c"(0));
-    const bool knows_more = __get_cpuid_count(7, 0, &a, &b, &c, &d) != 0;
-    if (!knows_more || (kept & kYmm) != kYmm || (b & bit_AVX2) == 0) return SimdTarget::sse2;
+    const bool has_leaf_7 = __get_cpuid_count(7, 0, &a, &b, &c, &d) != 0;
+    if (!has_leaf_7 || (kept & kYmm) != kYmm || (b & bit_AVX2) == 0) return SimdTarget::sse2;
     const bool has_avx512 = (b & bit_AVX512F) != 0 && (b & bit_AVX512DQ) != 0;
     return has_avx512 && (kept & kZmm) == kZmm ? SimdTarget::avx512 : SimdTarget::avx2;
 #elif defined(TSPACE_SIMD_ARM64)
@@ -32,11 +32,11 @@ SimdTarget bestOfCpu() {
 
 }  // namespace
 
-SimdTarget resolve(SimdTarget wish) {
+SimdTarget resolve(SimdTarget requested) {
     static const SimdTarget best = bestOfCpu();
-    if (wish == SimdTarget::best || wish > best) return best;
+    if (requested == SimdTarget::best || requested > best) return best;
     // Targets whose value is between that of `scalar` and that of `neon` are for x86-64.
-    return best == SimdTarget::neon && wish < best ? SimdTarget::scalar : wish;
+    return best == SimdTarget::neon && requested < best ? SimdTarget::scalar : requested;
 }
 
 }  // namespace tspace::simd

@@ -58,14 +58,14 @@ namespace tspace::simd {
 
 /// Returns the target to run for a requested one: `best`, or a target that this CPU or build does not support, is
 /// replaced by the best available one with a lower number. Never returns `best`. Thread-safe.
-SimdTarget resolve(SimdTarget wish);
+SimdTarget resolve(SimdTarget requested);
 
 /// Returns the function for a requested target; for `scalar` without tspace_scalar_kernels, the one with the fewest
 /// lanes.
 template <class Function, std::size_t kTargets>
-Function* choose(SimdTarget wish, Function* const (&table)[kTargets]) {
+Function* choose(SimdTarget requested, Function* const (&table)[kTargets]) {
     if constexpr (kTargets == 1) return table[0];
-    const SimdTarget target = resolve(wish);
+    const SimdTarget target = resolve(requested);
     const std::size_t place = target == SimdTarget::neon ? kTargets - 1 : static_cast<std::size_t>(target) - 1;
     return table[place] != nullptr ? table[place] : table[1];
 }

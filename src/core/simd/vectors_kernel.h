@@ -22,9 +22,9 @@ inline Vectors cross(Vectors a, Vectors b) {
 /// true: reading past the end of an array is forbidden. With TSPACE_SMALL, arrays are copies with padding, so reading
 /// past the end is allowed.
 #ifdef TSPACE_SMALL
-inline constexpr bool kEndsMatter = false;
+inline constexpr bool kIsEndProtected = false;
 #else
-inline constexpr bool kEndsMatter = true;
+inline constexpr bool kIsEndProtected = true;
 #endif
 
 /// Gathers vectors without reading past the end of the array. Kept out of line, because it is long and rarely called.
@@ -37,7 +37,7 @@ inline constexpr bool kEndsMatter = true;
 /// Gathers vectors. With `exact`, the bytes after a vector are not read.
 [[gnu::always_inline]] inline Vectors gatherVectors(const std::byte* base, std::size_t stride,
                                                     const std::uint32_t* index, bool exact) {
-    if (kEndsMatter && exact) [[unlikely]]
+    if (kIsEndProtected && exact) [[unlikely]]
         return gatherExactly(base, stride, index);
     Vectors v;
     if (stride == 12) {  // addresses need no multiplication
@@ -49,8 +49,8 @@ inline constexpr bool kEndsMatter = true;
 }
 
 /// Returns whether any vertex is the last one in memory, after which nothing may be read.
-inline bool namesLast(const std::uint32_t* vertices, std::uint32_t last) {
-    if (!kEndsMatter) return false;
+inline bool includesLast(const std::uint32_t* vertices, std::uint32_t last) {
+    if (!kIsEndProtected) return false;
     std::uint32_t named = 0;
     for (std::size_t i = 0; i < 3 * kWidth; ++i) named |= vertices[i] == last ? 1u : 0u;
     return named != 0;

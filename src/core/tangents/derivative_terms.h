@@ -56,8 +56,8 @@ struct DerivativeKernel {
 };
 
 TSPACE_DECLARE_KERNEL(DerivativeKernel derivativeKernel())
-inline DerivativeKernel derivativeKernelFor(SimdTarget wish) {
-    return simd::choose(wish, TSPACE_KERNEL_TABLE_NOT_AVX512(derivativeKernel))();
+inline DerivativeKernel derivativeKernelFor(SimdTarget requested) {
+    return simd::choose(requested, TSPACE_KERNEL_TABLE_NOT_AVX512(derivativeKernel))();
 }
 
 }  // namespace tspace::derivatives

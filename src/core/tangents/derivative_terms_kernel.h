@@ -69,7 +69,7 @@ struct GroupBits {
 }
 
 /// Returns whether any vertex is the last one in memory, after which nothing may be read.
-inline bool namesLastVertex(const std::uint32_t* vertices, std::size_t count, std::uint32_t last) {
+inline bool includesLastVertex(const std::uint32_t* vertices, std::size_t count, std::uint32_t last) {
     std::uint32_t others = ~std::uint32_t{0};  // set to 0 if a vertex is the last one
     for (std::size_t i = 0; i < 3 * count; ++i) others &= vertices[i] == last ? 0 : ~std::uint32_t{0};
     return others == 0;
@@ -90,7 +90,7 @@ inline void computeBlock(const TriangleSource& source, const std::uint32_t* vert
 }
 
 void compute(const TriangleSource& source, const std::uint32_t* vertices, std::size_t count, DerivativeTerms& terms) {
-    const bool exact = namesLastVertex(vertices, (count + kWidth - 1) / kWidth * kWidth, source.last_vertex);
+    const bool exact = includesLastVertex(vertices, (count + kWidth - 1) / kWidth * kWidth, source.last_vertex);
     if (!exact && source.position_stride == 12 && source.uv_stride == 8) {
         computeBlock<true>(source, vertices, count, false, terms);
     } else {

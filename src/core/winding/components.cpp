@@ -79,7 +79,7 @@ class Pairing {
         return surface_.pointOf(surface_.faces.previous(corner));
     }
     void pair(std::uint32_t a, std::uint32_t b, bool are_alike) {
-        const std::uint32_t mark = are_alike && apexOf(a) != apexOf(b) ? kAgainst : 0;
+        const std::uint32_t mark = are_alike && apexOf(a) != apexOf(b) ? kConflict : 0;
         pairs_.sure[a] = b | mark;
         pairs_.sure[b] = a | mark;
     }
@@ -103,8 +103,8 @@ class Pairing {
             faces[i] = {corner, is_forward ? a : b, is_forward ? b : a, apexOf(corner)};
         }
         std::span<FaceAtEdge> rest{faces.data(), faces.size()};
-        rest = pairTwos(rest, [](const FaceAtEdge& f) { return std::pair(f.low, f.high); });
-        rest = pairTwos(rest, [](const FaceAtEdge& f) { return std::pair(f.apex, 0u); });
+        rest = pairUnique(rest, [](const FaceAtEdge& f) { return std::pair(f.low, f.high); });
+        rest = pairUnique(rest, [](const FaceAtEdge& f) { return std::pair(f.apex, 0u); });
         // Faces without area, and three or more coincident faces, get no neighbor.
         std::size_t kept = 0;
         for (std::size_t i = 0, past = 0; i < rest.size(); i = past) {
@@ -121,7 +121,7 @@ class Pairing {
 
     /// Pairs the faces whose kind occurs exactly twice, and returns the other faces, sorted.
     template <class KindOf>
-    std::span<FaceAtEdge> pairTwos(std::span<FaceAtEdge> faces, KindOf kindOf) {
+    std::span<FaceAtEdge> pairUnique(std::span<FaceAtEdge> faces, KindOf kindOf) {
         sortList(faces.begin(), faces.end(), [&](const FaceAtEdge& a, const FaceAtEdge& b) {
             return std::pair(kindOf(a), a.corner) < std::pair(kindOf(b), b.corner);
         });
@@ -258,7 +258,7 @@ struct OwnAngles {
             angles[p] = 0.5 * (vector.x * a + vector.y * b + vector.z * c) / (square * std::sqrt(square));
             is_far &= square > reach;
         }
-        if (!is_far) seeExactly(face, reach, middle, angles);
+        if (!is_far) addFaceExactly(face, reach, middle, angles);
         for (std::uint32_t p = 0; p < kPoints; ++p) sums[p] += angles[p];
     }
 
@@ -274,7 +274,7 @@ struct OwnAngles {
         }
         return longest;
     }
-    void seeExactly(std::uint32_t face, double reach, const DVec3& middle, double (&angles)[kPoints]) const {
+    void addFaceExactly(std::uint32_t face, double reach, const DVec3& middle, double (&angles)[kPoints]) const {
         const Surface& surface = call.surface;
         for (std::uint32_t p = 0; p < kPoints; ++p) {
             const DVec3 from{x[p], y[p], z[p]}, to = middle - from;
@@ -326,8 +326,8 @@ class Flood {
                         continue;
                     }
                     if (partner == c) continue;
-                    const std::uint32_t other = faces_.of(partner & ~kAgainst);
-                    const bool differs = (partner & kAgainst) != 0;
+                    const std::uint32_t other = faces_.of(partner & ~kConflict);
+                    const bool differs = (partner & kConflict) != 0;
                     before += differs ? 1U : 0U;
                     if (reached_[other] == 0) {
                         if (isLate(c)) continue;
@@ -336,7 +336,7 @@ class Flood {
                     after += ((isTurned(face) != isTurned(other)) != differs) ? 1U : 0U;
                 }
             }
-        } while (goOnLate() || goOn(even_, 0) || goOn(odd_, kOdd));
+        } while (followDeferred() || followDoubtful(even_, 0) || followDoubtful(odd_, kOdd));
         component.end = end_;
         component.conflicts_before = (before + doubtfulConflicts(component)) / 2;
         if (!at_border_.empty()) after = sureConflicts(component);
@@ -352,7 +352,7 @@ class Flood {
         return call_.surface.pointOf(corner) < call_.surface.pointOf(faces_.next(corner));
     }
     /// Returns, for a doubtful pair, whether both faces traverse their edge in the same direction.
-    [[nodiscard]] bool areAgainst(std::uint32_t corner, std::uint32_t partner) const {
+    [[nodiscard]] bool areInConflict(std::uint32_t corner, std::uint32_t partner) const {
         return runsForward(corner) == runsForward(partner);
     }
     void reach(std::uint32_t face, bool is_turned) {
@@ -367,15 +367,15 @@ class Flood {
     }
     /// Reaches one more face over a deferred pair; returns false if there is none. Faces before late_, and the first
     /// late_corners_ corners of the face at late_, have been examined: a face may have very many corners.
-    bool goOnLate() {
+    bool followDeferred() {
         for (; !at_border_.empty() && late_ < end_; ++late_, late_corners_ = 0) {
             const std::uint32_t face = order_[late_];
             for (std::uint32_t c = faces_.first(face) + late_corners_; c < faces_.past(face); ++c) {
                 const std::uint32_t partner = call_.pairs.sure[c];
                 if (partner == kNoPartner || partner == c) continue;
-                const std::uint32_t other = faces_.of(partner & ~kAgainst);
+                const std::uint32_t other = faces_.of(partner & ~kConflict);
                 if (reached_[other] != 0) continue;
-                reach(other, isTurned(face) != ((partner & kAgainst) != 0));
+                reach(other, isTurned(face) != ((partner & kConflict) != 0));
                 late_corners_ = c + 1 - faces_.first(face);
                 return true;
             }
@@ -390,8 +390,8 @@ class Flood {
             for (std::uint32_t c = faces_.first(face); c < faces_.past(face); ++c) {
                 const std::uint32_t partner = call_.pairs.sure[c];
                 if (partner == kNoPartner || partner == c) continue;
-                const bool is_apart = isTurned(face) != isTurned(faces_.of(partner & ~kAgainst));
-                count += is_apart != ((partner & kAgainst) != 0) ? 1U : 0U;
+                const bool is_apart = isTurned(face) != isTurned(faces_.of(partner & ~kConflict));
+                count += is_apart != ((partner & kConflict) != 0) ? 1U : 0U;
             }
         }
         return count;
@@ -407,13 +407,13 @@ class Flood {
     }
     /// Reaches one more face over a doubtful pair with this mark; returns false if there is none. Faces before `at`
     /// have been examined.
-    bool goOn(std::uint32_t& at, std::uint32_t mark) {
+    bool followDoubtful(std::uint32_t& at, std::uint32_t mark) {
         for (; !call_.pairs.doubtful.empty() && at < end_; ++at) {
             const std::uint32_t face = order_[at];
             const bool is_done = forDoubtful(face, [&](std::uint32_t corner, std::uint32_t partner) {
                 const std::uint32_t other = faces_.of(partner & ~kOdd);
                 if ((partner & kOdd) != mark || reached_[other] != 0) return true;
-                reach(other, isTurned(face) != areAgainst(corner, partner & ~kOdd));
+                reach(other, isTurned(face) != areInConflict(corner, partner & ~kOdd));
                 return false;
             });
             if (!is_done) return true;
@@ -427,7 +427,7 @@ class Flood {
             const std::uint32_t face = order_[at];
             forDoubtful(face, [&](std::uint32_t corner, std::uint32_t partner) {
                 const bool is_apart = isTurned(face) != isTurned(faces_.of(partner & ~kOdd));
-                count += is_apart && areAgainst(corner, partner & ~kOdd) ? 1U : 0U;
+                count += is_apart && areInConflict(corner, partner & ~kOdd) ? 1U : 0U;
                 return true;
             });
         }
@@ -471,8 +471,8 @@ Component flood(const WindingCall& call, std::uint32_t first, std::uint32_t begi
         return run(at_border);
     };
     if (memory.at_border.empty()) memory.at_border = pointsAtBorders(call);
-    const Component careful = again(memory.at_border);
-    return careful.conflicts_after < component.conflicts_after ? careful : again(anywhere);
+    const Component border_last = again(memory.at_border);
+    return border_last.conflicts_after < component.conflicts_after ? border_last : again(anywhere);
 }
 
 void measure(const WindingCall& call, const Buffer<std::uint32_t>& order, Component& component) {

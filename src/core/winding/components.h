@@ -51,12 +51,12 @@ struct Surface {
 inline constexpr std::uint32_t kNoPartner = 0xffffffffu;
 /// Flag of a pair that is in conflict. Pairs of coincident faces do not have it, because their relative winding is
 /// kept.
-inline constexpr std::uint32_t kAgainst = 0x80000000u;
+inline constexpr std::uint32_t kConflict = 0x80000000u;
 
 /// Pairs of half-edges: for each corner c, the corner at the start of the half-edge that is paired with the half-edge
 /// of c.
 struct EdgePairs {
-    /// Sure partners, combined with kAgainst. kNoPartner: the half-edge is at a border, or its face is ignored or
+    /// Sure partners, combined with kConflict. kNoPartner: the half-edge is at a border, or its face is ignored or
     /// touches a point twice. c itself: the partner is in `doubtful`.
     Buffer<std::uint32_t> sure;
     /// Partners found by the angle about an edge of more than two faces, with kOdd if the number of faces is odd. Empty

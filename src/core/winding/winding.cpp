@@ -101,11 +101,11 @@ unsigned crossings(const Surface& surface, std::uint32_t face, const Ray& ray) {
 }
 
 /// Returns whether the box of any other component contains the box of component i.
-bool isHeld(const BoxTree& boxes, const Buffer<Component>& closed, std::size_t i) {
-    bool held = false;
-    boxes.visit([&](const Box& box) { return !held && box.holds(closed[i].box); },
-                [&](std::uint32_t other) { held |= other != i; });
-    return held;
+bool isEnclosed(const BoxTree& boxes, const Buffer<Component>& closed, std::size_t i) {
+    bool is_enclosed = false;
+    boxes.visit([&](const Box& box) { return !is_enclosed && box.holds(closed[i].box); },
+                [&](std::uint32_t other) { is_enclosed |= other != i; });
+    return is_enclosed;
 }
 
 }  // namespace
@@ -114,17 +114,17 @@ void findNested(const WindingCall& call, const Buffer<std::uint32_t>& order, con
                 std::size_t count, Buffer<std::uint8_t>& inside) {
     if (count < 2) return;
     const Surface& surface = call.surface;
-    Buffer<std::uint32_t> held(call.allocator(), count);
-    std::size_t held_count = 0;
+    Buffer<std::uint32_t> enclosed(call.allocator(), count);
+    std::size_t enclosed_count = 0;
     {
         Buffer<Box> boxes(call.allocator(), count);
         for (std::size_t i = 0; i < count; ++i) boxes[i] = closed[i].box;
         const BoxTree tree(boxes, count, call.allocator());
         for (std::size_t i = 0; i < count; ++i) {
-            if (isHeld(tree, closed, i)) held[held_count++] = static_cast<std::uint32_t>(i);
+            if (isEnclosed(tree, closed, i)) enclosed[enclosed_count++] = static_cast<std::uint32_t>(i);
         }
     }
-    if (held_count == 0) return;
+    if (enclosed_count == 0) return;
     std::size_t face_count = 0;
     for (std::size_t i = 0; i < count; ++i) face_count += closed[i].size();
     Buffer<std::uint32_t> faces(call.allocator(), face_count), owners(call.allocator(), face_count);
@@ -143,9 +143,9 @@ void findNested(const WindingCall& call, const Buffer<std::uint32_t>& order, con
     constexpr DVec3 kDirections[] = {{0.8129, 0.3571, 0.4603}, {-0.2887, 0.9013, -0.3233}, {0.1733, -0.4441, 0.8791}};
     constexpr std::uint32_t kRays = 16;  // number of rays in each direction
     constexpr double kClear = 0.7;
-    call.parallel.forRanges(held_count, 1, [&](std::size_t begin, std::size_t end) {
+    call.parallel.forRanges(enclosed_count, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t h = begin; h < end; ++h) {
-            const Component& own = closed[held[h]];
+            const Component& own = closed[enclosed[h]];
             int odd = 0, even = 0;
             for (std::uint32_t p = 0; p < kRays; ++p) {
                 const std::uint64_t place = (2 * std::uint64_t{p} + 1) * own.size() / (2 * kRays);
@@ -159,12 +159,12 @@ void findNested(const WindingCall& call, const Buffer<std::uint32_t>& order, con
                     unsigned through = 0;
                     tree.visit([&](const Box& box) { return ray.meets(box); },
                                [&](std::uint32_t number) {
-                                   if (owners[number] != held[h]) through += crossings(surface, faces[number], ray);
+                                   if (owners[number] != enclosed[h]) through += crossings(surface, faces[number], ray);
                                });
                     ++(through % 2 != 0 ? odd : even);
                 }
             }
-            inside[held[h]] = odd - even > kClear * (odd + even) ? 1 : 0;
+            inside[enclosed[h]] = odd - even > kClear * (odd + even) ? 1 : 0;
         }
     });
 }
@@ -237,14 +237,14 @@ class Mending {
 
     /// Decides small components, such as leaves and cards, whose outside only normals can indicate.
     void decideSmall(Component& component) {
-        if (component.conflicts_after != 0) return leave(component, report_.small_count);
+        if (component.conflicts_after != 0) return keepWinding(component, report_.small_count);
         measure(call_, memory_.order, component);
-        if (!normalsAgree(component)) return leave(component, report_.small_count);
+        if (!normalsAgree(component)) return keepWinding(component, report_.small_count);
         finish(component, component.facing < 0, report_.by_normals_count);
     }
 
     /// Keeps the winding of a component: flips none of its faces.
-    void leave(const Component& component, std::uint64_t& counter) {
+    void keepWinding(const Component& component, std::uint64_t& counter) {
         for (std::uint32_t i = component.begin; i < component.end; ++i) call_.turned[memory_.order[i]] = 0;
         ++counter;
         report_.conflict_count_after += component.conflicts_before;

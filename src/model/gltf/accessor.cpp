@@ -256,7 +256,7 @@ std::vector<Vec> decodeVec(const Document& document, const Accessor& accessor, c
         auto* out = reinterpret_cast<std::uint8_t*>(result.data());
         if (source != nullptr) pack(accessor, source, out);
         if (accessor.sparse) applySparse(document, accessor, out);
-        turnLittleEndian({out, result.size() * sizeof(Vec)}, sizeof(float));
+        convertLittleEndian({out, result.size() * sizeof(Vec)}, sizeof(float));
         return result;
     }
     const Bytes elements = copyElements(document, accessor);

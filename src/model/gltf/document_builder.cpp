@@ -23,7 +23,7 @@ std::size_t DocumentBuilder::addView(std::span<const std::byte> numbers, std::si
     if (target != kNoTarget) view["target"] = target;
     const auto* const first = reinterpret_cast<const std::uint8_t*>(numbers.data());
     bytes_.insert(bytes_.end(), first, first + numbers.size());
-    turnLittleEndian(std::span<std::uint8_t>(bytes_).last(numbers.size()), number_bytes);
+    convertLittleEndian(std::span<std::uint8_t>(bytes_).last(numbers.size()), number_bytes);
     return append("bufferViews", std::move(view));
 }
 

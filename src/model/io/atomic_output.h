@@ -43,7 +43,7 @@ template <class T>
 class KeptBytes final : public ByteMaker {
   public:
     explicit KeptBytes(std::vector<T>&& values) : values_(std::move(values)) {
-        turnLittleEndian({reinterpret_cast<std::uint8_t*>(values_.data()), size()}, 4);
+        convertLittleEndian({reinterpret_cast<std::uint8_t*>(values_.data()), size()}, 4);
     }
 
     [[nodiscard]] std::size_t size() const override { return values_.size() * sizeof(T); }

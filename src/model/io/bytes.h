@@ -29,7 +29,7 @@ struct UnsetAllocator {
         // Pages of large blocks are touched by the threads that fill them.
         void* memory = ::operator new(bytes, std::align_val_t(defaultAlignment(bytes)), std::nothrow);
         if (memory == nullptr) throw OutOfMemory{};
-        askForHugePages(memory, bytes);
+        requestHugePages(memory, bytes);
         return static_cast<T*>(memory);
     }
     void deallocate(T* memory, std::size_t count) { releaseBytes(nullptr, memory, count * sizeof(T)); }

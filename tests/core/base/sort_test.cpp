@@ -27,8 +27,8 @@ TEST(CompactSort, EqualsStableSort) {
             auto sorted_texts = texts;
             std::stable_sort(rows.begin(), rows.end(), byFirst);
             std::stable_sort(texts.begin(), texts.end(), byFirst);
-            sortInLittleCode(sorted_rows.begin(), sorted_rows.end(), byFirst);
-            sortInLittleCode(sorted_texts.begin(), sorted_texts.end(), byFirst);
+            sortWithSharedCode(sorted_rows.begin(), sorted_rows.end(), byFirst);
+            sortWithSharedCode(sorted_texts.begin(), sorted_texts.end(), byFirst);
             ASSERT_EQ(sorted_rows, rows) << count;
             ASSERT_EQ(sorted_texts, texts) << count;
         }
@@ -42,9 +42,9 @@ TEST(CompactSort, KeepsSortedListsAndReversesReversedOnes) {
         down.push_back(static_cast<float>(999 - i));
     }
     std::vector<float> list = up;
-    sortInLittleCode(list.begin(), list.end(), std::less<>());
+    sortWithSharedCode(list.begin(), list.end(), std::less<>());
     EXPECT_EQ(list, up);
-    sortInLittleCode(down.begin(), down.end(), std::less<>());
+    sortWithSharedCode(down.begin(), down.end(), std::less<>());
     EXPECT_EQ(down, up);
 }
 

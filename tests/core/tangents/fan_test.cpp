@@ -64,7 +64,7 @@ Corners randomCorners() {
 
 bool isFoundOne(const Corners& corners) {
     ManyPaths place;
-    FanRoom room(&place);
+    FanPool room(&place);
     Fan fan;
     for (std::size_t i = 0; i < corners.next.size(); ++i) fan.add(corners.next[i], corners.previous[i], room);
     return fan.isOne();
@@ -127,7 +127,7 @@ TEST(Fan, KnowsRingsAndPathsOfEightInAnyOrder) {
         std::uint32_t order[] = {0, 1, 2, 3, 4, 5, 6, 7};
         do {
             ManyPaths place;
-            FanRoom room(&place);
+            FanPool room(&place);
             Fan fan;
             for (const std::uint32_t i : order) fan.add(i, (i + 1) % neighbors, room);
             ASSERT_TRUE(fan.isOne());
@@ -137,7 +137,7 @@ TEST(Fan, KnowsRingsAndPathsOfEightInAnyOrder) {
 
 TEST(Fan, FollowsTrianglesInTheOrderOfAMesh) {
     ManyPaths place;
-    FanRoom room(&place);
+    FanPool room(&place);
     Fan fan;
     EXPECT_FALSE(fan.isOne());
     // Two strips of three triangles around a node, in the order of the rows of a grid.
@@ -149,7 +149,7 @@ TEST(Fan, FollowsTrianglesInTheOrderOfAMesh) {
 /// Every second triangle of a ring, then the others.
 bool isRingFound(std::uint32_t size) {
     ManyPaths place;
-    FanRoom room(&place);
+    FanPool room(&place);
     Fan fan;
     for (std::uint32_t first : {0u, 1u}) {
         for (std::uint32_t i = first; i < size; i += 2) fan.add(i, (i + 1) % size, room);
@@ -164,7 +164,7 @@ TEST(Fan, GivesUpWhereAFifthPathBegins) {
 
 TEST(Fan, GivesItsPlaceBackWhereTwoPathsAreLeft) {
     ManyPaths places[3] = {};
-    FanRoom room(places);
+    FanPool room(places);
     Fan fans[3];
     for (std::uint32_t i = 0; i < 3; ++i) {
         for (Fan* fan : {&fans[0], &fans[1]}) fan->add(2 * i, 2 * i + 1, room);
@@ -181,7 +181,7 @@ TEST(Fan, GivesItsPlaceBackWhereTwoPathsAreLeft) {
 
 TEST(Fan, StaysComplexOnceTwoWaitForOneNeighbor) {
     ManyPaths place;
-    FanRoom room(&place);
+    FanPool room(&place);
     Fan fan;
     fan.add(0, 1, room);
     fan.add(0, 2, room);

@@ -148,8 +148,8 @@ TEST(Simd, RequestingAnUnsupportedTargetSelectsTheBestSupportedOne) {
 TEST(Simd, RequestingAnotherArchitectureSelectsASupportedTarget) {
     const SimdTarget best = simd::resolve(SimdTarget::best);
     const bool is_x86 = best != SimdTarget::scalar && best != SimdTarget::neon;
-    for (const SimdTarget wish : {SimdTarget::sse2, SimdTarget::avx2, SimdTarget::avx512})
-        EXPECT_EQ(simd::resolve(wish) != SimdTarget::scalar, is_x86);
+    for (const SimdTarget requested : {SimdTarget::sse2, SimdTarget::avx2, SimdTarget::avx512})
+        EXPECT_EQ(simd::resolve(requested) != SimdTarget::scalar, is_x86);
 }
 
 void planAndEvaluate(const SimpleMesh& shape, const TangentOptions& options, Outputs& outputs) {

@@ -299,7 +299,7 @@ void writeUnused(const PoolComputation& state, std::uint32_t vertex, PoolFrames&
 void writeTangents(const PoolComputation& state, const SplitResult& split, PoolFrames& frames) {
     // Reserves memory first: while an array grows, fresh pages are mapped one by one.
     frames.tangents.reserve(split.vertexCount());
-    askForPages(frames.tangents.data(), split.vertexCount() * sizeof(Vec4));
+    populatePages(frames.tangents.data(), split.vertexCount() * sizeof(Vec4));
     if (state.generates_bitangents) frames.bitangents.reserve(split.vertexCount());
     for (std::size_t v = 0; v < split.vertexCount(); ++v) {
         const std::uint32_t corner = split.source_corners[v];

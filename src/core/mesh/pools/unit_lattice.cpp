@@ -44,7 +44,7 @@ std::vector<std::uint8_t> packAs(const std::vector<std::int32_t>& numbers) {
     std::vector<Component> values(numbers.begin(), numbers.end());
     std::vector<std::uint8_t> bytes(values.size() * sizeof(Component));
     if (!bytes.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
-    turnLittleEndian(bytes, sizeof(Component));
+    convertLittleEndian(bytes, sizeof(Component));
     return bytes;
 }
 
@@ -53,7 +53,7 @@ std::vector<std::uint8_t> pack(std::span<const Vec> vectors, VectorFormat format
     if (format == VectorFormat::float32) {
         std::vector<std::uint8_t> bytes(vectors.size_bytes());
         if (!bytes.empty()) std::memcpy(bytes.data(), vectors.data(), bytes.size());
-        turnLittleEndian(bytes, sizeof(float));
+        convertLittleEndian(bytes, sizeof(float));
         return bytes;
     }
     std::vector<std::int32_t> numbers;

@@ -55,11 +55,11 @@ struct Estimator {
 /// results is not needed.
 TSPACE_DECLARE_KERNEL(Estimator twoWeights(bool tangents_only))
 TSPACE_DECLARE_KERNEL(Estimator quadraticRecovery())
-inline Estimator twoWeightsFor(SimdTarget wish, bool tangents_only) {
-    return simd::choose(wish, TSPACE_KERNEL_TABLE_NOT_AVX512(twoWeights))(tangents_only);
+inline Estimator twoWeightsFor(SimdTarget requested, bool tangents_only) {
+    return simd::choose(requested, TSPACE_KERNEL_TABLE_NOT_AVX512(twoWeights))(tangents_only);
 }
-inline Estimator quadraticRecoveryFor(SimdTarget wish) {
-    return simd::choose(wish, TSPACE_KERNEL_TABLE(quadraticRecovery))();
+inline Estimator quadraticRecoveryFor(SimdTarget requested) {
+    return simd::choose(requested, TSPACE_KERNEL_TABLE(quadraticRecovery))();
 }
 
 }  // namespace tspace::estimators

@@ -59,7 +59,7 @@ inline Flat arcOf(const Plane& here, Vectors e, Floats square, Floats arc_length
 }
 
 /// Returns a vector rotated into the plane, with its length unchanged.
-inline Flat laidInto(const Plane& here, Vectors v) {
+inline Flat rotatedInto(const Plane& here, Vectors v) {
     const Flat p = here.flatten(v);
     const Floats stretch = smaller(squareRoot(dot(v, v) / dot(p, p)), broadcast(kLongestArc));
     return keep(isFinite(stretch), stretch) * p;
@@ -164,7 +164,7 @@ inline void addRecoveryOf(const VertexSource& source, const std::uint32_t* verti
 void addRecovery(const VertexSource& source, const std::uint32_t* vertices, std::size_t count, float* rows) {
     for (std::size_t t = 0; t < count; t += kWidth) {
         const std::uint32_t* const v = vertices + 3 * t;
-        addRecoveryOf(source, v, namesLast(v, source.last_vertex), rows + 12 * kFitRows * t);
+        addRecoveryOf(source, v, includesLast(v, source.last_vertex), rows + 12 * kFitRows * t);
     }
 }
 
@@ -361,7 +361,7 @@ struct Residual {
 
     Residual(const Edge& edge, const Plane& here, std::size_t end) {
         const Flat arc = arcOf(here, edge.e, edge.square, edge.arc_length);
-        const Flat there = laidInto(here, edge.along[1 - end]), twice = arc + arc;
+        const Flat there = rotatedInto(here, edge.along[1 - end]), twice = arc + arc;
         r = twice - there - here.flatten(edge.along[end]);
         const Mask sound = edge.counts & isFinite(dot(r, r));
         r = {keep(sound, r.x), keep(sound, r.y)};
@@ -375,7 +375,7 @@ void addEdgeStep(const VertexSource& source, const std::uint32_t* vertices, cons
     const auto* const bytes = reinterpret_cast<const std::byte*>(from);
     for (std::size_t g = 0; g < count; g += kWidth) {
         const std::uint32_t* const v = vertices + 3 * g;
-        const bool exact = namesLast(v, source.last_vertex);
+        const bool exact = includesLast(v, source.last_vertex);
         const TriangleEdges t(source, v, exact);
         Vectors normal[3], j[3][2];
         Mask has[3];

@@ -58,7 +58,7 @@ template <bool kTangentsOnly>
 void addTwoWeights(const VertexSource& source, const std::uint32_t* vertices, std::size_t count, float* rows) {
     for (std::size_t t = 0; t < count; t += kWidth) {
         const std::uint32_t* const v = vertices + 3 * t;
-        addTwoWeightsOf<kTangentsOnly>(source, v, namesLast(v, source.last_vertex),
+        addTwoWeightsOf<kTangentsOnly>(source, v, includesLast(v, source.last_vertex),
                                        rows + (kTangentsOnly ? 24 : 48) * t);
     }
 }

@@ -77,8 +77,8 @@ TSPACE_DECLARE_KERNEL(void cornerTerms(const CornerSource& source, const std::ui
                                        CornerTerms& terms))
 
 using CornerTermsFunction = decltype(&scalar::cornerTerms);
-inline CornerTermsFunction cornerTermsFor(SimdTarget wish) {
-    return simd::choose(wish, TSPACE_KERNEL_TABLE(cornerTerms));
+inline CornerTermsFunction cornerTermsFor(SimdTarget requested) {
+    return simd::choose(requested, TSPACE_KERNEL_TABLE(cornerTerms));
 }
 
 }  // namespace tspace::mikk

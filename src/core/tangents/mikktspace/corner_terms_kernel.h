@@ -183,7 +183,7 @@ void cornerTerms(const CornerSource& source, const std::uint32_t* vertices, std:
     for (std::size_t t = 0; t < count; t += kWidth) {
         const std::size_t left = count - t;
         const unsigned valid = left >= kWidth ? (1u << kWidth) - 1 : (1u << left) - 1;
-        groupTerms(source, vertices + 3 * t, t, valid, namesLast(vertices + 3 * t, source.last_vertex), terms);
+        groupTerms(source, vertices + 3 * t, t, valid, includesLast(vertices + 3 * t, source.last_vertex), terms);
     }
 }
 

@@ -72,7 +72,7 @@ void sumRange(const EvaluationPlan& plan, const CornerSource& source, CornerTerm
 /// Computes the sums of all groups. A task owns a range of groups, as in node_sums.cpp.
 GroupSums sumGroups(const EvaluationPlan& plan, const CornerSource& source, CornerTermsFunction terms,
                     const Allocator* allocator, Parallel& parallel) {
-    GroupSums sums = roomForSums(plan, source.tangents_only, allocator);
+    GroupSums sums = allocateSums(plan, source.tangents_only, allocator);
     const std::size_t groups = plan.group_count;
     if (groups == 0) return sums;
     const PlanTriangles triangles(plan);
@@ -101,7 +101,7 @@ class Evaluation {
           sink_(out, plan.convention),
           defaults_(out),
           terms_(cornerTermsFor(execution.simd)),
-          source_(cornerSource(pose, uvs, plan.method, wantsOnlyTangents(plan, out))),
+          source_(cornerSource(pose, uvs, plan.method, needsOnlyTangents(plan, out))),
           allocator_(execution.allocator),
           parallel_(parallel) {
         source_.with_marks = false;
@@ -134,7 +134,7 @@ class Evaluation {
     void estimate() {
         const PlanTriangles triangles(plan_);
         const InputScale scale = inputScale(triangles, pose_.positions, uvs_);
-        sums_ = roomForSums(plan_, source_.tangents_only, allocator_);
+        sums_ = allocateSums(plan_, source_.tangents_only, allocator_);
         const estimators::GroupEstimates to = estimatesIn(sums_);
         estimators::estimateGroups(plan_.method, plan_.refine, triangles, pose_, uvs_, scale, {&to, 1}, execution_,
                                    parallel_);
@@ -196,7 +196,7 @@ class Evaluation {
                 prefetchLines<true>(&tangents[corner], 1, kWriteAhead);
                 tangents[corner] = {r.x, r.y, r.z, signs[positive[group]]};
             };
-            if (!wantsTangentsOnly(out_))
+            if (!requestsOnlyTangents(out_))
                 forResults(begin, end, slotOf, writeAll);
             else if (plan_.slots.empty() && plan_.triangles.empty())
                 forResults(
@@ -369,7 +369,7 @@ class Evaluation {
 
 }  // namespace
 
-GroupSums roomForSums(const EvaluationPlan& plan, bool tangents_only, const Allocator* allocator) {
+GroupSums allocateSums(const EvaluationPlan& plan, bool tangents_only, const Allocator* allocator) {
     GroupSums sums;
     sums.groups = Buffer<Vec3>(allocator, plan.group_count);
     if (!tangents_only) sums.rest = Buffer<GroupRest>(allocator, plan.group_count);

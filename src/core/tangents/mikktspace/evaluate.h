@@ -85,7 +85,7 @@ EvaluationPlan planGrouped(const MeshView& mesh, const Call<TangentOptions>& opt
 
 /// Evaluates one pose into validated outputs, and returns the completed report. `uvs`: one per vertex. Scratch memory:
 /// 12 bytes per group if only tangents are requested, otherwise 36, and core/base/range_lists.h if several threads
-/// compute sums. `estimates`: null, or the estimators' results for the groups (roomForSums), which are moved from.
+/// compute sums. `estimates`: null, or the estimators' results for the groups (allocateSums), which are moved from.
 /// Throws OutOfMemory.
 TangentReport evaluateGroups(const EvaluationPlan& plan, const Pose& pose, const StridedSpan<const Vec2>& uvs,
                              const TangentOutput& out, const Execution& execution, Parallel& parallel,
@@ -111,7 +111,7 @@ inline Vec3 unit(const Vec3& v) { return notZero(v) ? (1.0f / length(v)) * v : v
 /// Returns the unit vector of v without its component along n. n is used as given, without normalization.
 inline Vec3 flatten(const Vec3& n, const Vec3& v) { return unit(v - dot(n, v) * n); }
 
-inline bool wantsTangentsOnly(const TangentOutput& out) {
+inline bool requestsOnlyTangents(const TangentOutput& out) {
 #ifdef TSPACE_MIKKTSPACE_ONLY
     return true;
 #endif
@@ -264,12 +264,12 @@ struct GroupSums {
 
 /// Returns whether the sums of bitangents and lengths can be omitted. Conflicts need them: whether two results of a
 /// corner are merged depends on all their components.
-inline bool wantsOnlyTangents(const EvaluationPlan& plan, const TangentOutput& out) {
-    return wantsTangentsOnly(out) && plan.conflicts.empty();
+inline bool needsOnlyTangents(const EvaluationPlan& plan, const TangentOutput& out) {
+    return requestsOnlyTangents(out) && plan.conflicts.empty();
 }
 
 /// Allocates memory for the sums or estimates of a plan's groups.
-GroupSums roomForSums(const EvaluationPlan& plan, bool tangents_only, const Allocator* allocator);
+GroupSums allocateSums(const EvaluationPlan& plan, bool tangents_only, const Allocator* allocator);
 /// Returns the memory of `sums` in the form that estimators write to.
 estimators::GroupEstimates estimatesIn(GroupSums& sums);
 

@@ -19,7 +19,7 @@ namespace {
 /// Returns whether the links between the corners form a single path or ring, without ambiguity.
 bool areOneFan(std::span<const NodeCorner> around) {
     ManyPaths place;
-    FanRoom room(&place);
+    FanPool room(&place);
     Fan fan;
     for (const NodeCorner& corner : around) fan.add(corner.next, corner.previous, room);
     return fan.isOne();

@@ -161,7 +161,7 @@ class BucketFinder {
     [[nodiscard]] bool mayMatter() {
         const std::size_t count = in_.triangles.count;
         std::uint32_t* const edges = representatives_.data();  // edge counts per node; the memory is reused later
-        forgetAll();
+        clearRepresentatives();
         std::uint32_t room[kBlockCorners], last[kBlockCorners], known = 0;
         for (std::size_t first = 0; first < count; first += kCollectBlock) {
             const std::size_t size = 3 * std::min(kCollectBlock, count - first);
@@ -172,14 +172,14 @@ class BucketFinder {
             for (const std::uint32_t *n = nodes, *const end = nodes + size; n != end; n += 3) {
                 if (known != 0 && keyOf(n, last) < known) continue;
                 for (std::size_t k = 0; k < 3; ++k) {
-                    if ((known == 0 || last[n[k]] >= known) && ++edges[n[k]] == 3) return forgetAll(), true;
+                    if ((known == 0 || last[n[k]] >= known) && ++edges[n[k]] == 3) return clearRepresentatives(), true;
                 }
             }
         }
         return false;
     }
 
-    void forgetAll() { std::memset(representatives_.data(), 0, in_.nodes.count * sizeof(std::uint32_t)); }
+    void clearRepresentatives() { std::memset(representatives_.data(), 0, in_.nodes.count * sizeof(std::uint32_t)); }
 
     /// Returns a lower bound of V, the largest key, in a small mesh: each representative is between the first and the
     /// `last` corner of its node.

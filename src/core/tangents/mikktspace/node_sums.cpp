@@ -41,7 +41,7 @@ class Summer {
   public:
     explicit Summer(const Sweep& sweep) : sweep_(sweep), sums_(sweep.sums) {}
 
-    void run(GroupRange range, RangeLists::Batches triangles, const FanRoom& room) {
+    void run(GroupRange range, RangeLists::Batches triangles, const FanPool& room) {
         fan_room_ = room;
         range_ = range;
         std::fill_n(sums_.nodes.data() + range.begin, range.size(), NodeSum{});
@@ -109,7 +109,7 @@ class Summer {
         for (std::size_t t = 0; t < batch.count; ++t) {
             const std::uint32_t* n = batch.groups + 3 * t;
             if ((terms_.marks[0][t] & (kDegenerateMark | kNoUvArea)) != 0) [[unlikely]] {
-                addUnusual(n, (terms_.marks[0][t] & kDegenerateMark) != 0);
+                addNonContributing(n, (terms_.marks[0][t] & kDegenerateMark) != 0);
                 continue;
             }
             const std::uint32_t a = n[0], b = n[1], c = n[2];
@@ -128,7 +128,7 @@ class Summer {
 
     /// Adds a triangle that contributes nothing to the sums: a degenerate triangle makes its nodes complex, and a
     /// triangle without UV area extends fans.
-    void addUnusual(const std::uint32_t* n, bool degenerate) {
+    void addNonContributing(const std::uint32_t* n, bool degenerate) {
         for (std::size_t k = 0; k < 3; ++k) {
             if (!range_.has(n[k])) continue;
             if (degenerate) {
@@ -141,7 +141,7 @@ class Summer {
 
     const Sweep& sweep_;
     NodeSums& sums_;
-    FanRoom fan_room_{nullptr};
+    FanPool fan_room_{nullptr};
     GroupRange range_;
     CornerTerms terms_;
 };
@@ -229,7 +229,7 @@ void sumNodes(const WeldedMesh& welded, const CornerSource& source, CornerTermsF
         Summer summer(sweep);
         for (std::size_t index = next++; index < ranges; index = next++) {
             const GroupRange range = lists.range(index);
-            summer.run(range, {by_node, lists, index}, FanRoom(many_paths.data() + task * fans_each));
+            summer.run(range, {by_node, lists, index}, FanPool(many_paths.data() + task * fans_each));
             if (ranges > 1) finish(range.begin, range.end);
         }
     });

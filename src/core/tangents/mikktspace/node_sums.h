@@ -36,9 +36,9 @@ struct ManyPaths {
 };
 
 /// Pool of ManyPaths, numbered from 1. Its size is one entry for each fan of three triangles or more.
-class FanRoom {
+class FanPool {
   public:
-    explicit FanRoom(ManyPaths* places) : places_(places) {}
+    explicit FanPool(ManyPaths* places) : places_(places) {}
 
     ManyPaths& operator[](std::uint32_t place) { return places_[place - 1]; }
     std::uint32_t take() {
@@ -66,7 +66,7 @@ class Fan {
 
     /// Adds a triangle. Its corner at this node is followed by the node `next` and preceded by `previous`. Branchless,
     /// because branches would be unpredictable for unordered meshes.
-    void add(std::uint32_t next, std::uint32_t previous, FanRoom& room) {
+    void add(std::uint32_t next, std::uint32_t previous, FanPool& room) {
         const Four own = Four{next, previous, next, previous} | kTopBit;
         const Four extended = std::bit_cast<Four>(ends_ == __builtin_shufflevector(own, own, 1, 0, 3, 2));
         const Four kept = __builtin_shufflevector(extended, extended, 1, 0, 3, 2);  // other ends of the extended paths
@@ -86,7 +86,7 @@ class Fan {
     static constexpr Four kComplex{1, 0, 1, 0};
     static Four turned(Four v) { return __builtin_shufflevector(v, v, 2, 3, 0, 1); }
 
-    [[gnu::noinline]] void addToMany(ManyPaths::Path grown, FanRoom& room) {
+    [[gnu::noinline]] void addToMany(ManyPaths::Path grown, FanPool& room) {
         const bool begins = ends_[1] != 0;
         if (!begins && ends_[3] == 0) return;
         const std::uint32_t place = begins ? room.take() : ends_[2];

@@ -247,8 +247,8 @@ class JoinedTriangles final : public TriangleGroups {
 /// Estimates all groups together, since a step of `best` reads the results of neighboring groups. Results of simple
 /// nodes replace their sums; those of the plan's groups are returned.
 GroupSums estimateWithPlan(OnePass& pass, const EvaluationPlan& plan) {
-    if (!wantsTangentsOnly(pass.out)) pass.sums.rest = Buffer<GroupRest>(pass.allocator, pass.in.nodes.count);
-    GroupSums planned = roomForSums(plan, wantsOnlyTangents(plan, pass.out), pass.allocator);
+    if (!requestsOnlyTangents(pass.out)) pass.sums.rest = Buffer<GroupRest>(pass.allocator, pass.in.nodes.count);
+    GroupSums planned = allocateSums(plan, needsOnlyTangents(plan, pass.out), pass.allocator);
     const bool has_degenerate_uvs = pass.sums.report.degenerate_uv_count != 0;
     const MeshTriangles by_node(pass.in, has_degenerate_uvs ? pass.sums.kinds.data() : nullptr);
     const JoinedTriangles joined(by_node, pass.in.nodes.count, plan, {pass.complex.data(), pass.complex.size()});
@@ -367,7 +367,7 @@ TangentReport evaluateInOnePass(const NodeSetting& setting, const TangentOutput&
     const TangentOptions& options = setting.options;
     const Pose pose{setting.mesh.positions, setting.mesh.normals};
     CornerSource source =
-        cornerSource(pose, setting.mesh.uvs, options.method, pass.estimates || wantsTangentsOnly(out));
+        cornerSource(pose, setting.mesh.uvs, options.method, pass.estimates || requestsOnlyTangents(out));
     source.adding_only = true;
     sumNodes(
         setting, source, cornerTermsFor(setting.options.execution.simd), transient, pass.allocator, parallel, pass.sums,

@@ -290,7 +290,7 @@ class CornerReader {
         if (!path_.are_all) findTriangles();
         count_ = path_.are_all ? in_.triangles.count : to_.found.size();
         readTriangles();
-        if (!in_.triangles.faces.empty()) uniteFaces();
+        if (!in_.triangles.faces.empty()) unifyFaces();
         countCorners();
         placeCorners();
         if (to_.report.degenerate_triangle_count != 0) planCopies();
@@ -402,7 +402,7 @@ class CornerReader {
 
     /// Unifies the orientation of all triangles of a face, for every face. If the triangles of a face have different
     /// orientations, all of them have been collected.
-    void uniteFaces() {
+    void unifyFaces() {
         for (std::size_t t = 1; t < count_;) {
             if (to_.flags[t] == to_.flags[t - 1] || faceOf(t) != faceOf(t - 1)) {
                 ++t;
@@ -411,12 +411,12 @@ class CornerReader {
             std::size_t first = t - 1;
             while (first > 0 && faceOf(first - 1) == faceOf(t)) --first;
             while (t < count_ && faceOf(t) == faceOf(first)) ++t;
-            uniteFace(first, t);
+            unifyFace(first, t);
         }
     }
 
     /// Unifies the orientation of the triangles of one face; degenerate triangles are ignored.
-    void uniteFace(std::size_t first, std::size_t end) {
+    void unifyFace(std::size_t first, std::size_t end) {
         good_.drop(good_.size());
         std::uint32_t facing = 0;
         for (std::size_t t = first; t < end; ++t) {

@@ -39,9 +39,9 @@ class SmallMesh {
           sink_(out, options.convention),
           defaults_(out),
           count_(static_cast<unsigned>(welded.triangles.count)),
-          wants_rest_(!wantsTangentsOnly(out)),
+          needs_rest_(!requestsOnlyTangents(out)),
           cosine_(thresholdCosine(options.angular_threshold_deg)),
-          rest_(options.execution.allocator, wants_rest_ ? 3 * welded.triangles.count + 1 : 0) {}
+          rest_(options.execution.allocator, needs_rest_ ? 3 * welded.triangles.count + 1 : 0) {}
 
     TangentReport run() {
         readTriangles();
@@ -69,7 +69,7 @@ class SmallMesh {
         const std::size_t padded = (count + kTermGroup - 1) / kTermGroup * kTermGroup;
         std::fill(vertices_ + 3 * count, vertices_ + 3 * padded, vertices_[0]);
         const Pose pose{in_.mesh.positions, in_.mesh.normals};
-        const CornerSource source{vertexArrays(pose, in_.mesh.uvs), Weighting::projected_angle, !wants_rest_, true,
+        const CornerSource source{vertexArrays(pose, in_.mesh.uvs), Weighting::projected_angle, !needs_rest_, true,
                                   &directions_};
         cornerTermsFor(options_.execution.simd)(source, vertices_, count, terms_);
         for (unsigned t = 0; t < count; ++t) {
@@ -236,7 +236,7 @@ class SmallMesh {
         forTriangles(set, [&](unsigned t) { sum += loadFloat4(terms_.s[rowOf(t)]); });
         storeFloat4(sums_[means_], sum);
         signs_[means_] = sink_.sign(up);
-        if (wants_rest_) {
+        if (needs_rest_) {
             rest_[means_] = {};
             forTriangles(set, [&](unsigned t) { addRest(rest_[means_], terms_, t, corner_of_[t]); });
         }
@@ -248,7 +248,7 @@ class SmallMesh {
         const Tangents none{};
         for (unsigned i = means_; i < means_ + 3; ++i) std::fill_n(sums_[i], 4, 1.0f);
         std::fill_n(signs_ + means_, 3, 1.0f);
-        for (unsigned i = 1; wants_rest_ && i < means_; ++i)
+        for (unsigned i = 1; needs_rest_ && i < means_; ++i)
             rest_[i] = restOf(mikk::meanOf({}, rest_[i], sums_[i][3], false));
         for (unsigned i = 1; i < means_; i += 4) {
             Float4 x = loadFloat4(sums_[i]), y = loadFloat4(sums_[i + 1]), z = loadFloat4(sums_[i + 2]),
@@ -270,7 +270,7 @@ class SmallMesh {
         }
         const float first[4] = {none.s.x, none.s.y, none.s.z, sink_.sign(none.positive)};
         std::copy_n(first, 4, sums_[0]);
-        if (wants_rest_) rest_[0] = restOf(none);
+        if (needs_rest_) rest_[0] = restOf(none);
     }
 
     // Steps 7 and 8 of plain.cpp: degenerate triangles and signs.
@@ -295,7 +295,7 @@ class SmallMesh {
             if (mean == 0) [[unlikely]]
                 defaults_.add(corner);
         }
-        for (unsigned corner = 0; wants_rest_ && corner < 3 * count_; ++corner)
+        for (unsigned corner = 0; needs_rest_ && corner < 3 * count_; ++corner)
             sink_.writeRest(corner, rest_[mean_of_[corner]]);
         for (unsigned corner = 0; !finite_ && corner < 3 * count_; ++corner)
             report_.not_finite_count += !sink_.isFinite(corner);
@@ -310,7 +310,7 @@ class SmallMesh {
     Sink sink_;
     DefaultCorners defaults_;
     unsigned count_;
-    bool wants_rest_, finite_ = true;
+    bool needs_rest_, finite_ = true;
     float cosine_;
     TangentReport report_;
     std::uint64_t good_ = 0;              // triangles that are not degenerate

@@ -42,7 +42,7 @@ struct VertexPath {
     Parallel& parallel;
 };
 
-/// Flags of a triangle, in addition to kFacesUp or kFacesDown (shared by all triangles of a face: uniteFaces).
+/// Flags of a triangle, in addition to kFacesUp or kFacesDown (shared by all triangles of a face: unifyFaces).
 enum TriangleFlag : std::uint8_t {
     /// the triangle has no usable UV area: it joins groups of either orientation, starts none, and contributes nothing
     kAny = 4,

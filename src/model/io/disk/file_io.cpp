@@ -30,7 +30,7 @@ bool readSteps(std::FILE* file, std::span<std::uint8_t> to, const Execution& exe
     parallel.forTasks(steps, [&](std::size_t step) {
         const std::size_t begin = step * kHugePage;
         const auto part = to.subspan(begin, std::min(kHugePage, to.size() - begin));
-        if (to.size() >= kLargeBytes) askForPages(part.data(), part.size());
+        if (to.size() >= kLargeBytes) populatePages(part.data(), part.size());
         if (!readAt(file, begin, part)) good = false;
     });
     return good;
