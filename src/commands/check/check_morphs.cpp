@@ -165,7 +165,7 @@ class MorphNormalsChecker {
         const bool is_missing = addsNothing(target.normals);
         MorphFault& fault = is_missing ? missing_ : wrong_;
         ++fault.targets.total;
-        const std::vector<VertexTurn> turns = turns_.under(target.positions.span());
+        const std::vector<VertexRotation> turns = turns_.under(target.positions.span());
         const double limit = facts_.options.direction_deg;
         std::vector<OffNormal> off;
         double turning_area = 0;
@@ -230,7 +230,8 @@ class MorphNormalsChecker {
     /// recompute the normals of a target: across material borders, over whole polygons, and with hard edges by the
     /// angles of the target. A normal that is tilted against its faces on the base may be tilted in another direction
     /// afterwards: the rotation of a face normal does not determine how the face rotates about it.
-    void dropPlausible(std::size_t number, const std::vector<VertexTurn>& turns, std::vector<OffNormal>& off) const {
+    void dropPlausible(std::size_t number, const std::vector<VertexRotation>& turns,
+                       std::vector<OffNormal>& off) const {
         std::vector<std::uint32_t> vertices;
         for (const OffNormal& one : off) vertices.push_back(one.vertex);
         const MovedFaces faces(facts_.primitive, facts_.all, number, vertices);
@@ -238,7 +239,7 @@ class MorphNormalsChecker {
         std::size_t i = 0;
         std::erase_if(off, [&](const OffNormal& one) {
             const std::size_t at = i++;
-            const VertexTurn& turn = turns[one.vertex];
+            const VertexRotation& turn = turns[one.vertex];
             const double tilt = angleBetween(one.was, toDouble(turn.from));
             return angleBetween(one.is, toDouble(turn.to)) <= tilt + slack ||
                    faces.admit(at, one.is, turn, tilt <= slack, slack);
@@ -246,7 +247,7 @@ class MorphNormalsChecker {
     }
 
     PrimitiveFacts& facts_;
-    SurfaceTurns turns_;
+    SurfaceRotations turns_;
     MorphFault missing_ = {}, wrong_ = {};
 };
 
@@ -341,7 +342,7 @@ bool isThin(const TangentView& mesh, std::size_t face, float area) {
 void excludeCollapsed(const TangentView& mesh, const Surface& base, const TangentView& morphed_mesh,
                       const Surface& morphed, const EqualVertices& equal, std::vector<bool>& good) {
     constexpr float kCollapsed = 1e-4f;            // ratio of the areas; corresponds to 1 percent along each side
-    constexpr double kFlipped = -0.8660254037844;  // cosine of 150 degrees, as in SurfaceTurns
+    constexpr double kFlipped = -0.8660254037844;  // cosine of 150 degrees, as in SurfaceRotations
     std::vector<bool> is_out(equal.class_count, false);
     for (std::size_t f = 0; f < base.faces.size(); ++f) {
         const SurfaceFrame &before = base.faces[f], &after = morphed.faces[f];

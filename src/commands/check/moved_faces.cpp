@@ -111,7 +111,8 @@ MovedFaces::MovedFaces(const ScenePrimitive& primitive, std::span<const ScenePri
     }
 }
 
-bool MovedFaces::admit(std::size_t i, const DVec3& normal, const VertexTurn& turn, bool is_hard, double slack) const {
+bool MovedFaces::admit(std::size_t i, const DVec3& normal, const VertexRotation& turn, bool is_hard,
+                       double slack) const {
     constexpr double kHard = 0.17364817766693034;  // cosine of 80 degrees
     if (faces_[point_of_[i]].is_open) return true;
     const DVec3 from = toDouble(turn.from), to = toDouble(turn.to);

@@ -24,7 +24,7 @@ class MovedFaces {
     /// Returns whether smoothing of faces around vertices[i] can result in this unit normal, within `slack` radians.
     /// `turn`: rotation of the faces that share its normal on the base. `is_hard`: the base normal smooths over no
     /// other face, so faces at more than 80 degrees from these, both on the base and moved, are ignored.
-    [[nodiscard]] bool admit(std::size_t i, const DVec3& normal, const VertexTurn& turn, bool is_hard,
+    [[nodiscard]] bool admit(std::size_t i, const DVec3& normal, const VertexRotation& turn, bool is_hard,
                              double slack) const;
 
   private:

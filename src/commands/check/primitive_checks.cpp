@@ -463,9 +463,9 @@ void checkRounding(PrimitiveFacts& facts) {
         const std::span<const std::uint32_t> corners = facts.mesh.corners;
         rounding = roundingOf(facts.mesh.positions, {}, {&corners, 1}, facts.mesh.position_step);
     }
-    const TurnedTriangles turned =
-        turnedBy(rounding, facts.mesh.positions, facts.mesh.corners, facts.options.direction_deg);
-    if (turned.share < kSomeTurned) return;
+    const RotatedTriangles turned =
+        rotatedBy(rounding, facts.mesh.positions, facts.mesh.corners, facts.options.direction_deg);
+    if (turned.share < kLeastRotatedShare) return;
     const Tally tally{.count = turned.count,
                       .total = turned.total,
                       .surface_share = turned.share,

@@ -156,8 +156,8 @@ std::string warnOfRounding(const PoolView& vertices, std::span<const PrimitiveGe
     const PositionRounding rounding = roundingOf(vertices.positions, vertices.uvs, corner_lists, 0, allocator);
     if (rounding.error == 0) return {};
     for (const PrimitiveGeometry& geometry : geometries) {
-        const TurnedTriangles turned = turnedBy(rounding, vertices.positions, geometry.indices, kLimit);
-        if (turned.share < kSomeTurned) continue;
+        const RotatedTriangles turned = rotatedBy(rounding, vertices.positions, geometry.indices, kLimit);
+        if (turned.share < kLeastRotatedShare) continue;
         return std::string(!vertices.normals.empty() ? "tangents"
                            : vertices.makes_tangents ? "normals and tangents"
                                                      : "normals") +
@@ -232,7 +232,7 @@ class NewMorphNormals {
 
     const std::vector<bool>& targets_;
     bool keeps_finite_;
-    TurnedNormals turned_;
+    RotatedNormals turned_;
     std::vector<std::optional<VertexOffsets>> made_;
 };
 
@@ -276,7 +276,7 @@ std::vector<PrimitiveGeometry> readGeometries(DecodedArrays& arrays, std::span<c
     std::vector<PrimitiveGeometry> geometries;
     for (const GeometryPlan& geometry : pool.geometries)
         geometries.push_back({.indices = arrays.copyCorners(primitives[geometry.primitives[0]]),
-                              .mends = geometry.mends,
+                              .repairs = geometry.repairs,
                               .around = geometry.around});
     return geometries;
 }
@@ -328,7 +328,7 @@ PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& exe
     DecodedVertices decoded;
     PoolView vertices = lendVertices(document_, arrays_, first, pool, decoded);
     vertices.targets = targetsOf(document_, first, pool.repairsTangents());
-    vertices.mends_tangents = pool.repairsTangents();
+    vertices.repairs_tangents = pool.repairsTangents();
     if (pool.keeps_tangents || pool.repairsTangents()) decoded.kept_tangents = arrays_.borrowTangents(first);
     vertices.kept_tangents = decoded.kept_tangents.span();
     const bool keeps_signs = pool.overwrites_normals && options_.selection.existing == ExistingTangents::keep;
@@ -337,7 +337,7 @@ PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& exe
             decoded.old_tangents = arrays_.borrowTangents(first);
     }
     vertices.old_tangents = decoded.old_tangents.span();
-    vertices.is_blenders = pool.is_blenders;
+    vertices.is_from_blender = pool.is_from_blender;
     vertices.makes_tangents = pool.makes_tangents;
     std::vector<PrimitiveGeometry> geometries = readGeometries(arrays_, primitives_, pool);
     WeldedVertices welded;

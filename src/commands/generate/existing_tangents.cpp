@@ -35,20 +35,20 @@ std::uint8_t partsOf(FindingCode code) {
         case FindingCode::uvSeamAveraged:
         case FindingCode::directionsWrong:
         case FindingCode::uvSetWrong:
-            return mend::kWhole;
+            return repair::kWhole;
         case FindingCode::tangentsNotUnit:
         case FindingCode::signsNotOne:
-            return mend::kValues;
+            return repair::kValues;
         case FindingCode::tangentsNotOrthogonal:
-            return mend::kStraighten;
+            return repair::kStraighten;
         case FindingCode::signsWrong:
         case FindingCode::signsInverted:
-            return mend::kTurnSign;
+            return repair::kTurnSign;
         case FindingCode::signsMixed:
         case FindingCode::mirroredSeamAveraged:
-            return mend::kSides;
+            return repair::kSides;
         case FindingCode::morphTangentsWrong:
-            return mend::kDeltas;
+            return repair::kDeltas;
         default:
             return 0;
     }
@@ -56,7 +56,7 @@ std::uint8_t partsOf(FindingCode code) {
 
 /// Faults of one primitive.
 struct Verdict {
-    Mends mends = {};
+    Repairs repairs = {};
     std::string why = {};   ///< description of the faults; empty if there are none
     std::string kept = {};  ///< description of the checks, for primitives without a fault
     bool is_free = false;   ///< no texture uses the tangents
@@ -66,7 +66,7 @@ struct Verdict {
 /// repaired, whatever the severity.
 bool needsRepair(const Finding& finding) {
     const std::uint8_t parts = partsOf(finding.code);
-    const bool is_of_values = parts == mend::kValues || finding.code == FindingCode::tangentsNotFinite;
+    const bool is_of_values = parts == repair::kValues || finding.code == FindingCode::tangentsNotFinite;
     return parts != 0 && (finding.severity == Severity::error || is_of_values);
 }
 
@@ -94,7 +94,7 @@ std::string whyKept(const PrimitiveJudgement& judgement, bool is_free) {
 
 Verdict verdictOf(const PrimitiveJudgement& judgement, bool is_free) {
     Verdict verdict{.kept = whyKept(judgement, is_free), .is_free = is_free};
-    verdict.mends.inverted_signs = judgement.signs_stay;
+    verdict.repairs.inverted_signs = judgement.signs_stay;
     std::vector<std::pair<std::uint32_t, std::uint8_t>> rules;  // fault bits, and the parts of the tangent to repair
     for (const Finding& finding : judgement.findings) {
         if (!needsRepair(finding)) continue;
@@ -102,7 +102,7 @@ Verdict verdictOf(const PrimitiveJudgement& judgement, bool is_free) {
         rules.emplace_back(is_inverted ? faultBit(FindingCode::signsWrong) | kUndecidedSign : faultBit(finding.code),
                            partsOf(finding.code));
         // If signs are flipped, no seam between them may remain, however short.
-        if (is_inverted) rules.emplace_back(faultBit(FindingCode::mirroredSeamAveraged), mend::kSides);
+        if (is_inverted) rules.emplace_back(faultBit(FindingCode::mirroredSeamAveraged), repair::kSides);
         verdict.why += (verdict.why.empty() ? "" : "; and ") + finding.message;
     }
     // Authored tangents are not recomputed: only their invalid values are repaired.
@@ -110,7 +110,7 @@ Verdict verdictOf(const PrimitiveJudgement& judgement, bool is_free) {
     for (const VertexFaults& faults : *judgement.faults) {
         std::uint8_t parts = 0;
         for (const auto& [bits, asked] : rules) parts |= (faults.bits & bits) != 0 ? asked : 0;
-        if (parts != 0) verdict.mends.vertices.push_back({faults.vertex, parts});
+        if (parts != 0) verdict.repairs.vertices.push_back({faults.vertex, parts});
     }
     return verdict;
 }
@@ -175,17 +175,17 @@ PoolPlan selected(const PoolPlan& pool, std::span<const Primitive> primitives, c
     for (const GeometryPlan& geometry : pool.geometries) {
         const std::size_t first = result.geometries.size();
         for (const std::size_t number : geometry.primitives) {
-            const Mends* const mends = repairsOf(number);
-            if (mends == nullptr) continue;
+            const Repairs* const repairs = repairsOf(number);
+            if (repairs == nullptr) continue;
             result.primitives.push_back(number);
             const auto same =
                 std::find_if(result.geometries.begin() + static_cast<std::ptrdiff_t>(first), result.geometries.end(),
-                             [&](const GeometryPlan& other) { return other.mends == *mends; });
+                             [&](const GeometryPlan& other) { return other.repairs == *repairs; });
             if (same != result.geometries.end()) {
                 same->primitives.push_back(number);
                 continue;
             }
-            result.geometries.push_back({.primitives = {number}, .mends = *mends});
+            result.geometries.push_back({.primitives = {number}, .repairs = *repairs});
             result.corner_count += std::uint64_t{3} * primitives[number].triangleCount();
         }
     }
@@ -218,13 +218,13 @@ void planRepair(Model& model, const GenerateOptions& options, GeneratePlan& plan
             continue;
         }
         const auto verdictOn = [&](std::size_t number) -> const Verdict& { return verdicts[number]; };
-        static const Mends kNothing;
+        static const Repairs kNothing;
         PoolPlan wrong = selected(pool, primitives, [&](std::size_t number) {
             const Verdict& verdict = verdictOn(number);
-            return verdict.mends.vertices.empty() ? nullptr : &verdict.mends;
+            return verdict.repairs.vertices.empty() ? nullptr : &verdict.repairs;
         });
         PoolPlan good = selected(pool, primitives, [&](std::size_t number) {
-            return verdictOn(number).mends.vertices.empty() ? &kNothing : nullptr;
+            return verdictOn(number).repairs.vertices.empty() ? &kNothing : nullptr;
         });
         for (const std::size_t number : good.primitives) keep(verdictOn(number), plan.reports[number]);
         for (const std::size_t number : wrong.primitives) {
@@ -347,7 +347,7 @@ bool areBroken(Model& model, const Primitive& primitive) {
     SharedArray<Vec3> normals;
     if (isRead(model.document(), primitive)) normals = model.arrays().borrowVec3(primitive, "NORMAL");
     for (std::size_t v = 0; v < tangents.size(); ++v) {
-        if (!hasSoundValues(tangents[v]) || (!normals.empty() && !hasDirection(tangents[v], normals[v]))) return true;
+        if (!hasValidValues(tangents[v]) || (!normals.empty() && !hasDirection(tangents[v], normals[v]))) return true;
     }
     return false;
 }
@@ -388,7 +388,7 @@ void repairInvalidValues(Editor& editor, const Document& document, std::span<con
         document.memory->require(kOfCorner * 3 * judge.triangleCount() + kOfVertex * judge.vertex_count, judge.place());
         const OwnedMesh stored = readStored(document, judge);
         std::vector<Vec4> mended = stored.tangents;
-        valueOrThrow(mendValues(tangentView(stored), !isRead(document, judge), mended));
+        valueOrThrow(repairValues(tangentView(stored), !isRead(document, judge), mended));
         const Accessor accessor = readAccessor(document, *judge.find("TANGENT"));
         Bytes elements = copyElements(document, accessor);
         std::size_t count = 0;

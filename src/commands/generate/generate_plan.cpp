@@ -211,7 +211,7 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
     const auto isIn = [](const std::vector<bool>& list, std::size_t i) { return i < list.size() && list[i]; };
     GeneratePlan plan;
     const std::set<std::string> animated = animatedPointers(document);
-    const bool is_blenders = isFromBlender(document);
+    const bool is_from_blender = isFromBlender(document);
     plan.reports.resize(primitives.size());
     std::map<std::string, std::size_t> pool_of;
     VertexLists lists;
@@ -272,7 +272,7 @@ GeneratePlan planGenerate(const Document& document, std::span<const Primitive> p
             created.keeps_tangents = computes && report.action == PrimitiveAction::kept;
             created.tries_quads = computes && options.tangents.compute.method == Method::mikktspace &&
                                   options.tangents.faces != Faces::triangles;
-            created.is_blenders = is_blenders;
+            created.is_from_blender = is_from_blender;
         }
         PoolPlan& pool = plan.pools[pool_number];
         pool.primitives.push_back(i);

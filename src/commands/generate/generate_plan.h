@@ -26,7 +26,7 @@ namespace tspace::gltf {
 /// Primitives that draw the same triangles of one pool. They are computed once.
 struct GeometryPlan {
     std::vector<std::size_t> primitives = {};  ///< indices of primitives; never empty
-    Mends mends = {};                          ///< faults of the existing tangents
+    Repairs repairs = {};                      ///< faults of the existing tangents
     /// Adjacent triangles of other primitives, see PrimitiveGeometry::around.
     std::shared_ptr<const Surroundings> around = {};
 };
@@ -43,10 +43,10 @@ struct PoolPlan {
     bool has_tangents = false;  ///< the file has tangents with normals; tangents without normals are ignored
     /// Normals are recomputed: has_normals is false, and vertices that differ only in their frames are welded.
     bool overwrites_normals = false;
-    bool makes_tangents = true;   ///< false: only normals or normal offsets of targets are computed
-    bool keeps_tangents = false;  ///< tangents are kept; morph targets without tangent deltas get them
-    bool tries_quads = false;     ///< tangents may be computed on quads, if the existing tangents match quads
-    bool is_blenders = false;     ///< Blender wrote the file
+    bool makes_tangents = true;    ///< false: only normals or normal offsets of targets are computed
+    bool keeps_tangents = false;   ///< tangents are kept; morph targets without tangent deltas get them
+    bool tries_quads = false;      ///< tangents may be computed on quads, if the existing tangents match quads
+    bool is_from_blender = false;  ///< Blender wrote the file
     /// Targets that get new normal offsets although the base normals are kept; empty if there are none.
     std::vector<bool> morph_normals = {};
     std::uint64_t corner_count = 0;
@@ -54,7 +54,7 @@ struct PoolPlan {
 
     /// Returns whether existing tangents are kept, except for the repairs listed in the geometries.
     [[nodiscard]] bool repairsTangents() const {
-        return !geometries.empty() && !geometries.front().mends.vertices.empty();
+        return !geometries.empty() && !geometries.front().repairs.vertices.empty();
     }
 
     /// Returns the approximate memory of the computation, most of it for lists of the corners' neighbors and tangents.

@@ -67,7 +67,7 @@ std::string warnOfInvertedSigns(Model& model, const GeneratePlan& plan, const Ma
 // Kept tangents: repairs only values that the format forbids.
 
 /// Returns groups of primitives whose tangents are kept and that share one TANGENT accessor, if the accessor contains
-/// invalid values (see hasSoundValues), even at unused vertices. Tangents parallel to the normal are invalid only if a
+/// invalid values (see hasValidValues), even at unused vertices. Tangents parallel to the normal are invalid only if a
 /// material reads them: otherwise they may be normals for outlines.
 std::vector<std::vector<std::size_t>> findBrokenValues(Model& model, const GeneratePlan& plan);
 

@@ -56,7 +56,7 @@ void callProgress(const FramesOptions& options) {
 
 /// State that the steps of a call share.
 struct PoolComputation {
-    [[nodiscard]] bool takesQuads() const { return options.tangents.method == Method::mikktspace; }
+    [[nodiscard]] bool usesQuads() const { return options.tangents.method == Method::mikktspace; }
     [[nodiscard]] std::span<Vec4> tangents() { return {tangent_buffer.data(), tangent_buffer.size()}; }
     [[nodiscard]] std::span<Vec3> bitangents() { return {bitangent_buffer.data(), bitangent_buffer.size()}; }
 
@@ -67,7 +67,7 @@ struct PoolComputation {
     bool generates_normals = pool.normals.empty();
     bool generates_tangents = pool.makes_tangents && (options.tangents.method == Method::basis || !pool.uvs.empty());
     bool generates_bitangents =
-        options.bitangents && generates_tangents && (pool.kept_tangents.empty() || pool.mends_tangents);
+        options.bitangents && generates_tangents && (pool.kept_tangents.empty() || pool.repairs_tangents);
     LocalMeshes local_meshes{pool, primitives.size()};
     MorphTangents morph_tangents{pool, options};
 
@@ -123,13 +123,13 @@ Result<QuadFaces> chooseFaces(const PoolComputation& state, const LocalMesh& mes
         stored = keeps ? state.pool.kept_tangents : state.pool.old_tangents;
         if (!mesh.sources.empty()) stored = own = gather(stored, mesh.sources);
     }
-    return tspace::chooseFaces(mesh.view(), stored, state.pool.is_blenders, faces, state.options.execution);
+    return tspace::chooseFaces(mesh.view(), stored, state.pool.is_from_blender, faces, state.options.execution);
 }
 
 /// Converts triangles to quads if requested and possible; `polygons` are the polygons of the file. Morph deltas of kept
 /// tangents are computed on the faces that these tangents were computed on.
 Result<Done> chooseQuads(const PoolComputation& state, QuadFaces&& polygons, LocalMesh& mesh, FramesReport& report) {
-    if (!state.takesQuads()) return Done{};
+    if (!state.usesQuads()) return Done{};
     QuadFaces faces = std::move(polygons);
     if (faces.quad_count == 0) {
         Result<QuadFaces> chosen = chooseFaces(state, mesh);
@@ -139,7 +139,7 @@ Result<Done> chooseQuads(const PoolComputation& state, QuadFaces&& polygons, Loc
     if (faces.quad_count == 0) return Done{};
     report.faces = Faces::quads;
     report.quad_count = faces.quad_count;
-    takeFaces(std::move(faces), mesh);
+    replaceFaces(std::move(faces), mesh);
     return Done{};
 }
 
@@ -164,7 +164,7 @@ Result<Done> computeTangents(const PoolComputation& state, const LocalMesh& mesh
         sanitizeTangents(mesh.view(), state.options.sanitize_options, tangents, state.options.execution);
     if (!mended) return std::move(mended).error();
     report.sanitize = *mended;
-    if (state.generates_bitangents) mendBitangents(mesh.normals, mesh.indices, computed, tangents, bitangents);
+    if (state.generates_bitangents) repairBitangents(mesh.normals, mesh.indices, computed, tangents, bitangents);
     return Done{};
 }
 
@@ -184,10 +184,10 @@ Result<Done> computeTangents(PoolComputation& state, const LocalMesh& mesh, Fram
 }
 
 /// Repairs the tangents of the mesh that was just computed, which is appended next.
-void mendTangents(PoolComputation& state, std::span<const std::uint32_t> vertices, const Mends& mends) {
+void repairTangents(PoolComputation& state, std::span<const std::uint32_t> vertices, const Repairs& repairs) {
     const std::span<Vec4> tangents = state.tangents().subspan(state.corners.size(), vertices.size());
     const std::vector<Vec4> computed(tangents.begin(), tangents.end());
-    const std::vector<bool> is_new = mendCorners(state.pool, vertices, mends, tangents);
+    const std::vector<bool> is_new = repairCorners(state.pool, vertices, repairs, tangents);
     state.has_new_offsets.insert(state.has_new_offsets.end(), is_new.begin(), is_new.end());
     state.differing_count += countDiffering(computed, tangents);
     if (!state.generates_bitangents) return;
@@ -234,7 +234,7 @@ Result<Done> computePrimitive(PoolComputation& state, const PrimitiveGeometry& p
     if (!mesh.face_sizes.empty()) {
         Result<Triangulation> triangles = triangulate(mesh.view());
         if (!triangles) return std::move(triangles).error();
-        if (state.options.faces == Faces::quads && state.takesQuads())
+        if (state.options.faces == Faces::quads && state.usesQuads())
             faces = facesOfPolygons(mesh.face_sizes, *triangles);
         mesh.own.indices = gather(mesh.indices, triangles->corners);
         mesh.useOwnIndices();
@@ -250,7 +250,7 @@ Result<Done> computePrimitive(PoolComputation& state, const PrimitiveGeometry& p
     const bool is_cut = !primitive.face_sizes.empty();
     const std::vector<std::uint32_t>& vertices = is_cut ? cut_vertices : primitive.indices;
     report.triangle_count = vertices.size() / 3;
-    if (state.pool.mends_tangents) mendTangents(state, vertices, primitive.mends);
+    if (state.pool.repairs_tangents) repairTangents(state, vertices, primitive.repairs);
     if (state.generates_tangents && state.pool.targets.count != 0) {
         if (Result<Done> done = state.morph_tangents.add(std::move(mesh), report); !done) return done;
     }
@@ -265,7 +265,7 @@ Result<Done> computeMorphs(PoolComputation& state, SplitResult& split, bool may_
     if (!state.generates_tangents || state.pool.targets.count == 0) return Done{};
     MorphSplit morph_split(std::move(split), may_split);
     const KeptOffsets kept{state.corners, state.has_new_offsets};
-    const KeptOffsets* const keeps = state.pool.mends_tangents ? &kept : nullptr;
+    const KeptOffsets* const keeps = state.pool.repairs_tangents ? &kept : nullptr;
     if (Result<Done> done = state.morph_tangents.compute(state.tangents(), morph_split, keeps); !done) return done;
     std::vector<VertexOffsets> offsets = morph_split.finish();
     for (std::size_t i = 0; i < offsets.size(); ++i) frames.morphs[i].tangents = std::move(offsets[i]);
@@ -303,9 +303,9 @@ void writeTangents(const PoolComputation& state, const SplitResult& split, PoolF
     if (state.generates_bitangents) frames.bitangents.reserve(split.vertexCount());
     for (std::size_t v = 0; v < split.vertexCount(); ++v) {
         const std::uint32_t corner = split.source_corners[v];
-        if (corner == kNoCorner && state.pool.mends_tangents) {
+        if (corner == kNoCorner && state.pool.repairs_tangents) {
             const Vec3 normal = state.pool.normals[split.source_vertices[v]];
-            frames.tangents.push_back(withSoundValues(state.pool.kept_tangents[split.source_vertices[v]],
+            frames.tangents.push_back(withValidValues(state.pool.kept_tangents[split.source_vertices[v]],
                                                       tangentFromNormal(normal, 1), normal));
             if (state.generates_bitangents) frames.bitangents.push_back(bitangentOf(frames.tangents.back(), normal));
             continue;
@@ -332,9 +332,9 @@ void countMended(PoolComputation& state, const SplitResult& split, std::span<con
         }
     }
     for (std::size_t p = 0; p < state.primitives.size(); ++p) {
-        const std::vector<VertexMend>& mends = state.primitives[p].mends.vertices;
-        state.reports[p].mended_vertex_count = static_cast<std::uint64_t>(
-            std::count_if(mends.begin(), mends.end(), [&](const VertexMend& mend) { return changed[mend.vertex]; }));
+        const std::vector<VertexRepair>& repairs = state.primitives[p].repairs.vertices;
+        state.reports[p].mended_vertex_count = static_cast<std::uint64_t>(std::count_if(
+            repairs.begin(), repairs.end(), [&](const VertexRepair& mend) { return changed[mend.vertex]; }));
     }
 }
 
@@ -343,7 +343,7 @@ void write(PoolComputation& state, SplitResult&& split, PoolFrames& frames) {
     cutIndices(state, std::move(split.indices), frames);
     if (state.generates_normals) frames.normals = gatherNormals(state.normals, split.source_corners);
     if (state.generates_tangents) writeTangents(state, split, frames);
-    if (state.pool.mends_tangents) countMended(state, split, frames.tangents);
+    if (state.pool.repairs_tangents) countMended(state, split, frames.tangents);
     for (FramesReport& report : state.reports) {
         report.vertices_before = state.pool.positions.count;
         report.vertices_after = split.vertexCount();
@@ -407,7 +407,7 @@ Result<PoolFrames> computePool(PoolComputation& state) {
             return std::move(done).error();
         }
     }
-    return state.pool.kept_tangents.empty() || state.pool.mends_tangents ? splitPool(state) : keepPool(state);
+    return state.pool.kept_tangents.empty() || state.pool.repairs_tangents ? splitPool(state) : keepPool(state);
 }
 
 Result<PoolFrames> computePool(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,

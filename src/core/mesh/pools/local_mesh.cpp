@@ -34,7 +34,7 @@ MeshView viewInPool(const PoolView& pool, const PrimitiveGeometry& primitive) {
     return mesh;
 }
 
-void takeFaces(QuadFaces&& faces, LocalMesh& mesh) {
+void replaceFaces(QuadFaces&& faces, LocalMesh& mesh) {
     mesh.own.indices = gather(mesh.indices, faces.corners);
     mesh.useOwnIndices();
     mesh.own.face_sizes = std::move(faces.sizes);
@@ -46,7 +46,7 @@ LocalMesh LocalMeshes::make(const PrimitiveGeometry& primitive) {
     LocalMesh mesh;
     mesh.face_sizes = primitive.face_sizes;
     if (primitive_count_ > 1 || pool_.positions.count > primitive.indices.size()) {
-        takeUsedPart(primitive, mesh);
+        copyUsedPart(primitive, mesh);
         return mesh;
     }
     mesh.positions = pool_.positions;
@@ -57,7 +57,7 @@ LocalMesh LocalMeshes::make(const PrimitiveGeometry& primitive) {
 }
 
 /// Copies the used part of the pool, with vertices in order of first use.
-void LocalMeshes::takeUsedPart(const PrimitiveGeometry& primitive, LocalMesh& mesh) {
+void LocalMeshes::copyUsedPart(const PrimitiveGeometry& primitive, LocalMesh& mesh) {
     local_of_vertex_.resize(pool_.positions.count, kNoSlot);
     std::vector<std::uint32_t>& sources = mesh.sources;
     mesh.own.indices.reserve(primitive.indices.size());
@@ -92,7 +92,7 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 /// Maximum angle between a computed normal and a kept normal at the same position for the kept one to be used. A stored
 /// normal that was computed on its own side of the border only differs by half of the bend at the border; a normal that
 /// differs by more is an intended hard edge.
-constexpr double kMostTakenDeg = 30;
+constexpr double kMostAdoptedDeg = 30;
 
 }  // namespace
 
@@ -182,7 +182,7 @@ void BorderedNormals::choose(std::span<const Vec3> normals) {
         at[place].push_back(v);
     }
     const bool has_angle = options_.crease_angle_deg != NormalOptions::crease_auto;
-    const double most = has_angle ? std::min(kMostTakenDeg, double{options_.crease_angle_deg}) : kMostTakenDeg;
+    const double most = has_angle ? std::min(kMostAdoptedDeg, double{options_.crease_angle_deg}) : kMostAdoptedDeg;
     stays_.assign(normals.size(), kNone);
     for (std::size_t c = 0; c < normals.size(); ++c) {
         const std::uint32_t place = places.find(positionKey(positions[mesh_.indices[c]]));

@@ -61,7 +61,7 @@ struct LocalMesh {
 };
 
 /// Replaces the faces of a triangle mesh by `faces`, which are formed from its triangles.
-void takeFaces(QuadFaces&& faces, LocalMesh& mesh);
+void replaceFaces(QuadFaces&& faces, LocalMesh& mesh);
 
 /// Sets of_triangles[c] to the value of the face corner of each triangle corner c.
 template <class T>
@@ -81,7 +81,7 @@ class LocalMeshes {
     LocalMesh make(const PrimitiveGeometry& primitive);
 
   private:
-    void takeUsedPart(const PrimitiveGeometry& primitive, LocalMesh& mesh);
+    void copyUsedPart(const PrimitiveGeometry& primitive, LocalMesh& mesh);
 
     const PoolView& pool_;
     std::size_t primitive_count_;

@@ -23,17 +23,17 @@ bool isNear(const Vec4& a, const Vec4& b) {
 }
 
 /// Returns whether the triangle of a corner determines the correct sign.
-bool hasSide(const PoolView& pool, std::span<const std::uint32_t> corners, std::size_t corner) {
+bool determinesSign(const PoolView& pool, std::span<const std::uint32_t> corners, std::size_t corner) {
     const std::uint32_t* const v = corners.data() + corner / 3 * 3;
     const std::array<Vec2, 3> uvs{pool.uvs[v[0]], pool.uvs[v[1]], pool.uvs[v[2]]};
     return describeFace({pool.positions[v[0]], pool.positions[v[1]], pool.positions[v[2]]}, &uvs).orientation != 0;
 }
 
-std::uint8_t partsOf(const Mends& mends, std::uint32_t vertex) {
+std::uint8_t partsOf(const Repairs& repairs, std::uint32_t vertex) {
     const auto found =
-        std::lower_bound(mends.vertices.begin(), mends.vertices.end(), vertex,
-                         [](const VertexMend& mend, std::uint32_t wanted) { return mend.vertex < wanted; });
-    return found != mends.vertices.end() && found->vertex == vertex ? found->parts : std::uint8_t{0};
+        std::lower_bound(repairs.vertices.begin(), repairs.vertices.end(), vertex,
+                         [](const VertexRepair& mend, std::uint32_t wanted) { return mend.vertex < wanted; });
+    return found != repairs.vertices.end() && found->vertex == vertex ? found->parts : std::uint8_t{0};
 }
 
 Vec4 withDirection(const DVec3& direction, float sign) {
@@ -42,7 +42,7 @@ Vec4 withDirection(const DVec3& direction, float sign) {
 }
 
 /// Returns the tangent made perpendicular to N; unchanged if it is parallel to N.
-Vec4 straightened(const Vec4& tangent, const Vec3& normal) {
+Vec4 orthogonalToNormal(const Vec4& tangent, const Vec3& normal) {
     DVec3 n = toDouble(normal), t = toDouble(xyz(tangent));
     if (!normalize(n)) return tangent;
     t = t - dot(n, t) * n;
@@ -50,10 +50,10 @@ Vec4 straightened(const Vec4& tangent, const Vec3& normal) {
 }
 
 /// Returns the kept tangent, repaired independently of the triangles around it.
-Vec4 mendedAlone(const Vec4& kept, const Vec4& computed, const Vec3& normal, std::uint8_t parts) {
-    Vec4 tangent = withSoundValues(kept, computed, normal);
-    if ((parts & mend::kStraighten) != 0) tangent = straightened(tangent, normal);
-    if ((parts & mend::kTurnSign) != 0) tangent.w = -tangent.w;
+Vec4 repairedAlone(const Vec4& kept, const Vec4& computed, const Vec3& normal, std::uint8_t parts) {
+    Vec4 tangent = withValidValues(kept, computed, normal);
+    if ((parts & repair::kStraighten) != 0) tangent = orthogonalToNormal(tangent, normal);
+    if ((parts & repair::kTurnSign) != 0) tangent.w = -tangent.w;
     return tangent;
 }
 
@@ -71,7 +71,7 @@ DVec3 unitOrZero(const DVec3& v) {
 }
 
 // Returns whether a bitangent is valid. The comparisons are written so that NaN is invalid.
-bool isSound(const DVec3& b, const DVec3& n, const Vec4& computed, const Vec4& mended) {
+bool isValidBitangent(const DVec3& b, const DVec3& n, const Vec4& computed, const Vec4& mended) {
     const DVec3 t = toDouble(xyz(mended));
     if (!(std::fabs(length(b) - 1) <= kUnitTolerance)) return false;
     if (!(dot(toDouble(xyz(computed)), t) >= kSameDirection) || computed.w != mended.w) return false;
@@ -81,11 +81,11 @@ bool isSound(const DVec3& b, const DVec3& n, const Vec4& computed, const Vec4& m
 
 }  // namespace
 
-Vec4 withSoundValues(const Vec4& kept, const Vec4& instead, const Vec3& normal) {
+Vec4 withValidValues(const Vec4& kept, const Vec4& instead, const Vec3& normal) {
     const bool has_sign = std::isfinite(kept.w) && kept.w != 0;
     const float sign = (has_sign ? kept.w : instead.w) < 0 ? -1.0f : 1.0f;
     if (!hasDirection(kept, normal)) return {instead.x, instead.y, instead.z, sign};
-    if (hasSoundValues(kept)) return kept;
+    if (hasValidValues(kept)) return kept;
     DVec3 t = toDouble(xyz(kept));
     if (std::fabs(length(t) - 1) <= kMostFromUnit) return {kept.x, kept.y, kept.z, sign};
     normalize(t);
@@ -97,13 +97,13 @@ Vec4 tangentFromNormal(const Vec3& normal, float sign) {
     return {t.x, t.y, t.z, sign};
 }
 
-Result<Done> mendValues(const TangentView& mesh, bool along_normals, std::span<Vec4> tangents) {
+Result<Done> repairValues(const TangentView& mesh, bool along_normals, std::span<Vec4> tangents) {
     const auto normalAt = [&](std::size_t v) { return mesh.normals.empty() ? Vec3{} : mesh.normals[v]; };
-    const auto judgedBy = [&](std::size_t v) { return along_normals ? Vec3{} : normalAt(v); };
+    const auto normalFor = [&](std::size_t v) { return along_normals ? Vec3{} : normalAt(v); };
     std::vector<bool> is_broken(tangents.size(), false);
     for (std::size_t v = 0; v < tangents.size(); ++v) {
-        is_broken[v] = !hasDirection(tangents[v], judgedBy(v));
-        if (!is_broken[v]) tangents[v] = withSoundValues(tangents[v], {}, judgedBy(v));
+        is_broken[v] = !hasDirection(tangents[v], normalFor(v));
+        if (!is_broken[v]) tangents[v] = withValidValues(tangents[v], {}, normalFor(v));
     }
     // Invalid tangents get the tangent of other corners of their triangles, or else a basis from N.
     std::vector<Vec4> of_corners;
@@ -116,31 +116,31 @@ Result<Done> mendValues(const TangentView& mesh, bool along_normals, std::span<V
     for (std::size_t c = of_corners.size(); c-- > 0;) found[mesh.corners[c]] = of_corners[c];
     for (std::size_t v = 0; v < tangents.size(); ++v) {
         if (!is_broken[v]) continue;
-        const bool is_found = hasSoundValues(found[v]) && hasDirection(found[v], normalAt(v));
+        const bool is_found = hasValidValues(found[v]) && hasDirection(found[v], normalAt(v));
         tangents[v] =
-            withSoundValues(tangents[v], is_found ? found[v] : tangentFromNormal(normalAt(v), 1), judgedBy(v));
+            withValidValues(tangents[v], is_found ? found[v] : tangentFromNormal(normalAt(v), 1), normalFor(v));
     }
     return Done{};
 }
 
-std::vector<bool> mendCorners(const PoolView& pool, std::span<const std::uint32_t> corners, const Mends& mends,
-                              std::span<Vec4> tangents) {
+std::vector<bool> repairCorners(const PoolView& pool, std::span<const std::uint32_t> corners, const Repairs& repairs,
+                                std::span<Vec4> tangents) {
     std::vector<bool> has_new_deltas(corners.size(), false);
     for (std::size_t c = 0; c < corners.size(); ++c) {
-        const std::uint8_t parts = partsOf(mends, corners[c]);
+        const std::uint8_t parts = partsOf(repairs, corners[c]);
         Vec4 computed = tangents[c];
-        if (mends.inverted_signs) computed.w = -computed.w;
-        const Vec4 stays = mendedAlone(pool.kept_tangents[corners[c]], computed, pool.normals[corners[c]], parts);
-        const bool wants_deltas = (parts & mend::kDeltas) != 0;
+        if (repairs.inverted_signs) computed.w = -computed.w;
+        const Vec4 stays = repairedAlone(pool.kept_tangents[corners[c]], computed, pool.normals[corners[c]], parts);
+        const bool needs_deltas = (parts & repair::kDeltas) != 0;
         bool is_new =
-            (parts & mend::kWhole) != 0 || !hasDirection(pool.kept_tangents[corners[c]], pool.normals[corners[c]]);
-        if ((parts & mend::kSides) != 0 && hasSide(pool, corners, c)) {
+            (parts & repair::kWhole) != 0 || !hasDirection(pool.kept_tangents[corners[c]], pool.normals[corners[c]]);
+        if ((parts & repair::kSides) != 0 && determinesSign(pool, corners, c)) {
             is_new = is_new || (stays.w > 0) != (computed.w > 0) || !isNear(stays, computed);
         }
         // Deltas are valid only for the direction that they were computed for.
-        is_new = is_new || (wants_deltas && !isNear(stays, computed));
+        is_new = is_new || (needs_deltas && !isNear(stays, computed));
         tangents[c] = is_new ? computed : stays;
-        has_new_deltas[c] = is_new || wants_deltas;
+        has_new_deltas[c] = is_new || needs_deltas;
     }
     return has_new_deltas;
 }
@@ -152,11 +152,11 @@ Vec3 bitangentOf(const Vec4& tangent, const Vec3& normal) {
     return toFloat((tangent.w < 0 ? -1.0 : 1.0) * b);
 }
 
-void mendBitangents(StridedSpan<const Vec3> normals, std::span<const std::uint32_t> indices,
-                    std::span<const Vec4> computed, std::span<const Vec4> mended, std::span<Vec3> bitangents) {
+void repairBitangents(StridedSpan<const Vec3> normals, std::span<const std::uint32_t> indices,
+                      std::span<const Vec4> computed, std::span<const Vec4> mended, std::span<Vec3> bitangents) {
     for (std::size_t c = 0; c < indices.size(); ++c) {
         const Vec3& normal = normals[indices[c]];
-        if (isSound(toDouble(bitangents[c]), unitOrZero(toDouble(normal)), computed[c], mended[c])) continue;
+        if (isValidBitangent(toDouble(bitangents[c]), unitOrZero(toDouble(normal)), computed[c], mended[c])) continue;
         bitangents[c] = bitangentOf(mended[c], normal);
     }
 }

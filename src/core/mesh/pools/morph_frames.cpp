@@ -43,21 +43,21 @@ bool hasDirection(const Vec4& tangent) {
 }
 
 /// Returns whether the tangent has a direction, within a tenth of a degree of the plane perpendicular to N.
-bool liesAcross(const Vec4& tangent, const Vec3& normal) {
+bool liesInPlane(const Vec4& tangent, const Vec3& normal) {
     const DVec3 t = toDouble(xyz(tangent)), n = toDouble(normal);
     return hasDirection(tangent) && std::fabs(dot(t, n)) <= kTenthOfADegree * length(t) * length(n);
 }
 
 /// Returns whether the tangent points out of the plane of a unit normal. Sums of vectors in the plane do not, unless
 /// they cancel out and only rounding errors remain.
-bool leansOut(const Vec4& tangent, const Vec3& normal) {
+bool pointsOutOfPlane(const Vec4& tangent, const Vec3& normal) {
     constexpr double kAboutUnit = 1e-3, kSineOfFiveDegrees = 0.08715574274765817;
     const DVec3 t = toDouble(xyz(tangent)), n = toDouble(normal);
     return std::fabs(dot(n, n) - 1) < kAboutUnit && std::fabs(dot(t, n)) > kSineOfFiveDegrees * length(t);
 }
 
 /// Returns a tangent of the base, made orthogonal to another normal if that has a direction.
-Vec4 carried(const Vec4& tangent, const Vec3& from, const Vec3& to) {
+Vec4 projectedTangent(const Vec4& tangent, const Vec3& from, const Vec3& to) {
     if (from == to || !isFinite(to) || isZero(to)) return tangent;
     const Vec3 t = orthonormalize({.tangent = xyz(tangent), .bitangent = {}, .normal = to}).tangent;
     return {t.x, t.y, t.z, tangent.w};
@@ -84,7 +84,7 @@ bool move(const StridedSpan<const Vec3>& values, const LocalMesh& mesh, const st
 }
 
 /// Returns whether two vectors have equal bits, where both zeros are equal. NaN therefore equals itself.
-bool areOne(const Vec3& a, const Vec3& b) {
+bool haveEqualBits(const Vec3& a, const Vec3& b) {
     return weldBits(a.x) == weldBits(b.x) && weldBits(a.y) == weldBits(b.y) && weldBits(a.z) == weldBits(b.z);
 }
 
@@ -100,7 +100,7 @@ bool WeldClasses::findApart(std::span<const std::uint32_t> corners, std::span<co
     for (const std::uint32_t v : corners) {
         std::uint32_t& other = first[of(v)];
         if (other == kNoVertex) other = v;
-        if (areOne(positions[v], positions[other]) && areOne(normals[v], normals[other])) continue;
+        if (haveEqualBits(positions[v], positions[other]) && haveEqualBits(normals[v], normals[other])) continue;
         apart[of(v)] = any = true;
     }
     return any;
@@ -211,8 +211,8 @@ Result<Done> MorphTangents::evaluate(const Piece& piece, std::span<const Vec4> b
     if (options_.sanitize) {
         // Sanitizing reads other corners at the same position. Corners that do not move must not change if a corner
         // elsewhere moves.
-        for (std::size_t c = 0; c < base.size(); ++c) stays_[c] = staysAt(piece, c);
-        carryOver(piece, base);
+        for (std::size_t c = 0; c < base.size(); ++c) stays_[c] = isUnchangedAt(piece, c);
+        keepLostTangents(piece, base);
         const Result<SanitizeReport> mended =
             sanitizeTangents(posed, options_.sanitize_options, tangents_, options_.execution);
         if (!mended) return mended.error();
@@ -238,29 +238,30 @@ Result<Done> MorphTangents::regroup(const Piece& piece, const MeshView& posed) {
         const std::uint32_t v = piece.mesh.indices[c];
         if (!apart_[piece.classes.of(v)]) continue;
         const Vec3& normal = pose_.normals()[v];
-        if (regrouped_[c].w == tangents_[c].w && liesAcross(regrouped_[c], normal)) {
+        if (regrouped_[c].w == tangents_[c].w && liesInPlane(regrouped_[c], normal)) {
             tangents_[c] = regrouped_[c];
         } else if (hasDirection(tangents_[c])) {
-            tangents_[c] = carried(tangents_[c], piece.mesh.normals[v], normal);
+            tangents_[c] = projectedTangent(tangents_[c], piece.mesh.normals[v], normal);
         }
     }
     return Done{};
 }
 
 /// Returns whether the corner's tangent has the bits of the base, before any repair.
-bool MorphTangents::staysAt(const Piece& piece, std::size_t corner) const {
+bool MorphTangents::isUnchangedAt(const Piece& piece, std::size_t corner) const {
     const std::uint32_t v = piece.mesh.indices[corner];
     return std::memcmp(&tangents_[corner], &piece.unmended[corner], sizeof(Vec4)) == 0 &&
            piece.mesh.normals[v] == pose_.normals()[v];
 }
 
 /// Keeps the base's tangents where faces collapsed, or where their tangents cancel out.
-void MorphTangents::carryOver(const Piece& piece, std::span<const Vec4> base) {
+void MorphTangents::keepLostTangents(const Piece& piece, std::span<const Vec4> base) {
     for (std::size_t c = 0; c < base.size(); ++c) {
         const std::uint32_t v = piece.mesh.indices[c];
         const Vec3 &from = piece.mesh.normals[v], &to = pose_.normals()[v];
-        const bool is_lost = !hasDirection(tangents_[c]) || (leansOut(tangents_[c], to) && liesAcross(base[c], from));
-        if (hasDirection(piece.unmended[c]) && is_lost) tangents_[c] = carried(base[c], from, to);
+        const bool is_lost =
+            !hasDirection(tangents_[c]) || (pointsOutOfPlane(tangents_[c], to) && liesInPlane(base[c], from));
+        if (hasDirection(piece.unmended[c]) && is_lost) tangents_[c] = projectedTangent(base[c], from, to);
     }
 }
 

@@ -119,8 +119,8 @@ class MorphTangents {
     Result<Done> evaluateFaces(const Piece& piece, std::span<const Vec4> base, std::span<Vec3> offsets);
     Result<Done> evaluate(const Piece& piece, std::span<const Vec4> base, std::span<Vec3> offsets);
     Result<Done> regroup(const Piece& piece, const MeshView& posed);
-    [[nodiscard]] bool staysAt(const Piece& piece, std::size_t corner) const;
-    void carryOver(const Piece& piece, std::span<const Vec4> base);
+    [[nodiscard]] bool isUnchangedAt(const Piece& piece, std::size_t corner) const;
+    void keepLostTangents(const Piece& piece, std::span<const Vec4> base);
 
     const PoolView& pool_;
     const FramesOptions& options_;
@@ -159,10 +159,10 @@ Result<Done> generatePoolNormals(const PoolView& pool, std::span<const Primitive
 
 // Morph offsets for normals that are kept: the offsets rotate them like the surface.
 
-class TurnedNormals {
+class RotatedNormals {
   public:
     /// Requires a pool with normals.
-    TurnedNormals(const PoolView& pool, std::span<const PrimitiveGeometry> primitives);
+    RotatedNormals(const PoolView& pool, std::span<const PrimitiveGeometry> primitives);
 
     /// Returns, per vertex, the offset that rotates its normal like the surface around it if a target adds `positions`
     /// (one per vertex, or none). The offset is zero if the surface does not rotate, or if triangles collapse.

@@ -144,7 +144,7 @@ Result<Done> generatePoolNormals(const PoolView& pool, std::span<const Primitive
 // Rotates base normals that an artist chose (on bevels, on foliage) with the surface; they are not computed from the
 // surface.
 
-TurnedNormals::TurnedNormals(const PoolView& pool, std::span<const PrimitiveGeometry> primitives) {
+RotatedNormals::RotatedNormals(const PoolView& pool, std::span<const PrimitiveGeometry> primitives) {
     for (std::size_t v = 0; v < pool.positions.count; ++v) {
         positions_.push_back(pool.positions[v]);
         normals_.push_back(pool.normals[v]);
@@ -153,10 +153,10 @@ TurnedNormals::TurnedNormals(const PoolView& pool, std::span<const PrimitiveGeom
         corners_.insert(corners_.end(), primitive.indices.begin(), primitive.indices.end());
 }
 
-std::vector<Vec3> TurnedNormals::offsets(std::span<const Vec3> positions) const {
+std::vector<Vec3> RotatedNormals::offsets(std::span<const Vec3> positions) const {
     std::vector<Vec3> result(positions_.size());
     if (positions.empty()) return result;
-    const std::vector<VertexTurn> turns = SurfaceTurns(positions_, normals_, corners_).under(positions);
+    const std::vector<VertexRotation> turns = SurfaceRotations(positions_, normals_, corners_).under(positions);
     for (std::size_t v = 0; v < result.size(); ++v) {
         if (turns[v].isKnown()) result[v] = offsetBetween(normals_[v], turns[v].apply(normals_[v]));
     }

@@ -27,7 +27,7 @@ namespace tspace {
 // Selection of the vertices of a primitive whose tangents are repaired, and of the parts that are repaired.
 
 /// Parts of a vertex's frame to repair, as bits.
-namespace mend {
+namespace repair {
 /// invalid values are replaced: not finite, not unit, parallel to N, or w other than +1 and -1
 inline constexpr std::uint8_t kValues = 1;
 /// the tangent is made perpendicular to N, and keeps its direction in the surface
@@ -37,22 +37,22 @@ inline constexpr std::uint8_t kTurnSign = 4;  ///< w is negated
 inline constexpr std::uint8_t kSides = 8;
 inline constexpr std::uint8_t kWhole = 16;   ///< the tangent is recomputed at all corners of the vertex
 inline constexpr std::uint8_t kDeltas = 32;  ///< offsets of morph targets are recomputed
-}  // namespace mend
+}  // namespace repair
 
-struct VertexMend {
+struct VertexRepair {
     std::uint32_t vertex = 0;  ///< vertex in the pool
-    std::uint8_t parts = 0;    ///< combination of the bits of namespace mend; not 0
+    std::uint8_t parts = 0;    ///< combination of the bits of namespace repair; not 0
 
-    friend bool operator==(const VertexMend&, const VertexMend&) = default;
+    friend bool operator==(const VertexRepair&, const VertexRepair&) = default;
 };
 
 /// Repairs of one primitive. Invalid values are repaired at every vertex of the pool, listed or not.
-struct Mends {
-    std::vector<VertexMend> vertices = {};  ///< vertices to repair, ascending
+struct Repairs {
+    std::vector<VertexRepair> vertices = {};  ///< vertices to repair, ascending
     /// true: the signs remain inverted, and recomputed tangents get inverted signs too.
     bool inverted_signs = false;
 
-    friend bool operator==(const Mends&, const Mends&) = default;
+    friend bool operator==(const Repairs&, const Repairs&) = default;
 };
 
 // Morph targets as input and output of computeFrames.
@@ -134,7 +134,7 @@ struct PrimitiveGeometry {
     std::vector<std::uint32_t> indices = {};     ///< one per corner, into the pool; not empty for a used primitive
     std::vector<std::uint32_t> face_sizes = {};  ///< number of corners of each face; empty: triangles
     std::vector<std::uint32_t> smoothing_groups = {};  ///< group of each face, or empty
-    Mends mends = {};                                  ///< repairs of this primitive (PoolView::mends_tangents)
+    Repairs repairs = {};                              ///< repairs of this primitive (PoolView::repairs_tangents)
     /// Triangles of other primitives that contribute to its normals; null: none. Only for triangles.
     std::shared_ptr<const Surroundings> around = {};
 };
@@ -153,10 +153,10 @@ struct PoolView {
     /// Stored values of tangents that are recomputed, one per vertex, or empty. They indicate the faces that they were
     /// computed on.
     std::span<const Vec4> old_tangents = {};
-    bool is_blenders = false;  ///< true: Blender wrote the file
-    /// Tangents are kept except at the vertices in each primitive's `mends`. There, vertices are split where corners
+    bool is_from_blender = false;  ///< true: Blender wrote the file
+    /// Tangents are kept except at the vertices in each primitive's `repairs`. There, vertices are split where corners
     /// require different tangents, and morph targets get new offsets where tangents are new.
-    bool mends_tangents = false;
+    bool repairs_tangents = false;
     bool makes_tangents = true;  ///< false: only normals are computed
 
     PoolView() = default;
@@ -188,7 +188,7 @@ struct PoolFrames {
 /// Computes normals (if missing), tangents per primitive, sanitizes, and splits once over all primitives of the pool.
 /// Reports count faults of the triangles (surface_faults.cpp).
 /// Unused vertices get a frame from their normal, so that every written tangent is unit. With sanitize every bitangent
-/// is unit as well (mendBitangents). `reports` has one entry per primitive; its normals, tangents, sanitize and count
+/// is unit as well (repairBitangents). `reports` has one entry per primitive; its normals, tangents, sanitize and count
 /// fields are filled (vertices are those of the pool). Morph targets: base + offset is the frame of the moved shape,
 /// computed with the base's hard edges and groups. There is one split for the base and all targets. If faces collapse
 /// in a target, the base's tangent is kept. A vertex whose frame no target changes has the offset (0, 0, 0). Polygons
@@ -211,18 +211,18 @@ void countFaults(std::span<const Vec3> positions, std::span<const Vec3> normals,
 
 // Repair of tangents and bitangents: invalid values are repaired, and all others keep their bits.
 
-/// Returns `kept` with valid values (hasSoundValues): normalized if its length is invalid, with w = +1 or -1, and with
+/// Returns `kept` with valid values (hasValidValues): normalized if its length is invalid, with w = +1 or -1, and with
 /// the direction of `instead` (which must be valid) if `kept` has none. Valid values keep their bits.
-Vec4 withSoundValues(const Vec4& kept, const Vec4& instead, const Vec3& normal);
+Vec4 withValidValues(const Vec4& kept, const Vec4& instead, const Vec3& normal);
 
 /// Returns a unit tangent perpendicular to N, with the given sign.
 Vec4 tangentFromNormal(const Vec3& normal, float sign);
 
-/// Applies withSoundValues to all vertices of a mesh whose tangents are kept, used by triangles or not: a tangent
+/// Applies withValidValues to all vertices of a mesh whose tangents are kept, used by triangles or not: a tangent
 /// without direction gets the direction of a valid corner of its triangles, or at its position, otherwise one from N.
 /// UVs are not read; normals and triangles are optional. `along_normals`: a tangent parallel to N counts as a direction
 /// too.
-Result<Done> mendValues(const TangentView& mesh, bool along_normals, std::span<Vec4> tangents);
+Result<Done> repairValues(const TangentView& mesh, bool along_normals, std::span<Vec4> tangents);
 
 /// Replaces the tangents computed for a primitive by the tangents that a pool keeps, except where they are to be
 /// repaired.
@@ -231,8 +231,8 @@ Result<Done> mendValues(const TangentView& mesh, bool along_normals, std::span<V
 /// tangents   one per corner: in, the computed ones; out, the ones to write
 ///
 /// Returns, per corner, whether morph deltas must be recomputed there too. Near-linear.
-std::vector<bool> mendCorners(const PoolView& pool, std::span<const std::uint32_t> corners, const Mends& mends,
-                              std::span<Vec4> tangents);
+std::vector<bool> repairCorners(const PoolView& pool, std::span<const std::uint32_t> corners, const Repairs& repairs,
+                                std::span<Vec4> tangents);
 
 /// Returns the unit vector sign * cross(N, T). If N has no direction, returns a unit vector perpendicular to T.
 Vec3 bitangentOf(const Vec4& tangent, const Vec3& normal);
@@ -244,7 +244,7 @@ Vec3 bitangentOf(const Vec4& tangent, const Vec3& normal);
 /// normals     one per vertex; `indices` and all others have one per corner
 /// computed    the tangents before sanitize
 /// mended      the tangents after sanitize
-void mendBitangents(StridedSpan<const Vec3> normals, std::span<const std::uint32_t> indices,
-                    std::span<const Vec4> computed, std::span<const Vec4> mended, std::span<Vec3> bitangents);
+void repairBitangents(StridedSpan<const Vec3> normals, std::span<const std::uint32_t> indices,
+                      std::span<const Vec4> computed, std::span<const Vec4> mended, std::span<Vec3> bitangents);
 
 }  // namespace tspace

@@ -187,7 +187,7 @@ constexpr double kExplainedPart = 0.4;
 constexpr double kExplainedShare = 0.01;
 /// Minimum share of the corners that the faces must explain: faces that explain fewer are not the faces that the
 /// tangents were computed on.
-constexpr double kMakerShare = 0.5;
+constexpr double kLeastExplained = 0.5;
 /// Share of the corners that the first two pairings must explain: if they explain less, no other pairing will explain
 /// half.
 constexpr double kHopelessShare = 0.25;
@@ -332,7 +332,8 @@ QuadPairs turnedPairs(QuadPairs pairs) {
 bool quadsWin(std::uint64_t corner_count, std::uint64_t near_on_triangles, std::uint64_t near_on_quads) {
     if (near_on_quads <= near_on_triangles) return false;
     const std::uint64_t gained = near_on_quads - near_on_triangles;
-    return shareOf(near_on_quads, corner_count) >= kMakerShare && shareOf(gained, corner_count) >= kExplainedShare &&
+    return shareOf(near_on_quads, corner_count) >= kLeastExplained &&
+           shareOf(gained, corner_count) >= kExplainedShare &&
            shareOf(gained, corner_count - near_on_triangles) >= kExplainedPart;
 }
 
@@ -387,40 +388,40 @@ namespace {
 
 /// Minimum share of the triangles that must be in pairs with one of Blender's two edge patterns for a mesh to count as
 /// a quad mesh from Blender: nearly all triangles of such a mesh are, but few triangles of a triangle mesh.
-constexpr double kMostTriangles = 0.6;
+constexpr double kLeastBlenderShare = 0.6;
 
 /// Returns whether the pattern is one that Blender writes. Blender cuts a quad along its first and third corner (or, if
 /// this would flip a triangle, along the others), and writes the corners of both triangles in the order of the quad.
-bool isBlendersCut(unsigned pattern) {
+bool isBlenderPattern(unsigned pattern) {
     constexpr unsigned kFan = 3 * 2 + 0, kOther = 3 * 1 + 2;
     return pattern == kFan || pattern == kOther;
 }
 
-bool looksLikeBlendersQuads(const QuadCandidates& candidates, const QuadPairs& pairs) {
+bool areBlenderQuads(const QuadCandidates& candidates, const QuadPairs& pairs) {
     std::size_t count = 0;
     for (std::size_t t = 0; t < pairs.size(); ++t) {
-        if (pairs[t] != PairKind::none && isBlendersCut(candidates.patternOf(t))) count += 2;
+        if (pairs[t] != PairKind::none && isBlenderPattern(candidates.patternOf(t))) count += 2;
     }
-    return static_cast<double>(count) >= kMostTriangles * static_cast<double>(candidates.triangleCount());
+    return static_cast<double>(count) >= kLeastBlenderShare * static_cast<double>(candidates.triangleCount());
 }
 
 }  // namespace
 
-Result<QuadFaces> chooseFaces(const MeshView& triangles, std::span<const Vec4> stored, bool is_blenders, Faces faces,
-                              const Execution& execution) {
+Result<QuadFaces> chooseFaces(const MeshView& triangles, std::span<const Vec4> stored, bool is_from_blender,
+                              Faces faces, const Execution& execution) {
     if (faces == Faces::triangles) return QuadFaces{};
     if (!stored.empty()) {
         Result<QuadFit> fit = fitQuads(triangles, stored, execution);
         if (!fit) return std::move(fit).error();
         if (fit->wins()) return std::move(fit->faces);
         if (faces == Faces::automatic) return QuadFaces{};
-    } else if (faces == Faces::automatic && !is_blenders) {
+    } else if (faces == Faces::automatic && !is_from_blender) {
         return QuadFaces{};
     }
     const QuadCandidates candidates(triangles);
     if (candidates.count() == 0) return QuadFaces{};
     const QuadPairs pairs = pairsByShape(triangles, candidates);
-    if (faces == Faces::automatic && !looksLikeBlendersQuads(candidates, pairs)) return QuadFaces{};
+    if (faces == Faces::automatic && !areBlenderQuads(candidates, pairs)) return QuadFaces{};
     return facesOfPairs(candidates, pairs);
 }
 

@@ -122,11 +122,11 @@ Result<std::vector<Vec4>> tangentsOnFaces(const MeshView& triangles, const QuadF
 ///
 /// triangles    as required by fitQuads
 /// stored       one tangent per vertex, or empty
-/// is_blenders  whether Blender wrote the file
+/// is_from_blender  whether Blender wrote the file
 ///
 /// Cost and errors: those of fitQuads.
-Result<QuadFaces> chooseFaces(const MeshView& triangles, std::span<const Vec4> stored, bool is_blenders, Faces faces,
-                              const Execution& execution);
+Result<QuadFaces> chooseFaces(const MeshView& triangles, std::span<const Vec4> stored, bool is_from_blender,
+                              Faces faces, const Execution& execution);
 
 /// Returns polygons as faces over their own triangles. Polygons with fewer than three corners are omitted.
 QuadFaces facesOfPolygons(std::span<const std::uint32_t> face_sizes, const Triangulation& triangles);

@@ -27,18 +27,18 @@ inline Affine compose(const Affine& outer, const Affine& inner) {
 }
 
 /// Returns a transformed vector with its original length; the original vector if the result has no direction.
-inline Vec3 turnedVector(const Vec3& before, DVec3 after) {
+inline Vec3 rotatedVector(const Vec3& before, DVec3 after) {
     const double size = length(toDouble(before));
     return normalize(after) ? toFloat(size * after) : before;
 }
 
 inline Vec3 normalAt(const Affine& place, const Vec3& normal) {
-    return turnedVector(normal, place.normal(toDouble(normal)));
+    return rotatedVector(normal, place.normal(toDouble(normal)));
 }
 
 /// Transforms a tangent. Its sign changes under a mirroring transform, so that the bitangent follows the surface.
 inline Vec4 tangentAt(const Affine& place, const Vec4& tangent) {
-    const Vec3 direction = turnedVector(xyz(tangent), place.direction(toDouble(xyz(tangent))));
+    const Vec3 direction = rotatedVector(xyz(tangent), place.direction(toDouble(xyz(tangent))));
     return {direction.x, direction.y, direction.z, place.determinant() < 0 ? -tangent.w : tangent.w};
 }
 

@@ -71,14 +71,14 @@ double latticeStep(StridedSpan<const Vec3> positions, std::size_t axis, double f
 }
 
 /// Direction of dP/du of a triangle, and the sine of its rotation by rounding (root mean square).
-struct TurnedDirection {
+struct RotatedDirection {
     DVec3 direction = {};  ///< unit vector; zero if the direction was lost in rounding
     double size = 0;
     double sine = 0;  ///< sine of the rotation; 0: the triangle is not usable
 };
 
-TurnedDirection directionOf(StridedSpan<const Vec3> positions, StridedSpan<const Vec2> uvs, const std::uint32_t* v,
-                            double error) {
+RotatedDirection directionOf(StridedSpan<const Vec3> positions, StridedSpan<const Vec2> uvs, const std::uint32_t* v,
+                             double error) {
     const Vec2 a = uvs[v[0]], b = uvs[v[1]], c = uvs[v[2]];
     const UvFrame frame = uvFrame(positions[v[0]], positions[v[1]], positions[v[2]], a, b, c);
     const double area = std::fabs(frame.determinant), length_of_tangent = length(frame.tangent);
@@ -88,8 +88,8 @@ TurnedDirection directionOf(StridedSpan<const Vec3> positions, StridedSpan<const
     // third of the square of `error`.
     const double t1 = double{b.y} - a.y, t2 = double{c.y} - a.y;
     const double off = std::sqrt(2.0 / 9 * (t1 * t1 + t2 * t2 + (t2 - t1) * (t2 - t1))) * error;
-    TurnedDirection result{.size = length_of_tangent / area,
-                           .sine = off < length_of_tangent ? off / length_of_tangent : 1};
+    RotatedDirection result{.size = length_of_tangent / area,
+                            .sine = off < length_of_tangent ? off / length_of_tangent : 1};
     if (length_of_tangent > 0) result.direction = (frame.determinant < 0 ? -1 : 1) / length_of_tangent * frame.tangent;
     return result;
 }
@@ -108,11 +108,11 @@ bool scattersByRounding(StridedSpan<const Vec3> positions, StridedSpan<const Vec
     constexpr std::size_t kLeastCount = 32;
     std::size_t most = 0, told = 0;
     for (const std::span<const std::uint32_t> corners : corner_lists) most += corners.size() / 3;
-    Buffer<TurnedDirection> triangles(allocator, most);
+    Buffer<RotatedDirection> triangles(allocator, most);
     Buffer<std::array<std::uint32_t, 3>> vertices(allocator, most);
     for (const std::span<const std::uint32_t> corners : corner_lists) {
         for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
-            const TurnedDirection triangle = directionOf(positions, uvs, corners.data() + i, error);
+            const RotatedDirection triangle = directionOf(positions, uvs, corners.data() + i, error);
             if (!(triangle.sine > kLeastSine)) continue;
             triangles[told] = triangle;
             vertices[told++] = {corners[i], corners[i + 1], corners[i + 2]};
@@ -121,7 +121,7 @@ bool scattersByRounding(StridedSpan<const Vec3> positions, StridedSpan<const Vec
     std::size_t count = 0;
     double turned = 0, stretched = 0, wanted = 0;
     std::array<double, 3> along_axes = {};
-    const auto compare = [&](const TurnedDirection& a, const TurnedDirection& b) {
+    const auto compare = [&](const RotatedDirection& a, const RotatedDirection& b) {
         const DVec3 turn = a.direction - b.direction;
         const double sum = a.size + b.size, stretch = sum > 0 ? 2 * (a.size - b.size) / sum : 0;
         ++count;
@@ -197,7 +197,7 @@ struct Axis {
     }
     /// Determines whether the values so far use all bits of floats of their size: step() then does not depend on
     /// further lowest bits.
-    void lookAtBits() { is_fine = high >= low && far() > 0 && lowest_bit <= std::ilogb(far()) - 23; }
+    void examineBits() { is_fine = high >= low && far() > 0 && lowest_bit <= std::ilogb(far()) - 23; }
     [[nodiscard]] double far() const { return std::max(std::fabs(double{low}), std::fabs(double{high})); }
     [[nodiscard]] double step() const {
         // Minimum magnitude for offsets from the origin: models near the origin may be on a grid by design, but not at
@@ -237,7 +237,7 @@ PositionRounding roundingOf(StridedSpan<const Vec3> positions, StridedSpan<const
         axes[1].add(p.y);
         axes[2].add(p.z);
         if (v % 256 != 255) continue;
-        for (Axis& axis : axes) axis.lookAtBits();
+        for (Axis& axis : axes) axis.examineBits();
     }
     for (const std::span<const std::uint32_t> corners : corner_lists) {
         bool is_open = true;
@@ -262,9 +262,9 @@ PositionRounding roundingOf(StridedSpan<const Vec3> positions, StridedSpan<const
     return was_rounded ? before : stored;
 }
 
-TurnedTriangles turnedBy(const PositionRounding& rounding, StridedSpan<const Vec3> positions,
-                         std::span<const std::uint32_t> corners, double limit_deg) {
-    TurnedTriangles turned;
+RotatedTriangles rotatedBy(const PositionRounding& rounding, StridedSpan<const Vec3> positions,
+                           std::span<const std::uint32_t> corners, double limit_deg) {
+    RotatedTriangles turned;
     if (rounding.error == 0) return turned;
     double area = 0, whole = 0;
     for (std::size_t c = 0; c + 2 < corners.size(); c += 3) {

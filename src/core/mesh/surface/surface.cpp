@@ -180,7 +180,7 @@ void add(const Triangle& triangle, std::size_t k, DVec3& sum, double& weight) {
 
 }  // namespace
 
-Vec3 VertexTurn::apply(const Vec3& normal) const {
+Vec3 VertexRotation::apply(const Vec3& normal) const {
     const DVec3 a = toDouble(from), b = toDouble(to), n = toDouble(normal), v = cross(a, b);
     const double c = dot(a, b);
     constexpr double kOpposite = 1e-6;  // threshold for opposite vectors, which have no unique rotation axis
@@ -188,13 +188,13 @@ Vec3 VertexTurn::apply(const Vec3& normal) const {
     return toFloat(c * n + cross(v, n) + (dot(v, n) / (1 + c)) * v);
 }
 
-SurfaceTurns::SurfaceTurns(std::span<const Vec3> positions, std::span<const Vec3> normals,
-                           std::span<const std::uint32_t> corners)
+SurfaceRotations::SurfaceRotations(std::span<const Vec3> positions, std::span<const Vec3> normals,
+                                   std::span<const std::uint32_t> corners)
     : positions_(positions),
       corners_(corners),
       class_of_(findEqualVertices(StridedSpan<const Vec3>(positions), StridedSpan<const Vec3>(normals), {}).class_of) {}
 
-std::vector<VertexTurn> SurfaceTurns::under(std::span<const Vec3> offsets) const {
+std::vector<VertexRotation> SurfaceRotations::under(std::span<const Vec3> offsets) const {
     UniqueIndex<std::array<std::uint32_t, 4>> keys(positions_.size());
     std::vector<std::uint32_t> fan_of(positions_.size());
     for (std::size_t v = 0; v < fan_of.size(); ++v) {
@@ -224,7 +224,7 @@ std::vector<VertexTurn> SurfaceTurns::under(std::span<const Vec3> offsets) const
             fan.is_certain = fan.is_certain && isNear(normals[t][0], fan.from) && isNear(normals[t][1], fan.to);
         }
     }
-    std::vector<VertexTurn> turns(fan_of.size());
+    std::vector<VertexRotation> turns(fan_of.size());
     for (std::size_t v = 0; v < turns.size(); ++v) {
         Fan fan = fans[fan_of[v]];
         if (!(length(fan.from) > kVanished * fan.from_weight) || !(length(fan.to) > kVanished * fan.to_weight))

@@ -67,7 +67,7 @@ inline bool hasDirection(const Vec4& tangent, const Vec3& normal) {
 }
 
 /// Returns whether the glTF format allows the tangent.
-inline bool hasSoundValues(const Vec4& tangent) {
+inline bool hasValidValues(const Vec4& tangent) {
     return isFinite(xyz(tangent)) && std::fabs(length(toDouble(xyz(tangent))) - 1) <= kMostFromUnit &&
            (tangent.w == 1 || tangent.w == -1);
 }
@@ -92,18 +92,18 @@ PositionRounding roundingOf(StridedSpan<const Vec3> positions, StridedSpan<const
                             const Allocator* allocator = nullptr);
 
 /// Triangles that rounding rotates.
-struct TurnedTriangles {
+struct RotatedTriangles {
     std::uint64_t count = 0, total = 0;
     double share = 0;  ///< share of the surface in triangles rotated by more than the limit
     double worst_deg = 0;
     std::uint32_t first = 0;  ///< a corner of the first triangle that is rotated by more than the limit
 };
 /// Computes how much rounding rotates the plane of each triangle (root mean square). Linear.
-TurnedTriangles turnedBy(const PositionRounding& rounding, StridedSpan<const Vec3> positions,
-                         std::span<const std::uint32_t> corners, double limit_deg);
+RotatedTriangles rotatedBy(const PositionRounding& rounding, StridedSpan<const Vec3> positions,
+                           std::span<const std::uint32_t> corners, double limit_deg);
 
 /// Minimum share of the surface: a smaller share may consist of a few slivers.
-inline constexpr double kSomeTurned = 0.01;
+inline constexpr double kLeastRotatedShare = 0.01;
 
 // Properties of a triangle: normal, area, direction of dP/du, and UV orientation.
 
@@ -165,7 +165,7 @@ EqualVertices findEqualVertices(const TangentView& mesh, bool with_uvs);
 // Rotation of a surface around its vertices when it moves, which also rotates the normals that an artist chose there.
 
 /// Mean normals of the triangles around a vertex before and after a movement, weighted by their angles.
-struct VertexTurn {
+struct VertexRotation {
     Vec3 from = {}, to = {};  ///< unit normals; both are zero if one of them is undefined
     /// true: no triangle around the vertex collapses, expands from nothing or is flipped (rotated by more than 150
     /// degrees), and none deviates by more than 40 degrees from the mean, before or after. Otherwise the mean depends
@@ -179,15 +179,15 @@ struct VertexTurn {
 
 /// Rotations of a surface at its vertices. The triangles around a vertex include those of all vertices with the same
 /// position, normal and, for a movement, offset: UV seams do not separate them, but hard edges do.
-class SurfaceTurns {
+class SurfaceRotations {
   public:
     /// Prepares the search for a mesh with one normal per position. `corners`: three per triangle. All arguments must
     /// outlive the object.
-    SurfaceTurns(std::span<const Vec3> positions, std::span<const Vec3> normals,
-                 std::span<const std::uint32_t> corners);
+    SurfaceRotations(std::span<const Vec3> positions, std::span<const Vec3> normals,
+                     std::span<const std::uint32_t> corners);
 
     /// Returns one rotation per vertex; `offsets` are added to the positions. Linear.
-    [[nodiscard]] std::vector<VertexTurn> under(std::span<const Vec3> offsets) const;
+    [[nodiscard]] std::vector<VertexRotation> under(std::span<const Vec3> offsets) const;
 
   private:
     std::span<const Vec3> positions_;

@@ -87,19 +87,19 @@ TEST(FitQuads, WinsOnlyByAMargin) {
 TEST(ChooseFaces, TakesTrianglesUnlessTangentsOrBlenderShowQuads) {
     const ModelData on_quads = withTangentsOnQuads(hills(12), kFan);
     const ModelData on_triangles = withTangents(trianglesOf(hills(12), kFan), Method::mikktspace);
-    const auto quads = [&](const ModelData& data, bool has_tangents, bool is_blenders, Faces faces) {
+    const auto quads = [&](const ModelData& data, bool has_tangents, bool is_from_blender, Faces faces) {
         const std::vector<Vec4> stored = has_tangents ? data.tangents : std::vector<Vec4>();
-        const Result<QuadFaces> chosen = chooseFaces(viewOf(data), stored, is_blenders, faces, {});
+        const Result<QuadFaces> chosen = chooseFaces(viewOf(data), stored, is_from_blender, faces, {});
         EXPECT_TRUE(chosen.ok());
         return chosen ? chosen->quad_count : 0;
     };
-    for (const bool is_blenders : {false, true}) {
-        EXPECT_EQ(quads(on_quads, true, is_blenders, Faces::triangles), 0U);
-        EXPECT_EQ(quads(on_quads, true, is_blenders, Faces::automatic), 144U);
-        EXPECT_EQ(quads(on_triangles, true, is_blenders, Faces::automatic), 0U);
-        EXPECT_EQ(quads(on_triangles, true, is_blenders, Faces::quads), 144U);
-        EXPECT_EQ(quads(on_quads, false, is_blenders, Faces::automatic), is_blenders ? 144U : 0U);
-        EXPECT_EQ(quads(on_quads, false, is_blenders, Faces::quads), 144U);
+    for (const bool is_from_blender : {false, true}) {
+        EXPECT_EQ(quads(on_quads, true, is_from_blender, Faces::triangles), 0U);
+        EXPECT_EQ(quads(on_quads, true, is_from_blender, Faces::automatic), 144U);
+        EXPECT_EQ(quads(on_triangles, true, is_from_blender, Faces::automatic), 0U);
+        EXPECT_EQ(quads(on_triangles, true, is_from_blender, Faces::quads), 144U);
+        EXPECT_EQ(quads(on_quads, false, is_from_blender, Faces::automatic), is_from_blender ? 144U : 0U);
+        EXPECT_EQ(quads(on_quads, false, is_from_blender, Faces::quads), 144U);
     }
     // Original triangles of Blender are rarely connected like the halves of its quads.
     ModelData scattered = trianglesOf(hills(12), kCuts[3]);
