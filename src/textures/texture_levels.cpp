@@ -36,7 +36,7 @@ NormalLevel normalsOf(const FloatImage& image, std::vector<float>&& coverage, st
 }
 
 /// Projects vectors below the horizon onto it, where two channels can represent them.
-void layOnHorizon(NormalLevel& level) {
+void projectOntoHorizon(NormalLevel& level) {
     for (Vec3& normal : level.normals) {
         if (normal.z >= 0) continue;
         DVec3 laid{normal.x, normal.y, 0};
@@ -152,7 +152,7 @@ MapLevels makeMapLevels(FloatImage image, const CompressMapFileOptions& options,
     image = {};
     if (report.below_horizon > 0 && !has_three) {
         made.truth = first;
-        layOnHorizon(first);
+        projectOntoHorizon(first);
     }
     const bool has_coverage = !first.coverage.empty();
     if (options.levels || has_roughness || has_coverage) {

@@ -45,10 +45,10 @@ class MissedCause : public testing::Test {
         const auto surface = RaySurface::make(high.view().positions, high.corners, {}, parallel);
         return surface ? causeOfMisses(low_.view(), high.view(), **surface, reach) : surface.error().message;
     }
-    [[nodiscard]] std::string otherPlace(const HighMesh& high) const {
+    [[nodiscard]] std::string likelyPlacement(const HighMesh& high) const {
         Parallel parallel({.thread_count = 2});
         const auto surface = RaySurface::make(high.view().positions, high.corners, {}, parallel);
-        return surface ? otherPlaceOf(low_.view(), high.view(), **surface) : surface.error().message;
+        return surface ? likelyPlacementOf(low_.view(), high.view(), **surface) : surface.error().message;
     }
     LowMesh low_ = bench::makeLow(saddle(), bench::Charts::one);
     HighMesh high_ = bench::makeHigh(saddle(), 64, false);
@@ -116,8 +116,8 @@ TEST_F(MissedCause, ReportsNothingIfNothingHelps) {
     HighMesh scrap = high_;
     scrap.corners.resize(60);
     EXPECT_EQ(causeOf(scrap), "");
-    EXPECT_EQ(otherPlace(scrap), "");
-    EXPECT_EQ(otherPlace(high_), "") << "it lies where it should";
+    EXPECT_EQ(likelyPlacement(scrap), "");
+    EXPECT_EQ(likelyPlacement(high_), "") << "it lies where it should";
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ struct Field {
             for (std::uint32_t x = 0; x < kFieldSide; ++x) {
                 traced.wanted[y * kFieldSide + x] = toFloat(of(x, y));
                 if (x > 0 && y > 0 && x + 1 < kFieldSide && y + 1 < kFieldSide) continue;
-                triangles.kinds[y * kFieldSide + x] = TexelCoverage::beside;
+                triangles.kinds[y * kFieldSide + x] = TexelCoverage::adjacent;
                 triangles.is_read[y * kFieldSide + x] = true;
                 traced.origins[y * kFieldSide + x] = TexelOrigin::padding;
             }
@@ -58,7 +58,7 @@ TEST(TexelPlan, SmoothFieldsAreSampledOnlyAtTheRim) {
             const bool is_inner = std::min(x, y) >= 5 && std::max(x, y) < kFieldSide - 6;
             if (!is_inner) continue;
             EXPECT_EQ(plan.cells[y * kFieldSide + x], TexelCell::smooth) << x << ' ' << y;
-            EXPECT_EQ(plan.roles[y * kFieldSide + x], TexelRole::apart);
+            EXPECT_EQ(plan.roles[y * kFieldSide + x], TexelRole::excluded);
         }
     }
     EXPECT_EQ(plan.cells[1 * kFieldSide + 20], TexelCell::rough);

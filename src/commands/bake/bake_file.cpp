@@ -200,7 +200,7 @@ void findCause(FileBaking& state, const BakedFile& file, const LowPart& part) {
                 std::to_string(map.error.inward_count) + " of " + std::to_string(map.error.point_count) + " points",
             "");
     } else if (kFew * map.missed_count > map.hit_count) {
-        const std::string why = otherPlaceOf(part.view(), state.models.high.view(), *state.shared.surface);
+        const std::string why = likelyPlacementOf(part.view(), state.models.high.view(), *state.shared.surface);
         if (!why.empty())
             add(std::to_string(map.missed_count) + " texels of " + pathInQuotes(file.path) +
                     " did not hit any front face of the high poly",
@@ -282,8 +282,8 @@ void bakeImage(FileBaking& state, const LowModel::Image& image, const std::strin
     }
     options.rays = state.models.rays(options.rays, options.wrap_u, options.wrap_v);
     BakedMaps maps = tagInput(BakeInput::low, [&] {
-        return valueOrThrow(bakeEvenIfMissed(part.view(), state.models.high.view(), options, state.detail->layers(),
-                                             state.options.execution, state.options.progress, state.shared));
+        return valueOrThrow(bakeAllowingMisses(part.view(), state.models.high.view(), options, state.detail->layers(),
+                                               state.options.execution, state.options.progress, state.shared));
     });
     BakedFile file{
         .path = state.options.layers.has_normal ? withSuffix(state.output, suffix) : "",

@@ -45,7 +45,7 @@ class Baking {
                                                          allocator_, shared_ == nullptr ? nullptr : shared_->surface);
         if (!surfaces) return std::move(surfaces).error();
         if (shared_ != nullptr) shared_->surface = surfaces->surface();
-        tell("tracing");
+        reportStage("tracing");
         const LowUvs uvs(low_, allocator_);
         const std::uint32_t padding = std::max(options_.padding, kFilterTexels);
         std::optional<TexelTriangles> triangles =
@@ -58,7 +58,7 @@ class Baking {
             return makeError(ErrorCode::missingAttribute, kNoElement,
                              "the UVs of the low poly cover no texel of the map");
         traceTexels(*surfaces, *triangles, options_, work_, traced_);
-        tell("tracing", 1);
+        reportStage("tracing", 1);
         countOrigins(*triangles);
         if (map_.hit_count == 0 && shared_ == nullptr)
             return makeError(ErrorCode::missingAttribute, kNoElement, "no ray from the low poly hits the high poly");
@@ -69,7 +69,7 @@ class Baking {
         if (solves()) {
             solve(*surfaces, *triangles);
         } else {
-            tell("rounding");
+            reportStage("rounding");
             if (options_.bits == 8) takeNearest();
         }
         writeTexels();
@@ -107,7 +107,7 @@ class Baking {
         return std::move(map_);
     }
 
-    void tell(const char* what, std::uint64_t done = 0, std::uint64_t total = 1) const {
+    void reportStage(const char* what, std::uint64_t done = 0, std::uint64_t total = 1) const {
         if (work_.progress) work_.progress(what, done, total);
     }
 
@@ -118,17 +118,18 @@ class Baking {
         const TexelPlan plan = planTexels(traced_, triangles, sampling.tolerance, has_integers, parallel_, allocator_);
         triangles = {};
         solveInStrips(surfaces, plan, sampling.points, options_, work_, traced_);
-        tell("rounding");
+        reportStage("rounding");
         if (has_integers) return;
         const std::span<Vec3> texels(traced_.wanted.data(), traced_.wanted.size());
         // Background texels are skipped here, and rounded when the map is written.
         Buffer<bool> background(allocator_, texels.size(), false);
         for (std::size_t i = 0; i < texels.size(); ++i) background[i] = traced_.origins[i] == TexelOrigin::background;
-        TellStep tell_row;
-        if (work_.progress) tell_row = [&](std::uint64_t done, std::uint64_t total) { tell("rounding", done, total); };
+        StepCallback report_row;
+        if (work_.progress)
+            report_row = [&](std::uint64_t done, std::uint64_t total) { reportStage("rounding", done, total); };
         roundTexels(texels, options_.width,
                     {.keeps_lengths = options_.reading.two_channels, .keeps = {background.data(), background.size()}},
-                    parallel_, allocator_, tell_row);
+                    parallel_, allocator_, report_row);
         if (options_.reading.two_channels) completeThirds(texels);
     }
 
@@ -169,13 +170,13 @@ class Baking {
     }
 
     BakedMap measured(const MapSurfaces& surfaces) {
-        tell("measuring");
+        reportStage("measuring");
         if (options_.rays.target == RayTarget::outermost || !low_.cage.empty()) {
             map_.error = errorAgainst(surfaces, options_.heat);
             return std::move(map_);
         }
         map_.own_error = errorAgainst(surfaces, false);
-        tell("measuring");
+        reportStage("measuring");
         RayOptions seen = options_.rays;
         seen.target = RayTarget::outermost;
         map_.error = errorAgainst(surfaces.withRays(seen, 0, parallel_, allocator_), options_.heat);
@@ -286,9 +287,9 @@ Result<BakedMaps> bakeMaps(const LowPoly& low, const HighPoly& high, const BakeO
     return bake(low, high, options, layers, execution, progress, nullptr);
 }
 
-Result<BakedMaps> bakeEvenIfMissed(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
-                                   const LayerOptions& layers, const Execution& execution, const Progress& progress,
-                                   SharedRays& shared) {
+Result<BakedMaps> bakeAllowingMisses(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
+                                     const LayerOptions& layers, const Execution& execution, const Progress& progress,
+                                     SharedRays& shared) {
     return bake(low, high, options, layers, execution, progress, &shared);
 }
 

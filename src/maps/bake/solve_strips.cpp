@@ -75,16 +75,16 @@ class Solving {
             std::copy_n(texels_.begin() + from, width, texels.begin() + to);
         }
         if (!window.isWhole()) {
-            const auto fix = [&](TexelRole& role) { role = role == TexelRole::apart ? role : TexelRole::fixed; };
+            const auto fix = [&](TexelRole& role) { role = role == TexelRole::excluded ? role : TexelRole::fixed; };
             std::for_each_n(roles.begin(), width * (strip.first == 0 ? 1 : kRowsStay), fix);
             std::for_each_n(roles.end() - width, width, fix);
         }
         TexelSystem system(work_.allocator, options_.width, window.count, {roles.data(), roles.size()});
         traceBetween(surfaces_, traced_, plan_, window, points_, options_, work_, steps_, system);
         const std::uint64_t bands = bandsOf(window).size();
-        TellStep tell;
+        StepCallback report_step;
         if (work_.progress) {
-            tell = [&](std::uint64_t done, std::uint64_t total) {
+            report_step = [&](std::uint64_t done, std::uint64_t total) {
                 work_.progress("solving", steps_.before + done * bands / total, steps_.total);
             };
         }
@@ -93,9 +93,9 @@ class Solving {
             addSmooth(strip, found, system);
             IntegerChoice choice = integerChoice(options_.lengths);
             choice.is_two_channel = options_.reading.two_channels;
-            chooseIntegers(system, choice, found, kIntegerRounds, work_.parallel, work_.allocator, tell);
+            chooseIntegers(system, choice, found, kIntegerRounds, work_.parallel, work_.allocator, report_step);
         } else {
-            solveTexels(system, found, work_.parallel, work_.allocator, tell);
+            solveTexels(system, found, work_.parallel, work_.allocator, report_step);
         }
         steps_.before += bands;
         rows_above_ = rowsFrom(strip.end - kRowsStay, kRowsStay);
@@ -133,7 +133,7 @@ class Solving {
     Buffer<Vec3> texels_;
     /// rows of the initial texels: the first row of the map, and the rows above the strip
     std::vector<Vec3> first_row_ = {}, rows_above_ = {};
-    ToldSteps steps_ = {};
+    ProgressSteps steps_ = {};
 };
 
 }  // namespace

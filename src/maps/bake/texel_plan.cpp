@@ -25,7 +25,7 @@ class Planning {
     TexelPlan run(bool all_unknown) {
         const std::size_t count = std::size_t{width_} * height_;
         TexelPlan plan{width_, height_, Buffer<TexelCell>(allocator_, count, TexelCell::outside),
-                       Buffer<TexelRole>(allocator_, count, TexelRole::apart)};
+                       Buffer<TexelRole>(allocator_, count, TexelRole::excluded)};
         Buffer<std::uint8_t> straight(allocator_, count, std::uint8_t{0});
         forTexels([&](const Around& at) { straight[at.own()] = straightAt(at); });
         forTexels([&](const Around& at) { plan.cells[at.own()] = cellAt(at, straight); });
@@ -43,13 +43,13 @@ class Planning {
         forTexels([&](const Around& at) {
             if (!is(at.own(), TexelCell::smooth)) return;
             for (const std::size_t corner : at.corners()) {
-                if (unknown[corner]) plan.cells[at.own()] = TexelCell::asked;
+                if (unknown[corner]) plan.cells[at.own()] = TexelCell::sampled;
             }
         });
         forTexels([&](const Around& at) {
             TexelRole& role = plan.roles[at.own()];
             for (const std::size_t cell : at.cells()) {
-                if (is(cell, TexelCell::asked)) role = TexelRole::fixed;
+                if (is(cell, TexelCell::sampled)) role = TexelRole::fixed;
             }
             if (unknown[at.own()]) role = TexelRole::unknown;
         });
@@ -161,7 +161,7 @@ Buffer<Vec3> sharpenedTexels(const TexelPlan& plan, std::span<const Vec3> wanted
             for (std::size_t x = 0; x < width; ++x) {
                 const std::size_t left = x > 0 ? x - 1 : width - 1, right = x + 1 < width ? x + 1 : 0;
                 const auto isSmooth = [&](std::size_t cell) {
-                    return plan.cells[cell] == TexelCell::smooth || plan.cells[cell] == TexelCell::asked;
+                    return plan.cells[cell] == TexelCell::smooth || plan.cells[cell] == TexelCell::sampled;
                 };
                 if (!isSmooth(here + x) || !isSmooth(here + left) || !isSmooth(above + x) || !isSmooth(above + left))
                     continue;

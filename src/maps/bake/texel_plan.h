@@ -15,7 +15,7 @@ namespace tspace {
 enum class TexelCell : std::uint8_t {
     outside,  ///< contains no part of a triangle
     smooth,   ///< targets between the centers follow from the targets at the centers
-    asked,    ///< smooth, but sampled by rays because an adjacent cell is rough
+    sampled,  ///< smooth, but sampled by rays because an adjacent cell is rough
     rough     ///< rays determine the targets between the centers
 };
 
@@ -55,8 +55,8 @@ CellSampling samplingOf(const BakeOptions& options);
 /// Length of target vectors in real numbers: below 1, so that no channel of a nearby texel has to exceed 1.
 inline constexpr float kWantedLength = 0.98F;
 
-/// Classifies all cells. `all_unknown`: if true, all texels that are read are unknown, and no cell is `asked`;
-/// otherwise the texels of rough cells are unknown, and other cells that share a texel with them are `asked`. Memory: 5
+/// Classifies all cells. `all_unknown`: if true, all texels that are read are unknown, and no cell is `sampled`;
+/// otherwise the texels of rough cells are unknown, and other cells that share a texel with them are `sampled`. Memory: 5
 /// bytes per texel temporarily, 2 permanently.
 TexelPlan planTexels(const TracedTexels& traced, const TexelTriangles& triangles, float tolerance, bool all_unknown,
                      Parallel& parallel, const Allocator* allocator);

@@ -123,14 +123,14 @@ void prepareLayers(LayerTracing& tracing) {
 template <class Take>
 void forHits(const LayerTracing& tracing, const SampleBands& bands, std::size_t band, const Take& take) {
     double guess = 0;
-    const auto ask = [&](std::span<const LowPoint> points, std::span<const GridPlace> places) {
+    const auto query = [&](std::span<const LowPoint> points, std::span<const GridPlace> places) {
         std::array<SurfaceHit, kLinesAtOnce> hits;
         const std::uint32_t met = tracing.surfaces.hitsAt(points, guess, hits);
         for (std::size_t i = 0; i < points.size(); ++i) {
             if ((met >> i & 1) != 0) take(places[i], hits[i]);
         }
     };
-    askTogether<GridPlace>(ask, [&](auto& together) {
+    queryInBatches<GridPlace>(query, [&](auto& together) {
         bands.forSamples(band, [&](const BandSample& sample) {
             together.add({sample.triangle, sample.weights()}, {sample.row, sample.column});
         });
@@ -168,12 +168,12 @@ void traceMeans(LayerTracing& tracing) {
                 addMaterial(tracing, texel, tracing.layers.material(hit.triangle, hit.weights));
         });
     };
-    forTasksTold(tracing.work, bands.bandCount(), "colors", traceBand);
+    forTasksWithProgress(tracing.work, bands.bandCount(), "colors", traceBand);
 }
 
 // -- 3. texel centers --
 
-Vec3 told(const LayerTracing& tracing, const LowPoint& point, DVec3 direction) {
+Vec3 inMapSpace(const LayerTracing& tracing, const LowPoint& point, DVec3 direction) {
     if (tracing.options.space == MapSpace::tangent) {
         const CornerFrames corners = tracing.surfaces.corners(point.triangle, tracing.surfaces.low().tangents);
         direction = vectorFor(shadingFrame(corners, point.weights, tracing.options.reading), direction);
@@ -186,7 +186,7 @@ void setMaterial(LayerTracing& tracing, std::size_t texel, const ShownMaterial& 
         tracing.set(layer, texel, shownBy(layer, shown));
 }
 
-void show(LayerTracing& tracing, std::size_t texel, const LowPoint& point, const SurfaceHit& hit) {
+void setLayers(LayerTracing& tracing, std::size_t texel, const LowPoint& point, const SurfaceHit& hit) {
     tracing.set(MapLayer::height, texel, hit.height);
     tracing.set(MapLayer::position, texel, toFloat(hit.place));
     if (tracing.has(MapLayer::curvature)) {
@@ -207,7 +207,7 @@ void show(LayerTracing& tracing, std::size_t texel, const LowPoint& point, const
             occlusionAt(tracing.surfaces, hit, look, static_cast<std::uint32_t>(texel % tracing.options.width),
                         static_cast<std::uint32_t>(texel / tracing.options.width));
         tracing.set(MapLayer::ao, texel, around.open);
-        if (tracing.has(MapLayer::bent)) tracing.set(MapLayer::bent, texel, told(tracing, point, around.bent));
+        if (tracing.has(MapLayer::bent)) tracing.set(MapLayer::bent, texel, inMapSpace(tracing, point, around.bent));
         tracing.set(MapLayer::thickness, texel, around.thickness);
         if (tracing.has(MapLayer::thickness)) tracing.solid[texel] = static_cast<float>(around.solid);
     }
@@ -222,16 +222,16 @@ void traceCenters(LayerTracing& tracing) {
     const UvTriangles triangles = tracing.uvs.triangles(tracing.options.wrap_u, tracing.options.wrap_v);
     const auto trace = [&](std::size_t task) {
         double guess = 0;
-        const auto ask = [&](std::span<const LowPoint> points, std::span<const std::size_t> texels) {
+        const auto query = [&](std::span<const LowPoint> points, std::span<const std::size_t> texels) {
             std::array<SurfaceHit, kLinesAtOnce> hits;
             const std::uint32_t met = tracing.surfaces.hitsAt(points, guess, hits);
             for (std::size_t i = 0; i < points.size(); ++i) {
                 const bool is_hit = (met >> i & 1) != 0;
                 tracing.met[texels[i]] = is_hit ? TexelState::known : TexelState::missing;
-                if (is_hit) show(tracing, texels[i], points[i], hits[i]);
+                if (is_hit) setLayers(tracing, texels[i], points[i], hits[i]);
             }
         };
-        askTogether<std::size_t>(ask, [&](auto& together) {
+        queryInBatches<std::size_t>(query, [&](auto& together) {
             const std::size_t end = std::min<std::size_t>((task + 1) * kRows * shape.width, tracing.met.size());
             for (std::size_t texel = task * kRows * shape.width; texel < end; ++texel) {
                 if (tracing.triangles.kinds[texel] == TexelCoverage::none) continue;
@@ -240,7 +240,7 @@ void traceCenters(LayerTracing& tracing) {
             }
         });
     };
-    forTasksTold(tracing.work, (shape.height + kRows - 1) / kRows, "layers", trace);
+    forTasksWithProgress(tracing.work, (shape.height + kRows - 1) / kRows, "layers", trace);
 }
 
 // -- 4. fit of materials --
@@ -249,7 +249,7 @@ void traceCenters(LayerTracing& tracing) {
 /// hit something.
 const Buffer<TexelRole>& rolesOf(LayerTracing& tracing) {
     if (!tracing.roles.empty()) return tracing.roles;
-    tracing.roles = Buffer<TexelRole>(tracing.work.allocator, tracing.met.size(), TexelRole::apart);
+    tracing.roles = Buffer<TexelRole>(tracing.work.allocator, tracing.met.size(), TexelRole::excluded);
     for (std::size_t i = 0; i < tracing.roles.size(); ++i) {
         const bool is_read = tracing.triangles.kinds[i] == TexelCoverage::inside || tracing.triangles.is_read[i];
         if (is_read && tracing.met[i] == TexelState::known) tracing.roles[i] = TexelRole::unknown;
@@ -286,8 +286,8 @@ void fitMaterial(LayerTracing& tracing, MapLayer layer) {
         });
     };
     // Adjacent bands share a row of texels, so they must not be processed at the same time.
-    forApart(bands.bandCount(), [&](std::size_t begin, std::size_t number) {
-        forTasksTold(tracing.work, number, "colors", [&](std::size_t i) { traceBand(begin + 2 * i); });
+    forNonAdjacent(bands.bandCount(), [&](std::size_t begin, std::size_t number) {
+        forTasksWithProgress(tracing.work, number, "colors", [&](std::size_t i) { traceBand(begin + 2 * i); });
     });
     solveLayer(tracing, layer, system);
 }
@@ -304,7 +304,7 @@ std::vector<TexelState> statesOf(const LayerTracing& tracing, const BakedLayer& 
 }
 
 /// Maps the values of a layer from [0, range], or [-range, range] if `is_signed`, to [0, 1].
-void spread(BakedLayer& layer, const std::vector<TexelState>& states, double range, bool is_signed) {
+void normalizeRange(BakedLayer& layer, const std::vector<TexelState>& states, double range, bool is_signed) {
     const double least = is_signed ? -range : 0;
     layer.least = {least, least, least};
     layer.most = {range, range, range};
@@ -326,7 +326,7 @@ double largest(const BakedLayer& layer, const std::vector<TexelState>& states) {
 }
 
 /// Returns the 99th percentile of the absolute values.
-double usual(const BakedLayer& layer, const std::vector<TexelState>& states) {
+double percentile99(const BakedLayer& layer, const std::vector<TexelState>& states) {
     std::vector<float> sizes;
     for (std::size_t i = 0; i < states.size(); ++i) {
         if (states[i] == TexelState::known) sizes.push_back(std::fabs(layer.values[i]));
@@ -348,7 +348,7 @@ void completeThickness(const LayerTracing& tracing, BakedLayer& layer, const std
     const auto deepest = static_cast<float>(range);
     for (std::size_t i = 0; i < states.size(); ++i)
         layer.values[i] = tracing.solid[i] * layer.values[i] + (1 - tracing.solid[i]) * deepest;
-    spread(layer, states, range, false);
+    normalizeRange(layer, states, range, false);
     // A range of zero means that the high poly has no solid part.
     for (std::size_t i = 0; range == 0 && i < states.size(); ++i) {
         if (states[i] == TexelState::known) layer.values[i] = 1;
@@ -394,12 +394,15 @@ void finish(LayerTracing& tracing, BakedLayer& layer) {
     const std::vector<TexelState> states = statesOf(tracing, layer);
     switch (layer.layer) {
         case MapLayer::height:
-            spread(layer, states,
-                   tracing.layers.height_range > 0 ? tracing.layers.height_range : largest(layer, states), true);
+            normalizeRange(layer, states,
+                           tracing.layers.height_range > 0 ? tracing.layers.height_range : largest(layer, states),
+                           true);
             break;
         case MapLayer::curvature:
-            spread(layer, states,
-                   tracing.layers.curvature_range > 0 ? tracing.layers.curvature_range : usual(layer, states), true);
+            normalizeRange(
+                layer, states,
+                tracing.layers.curvature_range > 0 ? tracing.layers.curvature_range : percentile99(layer, states),
+                true);
             break;
         case MapLayer::thickness:
             completeThickness(tracing, layer, states);
@@ -468,11 +471,11 @@ Vec3 idColor(std::uint32_t id) {
 Error checkLayers(const LayerOptions& layers, const BakeOptions& options, std::size_t low_triangles,
                   std::size_t high_triangles) {
     const auto wrong = [](const char* what) { return makeError(ErrorCode::invalidOption, kNoElement, "%s", what); };
-    std::array<bool, kMapLayerCount> is_asked{};
+    std::array<bool, kMapLayerCount> is_requested{};
     for (const MapLayer layer : layers.layers) {
         const auto number = static_cast<std::size_t>(layer);
         if (number >= kMapLayerCount) return wrong("a layer is not a value of MapLayer");
-        if (std::exchange(is_asked[number], true)) return wrong("a layer was requested twice");
+        if (std::exchange(is_requested[number], true)) return wrong("a layer was requested twice");
         if (isMaterial(layer) && !layers.material)
             return wrong("the layers color, orm and emission need the materials of the high poly");
     }
@@ -483,7 +486,7 @@ Error checkLayers(const LayerOptions& layers, const BakeOptions& options, std::s
          {layers.sky_distance, layers.height_range, layers.curvature_range, layers.thickness_range}) {
         if (!std::isfinite(length) || length < 0) return wrong("ranges and distances must be finite and not negative");
     }
-    if (is_asked[static_cast<std::size_t>(MapLayer::id)] && layers.ids.size() != high_triangles)
+    if (is_requested[static_cast<std::size_t>(MapLayer::id)] && layers.ids.size() != high_triangles)
         return makeError(ErrorCode::countMismatch, kNoElement, "ids must have one entry per triangle of the high poly");
     const std::uint64_t bytes =
         bakeBytes(low_triangles, high_triangles, options) + layerBytes(high_triangles, options, layers);

@@ -15,7 +15,7 @@ namespace {
 constexpr float kAgreeing = 0.99985F;
 constexpr double kApartDeg = 2;
 /// Value of TracedTexels::owners for a texel whose center no triangle covers.
-constexpr std::uint32_t kNobody = 0xffffffff;
+constexpr std::uint32_t kNoOwner = 0xffffffff;
 /// Weight of a length error relative to a direction error.
 constexpr float kAlong = 0.02F;
 
@@ -66,7 +66,7 @@ FitSample weighted(float weight, FitSample sample) {
 }
 
 /// Returns whether the targets of a cell come from rays.
-bool isTraced(TexelCell cell) { return cell == TexelCell::asked || cell == TexelCell::rough; }
+bool isTraced(TexelCell cell) { return cell == TexelCell::sampled || cell == TexelCell::rough; }
 
 class Tracing {
   public:
@@ -87,7 +87,7 @@ class Tracing {
         votes_ = Buffer<std::uint16_t>(allocator, texels, std::uint16_t{0});
         traced_.ranks = ranksOfPieces(surfaces_.low(), options_.overlap, allocator);
         if (traced_.ranks.size() > 0) {
-            traced_.owners = Buffer<std::uint32_t>(allocator, texels, kNobody);
+            traced_.owners = Buffer<std::uint32_t>(allocator, texels, kNoOwner);
             others_ = Buffer<Vec3>(allocator, texels, Vec3{});
         }
         traceInside();
@@ -110,7 +110,7 @@ class Tracing {
                 });
             }
             WantedVectors vectors(surfaces_, options_);
-            const auto ask = [&](std::span<const LowPoint> points, std::span<const std::size_t> texels) {
+            const auto query = [&](std::span<const LowPoint> points, std::span<const std::size_t> texels) {
                 vectors.at(points, [&](std::size_t i, bool is_hit, const Vec3& wanted) {
                     if (counts(texels[i], points[i].triangle)) {
                         vote(texels[i], is_hit, wanted);
@@ -119,13 +119,13 @@ class Tracing {
                     }
                 });
             };
-            askTogether<std::size_t>(ask, [&](auto& together) {
+            queryInBatches<std::size_t>(query, [&](auto& together) {
                 bands.forSamples(band, [&](const BandSample& sample) {
                     together.add({sample.triangle, sample.weights()}, texelOf(sample));
                 });
             });
         };
-        forTasksTold(work_, bands.bandCount(), "tracing", traceBand);
+        forTasksWithProgress(work_, bands.bandCount(), "tracing", traceBand);
         decideVotes();
     }
 
@@ -174,15 +174,15 @@ class Tracing {
         constexpr std::size_t kRows = 8;
         const auto trace = [&](std::size_t task) {
             WantedVectors vectors(surfaces_, options_);
-            const auto ask = [&](std::span<const LowPoint> points, std::span<const std::size_t> texels) {
+            const auto query = [&](std::span<const LowPoint> points, std::span<const std::size_t> texels) {
                 vectors.at(points, [&](std::size_t i, bool is_hit, const Vec3& wanted) {
                     if (is_hit) traced_.wanted[texels[i]] = wanted;
                 });
             };
-            askTogether<std::size_t>(ask, [&](auto& together) {
+            queryInBatches<std::size_t>(query, [&](auto& together) {
                 const std::size_t end = std::min<std::size_t>((task + 1) * kRows * shape.width, votes_.size());
                 for (std::size_t texel = task * kRows * shape.width; texel < end; ++texel) {
-                    if (triangles_.kinds[texel] != TexelCoverage::beside ||
+                    if (triangles_.kinds[texel] != TexelCoverage::adjacent ||
                         traced_.origins[texel] != TexelOrigin::background)
                         continue;
                     const TexelPlace& place = triangles_.places[texel];
@@ -192,7 +192,7 @@ class Tracing {
             });
         };
         const std::size_t tasks = (shape.height + kRows - 1) / kRows;
-        forTasksTold(work_, tasks, "padding", trace);
+        forTasksWithProgress(work_, tasks, "padding", trace);
     }
 
     const MapSurfaces& surfaces_;
@@ -253,27 +253,27 @@ std::vector<std::size_t> bandsOf(const TexelWindow& window) {
 
 void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const TexelPlan& plan,
                   const TexelWindow& window, const PointsBetween& points, const BakeOptions& options,
-                  const MapWork& work, ToldSteps& steps, TexelSystem& system) {
+                  const MapWork& work, ProgressSteps& steps, TexelSystem& system) {
     // Samples count for the texel that they are nearest to, like the sample at its center.
     const auto counts = [&](std::uint32_t triangle, const BetweenTexels& x, const BetweenTexels& y) {
         if (traced.ranks.size() == 0) return true;
         const std::size_t column = x.part < 0.5F ? x.texel : system.right(x.texel),
                           row = y.part < 0.5F ? y.texel : (y.texel + 1) % plan.height;
         const std::uint32_t owner = traced.owners[row * options.width + column];
-        return owner == kNobody || owner == traced.ranks[triangle];
+        return owner == kNoOwner || owner == traced.ranks[triangle];
     };
     const auto traceBand = [&](std::size_t band) {
         struct Place {
             BetweenTexels x = {}, y = {};
         };
         WantedVectors vectors(surfaces, options);
-        const auto ask = [&](std::span<const LowPoint> asked, std::span<const Place> places) {
-            vectors.at(asked, [&](std::size_t i, bool is_hit, const Vec3& wanted) {
+        const auto query = [&](std::span<const LowPoint> batch, std::span<const Place> places) {
+            vectors.at(batch, [&](std::size_t i, bool is_hit, const Vec3& wanted) {
                 const auto& [x, y] = places[i];
                 if (is_hit) system.add(x.texel, window.local(y.texel), x.part, y.part, sampleOf(options, wanted));
             });
         };
-        askTogether<Place>(ask, [&](auto& together) {
+        queryInBatches<Place>(query, [&](auto& together) {
             points.bands.forSamples(band, [&](const BandSample& sample) {
                 const BetweenTexels x = betweenTexels(sample.column, points.n, options.width, options.wrap_u),
                                     y = betweenTexels(sample.row, points.n, options.height, options.wrap_v);
@@ -285,8 +285,8 @@ void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const
     };
     const std::vector<std::size_t> bands = bandsOf(window);
     // Adjacent bands share a row of texels, so they must not be processed at the same time.
-    forApart(bands.size(), [&](std::size_t begin, std::size_t number) {
-        forTasksTold(work, number, "solving", steps, [&](std::size_t i) { traceBand(bands[begin + 2 * i]); });
+    forNonAdjacent(bands.size(), [&](std::size_t begin, std::size_t number) {
+        forTasksWithProgress(work, number, "solving", steps, [&](std::size_t i) { traceBand(bands[begin + 2 * i]); });
         steps.before += number;
     });
     if (points.n == 2) addCenters(traced, plan, window, options, work.parallel, system);
@@ -312,7 +312,7 @@ void addSmoothCells(const TexelPlan& plan, const TexelWindow& window, std::span<
             }
         }
     };
-    forRowsApart(parallel, window.count, [&](std::uint32_t row) {
+    forNonAdjacentRows(parallel, window.count, [&](std::uint32_t row) {
         if (!window.hasCells(window.inImage(row))) return;
         for (std::uint32_t x = 0; x < plan.width; ++x) addCell(x, row);
     });

@@ -24,12 +24,12 @@ struct PointsBetween {
 /// Returns the bands that have samples in the window.
 std::vector<std::size_t> bandsOf(const TexelWindow& window);
 
-/// Traces rays at points in the `asked` and `rough` cells of the plan, and adds the results to the system of the
+/// Traces rays at points in the `sampled` and `rough` cells of the plan, and adds the results to the system of the
 /// window, together with the centers that are none of these points. Advances `steps` by the number of bands in the
 /// window. The progress is reported as part of the stage that solves the system.
 void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const TexelPlan& plan,
                   const TexelWindow& window, const PointsBetween& points, const BakeOptions& options,
-                  const MapWork& work, ToldSteps& steps, TexelSystem& system);
+                  const MapWork& work, ProgressSteps& steps, TexelSystem& system);
 
 /// Adds the filtered values of `texels` in the smooth cells of the window, with the same weight as rays at `points` x
 /// `points` points per texel in other cells.

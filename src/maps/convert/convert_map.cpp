@@ -173,7 +173,7 @@ class Conversion {
         const std::size_t texels = map_.texels.size(), tasks = (texels + kTexelsOfTask - 1) / kTexelsOfTask;
         if (from_.space == MapSpace::tangent && to_.space == MapSpace::object && places_.counts.overlapping > 0)
             countConflicts();
-        if (choosesTogether()) {
+        if (choosesJointly()) {
             vectors_ = Buffer<Vec3>(allocator_, texels, Vec3{});
             keeps_ = Buffer<bool>(allocator_, texels, true);
         }
@@ -189,7 +189,7 @@ class Conversion {
         }
         Sums all;
         for (const Sums& part : sums) all.add(part);
-        if (vectors_.size() > 0) all.changed = chooseTogether(all.changed);
+        if (vectors_.size() > 0) all.changed = chooseJointly(all.changed);
         return reportOf(all);
     }
 
@@ -219,12 +219,12 @@ class Conversion {
     /// Returns whether integers are chosen jointly, so that neighboring texels compensate for rounding errors. This is
     /// useful if vectors lie anywhere between integers (as after a change of space), and if there are few integers. It
     /// is not done for 8-bit two-channel maps, whose z follows from x and y.
-    [[nodiscard]] bool choosesTogether() const {
+    [[nodiscard]] bool choosesJointly() const {
         return options_.bits == 16 ? from_.space != to_.space : options_.bits == 8 && !to_.reading.two_channels;
     }
 
     /// Chooses integers jointly. `changed`: number of texels changed so far; returns the number after the call.
-    std::uint64_t chooseTogether(std::uint64_t changed) {
+    std::uint64_t chooseJointly(std::uint64_t changed) {
         const std::span<Vec3> vectors(vectors_.data(), vectors_.size());
         const std::span<const bool> keeps(keeps_.data(), keeps_.size());
         if (options_.bits == 16) {
@@ -255,7 +255,7 @@ class Conversion {
         if (!main_.uvs.empty()) {
             const TexelCoverage kind = places_.kinds[texel];
             const bool is_shown = kind == TexelCoverage::inside || places_.is_read[texel] ||
-                                  (kind == TexelCoverage::beside && options_.padding > 0);
+                                  (kind == TexelCoverage::adjacent && options_.padding > 0);
             if (!is_shown) {
                 ++sums.background;
                 return;

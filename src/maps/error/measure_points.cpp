@@ -96,7 +96,7 @@ MeasurePoints MeasurePoints::spread(const MapSurfaces& surfaces, std::uint32_t c
         }
     };
     const std::size_t tasks = (count + kPointsOfTask - 1) / kPointsOfTask;
-    forTasksTold(work, tasks, "measuring", spreadTask);
+    forTasksWithProgress(work, tasks, "measuring", spreadTask);
     return made;
 }
 
@@ -207,7 +207,7 @@ std::vector<float> heatOf(const MapImage& map, const MapSurfaces& surfaces, cons
             ++counts[texel];
         });
     };
-    forTasksTold(work, bands.bandCount(), "drawing the error", fillBand);
+    forTasksWithProgress(work, bands.bandCount(), "drawing the error", fillBand);
     for (std::size_t i = 0; i < heat.size(); ++i) heat[i] = counts[i] > 0 ? heat[i] / counts[i] : -1;
     return heat;
 }

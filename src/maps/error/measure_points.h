@@ -220,14 +220,14 @@ std::vector<float> heatOf(const MapImage& map, const MapSurfaces& surfaces, cons
                           const MapWork& work);
 
 /// Range of the progress steps that a stage reports.
-struct ToldSteps {
+struct ProgressSteps {
     std::uint64_t before = 0, total = 0;
 };
 
 /// Calls task(i) for each i below `count` in parallel, and `progress` at intervals from the calling thread, since
 /// bodies of parallel loops must not call back to the user.
 template <class Task>
-void forTasksTold(const MapWork& work, std::size_t count, const char* what, ToldSteps steps, Task&& task) {
+void forTasksWithProgress(const MapWork& work, std::size_t count, const char* what, ProgressSteps steps, Task&& task) {
     const std::size_t at_once = std::size_t{work.parallel.width()} * 4;
     for (std::size_t begin = 0; begin < count; begin += at_once) {
         if (work.progress) work.progress(what, steps.before + begin, steps.total);
@@ -235,8 +235,8 @@ void forTasksTold(const MapWork& work, std::size_t count, const char* what, Told
     }
 }
 template <class Task>
-void forTasksTold(const MapWork& work, std::size_t count, const char* what, Task&& task) {
-    forTasksTold(work, count, what, {0, count}, task);
+void forTasksWithProgress(const MapWork& work, std::size_t count, const char* what, Task&& task) {
+    forTasksWithProgress(work, count, what, {0, count}, task);
 }
 
 }  // namespace tspace

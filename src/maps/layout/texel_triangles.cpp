@@ -56,7 +56,7 @@ struct TriangleSearch {
 
 /// Returns whether two earlier triangles have the same position as this one. The second of them still counts as
 /// overlapping.
-bool isThird(TriangleSearch& search, const PlacedTriangle& placed) {
+bool hasTwoEqual(TriangleSearch& search, const PlacedTriangle& placed) {
     const std::array<std::int64_t, 6> key = placed.key();
     const auto known = search.known.find(key);
     if (known != search.known.end()) return ++known->second > 1;
@@ -78,7 +78,7 @@ std::uint64_t placeRows(TriangleSearch& search, std::size_t i) {
         return 0;
     }
     const TexelRange rows = placed.rows();
-    if (rows.last - rows.first >= kLargeTriangleRows && isThird(search, placed)) {
+    if (rows.last - rows.first >= kLargeTriangleRows && hasTwoEqual(search, placed)) {
         ++counts.repeated;
         return 0;
     }
@@ -234,7 +234,7 @@ void addNear(TriangleSearch& search, std::uint32_t triangle, std::size_t band) {
             if (distance < 2 && !search.found.is_read[texel]) search.found.is_read[texel] = corners.isReadAt(x, y);
             const bool is_first = search.found.kinds[texel] == TexelCoverage::none;
             if (is_first ? distance > search.distances[texel] : distance >= search.distances[texel]) return;
-            search.found.kinds[texel] = TexelCoverage::beside;
+            search.found.kinds[texel] = TexelCoverage::adjacent;
             search.found.places[texel] = placeOf(triangle, column, row);
             search.distances[texel] = distance;
         });
@@ -244,7 +244,7 @@ void addNear(TriangleSearch& search, std::uint32_t triangle, std::size_t band) {
 // -- 4. rings of padding --
 
 bool hasTriangle(const TriangleSearch& search, std::size_t texel) {
-    return search.found.kinds[texel] == TexelCoverage::inside || search.found.kinds[texel] == TexelCoverage::beside;
+    return search.found.kinds[texel] == TexelCoverage::inside || search.found.kinds[texel] == TexelCoverage::adjacent;
 }
 
 /// Returns the position of a neighbor, or `size` if there is none. At the edge of a mirrored image the neighbor
@@ -317,7 +317,7 @@ void addRings(TriangleSearch& search) {
         });
         for (std::size_t i = 0; i < ring.size(); ++i) {
             const bool is_far = places[i].triangle == kNoTriangle;
-            search.found.kinds[ring[i]] = is_far ? kRefused : TexelCoverage::beside;
+            search.found.kinds[ring[i]] = is_far ? kRefused : TexelCoverage::adjacent;
             if (!is_far) search.found.places[ring[i]] = places[i];
         }
         next.clear();
@@ -336,7 +336,7 @@ void countTexels(TriangleSearch& search) {
         TexelCoverage& kind = search.found.kinds[texel];
         if (kind == kRefused) kind = TexelCoverage::none;
         counts.inside += kind == TexelCoverage::inside ? 1 : 0;
-        counts.beside += kind == TexelCoverage::beside ? 1 : 0;
+        counts.beside += kind == TexelCoverage::adjacent ? 1 : 0;
         counts.overlapping += search.found.overlaps[texel] ? 1 : 0;
     }
 }

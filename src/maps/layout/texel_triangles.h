@@ -16,9 +16,9 @@ inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 inline constexpr std::uint32_t kAllTexels = 0xffffffffu;
 
 enum class TexelCoverage : std::uint8_t {
-    none,    ///< no triangle is within the padding
-    inside,  ///< the center is inside the triangle or on its edge
-    beside   ///< the center is near the triangle, whose plane is extrapolated
+    none,     ///< no triangle is within the padding
+    inside,   ///< the center is inside the triangle or on its edge
+    adjacent  ///< the center is near the triangle, whose plane is extrapolated
 };
 
 struct TexelPlace {

@@ -17,7 +17,7 @@ namespace {
 constexpr double kOtherUnit = 8;
 /// Maximum difference between the sides of matching boxes, and minimum difference of boxes that do not match, relative
 /// to their diagonal.
-constexpr double kFits = 0.02, kFitsNot = 0.1;
+constexpr double kFits = 0.02, kMismatch = 0.1;
 
 /// Returns the bounding box of the transformed corners of a box.
 template <class Change>
@@ -35,7 +35,7 @@ std::string sizesApart(const PositionBox& low, const PositionBox& high) {
     const std::string text = std::string("the ") + larger + " poly is " + shortNumber(std::max(factor, 1 / factor)) +
                              " times as large as the " + smaller + " poly";
     const PositionBox scaled = changed(high, [&](const DVec3& at) { return (1 / factor) * at; });
-    if (scaled.difference(low) > kFitsNot * low.diagonal()) return text + ": check that both use the same unit";
+    if (scaled.difference(low) > kMismatch * low.diagonal()) return text + ": check that both use the same unit";
     return text + ": scale the high poly by " + shortNumber(1 / factor) + " to align it with the low poly";
 }
 
@@ -73,7 +73,7 @@ std::string misplacement(const PositionBox& low, const PositionBox& high) {
     const double size = low.diagonal(), other = high.diagonal();
     if (!(size > 0 && other > 0)) return {};
     if (other > kOtherUnit * size || size > kOtherUnit * other) return sizesApart(low, high);
-    if (high.difference(low) <= kFitsNot * size) return {};
+    if (high.difference(low) <= kMismatch * size) return {};
     const auto fits = [&](double sign) {
         const PositionBox turned = changed(high, [&](const DVec3& at) {
             return DVec3{at.x, sign * at.z, -sign * at.y};
@@ -307,7 +307,7 @@ bool MapSurfaces::truthAt(std::size_t triangle, const std::array<double, 3>& wei
     return dot(normal, normal) > 0;
 }
 
-std::uint32_t MapSurfaces::meetTogether(std::span<const LowPoint> points, double& guess, std::span<RayHit> hits) const {
+std::uint32_t MapSurfaces::meetAll(std::span<const LowPoint> points, double& guess, std::span<RayHit> hits) const {
     std::array<Ray, kLinesAtOnce> rays;
     std::array<RayLine, kLinesAtOnce> lines;
     const bool is_from_cage = low_.cage.empty() && options_.target == RayTarget::outermost;
@@ -332,13 +332,13 @@ std::uint32_t MapSurfaces::meetTogether(std::span<const LowPoint> points, double
 
 void MapSurfaces::truthsAt(std::span<const LowPoint> points, double& guess, std::span<DVec3> normals) const {
     std::array<RayHit, kLinesAtOnce> hits;
-    const std::uint32_t met = meetTogether(points, guess, hits);
+    const std::uint32_t met = meetAll(points, guess, hits);
     for (std::size_t i = 0; i < points.size(); ++i) normals[i] = (met >> i & 1) != 0 ? normalOf(hits[i]) : DVec3{};
 }
 
 std::uint32_t MapSurfaces::hitsAt(std::span<const LowPoint> points, double& guess, std::span<SurfaceHit> hits) const {
     std::array<RayHit, kLinesAtOnce> places;
-    std::uint32_t met = meetTogether(points, guess, places);
+    std::uint32_t met = meetAll(points, guess, places);
     for (std::size_t i = 0; i < points.size(); ++i) {
         if ((met >> i & 1) == 0) continue;
         const RayHit& at = places[i];

@@ -127,7 +127,7 @@ class MapSurfaces {
     /// Finds a hit farther outward for a ray that hit nothing from the cage inward. Returns false if there is none.
     bool meetBeyond(const Ray& ray, RayHit& hit) const;
     /// Calls meet() for several points at once. Bit i of the result is set if hits[i] is valid.
-    std::uint32_t meetTogether(std::span<const LowPoint> points, double& guess, std::span<RayHit> hits) const;
+    std::uint32_t meetAll(std::span<const LowPoint> points, double& guess, std::span<RayHit> hits) const;
     [[nodiscard]] RayNeighborhood around(const Ray& ray, const RayHit* hit) const;
     void aim(const RayOptions& rays, Parallel& parallel, const Allocator* allocator);
     [[nodiscard]] DVec3 normalOf(const RayHit& hit) const;
@@ -136,11 +136,11 @@ class MapSurfaces {
     [[nodiscard]] DVec3 mappedNormal(const RayHit& hit, const std::array<std::uint32_t, 3>& vertices) const;
 };
 
-/// Collects points, each with a tag, and passes them to `ask` in batches of kLinesAtOnce (askTogether).
-template <class Tag, class Ask>
-class PointsTogether {
+/// Collects points, each with a tag, and passes them to `query` in batches of kLinesAtOnce (queryInBatches).
+template <class Tag, class QueryPoints>
+class PointBatch {
   public:
-    explicit PointsTogether(const Ask& ask) : ask_(ask) {}
+    explicit PointBatch(const QueryPoints& query) : query_(query) {}
 
     void add(const LowPoint& point, const Tag& tag) {
         points_[count_] = point;
@@ -149,22 +149,22 @@ class PointsTogether {
     }
     void finish() {
         if (count_ > 0)
-            ask_(std::span<const LowPoint>(points_.data(), count_), std::span<const Tag>(tags_.data(), count_));
+            query_(std::span<const LowPoint>(points_.data(), count_), std::span<const Tag>(tags_.data(), count_));
         count_ = 0;
     }
 
   private:
-    const Ask& ask_;
+    const QueryPoints& query_;
     std::size_t count_ = 0;
     std::array<LowPoint, kLinesAtOnce> points_ = {};
     std::array<Tag, kLinesAtOnce> tags_ = {};
 };
 
-/// Calls ask(points, tags) for the points that body(together) adds by together.add(point, tag): in batches of
+/// Calls query(points, tags) for the points that body(together) adds by together.add(point, tag): in batches of
 /// kLinesAtOnce, in the order of adding.
-template <class Tag, class Ask, class Body>
-void askTogether(const Ask& ask, const Body& body) {
-    PointsTogether<Tag, Ask> together(ask);
+template <class Tag, class QueryPoints, class Body>
+void queryInBatches(const QueryPoints& query, const Body& body) {
+    PointBatch<Tag, QueryPoints> together(query);
     body(together);
     together.finish();
 }

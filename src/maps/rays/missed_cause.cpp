@@ -129,7 +129,7 @@ class Trial {
         return partOf(count);
     }
     /// Returns the share of samples whose ray hits only back faces.
-    [[nodiscard]] double metBacksAlone(double reach) const {
+    [[nodiscard]] double backHitShare(double reach) const {
         std::size_t count = 0;
         for (const Sample& sample : samples_) {
             const RayCrossings crossings =
@@ -149,7 +149,7 @@ class Trial {
 
 /// Describes the rotation and scale with which most rays hit the high poly, if their share exceeds `enough`; otherwise
 /// returns an empty string.
-std::string otherPlace(const Trial& trial, double size, double high_size, double reach, double enough) {
+std::string likelyPlacement(const Trial& trial, double size, double high_size, double reach, double enough) {
     constexpr double kOtherSize = 1.5;
     std::vector<NamedTurn> turns = quarterTurns();
     turns.insert(turns.begin(), NamedTurn{});
@@ -175,28 +175,28 @@ std::string otherPlace(const Trial& trial, double size, double high_size, double
 
 std::string causeOfMisses(const LowPoly& low, const HighPoly& high, const RaySurface& surface, double reach) {
     const Trial trial(surface, samplesOf(low));
-    if (trial.metBacksAlone(reach) >= 0.5) return "its faces point inward: rays hit only back faces";
+    if (trial.backHitShare(reach) >= 0.5) return "its faces point inward: rays hit only back faces";
     const double size = PositionBox(low.positions).diagonal(), high_size = PositionBox(high.positions).diagonal();
     const double usual = std::max(reach, kUsualReach * size);
     const auto furtherAway = [&](double other) {
         return "it is farther away than the ray distance: --reach " + shortNumber(other) + " reaches it";
     };
     if (usual > reach && trial.met(usual) >= kMeets) return furtherAway(usual);
-    const std::string moved = otherPlace(trial, size, high_size, usual, kMeets);
+    const std::string moved = likelyPlacement(trial, size, high_size, usual, kMeets);
     if (!moved.empty()) return moved;
     for (const double factor : {2.0, 4.0, 8.0}) {
         if (trial.met(factor * usual) >= kMeets) return furtherAway(factor * usual);
     }
-    if (trial.metBacksAlone(usual) >= 0.5) return "its faces point inward: rays hit only back faces";
+    if (trial.backHitShare(usual) >= 0.5) return "its faces point inward: rays hit only back faces";
     return {};
 }
 
-std::string otherPlaceOf(const LowPoly& low, const HighPoly& high, const RaySurface& surface) {
+std::string likelyPlacementOf(const LowPoly& low, const HighPoly& high, const RaySurface& surface) {
     constexpr double kFew = 0.5, kNearlyAll = 0.95;
     const Trial trial(surface, samplesOf(low));
     const double size = PositionBox(low.positions).diagonal(), high_size = PositionBox(high.positions).diagonal();
     if (trial.met(kUsualReach * size) >= kFew) return {};
-    return otherPlace(trial, size, high_size, kUsualReach * size, kNearlyAll);
+    return likelyPlacement(trial, size, high_size, kUsualReach * size, kNearlyAll);
 }
 
 }  // namespace tspace

@@ -26,12 +26,12 @@ std::string causeOfMisses(const LowPoly& low, const HighPoly& high, const RaySur
 
 /// Diagnoses a bake with hits in most places: returns the axes or unit for which nearly all of the high poly coincides
 /// with the low poly, if less than half of it coincides without that change. Returns an empty string if there is none.
-std::string otherPlaceOf(const LowPoly& low, const HighPoly& high, const RaySurface& surface);
+std::string likelyPlacementOf(const LowPoly& low, const HighPoly& high, const RaySurface& surface);
 
 /// Bakes like bakeMaps, but if there is no hit at all, returns a map without texels instead of an error. `shared`: ray
 /// structure of this high poly; set if it is empty.
-Result<BakedMaps> bakeEvenIfMissed(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
-                                   const LayerOptions& layers, const Execution& execution, const Progress& progress,
-                                   SharedRays& shared);
+Result<BakedMaps> bakeAllowingMisses(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
+                                     const LayerOptions& layers, const Execution& execution, const Progress& progress,
+                                     SharedRays& shared);
 
 }  // namespace tspace

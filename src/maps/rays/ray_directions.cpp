@@ -35,7 +35,7 @@ class Search {
         };
         forEachEdge(positions_.count, nullptr, forHalves,
                     [&](std::uint32_t low, std::uint32_t high, std::span<const HalfEdge> sides) {
-                        joinOrPart(low, high, sides);
+                        joinOrMarkHard(low, high, sides);
                     });
         if (found_.edges.empty()) return std::move(found_);
         spread();
@@ -61,7 +61,7 @@ class Search {
     }
 
     /// Processes the triangles of one edge: marks the edge as hard, or joins the corners at both of its ends.
-    void joinOrPart(std::uint32_t low, std::uint32_t high, std::span<const HalfEdge> sides) {
+    void joinOrMarkHard(std::uint32_t low, std::uint32_t high, std::span<const HalfEdge> sides) {
         constexpr double kCosine = 0.861629160441525819;  // cosine of kHardDeg
         if (sides.size() == 1) return;
         if (sides.size() == 2) {
@@ -75,10 +75,10 @@ class Search {
             }
         }
         const auto edge = static_cast<std::uint32_t>(found_.edges.size());
-        DVec3 way{};
-        for (const HalfEdge side : sides) way = way + normalOf(cornerOf(side));
+        DVec3 normal{};
+        for (const HalfEdge side : sides) normal = normal + normalOf(cornerOf(side));
         const std::uint32_t first = cornerOf(sides[0]);
-        found_.edges.push_back({{first, nextCorner(first)}, normalize(way) ? way : DVec3{}});
+        found_.edges.push_back({{first, nextCorner(first)}, normalize(normal) ? normal : DVec3{}});
         for (const HalfEdge side : sides) {
             at_edges_.push_back({cornerOf(side), edge});
             at_edges_.push_back({nextCorner(cornerOf(side)), edge});
@@ -212,7 +212,7 @@ DVec3 ownOf(const WholeMesh& mesh, std::size_t corner) { return unitOr(toDouble(
 
 /// Returns, at the first corner of each position, the offset to the cage along the mean of all normals at that
 /// position; zero if there is none.
-Buffer<Vec3> meanWays(const WholeMesh& mesh, const Allocator* allocator) {
+Buffer<Vec3> meanOffsets(const WholeMesh& mesh, const Allocator* allocator) {
     const std::size_t count = mesh.positions.size();
     Buffer<DVec3> means(allocator, count, DVec3{});
     for (std::size_t i = 0; i < count; ++i)
@@ -233,8 +233,8 @@ Buffer<Vec3> meanWays(const WholeMesh& mesh, const Allocator* allocator) {
 
 /// Returns, for each corner that the map covers, the offset of its position, or its own normal if the mean points to
 /// its other side.
-Buffer<Vec3> averagedWays(const WholeMesh& mesh, const Buffer<Vec3>& means, std::size_t shown,
-                          const Allocator* allocator) {
+Buffer<Vec3> averagedOffsets(const WholeMesh& mesh, const Buffer<Vec3>& means, std::size_t shown,
+                             const Allocator* allocator) {
     Buffer<Vec3> ways(allocator, shown);
     for (std::size_t i = 0; i < shown; ++i) {
         const Vec3& mean = means[mesh.roots[i]];
@@ -247,8 +247,8 @@ Buffer<Vec3> averagedWays(const WholeMesh& mesh, const Buffer<Vec3>& means, std:
 
 /// Returns the mean normal of the faces that meet smoothly at a corner with a hard edge, and `averaged` for other
 /// corners.
-Buffer<Vec3> straightWays(const WholeMesh& mesh, const HardEdges& hard, const Buffer<Vec3>& averaged,
-                          const Allocator* allocator) {
+Buffer<Vec3> straightOffsets(const WholeMesh& mesh, const HardEdges& hard, const Buffer<Vec3>& averaged,
+                             const Allocator* allocator) {
     Buffer<DVec3> means(allocator, mesh.positions.size(), DVec3{});
     for (std::size_t i = 0; i < means.size(); ++i) {
         if (hard.at_edge[i]) means[hard.groups[i]] = means[hard.groups[i]] + mesh.angleAt(i) * mesh.faces[i / 3];
@@ -261,7 +261,7 @@ Buffer<Vec3> straightWays(const WholeMesh& mesh, const HardEdges& hard, const Bu
     return ways;
 }
 
-DVec3 mixedWay(const Buffer<Vec3>& values, std::size_t triangle, const std::array<double, 3>& weights) {
+DVec3 mixedOffset(const Buffer<Vec3>& values, std::size_t triangle, const std::array<double, 3>& weights) {
     return mixedAt(StridedSpan<const Vec3>(std::span<const Vec3>(values.data(), values.size())), triangle, weights);
 }
 
@@ -271,29 +271,29 @@ RayField::RayField(const LowPoly& low, const RayOptions& rays, double offset, Pa
                    const Allocator* allocator)
     : low_(low), rays_(rays), offset_(offset) {
     if (!low.cage.empty()) return;
-    const bool is_painted = !rays.skew.texels.empty();
-    if (rays.directions == RayDirections::normals && !is_painted) return;
+    const bool has_skew_map = !rays.skew.texels.empty();
+    if (rays.directions == RayDirections::normals && !has_skew_map) return;
     const WholeMesh mesh(low, rays.weld_distance, allocator, parallel);
     const std::size_t shown = low.positions.count;
-    const Buffer<Vec3> means = meanWays(mesh, allocator);
-    averaged_ = averagedWays(mesh, means, shown, allocator);
-    if (rays.directions != RayDirections::automatic || is_painted) return;
+    const Buffer<Vec3> means = meanOffsets(mesh, allocator);
+    averaged_ = averagedOffsets(mesh, means, shown, allocator);
+    if (rays.directions != RayDirections::automatic || has_skew_map) return;
     bend_ = kBend * offset;
     const HardEdges hard = findHardEdges(mesh.view(), {mesh.roots.data(), mesh.roots.size()}, 2 * bend_);
     if (hard.edges.empty()) return;
     edges_ = Buffer<HardEdge>(allocator, hard.edges.size());
     for (std::size_t i = 0; i < edges_.size(); ++i) {
-        const auto& [corners, way] = hard.edges[i];
-        const double along = dot(way, mesh.faces[corners[0] / 3]);
+        const auto& [corners, normal] = hard.edges[i];
+        const double along = dot(normal, mesh.faces[corners[0] / 3]);
         edges_[i] = {.from = mesh.positions[corners[0]],
                      .to = mesh.positions[corners[1]],
-                     .way = toFloat((1 / std::max(along, 1 / kMostFactor)) * way),
-                     .way_of_from = means[mesh.roots[corners[0]]],
-                     .way_of_to = means[mesh.roots[corners[1]]]};
+                     .offset = toFloat((1 / std::max(along, 1 / kMostFactor)) * normal),
+                     .offset_at_from = means[mesh.roots[corners[0]]],
+                     .offset_at_to = means[mesh.roots[corners[1]]]};
     }
     near_ = Buffer<NearEdges>(allocator, shown);
     for (std::size_t i = 0; i < shown; ++i) near_[i] = hard.nearest[i];
-    straight_ = straightWays(mesh, hard, averaged_, allocator);
+    straight_ = straightOffsets(mesh, hard, averaged_, allocator);
 }
 
 bool RayField::at(std::size_t triangle, const std::array<double, 3>& weights, DVec3& outward, double& height) const {
@@ -302,15 +302,15 @@ bool RayField::at(std::size_t triangle, const std::array<double, 3>& weights, DV
         height = offset_;
         return normalizeOrdinary(outward);
     }
-    DVec3 way = mixedWay(near_.empty() ? averaged_ : straight_, triangle, weights);
+    DVec3 offset = mixedOffset(near_.empty() ? averaged_ : straight_, triangle, weights);
     if (!rays_.skew.texels.empty()) {
         const double part = painted(triangle, weights);
-        way = (1 - part) * way + part * faceOf(triangle);
+        offset = (1 - part) * offset + part * faceOf(triangle);
     } else if (isNearEdges(triangle)) {
-        way = bentAtEdges(triangle, mixedAt(low_.positions, triangle, weights), way);
+        offset = bentAtEdges(triangle, mixedAt(low_.positions, triangle, weights), offset);
     }
-    height = offset_ * length(way);
-    outward = way;
+    height = offset_ * length(offset);
+    outward = offset;
     return normalizeOrdinary(outward) && std::isfinite(height);
 }
 
@@ -353,12 +353,13 @@ DVec3 RayField::bentAtEdges(std::size_t triangle, const DVec3& point, const DVec
         const double size = length(to - from), near_end = std::min(bend_, size / 2);
         const double of_from = smooth(std::max(0.0, 1 - part * size / near_end)),
                      of_to = smooth(std::max(0.0, 1 - (1 - part) * size / near_end));
-        DVec3 way = toDouble(edge.way);
-        way = way + of_from * (toDouble(edge.way_of_from) - way) + of_to * (toDouble(edge.way_of_to) - way);
+        DVec3 offset = toDouble(edge.offset);
+        offset = offset + of_from * (toDouble(edge.offset_at_from) - offset) +
+                 of_to * (toDouble(edge.offset_at_to) - offset);
         // If there are several edges, closer ones have more weight; a single edge has full weight.
         const double bent = smooth(1 - away / bend_), least = 1e-6 * bend_;
         const double weight = bent / (away * away + least * least);
-        sum = sum + (weight * bent) * (way - straight);
+        sum = sum + (weight * bent) * (offset - straight);
         total += weight;
     }
     return total > 0 ? straight + (1 / total) * sum : straight;

@@ -39,7 +39,7 @@ struct HardEdges {
 
     struct Edge {
         std::array<std::uint32_t, 2> corners = {};  ///< the two ends of the edge
-        DVec3 way = {};                             ///< unit vector along the mean of the normals of its faces, or zero
+        DVec3 normal = {};                          ///< unit vector along the mean of the normals of its faces, or zero
     };
     std::vector<Edge> edges = {};
     // The two nearest hard edges of each corner, reached over faces that meet smoothly, at most `far` away. Empty, like
@@ -66,8 +66,8 @@ DVec3 mixedAt(const StridedSpan<const T>& values, std::size_t triangle, const st
 /// Edge at which faces meet at more than kHardDeg degrees.
 struct HardEdge {
     Vec3 from = {}, to = {};
-    Vec3 way = {};                          ///< offset to the cage between its two faces, for a cage offset of 1
-    Vec3 way_of_from = {}, way_of_to = {};  ///< offsets to the cage at its ends, from all faces at each end
+    Vec3 offset = {};                             ///< offset to the cage between its two faces, for a cage offset of 1
+    Vec3 offset_at_from = {}, offset_at_to = {};  ///< offsets to the cage at its ends, from all faces at each end
 };
 
 /// Rays of a low poly: the direction at each point, and the distance to the cage. Const calls are thread-safe.

@@ -407,7 +407,7 @@ void shoot(Query& query) {
 }
 
 /// Traces up to kLinesAtOnce lines of one surface in a single Embree call.
-void shootTogether(std::span<Query> queries) {
+void shootAll(std::span<Query> queries) {
     RTCRayHit16 rays{};
     alignas(64) std::array<int, kLinesAtOnce> valid{};
     for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -463,7 +463,7 @@ bool isHidden(Query& query) {
 
 /// Copies the best hit to `hit` with its distance negated (measured along the opposite direction). Returns false if
 /// there was no hit.
-bool takeTurned(const Query& query, RayHit& hit) {
+bool copyReversed(const Query& query, RayHit& hit) {
     if (!query.is_hit) return false;
     hit = query.best;
     hit.distance = -hit.distance;
@@ -478,7 +478,7 @@ bool RaySurface::nearest(const DVec3& from, const DVec3& outward, double reach, 
     // A fraction of a very small reach may underflow to zero.
     const double least = std::max(reach / 1024, std::min(reach, std::numeric_limits<double>::min()));
     for (double half = std::clamp(guess, least, reach);; half = std::min(4 * half, reach)) {
-        if (takeTurned(shoot(*state_, from, inward, -half, half, Wanted::nearest, group), hit)) {
+        if (copyReversed(shoot(*state_, from, inward, -half, half, Wanted::nearest, group), hit)) {
             guess = 2 * std::fabs(hit.distance);
             return true;
         }
@@ -494,12 +494,12 @@ bool RaySurface::first(const DVec3& from, const DVec3& inward, double most, std:
 
 bool RaySurface::outermost(const DVec3& from, const DVec3& outward, double begin, double end, std::uint32_t group,
                            RayHit& hit) const {
-    return takeTurned(shoot(*state_, from, -1.0 * outward, -end, -begin, Wanted::first, group), hit);
+    return copyReversed(shoot(*state_, from, -1.0 * outward, -end, -begin, Wanted::first, group), hit);
 }
 
 bool RaySurface::innermost(const DVec3& from, const DVec3& outward, double begin, double end, std::uint32_t group,
                            RayHit& hit) const {
-    return takeTurned(shoot(*state_, from, -1.0 * outward, -end, -begin, Wanted::last, group), hit);
+    return copyReversed(shoot(*state_, from, -1.0 * outward, -end, -begin, Wanted::last, group), hit);
 }
 
 std::uint32_t RaySurface::outermost(std::span<const RayLine> lines, std::span<RayHit> hits) const {
@@ -508,9 +508,9 @@ std::uint32_t RaySurface::outermost(std::span<const RayLine> lines, std::span<Ra
         const RayLine& line = lines[i];
         queries[i] = lineOf(*state_, line.from, -1.0 * line.outward, -line.end, -line.begin, Wanted::first, line.group);
     }
-    if (!lines.empty()) shootTogether({queries.data(), lines.size()});
+    if (!lines.empty()) shootAll({queries.data(), lines.size()});
     std::uint32_t met = 0;
-    for (std::size_t i = 0; i < lines.size(); ++i) met |= takeTurned(queries[i], hits[i]) ? 1U << i : 0U;
+    for (std::size_t i = 0; i < lines.size(); ++i) met |= copyReversed(queries[i], hits[i]) ? 1U << i : 0U;
     return met;
 }
 

@@ -24,14 +24,14 @@ class Band {
           rows_(rows),
           allocator_(allocator),
           vectors_(allocator, std::size_t{rows + 2} * map.width, Vec3{}),
-          roles_(allocator, vectors_.size(), TexelRole::apart) {}
+          roles_(allocator, vectors_.size(), TexelRole::excluded) {}
 
     void choose(const IntegerChoice& choice, Parallel& parallel) {
         bool has_unknown = false;
         for (std::uint32_t y = 0; y < rows_ + 2; ++y) has_unknown = takeRow(y) || has_unknown;
         if (!has_unknown) return;
         TexelSystem system(allocator_, map_.width, rows_ + 2, {roles_.data(), roles_.size()});
-        forRowsApart(parallel, rows_ + 1, [&](std::uint32_t y) {
+        forNonAdjacentRows(parallel, rows_ + 1, [&](std::uint32_t y) {
             if (!isCut(y)) addCells(y, system);
         });
         const std::span<Vec3> vectors(vectors_.data(), vectors_.size());

@@ -24,7 +24,7 @@ TexelSystem::TexelSystem(const Allocator* allocator, std::uint32_t width, std::u
     : width_(width), height_(height), row_of_(allocator, roles.size(), 0U) {
     std::uint32_t count = 1;
     for (std::size_t i = 0; i < roles.size(); ++i) {
-        if (roles[i] != TexelRole::apart) row_of_[i] = count++;
+        if (roles[i] != TexelRole::excluded) row_of_[i] = count++;
     }
     texel_of_ = Buffer<std::uint32_t>(allocator, count, 0U);
     is_unknown_ = Buffer<bool>(allocator, count, false);
@@ -128,7 +128,7 @@ class Gradients {
           first_(allocator, tasks_),
           second_(allocator, tasks_) {}
 
-    void run(const TellStep& tell) {
+    void run(const StepCallback& report_step) {
         // Each step halves the error, approximately. After the last step the error is below the precision of 16 bits.
         constexpr int kMostSteps = 24;
         constexpr double kSmall = 1e-4;
@@ -136,7 +136,7 @@ class Gradients {
         double product = first_.total();
         const double enough = kSmall * product;
         for (int step = 0; step < kMostSteps && product > enough; ++step) {
-            if (tell) tell(static_cast<std::uint64_t>(step), kMostSteps);
+            if (report_step) report_step(static_cast<std::uint64_t>(step), kMostSteps);
             multiply();
             const double curvature = first_.total();
             if (!(curvature > 0)) return;
@@ -223,13 +223,13 @@ class Gradients {
 }  // namespace
 
 void solveLeastSquares(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel,
-                       const Allocator* allocator, const TellStep& tell) {
-    Gradients(system, texels, parallel, allocator).run(tell);
+                       const Allocator* allocator, const StepCallback& report_step) {
+    Gradients(system, texels, parallel, allocator).run(report_step);
 }
 
 void solveTexels(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator,
-                 const TellStep& tell) {
-    solveLeastSquares(system, texels, parallel, allocator, tell);
+                 const StepCallback& report_step) {
+    solveLeastSquares(system, texels, parallel, allocator, report_step);
     parallel.forRanges(texels.size(), Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const float size = length(texels[i]);
@@ -271,15 +271,15 @@ class IntegerTexel {
 
     /// Integers for a given z, in steps: the nearest x, and the y with the least error for that x.
     template <class Number>
-    struct Beside {
+    struct PlanarIntegers {
         Number x, y, error_x, error_y;
     };
     template <class Number>
-    [[nodiscard]] Beside<Number> beside(const Number& z) const {
+    [[nodiscard]] PlanarIntegers<Number> nearestInPlane(const Number& z) const {
         const auto nearest = [&](const Number& real) { return whole(between(real + 0.5F, Number(0), Number(last_))); };
         const Number real_x = Number((start_x_ - slope_x_ + 1) * half_) + Number(slope_x_) * z,
                      real_y = Number((start_y_ - slope_y_ + 1) * half_) + Number(slope_y_) * z;
-        Beside<Number> found;
+        PlanarIntegers<Number> found;
         found.x = nearest(real_x);
         found.error_x = found.x - real_x;
         found.y = nearest(real_y - Number(m_[1] / m_[3]) * found.error_x);
@@ -310,7 +310,7 @@ class IntegerTexel {
         Eight z, least = 1e6F, chosen = -1;
         for (std::size_t lane = 0; lane < 8; ++lane) z.set(lane, static_cast<float>(first + static_cast<int>(lane)));
         for (int i = first; i <= last; i += 8, z = z + 8) {
-            const Beside<Eight> at = beside(z);
+            const PlanarIntegers<Eight> at = nearestInPlane(z);
             const Eight moved = z - start_z;
             const Eight value = rest * squares + moved * (linear * half_ + moved * square);
             const Eight error =
@@ -339,7 +339,7 @@ class IntegerTexel {
             z = planes[lane];
         }
         if (z < 0) return start;
-        const Beside<Eight> at = beside(Eight(z));
+        const PlanarIntegers<Eight> at = nearestInPlane(Eight(z));
         return {at.x[0] * step_ - 1, at.y[0] * step_ - 1, z * step_ - 1};
     }
 
@@ -372,7 +372,7 @@ class IntegerTexel {
 };
 
 /// Returns the length that texels are assumed to have before they are chosen.
-float usualLength(const IntegerChoice& choice) { return (choice.least_length + choice.most_length) / 2; }
+float typicalLength(const IntegerChoice& choice) { return (choice.least_length + choice.most_length) / 2; }
 
 bool keepsLength(const IntegerChoice& choice, const Vec3& wanted) {
     // Tolerance for unit vectors, which the rounding of their components may make longer.
@@ -387,7 +387,7 @@ Vec3 bestIntegers(IntegerChoice choice, const SymmetricBlock& m, const Vec3& h, 
         choice.least_length = std::max(0.95F * size, std::min(choice.least_length, size));
         choice.most_length = std::min(1.05F * size, std::max(choice.most_length, size));
     } else if (!choice.is_two_channel) {
-        wanted = usualLength(choice) * wanted;
+        wanted = typicalLength(choice) * wanted;
     }
     const float x = std::fabs(wanted.x), y = std::fabs(wanted.y), z = std::fabs(wanted.z);
     if (choice.is_two_channel || (z >= x && z >= y)) return IntegerTexel(choice, m, h).best(wanted);
@@ -415,7 +415,8 @@ Vec3 chosenFor(const IntegerChoice& choice, const SymmetricBlock& own, const Vec
 
 /// Chooses the integers of texels that are not in the system, independently of each other. Most of them are background,
 /// and equal.
-void chooseApart(const TexelSystem& system, const IntegerChoice& choice, std::span<Vec3> texels, Parallel& parallel) {
+void chooseIndependently(const TexelSystem& system, const IntegerChoice& choice, std::span<Vec3> texels,
+                         Parallel& parallel) {
     parallel.forRanges(system.height(), 4, [&](std::size_t begin, std::size_t end) {
         Vec3 last_wanted{}, last_chosen{};
         for (std::size_t at = begin * system.width(); at < end * system.width(); ++at) {
@@ -432,16 +433,16 @@ void chooseApart(const TexelSystem& system, const IntegerChoice& choice, std::sp
 }  // namespace
 
 void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std::span<Vec3> texels, unsigned rounds,
-                    Parallel& parallel, const Allocator* allocator, const TellStep& tell) {
+                    Parallel& parallel, const Allocator* allocator, const StepCallback& report_step) {
     const std::uint32_t width = system.width(), height = system.height();
-    chooseApart(system, choice, texels, parallel);
+    chooseIndependently(system, choice, texels, parallel);
     Buffer<Vec3> wanted(allocator, texels.size());
     std::copy(texels.begin(), texels.end(), wanted.begin());
     // Texels that are not chosen yet are assumed to have the usual length.
     if (!choice.is_two_channel) {
         for (std::size_t i = 0; i < texels.size(); ++i) {
             if (!system.isUnknown(system.rowOf(i)) || keepsLength(choice, texels[i])) continue;
-            texels[i] = usualLength(choice) * texels[i];
+            texels[i] = typicalLength(choice) * texels[i];
         }
     }
     const auto chooseRow = [&](std::uint32_t y) {
@@ -457,10 +458,10 @@ void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std:
         }
     };
     for (unsigned round = 0; round < rounds; ++round) {
-        const TellStep tell_row = [&](std::uint64_t done, std::uint64_t total) {
-            tell(round * total + done, rounds * total);
+        const StepCallback report_row = [&](std::uint64_t done, std::uint64_t total) {
+            report_step(round * total + done, rounds * total);
         };
-        forRowsApart(parallel, height, chooseRow, tell ? tell_row : TellStep());
+        forNonAdjacentRows(parallel, height, chooseRow, report_step ? report_row : StepCallback());
     }
 }
 
@@ -529,7 +530,7 @@ class StepRounding {
 }  // namespace
 
 void roundTexels(std::span<Vec3> texels, std::uint32_t width, const TexelRounding& rounding, Parallel& parallel,
-                 const Allocator* allocator, const TellStep& tell) {
+                 const Allocator* allocator, const StepCallback& report_step) {
     const auto height = static_cast<std::uint32_t>(texels.size() / width);
     const StepRounding steps(rounding);
     // Rounding errors so far, in steps. Each texel is rounded while its neighbors are fixed. An error along the vector
@@ -565,10 +566,10 @@ void roundTexels(std::span<Vec3> texels, std::uint32_t width, const TexelRoundin
     // If lengths may change, a second round gains almost nothing.
     const std::uint64_t rounds = rounding.keeps_lengths ? 2 : 1;
     for (std::uint64_t round = 0; round < rounds; ++round) {
-        const TellStep tell_row = [&](std::uint64_t done, std::uint64_t total) {
-            tell(round * total + done, rounds * total);
+        const StepCallback report_row = [&](std::uint64_t done, std::uint64_t total) {
+            report_step(round * total + done, rounds * total);
         };
-        forRowsApart(parallel, height, roundRow, tell ? tell_row : TellStep());
+        forNonAdjacentRows(parallel, height, roundRow, report_step ? report_row : StepCallback());
     }
 }
 

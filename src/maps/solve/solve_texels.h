@@ -47,9 +47,9 @@ struct FitSample {
 
 /// Role of a texel in the system.
 enum class TexelRole : std::uint8_t {
-    apart,   ///< not in the system: samples that mix this texel are skipped
-    fixed,   ///< fixed value, which samples mix with unknown texels
-    unknown  ///< to be solved; every sample that reads it mixes only texels with a row
+    excluded,  ///< not in the system: samples that mix this texel are skipped
+    fixed,     ///< fixed value, which samples mix with unknown texels
+    unknown    ///< to be solved; every sample that reads it mixes only texels with a row
 };
 
 class TexelSystem {
@@ -76,7 +76,7 @@ class TexelSystem {
     [[nodiscard]] bool isUnknown(std::size_t row) const { return is_unknown_[row]; }
 
     /// Adds a sample at the offset `fx`, `fy` (0 to 1) to the right of and below the center of a texel. Ignores a
-    /// sample that interpolates a texel with the role `apart`.
+    /// sample that interpolates a texel with the role `excluded`.
     void add(std::uint32_t x, std::uint32_t y, float fx, float fy, const FitSample& sample);
 
     /// Returns the row of a texel multiplied by its neighbors, given by `at(x, y)`, without the diagonal block.
@@ -115,25 +115,26 @@ inline constexpr float kHold = 0.004F;
 /// processes `number` elements, every second one from `first` on; it is called for the even elements, then for the odd
 /// ones, and then for the last one of an odd count.
 template <class Some>
-void forApart(std::size_t count, const Some& some) {
+void forNonAdjacent(std::size_t count, const Some& some) {
     some(std::size_t{0}, count / 2);
     some(std::size_t{1}, count / 2);
     some(count - 1, count % 2);
 }
 
 /// Callback before step `done` of at most `total` steps. It may throw, which ends the call.
-using TellStep = std::function<void(std::uint64_t done, std::uint64_t total)>;
+using StepCallback = std::function<void(std::uint64_t done, std::uint64_t total)>;
 
-/// Calls row(y) for all rows of an image that repeats; adjacent rows never run at the same time. The steps of `tell` are
+/// Calls row(y) for all rows of an image that repeats; adjacent rows never run at the same time. The steps of `report_step` are
 /// rows.
 template <class Row>
-void forRowsApart(Parallel& parallel, std::uint32_t height, const Row& row, const TellStep& tell = {}) {
-    constexpr std::size_t kRowsTold = 128;
+void forNonAdjacentRows(Parallel& parallel, std::uint32_t height, const Row& row,
+                        const StepCallback& report_step = {}) {
+    constexpr std::size_t kRowsPerReport = 128;
     std::uint64_t done = 0;
-    forApart(height, [&](std::size_t first, std::size_t number) {
-        const std::size_t at_once = tell ? kRowsTold : number;
+    forNonAdjacent(height, [&](std::size_t first, std::size_t number) {
+        const std::size_t at_once = report_step ? kRowsPerReport : number;
         for (std::size_t from = 0; from < number; from += at_once) {
-            if (tell) tell(done + from, height);
+            if (report_step) report_step(done + from, height);
             parallel.forRanges(std::min(at_once, number - from), 4, [&](std::size_t begin, std::size_t end) {
                 for (std::size_t i = begin; i < end; ++i) row(static_cast<std::uint32_t>(first + 2 * (from + i)));
             });
@@ -145,11 +146,11 @@ void forRowsApart(Parallel& parallel, std::uint32_t height, const Row& row, cons
 /// Solves the unknown `texels` (width * height) by least squares, with conjugate gradients. The result does not depend
 /// on the number of threads.
 void solveLeastSquares(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel,
-                       const Allocator* allocator, const TellStep& tell = {});
+                       const Allocator* allocator, const StepCallback& report_step = {});
 
 /// Solves the unknown `texels` like solveLeastSquares, for vectors of at most unit length.
 void solveTexels(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator,
-                 const TellStep& tell = {});
+                 const StepCallback& report_step = {});
 
 /// Parameters for choosing vectors that integers represent: n from 0 to `most` represents 2 n / most - 1.
 struct IntegerChoice {
@@ -163,7 +164,7 @@ struct IntegerChoice {
 /// the samples, while the surrounding texels are fixed; repeats this `rounds` times. Fixed texels are unchanged. The
 /// result does not depend on the number of threads.
 void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std::span<Vec3> texels, unsigned rounds,
-                    Parallel& parallel, const Allocator* allocator, const TellStep& tell = {});
+                    Parallel& parallel, const Allocator* allocator, const StepCallback& report_step = {});
 
 struct TexelRounding {
     unsigned most = 65535;
@@ -176,6 +177,6 @@ struct TexelRounding {
 /// texels compensate for rounding errors under filtering. Unlike chooseIntegers, it is for so many integers that all
 /// errors have equal weight. The image repeats. The result does not depend on the number of threads.
 void roundTexels(std::span<Vec3> texels, std::uint32_t width, const TexelRounding& rounding, Parallel& parallel,
-                 const Allocator* allocator, const TellStep& tell = {});
+                 const Allocator* allocator, const StepCallback& report_step = {});
 
 }  // namespace tspace

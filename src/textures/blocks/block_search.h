@@ -54,7 +54,7 @@ struct SearchEffort {
     float near_range = 0;     ///< blocks with a smaller range try all palettes within it, in steps of 8 bits
     bool few_values = false;  ///< blocks with few distinct values try all palettes whose ends are near the extremes
     int sweeps = 1;
-    bool looks_around = false;  ///< true: also try the neighbors of the best palette
+    bool tries_neighbors = false;  ///< true: also try the neighbors of the best palette
 };
 
 template <class Format>
@@ -63,7 +63,7 @@ class BlockSearch {
     BlockSearch(const Format& format, const ChannelBlock& block) : format_(format), block_(block) {}
 
     /// Returns the best encoding of each texel, chosen independently of its neighbors.
-    FittedChannel alone(const SearchEffort& effort) {
+    FittedChannel bestIndependent(const SearchEffort& effort) {
         constexpr std::size_t kDescents = 3;
         chooseStarts(block_.targets, effort, kDescents);
         const std::array<Palette, 7> first = starts_;
@@ -82,7 +82,7 @@ class BlockSearch {
     }
 
     /// Returns an encoding with a smaller error than `from`, or `from`.
-    FittedChannel beside(const FittedChannel& from, const SearchEffort& effort) {
+    FittedChannel improved(const FittedChannel& from, const SearchEffort& effort) {
         std::array<float, 16> wanted = relaxed(from);
         chooseStarts(wanted, effort, 7);
         Lanes lanes;
@@ -101,7 +101,7 @@ class BlockSearch {
         fitPalettes(lanes);
         chooseCodes(lanes, effort.sweeps);
         keepBest(lanes);
-        if (effort.looks_around) lookAround();
+        if (effort.tries_neighbors) tryNeighbors();
         return best_;
     }
 
@@ -223,7 +223,7 @@ class BlockSearch {
         }
     }
 
-    void lookAround() {
+    void tryNeighbors() {
         constexpr int kMostRounds = 4, kSweeps = 2;
         for (int round = 0; round < kMostRounds; ++round) {
             const float before = least_;
@@ -251,7 +251,7 @@ class BlockSearch {
             most = std::max(most, values[i]);
         }
         const auto tryPalettes = [&](Eight origin, Eight step, const Eight& kind, int fits) {
-            for (int fit = 0; fit < fits; ++fit) fitAlone(values, origin, step, kind);
+            for (int fit = 0; fit < fits; ++fit) fitIndependently(values, origin, step, kind);
             addStarts(values, origin, step, kind);
         };
         format_.forStarts(least, most, effort.all_starts,
@@ -324,7 +324,7 @@ class BlockSearch {
     }
 
     /// Fits palettes to the texels independently by least squares, and rounds them.
-    void fitAlone(const std::array<float, 16>& values, Eight& origin, Eight& step, const Eight& kind) const {
+    void fitIndependently(const std::array<float, 16>& values, Eight& origin, Eight& step, const Eight& kind) const {
         const typename Format::Values palettes = format_.valuesOf(origin, step, kind);
         Eight count, sum, squares, side, code_side;
         for (std::size_t i = 0; i < 16; ++i) {

@@ -14,7 +14,7 @@ namespace {
 /// Runs body(row) for all `count` rows such that neighboring rows never run at the same time: every second row, then
 /// the others. The first and the last row are neighbors.
 template <class Body>
-void forRowsApart(std::size_t count, Parallel& parallel, const Body& body) {
+void forNonAdjacentRows(std::size_t count, Parallel& parallel, const Body& body) {
     const std::size_t pairs = count / 2;
     for (const std::size_t first : {std::size_t{0}, std::size_t{1}})
         parallel.forRanges(pairs, 1, [&](std::size_t begin, std::size_t end) {
@@ -31,7 +31,7 @@ class FilteredForm {
         : width_(level.width), height_(level.height), metrics_(level.normals.size()), best_(level.normals.size()) {
         std::vector<Vec2> residuals(level.normals.size());
         for (std::size_t i = 0; i < best_.size(); ++i) best_[i] = {level.normals[i].x, level.normals[i].y};
-        forRowsApart(height_, parallel, [&](std::size_t y) { addRow(level, y, residuals); });
+        forNonAdjacentRows(height_, parallel, [&](std::size_t y) { addRow(level, y, residuals); });
         solve(residuals, parallel);
     }
 
@@ -118,7 +118,7 @@ class FilteredForm {
         constexpr int kSweeps = 3;
         std::vector<Vec2> moved(best_.size());
         for (int sweep = 0; sweep < kSweeps; ++sweep)
-            forRowsApart(height_, parallel, [&](std::size_t y) { sweepRow(y, residuals, moved); });
+            forNonAdjacentRows(height_, parallel, [&](std::size_t y) { sweepRow(y, residuals, moved); });
         for (std::size_t i = 0; i < best_.size(); ++i) {
             best_[i].x += moved[i].x;
             best_[i].y += moved[i].y;
@@ -166,7 +166,7 @@ SearchEffort startEffort(BlockQuality quality) {
 
 SearchEffort roundEffort(BlockQuality quality) {
     if (quality == BlockQuality::best)
-        return {.all_starts = true, .start_fits = 2, .near_range = 12, .sweeps = 2, .looks_around = true};
+        return {.all_starts = true, .start_fits = 2, .near_range = 12, .sweeps = 2, .tries_neighbors = true};
     return {.all_starts = false, .start_fits = 1, .near_range = 3, .sweeps = 1};
 }
 
@@ -198,7 +198,7 @@ class LevelFit {
         startAll();
         const int rounds = quality_ == BlockQuality::best ? 3 : 2;
         for (int round = 0; round < rounds; ++round)
-            forRowsApart(down_, parallel_, [&](std::size_t y) {
+            forNonAdjacentRows(down_, parallel_, [&](std::size_t y) {
                 for (std::size_t x = 0; x < across_; ++x) improve(form, x, y);
             });
         return result();
@@ -219,7 +219,8 @@ class LevelFit {
             for (std::size_t at = begin * across_; at < end * across_; ++at) {
                 for (std::size_t channel = 0; channel < 2; ++channel) {
                     const ChannelBlock block = blockAt(at % across_, at / across_, channel);
-                    keep(at % across_, at / across_, channel, block, BlockSearch<Format>(format_, block).alone(effort));
+                    keep(at % across_, at / across_, channel, block,
+                         BlockSearch<Format>(format_, block).bestIndependent(effort));
                 }
             }
         });
@@ -266,7 +267,7 @@ class LevelFit {
             ChannelBlock block = blockAt(x, y, channel);
             const FittedChannel from = takeUp(x, y, channel, block, errors);
             setForm(block, channel, mixes, errors);
-            keep(x, y, channel, block, BlockSearch<Format>(format_, block).beside(from, effort));
+            keep(x, y, channel, block, BlockSearch<Format>(format_, block).improved(from, effort));
         }
     }
 
