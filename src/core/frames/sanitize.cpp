@@ -393,7 +393,7 @@ class Sanitizer {
     const SanitizeOptions& options_;
     const Allocator* allocator_;
     Parallel parallel_;
-    Buffer<std::uint8_t> candidates_;      ///< one per block
+    Buffer<std::uint8_t> candidates_;      ///< one flag per block: it may contain corners to count or repair
     Buffer<std::uint32_t> block_corners_;  ///< first corner of each block; empty if all faces have the same size
     Buffer<Cause> causes_;
     // Tangents for corners without a valid one: the point of each vertex (empty: the vertex itself), and the first

@@ -153,7 +153,7 @@ class EacFormat {
 
     struct Values {
         Eight origin, step, most;
-        std::array<Eight, 8> modifiers;  ///< ascending
+        std::array<Eight, 8> modifiers;  ///< modifiers in ascending order
         std::array<Eight, 7> borders;    ///< midpoints between adjacent values
 
         [[nodiscard]] NearestCode nearest(const Eight& wanted) const {

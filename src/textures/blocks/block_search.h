@@ -27,7 +27,7 @@ using Stencil = std::array<float, 9>;
 
 struct ChannelBlock {
     std::array<bool, 16> is_used = {};   ///< false: the texel lies beyond the edge of the image
-    std::array<float, 16> targets = {};  ///< in steps of the format, 0 to `most`
+    std::array<float, 16> targets = {};  ///< target of each texel, in steps of the format, 0 to `most`
     /// Rows of H; entries for texels outside the block are contained in `pull` only.
     std::array<Stencil, 16> mix = {};
     std::array<float, 16> own_parts = {};  ///< for each row of H: the sum of its entries for texels inside the block
@@ -44,7 +44,7 @@ struct Palette {
 
 struct FittedChannel {
     Palette palette = {};
-    std::array<float, 16> codes = {};   ///< c of each texel
+    std::array<float, 16> codes = {};   ///< number c that each texel's code represents
     std::array<float, 16> errors = {};  ///< error of each texel: value - target
 };
 

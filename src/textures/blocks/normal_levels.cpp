@@ -16,7 +16,7 @@ struct MeanLevel {
     std::uint32_t width = 0, height = 0;
     std::vector<Vec3> means = {};       ///< mean normals, not normalized, each multiplied by the coverage
     std::vector<Moments> moments = {};  ///< moments, each multiplied by the coverage
-    std::vector<float> coverage = {};   ///< empty: fully covered
+    std::vector<float> coverage = {};   ///< fraction of each texel that is surface; empty: fully covered
 };
 
 }  // namespace

@@ -57,7 +57,7 @@ Vec4 repairedAlone(const Vec4& kept, const Vec4& computed, const Vec3& normal, s
     return tangent;
 }
 
-constexpr double kUnitTolerance = 5e-4;  // as in sanitize.cpp
+constexpr double kUnitTolerance = 5e-4;  // tolerance for unit length, as in sanitize.cpp
 // sine of an angle; normals with few bits are not unit, which rotates tangents out of the plane by a degree
 constexpr double kOffPlane = 0.05;
 constexpr double kSameDirection = 0.99;  // cosine of 8 degrees

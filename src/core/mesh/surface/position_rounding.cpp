@@ -48,7 +48,7 @@ double commonStep(std::vector<double>& distances, double slack, double least) {
 /// value. Linear.
 double latticeStep(StridedSpan<const Vec3> positions, std::size_t axis, double far) {
     constexpr std::size_t kFew = 256, kMostTries = 16;
-    constexpr double kSlack = 4, kLeast = 32;  // in float spacings
+    constexpr double kSlack = 4, kLeast = 32;  // tolerance, and minimum step, in float spacings
     if (positions.count == 0 || far == 0) return 0;
     const double ulp = std::ldexp(1.0, std::ilogb(far) - 23), first = valueAt(positions[0], axis);
     std::vector<double> few;

@@ -501,7 +501,7 @@ class CornerReader {
     MeshTriangles by_node_;
     VertexCorners to_;
     Buffer<std::uint32_t> place_of_;  // position in `chosen` of each node, or kNone
-    std::size_t count_ = 0;           // number of triangles
+    std::size_t count_ = 0;           // number of triangles around the selected nodes
     Growing<std::uint32_t> good_;     // triangles of the current face that are not degenerate
 };
 

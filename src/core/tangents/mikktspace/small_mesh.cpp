@@ -326,7 +326,7 @@ class SmallMesh {
     unsigned means_ = 1;
     float sums_[kTermCorners + 4][4];
     float signs_[kTermCorners + 4];
-    Buffer<GroupRest> rest_;  // empty if only tangents are requested
+    Buffer<GroupRest> rest_;  // bitangents and lengths of each mean; empty if only tangents are requested
     CornerTerms terms_;
     CornerDirections directions_;
 };
