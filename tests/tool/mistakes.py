@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """mistakes.py TOOL: each mistake on a command line has one exit code and one line of text in all commands."""
+import json
 import os
 import re
 import struct
@@ -142,6 +143,41 @@ def test_inputs():
     for arguments in others:
         if arguments.split()[0] in COMMANDS:
             expect(arguments.split(), 2, "'a.obj' is a model")
+
+
+def test_encodings():
+    for encoding, mark, shown in (("utf-16-le", "\ufeff", "UTF-16"), ("utf-16-be", "\ufeff", "UTF-16"),
+                                  ("utf-16-le", "", "UTF-16"), ("utf-16-be", "", "UTF-16"), ("utf-32-le", "\ufeff", "UTF-32")):
+        for name, lines in (("wide.obj", open("a.obj", encoding="ascii").read()), ("list.txt", "a.obj\nb.obj\n"),
+                            ("pairs.txt", "a.obj = a.obj\n"), ("wide.gltf", '{"asset": {"version": "2.0"}}')):
+            with open(name, "wb") as file:
+                file.write((mark + lines).encode(encoding))
+        others = [line_of(name, model=model) for name in of_models for model in ("wide.obj", "wide.gltf")]
+        others += [["check", "--files-from", "list.txt"]]
+        if "bake" in COMMANDS:
+            others += [["bake", "--pairs", "pairs.txt", "-o", "out/"],
+                       ["bake", "a.obj", "--high", "a.obj", "--match", "pairs.txt", "-o", "out.png"]]
+        for arguments in others:
+            expect(arguments, 3, f"the text is encoded as {shown}, which is not supported; save the file as UTF-8")
+    # A byte order mark of UTF-8 is no part of the first name, and names of one letter may be separated by NUL bytes.
+    for name, content in (("list.txt", b"\xef\xbb\xbfmissing.obj\n"), ("list.txt", b"m\0n\0")):
+        with open(name, "wb") as file:
+            file.write(content)
+        ran = run(["check", "--files-from", name])
+        first = "m" if b"\0" in content else "missing.obj"
+        if not ran.stderr.startswith(f"tspace: {first}: the file '{first}' does not exist"):
+            faults.append(f"{content}: {ran.stderr}")
+
+
+def test_json_types():
+    members = {"nodes": [{"mesh": "0"}], "images": [{"uri": 5}], "textures": [{"source": "0"}], "scene": [], "scenes": {},
+               "materials": [{"name": 1}], "meshes": [{"name": {}}], "bufferViews": [{"buffer": "0"}],
+               "buffers": [{"uri": True, "byteLength": 1}], "accessors": [{"bufferView": "0"}], "extensionsUsed": "x"}
+    for key, value in members.items():
+        with open("types.gltf", "w", encoding="ascii") as file:
+            json.dump({"asset": {"version": "2.0"}, key: value}, file)
+        for name in of_models:
+            expect(line_of(name, model="types.gltf"), 3, rf"types.gltf: '\w+' is not an? .* but .* \(at /{key}")
 
 
 def test_words():

@@ -22,6 +22,7 @@
 #include "model/io/file_io.h"
 #include "model/io/folder_rule.h"
 #include "model/io/recorded_files.h"
+#include "model/io/text_encoding.h"
 #include "output_files.h"
 #include "report_outputs.h"
 
@@ -51,7 +52,7 @@ std::vector<Pair> readTable(const BakePairsArguments& arguments) {
     recordInput(arguments.table);
     const Path folder = folderOf(arguments.table);
     std::vector<Pair> pairs;
-    std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    std::string_view rest = narrowText({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     for (std::size_t number = 1; !rest.empty(); ++number) {
         const std::size_t end = std::min(rest.find('\n'), rest.size());
         std::string_view line = rest.substr(0, end);

@@ -7,12 +7,14 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <string_view>
 
 #include "console.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/io/recorded_files.h"
 #include "model/io/system_files.h"
+#include "model/io/text_encoding.h"
 
 namespace tspace::tool {
 namespace {
@@ -61,21 +63,31 @@ void readStream(std::FILE* stream, std::string& text) {
     if (std::ferror(stream) != 0) failFile(ErrorCode::cannotRead, "it cannot be read");
 }
 
+/// Reads a file or a pipe; "-": standard input. Throws FileError.
+std::string readList(const std::string& list) {
+    std::string text;
+    // Shells pass a pipe for <(...).
+    const CFile pipe = list != "-" && kindOf(list) == PathKind::stream ? openFile(list, "rb") : nullptr;
+    if (list == "-" || pipe) {
+        readStream(pipe ? pipe.get() : stdin, text);
+        return text;
+    }
+    const Bytes bytes = readFile(list);
+    recordInput(list);
+    return {bytes.begin(), bytes.end()};
+}
+
 /// Appends the paths in a list: one per line, or separated by NUL bytes if it contains any.
 ExitCode readFileList(const std::string& list, std::vector<std::string>& inputs) {
     std::string text;
-    const bool is_stdin = list == "-";
     const std::optional<Error> failure = tryFile([&] {
-        if (is_stdin) return readStream(stdin, text);
-        // Shells pass a pipe for <(...).
-        if (kindOf(list) == PathKind::stream) {
-            if (const CFile file = openFile(list, "rb")) return readStream(file.get(), text);
-        }
-        const Bytes bytes = readFile(list);
-        text.assign(bytes.begin(), bytes.end());
-        recordInput(list);
+        text = readList(list);
+        // Names of one character that are separated by NUL bytes look like UTF-16, but contain no line break.
+        const bool has_lines = text.find('\n') != std::string::npos;
+        const std::string_view begin = std::string_view(text).substr(0, has_lines ? text.size() : 3);
+        text.erase(0, begin.size() - narrowText(begin).size());
     });
-    if (failure) return printError(is_stdin ? "standard input" : list, *failure);
+    if (failure) return printError(list == "-" ? "standard input" : list, *failure);
     const char end = text.find('\0') == std::string::npos ? '\n' : '\0';
     for (std::size_t begin = 0; begin < text.size();) {
         const std::size_t stop = std::min(text.find(end, begin), text.size());

@@ -10,6 +10,7 @@
 
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
+#include "model/io/text_encoding.h"
 #include "tspace/maps.h"
 
 namespace tspace {
@@ -74,7 +75,8 @@ Pairs readPairs(const std::string& path, const FileOptions& file) {
         return text;
     };
     Pairs pairs;
-    std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    std::string_view rest =
+        narrowText({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, pathInQuotes(path) + ": ");
     for (std::size_t number = 1; !rest.empty(); ++number) {
         const std::size_t end = std::min(rest.find('\n'), rest.size());
         const std::string_view line = trimmed(rest.substr(0, end));

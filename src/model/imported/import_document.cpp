@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <filesystem>
 #include <locale>
 #include <sstream>
@@ -15,6 +16,8 @@
 #include "model/gltf/load_document.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
+#include "model/io/system_files.h"
+#include "model/io/text_encoding.h"
 
 namespace tspace {
 
@@ -86,8 +89,19 @@ ImportLimits limitsFor(std::uint64_t size, const FileOptions& options) {
     return limits;
 }
 
+/// Returns the reason why the importer may have failed that the first bytes of the file show, or an empty text.
+std::string encodingReason(const Path& path) {
+    std::string text(8, '\0');
+    const CFile file = openFile(path, "rb");
+    text.resize(file ? std::fread(text.data(), 1, text.size(), file.get()) : 0);
+    const std::string_view encoding = wideEncoding(text);
+    if (!encoding.empty()) return wideTextMessage(encoding);
+    if (!text.starts_with("\xef\xbb\xbf")) return {};
+    return "the file starts with a byte order mark; save it as UTF-8 without a byte order mark";
+}
+
 /// Throws the reason as FileError if the importer returned no result.
-void checkEnd(const ImportResult& result, const ImportLimits& limits) {
+void checkEnd(const ImportResult& result, const ImportLimits& limits, const Path& path) {
     std::string why;
     switch (result.end) {
         case ImportEnd::done:
@@ -108,7 +122,8 @@ void checkEnd(const ImportResult& result, const ImportLimits& limits) {
             why = "the importer crashed on this file; convert it to glTF with the program that made it";
             break;
         case ImportEnd::refused:
-            why = firstLine(result.messages);
+            why = encodingReason(path);
+            if (why.empty()) why = firstLine(result.messages);
             if (why.empty())
                 why = "the importer cannot read the file; convert it to glTF with the program that made it";
             break;
@@ -141,7 +156,7 @@ gltf::Document importDocument(const Path& path, const FileOptions& options, cons
                                       options.keep_coordinates, limits, [&progress] {
                                           if (progress) progress("reading", 0, 1);
                                       });
-    checkEnd(result, limits);
+    checkEnd(result, limits, path);
     gltf::Document document = gltf::parseDocument(std::move(result.glb), path, options);
     document.input_bytes = static_cast<std::uint64_t>(size);
     // The generator of the original is kept separately, because tspace becomes the generator of the output.

@@ -15,6 +15,7 @@
 #include "model/io/folder_rule.h"
 #include "model/io/legacy_text.h"
 #include "model/io/named_files.h"
+#include "model/io/text_encoding.h"
 #include "model/io/uri.h"
 #include "model/obj/obj_reader.h"
 #include "model/obj/tiny_obj_loader.h"
@@ -267,6 +268,7 @@ bool readLibrary(const std::string& name, Model& model, std::vector<Material>& m
     model.input_files.push_back(path.string());
     model.memory->allow(bytes.size());
     std::string text(bytes.begin(), bytes.end());
+    narrowText(text, inQuotes(Path(fs::path(path).filename()).string(), 200) + ": ");
     makeLineEndsPlain(text);
     if (!isUtf8(text))
         model.warnings.push_back("material library " + inQuotes(Path(fs::path(path).filename()).string(), 200) + ": " +

@@ -15,6 +15,7 @@
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/io/legacy_text.h"
+#include "model/io/text_encoding.h"
 #include "model/json/json.h"
 #include "model/obj/tiny_obj_loader.h"
 #include "tspace/mesh.h"
@@ -519,6 +520,7 @@ Model readModel(const Path& path, const FileOptions& options) {
     model.memory->take(bytes.size(), {});
     std::string text(bytes.begin(), bytes.end());
     Bytes().swap(bytes);
+    narrowText(text);
     const LineNotes notes = prepareLines(text);
     model.has_smoothing_groups = notes.has_smoothing_groups;
 
