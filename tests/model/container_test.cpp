@@ -144,6 +144,25 @@ TEST(Document, RejectsWrongTypesWithTheirLocation) {
         {R"({"asset":{"version":"2.0"},"accessors":[{"componentType":5124,"type":"VEC3","count":1}]})",
          "/accessors/0/componentType"},
         {R"({"asset":{"version":"2.0"},"accessors":[{"componentType":5126,"count":1}]})", "/accessors/0/type"},
+        // Members that reading of geometry does not need.
+        {R"({"asset":{"version":"2.0"},"scene":"0"})", "/scene"},
+        {R"({"asset":{"version":"2.0"},"scenes":[{"nodes":["0"]}]})", "/scenes/0/nodes/0"},
+        {R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0.5}]})", "/nodes/0/mesh"},
+        {R"({"asset":{"version":"2.0"},"nodes":[{"name":5}]})", "/nodes/0/name"},
+        {R"({"asset":{"version":"2.0"},"nodes":[{"scale":[1,"1",1]}]})", "/nodes/0/scale/1"},
+        {R"({"asset":{"version":"2.0"},"textures":[{"source":{}}]})", "/textures/0/source"},
+        {R"({"asset":{"version":"2.0"},"textures":[{"extensions":{"EXT_texture_webp":{"source":true}}}]})",
+         "/textures/0/extensions/EXT_texture_webp/source"},
+        {R"({"asset":{"version":"2.0"},"images":[{"bufferView":"x"}]})", "/images/0/bufferView"},
+        {R"({"asset":{"version":"2.0"},"materials":[{"normalTexture":{"index":"0"}}]})",
+         "/materials/0/normalTexture/index"},
+        {R"({"asset":{"version":"2.0"},"materials":[{"pbrMetallicRoughness":{"baseColorTexture":3}}]})",
+         "/materials/0/pbrMetallicRoughness/baseColorTexture"},
+        {R"({"asset":{"version":"2.0"},"materials":[{"extensions":{"KHR_materials_clearcoat":
+             {"clearcoatNormalTexture":{"texCoord":"1"}}}}]})",
+         "/materials/0/extensions/KHR_materials_clearcoat/clearcoatNormalTexture/texCoord"},
+        {R"({"asset":{"version":"2.0"},"animations":[{"samplers":[{"input":null}]}]})",
+         "/animations/0/samplers/0/input"},
     };
     for (const auto& test : cases) {
         const Error error = errorOf([&] { parseDocument(toBytes(test.text), "model.gltf", {}); });
@@ -151,6 +170,27 @@ TEST(Document, RejectsWrongTypesWithTheirLocation) {
         EXPECT_NE(error.code, ErrorCode::internal) << test.text;
         EXPECT_EQ(error.place, test.place) << test.text;
         EXPECT_EQ(error.message.find('\n'), std::string::npos);
+    }
+}
+
+TEST(Document, AcceptsNullForNumbersAndAnyDataOfUnknownExtensions) {
+    for (const char* members :
+         {R"("accessors":[{"componentType":5126,"type":"VEC3","count":0,"min":[null,null,null],"max":null}])",
+          R"("nodes":[{"matrix":[null]}],"materials":[{"normalTexture":{"index":0,"scale":null}}])",
+          R"("nodes":[{"mesh":0.0,"extras":5,"extensions":{"ACME_x":7}}])",
+          R"("materials":[{"extensions":{"ACME_x":{"someTexture":1}}}])", R"("textures":[{"source":-1}])"}) {
+        const std::string text = R"({"asset":{"version":"2.0"},)" + std::string(members) + "}";
+        const Error error = errorOf([&] { parseDocument(toBytes(text), "model.gltf", {}); });
+        EXPECT_EQ(error.code, ErrorCode::ok) << text << error.message;
+    }
+}
+
+TEST(Document, NamesTheEncodingOfWideText) {
+    using std::operator""s;
+    for (const std::string& text : {"\xff\xfe{\0}\0"s, "\xfe\xff\0{\0}"s, "{\0}\0"s, "\0{\0}"s}) {
+        const Error error = errorOf([&] { parseDocument(toBytes(text), "model.gltf", {}); });
+        EXPECT_EQ(error.code, ErrorCode::invalidFile);
+        EXPECT_NE(error.message.find("encoded as UTF-16"), std::string::npos) << error.message;
     }
 }
 

@@ -12,9 +12,11 @@
 #include "model/gltf/accessor.h"
 #include "model/gltf/container.h"
 #include "model/gltf/draco_primitives.h"
+#include "model/gltf/member_types.h"
 #include "model/gltf/meshopt_views.h"
 #include "model/io/file_error.h"
 #include "model/io/named_files.h"
+#include "model/io/text_encoding.h"
 #include "model/io/uri.h"
 
 namespace tspace::gltf {
@@ -58,23 +60,18 @@ std::string compressionMissing(const std::string& name) {
     return name == kDraco ? dracoMissing() : meshoptMissing(name == kKhrMeshopt);
 }
 
-/// Checks the root arrays once, so that later code may assume that every entry is an object, and finds arrays in
-/// constant time.
+/// Checks the root object once, so that later code finds its arrays in constant time, and may assume types of members.
 void checkRoot(const Json& root) {
     // Member lookup is a linear search, done for every accessor.
     constexpr std::size_t kMaxRootMembers = 1000;
     if (root.size() > kMaxRootMembers)
         failFile(ErrorCode::invalidFile, "the root object has more than 1000 members, which is not supported", "");
-    for (const char* name :
-         {"accessors", "bufferViews", "buffers", "images", "materials", "meshes", "nodes", "skins", "animations"}) {
-        readArray(root, name, "", true);
-    }
+    checkMemberTypes(root);
 }
 
 /// Fails with the name of the file type for known types that are not glTF, instead of with a syntax error.
 void checkLooksLikeJson(std::span<const std::uint8_t> text) {
-    std::string_view view(reinterpret_cast<const char*>(text.data()), text.size());
-    if (view.substr(0, 3) == "\xef\xbb\xbf") view.remove_prefix(3);  // byte order mark
+    const std::string_view view = narrowText({reinterpret_cast<const char*>(text.data()), text.size()});
     const std::size_t first = view.find_first_not_of(" \t\r\n");
     if (text.empty()) failFile(ErrorCode::invalidFile, "the file is empty", "byte 0");
     if (first != std::string_view::npos && view[first] == '[')
