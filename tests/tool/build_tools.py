@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""build_tools.py TOOL: tests depfiles as make and ninja read them, and lists of inputs."""
+"""build_tools.py TOOL: tests depfiles as make and ninja read them, lists of inputs, and long names of outputs."""
 import json
 import os
 import shutil
@@ -130,5 +130,15 @@ for command, more in (("check", []), ("inspect", []), ("identify", []), ("genera
     expect(run(command, *more).returncode == 2, f"{command}: without inputs")
     expect(run(command, *more, "-", "--files-from", "-").returncode == 2, f"{command}: two want stdin")
 expect(os.path.exists("made/two.glb") or os.path.exists("made/two.gltf"), "generate with a list writes into a folder")
+
+# Names of materials become parts of file names, which may have 255 bytes. Names that differ only beyond the cut remain different.
+with open("long.obj", "w", encoding="utf-8") as file:
+    file.write("mtllib long.mtl\n" + "".join(f"v {x} {y} 0\nvt {x} {y}\n" for x, y in ((0, 0), (1, 0), (0, 1))))
+    file.write("".join(f"usemtl {'x' * 300}{end}\nf 1/1 2/2 3/3\n" for end in "ab"))
+with open("long.mtl", "w", encoding="utf-8") as file:
+    file.write("".join(f"newmtl {'x' * 300}{end}\n" for end in "ab"))
+baked = run("bake", "-q", "long.obj", "--high", "long.obj", "--size", "8", "--maps", "normal,ao", "-o", "baked/map.png")
+if b"unknown command" not in baked.stderr:
+    expect(baked.returncode in (0, 1) and len(os.listdir("baked")) == 4, f"bake of long names: {baked.stderr}")
 print("\n".join(faults) or "all as it should be")
 sys.exit(bool(faults))

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "maps/layout/uv_coverage.h"
@@ -20,10 +21,12 @@ std::size_t extensionOf(const std::string& path) {
     return has_extension ? dot : path.size();
 }
 
-/// Returns the name of a material with all characters replaced that are unsuitable for file names.
+/// Returns the name of a material with all characters replaced that are unsuitable for file names. Long names are cut,
+/// because file systems limit file names to 255 bytes, which also contain the name of the output, a layer and a tile.
 std::string fileNamePart(const std::string& name) {
+    constexpr std::size_t kMostBytes = 100;
     std::string suffix;
-    for (const char letter : name) {
+    for (const char letter : std::string_view(name).substr(0, kMostBytes)) {
         const bool is_plain = (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
                               (letter >= '0' && letter <= '9') || letter == '-' || letter == '_';
         suffix += is_plain ? letter : '_';
