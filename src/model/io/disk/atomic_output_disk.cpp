@@ -18,6 +18,7 @@
 #include "core/base/unique_index.h"
 #include "model/io/abandoned_files.h"
 #include "model/io/atomic_output.h"
+#include "model/io/disk/stepped_writer.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/io/recorded_files.h"
@@ -213,11 +214,6 @@ void removeAbandonedOnce(const Path& folder) {
 }
 
 namespace {
-
-int writeTo(std::FILE* file, std::span<const std::uint8_t> bytes) {
-    errno = 0;
-    return std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() ? 0 : errno != 0 ? errno : EIO;
-}
 
 int writeStream(const Path& path, std::span<const std::uint8_t> bytes) {
     CFile stream = openFile(path, "wb");
@@ -444,8 +440,9 @@ void AtomicOutput::addFile(File planned, const std::function<int(const Sink&)>& 
         errno = why;
     }
     if (!file) failToWrite(added.target, std::strerror(errno));
-    int failure = writeAll([&](std::span<const std::uint8_t> part) {
-        errno = writeTo(file.get(), part);
+    SteppedWriter writer(file.get(), options_.sync);
+    const int failure = writeAll([&](std::span<const std::uint8_t> part) {
+        errno = writer.write(part);
         return errno == 0;
     });
     if (failure != 0) failToWrite(added.target, std::strerror(failure));

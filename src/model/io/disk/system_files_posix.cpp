@@ -18,6 +18,7 @@
 #include <new>
 #include <string_view>
 
+#include "model/io/disk/stepped_writer.h"
 #include "model/io/system_files.h"
 
 namespace tspace {
@@ -150,6 +151,29 @@ bool syncFile(std::FILE* file) {
     if (std::fflush(file) != 0) return false;
     // Some file systems do not support fsync.
     return ::fsync(::fileno(file)) == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
+}
+
+namespace {
+
+#if defined(SYNC_FILE_RANGE_WRITE) && !defined(__EMSCRIPTEN__)
+void flushRange(std::FILE* file, std::size_t begin, std::size_t byte_count, unsigned flags) {
+    static_cast<void>(
+        ::sync_file_range(::fileno(file), static_cast<::off_t>(begin), static_cast<::off_t>(byte_count), flags));
+}
+constexpr unsigned kStartFlush = SYNC_FILE_RANGE_WRITE, kFinishFlush = SYNC_FILE_RANGE_WAIT_BEFORE;
+#else
+void flushRange(std::FILE*, std::size_t, std::size_t, unsigned) {}
+constexpr unsigned kStartFlush = 0, kFinishFlush = 0;
+#endif
+
+}  // namespace
+
+void startFlush(std::FILE* file, std::size_t begin, std::size_t byte_count) noexcept {
+    flushRange(file, begin, byte_count, kStartFlush);
+}
+
+void finishFlush(std::FILE* file, std::size_t begin, std::size_t byte_count) noexcept {
+    flushRange(file, begin, byte_count, kFinishFlush);
 }
 
 void syncFolder(const Path& folder) {

@@ -14,6 +14,7 @@
 #include <memory>
 #include <string>
 
+#include "model/io/disk/stepped_writer.h"
 #include "model/io/system_files.h"
 
 namespace tspace {
@@ -142,6 +143,9 @@ void takePermissions(std::FILE*, const Path&) {}
 bool syncFile(std::FILE* file) {
     return std::fflush(file) == 0 && FlushFileBuffers(reinterpret_cast<HANDLE>(_get_osfhandle(_fileno(file)))) != 0;
 }
+// A process ends even while it waits for FlushFileBuffers, so syncFile() is sufficient.
+void startFlush(std::FILE*, std::size_t, std::size_t) noexcept {}
+void finishFlush(std::FILE*, std::size_t, std::size_t) noexcept {}
 void syncFolder(const Path&) {}
 
 int renameFile(const Path& from, const Path& to) noexcept try {
