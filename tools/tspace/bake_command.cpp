@@ -124,21 +124,23 @@ Command bakeCommand() {
         .finish = [&arguments](const Given& given) { return finish(given, arguments); },
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("LOW", arguments.low, "Low-poly model that receives the map. It needs UVs."))
+    command
+        .add(group,
+             operand("LOW", arguments.low, InputKind::model, "Low-poly model that receives the map. It needs UVs."))
         .is_required = false;
-    Option& high = command.add(group, text("--high", "HIGH", arguments.high,
-                                           "High-poly model with the detail, aligned with LOW. It needs no UVs."));
-    high.is_file = true;
-    Option& output =
-        command.add(group, text("-o, --output", "OUT", arguments.output,
-                                "Output file: .png or .tga (8 bits), or .ktx2 or .dds (BC5 with all mip levels)."));
-    output.is_file = output.is_required = true;
-    Option& pairs =
-        command.add(group, text("--pairs", "TABLE", arguments.pairs,
-                                "Run many bakes: a text file of lines LOW = HIGH, or LOW = HIGH = NAME.png, with paths "
-                                "relative to the file; lines that begin with # are comments. OUT is then a folder; "
-                                "each map is named after LOW, or NAME.png if given. --out-mesh is a folder too."));
-    pairs.is_file = true;
+    command.add(group,
+                fileOption("--high", "HIGH", arguments.high,
+                           "High-poly model with the detail, aligned with LOW. It needs no UVs.", InputKind::model));
+    Option& output = command.add(
+        group, fileOption("-o, --output", "OUT", arguments.output,
+                          "Output file: .png or .tga (8 bits), or .ktx2 or .dds (BC5 with all mip levels)."));
+    output.is_required = true;
+    Option& pairs = command.add(
+        group, fileOption("--pairs", "TABLE", arguments.pairs,
+                          "Run many bakes: a text file of lines LOW = HIGH, or LOW = HIGH = NAME.png, with paths "
+                          "relative to the file; lines that begin with # are comments. OUT is then a folder; "
+                          "each map is named after LOW, or NAME.png if given. --out-mesh is a folder too.",
+                          InputKind::text));
     pairs.excludes = {"--high", "--misses", "--heat", "--cage", "--skew"};
     command.add(bakeOptions(arguments.options));
     addBatch(command, arguments.batch, true);
@@ -151,10 +153,9 @@ Command bakeCommand() {
                 "Process only shard I of N (1-based), to split a batch across machines. The shard of a pair depends "
                 "only on the name of LOW in the file, so adding or removing other pairs does not change it.";
     }
-    command.add(kReporting, text("--report", "JSON", arguments.report, "Also write the report as JSON to this file."))
-        .is_file = true;
+    command.add(kReporting,
+                fileOption("--report", "JSON", arguments.report, "Also write the report as JSON to this file."));
     addReporting(command, arguments.json, arguments.quiet);
-    command.reads = Reads::models;
     command.run = [owned] {
         owned->options.file.importer = importerPath();
         return owned->pairs.empty() ? runBake(*owned) : runPairs(*owned);

@@ -41,10 +41,9 @@ constexpr Named<Color> kColors[] = {
 };
 
 void addCheckReporting(Command& command, CheckArguments& arguments) {
-    Option& sarif = command.add(kReporting, text("--sarif", "FILE", arguments.sarif,
-                                                 "Write the findings to this file as SARIF 2.1.0, which CI systems "
-                                                 "show next to the code; '-': to stdout, instead of the text."));
-    sarif.is_file = true;
+    command.add(kReporting, fileOption("--sarif", "FILE", arguments.sarif,
+                                       "Write the findings to this file as SARIF 2.1.0, which CI systems "
+                                       "show next to the code; '-': to stdout, instead of the text."));
     command.add(kReporting, htmlOutput("--html", "FILE", arguments.html,
                                        "Write a self-contained HTML report to this file, with pictures of each finding "
                                        "before and after its fix."));
@@ -174,7 +173,7 @@ Command checkCommand() {
             return arguments.json && arguments.sarif == "-" ? "--json and --sarif - cannot both write to stdout" : "";
         },
     };
-    addInputs(command, arguments.inputs);
+    addInputs(command, arguments.inputs, InputKind::any);
     command.add(checkOptions(arguments.request));
     addBatch(command, arguments.batch, false);
     addCheckReporting(command, arguments);

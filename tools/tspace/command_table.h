@@ -18,9 +18,6 @@ namespace tspace::tool {
 
 using namespace tspace::options;  // NOLINT: the table consists of these names
 
-/// Required type of the first operand of a command, according to its name.
-enum class Reads { anything, models, images };
-
 /// A command owns its arguments, which its copies share: options write them, and `run` reads them.
 struct Command {
     std::string name = {};                   ///< set by the table
@@ -36,7 +33,6 @@ struct Command {
     std::function<report::ExitCode()> prepare = {};
     /// Runs the command, prints the result, and returns the exit code.
     std::function<report::ExitCode()> run = {};
-    Reads reads = Reads::anything;
     bool keeps_freed_memory = false;  ///< freed memory is reused instead of returned to the system (main.cpp)
 
     Option& add(const char* group, Option option) { return options::add(options, group, std::move(option)); }
@@ -83,7 +79,7 @@ std::optional<Command> findCommand(const std::string& name);
 std::string unknownCommand(const std::string& word);
 
 /// Returns an option for a file operand; for several if `target` is a list.
-Option operand(const char* value_name, std::string& target, HelpText help);
-Option operand(const char* value_name, std::vector<std::string>& target, HelpText help);
+Option operand(const char* value_name, std::string& target, InputKind reads, HelpText help);
+Option operand(const char* value_name, std::vector<std::string>& target, InputKind reads, HelpText help);
 
 }  // namespace tspace::tool

@@ -34,19 +34,20 @@ bool parseShard(const std::string& text, Shard& shard) {
 
 }  // namespace
 
-Option operand(const char* value_name, std::string& target, HelpText help) {
-    Option made = text("", value_name, target, std::move(help));
-    made.is_file = made.is_required = true;
+Option operand(const char* value_name, std::string& target, InputKind reads, HelpText help) {
+    Option made = fileOption("", value_name, target, std::move(help), reads);
+    made.is_required = true;
     return made;
 }
 
-Option operand(const char* value_name, std::vector<std::string>& target, HelpText help) {
+Option operand(const char* value_name, std::vector<std::string>& target, InputKind reads, HelpText help) {
     const auto take = [&target](const std::string& given) {
         target.push_back(given);
         return std::string();
     };
     Option made = option("", value_name, take, std::move(help));
     made.is_file = made.is_required = made.is_repeatable = true;
+    made.reads = reads;
     return made;
 }
 
@@ -101,18 +102,18 @@ ExitCode readFileList(const std::string& list, std::vector<std::string>& inputs)
 
 }  // namespace
 
-void addInputs(Command& command, std::vector<std::string>& inputs) {
+void addInputs(Command& command, std::vector<std::string>& inputs, InputKind reads) {
     Option& files = command.add(
-        kInputAndOutput, operand("IN...", inputs,
+        kInputAndOutput, operand("IN...", inputs, reads,
                                  "Model files (.glb, .vrm, .gltf, .obj; also .fbx, .ply, .stl, .dae, .3ds and more if "
                                  "tspace-import is installed), folders, and quoted patterns ('models/**/*.glb'). "
                                  "Folders are searched recursively for model files. '-': a GLB from stdin."));
     files.is_required = false;
     const auto list = std::make_shared<std::string>();
-    Option& from = command.add(kManyFiles, text("--files-from", "FILE", *list,
-                                                "Also read input names from this file, one per line or separated by "
-                                                "NUL bytes; '-': from stdin. The list may be empty."));
-    from.is_file = true;
+    command.add(kManyFiles, fileOption("--files-from", "FILE", *list,
+                                       "Also read input names from this file, one per line or separated by "
+                                       "NUL bytes; '-': from stdin. The list may be empty.",
+                                       InputKind::text));
     command.finish = [&inputs, list, finish = std::move(command.finish)](const Given& given) {
         if (inputs.empty() && list->empty()) return std::string("IN... is missing");
         if (*list == "-" && std::find(inputs.begin(), inputs.end(), "-") != inputs.end())
@@ -137,11 +138,10 @@ void addBatch(Command& command, BatchArguments& batch, bool with_manifest) {
     command.add(kReporting, flag("-v, --verbose", batch.verbose,
                                  "Print details for every file. By default, several files get one line each."));
     if (!with_manifest) return;
-    Option& manifest =
-        command.add(group, text("--manifest", "FILE", batch.manifest,
-                                "Append one line of JSON to this file for each finished input: hashes of inputs and "
-                                "outputs, options, result and time (schema: docs/reference/json.md)."));
-    manifest.is_file = true;
+    Option& manifest = command.add(
+        group, fileOption("--manifest", "FILE", batch.manifest,
+                          "Append one line of JSON to this file for each finished input: hashes of inputs and "
+                          "outputs, options, result and time (schema: docs/reference/json.md)."));
     manifest.excludes = {"--dry-run"};
     command
         .add(group, flag("--resume", batch.resume,

@@ -15,7 +15,7 @@ namespace tspace::tool {
 inline constexpr const char* kManyFiles = "Many files";
 
 /// Adds the operand IN... and --files-from, whose files are appended when the command is prepared.
-void addInputs(Command& command, std::vector<std::string>& inputs);
+void addInputs(Command& command, std::vector<std::string>& inputs, InputKind reads);
 void addBatch(Command& command, BatchArguments& batch, bool with_manifest);
 /// Adds the options --json, --quiet and --help.
 void addReporting(Command& command, bool& json, bool& quiet);

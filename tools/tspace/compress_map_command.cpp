@@ -61,16 +61,15 @@ Command compressMapCommand() {
                      "tspace compress-map normal.png -o normal.ktx2 --roughness orm.png -o2 orm.ktx2"},
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("IN", arguments.input,
+    command.add(group, operand("IN", arguments.input, InputKind::image,
                                "A normal map: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA; '-': from stdin."));
     Option output =
-        text("-o, --output", "OUT", arguments.output,
-             "Output file: .ktx2 or .dds, or a folder of PNGs (a name that ends in /); '-': KTX2 to stdout.");
-    output.is_file = output.is_required = true;
+        fileOption("-o, --output", "OUT", arguments.output,
+                   "Output file: .ktx2 or .dds, or a folder of PNGs (a name that ends in /); '-': KTX2 to stdout.");
+    output.is_required = true;
     command.add(group, output);
     command.add(compressMapOptions(arguments.options));
     addReporting(command, arguments.json, arguments.quiet);
-    command.reads = Reads::images;
     command.run = [owned] { return runCompressMap(*owned); };
     return command;
 }

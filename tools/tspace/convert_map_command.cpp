@@ -57,16 +57,15 @@ Command convertMapCommand() {
         .finish = [&arguments](const Given& given) { return finish(given, arguments.options); },
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("IN", arguments.input,
+    command.add(group, operand("IN", arguments.input, InputKind::image,
                                "A normal map: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA; '-': from stdin."));
-    Option output = text(
+    Option output = fileOption(
         "-o, --output", "OUT", arguments.output,
         "Output file: .png, .exr or .tga (8 bits), or .ktx2 or .dds (BC5 with all mip levels); '-': PNG to stdout.");
-    output.is_file = output.is_required = true;
+    output.is_required = true;
     command.add(group, output);
     command.add(convertMapOptions(arguments.options));
     addReporting(command, arguments.json, arguments.quiet);
-    command.reads = Reads::images;
     command.run = [owned] {
         owned->options.file.importer = importerPath();
         return runConvertMap(*owned);

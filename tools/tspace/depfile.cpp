@@ -91,11 +91,10 @@ void addDepfile(Command& command) {
     const bool writes = std::any_of(command.options.begin(), command.options.end(), isOutputOption);
     if (!writes) return;
     const auto path = std::make_shared<std::string>();
-    Option& depfile =
-        command.add(kReporting, text("--depfile", "FILE", *path,
-                                     "Write a dependency file for make and ninja. It lists the outputs, and every file "
-                                     "that was read, such as buffers, images and material libraries."));
-    depfile.is_file = true;
+    Option& depfile = command.add(
+        kReporting, fileOption("--depfile", "FILE", *path,
+                               "Write a dependency file for make and ninja. It lists the outputs, and every file "
+                               "that was read, such as buffers, images and material libraries."));
     depfile.excludes = {"--in-place", "--dry-run"};
     command.finish = [path, finish = std::move(command.finish)](const Given& given) {
         std::string wrong = finish ? finish(given) : std::string();

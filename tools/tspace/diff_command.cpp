@@ -77,14 +77,14 @@ Command diffCommand() {
                      "tspace diff mine.glb theirs.gltf --tolerance 0.5 --json > diff.json",
                      "tspace diff --html report.html before.glb after.glb"},
     };
-    command.add(kInputAndOutput, operand("A", arguments.a, "First model file."));
-    command.add(kInputAndOutput, operand("B", arguments.b, "Second model file, which is compared with A."));
+    command.add(kInputAndOutput, operand("A", arguments.a, InputKind::model, "First model file."));
+    command.add(kInputAndOutput,
+                operand("B", arguments.b, InputKind::model, "Second model file, which is compared with A."));
     command.add(diffOptions(arguments.request));
     command.add(kReporting, htmlOutput("--html", "FILE", arguments.html,
                                        "Write a self-contained HTML report to this file, with a heat map of the angles "
                                        "and pictures of the largest differences."));
     addReporting(command, arguments.json, arguments.quiet);
-    command.reads = Reads::models;
     command.run = [owned] {
         owned->request.options.file.importer = importerPath();
         return runDiff(*owned);

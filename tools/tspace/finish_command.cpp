@@ -99,17 +99,16 @@ Command finishCommand() {
                      "tspace finish generated.obj -o generated.glb --normals all --report generated.json"},
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("IN", arguments.input, "A model of any format that generate reads."));
+    command.add(group, operand("IN", arguments.input, InputKind::model, "A model of any format that generate reads."));
     Option& output =
-        command.add(group, text("-o, --output", "OUT", arguments.output,
-                                "Output file: .glb or .vrm. Maps are written to files next to it (OUT_normal.png "
-                                "etc.); maps for which glTF has a texture slot are also embedded."));
-    output.is_file = output.is_required = true;
+        command.add(group, fileOption("-o, --output", "OUT", arguments.output,
+                                      "Output file: .glb or .vrm. Maps are written to files next to it (OUT_normal.png "
+                                      "etc.); maps for which glTF has a texture slot are also embedded."));
+    output.is_required = true;
     command.add(finishOptions(arguments.options));
-    command.add(kReporting, text("--report", "JSON", arguments.report, "Also write the report as JSON to this file."))
-        .is_file = true;
+    command.add(kReporting,
+                fileOption("--report", "JSON", arguments.report, "Also write the report as JSON to this file."));
     addReporting(command, arguments.json, arguments.quiet);
-    command.reads = Reads::models;
     command.run = [owned] {
         owned->options.file.importer = importerPath();
         return runFinish(*owned);

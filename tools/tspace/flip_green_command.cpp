@@ -63,20 +63,18 @@ Command flipGreenCommand() {
         .finish = [&arguments](const Given&) { return finish(arguments); },
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("IN", arguments.input,
+    command.add(group, operand("IN", arguments.input, InputKind::image,
                                "An image: PNG, JPEG, WebP, KTX2, DDS or TGA (which becomes a PNG); '-': from stdin."));
-    command
-        .add(group, text("-o, --output", "OUT", arguments.output,
-                         "Output file: .png, .jpg, .jpeg, .webp, .ktx2 or .dds; '-': to stdout. The format must be "
-                         "that of the input, or PNG."))
-        .is_file = true;
+    command.add(group,
+                fileOption("-o, --output", "OUT", arguments.output,
+                           "Output file: .png, .jpg, .jpeg, .webp, .ktx2 or .dds; '-': to stdout. The format must be "
+                           "that of the input, or PNG."));
     Option& in_place = command.add(group, flag("--in-place", arguments.in_place,
                                                "Overwrite the input once the result is complete. Without this option, "
                                                "an output that is also the input is rejected."));
     in_place.excludes = {"--output"};
     command.add(flipGreenOptions(arguments.options));
     addReporting(command, arguments.json, arguments.quiet);
-    command.reads = Reads::images;
     command.run = [owned] { return runFlipGreen(*owned); };
     return command;
 }

@@ -38,14 +38,14 @@ constexpr Named<Container> kContainers[] = {
 
 void addOutputOptions(Command& command, GenerateArguments& arguments) {
     const char* group = kInputAndOutput;
-    addInputs(command, arguments.jobs.inputs);
-    command
-        .add(group, text("-o, --output", "OUT", arguments.jobs.output,
-                         "Output file (.glb, .vrm or .gltf) or folder. Several inputs, or a folder as input, need a "
-                         "folder, which is created if missing; files keep their paths relative to the input folder. If "
-                         "a.glb and a.obj would both become a.glb, the later one becomes a.obj.glb. '-': writes the "
-                         "model as GLB to stdout and the report to stderr."))
-        .is_file = true;
+    addInputs(command, arguments.jobs.inputs, InputKind::model);
+    command.add(
+        group,
+        fileOption("-o, --output", "OUT", arguments.jobs.output,
+                   "Output file (.glb, .vrm or .gltf) or folder. Several inputs, or a folder as input, need a "
+                   "folder, which is created if missing; files keep their paths relative to the input folder. If "
+                   "a.glb and a.obj would both become a.glb, the later one becomes a.obj.glb. '-': writes the "
+                   "model as GLB to stdout and the report to stderr."));
     command.add(group, flag("--in-place", arguments.jobs.in_place,
                             "Overwrite the input files. Each is replaced only when its result is complete. Without "
                             "this option, an output that is also an input is rejected."));
@@ -256,7 +256,6 @@ Command generateCommand() {
     addBatch(command, arguments.batch, true);
     addReporting(command, arguments.json, arguments.quiet);
     command.keeps_freed_memory = true;
-    command.reads = Reads::models;
     command.run = [owned] {
         owned->options.file.importer = importerPath();
         return runGenerate(*owned);

@@ -54,15 +54,14 @@ Command heightToNormalCommand() {
                      "tspace height-to-normal height.png -o normal-dx.png --convention directx --bits 8"},
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("IN", arguments.input,
+    command.add(group, operand("IN", arguments.input, InputKind::image,
                                "A height map: PNG (8 or 16 bits), JPEG, WebP, EXR, KTX2, DDS or TGA; '-': from stdin. "
                                "The color channels are averaged."));
-    Option output = text("-o, --output", "OUT", arguments.output, "Output file: .png; '-': to stdout.");
-    output.is_file = output.is_required = true;
+    Option output = fileOption("-o, --output", "OUT", arguments.output, "Output file: .png; '-': to stdout.");
+    output.is_required = true;
     command.add(group, output);
     command.add(heightToNormalOptions(arguments.options));
     addReporting(command, arguments.json, arguments.quiet);
-    command.reads = Reads::images;
     command.run = [owned] {
         owned->options.file.importer = importerPath();
         return runHeightToNormal(*owned);

@@ -57,11 +57,10 @@ Command identifyCommand() {
             "input is changed.",
         .examples = {"tspace identify helmet.glb", "tspace identify --json models/ > methods.json"},
     };
-    addInputs(command, arguments.inputs);
+    addInputs(command, arguments.inputs, InputKind::model);
     command.add(identifyOptions(arguments.options));
     addBatch(command, arguments.batch, false);
     addReporting(command, arguments.json, arguments.quiet);
-    command.reads = Reads::models;
     command.run = [owned] {
         owned->options.file.importer = importerPath();
         return runIdentify(*owned);

@@ -52,11 +52,10 @@ Command inspectCommand() {
             "and why, triangles without UV area, and mirrored UV islands. No input is changed.",
         .examples = {"tspace inspect helmet.glb", "tspace inspect --json models/ > models.json"},
     };
-    addInputs(command, arguments.inputs);
+    addInputs(command, arguments.inputs, InputKind::model);
     command.add(inspectOptions(arguments.file));
     addBatch(command, arguments.batch, false);
     addReporting(command, arguments.json, arguments.quiet);
-    command.reads = Reads::models;
     command.run = [owned] {
         owned->file.importer = importerPath();
         return runInspect(*owned);

@@ -95,15 +95,17 @@ Command mapErrorCommand() {
                      "tspace map-error normal.ktx2 --source normal.png"},
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("MAP", arguments.map, "A normal map: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA."));
-    Option& low = command.add(group, operand("LOW", arguments.low, "Low-poly model that uses the map."));
+    command.add(group, operand("MAP", arguments.map, InputKind::image,
+                               "A normal map: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA."));
+    Option& low =
+        command.add(group, operand("LOW", arguments.low, InputKind::model, "Low-poly model that uses the map."));
     low.is_required = false;
-    Option& high = command.add(group, text("--high", "HIGH", arguments.high, "High-poly model, aligned with LOW."));
-    high.is_file = true;
-    Option source =
-        text("--source", "IMAGE", arguments.source,
-             "Normal map from which the texture MAP was made. MAP is compared with this image instead of a high poly.");
-    source.is_file = true;
+    command.add(group,
+                fileOption("--high", "HIGH", arguments.high, "High-poly model, aligned with LOW.", InputKind::model));
+    Option source = fileOption(
+        "--source", "IMAGE", arguments.source,
+        "Normal map from which the texture MAP was made. MAP is compared with this image instead of a high poly.",
+        InputKind::image);
     const OptionList of_high = mapErrorOptions(arguments.options);
     source.excludes = optionsOfHigh(of_high);
     command.add(group, source);

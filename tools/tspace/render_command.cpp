@@ -70,13 +70,12 @@ Command renderCommand() {
         },
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("IN", arguments.input, "A model file; '-': a GLB from stdin."));
+    command.add(group, operand("IN", arguments.input, InputKind::model, "A model file; '-': a GLB from stdin."));
     Option& output =
-        command.add(group, text("-o, --output", "OUT", arguments.output, "Output file: .png; '-': to stdout."));
-    output.is_file = output.is_required = true;
+        command.add(group, fileOption("-o, --output", "OUT", arguments.output, "Output file: .png; '-': to stdout."));
+    output.is_required = true;
     command.add(renderOptions(arguments.options));
     addReporting(command, arguments.json, arguments.quiet);
-    command.reads = Reads::models;
     command.run = [owned] {
         owned->options.file.importer = importerPath();
         return runRender(*owned);

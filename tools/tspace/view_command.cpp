@@ -89,13 +89,12 @@ Command viewCommand() {
         .examples = {"tspace view helmet.glb -o helmet.html"},
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("IN", arguments.input,
+    command.add(group, operand("IN", arguments.input, InputKind::model,
                                "A model: .glb, .vrm, .gltf or .obj. The files that it references are embedded."));
     command.add(group, htmlOutput("-o, --output", "OUT", arguments.output, "Output file: .html or .htm.")).is_required =
         true;
     command.add(inspectOptions(arguments.file));
     addReporting(command, arguments.json, arguments.quiet);
-    command.reads = Reads::models;
     command.run = [owned] { return runView(*owned); };
     return command;
 }

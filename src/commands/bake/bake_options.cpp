@@ -117,12 +117,6 @@ void addLayerOptions(OptionList& list, LayerOptions& layers, BakeIds& ids) {
                "component by position)."));
 }
 
-Option fileOption(const char* name, const char* value, std::string& target, const char* help) {
-    Option made = text(name, value, target, help);
-    made.is_file = true;
-    return made;
-}
-
 void addRayOptions(OptionList& list, double& reach, RayOptions& rays, std::string& cage, std::string& skew) {
     const char* group = "Rays";
     add(list, group,
@@ -152,12 +146,14 @@ void addRayOptions(OptionList& list, double& reach, RayOptions& rays, std::strin
                      "auto: twice the float spacing at the largest coordinate of the mesh."));
     Option painted = fileOption("--skew", "IMAGE", skew,
                                 "Skew map, used instead of --directions: an image in the UVs of the low poly. Rays are "
-                                "averaged where it is black and follow the face normals where it is white.");
+                                "averaged where it is black and follow the face normals where it is white.",
+                                InputKind::image);
     painted.excludes = {"--directions"};
     add(list, group, std::move(painted));
     Option own = fileOption("--cage", "MODEL", cage,
                             "Cage mesh: the low poly with its vertices moved outward, in the same vertex order. Rays "
-                            "run from the cage through the low poly to the first front face.");
+                            "run from the cage through the low poly to the first front face.",
+                            InputKind::model);
     own.excludes = {"--rays", "--directions", "--cage-offset", "--skew"};
     add(list, group, std::move(own));
 }

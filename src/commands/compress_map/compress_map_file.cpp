@@ -255,18 +255,18 @@ Option factorOption(double& factor) {
 }
 
 void addRoughness(OptionList& list, CompressMapFileOptions& options) {
-    Option texture =
-        text("--roughness", "IMAGE", options.roughness,
-             "A glTF texture of occlusion, roughness and metalness. Its mip levels are made rougher according to the "
-             "spread of the normals within each texel, so that distant surfaces do not sparkle. Its width and height "
-             "are those of the normal map, or larger or smaller by a power of two.");
-    texture.is_file = true;
+    Option texture = fileOption(
+        "--roughness", "IMAGE", options.roughness,
+        "A glTF texture of occlusion, roughness and metalness. Its mip levels are made rougher according to the "
+        "spread of the normals within each texel, so that distant surfaces do not sparkle. Its width and height "
+        "are those of the normal map, or larger or smaller by a power of two.",
+        InputKind::image);
     texture.needs = "--roughness-output";
     add(list, "Roughness", texture);
-    Option output = text("-o2, --roughness-output", "OUT", options.roughness_output,
-                         "Output file of the roughness texture: .ktx2, .dds, .png (first mip level only), or a folder "
-                         "of PNGs (a name that ends in /).");
-    output.is_file = true;
+    Option output =
+        fileOption("-o2, --roughness-output", "OUT", options.roughness_output,
+                   "Output file of the roughness texture: .ktx2, .dds, .png (first mip level only), or a folder "
+                   "of PNGs (a name that ends in /).");
     output.needs = "--roughness";
     add(list, "Roughness", output);
     add(list, "Roughness", factorOption(options.roughness_factor));

@@ -363,14 +363,14 @@ constexpr Named<unsigned> kBitCounts[] = {{"8", 8}, {"16", 16}, {"32", 32}};
 OptionList convertMapOptions(ConvertMapFileOptions& options) {
     OptionList list;
     add(list, kInputAndOutput,
-        text("--mesh", "FILE", options.mesh,
-             "The model that the map was made for. Its tangents are used; missing ones are computed."))
-        .is_file = true;
+        fileOption("--mesh", "FILE", options.mesh,
+                   "The model that the map was made for. Its tangents are used; missing ones are computed.",
+                   InputKind::model));
     add(list, kInputAndOutput,
-        text("--to-mesh", "FILE", options.to_mesh,
-             "The model that will show the map: same surface and UVs, other tangents, normals, splits or "
-             "triangulation. Default: the model of --mesh."))
-        .is_file = true;
+        fileOption("--to-mesh", "FILE", options.to_mesh,
+                   "The model that will show the map: same surface and UVs, other tangents, normals, splits or "
+                   "triangulation. Default: the model of --mesh.",
+                   InputKind::model));
     addMaterialOfMap(list, options.material);
     add(list, kInputAndOutput,
         number("--tile", options.tile, 9999,

@@ -38,11 +38,11 @@ constexpr std::string_view kBakes[] = {"--match",
 
 OptionList finishOptions(FinishOptions& options) {
     OptionList list;
-    Option low = text("--low", "LOW", options.low,
-                      "Low-poly model with UVs, aligned with IN. It is repaired in the same way, all maps are baked "
-                      "onto it from IN, and OUT is the low poly with its maps.");
-    low.is_file = true;
-    add(list, kInputAndOutput, std::move(low));
+    add(list, kInputAndOutput,
+        fileOption("--low", "LOW", options.low,
+                   "Low-poly model with UVs, aligned with IN. It is repaired in the same way, all maps are baked "
+                   "onto it from IN, and OUT is the low poly with its maps.",
+                   InputKind::model));
     addAllowExternal(list, options.file);
     addKeepCoordinates(list, options.file);
     add(list, "Normals",

@@ -163,10 +163,11 @@ OptionList heightToNormalOptions(HeightToNormalFileOptions& options) {
     texel_size.default_text = std::to_string(1);
     add(list, "Map", texel_size);
     add(list, kInputAndOutput,
-        text("--mesh", "FILE", options.mesh,
-             "The model that shows the map. Slopes are then measured on its surface, independent of the image size and "
-             "of the UVs, and the normals are written in its tangent frames; missing tangents are computed."))
-        .is_file = true;
+        fileOption(
+            "--mesh", "FILE", options.mesh,
+            "The model that shows the map. Slopes are then measured on its surface, independent of the image size and "
+            "of the UVs, and the normals are written in its tangent frames; missing tangents are computed.",
+            InputKind::model));
     addMaterialOfMap(list, options.material);
     add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything except writing the output."));
     addAllowExternal(list, options.file);

@@ -170,6 +170,13 @@ Option text(const char* names, const char* value_name, std::string& target, Help
     return option(names, value_name, take, std::move(help));
 }
 
+Option fileOption(const char* names, const char* value_name, std::string& target, HelpText help, InputKind reads) {
+    Option made = text(names, value_name, target, std::move(help));
+    made.is_file = true;
+    made.reads = reads;
+    return made;
+}
+
 Option htmlOutput(const char* names, const char* value_name, std::string& target, HelpText help) {
     const auto take = [&target](const std::string& given) -> std::string {
         const std::string extension = lowerExtension(given);

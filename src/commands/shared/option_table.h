@@ -25,6 +25,9 @@ struct HelpText {
 using HelpText = std::string;
 #endif
 
+/// Kind of the files that an option or operand names, as far as their extensions show it.
+enum class InputKind { any, model, image, text };
+
 /// An option, or an operand of a command line (a word without an option name, such as an input file).
 struct Option {
     std::vector<std::string> names = {};  ///< {"-o", "--output"}; empty: an operand
@@ -37,6 +40,7 @@ struct Option {
     std::string group = {};                 ///< heading of the help under which the option is listed
     std::vector<std::string> choices = {};  ///< allowed values; empty: all values that `take` accepts
     bool is_file = false;                   ///< the value is a path; used by completions
+    InputKind reads = InputKind::any;       ///< inputs of other kinds are rejected by their names
     bool is_required = false;
     bool is_repeatable = false;
     bool is_list = false;                    ///< the value is a comma-separated list of choices
@@ -107,6 +111,9 @@ Option degreesOption(const char* names, double default_value, int most, std::fun
                      HelpText help);
 
 Option text(const char* names, const char* value_name, std::string& target, HelpText help);
+/// Makes an option for the name of a file: an output, or an input of the kind `reads`.
+Option fileOption(const char* names, const char* value_name, std::string& target, HelpText help,
+                  InputKind reads = InputKind::any);
 /// Makes an option for the name of an HTML output: it ends in .html or .htm, or has no extension (a pipe or a device).
 Option htmlOutput(const char* names, const char* value_name, std::string& target, HelpText help);
 /// Makes an option for an integer from 0 to `most`. The default is the value of `target`.
