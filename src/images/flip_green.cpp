@@ -10,10 +10,8 @@
 
 namespace tspace {
 
-namespace {
-
-ImageFileFormat fileFormat(ImageFormat format) {
-    switch (format) {
+ImageFileFormat fileFormat(ImageFormat input) {
+    switch (input) {
         case ImageFormat::png:
             return ImageFileFormat::png;
         case ImageFormat::jpeg:
@@ -28,6 +26,8 @@ ImageFileFormat fileFormat(ImageFormat format) {
             return ImageFileFormat::sameAsInput;
     }
 }
+
+namespace {
 
 /// Determines the format by content. Fails for formats that this build cannot read.
 Result<ImageFileFormat> readableFormat(ByteSpan bytes) {

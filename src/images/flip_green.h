@@ -13,6 +13,9 @@ std::uint64_t flipWorkBytes(ByteSpan bytes);
 /// time that flipping takes. 0 for other formats, which are decoded completely in memory.
 std::uint64_t flipUnpackedBytes(ByteSpan bytes);
 
+/// Returns the format that flipping writes by default; sameAsInput for inputs that it can only write as PNG, or not at all.
+ImageFileFormat fileFormat(ImageFormat input);
+
 /// Like flipGreen, without the memory check. Uses format and jpeg_quality of `options`.
 Result<FlippedImage> flipImage(ByteSpan bytes, const FlipGreenOptions& options);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // flipGreen and flipGreenFile: memory limits, and files. Also their report as JSON.
 #include <algorithm>
+#include <string_view>
+#include <vector>
 
 #include "commands/flip_green/flip_green_report.h"
 #include "commands/flip_green/texture_png.h"
@@ -45,35 +47,27 @@ FlippedImage flip(ByteSpan bytes, const FlipGreenOptions& options) {
     return valueOrThrow(flipImage(bytes, options));
 }
 
-/// Returns the format according to the extension of the output's name.
-ImageFileFormat namedFormat(const std::string& output) {
-    const std::string extension = lowerExtension(output);
-    if (extension == ".png") return ImageFileFormat::png;
-    if (extension == ".jpg" || extension == ".jpeg") return ImageFileFormat::jpeg;
-    if (extension == ".webp") return ImageFileFormat::webp;
-    if (extension == ".ktx2") return ImageFileFormat::ktx2;
-    if (extension == ".dds") return ImageFileFormat::dds;
-    failEnding(output, {".png", ".jpg", ".jpeg", ".webp", ".ktx2", ".dds"});
-}
+struct Extension {
+    std::string_view name;
+    ImageFileFormat format;
+};
+/// Extensions of outputs, each with its format. PNG is last in lists of formats that keep all data.
+constexpr Extension kExtensions[] = {{".jpg", ImageFileFormat::jpeg},  {".jpeg", ImageFileFormat::jpeg},
+                                     {".webp", ImageFileFormat::webp}, {".ktx2", ImageFileFormat::ktx2},
+                                     {".dds", ImageFileFormat::dds},   {".png", ImageFileFormat::png}};
 
-/// Throws a FileError if the name of the output asks for a format that is neither that of the input nor PNG: it would lose
-/// data.
-void requireLosslessName(const std::string& output, ImageFileFormat named, ByteSpan input) {
-    if (named == ImageFileFormat::png) return;
-    switch (imageFormat(input)) {
-        case ImageFormat::png:
-            failEnding(output, {".png"});
-        case ImageFormat::jpeg:
-            return requireEnding(output, {".jpg", ".jpeg", ".png"});
-        case ImageFormat::webp:
-            return requireEnding(output, {".webp", ".png"});
-        case ImageFormat::ktx2:
-            return requireEnding(output, {".ktx2", ".png"});
-        case ImageFormat::dds:
-            return requireEnding(output, {".dds", ".png"});
-        default:
-            return;  // flip() states what cannot be read
+/// Returns the format according to the extension of the output's name. Throws a FileError for an unknown extension, and
+/// for a format that is neither PNG nor `input`, which would lose data. `input`: sameAsInput allows all formats.
+ImageFileFormat namedFormat(const std::string& output, ImageFileFormat input) {
+    const std::string extension = lowerExtension(output);
+    std::vector<std::string_view> allowed;
+    for (const Extension& candidate : kExtensions) {
+        const bool is_lossless = candidate.format == input || candidate.format == ImageFileFormat::png;
+        if (input != ImageFileFormat::sameAsInput && !is_lossless) continue;
+        if (candidate.name == extension) return candidate.format;
+        allowed.push_back(candidate.name);
     }
+    failEnding(output, allowed);
 }
 
 }  // namespace
@@ -87,14 +81,14 @@ Result<FlipGreenReport> flipGreenFile(const std::string& input, const std::strin
     return atFileBorder([&]() -> Result<FlipGreenReport> {
         FlipGreenOptions chosen = options;
         const bool is_named = chosen.format == ImageFileFormat::sameAsInput && !options.sink;
-        if (is_named) chosen.format = namedFormat(output);
+        if (is_named) chosen.format = namedFormat(output, ImageFileFormat::sameAsInput);
         Bytes read;
         if (options.content.data() == nullptr) {
             recordInput(input);
             read = readFile(input);
         }
         const ByteSpan image = options.content.data() != nullptr ? options.content : ByteSpan(read);
-        if (is_named) requireLosslessName(output, chosen.format, image);
+        if (is_named) namedFormat(output, fileFormat(imageFormat(image)));
         FlippedImage flipped = flip(image, chosen);
         AtomicOutput files({.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.sync});
         files.add(output, std::span<const std::uint8_t>(flipped.bytes));

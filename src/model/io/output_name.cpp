@@ -8,11 +8,11 @@
 
 namespace tspace {
 
-void failEnding(const Path& output, std::initializer_list<std::string_view> endings) {
+void failEnding(const Path& output, const std::vector<std::string_view>& endings) {
     std::string message = "the output " + pathInQuotes(output) + " must end in ";
-    for (const std::string_view* ending = endings.begin(); ending != endings.end(); ++ending) {
-        if (ending != endings.begin()) message += ending + 1 == endings.end() ? " or " : ", ";
-        message += *ending;
+    for (std::size_t i = 0; i < endings.size(); ++i) {
+        if (i != 0) message += i + 1 == endings.size() ? " or " : ", ";
+        message += endings[i];
     }
     failFile(ErrorCode::invalidOption, message);
 }
