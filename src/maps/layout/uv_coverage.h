@@ -63,14 +63,12 @@ class TexelMask {
     [[nodiscard]] bool meets(const TexelMask& other) const;
     /// Returns the number of texels of the mask in a rectangle, which must lie inside the image.
     [[nodiscard]] std::uint64_t count(const TexelRect& rect) const;
-    /// Return the range of rows that may contain texels.
-    [[nodiscard]] std::uint32_t firstRow() const { return first_row_; }
-    [[nodiscard]] std::uint32_t endRow() const { return end_row_; }
 
   private:
     std::uint32_t width_ = 0, height_ = 0;
     std::size_t row_words_ = 0;
-    std::uint32_t first_row_ = 0, end_row_ = 0, whole_count_ = 0;
+    std::uint32_t first_row_ = 0, end_row_ = 0;  ///< range of rows that may contain texels
+    std::uint32_t whole_count_ = 0;
     std::vector<std::uint64_t> words_ = {};
     std::vector<bool> is_whole_ = {};
 };

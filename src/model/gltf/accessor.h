@@ -46,9 +46,6 @@ struct Accessor {
     std::optional<SparsePart> sparse = {};
 
     [[nodiscard]] std::string place() const { return "/accessors/" + std::to_string(index); }
-    [[nodiscard]] bool isFloatVec(std::size_t components) const {
-        return component == ComponentType::f32 && component_count == components && !normalized && type[0] == 'V';
-    }
 };
 
 /// Reads and checks entry `index` of /accessors. Fails with invalidFile, or with unsupportedFile above kMaxCorners
