@@ -86,9 +86,11 @@ GenerateStep withAttributesRepaired() { return {.repairs_attributes = true}; }
 
 /// Reads the low poly and keeps the model, so that it can be written with its maps. The bake uses the frames that will
 /// be written.
-DrawnScene readToWrite(const std::string& low, const BakeFileOptions& options, BakeModels& models) {
-    gltf::GeneratedModel made = generateModel(low, allFrames(options, ExistingTangents::keep, Faces::triangles), true,
-                                              withAttributesRepaired());
+DrawnScene readToWrite(const std::string& low, const BakeFileOptions& options, ModelFile* source, BakeModels& models) {
+    const GenerateOptions generate = allFrames(options, ExistingTangents::keep, Faces::triangles);
+    const GenerateStep step = withAttributesRepaired();
+    gltf::GeneratedModel made = source != nullptr ? generateModel(std::move(*source), low, generate, true, step)
+                                                  : generateModel(low, generate, true, step);
     models.low.frames_made =
         std::any_of(made.report.primitives.begin(), made.report.primitives.end(),
                     [](const PrimitiveReport& primitive) { return primitive.action == PrimitiveAction::generated; });
@@ -97,26 +99,23 @@ DrawnScene readToWrite(const std::string& low, const BakeFileOptions& options, B
     return models.low_model->drawnScene(false);
 }
 
-/// Reads an OBJ file and computes its tangents, which OBJ cannot store; the reader computes missing normals.
-DrawnScene readObjWithFrames(const std::string& low, const GenerateOptions& generate, bool& frames_made) {
-    DrawnScene drawn = readDrawnScene(low, generate.file, false);
-    frames_made = std::any_of(drawn.scene.primitives.begin(), drawn.scene.primitives.end(),
-                              [](const ScenePrimitive& primitive) { return !primitive.corners.empty(); });
-    if (!frames_made) return drawn;
-    drawn = {};
-    return generateModel(low, generate, false).model.drawnScene(false);
+/// Returns whether a model lacks frames. OBJ has no tangents, and the reader computes missing normals.
+bool lacksFrames(ModelFile& model) {
+    if (!model.isObj()) return lacksFrames(model.gltf());
+    const DrawnScene drawn = model.drawnScene(false);
+    return std::any_of(drawn.scene.primitives.begin(), drawn.scene.primitives.end(),
+                       [](const ScenePrimitive& primitive) { return !primitive.corners.empty(); });
 }
 
-DrawnScene readWithFrames(const std::string& low, const BakeFileOptions& options, BakeModels& models) {
-    if (!options.out_mesh.empty()) return readToWrite(low, options, models);
+DrawnScene readWithFrames(const std::string& low, const BakeFileOptions& options, ModelFile* source,
+                          BakeModels& models) {
+    if (!options.out_mesh.empty()) return readToWrite(low, options, source, models);
+    std::optional<ModelFile> read;
+    if (source == nullptr) source = &read.emplace(low, options.file, options.execution, options.progress);
+    models.low.frames_made = lacksFrames(*source);
+    if (!models.low.frames_made) return source->drawnScene(false);
     const GenerateOptions generate = allFrames(options, ExistingTangents::keep, Faces::triangles);
-    if (lowerExtension(low) == ".obj") return readObjWithFrames(low, generate, models.low.frames_made);
-    gltf::Document document = gltf::loadDocument(low, options.file, options.execution, options.progress);
-    gltf::checkRequiredExtensions(document);
-    gltf::Model model(std::move(document));
-    models.low.frames_made = lacksFrames(model);
-    if (!models.low.frames_made) return model.drawnScene(false);
-    return gltf::generateModel(std::move(model), generate, false, withAttributesRepaired()).model.drawnScene(false);
+    return generateModel(std::move(*source), low, generate, false, withAttributesRepaired()).model.drawnScene(false);
 }
 
 /// Returns the transform of the first placement of a primitive in the scene.
@@ -432,34 +431,13 @@ FloatImage readFloatImage(const std::string& path, const FileOptions& options, I
     return readMapImage(path, {}, options, use);
 }
 
-namespace {
-
-/// Name and options for opening a model. A model in memory is a GLB, whatever its extension is.
-struct OpenedModel {
-    OpenedModel(const std::string& path, ByteSpan bytes, const FileOptions& options) : name(path), file(options) {
-        if (bytes.empty()) return;
-        if (!isGlbName(path)) name += ".glb";
-        file.content = bytes;
-    }
-
-    std::string name;
-    FileOptions file;
-};
-
-}  // namespace
-
-BakeModels readBakeModels(const std::string& low_path, const std::string& high_path, const BakeFileOptions& options,
+BakeModels readBakeModels(const std::string& low, const std::string& high, const BakeFileOptions& options,
                           const BakeSources& sources) {
     BakeModels models;
-    const OpenedModel low(low_path, sources.low, options.file), high(high_path, sources.high, options.file);
     const auto reportProgress = [&] {
         if (options.progress) options.progress("reading", 0, 1);
     };
-    DrawnScene low_scene = tagInput(BakeInput::low, [&] {
-        BakeFileOptions of_low = options;
-        of_low.file = low.file;
-        return readWithFrames(low.name, of_low, models);
-    });
+    DrawnScene low_scene = tagInput(BakeInput::low, [&] { return readWithFrames(low, options, sources.low, models); });
     const bool frames_made = models.low.frames_made;
     const std::vector<std::string> warnings = std::move(models.low.warnings);
     DrawnScene cage_scene;
@@ -472,8 +450,10 @@ BakeModels readBakeModels(const std::string& low_path, const std::string& high_p
     }
     reportProgress();
     DrawnScene high_scene = tagInput(BakeInput::high, [&] {
-        return showsMaterials(options.layers) ? readMaterialScene(high.name, high.file, !options.ignore_high_maps)
-                                              : readDrawnScene(high.name, high.file, !options.ignore_high_maps);
+        std::optional<ModelFile> read;
+        ModelFile& model = sources.high != nullptr ? *sources.high : read.emplace(high, options.file);
+        return showsMaterials(options.layers) ? model.materialScene(!options.ignore_high_maps)
+                                              : model.drawnScene(!options.ignore_high_maps);
     });
     reportProgress();
     const DVec3 of_high = originOffset(high_scene);
@@ -488,7 +468,8 @@ BakeModels readBakeModels(const std::string& low_path, const std::string& high_p
     models.low.warnings.insert(models.low.warnings.begin(), warnings.begin(), warnings.end());
     models.low.origin = origin;
     reportProgress();
-    models.high = tagInput(BakeInput::high, [&] { return highModel(high_scene, used, high.name, options); });
+    const std::string high_name = sources.high != nullptr && !isGlbName(high) ? high + ".glb" : high;
+    models.high = tagInput(BakeInput::high, [&] { return highModel(high_scene, used, high_name, options); });
     if (showsMaterials(options.layers) || shows(options.layers, MapLayer::id))
         models.high_scene = std::move(high_scene);
     if (!options.skew.empty())

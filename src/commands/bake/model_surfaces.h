@@ -16,6 +16,7 @@
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
+#include "model/read/read_scene.h"
 #include "model/scene/scene.h"
 #include "tspace/bake_file.h"
 #include "tspace/maps.h"
@@ -107,7 +108,6 @@ struct LowModel {
     DVec3 origin = {};
 
     [[nodiscard]] std::size_t triangleCount() const;
-    [[nodiscard]] bool hasCage() const { return !images.empty() && !images.front().part.cage.empty(); }
 };
 
 /// Triangles of the high poly, starting at `first_triangle`, that belong to one placement in the scene.
@@ -168,9 +168,10 @@ const TangentUse* mapUse(const ScenePrimitive& primitive);
 /// Reads an image that is an input of the call, by readMapImage.
 FloatImage readFloatImage(const std::string& path, const FileOptions& options, ImageUse use = ImageUse::vectors);
 
-/// GLBs in memory that replace the files of a bake; the paths then only provide names. Empty: the file is read.
+/// Models that replace the files of a bake, whose paths then only provide names. Null: the file is read. The bake changes
+/// the models.
 struct BakeSources {
-    std::span<const std::uint8_t> low = {}, high = {};
+    ModelFile *low = nullptr, *high = nullptr;
 };
 
 /// Reads the models, computes missing frames of the low poly, and matches meshes by name. Throws FileError, whose

@@ -78,19 +78,10 @@ void finishFindings(CheckReport& report) {
 
 }  // namespace
 
-CheckedModel checkModel(const std::string& input, const CheckOptions& options) {
-    checkOptions(options);
-    if (isImageInput(input, options.file.content)) {
-        CheckReport report = checkImageFile(input, options);
-        finishFindings(report);
-        return {.report = std::move(report)};
-    }
-    const auto reportProgress = [&](const char* what, std::uint64_t done) {
-        if (options.progress) options.progress(what, done, 1);
+CheckedModel checkScene(const Scene& scene, const CheckOptions& options) {
+    const auto reportProgress = [&](const char* what) {
+        if (options.progress) options.progress(what, 0, 1);
     };
-    reportProgress("reading", 0);
-    const Scene scene = readScene(input, options.file, options.images);
-    reportProgress("reading", 1);
     CheckedModel checked;
     CheckReport& report = checked.report;
     report.format = scene.format;
@@ -98,9 +89,9 @@ CheckedModel checkModel(const std::string& input, const CheckOptions& options) {
     report.primitive_count = scene.primitives.size();
     std::vector<PrimitiveJudgement> judgements = judgePrimitives(scene, options);
     ImageFindings images;
-    reportProgress("checking normal maps", 0);
+    reportProgress("checking normal maps");
     if (options.images) images = checkImages(scene, options);
-    reportProgress("comparing primitives", 0);
+    reportProgress("comparing primitives");
     report.image_count = images.examined_count;
     report.green_count = images.green_known_count;
     applyImageVerdicts(scene, options, images, judgements);
@@ -128,6 +119,19 @@ CheckedModel checkModel(const std::string& input, const CheckOptions& options) {
     }
     finishFindings(report);
     return checked;
+}
+
+CheckedModel checkModel(const std::string& input, const CheckOptions& options) {
+    checkOptions(options);
+    if (isImageInput(input, options.file.content)) {
+        CheckReport report = checkImageFile(input, options);
+        finishFindings(report);
+        return {.report = std::move(report)};
+    }
+    if (options.progress) options.progress("reading", 0, 1);
+    const Scene scene = readScene(input, options.file, options.images);
+    if (options.progress) options.progress("reading", 1, 1);
+    return checkScene(scene, options);
 }
 
 Result<CheckReport> checkFile(const std::string& input, const CheckOptions& options) {

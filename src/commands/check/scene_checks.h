@@ -21,6 +21,8 @@ struct CheckedModel {
 
 /// checkFile as a step of another command. Throws FileError.
 CheckedModel checkModel(const std::string& input, const CheckOptions& options);
+/// Like checkModel, for a scene that was read with the images if `options` asks for them, and for valid options.
+CheckedModel checkScene(const Scene& scene, const CheckOptions& options);
 
 // Normal maps of a scene.
 

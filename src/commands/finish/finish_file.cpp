@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "commands/bake/bake_outputs.h"
@@ -17,19 +18,19 @@
 #include "commands/generate/generate_report.h"
 #include "commands/generate/generate_steps.h"
 #include "core/base/numbers.h"
+#include "model/gltf/container.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
+#include "model/io/named_files.h"
 #include "model/io/output_name.h"
+#include "model/read/read_scene.h"
 
 namespace tspace {
 namespace {
 
 /// Tools that create UVs, which tspace does not.
 constexpr const char* kUvMakers = "unwrapping tools can create UVs (Blender's Smart UV Project, xatlas, RizomUV)";
-
-/// Returns a name with the extension .glb, for bytes in GLB format.
-std::string glbName(const std::string& path) { return isGlbName(path) ? path : path + ".glb"; }
 
 /// Returns whether recomputed normals fix the finding. `was_turned`: triangles of the primitive were flipped after
 /// normals had been computed for the old winding.
@@ -51,19 +52,22 @@ bool asksForMorphNormals(const Finding& finding) {
     return finding.code == FindingCode::morphNormalsWrong && finding.severity == Severity::error;
 }
 
-/// Runs check on the bytes, or on the file if there are none.
-CheckedModel checked(const std::string& name, ByteSpan content, const FinishOptions& options) {
+CheckedModel runCheck(ModelFile& model, const FinishOptions& options) {
     CheckOptions check;
-    check.file = options.file;
-    check.file.content = content;
     check.images = options.images;
     check.weld_distance = options.weld_distance;
     check.execution = options.execution;
     check.progress = options.progress;
-    return checkModel(name, check);
+    return checkScene(model.scene(options.images), check);
 }
 
-/// A model during processing: a GLB in memory, and its report.
+/// Names of files that a GLB in memory references: none is read.
+NamedFiles noFiles(const std::string& path) {
+    static constexpr std::uint8_t kByte = 0;
+    return NamedFiles(path, {.content = {&kByte, 1}});
+}
+
+/// A model during processing, and its report.
 class ModelInWork {
   public:
     /// `output`: path of the result, which determines relative paths of referenced files.
@@ -74,43 +78,48 @@ class ModelInWork {
     }
 
     void finish() {
-        before_ = check(path_, {});
+        ModelFile file = read();
+        before_ = runCheck(file, options_);
         report_.before = before_.report;
+        if (!options_.page.empty()) views_ = viewsHtml(file, "before");
         GenerateOptions generate = generateOptions();
-        runFirst(generate, {});
+        runFirst(std::move(file), generate, {});
         if (std::vector<std::uint32_t> right = rightMeshes(); !right.empty()) {
             // All faces of an OBJ file form one surface.
             generate.mend_winding = !isObj();
-            runFirst(generate, {.wound_meshes = std::move(right)});
+            runFirst(read(), generate, {.wound_meshes = std::move(right)});
         }
         const gltf::RecomputedNormals wishes = wishesOf();
         if (!wishes.base.empty()) {
             GenerateOptions again = generate;
             again.mend_winding = false;
-            const Bytes before = std::move(bytes_);
-            take(run(glbName(path_), before, again, {.normals = wishes}), wishes);
-            check_ = check(glbName(path_), bytes_);
+            take(run(*std::move(model_), again, {.normals = wishes}), wishes);
+            check_ = runCheck(*model_, options_);
         }
         generate.mend_winding = true;  // otherwise check would suggest it, under the option name of another command
         warnOfWinding(generate, report_.made);
-        report_.made.output_files.clear();
+        writeGlb();
         report_.without_uvs_count = check_.without_uvs_count;
     }
 
+    /// Returns the model in the state of `bytes`.
+    [[nodiscard]] ModelFile& model() { return *model_; }
+    /// Returns pictures of the model before the changes; empty unless a page is written.
+    [[nodiscard]] const std::string& views() const { return views_; }
     [[nodiscard]] const Bytes& bytes() const { return bytes_; }
     [[nodiscard]] const CheckReport& checked() const { return check_.report; }
 
   private:
     [[nodiscard]] bool isObj() const { return lowerExtension(path_) == ".obj"; }
 
-    [[nodiscard]] FileOptions fileOf(ByteSpan content) const {
-        FileOptions file = options_.file;
-        file.content = content;
+    [[nodiscard]] ModelFile read() const {
+        const auto tell = [&](std::uint64_t done) {
+            if (options_.progress) options_.progress("reading", done, 1);
+        };
+        tell(0);
+        ModelFile file(path_, options_.file, options_.execution, options_.progress);
+        tell(1);
         return file;
-    }
-
-    [[nodiscard]] CheckedModel check(const std::string& name, ByteSpan content) const {
-        return tspace::checked(name, content, options_);
     }
 
     [[nodiscard]] GenerateOptions generateOptions() const {
@@ -130,9 +139,9 @@ class ModelInWork {
         return generate;
     }
 
-    void runFirst(const GenerateOptions& generate, const GenerateStep& step) {
-        report_.made = run(path_, {}, generate, step);
-        check_ = report_.made.changed ? check(glbName(path_), bytes_) : before_;
+    void runFirst(ModelFile&& file, const GenerateOptions& generate, const GenerateStep& step) {
+        report_.made = run(std::move(file), generate, step);
+        check_ = report_.made.changed ? runCheck(*model_, options_) : before_;
     }
 
     /// Returns meshes whose normals fit their triangles less well after flipping. Recomputed normals fit in either
@@ -181,15 +190,48 @@ class ModelInWork {
         return count;
     }
 
-    /// Processes the file, or the bytes, and stores the result in `bytes_`.
-    GenerateReport run(const std::string& name, ByteSpan content, GenerateOptions generate, const GenerateStep& step) {
-        bytes_.clear();
-        generate.file = fileOf(content);
-        generate.sink = [this](ByteSpan bytes) {
+    /// Processes a model, and stores the result in `model_`.
+    GenerateReport run(ModelFile&& model, GenerateOptions generate, GenerateStep step) {
+        generate.file = options_.file;
+        step.output = output_;
+        gltf::GeneratedModel made = generateModel(std::move(model), path_, generate, true, step);
+        tspace::addWarnings(generate, {}, true, made.report);
+        gltf::Document& document = made.model.document();
+        made.report.input_files = {path_};
+        made.report.input_files.insert(made.report.input_files.end(), document.input_files.begin(),
+                                       document.input_files.end());
+        document.files = noFiles(path_);
+        model_.emplace(std::move(made.model));
+        return std::move(made.report);
+    }
+
+    /// Writes the model to `bytes_`.
+    void writeGlb() {
+        gltf::Document& document = model_->gltf().document();
+        gltf::OutputTarget target = gltf::outputTarget(document, output_, true);
+        target.same_folder = isObj();  // its images are embedded, or in the folder of the output
+        AtomicOutput files({.sink = [this](ByteSpan bytes) {
             bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
             return true;
-        };
-        return valueOrThrow(generateStep(name, output_, generate, step));
+        }});
+        std::vector<std::string> warnings;
+        if (report_.made.changed) {
+            gltf::writeDocument(document, target, files, warnings, options_.execution);
+        } else {
+            gltf::writeUnchanged(document, target, files, warnings);
+        }
+        files.commit();
+        addWarnings(std::move(warnings));
+        report_.made.output_bytes = bytes_.size();
+    }
+
+    /// Adds warnings that the report does not contain.
+    void addWarnings(std::vector<std::string>&& more) {
+        std::vector<std::string>& warnings = report_.made.warnings;
+        for (std::string& warning : more) {
+            if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
+                warnings.push_back(std::move(warning));
+        }
     }
 
     /// Returns the normals to recompute after fixing the winding.
@@ -217,11 +259,7 @@ class ModelInWork {
     void take(GenerateReport&& second, const gltf::RecomputedNormals& wishes) {
         GenerateReport& made = report_.made;
         made.changed = made.changed || second.changed;
-        made.output_bytes = second.output_bytes;
-        for (std::string& warning : second.warnings) {
-            if (std::find(made.warnings.begin(), made.warnings.end(), warning) == made.warnings.end())
-                made.warnings.push_back(std::move(warning));
-        }
+        addWarnings(std::move(second.warnings));
         for (std::size_t i = 0; i < made.primitives.size() && i < second.primitives.size(); ++i) {
             if (!wishes.base[i] && !wishes.morphs[i]) continue;
             PrimitiveReport& now = second.primitives[i];
@@ -238,9 +276,11 @@ class ModelInWork {
     bool is_low_;
     const FinishOptions& options_;
     FinishedModel& report_;
+    std::string views_ = {};
+    std::optional<ModelFile> model_ = {};  ///< after the last run of generate
     Bytes bytes_ = {};
     CheckedModel before_ = {};  ///< result of check on the file
-    CheckedModel check_ = {};   ///< result of check on the bytes, or on the file if generate changed nothing
+    CheckedModel check_ = {};   ///< result of check on `model_`, or on the file if generate changed nothing
 };
 
 BakeNames namesOf(const std::string& output) {
@@ -258,21 +298,27 @@ class Finishing {
         ModelInWork model(input, output, false, options_, report_.model);
         if (options_.low.empty()) {
             tagInput(BakeInput::high, [&] { return model.finish(), true; });
+            views_.model = model.views();
             addRemarks(report_.model);
             report_.check = model.checked();
-            write(output, model.bytes());
+            write(output, model.bytes(), model.model());
             return std::move(report_);
         }
         ModelInWork low(options_.low, output, true, options_, report_.low.emplace());
         tagInput(BakeInput::low, [&] { return low.finish(), true; });
         checkLow();
         tagInput(BakeInput::high, [&] { return model.finish(), true; });
+        views_.model = model.views();
         noteNoise();
-        const Bytes baked = bake(input, output, low.bytes(), model.bytes());
+        views_.low = low.views();
+        const Bytes baked = bake(input, output, low.model(), model.model());
         if (report_.bake->output_files.empty()) return std::move(report_);
-        report_.check = checked(output, baked, options_).report;
+        FileOptions content = options_.file;
+        content.content = baked;
+        ModelFile result(output, content);
+        report_.check = runCheck(result, options_).report;
         addRemarks(*report_.low);
-        write(output, baked);
+        write(output, baked, result);
         return std::move(report_);
     }
 
@@ -313,7 +359,7 @@ class Finishing {
     }
 
     /// Returns the model with its maps; the map files are added to the outputs.
-    Bytes bake(const std::string& input, const std::string& output, ByteSpan low, ByteSpan high) {
+    Bytes bake(const std::string& input, const std::string& output, ModelFile& low, ModelFile& high) {
         BakeFileOptions bake = options_.bake;
         bake.map.rays.weld_distance = options_.weld_distance;
         bake.out_mesh = output;
@@ -326,7 +372,7 @@ class Finishing {
             return true;
         }});
         const BakeNames names = namesOf(output);
-        const BakeStep step{.sources = {.low = low, .high = high},
+        const BakeStep step{.sources = {.low = &low, .high = &high},
                             .layers_output = names.layers_output,
                             .notes_noise = false,
                             .inputs = inputs_,
@@ -336,17 +382,19 @@ class Finishing {
         return bytes;
     }
 
-    void write(const std::string& output, ByteSpan bytes) {
+    /// `model`: that of `bytes`.
+    void write(const std::string& output, ByteSpan bytes, ModelFile& model) {
         report_.output_bytes = bytes.size();
         files_.add(output, bytes);
         if (!options_.page.empty()) {
+            views_.now = viewsHtml(model, "finished");
             const std::string html =
-                finishPage(report_, output, bytes, options_.file, {options_.page_date, options_.page_command});
+                finishPage(report_, views_, output, bytes, options_.file, {options_.page_date, options_.page_command});
             files_.add(options_.page, std::span(reinterpret_cast<const std::uint8_t*>(html.data()), html.size()));
         }
         report_.output_files = files_.files();
-        const auto model = std::find(report_.output_files.begin(), report_.output_files.end(), output);
-        if (model != report_.output_files.end()) std::rotate(report_.output_files.begin(), model, model + 1);
+        const auto own = std::find(report_.output_files.begin(), report_.output_files.end(), output);
+        if (own != report_.output_files.end()) std::rotate(report_.output_files.begin(), own, own + 1);
         files_.commit();
     }
 
@@ -354,6 +402,7 @@ class Finishing {
     InputFiles inputs_ = {};
     AtomicOutput files_{{.sync = options_.file.sync, .inputs = &inputs_}};
     FinishReport report_ = {};
+    FinishViews views_ = {};
 };
 
 }  // namespace

@@ -24,11 +24,12 @@ bool isBlank(const RgbImage& image) {
     return true;
 }
 
-/// Returns pictures of a model from both sides, lit and in the colors of the shaded normals.
-std::string viewsHtml(const std::string& path, const FileOptions& file, const std::string& caption) {
+}  // namespace
+
+std::string viewsHtml(ModelFile& model, const std::string& caption) {
     std::string figures;
     const std::optional<Error> failure = tryFile([&] {
-        const DrawnScene drawn = readDrawnScene(path, file, true);
+        const DrawnScene drawn = model.drawnScene(true);
         ModelTextures textures(drawn.scene, RenderOptions{}.most_pixels);
         const auto add = [&](RenderShow show, double yaw_deg, const std::string& words) {
             RenderOptions options;
@@ -36,12 +37,12 @@ std::string viewsHtml(const std::string& path, const FileOptions& file, const st
             options.width = kViewWidth;
             options.height = kViewHeight;
             options.yaw_deg = yaw_deg;
-            const ModelPicture model(drawn, show, {}, {}, &textures);
-            const Legend legend = model.legend();
+            const ModelPicture picture(drawn, show, {}, {}, &textures);
+            const Legend legend = picture.legend();
             const std::uint32_t rows = legendRows(legend, options.width, options.height);
             options.legend = false;
             options.height -= rows;
-            RgbImage image = drawModel(model, options).image;
+            RgbImage image = drawModel(picture, options).image;
             if (isBlank(image)) {
                 figures += noFigureHtml(caption + ", " + words + ": nothing is visible from this side.");
                 return;
@@ -57,6 +58,8 @@ std::string viewsHtml(const std::string& path, const FileOptions& file, const st
     return figuresHtml(figures);
 }
 
+namespace {
+
 std::string countsRow(const std::string& what, const CheckReport& check) {
     std::string row = "<tr><td>" + htmlText(what) + "</td>";
     for (const std::uint64_t count : {check.error_count, check.warning_count, check.note_count})
@@ -71,9 +74,8 @@ std::string listHtml(const std::vector<std::string>& sentences) {
     return html + "</ul>\n";
 }
 
-std::string beforeHtml(const FinishedModel& model, const FileOptions& file) {
-    return "<h2>" + htmlText(model.path) + "</h2>\n" + listHtml(report::doneTo(model)) +
-           viewsHtml(model.path, file, "before");
+std::string beforeHtml(const FinishedModel& model, const std::string& views) {
+    return "<h2>" + htmlText(model.path) + "</h2>\n" + listHtml(report::doneTo(model)) + views;
 }
 
 std::string mapsHtml(const BakeFileReport& bake) {
@@ -99,8 +101,8 @@ std::string mapsHtml(const BakeFileReport& bake) {
 
 }  // namespace
 
-std::string finishPage(const FinishReport& report, const std::string& output_path, std::span<const std::uint8_t> output,
-                       const FileOptions& file, const PageOrigin& origin) {
+std::string finishPage(const FinishReport& report, const FinishViews& views, const std::string& output_path,
+                       std::span<const std::uint8_t> output, const FileOptions& file, const PageOrigin& origin) {
     FileOptions finished = file;
     finished.content = output;
     std::string html = pageHead("tspace finish");
@@ -115,9 +117,9 @@ std::string finishPage(const FinishReport& report, const std::string& output_pat
     html += countsRow(output_path, report.check) + "</tbody></table></div>\n";
     html += listHtml(report.remarks);
     if (report.bake) html += listHtml(report.bake->findings) + listHtml(report.bake->warnings);
-    html += beforeHtml(report.model, file);
-    if (report.low) html += beforeHtml(*report.low, file);
-    html += "<h2>Now</h2>\n" + viewsHtml(output_path, finished, "finished");
+    html += beforeHtml(report.model, views.model);
+    if (report.low) html += beforeHtml(*report.low, views.low);
+    html += "<h2>Now</h2>\n" + views.now;
     if (report.bake) html += mapsHtml(*report.bake);
     report::CheckOutcome outcome{.input = output_path};
     outcome.result = report.check;

@@ -9,15 +9,24 @@
 
 #include "commands/pages/page_parts.h"
 #include "commands/shared/report.h"
+#include "model/read/read_scene.h"
 #include "tspace/bake_file.h"
 
 namespace tspace {
 
+/// Returns pictures of a model from both sides, lit and in the colors of the shaded normals.
+std::string viewsHtml(ModelFile& model, const std::string& caption);
+
+/// Sections of a page with pictures of models.
+struct FinishViews {
+    std::string model = {}, low = {};  ///< as in the files; `low`: empty without a low poly
+    std::string now = {};
+};
+
 /// Returns a self-contained HTML page: pictures before and after, the changes, and the findings of check on the output.
-/// `output`: its bytes; pictures of the original models are drawn from their files, which are read again. Throws
-/// FileError.
-std::string finishPage(const FinishReport& report, const std::string& output_path, std::span<const std::uint8_t> output,
-                       const FileOptions& file, const PageOrigin& origin);
+/// `output`: its bytes. Throws FileError.
+std::string finishPage(const FinishReport& report, const FinishViews& views, const std::string& output_path,
+                       std::span<const std::uint8_t> output, const FileOptions& file, const PageOrigin& origin);
 
 /// Returns the files that finishFile() writes, without the page, for a comparison with `others` as in outputsToCompare().
 std::vector<std::string> finishOutputs(const std::vector<std::string>& others, const std::string& output,

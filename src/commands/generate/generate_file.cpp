@@ -75,12 +75,18 @@ Result<GenerateReport> generateStep(const std::string& input, const std::string&
     return generateAny(input, output, options, &step);
 }
 
+gltf::GeneratedModel generateModel(ModelFile&& input, const std::string& path, const GenerateOptions& options,
+                                   bool with_images, const GenerateStep& step) {
+    checkOptions(path, options);
+    if (input.isObj()) return generateObjModel(std::move(input.obj()), path, options, step);
+    return gltf::generateModel(std::move(input.gltf()), options, with_images, step);
+}
+
 gltf::GeneratedModel generateModel(const std::string& input, const GenerateOptions& options, bool with_images,
                                    const GenerateStep& step) {
     checkOptions(input, options);
-    if (isObj(input)) return generateObjModel(input, options);
-    gltf::Model model(gltf::loadDocument(input, options.file, options.execution, options.progress));
-    return gltf::generateModel(std::move(model), options, with_images, step);
+    return generateModel(ModelFile(input, options.file, options.execution, options.progress), input, options,
+                         with_images, step);
 }
 
 }  // namespace tspace

@@ -8,6 +8,7 @@
 
 #include "commands/generate/generate_plan.h"
 #include "model/gltf/model.h"
+#include "model/read/read_scene.h"
 #include "tspace/generate.h"
 #include "tspace/result.h"
 
@@ -20,6 +21,9 @@ struct GenerateStep {
     std::vector<std::uint32_t> wound_meshes = {};
     /// Repairs attributes with a wrong type or element count; otherwise generate repairs them only with some options.
     bool repairs_attributes = false;
+    /// Path to which the model will be written: a GLB in the folder of an OBJ references its images instead of embedding
+    /// them.
+    std::string output = "model.glb";
 };
 
 }  // namespace tspace
@@ -46,7 +50,9 @@ Result<GenerateReport> generateGltf(const std::string& input, const std::string&
 
 namespace tspace {
 
-/// Generates in memory like gltf::generateModel, from a model file of any format.
+/// Generates in memory like gltf::generateModel, from a model file of any format. `path`: that of the file.
+gltf::GeneratedModel generateModel(ModelFile&& input, const std::string& path, const GenerateOptions& options,
+                                   bool with_images, const GenerateStep& step);
 gltf::GeneratedModel generateModel(const std::string& input, const GenerateOptions& options, bool with_images,
                                    const GenerateStep& step = {});
 
@@ -57,7 +63,8 @@ Result<GenerateReport> generateStep(const std::string& input, const std::string&
 /// Implements generateFile for an OBJ input; `output` is a .glb or .gltf file.
 Result<GenerateReport> generateObj(const std::string& input, const std::string& output, const GenerateOptions& options,
                                    const GenerateStep* step);
-/// Implements generateModel for an OBJ input. Throws FileError.
-gltf::GeneratedModel generateObjModel(const std::string& input, const GenerateOptions& options);
+/// Implements generateModel for an OBJ input; `path`: that of the file. Throws FileError.
+gltf::GeneratedModel generateObjModel(obj::Model&& input, const std::string& path, const GenerateOptions& options,
+                                      const GenerateStep& step);
 
 }  // namespace tspace

@@ -249,15 +249,16 @@ struct ConvertedObj {
     OptionEffects effects = {};
 };
 
-/// Generates the document. Fills the report, except for the values that the writer adds.
-ConvertedObj generate(const std::string& input, const std::string& output, const GenerateOptions& options,
-                      GenerateReport& report) {
+void checkCompression(const GenerateOptions& options) {
     if (options.storage.compression == Compression::meshopt || options.storage.compression == Compression::draco) {
         failFile(ErrorCode::invalidOption,
                  "the output of an OBJ file cannot be compressed in the same run; compress the result in a second run");
     }
-    reportProgress(options, "reading", 0, 0);
-    Model model = readModel(input, options.file);
+}
+
+/// Generates the document. Fills the report, except for the values that the writer adds. `input`: path of the model.
+ConvertedObj generate(Model&& model, const std::string& input, const std::string& output,
+                      const GenerateOptions& options, GenerateReport& report) {
     reportProgress(options, "reading", 1, 1);
     std::vector<std::uint8_t> flipped;
     if (options.mend_winding) flipped = fixObjWinding(model, options, report);
@@ -313,7 +314,9 @@ GenerateReport generateToFile(const std::string& input, const std::string& outpu
     InputFiles inputs;
     GenerateOptions options = requested;
     inputs.watch(options.file);
-    ConvertedObj made = generate(input, output, options, report);
+    checkCompression(options);
+    reportProgress(options, "reading", 0, 0);
+    ConvertedObj made = generate(readModel(input, options.file), input, output, options, report);
     // All referenced files are in the destination folder, so none is copied.
     const gltf::OutputTarget target{.path = output, .container = made.document.container, .same_folder = true};
     gltf::writeGenerated(input, made.document, target, requested, made.effects, inputs, is_step, report);
@@ -328,9 +331,11 @@ Result<GenerateReport> generateObj(const std::string& input, const std::string& 
         [&]() -> Result<GenerateReport> { return generateToFile(input, output, options, step != nullptr); });
 }
 
-gltf::GeneratedModel generateObjModel(const std::string& input, const GenerateOptions& options) {
+gltf::GeneratedModel generateObjModel(obj::Model&& input, const std::string& path, const GenerateOptions& options,
+                                      const GenerateStep& step) {
+    checkCompression(options);
     GenerateReport report;
-    gltf::Model model(generate(input, "model.glb", options, report).document);
+    gltf::Model model(generate(std::move(input), path, step.output, options, report).document);
     model.reload();
     return {std::move(model), std::move(report)};
 }

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "commands/check/scene_checks.h"
 #include "commands/pages/check_page.h"
 #include "commands/pages/page_parts.h"
 #include "commands/render/model_picture.h"
@@ -29,45 +30,11 @@ namespace {
 
 constexpr std::string_view kPlaceOfModel = "<!-- model -->";
 
-struct EmbeddedFile {
-    std::string name;
-    Bytes bytes;
-};
-
-/// Returns the model, then each file that it references. Converting the model to GLB opens all of them.
-std::vector<EmbeddedFile> filesOf(const Path& input, const FileOptions& options, InputFiles& inputs) {
-    if (!isGltfName(input) && lowerExtension(input) != ".obj") {
-        failFile(
-            ErrorCode::unsupportedFile,
-            "the page supports .glb, .vrm, .gltf and .obj; convert the model first with tspace generate IN -o OUT.glb");
-    }
-    const std::string& path = input.string();
-    const fs::path folder = fs::path(folderOf(input)).lexically_normal();
-    std::mutex mutex;
-    std::set<std::string> named;
-    GenerateOptions ask;
-    ask.file = options;
-    inputs.watch(ask.file);
-    ask.file.opened = [&, told = ask.file.opened](const std::string& file) {
-        told(file);
-        const std::lock_guard lock(mutex);
-        if (file != path)
-            named.insert(Path(fs::path(Path(file)).lexically_normal().lexically_relative(folder)).string());
-    };
-    ask.file.named = {};  // `opened` receives them
-    ask.sink = [](std::span<const std::uint8_t>) { return true; };
-    valueOrThrow(generateFile(path, "view.glb", ask));
-    std::vector<EmbeddedFile> files;
-    files.push_back({path.substr(path.rfind('/') + 1), readFile(input)});
-    for (const std::string& name : named) files.push_back({name, readFile(folderOf(input) / name)});
-    return files;
-}
-
 /// Returns a lit picture from the front; empty if nothing can be drawn.
-std::string pictureHtml(const Path& input, const FileOptions& options) {
+std::string pictureHtml(ModelFile& model) {
     const RenderOptions render{.width = 480, .height = 360, .legend = false};
     try {
-        const PosedScene posed = readPosedScene(input.string(), options, true);
+        const PosedScene posed = model.posedScene(true);
         ModelTextures textures(posed.drawn.scene, render.most_pixels);
         const ModelPicture picture(posed.drawn, RenderShow::lit, {}, {}, &textures, posed.poses);
         if (picture.meshes().empty()) return {};
@@ -79,11 +46,47 @@ std::string pictureHtml(const Path& input, const FileOptions& options) {
 }
 
 /// Returns the content for readers that execute no script: mail, previews, text browsers.
-std::string stillHtml(const Path& input, const FileOptions& options, const PageOrigin& origin) {
-    const std::string name = fileNameOf(input.string());
-    return "<noscript><div class=\"still\">\n" + originHtml(origin) + pictureHtml(input, options) +
-           findingsHtml({.input = name, .result = checkFile(input.string(), {.file = options})}) +
+std::string stillHtml(const Path& input, ModelFile& model, const PageOrigin& origin) {
+    report::CheckOutcome outcome{.input = fileNameOf(input.string())};
+    // Arrays that cannot be read are a finding of the page.
+    outcome.result = atFileBorder([&]() -> Result<CheckReport> { return checkScene(model.scene(true), {}).report; });
+    return "<noscript><div class=\"still\">\n" + originHtml(origin) + pictureHtml(model) + findingsHtml(outcome) +
            "</div></noscript>\n";
+}
+
+/// A page in work.
+struct ViewedModel {
+    std::string still = {};            ///< content without scripts
+    std::set<std::string> files = {};  ///< files that the model references, relative to its folder
+};
+
+ViewedModel readViewed(const Path& input, const FileOptions& options, const PageOrigin& origin, InputFiles& inputs) {
+    if (!isGltfName(input) && lowerExtension(input) != ".obj") {
+        failFile(
+            ErrorCode::unsupportedFile,
+            "the page supports .glb, .vrm, .gltf and .obj; convert the model first with tspace generate IN -o OUT.glb");
+    }
+    const fs::path folder = fs::path(folderOf(input)).lexically_normal();
+    ViewedModel viewed;
+    std::mutex mutex;
+    FileOptions watched = options;
+    inputs.watch(watched);
+    watched.opened = [&, told = watched.opened](const std::string& file) {
+        told(file);
+        const std::lock_guard lock(mutex);
+        if (file != input.string())
+            viewed.files.insert(Path(fs::path(Path(file)).lexically_normal().lexically_relative(folder)).string());
+    };
+    watched.named = {};  // `opened` receives them
+    ModelFile model(input.string(), watched);
+    if (!model.isObj()) static_cast<void>(model.gltf().primitives());  // fails if the primitives are invalid
+    viewed.still = stillHtml(input, model, origin);
+    return viewed;
+}
+
+std::string embeddedFile(const std::string& name, const Path& file) {
+    return "<script type=\"application/octet-stream\" data-name=\"" + htmlText(name) + "\">" +
+           encodeBase64(readFile(file)) + "</script>\n";
 }
 
 /// Returns the origin of the page as a data block for its scripts.
@@ -106,15 +109,16 @@ Result<ViewReport> writeViewPage(const Path& input, const Path& output, const Pa
         const std::size_t place = text.find(kPlaceOfModel);
         if (place == std::string_view::npos)
             failFile(ErrorCode::unsupportedFile, "the page " + pathInQuotes(page) + " is not a page of tspace view");
+        const ViewedModel viewed = readViewed(input, options, origin, inputs);
         ViewReport report;
+        report.files.push_back(fileNameOf(input.string()));
         std::string made(text.substr(0, place));
-        for (const EmbeddedFile& file : filesOf(input, options, inputs)) {
-            made += "<script type=\"application/octet-stream\" data-name=\"" + htmlText(file.name) + "\">";
-            made += encodeBase64(file.bytes);
-            made += "</script>\n";
-            report.files.push_back(file.name);
+        made += embeddedFile(report.files[0], input);
+        for (const std::string& name : viewed.files) {
+            made += embeddedFile(name, folderOf(input) / name);
+            report.files.push_back(name);
         }
-        made += originBlock(origin) + stillHtml(input, options, origin);
+        made += originBlock(origin) + viewed.still;
         made += text.substr(place + kPlaceOfModel.size());
         AtomicOutput target({.sync = options.sync, .inputs = &inputs});
         target.add(output, std::span(reinterpret_cast<const std::uint8_t*>(made.data()), made.size()));

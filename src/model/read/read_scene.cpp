@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Reads model files of any format.
+// Reading of model files of any format.
 #include "model/read/read_scene.h"
 
 #include <utility>
 
 #include "model/gltf/load_document.h"
-#include "model/gltf/model.h"
 #include "model/gltf/read_scene.h"
 #include "model/imported/import_document.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/obj/obj_primitives.h"
-#include "model/obj/obj_reader.h"
 
 namespace tspace::gltf {
 
-// Selection of the source: the caller's bytes, the importer, or the file.
+// Chooses between the caller's bytes, the importer and the file.
 
 Document loadDocument(const Path& path, const FileOptions& options, const Execution& execution,
                       const Progress& progress) {
@@ -28,26 +26,50 @@ Document loadDocument(const Path& path, const FileOptions& options, const Execut
 }  // namespace tspace::gltf
 
 namespace tspace {
-
-// Selection of the reader by the file name.
-
 namespace {
 
-gltf::Model readModel(const std::string& input, const FileOptions& options) {
-    gltf::Document document = gltf::loadDocument(input, options);
+using AnyModel = std::variant<gltf::Model, obj::Model>;
+
+AnyModel read(const std::string& input, const FileOptions& options, const Execution& execution,
+              const Progress& progress) {
+    if (lowerExtension(input) == ".obj") return obj::readModel(input, options);
+    gltf::Document document = gltf::loadDocument(input, options, execution, progress);
     gltf::checkRequiredExtensions(document);
     return gltf::Model(std::move(document));
 }
 
+std::shared_ptr<MemoryBudget> memoryOf(AnyModel& model) {
+    if (gltf::Model* const gltf = std::get_if<gltf::Model>(&model)) return gltf->document().memory;
+    return std::get<obj::Model>(model).memory;
+}
+
 }  // namespace
 
-Scene readScene(const std::string& input, const FileOptions& options, bool with_images) {
-    // An OBJ file has no magic number, so it is recognized by its name only.
-    if (lowerExtension(input) == ".obj") {
-        const obj::Model model = obj::readModel(input, options);
-        return obj::sceneOf(model, obj::collectPrimitives(model), with_images);
-    }
-    gltf::Model model = readModel(input, options);
+ModelFile::ModelFile(const std::string& input, const FileOptions& options, const Execution& execution,
+                     const Progress& progress)
+    : model_(read(input, options, execution, progress)), memory_(memoryOf(model_)), left_(memory_->left()) {}
+
+ModelFile::ModelFile(gltf::Model&& model)
+    : model_(std::move(model)), memory_(memoryOf(model_)), left_(memory_->left()) {}
+
+gltf::Model& ModelFile::gltf() {
+    startAnew();
+    return std::get<gltf::Model>(model_);
+}
+
+obj::Model& ModelFile::obj() {
+    startAnew();
+    return std::get<obj::Model>(model_);
+}
+
+void ModelFile::startAnew() {
+    if (gltf::Model* const model = std::get_if<gltf::Model>(&model_)) model->wasEdited();
+    memory_->restore(left_);
+}
+
+Scene ModelFile::scene(bool with_images) {
+    if (isObj()) return obj::sceneOf(obj(), obj::collectPrimitives(obj()), with_images);
+    gltf::Model& model = gltf();
     Scene scene = model.sceneOf();
     if (with_images) {
         gltf::readImages(model.document(), scene);
@@ -56,32 +78,38 @@ Scene readScene(const std::string& input, const FileOptions& options, bool with_
     return scene;
 }
 
-namespace {
-
-DrawnScene readObjScene(const std::string& input, const FileOptions& options, bool with_images) {
-    obj::Model model = obj::readModel(input, options);
+DrawnScene ModelFile::drawnObj(bool with_images) {
+    obj::Model model = obj();  // a copy, to which normals are added
     std::vector<obj::ObjPrimitive> primitives = obj::collectPrimitives(model);
     valueOrThrow(obj::completeNormals(model, primitives, {}));
     return obj::drawnSceneOf(model, primitives, with_images);
 }
 
-}  // namespace
-
-DrawnScene readDrawnScene(const std::string& input, const FileOptions& options, bool with_images) {
-    if (lowerExtension(input) == ".obj") return readObjScene(input, options, with_images);
-    return readModel(input, options).drawnScene(with_images);
+DrawnScene ModelFile::drawnScene(bool with_images) {
+    return isObj() ? drawnObj(with_images) : gltf().drawnScene(with_images);
 }
 
-DrawnScene readMaterialScene(const std::string& input, const FileOptions& options, bool with_normal_maps) {
-    if (lowerExtension(input) == ".obj") return readObjScene(input, options, true);
-    return readModel(input, options).materialScene(with_normal_maps);
+DrawnScene ModelFile::materialScene(bool with_normal_maps) {
+    return isObj() ? drawnObj(true) : gltf().materialScene(with_normal_maps);
+}
+
+PosedScene ModelFile::posedScene(bool with_images) {
+    if (!isObj()) return gltf().posedScene(with_images);
+    PosedScene posed{.drawn = drawnObj(with_images)};
+    posed.poses.resize(posed.drawn.placements.size());
+    return posed;
+}
+
+Scene readScene(const std::string& input, const FileOptions& options, bool with_images) {
+    return ModelFile(input, options).scene(with_images);
+}
+
+DrawnScene readDrawnScene(const std::string& input, const FileOptions& options, bool with_images) {
+    return ModelFile(input, options).drawnScene(with_images);
 }
 
 PosedScene readPosedScene(const std::string& input, const FileOptions& options, bool with_images) {
-    if (lowerExtension(input) != ".obj") return readModel(input, options).posedScene(with_images);
-    PosedScene posed{.drawn = readObjScene(input, options, with_images)};
-    posed.poses.resize(posed.drawn.placements.size());
-    return posed;
+    return ModelFile(input, options).posedScene(with_images);
 }
 
 }  // namespace tspace
