@@ -1,0 +1,11 @@
+# Kernels of the core, as room/name of name_kernel.h; bindings/js/wasm and scripts/amalgamate read this file too.
+tspace_simd_kernel(normals/best_sums)
+tspace_simd_kernel(normals/face_terms)
+tspace_simd_kernel(pack/angle)
+tspace_simd_kernel(pack/rotation)
+tspace_simd_kernel(pack/snorm)
+tspace_simd_kernel(pack/frame)
+tspace_simd_kernel(tangents/derivative_terms NOT avx512)
+tspace_simd_kernel(tangents/estimators/quadratic_recovery)
+tspace_simd_kernel(tangents/estimators/two_weights NOT avx512)
+tspace_simd_kernel(tangents/mikktspace/corner_terms)
