@@ -8,7 +8,7 @@ export interface GenerateReport {
   output: string;
   /** The output was written. */
   ok: true;
-  /** Null when ok. */
+  /** Reason of the failure; null if ok. */
   error: null;
   /** Time for this file. */
   seconds: number;
@@ -62,7 +62,7 @@ export interface GenerateTotals {
 }
 
 export interface MendedWinding {
-  /** Index of the mesh; for OBJ, whose objects are one surface, 0. */
+  /** Index of the mesh; 0 for OBJ, because all its objects are treated as one surface. */
   mesh: number;
   /** Name of the mesh; may be empty. */
   meshName: string;
@@ -72,7 +72,7 @@ export interface MendedWinding {
   turned: number;
   /** Pairs of neighboring faces that traverse their common edge in the same direction. */
   conflictsBefore: number;
-  /** Such pairs after the repair. */
+  /** Pairs of neighboring faces that traverse their common edge in the same direction, after the repair. */
   conflictsAfter: number;
   /** Components connected by edges. */
   components: number;
@@ -153,11 +153,13 @@ export interface GeneratedPrimitive {
   uvSet: number;
   /** Faces used to compute the tangents: "triangles" or "quads". */
   faces: "triangles" | "quads";
-  /** Number of those faces that are quads, or polygons with more corners (OBJ). */
+  /** Number of faces used in the computation that are quads, or polygons with more corners (OBJ). */
   quads: number;
+  /** Number of triangles. */
   triangles: number;
+  /** Number of vertices in the input. */
   verticesBefore: number;
-  /** Vertices in the output; more than in the input if vertices were split. */
+  /** Number of vertices in the output; more than in the input if vertices were split. */
   verticesAfter: number;
   /** With "--repair": vertices of "verticesBefore" whose tangents were repaired; all others are unchanged. */
   mendedVertices: number;
@@ -207,21 +209,21 @@ export interface GeneratedPrimitive {
 }
 
 export interface ActionCounts {
-  /** Tangents were added. */
+  /** Primitives that had no tangents and got new ones. */
   generated: number;
-  /** Existing tangents were recomputed. */
+  /** Primitives whose existing tangents were recomputed. */
   replaced: number;
-  /** Tangents were recomputed and are bit-identical to those in the file. */
+  /** Primitives whose tangents were recomputed and are bit-identical to those in the file. */
   unchanged: number;
-  /** Existing tangents were kept. */
+  /** Primitives whose existing tangents were kept. */
   kept: number;
-  /** The material needs no tangents. */
+  /** Primitives whose material needs no tangents. */
   notNeeded: number;
-  /** Points or lines. */
+  /** Primitives that consist of points or lines. */
   notTriangles: number;
-  /** No UVs, no positions, or nothing to compute. */
+  /** Primitives without UVs, without positions, or without anything to compute. */
   impossible: number;
-  /** Tangents were removed, because no material needs them. */
+  /** Primitives whose tangents were removed, because no material needs them. */
   removed: number;
 }
 
@@ -279,29 +281,29 @@ export interface MendedTangents {
 }
 
 export interface MendCauses {
-  /** NaN or infinity. */
+  /** Corners whose tangent is NaN or infinite. */
   notFinite: number;
-  /** Zero length. */
+  /** Corners whose tangent has the length 0. */
   zero: number;
-  /** The length deviates from 1 by more than 0.0005. */
+  /** Corners whose tangent's length deviates from 1 by more than 0.0005. */
   notUnit: number;
-  /** Within 1 degree of the normal or its opposite. */
+  /** Corners whose tangent is within 1 degree of the normal or its opposite. */
   parallel: number;
-  /** The default (1, 0, 0) of corners without UV area, if not perpendicular to the normal. */
+  /** Corners with the default tangent (1, 0, 0) of corners without UV area, if it is not perpendicular to the normal. */
   placeholder: number;
-  /** The sign is neither +1 nor -1. */
+  /** Corners whose sign is neither +1 nor -1. */
   badSign: number;
-  /** The corners of a face have different signs. */
+  /** Corners of faces whose corners have different signs. */
   mixedSign: number;
-  /** Valid, but changed by "--orthogonalize". */
+  /** Corners with a valid tangent that "--orthogonalize" changed. */
   orthogonalized: number;
 }
 
 export interface MendCures {
-  /** The original direction was kept, made unit and orthogonal to the normal. */
+  /** Corners whose tangent kept its direction, but was made unit and orthogonal to the normal. */
   normalized: number;
-  /** Direction of a nearby valid corner. */
+  /** Corners whose tangent got the direction of a nearby valid corner. */
   fromNeighbor: number;
-  /** Tangents computed from the normal alone. */
+  /** Corners whose tangent was computed from the normal alone. */
   fromBasis: number;
 }

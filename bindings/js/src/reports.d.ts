@@ -8,7 +8,7 @@ export interface CheckReport {
   input: string;
   /** The file could be read; it may have findings. */
   ok: true;
-  /** Null when ok. */
+  /** Reason of the failure; null if ok. */
   error: null;
   /** "glb", "gltf", "obj", or the extension of an imported file such as "fbx"; of an image "png", "jpeg", "webp", "exr",
    * "ktx2", "dds" or "tga". */
@@ -36,7 +36,9 @@ export interface CheckReport {
 }
 
 export interface CheckedImage {
+  /** Width of the image in texels. */
   width: number;
+  /** Height of the image in texels. */
   height: number;
   /** "normals" in tangent space as glTF reads them, "twoChannels", "unsignedZ", "xInAlpha", "exchanged", "encoded" (sRGB),
    * "hemiOctahedral", "objectSpace", "height", "picture" or "constant". */
@@ -58,6 +60,7 @@ export interface CheckedPackedFrames {
   mesh: number;
   /** Index of the primitive in its mesh. */
   primitive: number;
+  /** Number of vertices with packed frames. */
   vertices: number;
   /** The packed frames could be decoded; if false, a finding "packedFramesUnreadable" gives the reason. */
   readable: boolean;
@@ -67,22 +70,27 @@ export interface CheckedPackedFrames {
   worstNormalDegrees: number;
   /** Largest angle between the decoded T and TANGENT, which is made orthogonal to NORMAL if necessary. */
   worstTangentDegrees: number;
-  /** Error bound that the format guarantees. */
+  /** Error bound of N that the format guarantees. */
   promisedNormalDegrees: number;
+  /** Error bound of T that the format guarantees. */
   promisedTangentDegrees: number;
   /** Vertices whose sign differs from TANGENT. */
   differingSigns: number;
 }
 
 export interface FindingCounts {
+  /** Number of findings with the severity "error". */
   error: number;
+  /** Number of findings with the severity "warning". */
   warning: number;
+  /** Number of findings with the severity "note". */
   note: number;
 }
 
 export interface Finding {
   /** Stable code of the finding. */
   code: string;
+  /** Severity of the finding. */
   severity: "error" | "warning" | "note";
   /** JSON pointer of the primitive, morph target, attribute or texture; for OBJ "usemtl NAME"; empty: the whole file. */
   place: string;
@@ -105,7 +113,7 @@ export interface Finding {
   surfaceShare: number;
   /** The largest angle, for findings about angles; else 0. */
   worstDegrees: number;
-  /** 0 to 1; below 1 for statistical findings. */
+  /** Confidence of the finding, 0 to 1; below 1 for statistical findings. */
   confidence: number;
   /** The first affected vertices. */
   vertices: number[];
@@ -126,7 +134,7 @@ export interface Finding {
 export interface RemedyCommand {
   /** Name of the command: "generate", "convert-map", ... */
   verb: string;
-  /** Files; empty: the model that was checked. */
+  /** Input files; empty if the input is the model that was checked. */
   inputs: string[];
   /** Options in the order of the command line. */
   options: RemedyOption[];
@@ -139,7 +147,7 @@ export interface RemedyCommand {
 export interface RemedyOption {
   /** Name without dashes; "o" is the output. */
   name: string;
-  /** Empty: the option is a flag. */
+  /** Value of the option; empty if the option is a flag. */
   value: string;
 }
 
@@ -148,22 +156,27 @@ export interface InspectReport {
   input: string;
   /** The file could be read. */
   ok: true;
-  /** Null when ok. */
+  /** Reason of the failure; null if ok. */
   error: null;
   /** "glb", "gltf", "obj", or the extension of an imported file such as "fbx". */
   format: string;
   /** The program that wrote the file; may be empty. */
   generator: string;
-  /** The model file and the files that it loads, without images. */
+  /** Size of the model file and the files that it loads, without images. */
   fileBytes: number;
-  /** For OBJ: objects and groups with faces. */
+  /** Number of meshes; for OBJ, of objects and groups with faces. */
   meshes: number;
-  /** For OBJ: materials that faces use and an MTL file defines. */
+  /** Number of materials; for OBJ, of those that faces use and an MTL file defines. */
   materials: number;
+  /** Number of nodes. */
   nodes: number;
+  /** Number of animations. */
   animations: number;
+  /** Number of images. */
   images: number;
+  /** GlTF extensions that the file lists as used. */
   extensionsUsed: string[];
+  /** GlTF extensions that the file lists as required. */
   extensionsRequired: string[];
   /** Names of KHR_materials_variants. */
   variants: string[];
@@ -191,15 +204,23 @@ export interface InspectedPrimitive {
   mode: string;
   /** Number of triangles after triangulation of polygons. */
   triangles: number;
+  /** Number of vertices. */
   vertices: number;
+  /** Type of the indices; "none" without indices. */
   indexType: "u8" | "u16" | "u32" | "none";
+  /** Geometry compression of the primitive. */
   compression: "none" | "meshopt" | "draco";
   /** Attribute and type, such as "POSITION float3". */
   attributes: string[];
+  /** Number of UV sets. */
   uvSets: number;
+  /** Number of morph targets. */
   morphTargets: number;
+  /** The primitive has joints and weights. */
   skinned: boolean;
+  /** The primitive has normals. */
   hasNormals: boolean;
+  /** The primitive has tangents. */
   hasTangents: boolean;
   /** "hasTangents" is false, but the file may have tangents that the importer cannot read. */
   tangentsNotRead: boolean;
@@ -262,7 +283,7 @@ export interface IdentifyReport {
   input: string;
   /** The file could be read. */
   ok: true;
-  /** Null when ok. */
+  /** Reason of the failure; null if ok. */
   error: null;
   /** "glb", "gltf", "obj", or the extension of an imported file such as "fbx". */
   format: string;
@@ -272,9 +293,9 @@ export interface IdentifyReport {
   warnings: string[];
   /** Human-readable summary of two or three sentences. */
   verdict: string;
-  /** Over all primitives, along the texture's UV set, the best method first. */
+  /** Results of the methods over all primitives, with tangents along the texture's UV set; the best method first. */
   explanations: Explanation[];
-  /** In file order. */
+  /** One entry per primitive, in file order. */
   primitives: IdentifiedPrimitive[];
   /** Exit code of the tool: 0, or 1 if there is a finding. */
   exitCode: 0 | 1;
@@ -291,7 +312,7 @@ export interface Explanation {
   isTexturesSet: boolean;
   /** The UVs were used as rotated or mirrored by KHR_texture_transform. */
   isTransformed: boolean;
-  /** Corners compared. */
+  /** Number of compared corners. */
   corners: number;
   /** Corners of triangles without UV area, which are ignored. */
   undecidedCorners: number;
@@ -312,6 +333,7 @@ export interface Explanation {
 export interface IdentifiedPrimitive {
   /** JSON pointer, or "usemtl NAME" for OBJ. */
   place: string;
+  /** Index of the mesh. */
   mesh: number;
   /** Index of the primitive in its mesh. */
   primitive: number;
@@ -336,15 +358,15 @@ export interface DiffReport {
   a: string;
   /** Path of the second file. */
   b: string;
-  /** Null when ok. */
+  /** Reason of the failure; null if ok. */
   error: null;
-  /** Tolerance of the run. */
+  /** Largest angle that counts as equal ("--tolerance"). */
   toleranceDeg: number;
-  /** No angle exceeds the tolerance, no sign differs, every triangle has a match. */
+  /** No angle exceeds the tolerance, no sign differs, and every triangle has a match. */
   isWithinTolerance: boolean;
-  /** Pairs of corners that were examined. */
+  /** Number of pairs of corners that were examined. */
   corners: number;
-  /** Pairs whose signs differ. */
+  /** Number of pairs of corners whose signs differ. */
   signChanges: number;
   /** Triangles of both files without a match. */
   unpairedTriangles: number;
@@ -352,11 +374,11 @@ export interface DiffReport {
   missingTangents: number;
   /** Upper ends of the bins of every histogram. */
   histogramUpperDeg: number[];
-  /** Angles between T. */
+  /** Angles between the tangents of A and B. */
   tangents: AngleStatistics;
-  /** Angles between N. */
+  /** Angles between the normals of A and B. */
   normals: AngleStatistics;
-  /** Angles between "sign * cross(N, T)". */
+  /** Angles between the bitangents of A and B, "sign * cross(N, T)". */
   bitangents: AngleStatistics;
   /** Human-readable warnings, each preceded by the name of its file. */
   warnings: string[];
@@ -373,28 +395,40 @@ export interface AngleStatistics {
   corners: number;
   /** Pairs in which one vector has no direction (zero or not finite). */
   unusable: number;
+  /** Mean of the angles. */
   meanDeg: number;
   /** Median of the angles. */
   medianDeg: number;
   /** 95th percentile of the angles. */
   p95Deg: number;
+  /** Largest angle. */
   maxDeg: number;
-  /** Pairs per bin, see "histogramUpperDeg". */
+  /** Number of pairs in each bin; "histogramUpperDeg" lists the upper ends of the bins. */
   histogram: number[];
 }
 
 export interface FrameDifference {
+  /** Index of the mesh in A. */
   meshA: number;
+  /** Index of the primitive in its mesh, in A. */
   primitiveA: number;
+  /** Index of the vertex in A. */
   vertexA: number;
+  /** Index of the mesh in B. */
   meshB: number;
+  /** Index of the primitive in its mesh, in B. */
   primitiveB: number;
+  /** Index of the vertex in B. */
   vertexB: number;
-  /** Location in A. */
+  /** Position of the vertex in A. */
   position: [number, number, number];
+  /** Angle between the tangents. */
   tangentDeg: number;
+  /** Angle between the normals. */
   normalDeg: number;
+  /** Angle between the bitangents. */
   bitangentDeg: number;
+  /** The signs differ. */
   signDiffers: boolean;
 }
 
@@ -407,25 +441,31 @@ export interface DiffedPrimitive {
   meshName: string;
   /** How the two primitives were matched. */
   pairedBy: "geometry" | "name" | "order" | "none";
+  /** Number of triangles with a match. */
   pairedTriangles: number;
+  /** Number of pairs of corners whose signs differ. */
   signChanges: number;
-  /** Angles between T. */
+  /** Angles between the tangents of A and B. */
   tangents: AngleStatistics;
-  /** Angles between N. */
+  /** Angles between the normals of A and B. */
   normals: AngleStatistics;
-  /** Angles between "sign * cross(N, T)". */
+  /** Angles between the bitangents of A and B, "sign * cross(N, T)". */
   bitangents: AngleStatistics;
 }
 
 export interface DiffedSide {
   /** JSON pointer, or "usemtl NAME" for OBJ. */
   place: string;
+  /** Index of the mesh. */
   mesh: number;
   /** Index of the primitive in its mesh. */
   primitive: number;
+  /** Number of triangles. */
   triangles: number;
+  /** The primitive has tangents. */
   hasTangents: boolean;
   /** "hasTangents" is false, but the file may have tangents that the importer cannot read. */
   tangentsNotRead: boolean;
+  /** The primitive has normals. */
   hasNormals: boolean;
 }

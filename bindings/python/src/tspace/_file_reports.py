@@ -15,7 +15,7 @@ class CheckReport(Findings):
     input: str
     #: The file could be read; it may have findings.
     ok: bool
-    #: Null when ok.
+    #: Reason of the failure; null if ok.
     error: None
     #: "glb", "gltf", "obj", or the extension of an imported file such as "fbx"; of an image "png", "jpeg", "webp",
     #: "exr", "ktx2", "dds" or "tga".
@@ -43,7 +43,9 @@ class CheckReport(Findings):
 
 
 class CheckedImage(Report):
+    #: Width of the image in texels.
     width: int
+    #: Height of the image in texels.
     height: int
     #: "normals" in tangent space as glTF reads them, "twoChannels", "unsignedZ", "xInAlpha", "exchanged", "encoded"
     #: (sRGB), "hemiOctahedral", "objectSpace", "height", "picture" or "constant".
@@ -65,6 +67,7 @@ class CheckedPackedFrames(Report):
     mesh: int
     #: Index of the primitive in its mesh.
     primitive: int
+    #: Number of vertices with packed frames.
     vertices: int
     #: The packed frames could be decoded; if false, a finding "packedFramesUnreadable" gives the reason.
     readable: bool
@@ -75,16 +78,20 @@ class CheckedPackedFrames(Report):
     worst_normal_degrees: float
     #: Largest angle between the decoded T and TANGENT, which is made orthogonal to NORMAL if necessary.
     worst_tangent_degrees: float
-    #: Error bound that the format guarantees.
+    #: Error bound of N that the format guarantees.
     promised_normal_degrees: float
+    #: Error bound of T that the format guarantees.
     promised_tangent_degrees: float
     #: Vertices whose sign differs from TANGENT.
     differing_signs: int
 
 
 class FindingCounts(Report):
+    #: Number of findings with the severity "error".
     error: int
+    #: Number of findings with the severity "warning".
     warning: int
+    #: Number of findings with the severity "note".
     note: int
 
 
@@ -92,6 +99,7 @@ class FindingCounts(Report):
 class Finding:
     #: Stable code of the finding.
     code: str
+    #: Severity of the finding.
     severity: str
     #: JSON pointer of the primitive, morph target, attribute or texture; for OBJ "usemtl NAME"; empty: the whole file.
     place: str
@@ -114,7 +122,7 @@ class Finding:
     surface_share: float
     #: The largest angle, for findings about angles; else 0.
     worst_degrees: float
-    #: 0 to 1; below 1 for statistical findings.
+    #: Confidence of the finding, 0 to 1; below 1 for statistical findings.
     confidence: float
     #: The first affected vertices.
     vertices: Tuple[int, ...]
@@ -136,7 +144,7 @@ class Finding:
 class RemedyCommand:
     #: Name of the command: "generate", "convert-map", ...
     verb: str
-    #: Files; empty: the model that was checked.
+    #: Input files; empty if the input is the model that was checked.
     inputs: Tuple[str, ...]
     #: Options in the order of the command line.
     options: Tuple[RemedyOption, ...]
@@ -150,7 +158,7 @@ class RemedyCommand:
 class RemedyOption:
     #: Name without dashes; "o" is the output.
     name: str
-    #: Empty: the option is a flag.
+    #: Value of the option; empty if the option is a flag.
     value: str
 
 
@@ -159,22 +167,27 @@ class InspectReport(Report):
     input: str
     #: The file could be read.
     ok: bool
-    #: Null when ok.
+    #: Reason of the failure; null if ok.
     error: None
     #: "glb", "gltf", "obj", or the extension of an imported file such as "fbx".
     format: str
     #: The program that wrote the file; may be empty.
     generator: str
-    #: The model file and the files that it loads, without images.
+    #: Size of the model file and the files that it loads, without images.
     file_bytes: int
-    #: For OBJ: objects and groups with faces.
+    #: Number of meshes; for OBJ, of objects and groups with faces.
     meshes: int
-    #: For OBJ: materials that faces use and an MTL file defines.
+    #: Number of materials; for OBJ, of those that faces use and an MTL file defines.
     materials: int
+    #: Number of nodes.
     nodes: int
+    #: Number of animations.
     animations: int
+    #: Number of images.
     images: int
+    #: GlTF extensions that the file lists as used.
     extensions_used: List[str]
+    #: GlTF extensions that the file lists as required.
     extensions_required: List[str]
     #: Names of KHR_materials_variants.
     variants: List[str]
@@ -202,15 +215,23 @@ class InspectedPrimitive(Report):
     mode: str
     #: Number of triangles after triangulation of polygons.
     triangles: int
+    #: Number of vertices.
     vertices: int
+    #: Type of the indices; "none" without indices.
     index_type: str
+    #: Geometry compression of the primitive.
     compression: str
     #: Attribute and type, such as "POSITION float3".
     attributes: List[str]
+    #: Number of UV sets.
     uv_sets: int
+    #: Number of morph targets.
     morph_targets: int
+    #: The primitive has joints and weights.
     skinned: bool
+    #: The primitive has normals.
     has_normals: bool
+    #: The primitive has tangents.
     has_tangents: bool
     #: "hasTangents" is false, but the file may have tangents that the importer cannot read.
     tangents_not_read: bool
@@ -273,7 +294,7 @@ class IdentifyReport(Report):
     input: str
     #: The file could be read.
     ok: bool
-    #: Null when ok.
+    #: Reason of the failure; null if ok.
     error: None
     #: "glb", "gltf", "obj", or the extension of an imported file such as "fbx".
     format: str
@@ -283,9 +304,9 @@ class IdentifyReport(Report):
     warnings: List[str]
     #: Human-readable summary of two or three sentences.
     verdict: str
-    #: Over all primitives, along the texture's UV set, the best method first.
+    #: Results of the methods over all primitives, with tangents along the texture's UV set; the best method first.
     explanations: List[Explanation]
-    #: In file order.
+    #: One entry per primitive, in file order.
     primitives: List[IdentifiedPrimitive]
     #: Exit code of the tool: 0, or 1 if there is a finding.
     exit_code: int
@@ -302,7 +323,7 @@ class Explanation(Report):
     is_textures_set: bool
     #: The UVs were used as rotated or mirrored by KHR_texture_transform.
     is_transformed: bool
-    #: Corners compared.
+    #: Number of compared corners.
     corners: int
     #: Corners of triangles without UV area, which are ignored.
     undecided_corners: int
@@ -323,6 +344,7 @@ class Explanation(Report):
 class IdentifiedPrimitive(Report):
     #: JSON pointer, or "usemtl NAME" for OBJ.
     place: str
+    #: Index of the mesh.
     mesh: int
     #: Index of the primitive in its mesh.
     primitive: int
@@ -348,15 +370,15 @@ class DiffReport(Report):
     a: str
     #: Path of the second file.
     b: str
-    #: Null when ok.
+    #: Reason of the failure; null if ok.
     error: None
-    #: Tolerance of the run.
+    #: Largest angle that counts as equal ("--tolerance").
     tolerance_deg: float
-    #: No angle exceeds the tolerance, no sign differs, every triangle has a match.
+    #: No angle exceeds the tolerance, no sign differs, and every triangle has a match.
     is_within_tolerance: bool
-    #: Pairs of corners that were examined.
+    #: Number of pairs of corners that were examined.
     corners: int
-    #: Pairs whose signs differ.
+    #: Number of pairs of corners whose signs differ.
     sign_changes: int
     #: Triangles of both files without a match.
     unpaired_triangles: int
@@ -364,11 +386,11 @@ class DiffReport(Report):
     missing_tangents: int
     #: Upper ends of the bins of every histogram.
     histogram_upper_deg: List[float]
-    #: Angles between T.
+    #: Angles between the tangents of A and B.
     tangents: AngleStatistics
-    #: Angles between N.
+    #: Angles between the normals of A and B.
     normals: AngleStatistics
-    #: Angles between "sign * cross(N, T)".
+    #: Angles between the bitangents of A and B, "sign * cross(N, T)".
     bitangents: AngleStatistics
     #: Human-readable warnings, each preceded by the name of its file.
     warnings: List[str]
@@ -385,28 +407,40 @@ class AngleStatistics(Report):
     corners: int
     #: Pairs in which one vector has no direction (zero or not finite).
     unusable: int
+    #: Mean of the angles.
     mean_deg: float
     #: Median of the angles.
     median_deg: float
     #: 95th percentile of the angles.
     p95_deg: float
+    #: Largest angle.
     max_deg: float
-    #: Pairs per bin, see "histogramUpperDeg".
+    #: Number of pairs in each bin; "histogramUpperDeg" lists the upper ends of the bins.
     histogram: List[int]
 
 
 class FrameDifference(Report):
+    #: Index of the mesh in A.
     mesh_a: int
+    #: Index of the primitive in its mesh, in A.
     primitive_a: int
+    #: Index of the vertex in A.
     vertex_a: int
+    #: Index of the mesh in B.
     mesh_b: int
+    #: Index of the primitive in its mesh, in B.
     primitive_b: int
+    #: Index of the vertex in B.
     vertex_b: int
-    #: Location in A.
+    #: Position of the vertex in A.
     position: List[float]
+    #: Angle between the tangents.
     tangent_deg: float
+    #: Angle between the normals.
     normal_deg: float
+    #: Angle between the bitangents.
     bitangent_deg: float
+    #: The signs differ.
     sign_differs: bool
 
 
@@ -419,26 +453,32 @@ class DiffedPrimitive(Report):
     mesh_name: str
     #: How the two primitives were matched.
     paired_by: str
+    #: Number of triangles with a match.
     paired_triangles: int
+    #: Number of pairs of corners whose signs differ.
     sign_changes: int
-    #: Angles between T.
+    #: Angles between the tangents of A and B.
     tangents: AngleStatistics
-    #: Angles between N.
+    #: Angles between the normals of A and B.
     normals: AngleStatistics
-    #: Angles between "sign * cross(N, T)".
+    #: Angles between the bitangents of A and B, "sign * cross(N, T)".
     bitangents: AngleStatistics
 
 
 class DiffedSide(Report):
     #: JSON pointer, or "usemtl NAME" for OBJ.
     place: str
+    #: Index of the mesh.
     mesh: int
     #: Index of the primitive in its mesh.
     primitive: int
+    #: Number of triangles.
     triangles: int
+    #: The primitive has tangents.
     has_tangents: bool
     #: "hasTangents" is false, but the file may have tangents that the importer cannot read.
     tangents_not_read: bool
+    #: The primitive has normals.
     has_normals: bool
 
 
@@ -458,9 +498,11 @@ class BakeReport(Report):
     output: str
     #: Time of the whole run.
     seconds: float
-    #: Null when ok.
+    #: Reason of the failure; null if ok.
     error: None
+    #: Number of triangles of the low poly.
     low_triangles: int
+    #: Number of triangles of the high poly.
     high_triangles: int
     #: The low poly lacked normals or tangents, which were computed.
     frames_made: bool
@@ -502,7 +544,9 @@ class BakedMap(Report):
     material: str
     #: UDIM tile number (1001, ...) with "--udim"; else 0.
     tile: int
+    #: Width of the maps in texels.
     width: int
+    #: Height of the maps in texels.
     height: int
     #: Bits per channel of the normal map.
     bits: int
@@ -619,7 +663,7 @@ class FinishReport(Report):
     output: str
     #: Time of the whole run.
     seconds: float
-    #: Null when ok.
+    #: Reason of the failure; null if ok.
     error: None
     #: The input, and with "--low" the low poly.
     models: List[FinishedModel]

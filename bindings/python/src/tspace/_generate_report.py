@@ -15,7 +15,7 @@ class GenerateReport(Report):
     output: str
     #: The output was written.
     ok: bool
-    #: Null when ok.
+    #: Reason of the failure; null if ok.
     error: None
     #: Time for this file.
     seconds: float
@@ -69,7 +69,7 @@ class GenerateTotals(Report):
 
 
 class MendedWinding(Report):
-    #: Index of the mesh; for OBJ, whose objects are one surface, 0.
+    #: Index of the mesh; 0 for OBJ, because all its objects are treated as one surface.
     mesh: int
     #: Name of the mesh; may be empty.
     mesh_name: str
@@ -79,7 +79,7 @@ class MendedWinding(Report):
     turned: int
     #: Pairs of neighboring faces that traverse their common edge in the same direction.
     conflicts_before: int
-    #: Such pairs after the repair.
+    #: Pairs of neighboring faces that traverse their common edge in the same direction, after the repair.
     conflicts_after: int
     #: Components connected by edges.
     components: int
@@ -160,11 +160,13 @@ class GeneratedPrimitive(Report):
     uv_set: int
     #: Faces used to compute the tangents: "triangles" or "quads".
     faces: str
-    #: Number of those faces that are quads, or polygons with more corners (OBJ).
+    #: Number of faces used in the computation that are quads, or polygons with more corners (OBJ).
     quads: int
+    #: Number of triangles.
     triangles: int
+    #: Number of vertices in the input.
     vertices_before: int
-    #: Vertices in the output; more than in the input if vertices were split.
+    #: Number of vertices in the output; more than in the input if vertices were split.
     vertices_after: int
     #: With "--repair": vertices of "verticesBefore" whose tangents were repaired; all others are unchanged.
     mended_vertices: int
@@ -214,21 +216,21 @@ class GeneratedPrimitive(Report):
 
 
 class ActionCounts(Report):
-    #: Tangents were added.
+    #: Primitives that had no tangents and got new ones.
     generated: int
-    #: Existing tangents were recomputed.
+    #: Primitives whose existing tangents were recomputed.
     replaced: int
-    #: Tangents were recomputed and are bit-identical to those in the file.
+    #: Primitives whose tangents were recomputed and are bit-identical to those in the file.
     unchanged: int
-    #: Existing tangents were kept.
+    #: Primitives whose existing tangents were kept.
     kept: int
-    #: The material needs no tangents.
+    #: Primitives whose material needs no tangents.
     not_needed: int
-    #: Points or lines.
+    #: Primitives that consist of points or lines.
     not_triangles: int
-    #: No UVs, no positions, or nothing to compute.
+    #: Primitives without UVs, without positions, or without anything to compute.
     impossible: int
-    #: Tangents were removed, because no material needs them.
+    #: Primitives whose tangents were removed, because no material needs them.
     removed: int
 
 
@@ -286,28 +288,28 @@ class MendedTangents(Report):
 
 
 class MendCauses(Report):
-    #: NaN or infinity.
+    #: Corners whose tangent is NaN or infinite.
     not_finite: int
-    #: Zero length.
+    #: Corners whose tangent has the length 0.
     zero: int
-    #: The length deviates from 1 by more than 0.0005.
+    #: Corners whose tangent's length deviates from 1 by more than 0.0005.
     not_unit: int
-    #: Within 1 degree of the normal or its opposite.
+    #: Corners whose tangent is within 1 degree of the normal or its opposite.
     parallel: int
-    #: The default (1, 0, 0) of corners without UV area, if not perpendicular to the normal.
+    #: Corners with the default tangent (1, 0, 0) of corners without UV area, if it is not perpendicular to the normal.
     placeholder: int
-    #: The sign is neither +1 nor -1.
+    #: Corners whose sign is neither +1 nor -1.
     bad_sign: int
-    #: The corners of a face have different signs.
+    #: Corners of faces whose corners have different signs.
     mixed_sign: int
-    #: Valid, but changed by "--orthogonalize".
+    #: Corners with a valid tangent that "--orthogonalize" changed.
     orthogonalized: int
 
 
 class MendCures(Report):
-    #: The original direction was kept, made unit and orthogonal to the normal.
+    #: Corners whose tangent kept its direction, but was made unit and orthogonal to the normal.
     normalized: int
-    #: Direction of a nearby valid corner.
+    #: Corners whose tangent got the direction of a nearby valid corner.
     from_neighbor: int
-    #: Tangents computed from the normal alone.
+    #: Corners whose tangent was computed from the normal alone.
     from_basis: int

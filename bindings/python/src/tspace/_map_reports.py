@@ -22,11 +22,13 @@ class FlipGreenReport(Report):
     output: str
     #: Nothing was written.
     dry_run: bool
-    #: Null when ok.
+    #: Reason of the failure; null if ok.
     error: None
     #: Format of the output.
     format: str
+    #: Width of the image in texels.
     width: int
+    #: Height of the image in texels.
     height: int
     #: Bits per channel: 8 or 16, 32 for a float texture.
     bits: int
@@ -52,9 +54,11 @@ class ConvertMapReport(Report):
     output: str
     #: Nothing was written.
     dry_run: bool
-    #: Null when ok.
+    #: Reason of the failure; null if ok.
     error: None
+    #: Width of the map in texels.
     width: int
+    #: Height of the map in texels.
     height: int
     #: Bits per channel of the input, 8 or 16.
     bits_before: int
@@ -88,6 +92,7 @@ class ConvertMapReport(Report):
     bad_uvs: int
     #: Mean angle between the converted and the unconverted texels.
     mean_change_deg: float
+    #: Largest angle between a converted and an unconverted texel.
     max_change_deg: float
     #: Half a quantization step of the output, as an angle.
     half_step_deg: float
@@ -126,9 +131,11 @@ class HeightToNormalReport(Report):
     output: str
     #: Nothing was written.
     dry_run: bool
-    #: Null when ok.
+    #: Reason of the failure; null if ok.
     error: None
+    #: Width of the map in texels.
     width: int
+    #: Height of the map in texels.
     height: int
     #: Bits per channel of the input.
     bits_before: int
@@ -143,6 +150,7 @@ class HeightToNormalReport(Report):
     texel_size: float
     #: Mean angle between the normals of the map and those of the surface, over all texels.
     mean_lean_deg: float
+    #: Largest angle between a normal of the map and that of the surface.
     max_lean_deg: float
     #: Human-readable warnings.
     warnings: List[str]
@@ -164,9 +172,11 @@ class CompressMapReport(Report):
     output: str
     #: Nothing was written.
     dry_run: bool
-    #: Null when ok.
+    #: Reason of the failure; null if ok.
     error: None
+    #: Width of the map in texels.
     width: int
+    #: Height of the map in texels.
     height: int
     #: Bits per channel of the input.
     bits_before: int
@@ -182,6 +192,7 @@ class CompressMapReport(Report):
     mean_error_deg: float
     #: 99th percentile of the error of the first level.
     p99_error_deg: float
+    #: Maximum error of the first level.
     max_error_deg: float
     #: X coordinate of the maximum, in texels from the left.
     max_error_x: float
