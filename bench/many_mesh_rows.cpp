@@ -43,7 +43,8 @@ void summarize(const std::vector<Pair>& pairs, double asked, RowResult& row) {
     const auto worst = std::ranges::max_element(pairs, {}, &Pair::ratio);
     row.one_thread.value = worst->ratio;
     row.one_thread.asked = asked;
-    row.note = std::to_string(pairs.size()) + " meshes; worst at " + std::to_string(worst->triangles) + " triangles";
+    row.note = std::to_string(pairs.size()) + (pairs.size() == 1 ? " mesh" : " meshes") + "; worst at " +
+               std::to_string(worst->triangles) + " triangles";
 }
 
 /// Sets the row's value to the sum of times.

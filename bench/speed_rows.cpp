@@ -101,12 +101,12 @@ RowResult runContest(const std::string& title, const Contest& contest, Lab& lab)
         has_two ? race.add([&] { plainLoopTwice(plain_mesh, plain_tangents, other_tangents); }) : plain;
     race.run(lab.rounds());
     row.one_thread = cell(race, single, plain, triangles, contest.asked_one, Clock::processor);
-    row.note = "plain " + inWords(1e9 * race.best(plain) / static_cast<double>(triangles)) + " ns";
+    row.note = "plain loop " + inWords(1e9 * race.best(plain) / static_cast<double>(triangles)) + " ns";
     if (has_two) {
         row.two_threads = cell(race, both, plain, triangles, contest.asked_two, Clock::wall);
         const double at_once = race.ratio(twice, plain, Clock::wall).median;
         row.two_threads.busy = at_once > kBusy;
-        row.note += ", two at once " + inWords(at_once) + "x";
+        row.note += "; two loops at once " + inWords(at_once) + "x";
     }
     row.note += remarks(contest, mesh, job, startedThreads() - threads_before);
     return row;

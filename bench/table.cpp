@@ -57,7 +57,8 @@ void printRow(const RowResult& row) {
 void printHead(const char* title) {
     fmt::print(
         "\n**{}**\n\n"
-        "| measurement | 1 thread | target | | 2 threads | target | | ns/triangle | middle half of rounds | |\n"
+        "| measurement | 1 thread | target | result | 2 threads | target | result | ns/triangle | interquartile range "
+        "| notes |\n"
         "|---|---|---|---|---|---|---|---|---|---|\n",
         title);
 }

@@ -103,7 +103,7 @@ double errorOf(const StudyOptions& options, const Scan& scan, const Normals& nor
 }
 
 void printHead(const char* title, const std::vector<const char*>& columns) {
-    fmt::print("\n**{}**\n\n| |", title);
+    fmt::print("\n**{}**\n\n| case |", title);
     for (const char* column : columns) fmt::print(" {} |", column);
     fmt::print("\n|---|");
     for (std::size_t i = 0; i < columns.size(); ++i) fmt::print("---|");

@@ -54,7 +54,7 @@ std::string targetText(const Study& study, const Target& target, const std::stri
 void printTargets(const Study& study) {
     fmt::print("**Targets** in degrees; means over the twelve surfaces\n\n");
     fmt::print(
-        "| figure | mikktspace | area | fast | target | | best | target | |\n|---|---|---|---|---|---|---|---|---|\n");
+        "| figure | mikktspace | area | fast | target | result | best | target | result |\n|---|---|---|---|---|---|---|---|---|\n");
     for (const Target& target : kTargets) {
         const Figure& figure = tangentFigure(target.key);
         fmt::print("| {} | {} | {} |{}{}\n", figure.title, text(figure.value(study, "mikktspace", false)),
@@ -66,7 +66,7 @@ void printTargets(const Study& study) {
 /// Prints one row per figure, with one column per method.
 void printFigures(const Study& study, std::span<const Figure> figures, const std::vector<std::string>& methods,
                   bool held_out) {
-    fmt::print("| |");
+    fmt::print("| case |");
     for (const std::string& method : methods) fmt::print(" {} |", method);
     fmt::print("\n|---|");
     for (std::size_t i = 0; i < methods.size(); ++i) fmt::print("---|");
@@ -83,7 +83,7 @@ void printFigures(const Study& study, std::span<const Figure> figures, const std
 
 /// Prints one row per surface: vertex errors inside, 32x32, irregular and random.
 void printSurfaces(const Study& study) {
-    fmt::print("| |");
+    fmt::print("| surface |");
     for (const std::string& method : study.methods) fmt::print(" {} |", method);
     fmt::print("\n|---|");
     for (std::size_t i = 0; i < study.methods.size(); ++i) fmt::print("---|");

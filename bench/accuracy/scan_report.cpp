@@ -52,7 +52,7 @@ void printRow(const StudyOptions& options, bool is_sharp, double noise) {
 }  // namespace
 
 void printScans(const StudyOptions& options) {
-    fmt::print("\n**Normals of scans**: shaded error; noise in edge lengths\n\n| |");
+    fmt::print("\n**Normals of scans**: shaded error; noise in edge lengths\n\n| case |");
     for (const Column& column : columns()) fmt::print(" {} |", column.name);
     fmt::print("\n|---|");
     for (std::size_t i = 0; i < columns().size(); ++i) fmt::print("---|");
