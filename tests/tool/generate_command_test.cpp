@@ -290,7 +290,8 @@ TEST(Generate, AFullStandardOutputExitsWithFour) {
     writeFoldedObj(folder, "a.obj");
     runTool(folder, "generate a.obj -o a.glb > /dev/full 2> err; echo $? > code; true");
     EXPECT_EQ(folder.read("code"), "4\n");
-    EXPECT_EQ(folder.read("err"), "tspace: cannot write to standard output; the outputs are complete: a.glb\n");
+    EXPECT_EQ(folder.read("err"),
+              "tspace: cannot write the report to standard output; all output files are complete: a.glb\n");
 }
 
 TEST(Generate, AnInterruptLeavesACompleteFileOrNone) {

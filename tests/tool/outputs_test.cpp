@@ -421,7 +421,7 @@ TEST(Descriptors, AFullStdoutKeepsTheOutputsAndTheMessageNamesThem) {
         const ToolRun run = runTool(folder, command, kIntoFullDisk);
         EXPECT_EQ(run.exit_code, 4) << command;
         EXPECT_EQ(run.errorLines(), 1) << command << run.err;
-        EXPECT_NE(run.err.find("; the outputs are complete: "), std::string::npos) << command << run.err;
+        EXPECT_NE(run.err.find("; all output files are complete: "), std::string::npos) << command << run.err;
         EXPECT_NE(run.err.find(name), std::string::npos) << command << run.err;
         EXPECT_EQ(folder.read(name).size(), whole.size()) << command;
         fs::remove(folder.path(name));
@@ -431,7 +431,7 @@ TEST(Descriptors, AFullStdoutKeepsTheOutputsAndTheMessageNamesThem) {
                                 "bake --pairs pairs.txt --size 16 -o maps/ --jobs 1 --json"}) {
         const ToolRun run = runTool(folder, command, kIntoFullDisk);
         EXPECT_EQ(run.exit_code, 4) << command << run.err;
-        EXPECT_NE(run.err.find("the outputs are complete: maps/a.png"), std::string::npos) << command << run.err;
+        EXPECT_NE(run.err.find("all output files are complete: maps/a.png"), std::string::npos) << command << run.err;
     }
 }
 

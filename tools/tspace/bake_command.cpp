@@ -148,6 +148,10 @@ Command bakeCommand() {
         if ((option.group == kManyFiles || option.name() == "--verbose") && option.needs.empty())
             option.needs = "--pairs";
         if (option.name() == "--manifest") option.excludes.clear();
+        if (option.name() == "--resume")
+            option.help =
+                "Skip pairs that the manifest lists as done with the same options, if neither their files nor their "
+                "outputs have changed since.";
         if (option.name() == "--shard")
             option.help =
                 "Process only shard I of N (1-based), to split a batch across machines. The shard of a pair depends "

@@ -126,7 +126,7 @@ void addInputs(Command& command, std::vector<std::string>& inputs, InputKind rea
 void addBatch(Command& command, BatchArguments& batch, bool with_manifest) {
     const char* group = kManyFiles;
     command.add(group,
-                number("--jobs", batch.jobs, kMaxJobs, "Number of files processed in parallel; 0: one per core."));
+                number("--jobs", batch.jobs, kMaxJobs, "Number of inputs processed in parallel; 0: one per core."));
     const auto take_shard = [&batch](const std::string& text) -> std::string {
         return parseShard(text, batch.shard) ? "" : "must be I/N with I from 1 to N, such as 2/8";
     };
@@ -136,7 +136,7 @@ void addBatch(Command& command, BatchArguments& batch, bool with_manifest) {
                "Process only shard I of N (1-based), to split a batch across machines. The shard of a file depends "
                "only on its path relative to the input folder, so adding or removing other files does not change it."));
     command.add(kReporting, flag("-v, --verbose", batch.verbose,
-                                 "Print details for every file. By default, several files get one line each."));
+                                 "Print details for every input. By default, several inputs get one line each."));
     if (!with_manifest) return;
     Option& manifest = command.add(
         group, fileOption("--manifest", "FILE", batch.manifest,
@@ -168,7 +168,10 @@ std::string resultOptions(const Given& given) {
 void addReporting(Command& command, bool& json, bool& quiet) {
     const char* group = kReporting;
     command.add(group, flag("--json", json, "Print the result as JSON on stdout (schema: docs/reference/json.md)."));
-    command.add(group, flag("-q, --quiet", quiet, "Print only errors, and the JSON if requested."));
+    command.add(
+        group,
+        flag("-q, --quiet", quiet,
+             "Do not print the report; the JSON is printed if requested. Failures are still reported on stderr."));
     command.add(group, helpOption());
 }
 

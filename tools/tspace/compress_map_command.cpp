@@ -51,12 +51,12 @@ Command compressMapCommand() {
         .summary = "compress a normal map to a texture for engines (BC5, EAC RG11)",
         .operands = "IN -o OUT",
         .description =
-            "Compresses a normal map in tangent space to BC5 or EAC RG11, one byte per texel: x in red, y in green; "
-            "the "
-            "reader reconstructs z. The encoder minimizes the error of the filtered texture and uses all bits of the "
-            "image, so 16-bit input results in a smaller error than 8-bit input. Mip levels are computed from mean "
-            "directions. If a roughness texture is given, its mip levels are made rougher according to the spread of "
-            "the normals. The report states the error of the texture.",
+            "Compresses a tangent-space normal map to a texture of x and y, from which the reader reconstructs z. BC5 "
+            "and EAC RG11 store x in red and y in green, in one byte per texel. The encoder minimizes the error of the "
+            "filtered texture and uses all bits of the image, so 16-bit input results in a smaller error than 8-bit "
+            "input. Mip levels are computed by averaging the normals of the image. If a roughness texture is given, "
+            "its mip levels are made rougher according to the spread of the normals. The report states the error of "
+            "the texture.",
         .examples = {"tspace compress-map normal.png -o normal.ktx2", "tspace compress-map normal.exr -o normal.dds",
                      "tspace compress-map normal.png -o normal.ktx2 --roughness orm.png -o2 orm.ktx2"},
     };

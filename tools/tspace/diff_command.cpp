@@ -72,7 +72,8 @@ Command diffCommand() {
         .description =
             "Pairs the primitives and triangles of two models that show the same surface, even if vertices were split, "
             "merged or reordered. Prints the angles between their tangents (T), normals (N) and reconstructed "
-            "bitangents (B), the number of different signs, and the vertices that differ most. No input is changed.",
+            "bitangents (B), the number of corner pairs whose signs differ, and the vertices that differ most. No "
+            "input is changed.",
         .examples = {"tspace diff before.glb after.glb",
                      "tspace diff mine.glb theirs.gltf --tolerance 0.5 --json > diff.json",
                      "tspace diff --html report.html before.glb after.glb"},

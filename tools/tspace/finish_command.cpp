@@ -99,7 +99,9 @@ Command finishCommand() {
                      "tspace finish generated.obj -o generated.glb --normals all --report generated.json"},
     };
     const char* group = kInputAndOutput;
-    command.add(group, operand("IN", arguments.input, InputKind::model, "A model of any format that generate reads."));
+    command.add(group, operand("IN", arguments.input, InputKind::model,
+                               "A model file: .glb, .vrm, .gltf or .obj; also .fbx, .ply, .stl, .dae, .3ds and others "
+                               "if tspace-import is installed."));
     Option& output =
         command.add(group, fileOption("-o, --output", "OUT", arguments.output,
                                       "Output file: .glb or .vrm. Maps are written to files next to it (OUT_normal.png "

@@ -25,9 +25,10 @@ struct PreparedReport {
 /// Returns the line to print if standard output fails although `files` are in place.
 inline std::string lineWithoutReport(const std::vector<std::string>& files) {
     constexpr std::size_t kMaxNamed = 8;
-    std::string line = "tspace: cannot write to standard output";
+    std::string line = files.empty() ? "tspace: cannot write to standard output"
+                                     : "tspace: cannot write the report to standard output";
     for (std::size_t i = 0; i < std::min(files.size(), kMaxNamed); ++i)
-        line += (i == 0 ? "; the outputs are complete: " : ", ") + printable(files[i]);
+        line += (i == 0 ? "; all output files are complete: " : ", ") + printable(files[i]);
     if (files.size() > kMaxNamed) line += ", and " + std::to_string(files.size() - kMaxNamed) + " more";
     return line + "\n";
 }
@@ -67,11 +68,12 @@ void makeAndCommit(Outcome& outcome, const Make& make, const Prepare& prepare) {
     if (!done) outcome.result = done.error();
 }
 
-inline constexpr const char* kCannotPrintReport = "tspace: cannot write to standard output; the outputs are complete\n";
+inline constexpr const char* kCannotPrintReport =
+    "tspace: cannot write the report to standard output; all output files are complete\n";
 inline constexpr const char* kNoMemoryForReport =
-    "tspace: out of memory: cannot write the report to standard output; the outputs are complete\n";
+    "tspace: out of memory: cannot write the report to standard output; all output files are complete\n";
 inline constexpr const char* kNoMemoryForManifest =
-    "tspace: out of memory: cannot write the manifest; the outputs are complete\n";
+    "tspace: out of memory: cannot write the manifest; all output files are complete\n";
 
 /// Calls work(), which runs after outputs are in place and concerns several files, or the files written. If memory runs
 /// out in it, prints `line`, which needs no memory, and returns the exit code of a file that cannot be written.

@@ -85,7 +85,7 @@ Command viewCommand() {
         .description =
             "Writes one self-contained HTML file of the model. It opens from disk in any browser and needs no network. "
             "It shows the findings of tspace check, shows the model lit with its own frames and with correct ones, and "
-            "can repair it. The page itself is built by scripts/web and installed with the tool.",
+            "can repair it. The template of the page is installed with tspace.",
         .examples = {"tspace view helmet.glb -o helmet.html"},
     };
     const char* group = kInputAndOutput;

@@ -23,8 +23,8 @@ export interface GenerateFileOptions {
   /** Recompute existing tangents. */
   overwrite?: boolean;
   /**
-   * Add missing tangents, keep correct ones, and repair wrong ones, which are not finite, not of unit length, not
-   * orthogonal to the normal, have a wrong sign, or do not follow the UVs.
+   * Add missing tangents, keep correct ones, and repair tangents that are not finite, not of unit length or not
+   * orthogonal to the normal, that have a wrong sign, or that do not follow the UVs.
    */
   repair?: boolean;
   /** Remove tangents that no material needs, including their buffer data. */
@@ -35,9 +35,10 @@ export interface GenerateFileOptions {
    */
   textureTransform?: "apply" | "ignore";
   /**
-   * Tangent method. mikktspace: bit-identical to what bakers and engines use; lengyel: one tangent per vertex, no
-   * splits; uniform, angle, area: averages over the adjacent triangles with these weights; fast, best: more accurate,
-   * for maps that were not baked; flat: one per face; basis: from the normals alone, without UVs. Default: mikktspace.
+   * Tangent method. mikktspace: the method of bakers and engines, bit-identical to its reference implementation;
+   * lengyel: one tangent per vertex, no splits; uniform, angle, area: averages over the adjacent triangles with these
+   * weights; fast, best: closer to dP/du of the smooth surface, for maps that were not baked (best is slower and more
+   * accurate); flat: one per face; basis: from the normals alone, without UVs. Default: mikktspace.
    */
   method?: "mikktspace" | "lengyel" | "uniform" | "angle" | "area" | "flat" | "basis" | "fast" | "best";
   /**
@@ -48,8 +49,9 @@ export interface GenerateFileOptions {
    */
   faces?: "triangles" | "quads" | "auto";
   /**
-   * Neighbor search of mikktspace. reference: as in the reference implementation, including its known defect; corrected:
-   * without the defect, so that the result does not depend on face order. Default: reference.
+   * Neighbor search of mikktspace. reference: as in mikktspace.c, which misses some neighbors in the last bucket of its
+   * edge list, depending on face order; corrected: all neighbors are found, so the result does not depend on face order.
+   * See docs/concepts/methods/mikktspace.md. Default: reference.
    */
   pairing?: "reference" | "corrected";
   /**
@@ -64,8 +66,8 @@ export interface GenerateFileOptions {
    */
   frame?: "gram-schmidt" | "symmetric";
   /**
-   * Number of refinement steps of `method` best and `normals` best: 0, 1 or 2. Each step improves the fit of the
-   * interpolated vectors along edges. Default: 1 for tangents, 2 for normals.
+   * Number of refinement steps of `method` best and `normals` best: 0, 1 or 2. Each step reduces the shading error:
+   * vectors interpolated along edges then reproduce these edges more closely. Default: 1 for tangents, 2 for normals.
    */
   refine?: number | string;
   /**
@@ -103,9 +105,10 @@ export interface GenerateFileOptions {
   /** Invert the green channel of every normal map, whatever its direction. */
   flipGreenAll?: boolean;
   /**
-   * Rewrite normal maps whose encoding is not that of glTF, as detected by check: two channels, exchanged channels, x in
-   * alpha, sRGB values, object space. Rewritten maps are PNG, even if the input is KTX2 or DDS. Height maps are kept,
-   * because their strength is unknown (see tspace height-to-normal).
+   * Rewrite normal maps whose encoding is not that of glTF, as detected by check: maps with only x and y, with swapped
+   * channels, with x in the alpha channel (DXT5nm), with values encoded as sRGB, or with vectors in object space.
+   * Rewritten maps are PNG, even if the input is KTX2 or DDS. Height maps are kept, because their strength is unknown
+   * (see tspace height-to-normal).
    */
   fixMaps?: boolean;
   /** The name of fix-maps before 0.1. */
@@ -116,13 +119,15 @@ export interface GenerateFileOptions {
    */
   noImages?: boolean;
   /**
-   * Texture compression of normal maps. Only keep is supported: images are not changed, including KTX2 and DDS; normal
+   * Texture compression of normal maps. The only value is keep: images are not changed, including KTX2 and DDS; normal
    * maps that another option rewrites become PNG. To compress maps for engines, use tspace compress-map. Default: keep.
    */
   compressMaps?: "keep";
   /**
-   * Method for missing normals (or all, with `overwriteNormals`): flat, uniform, area, angle, angle-area, max or best.
-   * Default: flat, as glTF specifies; for an OBJ file with smoothing groups, these groups with angle weights.
+   * Method for missing normals (or all, with `overwriteNormals`). flat: one normal per face; uniform, area, angle,
+   * angle-area, max: mean of the face normals with these weights (angle-area: angle times area; max: weights of N. Max
+   * 1999, exact on spheres); best: fitted quadratic surface, the most accurate and slowest. Default: flat, as glTF
+   * specifies; for an OBJ file with smoothing groups, these groups with angle weights.
    */
   normals?: "flat" | "uniform" | "area" | "angle" | "max" | "angle-area" | "best";
   /**
@@ -152,7 +157,7 @@ export interface GenerateFileOptions {
   normalsPerPrimitive?: boolean;
   /**
    * Recompute existing normals and add missing ones in every primitive, as set by `normals` and `crease`. Without
-   * `normals`: with angle weights. Existing tangents are recomputed too, because they would not fit the new normals.
+   * `normals`, angle weights are used. Existing tangents are recomputed too, because they would not fit the new normals.
    */
   overwriteNormals?: boolean;
   /**
@@ -163,9 +168,9 @@ export interface GenerateFileOptions {
   morphNormals?: "keep" | "missing" | "all";
   /**
    * Flip triangles whose winding disagrees with their neighbors, and connected components that are inside out, before
-   * any other step. The outside of a component is given by its existing normals if they agree; otherwise by its signed
-   * volume if it is closed, by its winding number if it is open, or else by the winding of most of its area. See
-   * docs/concepts/winding.md.
+   * any other step. The outside of a component is determined by the first of these rules that applies: its existing
+   * normals, if they agree; its signed volume, or its nesting in other components, if it is closed; its winding number,
+   * if it is open and has an inside; the winding of most of its area. See docs/concepts/winding.md.
    */
   fixWinding?: boolean;
   /** The name of fix-winding before 0.1. */
@@ -203,8 +208,8 @@ export interface CheckFileOptions {
   /** Expected sign convention: gltf, opengl, directx, unreal, unity, blender or godot, as in generate. Default: gltf. */
   convention?: "gltf" | "opengl" | "directx" | "unreal" | "unity" | "blender" | "godot";
   /**
-   * Faces on which the reference tangents are computed: triangles; quads; or auto: quads where the stored tangents
-   * clearly fit quads better, as in files from Blender, otherwise triangles. Default: auto.
+   * Faces used to compute the tangents that stored tangents are compared with: triangles; quads; or auto: quads where
+   * the stored tangents clearly fit quads better, as in files from Blender, otherwise triangles. Default: auto.
    */
   faces?: "triangles" | "quads" | "auto";
   /**
@@ -226,8 +231,8 @@ export interface FileOptions {
   allowExternal?: boolean;
   /**
    * Approximate memory limit per file, e.g. 512M or 4G (at least 64M), or none. Memory use is estimated first, and a
-   * file that would exceed the limit is rejected. Default: 64M plus 16 times the size of the file and the files it
-   * references, which protects against small files that declare huge sizes.
+   * file that would exceed the limit is rejected. Default: 64M plus 16 times the size of the input (for a model,
+   * including the files it references), which protects against small files that declare huge sizes.
    */
   memoryLimit?: number | string;
 }

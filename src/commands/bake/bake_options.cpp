@@ -93,7 +93,7 @@ Option samplesOption(std::uint32_t& target) {
 }
 
 void addLayerOptions(OptionList& list, LayerOptions& layers, BakeIds& ids) {
-    const char* group = "Maps";
+    const char* group = "Map types";
     add(list, group, mapsOption(layers));
     add(list, group, samplesOption(layers.ray_count));
     add(list, group,
@@ -130,14 +130,15 @@ void addRayOptions(OptionList& list, double& reach, RayOptions& rays, std::strin
                "edges but skews detail on flat faces; auto: averaged near edges where faces meet at more than 30 "
                "degrees, and along the face normal elsewhere; normals: along the stored normals."));
     add(list, group,
-        lengthOption(
-            "--cage-offset", rays.cage_offset,
-            "Cage distance: how far from the low poly rays start, in model units. Default: the value of --reach."));
+        lengthOption("--cage-offset", rays.cage_offset,
+                     "Cage distance: distance from the low poly at which rays start, in model units. Default: the "
+                     "value of --reach."));
     add(list, group,
-        lengthOption("--reach", reach,
-                     "Maximum search distance from the low poly, outward and inward, in model units. Default: 5% of "
-                     "the diagonal of the larger bounding box, or 1.5 times the difference of the two boxes if that "
-                     "is larger, up to 25% of the diagonal; the report states the value."));
+        lengthOption(
+            "--reach", reach,
+            "Maximum search distance from the low poly, outward and inward, in model units. Default: 5% of the "
+            "diagonal of the larger bounding box, or 1.5 times the largest distance between corresponding sides of the "
+            "two boxes if that is larger, up to 25% of the diagonal; the report states the value."));
     add(list, group,
         numberOrAuto("--weld-distance", "DISTANCE", "a distance", rays.weld_distance, NormalOptions::weld_auto,
                      1000000000,
@@ -159,7 +160,7 @@ void addRayOptions(OptionList& list, double& reach, RayOptions& rays, std::strin
 }
 
 void addBakedMapOptions(OptionList& list, BakeFileOptions& options) {
-    const char* group = "Map";
+    const char* group = "Image";
     BakeOptions& map = options.map;
     add(list, group, mapSizeOption(map));
     add(list, group, choice("--bits", "8|16", kMapBits, map.bits, "Bits per channel of the PNG: 8 or 16."));
@@ -169,10 +170,11 @@ void addBakedMapOptions(OptionList& list, BakeFileOptions& options) {
                "scene."));
     add(list, group, axesOption([&map](const MapAxes& axes) { map.axes = axes; }));
     add(list, group,
-        readingOption("--convention", map.reading,
-                      "Program whose shader will read the map: gltf, opengl, directx, unreal, unity, blender, godot or "
-                      "three. directx and unreal use green down; unity, unreal and godot read two channels, so all "
-                      "texels have unit length; godot and three interpolate bitangents per vertex."));
+        readingOption(
+            "--convention", map.reading,
+            "Program whose shader will read the map: gltf, opengl, directx, unreal, unity, blender, godot or three. "
+            "directx and unreal use green down; unity, unreal and godot reconstruct z from x and y, so texels are "
+            "written with unit length, as with --unit; godot and three interpolate bitangents per vertex."));
     add(list, group,
         flag("--unit", options.unit,
              "Give all texels unit length, so that z can be reconstructed from x and y, for two-channel formats (BC5, "
@@ -190,7 +192,7 @@ void addBakedMapOptions(OptionList& list, BakeFileOptions& options) {
         choice("--overlap", "HOW", kOverlaps, map.overlap,
                "Normal of texels where UVs overlap and the triangles need different normals, as on mirrored halves. "
                "mean: the mean of all; first: that of the UV island that comes first in the file; larger: that of the "
-               "UV island with the larger surface. The report states how far they differ."));
+               "UV island with the larger surface. The report states the angles between the different normals."));
     add(list, group, flag("--udim", options.udim, "Write one file per UDIM tile: NAME.1001.png, NAME.1002.png, ..."));
     Option wrap = flag("--wrap", options.wrap,
                        "Also bake triangles outside the 0-1 UV range, where the texture repeats. By default they are "

@@ -50,8 +50,9 @@ void addChecking(OptionList& list, CheckRequest& request) {
                "Expected sign convention: gltf, opengl, directx, unreal, unity, blender or godot, as in generate."));
     add(list, group,
         choice("--faces", "FACES", kFaces, options.faces,
-               "Faces on which the reference tangents are computed: triangles; quads; or auto: quads where the stored "
-               "tangents clearly fit quads better, as in files from Blender, otherwise triangles."));
+               "Faces used to compute the tangents that stored tangents are compared with: triangles; quads; or auto: "
+               "quads where the stored tangents clearly fit quads better, as in files from Blender, otherwise "
+               "triangles."));
     add(list, group,
         numberOrAuto("--weld-distance", "DISTANCE", "a distance", options.weld_distance, NormalOptions::weld_auto,
                      1000000000,

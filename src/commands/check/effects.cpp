@@ -17,7 +17,7 @@ const char* findingEffect(FindingCode code) {
         "Black or missing pixels.",
         "Shading and bumps are too strong or too weak in some viewers.",
         "Parts of the surface are lit as if the light came from behind them.",
-        "Bumps may look different in every viewer, with seams where the bake expects other tangents.",
+        "Bumps may look different in every viewer, with seams where its tangents differ from those of the bake.",
         "Nothing is visible: the file is only larger than necessary.",
         "Bumps look as if the file had no tangents.",
         "Pixels in the bumps are black or missing.",

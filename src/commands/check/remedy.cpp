@@ -45,8 +45,8 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
     {"signsNotOne", "Store +1 or -1 in w: {}.", {"generate --repair"}},
     {"signsMixed", "Split the vertices where mirrored and other triangles meet: {}.", {"generate --repair"}},
     {"signsInverted",
-     "Negate every w: {}. The program that wrote them passed v to MikkTSpace as stored in glTF and did not negate the "
-     "sign.",
+     "Negate every w: {}. The exporter passed the top-down v of glTF to MikkTSpace, which expects v to point up, and "
+     "did not negate the resulting sign.",
      {"generate --repair"}},
     {"signsWrong", "Negate those w: {}.", {"generate --repair"}},
     {"mirroredSeamAveraged",

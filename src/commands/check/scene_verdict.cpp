@@ -351,7 +351,8 @@ namespace {
 constexpr const char* kUnwrapFirst =
     "Add the UV set that the texture uses to the mesh; no tangent can be computed without it.";
 constexpr const char* kNoUvsToFollow =
-    "Add UVs to the mesh, which the tangents must follow, or export the intended tangents.";
+    "Add UVs to the mesh, because tangents are computed from UVs; or export the tangents from the program that made "
+    "the model.";
 constexpr const char* kOtherTool =
     "Recompute the tangents with the program that made them. If tspace recomputed all tangents of the file, it would "
     "invert signs that its normal maps may rely on.";

@@ -118,7 +118,7 @@ class MapCompression {
             bytes = ddsFileOf(texture, options_.dds_header);
         } else {
             std::optional<std::vector<std::uint8_t>> file = writeKtx2(texture, static_cast<int>(options_.zstd_level));
-            if (!file) failFile(ErrorCode::outOfMemory, "the mip levels cannot be encoded");
+            if (!file) failFile(ErrorCode::outOfMemory, "out of memory while writing the mip levels as KTX2");
             bytes = *std::move(file);
         }
         files.add(output, std::span<const std::uint8_t>(bytes));
@@ -203,7 +203,7 @@ std::vector<std::uint8_t> packTexture(const std::string& name, std::uint32_t wid
         texture.levels.push_back(packLevel(level, {}, parallel)->bytes);
     if (lowerExtension(name) == ".dds") return ddsFileOf(texture, header);
     std::optional<std::vector<std::uint8_t>> file = writeKtx2(texture);
-    if (!file) failFile(ErrorCode::outOfMemory, "the mip levels cannot be encoded");
+    if (!file) failFile(ErrorCode::outOfMemory, "out of memory while writing the mip levels as KTX2");
     return *std::move(file);
 }
 

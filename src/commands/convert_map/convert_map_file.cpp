@@ -384,7 +384,8 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
                "of the scene, after the node's transform)."));
     add(list, group,
         choice("--to", "SPACE", kSpaces, options.to,
-               "Space of the output vectors: tangent, object or world, as for --from."));
+               "Space of the output vectors: tangent, object (the coordinates of the mesh), or world (the coordinates "
+               "of the scene)."));
     add(list, group, axesOption([&options](const MapAxes& axes) { options.axes = axes; }));
     add(list, group,
         readingOption(
@@ -396,13 +397,13 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
             "Program that will show the output: gltf, opengl, directx, unreal, unity, blender, godot or three."));
     add(list, group,
         choice("--from-bitangent", "WHERE", kBitangents, options.from_reading.bitangent,
-               "Bitangents that the map was made for: interpolated per vertex or computed per pixel. Default: as in "
-               "the program of --from-convention; for gltf: pixel."))
+               "Bitangents that the map was made for. vertex: computed per vertex and interpolated; pixel: computed "
+               "per pixel. Default: as in the program of --from-convention; for gltf: pixel."))
         .default_text.clear();
     add(list, group,
         choice("--to-bitangent", "WHERE", kBitangents, options.to_reading.bitangent,
-               "Bitangents that the output is made for: interpolated per vertex or computed per pixel. Default: as in "
-               "the program of --to-convention; for gltf: pixel."))
+               "Bitangents that the output is made for. vertex: computed per vertex and interpolated; pixel: computed "
+               "per pixel. Default: as in the program of --to-convention; for gltf: pixel."))
         .default_text.clear();
     add(list, group,
         option(

@@ -48,8 +48,8 @@ OptionList finishOptions(FinishOptions& options) {
     add(list, "Normals",
         choice("--normals", "WHICH", kFinishNormals, options.normals,
                "Normals to recompute, by method best. missing: missing normals and normals that check reports as "
-               "errors; all: every normal; none: keep all existing normals; missing normals are computed only if "
-               "tangents require them."));
+               "errors; all: every normal; none: keep all existing normals, and compute missing ones only if tangents "
+               "require them."));
     add(list, "Normals",
         numberOrAuto(
             "--crease", "DEG", "a number of degrees", options.crease_angle_deg, NormalOptions::crease_auto, 180,
@@ -80,6 +80,7 @@ OptionList finishOptions(FinishOptions& options) {
     for (Option& option : bakeOptions(options.bake)) {
         if (std::find(std::begin(kBakes), std::end(kBakes), option.name()) == std::end(kBakes)) continue;
         option.needs = "--low";
+        option.group += option.group == kInputAndOutput ? "" : " (only with --low)";
         option.excludes.clear();
         if (option.name() == "--maps")
             option.help =
@@ -87,6 +88,12 @@ OptionList finishOptions(FinishOptions& options) {
                 "color, orm (occlusion, roughness, metalness) and emission. Each map is written to a file next to OUT: "
                 "OUT_normal.png, OUT_ao.png etc. The maps color, orm and emission are transferred from the materials "
                 "of IN.";
+        if (option.name() == "--match")
+            option.help =
+                "Only with --low: pairing of low-poly with high-poly objects. names: Body_low is paired with Body, "
+                "Body_high, Body_hp, Body_high_001 and Body_high_buckle, and an object without a match uses the whole "
+                "high poly; all: every object uses the whole high poly; any other value: a text file with lines LOW = "
+                "HIGH.";
         if (option.name() == "--high-green") option.excludes = {"--ignore-high-maps"};
         list.push_back(std::move(option));
     }

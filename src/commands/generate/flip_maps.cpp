@@ -44,7 +44,7 @@ std::vector<bool> findCancelled(const Scene& scene, ImageFindings& found, const 
 
 /// Returns why FlipGreen::down leaves a map unchanged; empty: the map is inverted.
 std::string whyUnchanged(GreenSide side, bool is_cancelled, bool is_declared, const Convention& convention) {
-    if (is_declared) return "the file declares that green points down, so its readers invert green";
+    if (is_declared) return "the file declares that green points down, so programs that read it already invert green";
     switch (side) {
         case GreenSide::up:
             return "green points up already";

@@ -80,8 +80,8 @@ void addSelection(OptionList& list, GenerateOptions& options) {
         .excludes = {"--only-missing"};
     add(list, group,
         setting("--repair", options.selection.existing, ExistingTangents::repair,
-                "Add missing tangents, keep correct ones, and repair wrong ones, which are not finite, not of unit "
-                "length, not orthogonal to the normal, have a wrong sign, or do not follow the UVs."))
+                "Add missing tangents, keep correct ones, and repair tangents that are not finite, not of unit length "
+                "or not orthogonal to the normal, that have a wrong sign, or that do not follow the UVs."))
         .excludes = {"--only-missing", "--overwrite"};
     add(list, group,
         flag("--strip", options.selection.strip,
@@ -99,9 +99,10 @@ void addTangentOptions(OptionList& list, GenerateOptions& options) {
                "themselves."));
     add(list, group,
         choice("--method", "NAME", kMethods, tangents.method,
-               "Tangent method. mikktspace: bit-identical to what bakers and engines use; lengyel: one tangent per "
-               "vertex, no splits; uniform, angle, area: averages over the adjacent triangles with these weights; "
-               "fast, best: more accurate, for maps that were not baked; flat: one per face; basis: from the normals "
+               "Tangent method. mikktspace: the method of bakers and engines, bit-identical to its reference "
+               "implementation; lengyel: one tangent per vertex, no splits; uniform, angle, area: averages over the "
+               "adjacent triangles with these weights; fast, best: closer to dP/du of the smooth surface, for maps "
+               "that were not baked (best is slower and more accurate); flat: one per face; basis: from the normals "
                "alone, without UVs."));
     add(list, group,
         choice("--faces", "FACES", kFaces, options.tangents.faces,
@@ -112,8 +113,9 @@ void addTangentOptions(OptionList& list, GenerateOptions& options) {
         .default_text.clear();
     add(list, group,
         choice("--pairing", "NAME", kPairings, tangents.pairing,
-               "Neighbor search of mikktspace. reference: as in the reference implementation, including its known "
-               "defect; corrected: without the defect, so that the result does not depend on face order."));
+               "Neighbor search of mikktspace. reference: as in mikktspace.c, which misses some neighbors in the last "
+               "bucket of its edge list, depending on face order; corrected: all neighbors are found, so the result "
+               "does not depend on face order. See docs/concepts/methods/mikktspace.md."));
     add(list, group,
         degrees("--threshold", tangents.angular_threshold_deg, 360,
                 "Angular threshold of mikktspace: tangents of adjacent faces that differ by this angle or more are not "
@@ -125,8 +127,9 @@ void addTangentOptions(OptionList& list, GenerateOptions& options) {
             "the direction perpendicular to dP/dv. symmetric is not available with --method mikktspace and basis."));
     add(list, group,
         number("--refine", tangents.refine, 2,
-               "Number of refinement steps of --method best and --normals best: 0, 1 or 2. Each step improves the fit "
-               "of the interpolated vectors along edges. Default: 1 for tangents, 2 for normals."))
+               "Number of refinement steps of --method best and --normals best: 0, 1 or 2. Each step reduces the "
+               "shading error: vectors interpolated along edges then reproduce these edges more closely. Default: 1 "
+               "for tangents, 2 for normals."))
         .default_text.clear();
     add(list, group,
         flag("--bitangents", options.tangents.bitangents,
@@ -169,7 +172,7 @@ Option compressMapsOption() {
     };
     Option made = option(
         "--compress-maps", "HOW", take,
-        "Texture compression of normal maps. Only keep is supported: images are not changed, including KTX2 and DDS; "
+        "Texture compression of normal maps. The only value is keep: images are not changed, including KTX2 and DDS; "
         "normal maps that another option rewrites become PNG. To compress maps for engines, use tspace compress-map.");
     made.choices = {"keep"};
     made.default_text = "keep";
@@ -188,9 +191,10 @@ void addMapOptions(OptionList& list, GenerateOptions& options) {
         .excludes = {"--flip-green"};
     add(list, group,
         flag("--fix-maps", options.maps.mend,
-             "Rewrite normal maps whose encoding is not that of glTF, as detected by check: two channels, exchanged "
-             "channels, x in alpha, sRGB values, object space. Rewritten maps are PNG, even if the input is KTX2 or "
-             "DDS. Height maps are kept, because their strength is unknown (see tspace height-to-normal)."))
+             "Rewrite normal maps whose encoding is not that of glTF, as detected by check: maps with only x and y, "
+             "with swapped channels, with x in the alpha channel (DXT5nm), with values encoded as sRGB, or with "
+             "vectors in object space. Rewritten maps are PNG, even if the input is KTX2 or DDS. Height maps are kept, "
+             "because their strength is unknown (see tspace height-to-normal)."))
         .old_names = {"--mend-maps"};
     add(list, group,
         flag("--convert-maps", options.maps.convert,
@@ -207,11 +211,14 @@ void addMapOptions(OptionList& list, GenerateOptions& options) {
 }
 
 void addOtherOptions(OptionList& list, GenerateOptions& options) {
-    Option& weighting = add(list, "Normals",
-                            choice("--normals", "NAME", kWeightings, options.normals.compute.weighting,
-                                   "Method for missing normals (or all, with --overwrite-normals): flat, uniform, "
-                                   "area, angle, angle-area, max or best. Default: flat, as glTF specifies; for an OBJ "
-                                   "file with smoothing groups, these groups with angle weights."));
+    Option& weighting =
+        add(list, "Normals",
+            choice("--normals", "NAME", kWeightings, options.normals.compute.weighting,
+                   "Method for missing normals (or all, with --overwrite-normals). flat: one normal per face; uniform, "
+                   "area, angle, angle-area, max: mean of the face normals with these weights (angle-area: angle times "
+                   "area; max: weights of N. Max 1999, exact on spheres); best: fitted quadratic surface, the most "
+                   "accurate and slowest. Default: flat, as glTF specifies; for an OBJ file with smoothing groups, "
+                   "these groups with angle weights."));
     weighting.default_text.clear();
     add(list, "Normals",
         numberOrAuto("--crease", "DEG", "a number of degrees", options.normals.compute.crease_angle_deg,
@@ -239,8 +246,8 @@ void addOtherOptions(OptionList& list, GenerateOptions& options) {
     add(list, "Normals",
         flag("--overwrite-normals", options.normals.overwrite,
              "Recompute existing normals and add missing ones in every primitive, as set by --normals and --crease. "
-             "Without --normals: with angle weights. Existing tangents are recomputed too, because they would not fit "
-             "the new normals."))
+             "Without --normals, angle weights are used. Existing tangents are recomputed too, because they would not "
+             "fit the new normals."))
         .excludes = {"--convert-maps"};
     add(list, "Normals",
         choice("--morph-normals", "WHICH", kMorphNormals, options.normals.morphs,
@@ -250,9 +257,10 @@ void addOtherOptions(OptionList& list, GenerateOptions& options) {
     add(list, "Repair",
         flag("--fix-winding", options.mend_winding,
              "Flip triangles whose winding disagrees with their neighbors, and connected components that are inside "
-             "out, before any other step. The outside of a component is given by its existing normals if they agree; "
-             "otherwise by its signed volume if it is closed, by its winding number if it is open, or else by the "
-             "winding of most of its area. See docs/concepts/winding.md."))
+             "out, before any other step. The outside of a component is determined by the first of these rules that "
+             "applies: its existing normals, if they agree; its signed volume, or its nesting in other components, if "
+             "it is closed; its winding number, if it is open and has an inside; the winding of most of its area. See "
+             "docs/concepts/winding.md."))
         .old_names = {"--mend-winding"};
     add(list, "Repair",
         setting(

@@ -156,7 +156,7 @@ bool decide(PrimitiveReport& report, const Document& document, const Primitive& 
     if (primitive.triangleCount() == 0) return cannot("it has no triangle");
     if (options.tangents.compute.method != Method::basis) {
         if (!primitive.find(uvsOf(uses)))
-            return cannot("it has no " + uvsOf(uses) + ", which the tangents must follow");
+            return cannot("it has no " + uvsOf(uses) + ", from which tangents are computed");
         report.uv_set = static_cast<std::int32_t>(uses.empty() ? 0 : uses[0].uv_set);
     }
     report.reason = !uses.empty()           ? needWords(uses[0])

@@ -124,7 +124,8 @@ std::string windingText(const std::vector<MendedWindingReport>& windings) {
     std::string text = fmt::format("{} of {} flipped", sum.turned_count, counted(sum.face_count, "face"));
     if (sum.turned_component_count != 0)
         text += fmt::format(", including {} as a whole", counted(sum.turned_component_count, "part"));
-    text += fmt::format("; edges in conflict: {} -> {}", sum.conflict_count_before, sum.conflict_count_after);
+    text += fmt::format("; edges with inconsistent winding: {} before, {} after", sum.conflict_count_before,
+                        sum.conflict_count_after);
     if (sum.one_sided_count != 0) text += fmt::format("; {} not orientable", counted(sum.one_sided_count, "part"));
     if (sum.conflict_count_after != 0 && sum.small_count != 0)
         text += fmt::format("; {} with fewer than 4 faces not flipped", counted(sum.small_count, "part"));

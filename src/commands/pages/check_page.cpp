@@ -116,7 +116,7 @@ std::string FindingPictures::drawAfter(const RemedyCommand& command, std::size_t
                                        std::span<const std::size_t> triangles, RenderFrames frames,
                                        FindingPicture& result) {
     const std::optional<GenerateOptions> options = optionsOf(command);
-    if (!options) return "No picture of the fix was made, because the fix requires a decision.";
+    if (!options) return "No picture of the fix was made, because its command contains a value that must be chosen.";
     const Model::FixResult& fix = model_->resultOf(commandLine(command), *options);
     if (!fix.model) return fix.why_not;
     const auto pair = std::find_if(fix.model->pairs.begin(), fix.model->pairs.end(),
@@ -248,8 +248,9 @@ std::string fileHtml(const report::CheckOutcome& outcome, std::size_t number, Pi
     }
     html += "<p>" + severityCounts(report) + " in " + counted(report.primitive_count, "primitive") + ", " +
             std::to_string(report.tangents_count) + " of them with tangents; examined " +
-            counted(report.image_count, "normal map") + ": channel contents, and direction of green (determined for " +
-            std::to_string(report.green_count) + ")</p>\n";
+            counted(report.image_count, "normal map") +
+            "; checked channel contents, and the direction of green (determined for " +
+            std::to_string(report.green_count) + " of them)</p>\n";
     if (!report.generator.empty()) html += "<p class=\"dim\">made by " + htmlText(report.generator) + "</p>\n";
     for (const Finding& finding : report.findings) html += findingHtml(finding, pictures);
     return html + "</section>\n";

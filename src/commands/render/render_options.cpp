@@ -116,8 +116,8 @@ Option readingOption(RenderOptions& options) {
         return std::string();
     };
     Option made = option("--reading", "PROGRAM", take,
-                         "Program whose interpretation of normal maps is used: gltf (green up; N and T are not "
-                         "normalized per pixel, which glTF leaves open), opengl, directx, unreal, unity, blender, "
+                         "Program whose shading convention for normal maps is used: gltf (green up; N and T are not "
+                         "normalized per pixel, which glTF does not specify), opengl, directx, unreal, unity, blender, "
                          "godot or three. Tangents always follow the glTF convention.");
     for (const char* name : kReadings) made.choices.emplace_back(name);
     made.default_text = kReadings[0];

@@ -70,7 +70,8 @@ void addMemoryLimit(OptionList& list, std::uint64_t& memory_limit_bytes) {
         option("--memory-limit", "SIZE", take,
                "Approximate memory limit per file, e.g. 512M or 4G (at least 64M), or none. Memory use is estimated "
                "first, and a file that would exceed the limit is rejected. Default: 64M plus 16 times the size of the "
-               "file and the files it references, which protects against small files that declare huge sizes."));
+               "input (for a model, including the files it references), which protects against small files that "
+               "declare huge sizes."));
 }
 
 void addLimits(OptionList& list, FileOptions& file) {
@@ -86,9 +87,9 @@ void addLengths(OptionList& list, const char* group, TexelLengths& lengths) {
     static constexpr Named<TexelLengths> kLengths[] = {{"even", TexelLengths::even}, {"free", TexelLengths::free}};
     add(list, group,
         choice("--lengths", "HOW", kLengths, lengths,
-               "Range of vector lengths in 8-bit maps. even: 0.9 to 1, for textures whose mip levels are computed from "
-               "the map, as engines do; free: 0.7 to 1.1, which is more accurate close up and less accurate in mip "
-               "levels."));
+               "Allowed vector lengths in 8-bit maps. A length other than 1 permits texel values with a smaller "
+               "angular error. even: 0.9 to 1, for textures whose mip levels are computed from the map, as engines do; "
+               "free: 0.7 to 1.1, which is more accurate close up and less accurate in mip levels."));
 }
 
 void addAlpha(OptionList& list, const char* group, MapAlpha& alpha) {

@@ -400,7 +400,7 @@ Error checkBuffers(const TangentPlan& plan, const PlanParts& parts, const PlanBu
             return {ErrorCode::indexOutOfRange, "the source corners contain a corner that the plan does not have"};
     }
     if (!options.source_corners.empty() && plan.outputCount() != plan.cornerCount())
-        return refuse("source corners cannot be combined with a plan that has one result per vertex");
+        return refuse("source_corners needs a plan with one result per corner, but this plan has one per vertex");
     if (options.mesh.vertexCount() == 0) return {ErrorCode::ok, {}};
     if (options.normals.weighting == NormalWeighting::best || options.normals.denoise != 0)
         return refuse("the shaders cannot compute normals with the weighting best or with denoise");

@@ -479,7 +479,8 @@ Error checkLayers(const LayerOptions& layers, const BakeOptions& options, std::s
         if (isMaterial(layer) && !layers.material)
             return wrong("the layers color, orm and emission need the materials of the high poly");
     }
-    if (layers.layers.empty() && !layers.has_normal) return wrong("no map was requested; name at least one layer");
+    if (layers.layers.empty() && !layers.has_normal)
+        return wrong("no map was requested; request the normal map or at least one layer");
     if (layers.ray_count == 0 || layers.ray_count > kMostLayerRays)
         return wrong("the number of rays per point must be from 1 to 4096");
     for (const double length :

@@ -179,7 +179,7 @@ std::string causeOfMisses(const LowPoly& low, const HighPoly& high, const RaySur
     const double size = PositionBox(low.positions).diagonal(), high_size = PositionBox(high.positions).diagonal();
     const double usual = std::max(reach, kUsualReach * size);
     const auto furtherAway = [&](double other) {
-        return "it is farther away than the ray distance: --reach " + shortNumber(other) + " reaches it";
+        return "it is farther away than the maximum ray distance: --reach " + shortNumber(other) + " reaches it";
     };
     if (usual > reach && trial.met(usual) >= kMeets) return furtherAway(usual);
     const std::string moved = likelyPlacement(trial, size, high_size, usual, kMeets);

@@ -231,7 +231,8 @@ TEST(FindingPictures, ExplainAMissingSecondPicture) {
     EXPECT_FALSE(none.before.empty());
     EXPECT_EQ(none.command, "");
     const FindingPicture open = pictureOf(good, findingAt(FindingCode::packedFramesDiffer, {0}));
-    EXPECT_EQ(open.why_no_after, "No picture of the fix was made, because the fix requires a decision.");
+    EXPECT_EQ(open.why_no_after,
+              "No picture of the fix was made, because its command contains a value that must be chosen.");
 }
 
 }  // namespace
