@@ -97,7 +97,7 @@ install(CODE "if(EXISTS \"$<TARGET_FILE:tspace>\")
     file(CREATE_LINK \"$<TARGET_FILE_NAME:tspace>\" \"\$ENV{DESTDIR}${folder}/${link}\" SYMBOLIC)
 endif()" COMPONENT tspace_core)
 tspace_pkg_config(tspace-cpp tspace tspace_core "${PROJECT_DESCRIPTION}, in C++" "-ltspace-cpp -lm -pthread")
-# The static library of files depends on other libraries, which this build has already found.
+# tspace-files has a pkg-config file only for the shared library: the static one depends on third-party libraries.
 if(TARGET tspace_files_shared)
     tspace_pkg_config(tspace-files tspace_files_shared tspace_files_shared_link "${PROJECT_DESCRIPTION}: model files, in C" "-ltspace-files")
 endif()

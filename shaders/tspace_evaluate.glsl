@@ -758,7 +758,8 @@ vec4 tspace_nearestInChart(vec3 p) {
     return best;
 }
 
-// Encodes a frame as frame32: the nearest code of all charts that contain its rotation (docs/concepts/pack.md).
+// Encodes a frame as frame32: returns the nearest code of all quaternion charts that contain its rotation
+// (docs/concepts/pack.md).
 uint tspace_encodeFrame32(vec3 normal, vec4 tangent) {
     vec3 n = tspace_direction(normal);
     if (dot(n, n) == 0.0) {

@@ -752,7 +752,8 @@ float4 tspace_nearestInChart(float3 p) {
     return best;
 }
 
-// Encodes a frame as frame32: the nearest code of all charts that contain its rotation (docs/concepts/pack.md).
+// Encodes a frame as frame32: returns the nearest code of all quaternion charts that contain its rotation
+// (docs/concepts/pack.md).
 uint tspace_encodeFrame32(float3 normal, float4 tangent) {
     float3 n = tspace_direction(normal);
     if (dot(n, n) == 0.0) {

@@ -753,7 +753,8 @@ fn tspace_nearestInChart(p: vec3f) -> vec4f {
     return best;
 }
 
-// Encodes a frame as frame32: the nearest code of all charts that contain its rotation (docs/concepts/pack.md).
+// Encodes a frame as frame32: returns the nearest code of all quaternion charts that contain its rotation
+// (docs/concepts/pack.md).
 fn tspace_encodeFrame32(normal: vec3f, tangent: vec4f) -> u32 {
     var n: vec3f = tspace_direction(normal);
     if (dot(n, n) == 0.0) {

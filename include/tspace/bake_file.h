@@ -129,7 +129,7 @@ struct BakedFile {
     std::uint64_t triangle_count = 0;
     std::uint64_t outside_count = 0;  ///< ignored triangles of the material: see BakeFileOptions::wrap
     UsedRays rays = {};
-    BakedMap map = {};        ///< without texels
+    BakedMap map = {};        ///< the baked map, without its texels
     double heat_top_deg = 0;  ///< value of the brightest color of the heat map
     std::vector<BakedLayerFile> layers = {};
 };
@@ -174,7 +174,8 @@ struct MapErrorFileOptions {
 
 /// Interpretation of the map, with the error that it has under this interpretation.
 struct ExplainedReading {
-    /// "file", a method, "quads" (mikktspace on quads), or "object" (no frames: object space).
+    /// Source of the frames: "file" (stored tangents), the name of a method, "quads" (mikktspace on quads), or "object"
+    /// (an object-space map without frames).
     std::string frames = {};
     MapAxes axes = {};  ///< axes of the map, in object space
     MapReading reading = {};

@@ -103,14 +103,14 @@ const char* findingRemedy(FindingCode code);
 
 struct RemedyOption {
     std::string name = {};   ///< option name without dashes: "overwrite-normals"; "o": output path
-    std::string value = {};  ///< empty: a flag
+    std::string value = {};  ///< value of the option; empty if the option is a flag
 };
 
 /// A tspace command that a remedy refers to, in structured form: programs can format it for their users, or run it.
 struct RemedyCommand {
     std::string verb = {};                   ///< subcommand: "generate", "convert-map", ...
     std::vector<std::string> inputs = {};    ///< files; empty: the model that was checked
-    std::vector<RemedyOption> options = {};  ///< in the order of the command line
+    std::vector<RemedyOption> options = {};  ///< options of the command, in the order of the command line
     /// Placeholders among inputs and values, to be replaced by the user: "OUT.png", "HIGH".
     std::vector<std::string> placeholders = {};
 };
@@ -218,7 +218,7 @@ struct CheckReport {
     std::uint64_t tangents_count = 0;   ///< primitives whose tangents were examined
     std::uint64_t image_count = 0;      ///< normal maps whose channels were examined
     std::uint64_t green_count = 0;      ///< examined normal maps whose relief shows the direction of green
-    std::vector<PackedFramesInfo> packed_frames = {};  ///< in file order
+    std::vector<PackedFramesInfo> packed_frames = {};  ///< packed frame attributes, in file order
     std::optional<CheckedImage> image = {};            ///< result for an image that was checked without a model
 };
 

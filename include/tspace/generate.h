@@ -270,7 +270,8 @@ struct NormalMapReport {
     /// true: the image was rewritten, because glTF readers would misinterpret it (Maps::mend), or because it held
     /// heights (OBJ).
     bool mended = false;
-    std::string reason = {};  ///< why nothing was done, or what the image contained: a sentence fragment
+    /// Reason why the image was not changed, or contents of the image that was rewritten; a sentence fragment.
+    std::string reason = {};
 };
 
 /// Result for one normal map as used by some primitives (Maps::convert).

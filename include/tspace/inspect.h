@@ -239,7 +239,7 @@ struct DiffOptions {
 
 struct FrameDiff {
     std::vector<PrimitiveDiff> primitives = {};  ///< primitives of A in file order, then unpaired primitives of B
-    AngleStatistics tangents = {};               ///< over all pairs of the file
+    AngleStatistics tangents = {};               ///< angles of all pairs of the file
     AngleStatistics normals = {};
     AngleStatistics bitangents = {};
     std::uint64_t corner_count = 0;  ///< pairs of corners that were compared

@@ -135,7 +135,7 @@ struct LowPoly {
 
 /// Normal map of a high poly, and its interpretation.
 struct HighMap {
-    MapImage image = {};  ///< in tangent space
+    MapImage image = {};  ///< map in tangent space
     MapReading reading = {};
 };
 
@@ -159,7 +159,7 @@ struct HighPoly {
 struct MapErrorOptions {
     MapSpace space = MapSpace::tangent;  ///< space of the map; the default is that of glTF
     MapReading reading = {};             ///< interpretation of the map; the default is that of glTF
-    MapAxes axes = {};                   ///< with MapSpace::object
+    MapAxes axes = {};                   ///< axes of the map, with MapSpace::object
     /// Maximum ray distance from the surface, inwards and outwards; with a cage mesh, the distance beyond the surface.
     /// 0: derived from the sizes of both meshes (chosenReach).
     double reach = 0;
@@ -181,12 +181,13 @@ struct MapError {
     /// Samples whose rays hit a back face of the high poly before the front face that is used, or only back faces.
     std::uint64_t back_count = 0;
     std::uint64_t inward_count = 0;  ///< samples that hit a front face whose shading normal points inwards
-    double mean_deg = 0, p99_deg = 0, max_deg = 0;  ///< over all samples; one without a hit counts as kMissedDeg
-    double met_mean_deg = 0;                        ///< mean over the samples that hit the high poly
-    std::uint64_t seam_point_count = 0;             ///< samples within one texel of a UV border
-    double seam_mean_deg = 0;                       ///< mean over the samples near seams
-    double inside_mean_deg = 0;                     ///< mean over the other samples
-    double reach = 0, cage_offset = 0;              ///< values that were used; no offset with a cage mesh
+    /// Error of all samples; a sample without a hit counts as kMissedDeg.
+    double mean_deg = 0, p99_deg = 0, max_deg = 0;
+    double met_mean_deg = 0;             ///< mean error of the samples that hit the high poly
+    std::uint64_t seam_point_count = 0;  ///< samples within one texel of a UV border
+    double seam_mean_deg = 0;            ///< mean error of the samples near UV seams
+    double inside_mean_deg = 0;          ///< mean error of all other samples
+    double reach = 0, cage_offset = 0;   ///< values that were used; with a cage mesh, cage_offset is 0
     /// Mean error per texel in degrees, over four points; -1 if no triangle covers one of them. Empty unless requested.
     std::vector<float> heat = {};
 };
@@ -211,8 +212,8 @@ struct MapCandidate {
     StridedSpan<const Vec4> tangents = {};  ///< three per triangle; empty: tangents of the low poly
     /// Rays that define the truth; null: rays of the options. Must stay valid.
     const RayOptions* rays = nullptr;
-    double reach = 0;   ///< with `rays`; 0: reach of the options
-    MapAxes axes = {};  ///< with MapSpace::object
+    double reach = 0;   ///< maximum ray distance, with `rays`; 0: reach of the options
+    MapAxes axes = {};  ///< axes of the map, with MapSpace::object
 };
 
 /// Computes measureMap for each of several interpretations, at the same points, without `heat`. Errors as measureMap.
@@ -331,7 +332,8 @@ struct HeightToNormalOptions {
 
 struct HeightToNormalReport {
     std::uint64_t on_mesh = 0;  ///< texels whose size was derived from the triangle that covers them
-    double texel_size = 1;      ///< in the units of strength: mean over the mesh, used for all other texels
+    /// Mean texel width over the mesh, in the units of `strength`; used for texels that no triangle covers.
+    double texel_size = 1;
     double mean_lean_deg = 0, max_lean_deg = 0;  ///< angles between the normals and the surface normals
 };
 
@@ -381,13 +383,13 @@ struct BakeOptions {
     std::uint32_t width = 1024, height = 1024;  ///< 1 to 16384
     unsigned bits = 16;                         ///< bits per channel: 8 or 16
     MapSpace space = MapSpace::tangent;         ///< space of its vectors; the default is that of glTF
-    MapAxes axes = {};                          ///< with MapSpace::object: unit and orthogonal
+    MapAxes axes = {};                          ///< axes of the map, with MapSpace::object: unit and orthogonal
     MapReading reading = {};  ///< renderer that the map is made for; with two channels all texels have unit length
     /// Wrap modes of the texture. Triangles beyond the edge of a clamped texture are ignored there.
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
     MapFit fit = MapFit::solve;
     MapOverlap overlap = MapOverlap::mean;
-    TexelLengths lengths = TexelLengths::even;  ///< with 8 bits and three channels
+    TexelLengths lengths = TexelLengths::even;  ///< range of vector lengths, with 8 bits and three channels
     std::uint32_t padding = 16;                 ///< padding around the triangles, in texels; 0 to 256
     double reach = 0;                           ///< as MapErrorOptions::reach
     RayOptions rays = {};
@@ -498,7 +500,7 @@ struct BakedLayer {
 struct BakedMaps {
     /// The normal map. Without texels and errors if no normal map was requested.
     BakedMap normal = {};
-    std::vector<BakedLayer> layers = {};  ///< in the order of LayerOptions::layers
+    std::vector<BakedLayer> layers = {};  ///< baked layers, in the order of LayerOptions::layers
 };
 
 /// Returns the name of a layer: "ao", "bent" and so on; empty for other values.

@@ -49,7 +49,7 @@ struct RenderOptions {
     /// Direction of the camera. Yaw 0: from +z, the front of a glTF model; 90: from +x. Pitch 90: from +y. The whole
     /// model is in the image.
     double yaw_deg = 35, pitch_deg = 20;
-    double field_of_view_deg = 30;  ///< of the shorter side, 0 to 120; 0: parallel rays
+    double field_of_view_deg = 30;  ///< angle of view along the shorter side of the image, 0 to 120; 0: parallel rays
     /// Direction to the light in camera space: x to the right, y up, z towards the camera. Any length except 0.
     Vec3 to_light = {-0.45f, 0.65f, 0.8f};
     RenderFrames frames = RenderFrames::automatic;
@@ -81,7 +81,7 @@ struct RenderReport {
     std::uint32_t width = 0, height = 0;
     std::uint32_t picture_count = 1;           ///< images of `turntable`
     std::uint64_t triangle_count = 0;          ///< triangles drawn; a primitive counts once per node that draws it
-    std::uint64_t primitive_count = 0;         ///< in the file
+    std::uint64_t primitive_count = 0;         ///< primitives of the file
     std::uint64_t without_tangents_count = 0;  ///< primitives without tangents, both in the file and in the image
     std::uint64_t computed_count = 0;          ///< primitives whose tangents were computed for the picture
     /// For `error`: statistics over the samples that have both frames; 0 if there are none.

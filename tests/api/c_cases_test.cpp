@@ -64,7 +64,7 @@ struct CaseMesh {
 struct CaseCall {
     CaseCall(const Json& arrays, const Json& given) : arrays_(arrays), mesh(arrays_.mesh), options(given) {}
 
-    /// A struct with its defaults and the options of the case.
+    /// Returns a struct with its default values, overwritten by the options of the test case.
     template <class Struct>
     Struct prepared() const {
         Struct made;

@@ -56,7 +56,7 @@ pipe() { "$programs/tspace" render -q "$work/pipe.glb" -o "$images/render-$1.png
 pipe posed
 pipe unposed --no-pose
 
-# docs/concepts/normals.md: kinds of meshes, each with the usual normals and with the recommended ones.
+# Draws the pictures of docs/concepts/normals.md: each kind of mesh with the usual and with the recommended normals.
 python3 "$(dirname "$0")/normal_kinds.py" "$work"
 normals() {
     "$programs/tspace" generate -q --all --method basis "$work/$1.obj" -o "$work/kind.glb" "${@:3}"

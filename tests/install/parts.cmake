@@ -1,6 +1,6 @@
-# First configures SOURCE into FOLDER without any third-party library: parts that need one are omitted and named in one
-# line, and the core is built. Then configures it with all libraries: an installation omits programs that were not
-# built.
+# First configures SOURCE into FOLDER without any third-party library, and checks that parts that need one are omitted
+# and named in one line, and that the core is built. Then configures it with all libraries, and checks that an
+# installation omits programs that were not built.
 cmake_minimum_required(VERSION 3.22)
 file(REMOVE_RECURSE "${FOLDER}")
 

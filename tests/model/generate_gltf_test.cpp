@@ -44,7 +44,7 @@ TEST(GenerateGltf, SplitsAndCarriesEveryAttributeAlong) {
     const std::size_t custom = builder.addAccessor(ids, kU8, "VEC3", count);
     builder.json()["bufferViews"].back()["byteStride"] = 4;
     builder.json()["accessors"].back()["normalized"] = true;
-    // A morph target that is sparse without a base view.
+    // A morph target whose accessor is sparse and has no bufferView.
     builder.addView(test::bytesOfValues<std::uint16_t>({7, 12}));
     builder.addView(test::bytesOfValues<float>({1, 2, 3, 4, 5, 6}));
     const std::size_t views = builder.json()["bufferViews"].size();

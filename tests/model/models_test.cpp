@@ -187,7 +187,8 @@ INSTANTIATE_TEST_SUITE_P(Small, EveryPacking,
                                          Packing{Compression::meshopt, VectorFormat::snorm8},
                                          Packing{Compression::draco, VectorFormat::snorm16}));
 
-/// Every method preserves its own output. Small models keep the test fast.
+/// Running a method a second time, on its own output, changes nothing. Only small models are used, to keep the test
+/// fast.
 class EveryMethod : public testing::TestWithParam<Method> {};
 
 TEST_P(EveryMethod, ChangesNothingTheSecondTime) {

@@ -25,7 +25,7 @@ struct GoldenFile {
 
     float angular_threshold_deg = 180;
     std::uint32_t returned = 0;             ///< return value of the reference's function
-    std::vector<std::uint32_t> face_sizes;  ///< empty: not a complete golden file
+    std::vector<std::uint32_t> face_sizes;  ///< corners per face; empty if the golden file is incomplete
     std::vector<std::uint32_t> inputs, results;
 
     GoldenFile() = default;

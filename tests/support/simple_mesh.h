@@ -17,7 +17,7 @@ struct SimpleMesh {
     std::vector<Vec3> normals = {};
     std::vector<Vec2> uvs = {};
     std::vector<std::uint32_t> indices = {};
-    std::vector<std::uint32_t> face_sizes = {};  ///< empty: triangles
+    std::vector<std::uint32_t> face_sizes = {};  ///< corners per face; empty: all faces are triangles
 
     std::uint32_t addVertex(const Vec3& position, const Vec3& normal, const Vec2& uv) {
         positions.push_back(position);

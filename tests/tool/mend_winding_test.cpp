@@ -91,7 +91,7 @@ TEST(FixWindingOfFiles, FlipsFacesOfObjBeforeNormalsAreComputed) {
     EXPECT_EQ(1, report["windings"][0]["byVolume"].get<int>());
     for (const Json& primitive : report["primitives"]) EXPECT_EQ(0, primitive["normalsBehind"].get<int>());
     EXPECT_FALSE(findsNormalsAgainstWinding(folder, "b.glb"));
-    // Same result as for the undamaged file.
+    // The repaired file must equal the result for the undamaged file.
     writeTorus(folder, false, false);
     ASSERT_EQ(0, runTool(folder, "generate -q --all --normals angle a.obj -o c.glb").exit_code);
     EXPECT_EQ(0, runTool(folder, "diff b.glb c.glb").exit_code);

@@ -13,8 +13,9 @@
 namespace tspace::tool {
 
 void openStandardStreams() {
-    // Descriptors are opened in the wrong direction, so that reading or writing fails. The system assigns the lowest
-    // free descriptor.
+    // Replaces closed standard streams by /dev/null, opened in the opposite direction (stdin write-only, stdout and
+    // stderr read-only), so that reading or writing fails. open() returns the lowest free descriptor, which is
+    // `number`.
     for (int number = STDIN_FILENO; number <= STDERR_FILENO; ++number) {
         if (fcntl(number, F_GETFD) != -1 || errno != EBADF) continue;
         if (open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) open("/", O_RDONLY);

@@ -15,7 +15,7 @@ namespace Tspace
         public float[] Normals { get; internal set; }
         /// <summary>4 floats per new vertex: unit tangent and sign.</summary>
         public float[] Tangents { get; internal set; }
-        /// <summary>Number of new vertices.</summary>
+        /// <summary>Number of output vertices, after splitting.</summary>
         public int VertexCount => SourceVertices.Length;
         public TangentReport Report { get; internal set; }
         /// <summary>Number of repaired tangents.</summary>

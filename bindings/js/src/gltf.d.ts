@@ -97,7 +97,10 @@ export interface ModelOptions extends FileOptions {
   signal?: StopSignal;
 }
 
-/** If it returns nothing or throws, the image is not examined, which is stated in the report. */
+/**
+ * Decodes an image file to pixels. If the function returns null or undefined, or throws, the image is not examined, and
+ * the report states this.
+ */
 export type DecodeImage = (file: Uint8Array, type: ImageType) => Pixels | null | undefined;
 
 export interface WatchOptions {

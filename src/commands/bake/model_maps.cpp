@@ -243,8 +243,8 @@ class MapPlacing {
         entry["floatProperties"]["_BumpScale"] = 1.0;
     }
 
-    /// Returns the texture that all these references of these materials show, or nullopt if there is none, or if
-    /// something else uses the texture or its image.
+    /// Returns the texture that every one of `materials` references in `slot`; nullopt if they differ or have none, or
+    /// if anything else uses the texture or its image.
     [[nodiscard]] std::optional<std::size_t> oldTexture(const std::vector<std::size_t>& materials, MapSlot slot) const {
         const std::vector<SlotReference> references = referencesOf(slot);
         const Json& json = document_.json;

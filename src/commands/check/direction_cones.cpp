@@ -116,7 +116,8 @@ class NearestDirections {
         if (angle >= 0) left_[vertex] = std::min(left_[vertex], angle);
         if (angle <= 0) right_[vertex] = std::min(right_[vertex], -angle);
     }
-    /// Returns the distance of a vertex in degrees.
+    /// Returns the angle in degrees between the tangent of a vertex and the nearest direction of its triangles; 0 if
+    /// the tangent lies between their directions.
     [[nodiscard]] float distance(std::size_t vertex) const {
         const float left = left_[vertex], right = right_[vertex];
         if (left == kNone && right == kNone) return kUnknownDirection;

@@ -14,7 +14,8 @@ namespace tspace {
 struct FrameHealth;
 struct ScenePrimitive;
 
-/// Returns the view of tspace render that shows the subject of a finding ("sign"), or an empty text.
+/// Returns the value of `tspace render --show` that makes findings of this kind visible, such as "sign"; empty if there
+/// is none.
 const char* findingView(FindingCode code);
 
 /// Creates a finding with the numbers of the tally and without a location.

@@ -59,7 +59,8 @@ class GreenBlocks {
     struct Block {
         float ab = 0, aa = 0, bb = 0;  ///< sums of products of the derivatives a = dq/dx, b = dp/drow
         bool votes = false;
-        std::int8_t side = 0;    ///< side of its part: -1 up, +1 down
+        /// Green direction of the part that contains the block: -1 up, +1 down; 0: undetermined.
+        std::int8_t side = 0;
         std::uint32_t part = 0;  ///< number of the part, starting at 1; 0 if the block is in no part
     };
     /// `isChosen(block)`: returns whether the block is used.

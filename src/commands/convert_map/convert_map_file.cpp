@@ -123,7 +123,7 @@ MapSides sidesOf(const Meshes& meshes, const ConvertMapFileOptions& options, std
     if (any == nullptr) return sides;
     if (options.from == MapFileSpace::tangent) sides.to.axes = axes;
     if (options.to == MapFileSpace::tangent) sides.from.axes = axes;
-    // Between object and world space, the axes of the mesh are transformed to world space.
+    // For conversions between object and world space, the object-space side uses the axes of the mesh in world space.
     if (options.from == MapFileSpace::object && options.to == MapFileSpace::world) sides.from.axes = any->axes;
     if (options.from == MapFileSpace::world && options.to == MapFileSpace::object) sides.to.axes = any->axes;
     return sides;

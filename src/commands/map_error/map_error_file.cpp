@@ -34,7 +34,7 @@ constexpr double kUnexplainedDeg = 5;
 
 struct TriedFrames {
     std::string name = {};
-    std::vector<Vec4> tangents = {};  ///< empty: tangents of the low poly
+    std::vector<Vec4> tangents = {};  ///< tangents to try; empty: those of the low poly
 };
 
 struct TriedRays {

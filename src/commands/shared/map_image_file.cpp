@@ -49,9 +49,10 @@ const TangentUse* firstNormalMap(const ScenePrimitive& primitive) {
 
 struct ChosenPrimitive {
     const ScenePrimitive* primitive = nullptr;
-    std::size_t number = 0;           ///< index in the scene
-    const TangentUse* use = nullptr;  ///< null: the first UV set without transform
-    bool is_guess = false;            ///< no material references an image with the name of the map
+    std::size_t number = 0;  ///< index in the scene
+    /// use of the map, with its UV set and transform; null: the first UV set without a transform
+    const TangentUse* use = nullptr;
+    bool is_guess = false;  ///< no material references an image with the name of the map
 };
 
 std::vector<ChosenPrimitive> choosePrimitives(const Scene& scene, const MapMeshChoice& choice) {

@@ -19,7 +19,7 @@ struct OwnedMesh {
     std::vector<Vec4> tangents = {};
     std::vector<Vec2> uvs = {};
     std::vector<std::uint32_t> indices = {};     ///< one per corner; empty: every corner has its own vertex
-    std::vector<std::uint32_t> face_sizes = {};  ///< empty: triangles
+    std::vector<std::uint32_t> face_sizes = {};  ///< corners per face; empty: all faces are triangles
 
     /// Returns a view that is valid until the arrays change.
     [[nodiscard]] MeshView view() const {

@@ -199,7 +199,7 @@ std::size_t wholeLanes(std::size_t groups) {
     return (groups + SumRound::kGroups - 1) / SumRound::kGroups * SumRound::kGroups;
 }
 
-/// Processes the ranges of a task in one round: clears the sums, adds the triangles, finishes.
+/// Processes the ranges of a task in one pass: clears the sums, adds the triangles, and calls `finish`.
 class RangeOfRound {
   public:
     RangeOfRound(std::size_t corner_step, const SumRound& round, float* sums, std::uint32_t* vertices)

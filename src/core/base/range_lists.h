@@ -150,7 +150,7 @@ class RangeLists {
 // Ranges of groups are processed one by one, so that their sums stay in the cache, and by all threads. Sums are
 // computed in the order of triangles: the same bits for any number of ranges and threads.
 
-/// One round of sums: provides the rows that triangles add to groups, and processes the sums of each group. Works on
+/// One pass of sums: provides the rows that triangles add to groups, and processes the sums of each group. Works on
 /// blocks, as kernels do.
 class SumRound {
   public:
@@ -182,7 +182,7 @@ class SumRound {
 
 class SumRounds {
   public:
-    /// `most_rows`: maximum over all rounds. `adding_corners`: 3, or 1 if only the first corner of each triangle
+    /// `most_rows`: maximum over all passes. `adding_corners`: 3, or 1 if only the first corner of each triangle
     /// contributes. Uses up to 1 MB per task and range_lists.h. Throws OutOfMemory.
     SumRounds(const TriangleGroups& triangles, std::size_t adding_corners, std::size_t group_count,
               std::size_t most_rows, const Allocator* allocator, Parallel& parallel);

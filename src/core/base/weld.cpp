@@ -29,7 +29,8 @@ class RepeatedHashes {
   public:
     static constexpr unsigned kMostRanges = 4;  ///< vertex ranges counted at the same time, each in its own table
 
-    /// Number of ranges to count in: at most one per thread, with enough vertices each.
+    /// Returns the number of vertex ranges to count separately: at most one per thread and kMostRanges, with at least
+    /// kGrain vertices each.
     static std::size_t rangesFor(std::size_t vertex_count, const Parallel& parallel) {
         return std::clamp<std::size_t>(vertex_count / kGrain, 1, std::min(parallel.width(), kMostRanges));
     }

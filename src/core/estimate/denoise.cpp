@@ -217,7 +217,8 @@ namespace {
 // the normal of a single ring is too uncertain for comparisons.
 constexpr double kRoughNoise = 0.15, kLoudNoise = 0.12;
 constexpr int kBiasPasses = 8;
-constexpr double kFirstVariance = 1.15;  // variance of `best` relative to the area-weighted mean, measured
+// Measured noise variance of `best` normals, relative to area-weighted normals.
+constexpr double kFirstVariance = 1.15;
 
 Float4 toFloat4(const Vec3& v) { return Float4{v.x, v.y, v.z, 0}; }
 Float4 unitOr(Float4 v, Float4 other) {

@@ -61,16 +61,16 @@ inline FaceKernel faceKernelFor(SimdTarget requested) {
 }
 
 // Sums of NormalWeighting::best: the contributions of each triangle corner to its point, and the result of a point.
-// There are two rounds, since the second one needs the `max` normals of the first at both ends of an edge, and one per
-// step of NormalOptions::refine. They are implemented once (best_sums_kernel.h) and compiled for several CPUs, with
+// There are two passes, because the second one needs the `max` normals of the first at both ends of an edge, and one
+// per step of NormalOptions::refine. They are implemented once (best_sums_kernel.h) and compiled for several CPUs, with
 // equal bits.
 
-/// Input of a round. Each point has a normal of each kind, which may be zero.
+/// Input of a pass. Each point has a normal of each kind, which may be zero.
 struct BestSource {
     FaceSource faces;  ///< faces, whose weights are not used
     float scale = 1;   ///< scale factor of positions: a power of four that brings them close to 1
     /// Means by angle * area, and by `max`; four bytes after each are also read. A step reads the normals of the
-    /// previous round as `robust`; zero normals remain zero, and edges to them are ignored.
+    /// previous pass as `robust`; zero normals remain zero, and edges to them are ignored.
     const Vec3 *robust = nullptr, *sharp = nullptr;
 };
 
@@ -80,7 +80,7 @@ inline constexpr std::size_t kBestGroup = 16;      ///< SIMD lanes: vertices and
 inline constexpr std::size_t kFitRows = 8;
 inline constexpr std::size_t kStepRows = 2;  ///< rows of four floats in a step
 
-/// Function of one round, compiled for one CPU.
+/// Kernel of one pass of the weighting `best`, compiled for one SIMD instruction set.
 struct BestKernel {
     std::size_t row_count;  ///< number of rows of four floats per corner and point
     /// Writes the rows of `count` triangles: corner k of triangle t to rows + 4 * row_count * (3 * t + k). `vertices`
@@ -93,7 +93,7 @@ struct BestKernel {
     void (*finish)(float* sums, const float* robust, const float* sharp, std::size_t count);
 };
 
-/// Rounds in order; each reads the results of the previous ones: `sharp` computes the means by `max`, `fit` the normals
+/// Passes in order; each reads the results of the previous ones: `sharp` computes the means by `max`, `fit` the normals
 /// from both means and the edges, `step` refines them.
 struct BestKernels {
     BestKernel sharp, fit, step;

@@ -38,7 +38,7 @@ struct Fours {
 
 class BestRound final : public SumRound {
   public:
-    /// `to`: the result of each group. The source must not read it, except for the means by `max` in their own round.
+    /// `to`: the result of each group. The source must not read it, except for the means by `max` in their own pass.
     BestRound(const BestKernel& kernel, const BestSource& source, StridedSpan<Vec3> to)
         : SumRound(kernel.row_count, kernel.row_count == kFitRows), kernel_(kernel), source_(source), to_(to) {}
 

@@ -227,7 +227,7 @@ struct SmoothingRule {
 
     /// Returns whether there are no creases: every pair of faces at a point may be connected.
     [[nodiscard]] bool anyAngle() const { return call.options.crease_angle_deg >= 180; }
-    /// Returns whether all corners at a point are one component.
+    /// Returns whether all corners at a point are always smoothed together.
     [[nodiscard]] bool connectsAll() const { return anyAngle() && groups.empty(); }
 
     const NormalsCall& call;

@@ -11,7 +11,9 @@ struct PlanParts {
     const mikk::EvaluationPlan* grouped = nullptr;  ///< plan of a method with groups; null for lengyel, flat and basis
     const IndexedPlan* indexed = nullptr;           ///< plan of lengyel, flat or basis; null for all other methods
     bool is_symmetric = false, normalizes_normals = false;
-    bool has_own_lists = false;  ///< true: the vertices of the plan differ from those of a pose
+    /// true: the plan has its own vertex numbering (its mesh has several index lists), which differs from that of a
+    /// pose
+    bool has_own_lists = false;
 };
 
 PlanParts partsOf(const TangentPlan& plan);

@@ -243,7 +243,7 @@ void invertWord(const TexelFormat& format, std::uint8_t* block, unsigned channel
     at[1] = static_cast<std::uint8_t>(changed >> 8);
 }
 
-/// Inverts all bits of the channel's mask.
+/// Inverts the bits of the block that the channel's mask selects.
 void invertMasked(const TexelFormat& format, std::uint8_t* block, unsigned channel) {
     for (unsigned i = 0; i < format.block_bytes; ++i)
         block[i] ^= static_cast<std::uint8_t>(format.masks[channel] >> 8 * i);

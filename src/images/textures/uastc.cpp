@@ -194,8 +194,8 @@ void decodeUastc(const TexelFormat&, const std::uint8_t* bytes, Rgba* texels) {
             if (block.number != kSolid) {
                 const std::size_t plane = block.mode.has_planes && channel == block.selected ? 1 : 0;
                 const std::uint32_t weight = block.weights[plane][i];
-                // Interpolates 16-bit ends and uses the upper 8 bits. (For files declared as sRGB, ASTC has different
-                // lower 8 bits, which changes a value by at most 1; basisu ignores that too.)
+                // Interpolates 16-bit endpoints and uses the upper 8 bits. (For files declared as sRGB, ASTC has
+                // different lower 8 bits, which changes a value by at most 1; basisu ignores that too.)
                 value = (257 * (value * (64 - weight) + block.ends[end + 1][channel] * weight) + 32) >> 14;
             }
             texels[i][channel] = static_cast<float>(value) / 255.0F;

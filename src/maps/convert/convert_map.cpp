@@ -308,7 +308,7 @@ class Conversion {
         }
     }
 
-    /// Returns whether the texel is far from its position on the other side.
+    /// Returns whether the positions of the texel on the two meshes are far apart.
     [[nodiscard]] bool isApart(const TexelPlace& place, const TexelPlace& other) const {
         if (!(size_ > 0)) return false;
         constexpr double kFar = 0.02;
@@ -317,7 +317,7 @@ class Conversion {
         return dot(apart, apart) > kFar * kFar * size_ * size_;
     }
 
-    /// Finds the frames of a texel on both sides. Returns false if the other side has no triangle at the texel.
+    /// Computes the source and target frame of a texel. Returns false if the other mesh has no triangle at the texel.
     [[nodiscard]] bool findFrames(std::size_t texel, ShadingFrame& from, ShadingFrame& to, Sums& sums) const {
         const TexelPlace& place = places_.places[texel];
         const std::array<double, 3> weights = weightsAt(main_corners_.triangles(map_), places_.shape, place);

@@ -45,7 +45,7 @@ struct FitSample {
     Vec3 side = {};  ///< metric times target
 };
 
-/// Role of a texel in the system.
+/// Role of a texel in the linear system.
 enum class TexelRole : std::uint8_t {
     excluded,  ///< not in the system: samples that mix this texel are skipped
     fixed,     ///< fixed value, which samples mix with unknown texels

@@ -15,7 +15,7 @@ struct IntegerVectors {
     double scale = 1;             ///< factor by which readers multiply x and y
 };
 
-/// Rounds each component of a vector to the nearest value that an integer represents.
+/// Rounds each component of a vector to the nearest value that an integer channel from 0 to `most` can represent.
 DVec3 roundedVector(unsigned most, const DVec3& vector);
 
 /// Returns the integer vector whose decoded direction is closest to `direction`, with any length from the minimum to

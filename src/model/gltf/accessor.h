@@ -36,8 +36,10 @@ struct Accessor {
     ComponentType component = ComponentType::f32;
     std::string type = {};            ///< "SCALAR", "VEC3", ...
     std::size_t component_count = 1;  ///< 1 for SCALAR, 9 for MAT3; 0: unknown type
-    std::size_t element_bytes = 4;    ///< with the padding of small matrix columns; 0 for an unknown type
-    std::size_t data_bytes = 4;       ///< without the padding after the last column, which may be missing
+    /// size of an element in bytes, with the padding of small matrix columns; 0 for an unknown type
+    std::size_t element_bytes = 4;
+    /// size of an element in bytes, without the padding after the last column, which may be missing
+    std::size_t data_bytes = 4;
     bool normalized = false;
     std::size_t count = 0;
     std::optional<std::size_t> view = {};  ///< absent: all zero (before `sparse` is applied)

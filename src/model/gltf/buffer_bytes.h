@@ -54,7 +54,7 @@ class BufferBytes {
     class Later;
     struct Piece {
         std::size_t begin = 0, count = 0;
-        std::span<std::uint8_t> bytes = {};  ///< empty: `later` provides the bytes
+        std::span<std::uint8_t> bytes = {};  ///< bytes of the piece; empty if `later` provides them
         std::shared_ptr<Later> later = {};
 
         [[nodiscard]] std::span<std::uint8_t> generatedBytes() const;

@@ -27,12 +27,13 @@ struct FaceLine {
 };
 
 struct LineNotes {
-    std::vector<FaceLine> faces = {};                  ///< in file order; the parser reports exactly these faces
+    std::vector<FaceLine> faces = {};                  ///< faces, in file order; the parser reports exactly these
     std::vector<std::string> material_libraries = {};  ///< arguments of `mtllib`, in file order
     bool is_utf8 = true;
     bool has_smoothing_groups = false;
-    std::uint64_t unreadable_number_count = 0;  ///< in v, vt, vn lines: not a number, or NaN or infinity by name
-    std::uint32_t unreadable_number_line = 0;   ///< line of the first unreadable number
+    /// number of values in v, vt and vn lines that are not numbers, or NaN or infinity by name
+    std::uint64_t unreadable_number_count = 0;
+    std::uint32_t unreadable_number_line = 0;  ///< line of the first unreadable number
     bool has_vertex_colors = false;
     bool has_lines_or_points = false;
     bool has_free_form = false;  ///< the file has curves or surfaces
@@ -99,9 +100,9 @@ struct Model {
     std::vector<Vec2> uvs = {};        ///< v points down, as in glTF
     std::vector<Vec3> normals = {};    ///< unit length or zero; corners never refer to zero normals
     std::vector<Corner> corners = {};  ///< all indices are in range
-    std::vector<Face> faces = {};      ///< in file order, at least 3 corners each; never empty
+    std::vector<Face> faces = {};      ///< faces, in file order, with at least 3 corners each; never empty
     std::vector<std::string> shape_names = {};
-    std::vector<Material> materials = {};  ///< in order of first use by a face
+    std::vector<Material> materials = {};  ///< materials, in the order of their first use by a face
     bool has_smoothing_groups = false;     ///< the file has `s` lines
     /// Replacements of normal maps in the output, keyed by Texture::path.
     std::map<std::string, Bytes> flipped_maps = {};

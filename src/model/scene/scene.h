@@ -140,7 +140,7 @@ struct ScenePacked {
     std::string attribute = {};  ///< the first attribute of the format, or the one that `fault` is about
     /// Reason why the frames cannot be read, as a clause about `attribute`; empty if they can.
     std::string fault = {};
-    SharedArray<std::uint8_t> words = {};  ///< without padding; empty if there is a fault
+    SharedArray<std::uint8_t> words = {};  ///< packed frames, without padding; empty if there is a fault
 };
 
 /// Factors that scale normals to length 1. Normal deltas of morph targets are multiplied by the same factors, so that
@@ -163,15 +163,16 @@ struct ScenePrimitive {
     SharedArray<Vec3> positions = {};
     double position_step = 0;        ///< quantization step, if positions are stored as integers; 0: floats
     SharedArray<Vec3> normals = {};  ///< one per vertex, scaled to length 1; empty: absent
-    std::shared_ptr<const NormalScales> normal_scales = {};  ///< null: none had to be scaled
-    SharedArray<Vec4> tangents = {};                         ///< one per vertex; empty: absent
-    std::vector<SceneTangentFault> tangent_faults = {};      ///< faults of tangents that are ignored
+    /// factors by which normals were scaled; null if no normal had to be scaled
+    std::shared_ptr<const NormalScales> normal_scales = {};
+    SharedArray<Vec4> tangents = {};                     ///< one per vertex; empty: absent
+    std::vector<SceneTangentFault> tangent_faults = {};  ///< faults of tangents that are ignored
     std::vector<SceneAttributeFault> attribute_faults = {};
     /// `tangents` is empty, but the importer cannot tell whether the file has tangents.
     bool tangents_not_read = false;
     std::vector<SharedArray<Vec2>> uv_sets = {};  ///< entry n: TEXCOORD_n, empty if absent; v points down
     std::vector<SceneMorphTarget> morph_targets = {};
-    std::vector<ScenePacked> packed = {};  ///< in the order of FrameFormat
+    std::vector<ScenePacked> packed = {};  ///< packed frame attributes, in the order of FrameFormat
     bool is_unlit = false;                 ///< every material of the primitive is unlit: normals are not used
     bool is_double_sided = false;          ///< every material of the primitive is double-sided
     /// All uses of tangents in the primitive's materials, including variants. The first use determines the UV set of
@@ -235,7 +236,7 @@ struct SceneImage {
 struct Scene {
     std::string format = {};                      ///< "glb", "gltf", "obj"
     std::string generator = {};                   ///< program that wrote the file; may be empty
-    std::vector<ScenePrimitive> primitives = {};  ///< in file order
+    std::vector<ScenePrimitive> primitives = {};  ///< primitives, in file order
     std::vector<SceneImage> images = {};          ///< referenced by TangentUse::image
     std::vector<std::string> warnings = {};       ///< warnings of the reader
     /// Index of the warning about scaled normals, which findings on their primitives report too.
@@ -274,8 +275,9 @@ struct ScenePlacement {
 
 struct DrawnScene {
     Scene scene = {};
-    std::vector<SurfaceLook> looks = {};          ///< one per primitive
-    std::vector<ScenePlacement> placements = {};  ///< in node order; never empty if there are primitives
+    std::vector<SurfaceLook> looks = {};  ///< one per primitive
+    /// placements of the meshes, in node order; never empty if there are primitives
+    std::vector<ScenePlacement> placements = {};
     /// COLOR_0 as stored: one list per primitive, empty for primitives without it. No lists if colors were not
     /// requested.
     std::vector<SharedArray<Vec4>> colors = {};

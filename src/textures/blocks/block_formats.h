@@ -11,10 +11,10 @@ struct NearestCode {
     Eight code, value;
 };
 
-/// BC4 block format. Palettes are in steps of 1 / 255 (signed: 1 / 254), with eight values between two integer ends if
-/// the first end is larger, otherwise with six. `kind`: number of steps between the ends, 7 or 5. The extra values 0
-/// and 1 of six-value palettes are not used: in normal maps with relief, fewer than one block in a hundred would gain
-/// from them.
+/// BC4 block format. Palettes are in steps of 1 / 255 (signed: 1 / 254), with eight values between two integer
+/// endpoints if the first endpoint is larger, otherwise with six. `kind`: number of steps between the endpoints, 7 or
+/// 5. The extra values 0 and 1 of six-value palettes are not used: in normal maps with relief, fewer than one block in
+/// a hundred would gain from them.
 class Bc4Format {
   public:
     explicit Bc4Format(bool is_signed) : is_signed_(is_signed), most_(is_signed ? 254.0F : 255.0F) {}
@@ -39,7 +39,7 @@ class Bc4Format {
         return origin + code * step;
     }
 
-    /// Rounds the ends of palettes to integers between 0 and the maximum, in the order that the kind requires.
+    /// Rounds the endpoints of palettes to integers between 0 and the maximum, in the order that the kind requires.
     void round(const Eight& origin, const Eight& step, const Eight& /*mean_code*/, const Eight& kind, Eight& new_origin,
                Eight& new_step) const {
         const Eight first = nearestWhole(between(origin, 0.0F, most_));
@@ -60,7 +60,7 @@ class Bc4Format {
         return {first, (kept - first) / palette.kind, palette.kind};
     }
 
-    /// Tries palettes whose ends are at the extremes and slightly inside them.
+    /// Tries palettes whose endpoints are at the extremes and slightly inside them.
     template <class Try>
     void forStarts(float least, float most, bool all, const Try& tryPalettes) const {
         constexpr Eight::Four kParts[4][2] = {{{0, 0.05F, 0.1F, 0.16F}, {0, 0.1F, 0.05F, 0.16F}},
@@ -79,14 +79,14 @@ class Bc4Format {
         tryRounded(least + first * range, most - last * range, 5.0F, tryPalettes);
     }
 
-    /// Tries all pairs of ends from one step below the range to one step above it.
+    /// Tries all pairs of endpoints from one quantization step below the range to one step above it.
     template <class Try>
     void forNear(float least, float most, const Try& tryPalettes) const {
         const int from = std::max(0, static_cast<int>(least) - 1);
         const int to = std::min(static_cast<int>(most_), static_cast<int>(most) + 2);
         forEnds(from, to, from, to, tryPalettes);
     }
-    /// Tries all pairs whose ends are near opposite extremes, in both orders.
+    /// Tries all pairs whose endpoints are near opposite extremes, in both orders.
     template <class Try>
     void forPairs(float least, float most, const Try& tryPalettes) const {
         const auto aside = static_cast<int>(std::min(4 + 0.15F * (most - least), 12.0F));
@@ -103,7 +103,7 @@ class Bc4Format {
         const int last = static_cast<int>(palette.origin + palette.kind * palette.step + 0.5F);
         std::array<std::uint8_t, 16> codes{};
         for (std::size_t i = 0; i < 16; ++i) {
-            // The ends have codes 0 and 1; the values between them have the codes from 2 on.
+            // The endpoints have codes 0 and 1; the values between them have the codes from 2 on.
             const int code = static_cast<int>(fitted.codes[i]);
             codes[i] = static_cast<std::uint8_t>(code == 0 ? 0 : code == parts ? 1 : code + 1);
         }

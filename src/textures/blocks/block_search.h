@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Search for the best encoding of one channel of a 4 x 4 block while everything else is fixed: the ends and codes with
-// the least filtered error. Eight palettes are evaluated in parallel lanes.
+// Search for the best encoding of one channel of a 4 x 4 block while everything else is fixed: the endpoints and codes
+// with the least filtered error. Eight palettes are evaluated in parallel lanes.
 //
 // The error of a block is e'He + 2 g'e, with e the errors of its texels, H the mixing of texels by the bilinear filter
 // (nine numbers per texel), and g the contribution of the errors of surrounding texels and of the other channel. Steps
@@ -49,10 +49,11 @@ struct FittedChannel {
 };
 
 struct SearchEffort {
-    bool all_starts = true;   ///< true: start with palettes of all kinds; false: only of the most common kind
-    int start_fits = 1;       ///< number of least-squares fits per start
-    float near_range = 0;     ///< blocks with a smaller range try all palettes within it, in steps of 8 bits
-    bool few_values = false;  ///< blocks with few distinct values try all palettes whose ends are near the extremes
+    bool all_starts = true;  ///< true: start with palettes of all kinds; false: only of the most common kind
+    int start_fits = 1;      ///< number of least-squares fits per start
+    float near_range = 0;    ///< blocks with a smaller range try all palettes within it, in steps of 8 bits
+    /// Blocks with few distinct values try all palettes whose endpoints are near the extremes.
+    bool few_values = false;
     int sweeps = 1;
     bool tries_neighbors = false;  ///< true: also try the neighbors of the best palette
 };

@@ -34,7 +34,7 @@ Outcome bestOf(const MeshView& mesh, float crease_deg, float denoise = 0, const 
     return normalsOf(mesh, {.weighting = NormalWeighting::best, .crease_angle_deg = crease_deg, .denoise = denoise},
                      execution);
 }
-/// Returns a tube with a flat end: the rim has 90 degrees, the sides 360 / sides.
+/// Returns a tube with a flat end cap. Dihedral angles: 90 degrees at the rim, 360 / `sides` between side faces.
 SimpleMesh tube(std::uint32_t sides) {
     SimpleMesh mesh;
     for (std::uint32_t row = 0; row <= 8; ++row) {

@@ -253,7 +253,7 @@ TEST(DenoisedNormals, OfPolygonsAreBetterToo) {
     EXPECT_LT(after, 0.45 * before);
 }
 
-/// Returns the seconds, and checks that results are finite and unit.
+/// Returns the run time in seconds, and checks that all normals are finite and of unit length.
 double timeOf(const SimpleMesh& mesh, float denoise) {
     const auto start = std::chrono::steady_clock::now();
     EXPECT_TRUE(areUnit(bestOf(mesh.view(), denoise).normals));

@@ -228,7 +228,7 @@ struct Outputs {
 };
 
 /// Returns a torus of `columns` times `rows` cells; its positions are computed without the C library, so that they are
-/// the same on all machines. With seams of the UV map, or closed.
+/// the same on all machines. If `closed`, the first and last rows share vertices; otherwise the mesh has UV seams.
 inline SimpleMesh torus(std::uint32_t columns, std::uint32_t rows, bool closed) {
     const auto circle = [](std::uint32_t i, std::uint32_t count, float& x, float& y) {
         // Four quarters, each by t -> ((1 - t t), 2 t) / (1 + t t).

@@ -211,7 +211,8 @@ SimpleMesh ring(std::uint32_t rows, std::uint32_t columns) {
     return shape;
 }
 
-/// Returns the outputs of one pass. `range_shift`: size of ranges of nodes.
+/// Returns the outputs of mikk::evaluateInOnePass. `range_shift`: log2 of the number of nodes per range; 0: chosen for
+/// the mesh.
 Outputs onePass(const SimpleMesh& shape, const Call<TangentOptions>& options, bool tangents_only,
                 unsigned range_shift = 0) {
     const MeshView mesh = shape.view();

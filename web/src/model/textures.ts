@@ -45,10 +45,10 @@ interface ImageLoader {
 }
 
 /**
- * Makes the worker decode textures with a KTX2, textures whose only image is a DDS, and textures that reference such an
- * image as their source without the extension for it: the loader of three.js would reject the whole model. The
- * alternative to a KTX2 may be a placeholder of one texel, so it is drawn only if the KTX2 cannot be decoded. Returns
- * why images were not decoded, by image index.
+ * Makes the worker decode three kinds of textures, because the glTF loader of three.js would reject the whole model:
+ * KTX2 textures; textures whose only image is a DDS; and textures whose `source` is a KTX2 or DDS without the
+ * extension. The alternative to a KTX2 may be a placeholder of one texel, so it is drawn only if the KTX2 cannot be
+ * decoded. Returns why images were not decoded, by image index.
  */
 export function readTextureFiles(loader: GLTFLoader, work: Work): Map<number, string> {
   const why = new Map<number, string>();

@@ -25,11 +25,11 @@ namespace tspace {
 namespace {
 
 struct WindingCounts {
-    /// Triangles with the minority winding of their component, where components consist of triangles connected over
-    /// edges that exactly two triangles share. A component that is inside out as a whole has none.
+    /// Number of triangles with the minority winding of their component, where components consist of triangles
+    /// connected over edges that exactly two triangles share. A component that is inside out as a whole has none.
     std::uint64_t turned_count = 0;
-    /// Triangles of two-sided sheets: another triangle, or two triangles of a flat quad, have the same positions and
-    /// the opposite winding.
+    /// Number of triangles in two-sided sheets: another triangle, or the other diagonal split of a flat quad, covers
+    /// the same positions with the opposite winding.
     std::uint64_t two_sided_count = 0;
 };
 

@@ -136,8 +136,8 @@ bool facesNormal(const SurfaceFrame& face, const Vec3& normal);
 SurfaceFrame describeFace(const std::array<Vec3, 3>& positions, const std::array<Vec2, 3>* uvs,
                           double position_error = 0);
 
-/// Computes the properties of all triangles, from positions, UVs (empty: no orientation anywhere) and corners of the
-/// view. Triangles that are not finite have no area. Linear.
+/// Computes the properties of all triangles from the positions, UVs and corners of `mesh`. Without UVs, no triangle has
+/// a UV orientation. Triangles with positions that are not finite have area 0. Takes linear time.
 Surface describeSurface(const TangentView& mesh);
 
 // Test for triangles whose UVs determine a tangent direction.
@@ -207,11 +207,11 @@ struct PieceTriangle {
     std::uint32_t piece = 0, triangle = 0;
 };
 
-/// Groups of pieces that form one surface. Two pieces are joined if they meet along edges like neighbors: each edge
-/// belongs to a single triangle in each piece, with opposite directions. They are not joined if more edges have equal
-/// directions (one piece is inverted), nor if the pieces coincide (a tenth of the triangles of the smaller piece have
-/// the positions of triangles of the other: two sides of a sheet, or layers). Positions are equal as by
-/// NormalOptions::weld_distance. O(n log n) in the triangles at borders, otherwise linear.
+/// Groups of pieces that form one surface. Two pieces are joined if they share border edges: each edge belongs to a
+/// single triangle in each piece, and runs in opposite directions in the two. They are not joined if most shared edges
+/// run in the same direction (one piece is inverted), nor if the pieces coincide: at least a tenth of the triangles of
+/// the smaller piece have the positions of triangles of the other piece (two sides of a sheet, or layers). Positions
+/// are compared with NormalOptions::weld_distance. O(n log n) in the number of triangles at borders, otherwise linear.
 class JoinedPieces {
   public:
     /// Edge that two pieces of one surface share.

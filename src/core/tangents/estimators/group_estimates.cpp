@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rounds of the methods `fast` and `best`: the estimate, and the steps after it.
+// Passes of the methods `fast` and `best`: the estimate, and the refinement steps after it.
 #include "core/tangents/estimators/group_estimates.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct Setting {
 
 class EstimateRound final : public SumRound {
   public:
-    /// `from`: input of a refinement step, for all groups, with zeros for the dummy group; null for the first round.
+    /// `from`: input of a refinement step, for all groups, with zeros for the dummy group; null for the first pass.
     /// `next`: output for the next step; null if there is none.
     EstimateRound(const Setting& setting, const float* from, float* next)
         : SumRound(from != nullptr ? kStepRows : setting.estimator.row_count),

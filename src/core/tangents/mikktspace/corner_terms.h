@@ -30,7 +30,7 @@ struct CornerDirections {
     alignas(64) float unit_s[3][3][kTermTriangles], projected_t[3][3][kTermTriangles];
 };
 
-/// Vertex data of a call, with the requested terms.
+/// Vertex arrays of one tangent computation, and the corner quantities that the kernel computes.
 struct CornerSource : VertexArrays {
     Weighting weighting = Weighting::projected_angle;
     bool tangents_only = false;  ///< true: omit `t` and `lengths_t`

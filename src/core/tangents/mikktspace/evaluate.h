@@ -16,8 +16,9 @@
 
 namespace tspace::mikk {
 
-// Plan of a method with groups. For each corner of a triangle, it contains the location of its data and the sum that it
-// contributes to, and for each corner of the mesh its result. plan.cpp has a table of its lists.
+// Precomputed plan of a tangent method that groups corners. For each triangle corner, it stores where to read the data
+// and which sum it is added to; for each mesh corner, which result it receives. plan.cpp has a table of the plan's
+// lists.
 
 /// Group whose members do not all share one result, because of the angular threshold.
 struct EvaluatedSplit {

@@ -20,8 +20,8 @@ namespace tspace::mikk {
 namespace {
 
 constexpr std::size_t kVertexGrain = 16384;  // vertices per task, a multiple of 4
-// Mark of a vertex: 1-based number of its cell among the cells of requested vertices, or 0; and flags for vertices at
-// either end of the grid.
+// Bits of a vertex mark. kNumber: 1-based number of the vertex's cell among the cells that contain requested vertices,
+// or 0. kAtLow, kAtHigh: the vertex is at the lower or upper end of the grid.
 constexpr std::uint16_t kNumber = 0x0fff, kAtLow = 0x4000, kAtHigh = 0x8000;
 constexpr std::uint32_t kWanted = kNone - 1;  // placeholder for a requested representative that was not found yet
 

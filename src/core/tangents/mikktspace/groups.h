@@ -43,7 +43,8 @@ void linkSmall(std::span<const NodeCorner> around, const CornerLinks& links);
 /// Links a node of any size by sorting `half_edges`, scratch memory for two numbers per corner. O(n log n).
 void linkLarge(std::span<const NodeCorner> around, const CornerLinks& links, std::uint64_t* half_edges);
 
-/// Corners of one node and their groups, which are numbered in the order in which the reference starts them.
+/// Corners of one node (welded vertex) and the group of each corner. Groups are numbered in the order in which the
+/// reference creates them.
 struct NodeGroups {
     std::span<const NodeCorner> corners;
     const std::uint32_t* group =
@@ -107,8 +108,8 @@ class SplitFinder {
     SplitFinder(const WeldedMesh& welded, const VertexCorners& corners, float threshold_cosine,
                 const Allocator* allocator);
 
-    /// Returns whether the group splits; if so, the rows of its members have been added. Groups of more than
-    /// kLargestSplitGroup members that might split are not split.
+    /// Returns whether the angular threshold splits the group; if so, appends one row per member to `rows`. A group of
+    /// more than kLargestSplitGroup members is never split; if it might have to be, `abandoned` is set.
     bool splits(Members members, const Vec3& normal);
 
     Growing<std::uint64_t> rows;  ///< bit b of row a: member b contributes to member a

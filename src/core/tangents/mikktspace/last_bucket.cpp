@@ -99,7 +99,7 @@ struct BucketEdge {
     std::uint32_t half_edge = 0;
     // other half-edge of the edge: with the normal pairing, and as in the reference
     std::uint32_t usual = kNone, partner = kNone;
-    bool ascending = false;  // true: the half-edge goes from the lower to the higher end
+    bool ascending = false;  // true: the half-edge runs from the smaller to the larger vertex index
 };
 
 /// Sorts edges by half-edge, or, with `by_ends`, by higher end first and then by half-edge.

@@ -11,11 +11,12 @@
 
 namespace tspace::mikk {
 
-// The defect of the reference's edge list. A bucket consists of the edges with the same lower end. The reference sorts
-// all edges by their lower end, and then each bucket by the higher end and by triangle; but the loops of the second and
-// third sort never reach the last bucket, which has the largest lower end. In that bucket, edges with equal ends may
-// not be adjacent, and the reference does not pair them then. This almost never changes the result, which
-// last_bucket.cpp can prove without building a list of edges or corners.
+// This file handles a bug in the reference's edge list. A bucket consists of the edges with the same smaller vertex
+// index. The reference sorts all edges by their smaller index, and then each bucket by the larger index and by
+// triangle; but the loops of the second and third sort never reach the last bucket, which has the largest smaller
+// index. In that bucket, edges with the same two vertices may not be adjacent, and the reference then does not pair
+// them. This almost never changes the result: last_bucket.cpp can prove for a mesh that it does not, without building a
+// list of edges or corners.
 
 /// The half-edges of the last bucket that the reference pairs differently than a sorted list would. Empty for most
 /// meshes.
@@ -25,7 +26,7 @@ struct LastBucket {
         std::uint32_t partner;    ///< half-edge that the reference pairs it with; kNone: no neighbor
     };
     Buffer<Link> links;           ///< changed links, ascending by half-edge
-    Buffer<std::uint32_t> nodes;  ///< nodes at the ends of these edges, ascending, with some repetitions
+    Buffer<std::uint32_t> nodes;  ///< nodes at the endpoints of these edges, ascending, with some repetitions
     bool abandoned = false;       ///< the input makes the reference's sort quadratic: no links were computed
 
     [[nodiscard]] bool concerns(std::uint32_t node) const {

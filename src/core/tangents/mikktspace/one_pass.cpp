@@ -33,7 +33,7 @@ namespace {
 constexpr std::size_t kCornerGrain = 16384;
 constexpr std::uint16_t kReplaced = 0x8000;  ///< flag in NodeSums::marks: the node has a default instead of an estimate
 
-/// State of a call, which its steps share.
+/// State that the steps of one single-pass tangent computation share.
 struct OnePass {
     OnePass(const NodeSetting& setting, const TangentOutput& output, ScratchBlock& scratch, Parallel& threads)
         : in(setting),
