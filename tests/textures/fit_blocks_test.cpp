@@ -227,7 +227,7 @@ TEST(BlockSearch, IsNearlyAsGoodAsTryingEveryPairOfEndpoints) {
             block.is_used[i] = true;
             block.targets[i] = 255 * (middle + width * (0.7F * slope + 0.6F * (noise() - 0.5F)));
         }
-        const FittedChannel fitted = BlockSearch(format, block).alone({.start_fits = 2, .near_range = 12});
+        const FittedChannel fitted = BlockSearch(format, block).bestIndependent({.start_fits = 2, .near_range = 12});
         double mine = 0, best = 1e9;
         for (const float error : fitted.errors) mine += static_cast<double>(error) * static_cast<double>(error);
         for (int a = 0; a < 256; ++a) {
