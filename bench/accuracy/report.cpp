@@ -54,7 +54,8 @@ std::string targetText(const Study& study, const Target& target, const std::stri
 void printTargets(const Study& study) {
     fmt::print("**Targets** in degrees; means over the twelve surfaces\n\n");
     fmt::print(
-        "| figure | mikktspace | area | fast | target | result | best | target | result |\n|---|---|---|---|---|---|---|---|---|\n");
+        "| figure | mikktspace | area | fast | target | result | best | target | result "
+        "|\n|---|---|---|---|---|---|---|---|---|\n");
     for (const Target& target : kTargets) {
         const Figure& figure = tangentFigure(target.key);
         fmt::print("| {} | {} | {} |{}{}\n", figure.title, text(figure.value(study, "mikktspace", false)),
