@@ -12,7 +12,10 @@ const THREADS = 64, MOST_GROUPS = 65535, SETTINGS = 32, RANGE_ALIGNMENT = 256;
 /** Formats: number in the settings, bytes per element, and alignment. */
 const positionFormats = { float32x3: { number: 0, bytes: 12, unit: 4 }, snorm16x3: { number: 1, bytes: 6, unit: 2 } };
 const normalFormats = { float32x3: { number: 1, bytes: 12, unit: 4 } };
-const tangentFormats = { float32x4: { number: 0, bytes: 16, unit: 4 }, frame32: { number: 1, bytes: 4, unit: 4 }, oct32: { number: 2, bytes: 4, unit: 4 }, snorm8_pair: { number: 3, bytes: 8, unit: 4 } };
+const tangentFormats = {
+  float32x4: { number: 0, bytes: 16, unit: 4 }, frame32: { number: 1, bytes: 4, unit: 4 },
+  oct32: { number: 2, bytes: 4, unit: 4 }, snorm8_pair: { number: 3, bytes: 8, unit: 4 },
+};
 
 /** Pipelines by device: the shader is compiled once per device. */
 const pipelines = new WeakMap();

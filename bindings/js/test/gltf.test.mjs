@@ -58,7 +58,7 @@ describe("models in memory", () => {
     }
     assert.deepEqual([...new Set(asked)].sort(), [path, "normal.png"]);
     refuses("invalidFile", [/a grid\.bin/], () => generate(named));
-    refuses("invalidFile", [/a grid\.bin/, /not given/], () => generate(named, { resources: {} }));
+    refuses("invalidFile", [/a grid\.bin/, /not provided/], () => generate(named, { resources: {} }));
     assert.throws(() => generate(named, { resources: () => { throw new RangeError("mine"); } }), RangeError);
     refuses("wrongType", [/a grid\.bin/, /not "text"/], () => check(named, { resources: { [path]: "text" } }));
     refuses("wrongType", [/resources/], () => check(named, { resources: 5 }));
