@@ -6,6 +6,8 @@
 #include <iterator>
 #include <optional>
 
+#include "commands/check/layout_reader.h"
+#include "commands/check/mesh_regression.h"
 #include "commands/check/normal_map.h"
 #include "core/base/vec_math.h"
 #include "maps/texels/gray.h"
@@ -19,11 +21,8 @@ constexpr double kLengthSlack = 0.1;
 constexpr double kConstant = 2.5;
 /// Minimum x^2 + y^2 of tilted texels; corresponds to a tilt of 11 degrees.
 constexpr double kMinTilt = 0.04;
-constexpr double kStep = 1.0 / 127.5;
 /// Maximum absolute mean of x and of y in a map, unless more is known.
 constexpr double kMaxMean = 0.25;
-
-double signedValue(std::uint8_t channel) { return static_cast<double>(channel) * kStep - 1; }
 
 struct Spread {
     double mean = 0, deviation = 0;
@@ -47,34 +46,6 @@ double shareOf(std::span<const TexelBytes> texels, const Test& test) {
     return static_cast<double>(std::count_if(texels.begin(), texels.end(), test)) / static_cast<double>(texels.size());
 }
 
-/// Decodes texels by a layout. Each of the 256 values of a channel is decoded once.
-class LayoutReader {
-  public:
-    explicit LayoutReader(const MapLayout& layout) : layout_(layout) {
-        for (unsigned i = 0; i < values_.size(); ++i) {
-            const float c = static_cast<float>(i) / 255.0F;
-            values_[i] = 2 * static_cast<double>(readTexel({c, 0, 0}, 1, {.curve = layout.curve}).x) - 1;
-        }
-    }
-
-    [[nodiscard]] DVec3 vector(const TexelBytes& texel) const {
-        DVec3 v{component(texel, layout_.x), component(texel, layout_.y), 0};
-        v.z = layout_.z.channel == MapChannel::none ? std::sqrt(std::max(0.0, 1 - v.x * v.x - v.y * v.y))
-                                                    : component(texel, layout_.z);
-        return v;
-    }
-
-  private:
-    [[nodiscard]] double component(const TexelBytes& texel, const MapComponent& component) const {
-        const std::uint8_t channel = texel[static_cast<std::size_t>(component.channel)];
-        const double value = component.channel == MapChannel::alpha ? signedValue(channel) : values_[channel];
-        return component.is_inverted ? -value : value;
-    }
-
-    MapLayout layout_;
-    std::array<double, 256> values_ = {};
-};
-
 /// Share of texels that are unit vectors, and statistics of their directions.
 struct Fit {
     double unit_share = 0;
@@ -93,9 +64,9 @@ Fit fitOf(std::span<const TexelBytes> texels, const MapLayout& layout) {
         ++unit;
         fit.mean = fit.mean + v;
         // A value one rounding step below 0 does not count as negative.
-        below[0] += v.x < -kStep;
-        below[1] += v.y < -kStep;
-        below[2] += v.z < -kStep;
+        below[0] += v.x < -kByteStep;
+        below[1] += v.y < -kByteStep;
+        below[2] += v.z < -kByteStep;
     }
     if (unit == 0) return fit;
     const auto count = static_cast<double>(unit);
@@ -207,7 +178,7 @@ class MapAnalyzer {
     [[nodiscard]] std::optional<MapAnalysis> lostX() const {
         constexpr double kFarX = 0.9, kFewUnit = 0.1;
         const auto isConstant = [&](std::size_t i) { return channels_[i].deviation <= kConstant; };
-        const auto valueOf = [&](std::size_t i) { return channels_[i].mean * kStep - 1; };
+        const auto valueOf = [&](std::size_t i) { return channels_[i].mean * kByteStep - 1; };
         if (!isConstant(0) || isConstant(1) || !isConstant(2) || (has_alpha_ && !isConstant(3))) return {};
         if (std::fabs(valueOf(0)) < kFarX || std::fabs(valueOf(1)) > kMaxMean || plain_.unit_share > kFewUnit)
             return {};
@@ -224,7 +195,7 @@ class MapAnalyzer {
         const auto xy = [](const TexelBytes& texel) { return squareOf(texel, 0, 1); };
         const Spread across = spreadOf(texels_, xy), up = spreadOf(texels_, zz);
         const double rest = spreadOf(texels_, [&](const TexelBytes& texel) { return xy(texel) + zz(texel); }).deviation;
-        if (channels_[2].mean * kStep < 1 || !(across.deviation > 0)) return false;
+        if (channels_[2].mean * kByteStep < 1 || !(across.deviation > 0)) return false;
         if (rest < max_of_spread * across.deviation) return true;
         double product = 0;
         for (const TexelBytes& texel : texels_) product -= (xy(texel) - across.mean) * (zz(texel) - up.mean);
@@ -439,78 +410,6 @@ Moments momentsOf(std::span<const TexelOnSurface> surface) {
         moments.weight += point.weight;
     }
     return moments;
-}
-
-/// Correlation of the map's vectors with the mesh normals: the slope of the regression of vectors on normals. It is
-/// about 1 in object space, and 0 for a map that is unrelated to the mesh. Relief that resembles the mesh (a bulge on a
-/// bulge) correlates too, so the `bent` values are computed after removing all that is linear in u and v.
-struct NormalRegression {
-    double spread = 0;  ///< mean squared distance of the normals from their mean
-    double slope = 0;
-    double bent_share = 0, bent_slope = 0;
-};
-
-NormalRegression regressionOf(std::span<const TexelOnSurface> surface, const MapLayout& layout) {
-    // Sums of products of the values 1, u, v, the normal and the vector of the map.
-    std::array<std::array<double, 9>, 9> sums{};
-    const LayoutReader reader(layout);
-    for (const TexelOnSurface& point : surface) {
-        DVec3 v = reader.vector(point.texel);
-        if (!normalize(v)) continue;
-        const std::array<double, 9> row{1,   point.uv.x, point.uv.y, point.normal.x, point.normal.y, point.normal.z,
-                                        v.x, v.y,        v.z};
-        for (std::size_t i = 0; i < 9; ++i) {
-            for (std::size_t k = 0; k < 9; ++k) sums[i][k] += point.weight * row[i] * row[k];
-        }
-    }
-    const double weight = sums[0][0];
-    const auto eliminate = [&](std::size_t pivot, double least) {
-        if (!(sums[pivot][pivot] > least)) return;
-        const auto by = sums[pivot];
-        for (auto& row : sums) {
-            const double factor = row[pivot] / by[pivot];
-            for (std::size_t k = 0; k < 9; ++k) row[k] -= factor * by[k];
-        }
-    };
-    const auto spread = [&] { return sums[3][3] + sums[4][4] + sums[5][5]; };
-    const auto slope = [&] { return spread() > 0 ? (sums[3][6] + sums[4][7] + sums[5][8]) / spread() : 0; };
-    if (!(weight > 0)) return {};
-    constexpr double kRounding = 1e-9;
-    const double min_u = kRounding * sums[1][1], min_v = kRounding * sums[2][2];
-    eliminate(0, 0);
-    NormalRegression regression{.spread = spread() / weight, .slope = slope()};
-    eliminate(1, min_u);
-    eliminate(2, min_v);
-    regression.bent_share = regression.spread > 0 ? spread() / weight / regression.spread : 0;
-    regression.bent_slope = slope();
-    return regression;
-}
-
-/// Returns whether the vectors are the normals of the mesh. `may_be_tangent`: they can also be in tangent space, which
-/// is assumed in doubtful cases.
-bool isOfMesh(std::span<const TexelOnSurface> surface, const MapLayout& layout, bool may_be_tangent) {
-    constexpr double kFlat = 0.002, kMinSlope = 0.5, kMinBent = 0.25;
-    const NormalRegression regression = regressionOf(surface, layout);
-    if (!may_be_tangent) return regression.spread < kFlat || regression.slope > kMinSlope;
-    return regression.spread >= kFlat && regression.slope > kMinSlope && regression.bent_share > kMinBent &&
-           regression.bent_slope > kMinSlope;
-}
-
-/// Variant of isOfMesh for strong relief, which hides the mesh in single vectors and lowers slopes. All quarters of the
-/// mesh must correlate, because a correlation by chance does not occur in each of them.
-bool isOfMeshUnderRelief(std::span<const TexelOnSurface> surface, const MapLayout& layout, bool may_be_tangent) {
-    constexpr std::size_t kQuarters = 4, kManyPoints = 1024;
-    constexpr double kFlat = 0.002, kMinSlope = 0.4, kMinOfQuarter = 0.25, kMinBent = 0.25;
-    if (surface.size() < kManyPoints) return false;
-    const NormalRegression regression = regressionOf(surface, layout);
-    if (regression.spread < kFlat || regression.slope < kMinSlope) return false;
-    if (may_be_tangent && (regression.bent_share < kMinBent || regression.bent_slope < kMinSlope)) return false;
-    for (std::size_t i = 0; i < kQuarters; ++i) {
-        const std::size_t begin = i * surface.size() / kQuarters, end = (i + 1) * surface.size() / kQuarters;
-        const NormalRegression quarter = regressionOf(surface.subspan(begin, end - begin), layout);
-        if (quarter.spread < kFlat || quarter.slope < kMinOfQuarter) return false;
-    }
-    return true;
 }
 
 MapAnalyzer::NormalAgreement MapAnalyzer::agreementWithNormals(std::span<const TexelOnSurface> surface,

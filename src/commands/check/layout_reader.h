@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Texels of a map as vectors.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "commands/check/map_content.h"
+#include "core/base/vec_math.h"
+#include "maps/texels/gray.h"
+
+namespace tspace {
+
+/// Distance of neighboring values in [-1, 1] that are stored in 8 bits.
+inline constexpr double kByteStep = 1.0 / 127.5;
+
+inline double signedValue(std::uint8_t channel) { return static_cast<double>(channel) * kByteStep - 1; }
+
+/// Decodes texels by a layout. Each of the 256 values of a channel is decoded once.
+class LayoutReader {
+  public:
+    explicit LayoutReader(const MapLayout& layout) : layout_(layout) {
+        for (unsigned i = 0; i < values_.size(); ++i) {
+            const float c = static_cast<float>(i) / 255.0F;
+            values_[i] = 2 * static_cast<double>(readTexel({c, 0, 0}, 1, {.curve = layout.curve}).x) - 1;
+        }
+    }
+
+    [[nodiscard]] DVec3 vector(const TexelBytes& texel) const {
+        DVec3 v{component(texel, layout_.x), component(texel, layout_.y), 0};
+        v.z = layout_.z.channel == MapChannel::none ? std::sqrt(std::max(0.0, 1 - v.x * v.x - v.y * v.y))
+                                                    : component(texel, layout_.z);
+        return v;
+    }
+
+  private:
+    [[nodiscard]] double component(const TexelBytes& texel, const MapComponent& component) const {
+        const std::uint8_t channel = texel[static_cast<std::size_t>(component.channel)];
+        const double value = component.channel == MapChannel::alpha ? signedValue(channel) : values_[channel];
+        return component.is_inverted ? -value : value;
+    }
+
+    MapLayout layout_;
+    std::array<double, 256> values_ = {};
+};
+
+}  // namespace tspace
