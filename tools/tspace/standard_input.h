@@ -16,7 +16,7 @@ namespace tspace::tool {
 ///
 /// what                  noun for messages: "a model"
 /// memory_limit_bytes    see FileOptions::memory_limit_bytes
-/// is_valid           checks the first bytes
+/// is_valid              checks the first bytes
 /// why_not               message if the first bytes are wrong
 ///
 /// Fails with cannotRead, unsupportedFile, invalidFile (no data) and tooLarge.

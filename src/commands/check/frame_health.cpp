@@ -347,8 +347,8 @@ Result<std::vector<Vec4>> expectedTangents(const TangentView& mesh, const Tangen
     std::vector<Vec4> tangents(mesh.corners.size());
     const Result<TangentReport> made = generateTangents(view, options, {.tangents = tangents});
     if (!made) return made.error();
-    const Result<SanitizeReport> mended = sanitizeTangents(view, {}, std::span(tangents));
-    if (!mended) return mended.error();
+    const Result<SanitizeReport> repaired = sanitizeTangents(view, {}, std::span(tangents));
+    if (!repaired) return repaired.error();
     return tangents;
 }
 

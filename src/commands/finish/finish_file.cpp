@@ -61,12 +61,6 @@ CheckedModel runCheck(ModelFile& model, const FinishOptions& options) {
     return checkScene(model.scene(options.images), check);
 }
 
-/// Names of files that a GLB in memory references: none is read.
-NamedFiles noFiles(const std::string& path) {
-    static constexpr std::uint8_t kByte = 0;
-    return NamedFiles(path, {.content = {&kByte, 1}});
-}
-
 /// A model during processing, and its report.
 class ModelInWork {
   public:
@@ -200,7 +194,7 @@ class ModelInWork {
         made.report.input_files = {path_};
         made.report.input_files.insert(made.report.input_files.end(), document.input_files.begin(),
                                        document.input_files.end());
-        document.files = noFiles(path_);
+        document.files = NamedFiles::none();
         model_.emplace(std::move(made.model));
         return std::move(made.report);
     }

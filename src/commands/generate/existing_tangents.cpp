@@ -387,16 +387,16 @@ void repairInvalidValues(Editor& editor, const Document& document, std::span<con
         constexpr std::uint64_t kOfCorner = 48, kOfVertex = 128;
         document.memory->require(kOfCorner * 3 * judge.triangleCount() + kOfVertex * judge.vertex_count, judge.place());
         const OwnedMesh stored = readStored(document, judge);
-        std::vector<Vec4> mended = stored.tangents;
-        valueOrThrow(repairValues(tangentView(stored), !isRead(document, judge), mended));
+        std::vector<Vec4> repaired = stored.tangents;
+        valueOrThrow(repairValues(tangentView(stored), !isRead(document, judge), repaired));
         const Accessor accessor = readAccessor(document, *judge.find("TANGENT"));
         Bytes elements = copyElements(document, accessor);
         std::size_t count = 0;
-        for (std::size_t v = 0; v < mended.size(); ++v) {
-            if (std::memcmp(&mended[v], &stored.tangents[v], sizeof(Vec4)) == 0) continue;
+        for (std::size_t v = 0; v < repaired.size(); ++v) {
+            if (std::memcmp(&repaired[v], &stored.tangents[v], sizeof(Vec4)) == 0) continue;
             ++count;
             const std::vector<std::uint8_t> bytes =
-                packUnits(std::span<const Vec4>(&mended[v], 1), unitFormatOf(accessor));
+                packUnits(std::span<const Vec4>(&repaired[v], 1), unitFormatOf(accessor));
             std::copy(bytes.begin(), bytes.end(), elements.data() + v * accessor.element_bytes);
         }
         setAttribute(editor, document, {.primitives = primitives, .numbers = numbers, .name = "TANGENT"},
@@ -411,7 +411,7 @@ void repairInvalidValues(Editor& editor, const Document& document, std::span<con
             report.mended_vertex_count = count;
             if (report.action == PrimitiveAction::kept) report.action = PrimitiveAction::replaced;
             report.notes.push_back("its tangents were kept, but at " + std::to_string(count) + " of " +
-                                   std::to_string(mended.size()) +
+                                   std::to_string(repaired.size()) +
                                    " vertices they were repaired, because they were not finite, not of unit length, "
                                    "parallel to the normal, or had a sign other than +1 and -1");
         }

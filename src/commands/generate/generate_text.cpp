@@ -41,7 +41,7 @@ std::string actionsText(const Totals& totals) {
     return fmt::format("{}{}{}", counted(totals.primitive_count, "primitive"), text.empty() ? "" : ": ", text);
 }
 
-std::string mendedText(const SanitizeReport& report) {
+std::string repairedText(const SanitizeReport& report) {
     std::string text;
     for (const NamedCount& cause : kCauses) {
         const std::uint64_t count = report.*cause.count;
@@ -149,7 +149,7 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
         table.addRow({"vertices", fmt::format("{} -> {} ({} split)", before, after, after - before)});
         const std::string faults = inputFaultsText(totals);
         if (!faults.empty()) table.addRow({"in the input", faults});
-        table.addRow({"repaired", mendedText(totals.sanitize)});
+        table.addRow({"repaired", repairedText(totals.sanitize)});
     }
     if (!report.windings.empty()) table.addRow({"winding", windingText(report.windings)});
     if (totals.normals_generated != 0) {
@@ -255,7 +255,7 @@ std::string generateLine(const GenerateOutcome& outcome) {
     const Totals totals = totalsOf(*outcome.result);
     line += actionsText(totals);
     if (outcome.is_dry_run) line += " (not written)";
-    if (totals.sanitize.mendedCount() != 0) line += fmt::format("; repaired {}", mendedText(totals.sanitize));
+    if (totals.sanitize.mendedCount() != 0) line += fmt::format("; repaired {}", repairedText(totals.sanitize));
     const std::size_t warnings = warningsOf(*outcome.result, totals).size();
     if (warnings != 0) line += fmt::format("; {} (--verbose shows them)", counted(warnings, "warning"));
     return line + "\n";

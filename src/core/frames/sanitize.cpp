@@ -357,7 +357,7 @@ class Sanitizer {
             const DVec3 n = normalAt(c);
             if (cause == Cause::valid && isOrthonormal(xyz(tangents_[c]), n)) continue;
             if (cause == Cause::valid) cause = Cause::notOrthogonal;
-            const auto [tangent, cure] = mended(c, n, neighbor);
+            const auto [tangent, cure] = repaired(c, n, neighbor);
             tangents_[c] = {tangent.x, tangent.y, tangent.z, sign};
             causes_[c] = cure;
             counts.count(cause);
@@ -380,7 +380,7 @@ class Sanitizer {
         }
     }
 
-    [[nodiscard]] std::pair<Vec3, Repair> mended(std::size_t corner, const DVec3& n, const Vec4& neighbor) const {
+    [[nodiscard]] std::pair<Vec3, Repair> repaired(std::size_t corner, const DVec3& n, const Vec4& neighbor) const {
         if (isUsable(xyz(tangents_[corner]), n)) return {orthonormal(xyz(tangents_[corner]), n), Repair::fromOwn};
         if (isUsable(xyz(neighbor), n)) return {orthonormal(xyz(neighbor), n), Repair::fromNeighbor};
         const Vec4* valid = validTangentAt(corner);

@@ -76,9 +76,9 @@ class FramesMaker {
         if (!made) return std::move(made).error();
         frames_.report.tangents = *made;
         if (!options_.sanitize) return Done{};
-        Result<SanitizeReport> mended = sanitizeTangents(mesh_, {options_.orthogonalize_all}, tangents_, execution_);
-        if (!mended) return std::move(mended).error();
-        frames_.report.sanitize = *mended;
+        Result<SanitizeReport> repaired = sanitizeTangents(mesh_, {options_.orthogonalize_all}, tangents_, execution_);
+        if (!repaired) return std::move(repaired).error();
+        frames_.report.sanitize = *repaired;
         return Done{};
     }
 

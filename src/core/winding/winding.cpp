@@ -185,9 +185,9 @@ constexpr double kLeastWindingNumber = 0.15;
 // minimum number of faces of a component whose outside is decided: a tetrahedron has four
 constexpr std::uint32_t kFewest = 4;
 
-class Mending {
+class WindingRepair {
   public:
-    Mending(const winding::WindingCall& call, WindingReport& report)
+    WindingRepair(const winding::WindingCall& call, WindingReport& report)
         : call_(call),
           report_(report),
           memory_(call.allocator(), call.surface.mesh.faceCount()),
@@ -318,8 +318,8 @@ Buffer<std::uint32_t> pointsOfCorners(const MeshView& mesh, const Call<WindingOp
     return points;
 }
 
-Result<WindingReport> checkAndMend(const MeshView& given, const Call<WindingOptions>& options,
-                                   StridedSpan<std::uint8_t> turned) {
+Result<WindingReport> checkAndRepair(const MeshView& given, const Call<WindingOptions>& options,
+                                     StridedSpan<std::uint8_t> turned) {
     // Amount of work: about four times the time of averaging normals.
     Parallel parallel(options.execution, 4 * given.cornerCount());
     if (Error e = checkMesh(given, &parallel); e.code != ErrorCode::ok) return e;
@@ -335,7 +335,7 @@ Result<WindingReport> checkAndMend(const MeshView& given, const Call<WindingOpti
     const Buffer<std::uint32_t> corner_points = pointsOfCorners(mesh, options, parallel);
     const winding::Surface surface{mesh, faces, corner_points};
     const winding::EdgePairs pairs = winding::pairEdges(surface, allocator);
-    Mending({surface, options, pairs, turned, parallel, normalFactor(options.convention)}, report).run();
+    WindingRepair({surface, options, pairs, turned, parallel, normalFactor(options.convention)}, report).run();
     return report;
 }
 
@@ -343,7 +343,7 @@ Result<WindingReport> checkAndMend(const MeshView& given, const Call<WindingOpti
 
 Result<WindingReport> mendWinding(const MeshView& mesh, const WindingOptions& options, StridedSpan<std::uint8_t> turned,
                                   const Execution& execution) {
-    return atBorder([&] { return checkAndMend(mesh, {options, execution}, turned); });
+    return atBorder([&] { return checkAndRepair(mesh, {options, execution}, turned); });
 }
 
 }  // namespace tspace

@@ -120,7 +120,6 @@ Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, cons
         buffer.bytes = BufferBytes(std::span(document.file_bytes).subspan(begin, length));
         return buffer;
     }
-    if (!uri->is_string()) failFile(ErrorCode::invalidFile, "the member 'uri' is not a string", join(place, "uri"));
     const auto& text = uri->text();
     Bytes bytes;
     if (uriKind(text) == UriKind::data) {
@@ -252,8 +251,6 @@ void checkRequiredExtensions(Document& document) {
     const Json& required = readArray(document.json, "extensionsRequired", "", false);
     for (std::size_t i = 0; i < required.size(); ++i) {
         const std::string place = join("/extensionsRequired", i);
-        if (!required[i].is_string())
-            failFile(ErrorCode::invalidFile, "the name of an extension is not a string", place);
         const auto& name = required[i].text();
         if (isCompression(name)) {
             const std::string missing = compressionMissing(name);

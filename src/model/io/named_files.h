@@ -21,6 +21,12 @@ class NamedFiles {
     NamedFiles() = default;
     /// `model`: the path of the model or, with FileOptions::content, its name.
     NamedFiles(const Path& model, const FileOptions& options);
+    /// Returns the files of a model in memory whose caller provided no callback: none can be read.
+    [[nodiscard]] static NamedFiles none() {
+        NamedFiles files;
+        files.is_in_memory_ = true;
+        return files;
+    }
 
     /// Returns whether the model is in memory.
     [[nodiscard]] bool areInMemory() const { return is_in_memory_; }

@@ -160,10 +160,10 @@ Result<Done> computeTangents(const PoolComputation& state, const LocalMesh& mesh
     if (!state.options.sanitize) return Done{};
     std::vector<Vec4> computed;
     if (state.generates_bitangents) computed.assign(tangents.begin(), tangents.end());
-    Result<SanitizeReport> mended =
+    Result<SanitizeReport> repaired =
         sanitizeTangents(mesh.view(), state.options.sanitize_options, tangents, state.options.execution);
-    if (!mended) return std::move(mended).error();
-    report.sanitize = *mended;
+    if (!repaired) return std::move(repaired).error();
+    report.sanitize = *repaired;
     if (state.generates_bitangents) repairBitangents(mesh.normals, mesh.indices, computed, tangents, bitangents);
     return Done{};
 }
@@ -320,7 +320,7 @@ void writeTangents(const PoolComputation& state, const SplitResult& split, PoolF
 }
 
 /// Counts repaired vertices whose tangent or morph offsets changed.
-void countMended(PoolComputation& state, const SplitResult& split, std::span<const Vec4> tangents) {
+void countRepaired(PoolComputation& state, const SplitResult& split, std::span<const Vec4> tangents) {
     std::vector<bool> changed(state.pool.positions.count, false);
     for (std::size_t v = 0; v < split.vertexCount(); ++v) {
         const std::uint32_t source = split.source_vertices[v];
@@ -334,7 +334,7 @@ void countMended(PoolComputation& state, const SplitResult& split, std::span<con
     for (std::size_t p = 0; p < state.primitives.size(); ++p) {
         const std::vector<VertexRepair>& repairs = state.primitives[p].repairs.vertices;
         state.reports[p].mended_vertex_count = static_cast<std::uint64_t>(std::count_if(
-            repairs.begin(), repairs.end(), [&](const VertexRepair& mend) { return changed[mend.vertex]; }));
+            repairs.begin(), repairs.end(), [&](const VertexRepair& repair) { return changed[repair.vertex]; }));
     }
 }
 
@@ -343,7 +343,7 @@ void write(PoolComputation& state, SplitResult&& split, PoolFrames& frames) {
     cutIndices(state, std::move(split.indices), frames);
     if (state.generates_normals) frames.normals = gatherNormals(state.normals, split.source_corners);
     if (state.generates_tangents) writeTangents(state, split, frames);
-    if (state.pool.repairs_tangents) countMended(state, split, frames.tangents);
+    if (state.pool.repairs_tangents) countRepaired(state, split, frames.tangents);
     for (FramesReport& report : state.reports) {
         report.vertices_before = state.pool.positions.count;
         report.vertices_after = split.vertexCount();

@@ -32,7 +32,7 @@ bool determinesSign(const PoolView& pool, std::span<const std::uint32_t> corners
 std::uint8_t partsOf(const Repairs& repairs, std::uint32_t vertex) {
     const auto found =
         std::lower_bound(repairs.vertices.begin(), repairs.vertices.end(), vertex,
-                         [](const VertexRepair& mend, std::uint32_t wanted) { return mend.vertex < wanted; });
+                         [](const VertexRepair& repair, std::uint32_t wanted) { return repair.vertex < wanted; });
     return found != repairs.vertices.end() && found->vertex == vertex ? found->parts : std::uint8_t{0};
 }
 
@@ -71,12 +71,12 @@ DVec3 unitOrZero(const DVec3& v) {
 }
 
 // Returns whether a bitangent is valid. The comparisons are written so that NaN is invalid.
-bool isValidBitangent(const DVec3& b, const DVec3& n, const Vec4& computed, const Vec4& mended) {
-    const DVec3 t = toDouble(xyz(mended));
+bool isValidBitangent(const DVec3& b, const DVec3& n, const Vec4& computed, const Vec4& repaired) {
+    const DVec3 t = toDouble(xyz(repaired));
     if (!(std::fabs(length(b) - 1) <= kUnitTolerance)) return false;
-    if (!(dot(toDouble(xyz(computed)), t) >= kSameDirection) || computed.w != mended.w) return false;
+    if (!(dot(toDouble(xyz(computed)), t) >= kSameDirection) || computed.w != repaired.w) return false;
     if (dot(n, n) == 0) return true;
-    return std::fabs(dot(n, b)) <= kOffPlane && double{mended.w} * dot(cross(n, t), b) >= kSide;
+    return std::fabs(dot(n, b)) <= kOffPlane && double{repaired.w} * dot(cross(n, t), b) >= kSide;
 }
 
 }  // namespace
@@ -109,8 +109,8 @@ Result<Done> repairValues(const TangentView& mesh, bool along_normals, std::span
     std::vector<Vec4> of_corners;
     for (const std::uint32_t v : mesh.corners) of_corners.push_back(is_broken[v] ? Vec4{} : tangents[v]);
     if (!mesh.normals.empty() && !mesh.corners.empty()) {
-        const Result<SanitizeReport> mended = sanitizeTangents(mesh.triangles(), {}, std::span(of_corners));
-        if (!mended) return mended.error();
+        const Result<SanitizeReport> repaired = sanitizeTangents(mesh.triangles(), {}, std::span(of_corners));
+        if (!repaired) return repaired.error();
     }
     std::vector<Vec4> found(tangents.size(), Vec4{});
     for (std::size_t c = of_corners.size(); c-- > 0;) found[mesh.corners[c]] = of_corners[c];
@@ -153,11 +153,11 @@ Vec3 bitangentOf(const Vec4& tangent, const Vec3& normal) {
 }
 
 void repairBitangents(StridedSpan<const Vec3> normals, std::span<const std::uint32_t> indices,
-                      std::span<const Vec4> computed, std::span<const Vec4> mended, std::span<Vec3> bitangents) {
+                      std::span<const Vec4> computed, std::span<const Vec4> repaired, std::span<Vec3> bitangents) {
     for (std::size_t c = 0; c < indices.size(); ++c) {
         const Vec3& normal = normals[indices[c]];
-        if (isValidBitangent(toDouble(bitangents[c]), unitOrZero(toDouble(normal)), computed[c], mended[c])) continue;
-        bitangents[c] = bitangentOf(mended[c], normal);
+        if (isValidBitangent(toDouble(bitangents[c]), unitOrZero(toDouble(normal)), computed[c], repaired[c])) continue;
+        bitangents[c] = bitangentOf(repaired[c], normal);
     }
 }
 

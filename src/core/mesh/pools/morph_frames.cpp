@@ -213,9 +213,9 @@ Result<Done> MorphTangents::evaluate(const Piece& piece, std::span<const Vec4> b
         // elsewhere moves.
         for (std::size_t c = 0; c < base.size(); ++c) stays_[c] = isUnchangedAt(piece, c);
         keepLostTangents(piece, base);
-        const Result<SanitizeReport> mended =
+        const Result<SanitizeReport> repaired =
             sanitizeTangents(posed, options_.sanitize_options, tangents_, options_.execution);
-        if (!mended) return mended.error();
+        if (!repaired) return repaired.error();
     }
     for (std::size_t c = 0; c < base.size(); ++c) {
         offsets[c] = Vec3{};
@@ -250,7 +250,7 @@ Result<Done> MorphTangents::regroup(const Piece& piece, const MeshView& posed) {
 /// Returns whether the corner's tangent has the bits of the base, before any repair.
 bool MorphTangents::isUnchangedAt(const Piece& piece, std::size_t corner) const {
     const std::uint32_t v = piece.mesh.indices[corner];
-    return std::memcmp(&tangents_[corner], &piece.unmended[corner], sizeof(Vec4)) == 0 &&
+    return std::memcmp(&tangents_[corner], &piece.unrepaired[corner], sizeof(Vec4)) == 0 &&
            piece.mesh.normals[v] == pose_.normals()[v];
 }
 
@@ -261,7 +261,7 @@ void MorphTangents::keepLostTangents(const Piece& piece, std::span<const Vec4> b
         const Vec3 &from = piece.mesh.normals[v], &to = pose_.normals()[v];
         const bool is_lost =
             !hasDirection(tangents_[c]) || (pointsOutOfPlane(tangents_[c], to) && liesInPlane(base[c], from));
-        if (hasDirection(piece.unmended[c]) && is_lost) tangents_[c] = projectedTangent(base[c], from, to);
+        if (hasDirection(piece.unrepaired[c]) && is_lost) tangents_[c] = projectedTangent(base[c], from, to);
     }
 }
 

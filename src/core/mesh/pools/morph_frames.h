@@ -113,7 +113,7 @@ class MorphTangents {
         LocalMesh mesh;
         TangentPlan plan;
         WeldClasses classes;
-        std::vector<Vec4> unmended;  ///< tangents of the base before repair, one per corner
+        std::vector<Vec4> unrepaired;  ///< tangents of the base before repair, one per corner
         FramesReport* report = nullptr;
     };
     Result<Done> evaluateFaces(const Piece& piece, std::span<const Vec4> base, std::span<Vec3> offsets);

@@ -243,8 +243,8 @@ Vec3 bitangentOf(const Vec4& tangent, const Vec3& normal);
 ///
 /// normals     one per vertex; `indices` and all others have one per corner
 /// computed    the tangents before sanitize
-/// mended      the tangents after sanitize
+/// repaired    the tangents after sanitize
 void repairBitangents(StridedSpan<const Vec3> normals, std::span<const std::uint32_t> indices,
-                      std::span<const Vec4> computed, std::span<const Vec4> mended, std::span<Vec3> bitangents);
+                      std::span<const Vec4> computed, std::span<const Vec4> repaired, std::span<Vec3> bitangents);
 
 }  // namespace tspace
