@@ -418,13 +418,22 @@ vec3 tspace_direction(vec3 v) {
     return vec3(0.0, 0.0, 0.0);
 }
 
-vec3 tspace_mixed(vec3 normal, tspace_Sums sums) {
+// Returns the normal as a unit vector, (0, 0, 1) if it has no direction.
+vec3 tspace_unitNormal(vec3 normal) {
     vec3 n = tspace_direction(normal);
     if (dot(n, n) == 0.0) {
         n = vec3(0.0, 0.0, 1.0);
     }
-    vec3 accurate = tspace_direction(tspace_direction(sums.a) - dot(n, tspace_direction(sums.a)) * n);
-    vec3 robust = tspace_direction(tspace_direction(sums.b) - dot(n, tspace_direction(sums.b)) * n);
+    return n;
+}
+
+// Returns the part of v that is perpendicular to the unit vector n, as a unit vector, or zero.
+vec3 tspace_across(vec3 n, vec3 v) { return tspace_direction(v - dot(n, v) * n); }
+
+vec3 tspace_mixed(vec3 normal, tspace_Sums sums) {
+    vec3 n = tspace_unitNormal(normal);
+    vec3 accurate = tspace_across(n, tspace_direction(sums.a));
+    vec3 robust = tspace_across(n, tspace_direction(sums.b));
     vec3 across = cross(accurate, robust);
     float square = dot(across, across);
     if (dot(accurate, robust) < 0.0) {
@@ -647,12 +656,17 @@ uint tspace_octAngle(float c, float s) {
     return turns + uint(clamp(512.0 * x, 0.0, 512.0));
 }
 
+// Returns the lowest bit of frame32 and oct32: 1 for the sign -1.
+uint tspace_mirroredBit(vec4 tangent) {
+    if (tangent.w < 0.0) {
+        return 1u;
+    }
+    return 0u;
+}
+
 // Encodes a frame as oct32: the nearest grid normal, then the nearest angle around it (docs/concepts/pack.md).
 uint tspace_encodeOct32(vec3 normal, vec4 tangent) {
-    vec3 n = tspace_direction(normal);
-    if (dot(n, n) == 0.0) {
-        n = vec3(0.0, 0.0, 1.0);
-    }
+    vec3 n = tspace_unitNormal(normal);
     vec2 at = tspace_octPoint(n);
     float first_i = clamp(floor((at.x + 1.0) * 511.0), 0.0, 1021.0);
     float first_j = clamp(floor((at.y + 1.0) * 511.0), 0.0, 1021.0);
@@ -672,8 +686,7 @@ uint tspace_encodeOct32(vec3 normal, vec4 tangent) {
             j = next_j;
         }
     }
-    vec3 t = vec3(tangent.x, tangent.y, tangent.z);
-    t = tspace_direction(t - dot(n, t) * n);
+    vec3 t = tspace_across(n, vec3(tangent.x, tangent.y, tangent.z));
     if (dot(t, t) == 0.0) {
         t = tspace_octAcross(grid);
     }
@@ -684,11 +697,7 @@ uint tspace_encodeOct32(vec3 normal, vec4 tangent) {
     if (dot(after, after) < dot(before, before)) {
         k = next;
     }
-    uint mirrored = 0u;
-    if (tangent.w < 0.0) {
-        mirrored = 1u;
-    }
-    return (uint(i) << 22u) | (uint(j) << 12u) | (k << 1u) | mirrored;
+    return (uint(i) << 22u) | (uint(j) << 12u) | (k << 1u) | tspace_mirroredBit(tangent);
 }
 
 // Returns a coordinate of the Rodrigues vector at u, -1 to 1 along an edge of a chart of frame32.
@@ -761,12 +770,8 @@ vec4 tspace_nearestInChart(vec3 p) {
 // Encodes a frame as frame32: returns the nearest code of all quaternion charts that contain its rotation
 // (docs/concepts/pack.md).
 uint tspace_encodeFrame32(vec3 normal, vec4 tangent) {
-    vec3 n = tspace_direction(normal);
-    if (dot(n, n) == 0.0) {
-        n = vec3(0.0, 0.0, 1.0);
-    }
-    vec3 t = vec3(tangent.x, tangent.y, tangent.z);
-    t = tspace_direction(t - dot(n, t) * n);
+    vec3 n = tspace_unitNormal(normal);
+    vec3 t = tspace_across(n, vec3(tangent.x, tangent.y, tangent.z));
     if (dot(t, t) == 0.0) {
         float side = 1.0;
         if (n.z < 0.0) {
@@ -792,11 +797,7 @@ uint tspace_encodeFrame32(vec3 normal, vec4 tangent) {
             }
         }
     }
-    uint mirrored = 0u;
-    if (tangent.w < 0.0) {
-        mirrored = 1u;
-    }
-    return (code << 1u) | mirrored;
+    return (code << 1u) | tspace_mirroredBit(tangent);
 }
 
 void tspace_writeTangent(uint result, vec3 normal, vec4 tangent) {

@@ -415,13 +415,22 @@ float3 tspace_direction(float3 v) {
     return float3(0.0, 0.0, 0.0);
 }
 
-float3 tspace_mixed(float3 normal, tspace_Sums sums) {
+// Returns the normal as a unit vector, (0, 0, 1) if it has no direction.
+float3 tspace_unitNormal(float3 normal) {
     float3 n = tspace_direction(normal);
     if (dot(n, n) == 0.0) {
         n = float3(0.0, 0.0, 1.0);
     }
-    float3 accurate = tspace_direction(tspace_direction(sums.a) - dot(n, tspace_direction(sums.a)) * n);
-    float3 robust = tspace_direction(tspace_direction(sums.b) - dot(n, tspace_direction(sums.b)) * n);
+    return n;
+}
+
+// Returns the part of v that is perpendicular to the unit vector n, as a unit vector, or zero.
+float3 tspace_across(float3 n, float3 v) { return tspace_direction(v - dot(n, v) * n); }
+
+float3 tspace_mixed(float3 normal, tspace_Sums sums) {
+    float3 n = tspace_unitNormal(normal);
+    float3 accurate = tspace_across(n, tspace_direction(sums.a));
+    float3 robust = tspace_across(n, tspace_direction(sums.b));
     float3 across = cross(accurate, robust);
     float square = dot(across, across);
     if (dot(accurate, robust) < 0.0) {
@@ -642,12 +651,17 @@ uint tspace_octAngle(float c, float s) {
     return turns + uint(clamp(512.0 * x, 0.0, 512.0));
 }
 
+// Returns the lowest bit of frame32 and oct32: 1 for the sign -1.
+uint tspace_mirroredBit(float4 tangent) {
+    if (tangent.w < 0.0) {
+        return 1u;
+    }
+    return 0u;
+}
+
 // Encodes a frame as oct32: the nearest grid normal, then the nearest angle around it (docs/concepts/pack.md).
 uint tspace_encodeOct32(float3 normal, float4 tangent) {
-    float3 n = tspace_direction(normal);
-    if (dot(n, n) == 0.0) {
-        n = float3(0.0, 0.0, 1.0);
-    }
+    float3 n = tspace_unitNormal(normal);
     float2 at = tspace_octPoint(n);
     float first_i = clamp(floor((at.x + 1.0) * 511.0), 0.0, 1021.0);
     float first_j = clamp(floor((at.y + 1.0) * 511.0), 0.0, 1021.0);
@@ -667,8 +681,7 @@ uint tspace_encodeOct32(float3 normal, float4 tangent) {
             j = next_j;
         }
     }
-    float3 t = float3(tangent.x, tangent.y, tangent.z);
-    t = tspace_direction(t - dot(n, t) * n);
+    float3 t = tspace_across(n, float3(tangent.x, tangent.y, tangent.z));
     if (dot(t, t) == 0.0) {
         t = tspace_octAcross(grid);
     }
@@ -679,11 +692,7 @@ uint tspace_encodeOct32(float3 normal, float4 tangent) {
     if (dot(after, after) < dot(before, before)) {
         k = next;
     }
-    uint mirrored = 0u;
-    if (tangent.w < 0.0) {
-        mirrored = 1u;
-    }
-    return (uint(i) << 22u) | (uint(j) << 12u) | (k << 1u) | mirrored;
+    return (uint(i) << 22u) | (uint(j) << 12u) | (k << 1u) | tspace_mirroredBit(tangent);
 }
 
 // Returns a coordinate of the Rodrigues vector at u, -1 to 1 along an edge of a chart of frame32.
@@ -755,12 +764,8 @@ float4 tspace_nearestInChart(float3 p) {
 // Encodes a frame as frame32: returns the nearest code of all quaternion charts that contain its rotation
 // (docs/concepts/pack.md).
 uint tspace_encodeFrame32(float3 normal, float4 tangent) {
-    float3 n = tspace_direction(normal);
-    if (dot(n, n) == 0.0) {
-        n = float3(0.0, 0.0, 1.0);
-    }
-    float3 t = float3(tangent.x, tangent.y, tangent.z);
-    t = tspace_direction(t - dot(n, t) * n);
+    float3 n = tspace_unitNormal(normal);
+    float3 t = tspace_across(n, float3(tangent.x, tangent.y, tangent.z));
     if (dot(t, t) == 0.0) {
         float side = 1.0;
         if (n.z < 0.0) {
@@ -786,11 +791,7 @@ uint tspace_encodeFrame32(float3 normal, float4 tangent) {
             }
         }
     }
-    uint mirrored = 0u;
-    if (tangent.w < 0.0) {
-        mirrored = 1u;
-    }
-    return (code << 1u) | mirrored;
+    return (code << 1u) | tspace_mirroredBit(tangent);
 }
 
 void tspace_writeTangent(uint result, float3 normal, float4 tangent) {

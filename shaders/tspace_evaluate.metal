@@ -424,13 +424,22 @@ struct tspace_Evaluator {
         return float3(0.0f, 0.0f, 0.0f);
     }
 
-    float3 tspace_mixed(float3 normal, tspace_Sums sums) {
+    // Returns the normal as a unit vector, (0, 0, 1) if it has no direction.
+    float3 tspace_unitNormal(float3 normal) {
         float3 n = tspace_direction(normal);
         if (metal::dot(n, n) == 0.0f) {
             n = float3(0.0f, 0.0f, 1.0f);
         }
-        float3 accurate = tspace_direction(tspace_direction(sums.a) - metal::dot(n, tspace_direction(sums.a)) * n);
-        float3 robust = tspace_direction(tspace_direction(sums.b) - metal::dot(n, tspace_direction(sums.b)) * n);
+        return n;
+    }
+
+    // Returns the part of v that is perpendicular to the unit vector n, as a unit vector, or zero.
+    float3 tspace_across(float3 n, float3 v) { return tspace_direction(v - metal::dot(n, v) * n); }
+
+    float3 tspace_mixed(float3 normal, tspace_Sums sums) {
+        float3 n = tspace_unitNormal(normal);
+        float3 accurate = tspace_across(n, tspace_direction(sums.a));
+        float3 robust = tspace_across(n, tspace_direction(sums.b));
         float3 across = metal::cross(accurate, robust);
         float square = metal::dot(across, across);
         if (metal::dot(accurate, robust) < 0.0f) {
@@ -653,12 +662,17 @@ struct tspace_Evaluator {
         return turns + uint(metal::clamp(512.0f * x, 0.0f, 512.0f));
     }
 
+    // Returns the lowest bit of frame32 and oct32: 1 for the sign -1.
+    uint tspace_mirroredBit(float4 tangent) {
+        if (tangent.w < 0.0f) {
+            return 1u;
+        }
+        return 0u;
+    }
+
     // Encodes a frame as oct32: the nearest grid normal, then the nearest angle around it (docs/concepts/pack.md).
     uint tspace_encodeOct32(float3 normal, float4 tangent) {
-        float3 n = tspace_direction(normal);
-        if (metal::dot(n, n) == 0.0f) {
-            n = float3(0.0f, 0.0f, 1.0f);
-        }
+        float3 n = tspace_unitNormal(normal);
         float2 at = tspace_octPoint(n);
         float first_i = metal::clamp(metal::floor((at.x + 1.0f) * 511.0f), 0.0f, 1021.0f);
         float first_j = metal::clamp(metal::floor((at.y + 1.0f) * 511.0f), 0.0f, 1021.0f);
@@ -678,8 +692,7 @@ struct tspace_Evaluator {
                 j = next_j;
             }
         }
-        float3 t = float3(tangent.x, tangent.y, tangent.z);
-        t = tspace_direction(t - metal::dot(n, t) * n);
+        float3 t = tspace_across(n, float3(tangent.x, tangent.y, tangent.z));
         if (metal::dot(t, t) == 0.0f) {
             t = tspace_octAcross(grid);
         }
@@ -690,11 +703,7 @@ struct tspace_Evaluator {
         if (metal::dot(after, after) < metal::dot(before, before)) {
             k = next;
         }
-        uint mirrored = 0u;
-        if (tangent.w < 0.0f) {
-            mirrored = 1u;
-        }
-        return (uint(i) << 22u) | (uint(j) << 12u) | (k << 1u) | mirrored;
+        return (uint(i) << 22u) | (uint(j) << 12u) | (k << 1u) | tspace_mirroredBit(tangent);
     }
 
     // Returns a coordinate of the Rodrigues vector at u, -1 to 1 along an edge of a chart of frame32.
@@ -768,12 +777,8 @@ struct tspace_Evaluator {
     // Encodes a frame as frame32: returns the nearest code of all quaternion charts that contain its rotation
     // (docs/concepts/pack.md).
     uint tspace_encodeFrame32(float3 normal, float4 tangent) {
-        float3 n = tspace_direction(normal);
-        if (metal::dot(n, n) == 0.0f) {
-            n = float3(0.0f, 0.0f, 1.0f);
-        }
-        float3 t = float3(tangent.x, tangent.y, tangent.z);
-        t = tspace_direction(t - metal::dot(n, t) * n);
+        float3 n = tspace_unitNormal(normal);
+        float3 t = tspace_across(n, float3(tangent.x, tangent.y, tangent.z));
         if (metal::dot(t, t) == 0.0f) {
             float side = 1.0f;
             if (n.z < 0.0f) {
@@ -799,11 +804,7 @@ struct tspace_Evaluator {
                 }
             }
         }
-        uint mirrored = 0u;
-        if (tangent.w < 0.0f) {
-            mirrored = 1u;
-        }
-        return (code << 1u) | mirrored;
+        return (code << 1u) | tspace_mirroredBit(tangent);
     }
 
     void tspace_writeTangent(uint result, float3 normal, float4 tangent) {

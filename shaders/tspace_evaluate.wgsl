@@ -416,13 +416,22 @@ fn tspace_direction(v: vec3f) -> vec3f {
     return vec3f(0.0, 0.0, 0.0);
 }
 
-fn tspace_mixed(normal: vec3f, sums: tspace_Sums) -> vec3f {
+// Returns the normal as a unit vector, (0, 0, 1) if it has no direction.
+fn tspace_unitNormal(normal: vec3f) -> vec3f {
     var n: vec3f = tspace_direction(normal);
     if (dot(n, n) == 0.0) {
         n = vec3f(0.0, 0.0, 1.0);
     }
-    var accurate: vec3f = tspace_direction(tspace_direction(sums.a) - dot(n, tspace_direction(sums.a)) * n);
-    var robust: vec3f = tspace_direction(tspace_direction(sums.b) - dot(n, tspace_direction(sums.b)) * n);
+    return n;
+}
+
+// Returns the part of v that is perpendicular to the unit vector n, as a unit vector, or zero.
+fn tspace_across(n: vec3f, v: vec3f) -> vec3f { return tspace_direction(v - dot(n, v) * n); }
+
+fn tspace_mixed(normal: vec3f, sums: tspace_Sums) -> vec3f {
+    var n: vec3f = tspace_unitNormal(normal);
+    var accurate: vec3f = tspace_across(n, tspace_direction(sums.a));
+    var robust: vec3f = tspace_across(n, tspace_direction(sums.b));
     var across: vec3f = cross(accurate, robust);
     var square: f32 = dot(across, across);
     if (dot(accurate, robust) < 0.0) {
@@ -643,12 +652,17 @@ fn tspace_octAngle(c: f32, s: f32) -> u32 {
     return turns + u32(clamp(512.0 * x, 0.0, 512.0));
 }
 
+// Returns the lowest bit of frame32 and oct32: 1 for the sign -1.
+fn tspace_mirroredBit(tangent: vec4f) -> u32 {
+    if (tangent.w < 0.0) {
+        return 1u;
+    }
+    return 0u;
+}
+
 // Encodes a frame as oct32: the nearest grid normal, then the nearest angle around it (docs/concepts/pack.md).
 fn tspace_encodeOct32(normal: vec3f, tangent: vec4f) -> u32 {
-    var n: vec3f = tspace_direction(normal);
-    if (dot(n, n) == 0.0) {
-        n = vec3f(0.0, 0.0, 1.0);
-    }
+    var n: vec3f = tspace_unitNormal(normal);
     var at: vec2f = tspace_octPoint(n);
     var first_i: f32 = clamp(floor((at.x + 1.0) * 511.0), 0.0, 1021.0);
     var first_j: f32 = clamp(floor((at.y + 1.0) * 511.0), 0.0, 1021.0);
@@ -668,8 +682,7 @@ fn tspace_encodeOct32(normal: vec3f, tangent: vec4f) -> u32 {
             j = next_j;
         }
     }
-    var t: vec3f = vec3f(tangent.x, tangent.y, tangent.z);
-    t = tspace_direction(t - dot(n, t) * n);
+    var t: vec3f = tspace_across(n, vec3f(tangent.x, tangent.y, tangent.z));
     if (dot(t, t) == 0.0) {
         t = tspace_octAcross(grid);
     }
@@ -680,11 +693,7 @@ fn tspace_encodeOct32(normal: vec3f, tangent: vec4f) -> u32 {
     if (dot(after, after) < dot(before, before)) {
         k = next;
     }
-    var mirrored: u32 = 0u;
-    if (tangent.w < 0.0) {
-        mirrored = 1u;
-    }
-    return (u32(i) << 22u) | (u32(j) << 12u) | (k << 1u) | mirrored;
+    return (u32(i) << 22u) | (u32(j) << 12u) | (k << 1u) | tspace_mirroredBit(tangent);
 }
 
 // Returns a coordinate of the Rodrigues vector at u, -1 to 1 along an edge of a chart of frame32.
@@ -756,12 +765,8 @@ fn tspace_nearestInChart(p: vec3f) -> vec4f {
 // Encodes a frame as frame32: returns the nearest code of all quaternion charts that contain its rotation
 // (docs/concepts/pack.md).
 fn tspace_encodeFrame32(normal: vec3f, tangent: vec4f) -> u32 {
-    var n: vec3f = tspace_direction(normal);
-    if (dot(n, n) == 0.0) {
-        n = vec3f(0.0, 0.0, 1.0);
-    }
-    var t: vec3f = vec3f(tangent.x, tangent.y, tangent.z);
-    t = tspace_direction(t - dot(n, t) * n);
+    var n: vec3f = tspace_unitNormal(normal);
+    var t: vec3f = tspace_across(n, vec3f(tangent.x, tangent.y, tangent.z));
     if (dot(t, t) == 0.0) {
         var side: f32 = 1.0;
         if (n.z < 0.0) {
@@ -787,11 +792,7 @@ fn tspace_encodeFrame32(normal: vec3f, tangent: vec4f) -> u32 {
             }
         }
     }
-    var mirrored: u32 = 0u;
-    if (tangent.w < 0.0) {
-        mirrored = 1u;
-    }
-    return (code << 1u) | mirrored;
+    return (code << 1u) | tspace_mirroredBit(tangent);
 }
 
 fn tspace_writeTangent(result: u32, normal: vec3f, tangent: vec4f) {
