@@ -23,12 +23,6 @@ std::vector<Vec3> deformed(const ScenePrimitive& primitive, const ScenePose& pos
     return result;
 }
 
-std::vector<Vec3> morphed(const ScenePrimitive& primitive, const SceneMorphTarget& target) {
-    std::vector<Vec3> result(primitive.positions.begin(), primitive.positions.end());
-    for (std::size_t v = 0; v < result.size(); ++v) result[v] = result[v] + target.positions[v];
-    return result;
-}
-
 /// Returns a triangle mesh with normals and UVs; without vertices if the primitive lacks one of these.
 test::SimpleMesh meshOf(const ScenePrimitive& primitive) {
     test::SimpleMesh mesh;
@@ -72,7 +66,9 @@ std::vector<PosedMesh> meshesOfModel(const std::string& path) {
         PosedMesh posed =
             withBentPose(std::filesystem::path(path).filename().string() + primitive.place, std::move(mesh));
         for (const SceneMorphTarget& target : primitive.morph_targets) {
-            if (!target.positions.empty()) posed.poses.push_back(morphed(primitive, target));
+            if (!target.positions.empty())
+                posed.poses.push_back(
+                    deformed(primitive, {.positions = {target.positions.begin(), target.positions.end()}}));
         }
         for (std::size_t i = 0; i < scene.poses.size(); ++i) {
             if (scene.drawn.placements[i].primitive == p && !scene.poses[i].empty())
