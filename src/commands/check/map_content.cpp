@@ -6,7 +6,6 @@
 #include <iterator>
 #include <optional>
 
-#include "commands/check/layout_reader.h"
 #include "commands/check/mesh_regression.h"
 #include "commands/check/normal_map.h"
 #include "core/base/vec_math.h"

@@ -2,15 +2,14 @@
 // Content of an image that is used as a normal map: vectors in tangent space, as glTF requires, or something else.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "commands/check/map_texels.h"
 #include "images/image.h"
 #include "maps/layout/uv_coverage.h"
 #include "tspace/map_files.h"
-#include "tspace/span.h"
 
 namespace tspace {
 
@@ -27,17 +26,6 @@ enum class MapContent {
     /// Hemi-octahedral encoding: x + y and x - y of (x, y, z) / (|x| + |y| + z), in the channels that the layout
     /// assigns to x and y.
     hemiOctahedral,
-};
-
-/// Red, green, blue and alpha of a texel.
-using TexelBytes = std::array<std::uint8_t, 4>;
-
-/// A sample of the map at a point of a triangle.
-struct TexelOnSurface {
-    Vec3 normal = {};  ///< normal of the mesh, possibly rotated by a node; unit
-    TexelBytes texel = {};
-    double weight = 0;  ///< weight of the sample: the surface area that it represents
-    Vec2 uv = {};
 };
 
 struct MapAnalysis {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 
-#include "commands/check/layout_reader.h"
 #include "core/base/vec_math.h"
 
 namespace tspace {

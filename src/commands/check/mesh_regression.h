@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "commands/check/map_content.h"
+#include "commands/check/map_texels.h"
 
 namespace tspace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Texels of a map as vectors.
+// Texels of a map: their bytes, places on the surface, and vectors.
 #pragma once
 
 #include <algorithm>
@@ -8,11 +8,23 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "commands/check/map_content.h"
 #include "core/base/vec_math.h"
 #include "maps/texels/gray.h"
+#include "tspace/map_files.h"
+#include "tspace/span.h"
 
 namespace tspace {
+
+/// Red, green, blue and alpha of a texel.
+using TexelBytes = std::array<std::uint8_t, 4>;
+
+/// A sample of the map at a point of a triangle.
+struct TexelOnSurface {
+    Vec3 normal = {};  ///< normal of the mesh, possibly rotated by a node; unit
+    TexelBytes texel = {};
+    double weight = 0;  ///< weight of the sample: the surface area that it represents
+    Vec2 uv = {};
+};
 
 /// Distance of neighboring values in [-1, 1] that are stored in 8 bits.
 inline constexpr double kByteStep = 1.0 / 127.5;
