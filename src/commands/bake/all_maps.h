@@ -23,14 +23,14 @@ class HighDetail {
     /// Returns the requested layers, with the IDs and materials of this object.
     [[nodiscard]] LayerOptions layers() const;
     [[nodiscard]] std::uint64_t idCount() const { return id_count_; }
-    /// Returns the first IDs, at most 256.
+    /// Returns the IDs that the report lists: the first ones, at most 256.
     [[nodiscard]] const std::vector<BakedId>& ids() const { return listed_; }
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
   private:
     struct Material {
         PlacedTexture base = {}, metal = {}, emission = {};
-        std::vector<Vec4> colors = {};  ///< linear; empty if the primitive has no vertex colors
+        std::vector<Vec4> colors = {};  ///< linear vertex colors; empty if the primitive has none
     };
 
     void findNames(BakeIds how);

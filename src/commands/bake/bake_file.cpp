@@ -47,7 +47,7 @@ std::vector<std::uint8_t> pngOf(std::uint32_t width, std::uint32_t height, std::
     return imageFileOf(".png", width, height, std::move(texels), bits);
 }
 
-/// State of a call, which all steps share.
+/// State that all steps of a bake share.
 struct FileBaking {
     const std::string& output;
     std::string high = {};
@@ -56,7 +56,7 @@ struct FileBaking {
     const BakeStep& step;
     BakeModels models = {};
     SharedRays shared = {};                 ///< rays on the high poly, shared by all images
-    std::optional<HighDetail> detail = {};  ///< refers to the models
+    std::optional<HighDetail> detail = {};  ///< attributes of the high poly; refers to `models`
     AtomicOutput& files = step.map_files;
     std::vector<ModelMap> maps = {};
     BakeFileReport report = {};
@@ -67,7 +67,8 @@ struct FileBaking {
 void setLimits(FileBaking& state) {
     state.step.inputs.watch(state.options.file);
     state.options.map.reading.two_channels = state.options.map.reading.two_channels || state.options.unit;
-    // The image size is an option, so a limit derived from the size of the input file is not applicable.
+    // The memory depends on the size of the map, which is an option, so the default limit is not derived from the
+    // input.
     constexpr std::uint64_t kUsualLimit = std::uint64_t{16} << 30;
     std::uint64_t& limit = state.options.map.memory_limit_bytes;
     if (limit == 0) limit = state.options.file.memory_limit_bytes;
@@ -95,7 +96,7 @@ void checkOutput(FileBaking& state) {
     state.options.map.bits = 16;
 }
 
-/// Rejects options that contradict glTF if a model is written, because the model interprets the map according to glTF.
+/// If a model is written, rejects options that glTF does not allow for normal maps.
 void checkOutMesh(const FileBaking& state) {
     if (state.options.out_mesh.empty()) return;
     if (!isGltfName(state.options.out_mesh)) failEnding(state.options.out_mesh, {".glb", ".vrm", ".gltf"});
@@ -130,13 +131,13 @@ std::string nameOf(const LowModel::Image& image) {
     return image.material.empty() ? "the low poly" : inQuotes(image.material);
 }
 
-/// Returns the triangles to bake, and stores all other triangles in the rest. The bake counts triangles with non-finite
-/// UVs.
+/// Returns the part to bake. Triangles outside the 0-1 UV range are only added to its rest (LowPoly::rest_positions);
+/// `outside` receives their number. Triangles with non-finite UVs stay in the part, and the bake counts them.
 LowPart bakedPart(FileBaking& state, const LowModel::Image& image, std::uint64_t& outside) {
     const auto isOutside = [&](std::size_t triangle) {
         const Vec2* const uvs = &image.part.corners.uvs[3 * triangle];
         const float u = uvs[0].x + uvs[1].x + uvs[2].x, v = uvs[0].y + uvs[1].y + uvs[2].y;
-        // Triangles beyond the edge of a clamped texture show no repeated texels.
+        // A clamped texture does not repeat, so triangles beyond its edge are not offset copies of others.
         const auto isBeside = [](TextureWrap wrap, float sum) {
             return wrap != TextureWrap::clamp && (sum < 0 || sum > 3);
         };

@@ -21,8 +21,9 @@ std::size_t extensionOf(const std::string& path) {
     return has_extension ? dot : path.size();
 }
 
-/// Returns the name of a material with all characters replaced that are unsuitable for file names. Long names are cut,
-/// because file systems limit file names to 255 bytes, which also contain the name of the output, a layer and a tile.
+/// Returns a material name in which every character that is unsuitable for file names is replaced by `_`. Names are cut
+/// after 100 bytes, because file systems limit file names to 255 bytes, and the names of the output, a layer and a tile
+/// are added.
 std::string fileNamePart(const std::string& name) {
     constexpr std::size_t kMostBytes = 100;
     std::string suffix;
@@ -34,7 +35,7 @@ std::string fileNamePart(const std::string& name) {
     return suffix.empty() ? "material" : suffix;
 }
 
-/// Returns the file names of the images of a low poly, and of the additional pictures.
+/// Returns the paths of all files that a bake writes: the maps of each image, the pictures, and the model.
 std::vector<std::string> outputsOf(const BakeNames& bake, const BakeFileOptions& options,
                                    const std::vector<std::string>& suffixes) {
     std::vector<std::string> names;

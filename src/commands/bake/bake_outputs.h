@@ -35,8 +35,8 @@ std::vector<std::string> plainOutputs(const BakeNames& bake, const BakeFileOptio
 /// Returns all outputs of a bake for this low poly, which is read for its materials and tiles. Throws FileError.
 std::vector<std::string> outputsFor(const std::string& low, const BakeNames& bake, const BakeFileOptions& options);
 
-/// Returns all outputs of a bake, to compare them with `others`, the other outputs of the command line (or empty
-/// strings). The low poly is read only if its materials or tiles could give a map one of these names.
+/// Returns all outputs of a bake, for a comparison with `others`: the other outputs of the command line, or empty
+/// strings. The low poly is read only if a map could get one of the names in `others` through its materials or tiles.
 std::vector<std::string> outputsToCompare(const std::vector<std::string>& others, const std::string& low,
                                           const BakeNames& bake, const BakeFileOptions& options);
 

@@ -15,7 +15,8 @@
 
 namespace tspace {
 
-/// The high poly's maps as needed by a bake. The maps refer to the images, which may only be moved as a whole.
+/// Normal maps of the high poly in the form in which a bake samples them. `maps` refer to `images`, so move the object
+/// only as a whole.
 struct HighMaps {
     std::vector<FloatImage> images = {};
     std::vector<HighMap> maps = {};

@@ -192,7 +192,8 @@ class MapPlacing {
         texture["sampler"] = samplers.size() - 1;
     }
 
-    /// Assigns a material to each primitive of the map: a copy if primitives share it that do not use the map.
+    /// Assigns a material to each primitive of the map. A material that is also used by primitives without this map is
+    /// copied.
     std::vector<std::size_t> assignMaterials(const ModelMap& map) {
         std::vector<std::optional<std::size_t>> before;
         std::map<std::size_t, std::size_t> users;

@@ -233,7 +233,7 @@ void addFlat(const ScenePrimitive& primitive, const Affine& place, OwnedMesh& me
         std::array<Vec3, 3> at{};
         for (std::size_t k = 0; k < 3; ++k)
             at[k] = toFloat(place.point(toDouble(primitive.positions[primitive.corners[placedCorner(place, i + k)]])));
-        // If the triangle has no direction, hits of rays use the normal computed there.
+        // zero for a degenerate triangle; then hits of rays use the normal computed at the hit
         const Vec3 normal = cross(at[1] - at[0], at[2] - at[0]);
         for (const Vec3& corner : at) {
             mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));

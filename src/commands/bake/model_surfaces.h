@@ -46,7 +46,7 @@ struct ModelMap {
 };
 
 struct ModelWithMaps {
-    gltf::Model model;        ///< with the frames for which the maps were baked
+    gltf::Model model;        ///< low poly with the frames for which the maps were baked
     std::string output = {};  ///< path of the output, .glb or .gltf
     std::vector<ModelMap> maps = {};
 };
@@ -73,7 +73,8 @@ struct LowPart {
     OwnedMesh corners = {};  ///< one vertex per corner
     std::vector<Vec3> cage = {};
     std::vector<std::uint32_t> groups = {};
-    std::vector<Vec3> rest_positions = {}, rest_normals = {};  ///< positions and normals of the rest pose, see LowPoly
+    /// Part of the mesh that the map does not cover, see LowPoly.
+    std::vector<Vec3> rest_positions = {}, rest_normals = {};
 
     [[nodiscard]] LowPoly view() const {
         return {.positions = corners.positions,
@@ -153,8 +154,9 @@ struct BakeModels {
     [[nodiscard]] RayOptions rays(const RayOptions& asked, TextureWrap wrap_u, TextureWrap wrap_v) const;
     /// Returns the ray distance for all images: the requested one, or one derived from the sizes of both models.
     [[nodiscard]] double reach(double asked) const;
-    /// Returns the bounding box of the low poly. The high poly may have as many instances or only one: the box of the
-    /// first instances or of all instances is returned, whichever is nearer to the box of the high poly.
+    /// Returns the bounding box of the low poly: that of the first instance of each primitive, or that of all
+    /// instances, whichever is nearer to the box of the high poly. The high poly may have all instances of the low
+    /// poly, or only one.
     [[nodiscard]] PositionBox lowBox() const;
 };
 

@@ -185,7 +185,7 @@ CheckReport checkImageFile(const std::string& input, const CheckOptions& options
     Scene scene;
     scene.images.push_back({.bytes = {bytes.begin(), bytes.end()}});
     scene.images[0].uri = input;
-    constexpr std::uint64_t kPixelBytes = 8;  // two copies with 3 bytes each, masks, and alpha
+    constexpr std::uint64_t kPixelBytes = 8;  // bytes per pixel: two copies with 3 bytes each, masks, and alpha
     scene.memory = imageBudget(bytes, options.file);
     scene.memory->require(imageNeed(bytes, kPixelBytes), {});
     LoneMap map = checkLoneMap(scene, options);
@@ -207,7 +207,7 @@ CheckReport checkImageFile(const std::string& input, const CheckOptions& options
     for (Finding& finding : report.findings) {
         const bool is_layout =
             finding.code == FindingCode::normalMapTwoChannels || finding.code == FindingCode::normalMapChannels;
-        // Engines use the layout that the format declares, so only viewers of plain glTF are wrong.
+        // Engines use the layout that the texture format declares; only viewers that ignore it render the map wrong.
         if (is_declared && is_layout) finding.severity = Severity::note;
     }
     if (map.analysis.content != MapContent::normals) return report;

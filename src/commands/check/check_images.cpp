@@ -226,9 +226,10 @@ double webpDegrees(const RgbImage& image) {
 }
 
 /// Returns the approximate RMS angular error, in degrees, of vectors compressed as ETC1S. A block has one color at
-/// several brightnesses, so only the sum x + y varies within it. For isotropic relief with variance s, x + y keeps g =
-/// 2/3 s, and 10/9 s is lost. Rounding the color to 5 bits adds 0.9 degrees on flat areas. On ten kinds of maps,
-/// compressed by basisu at two qualities, the estimate is 0.77 to 1.05 times the true error.
+/// several brightnesses, so it keeps only the component along gray. If x and y are independent with variance s, the
+/// gray value (x + y + z) / sqrt(3) has the variance g = 2/3 s, and the lost part of x and y has the variance 10/9 s.
+/// Rounding the color to 5 bits adds 0.9 degrees on flat areas. On ten kinds of maps, compressed by basisu at two
+/// qualities, the estimate is 0.77 to 1.05 times the true error.
 double etc1sDegrees(const RgbImage& image) {
     constexpr std::size_t kBlock = 4;
     constexpr double kLostOfKept = 10.0 / 9 / (2.0 / 3), kRoundedDeg = 0.9;
@@ -407,7 +408,7 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
         findings.push_back(unreadable(name, map.why_not));
         if (scene.images[map.image].is_unavailable) {
             findings.back().severity = Severity::warning;
-            // An image without a URI of its own is stored in a data URI.
+            // An unavailable image has a URI in the file; SceneImage::uri is empty if that is a data URI.
             setRemedy(findings.back(),
                       scene.images[map.image].uri.empty()
                           ? "Embed the image again: its data URI is broken."

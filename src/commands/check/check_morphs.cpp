@@ -226,10 +226,11 @@ class MorphNormalsChecker {
         return tally.count != 0 && tally.area >= kOffShare * turning_area;
     }
 
-    /// Drops normals that fit the morphed surface although they do not rotate with it. Exporters such as Blender
-    /// recompute the normals of a target: across material borders, over whole polygons, and with hard edges by the
-    /// angles of the target. A normal that is tilted against its faces on the base may be tilted in another direction
-    /// afterwards: the rotation of a face normal does not determine how the face rotates about it.
+    /// Drops normals that fit the morphed surface although they do not rotate with it. There are two kinds. Exporters
+    /// such as Blender recompute the normals of a target: they smooth across material borders and over whole polygons,
+    /// and choose hard edges by the angles of the morphed mesh. And a normal that is tilted against its faces may be
+    /// tilted in another direction after the morph: the rotation of a face normal does not determine how the face
+    /// rotates about that normal.
     void dropPlausible(std::size_t number, const std::vector<VertexRotation>& turns,
                        std::vector<OffNormal>& off) const {
         std::vector<std::uint32_t> vertices;
@@ -335,10 +336,11 @@ bool isThin(const TangentView& mesh, std::size_t face, float area) {
     return area <= kThin * std::max({square(0), square(1), square(2)});
 }
 
-/// Excludes vertices of triangles that are degenerate either before or after the change, and vertices equal to them.
-/// The groups are computed on the base, so a triangle that collapses still belongs to them, with an arbitrary
-/// direction, and a triangle that opens does not. A triangle that is flipped collapses in between. Triangles that are
-/// degenerate before and after change nothing.
+/// Excludes vertices whose tangents before and after the morph cannot be compared, and vertices equal to them: those of
+/// triangles that become degenerate, stop being degenerate, or are flipped, which makes them degenerate in between.
+/// Vertices are grouped on the base mesh. So a group still contains a triangle that becomes degenerate, with an
+/// arbitrary direction, but not a triangle that was degenerate on the base. Triangles that are degenerate before and
+/// after have no influence.
 void excludeCollapsed(const TangentView& mesh, const Surface& base, const TangentView& morphed_mesh,
                       const Surface& morphed, const EqualVertices& equal, std::vector<bool>& good) {
     constexpr float kCollapsed = 1e-4f;            // ratio of the areas; corresponds to 1 percent along each side

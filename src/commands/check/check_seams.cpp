@@ -24,10 +24,11 @@ constexpr double kMinSeamDeg = 2;
 /// A normal is equal to the mean of the primitive's own triangles if it is within this angle of that mean, by any
 /// weighting. The tolerance covers rounding to 8 bits.
 constexpr double kOwnDeg = 1;
-/// A border is smooth if its bend is at most kMoreBend times that of the smooth edges on both sides, at the quantile
-/// kSmoothPart.
+/// A border is smooth if it bends at most kMoreBend times as much as the smooth edges of either side. Their bend is the
+/// angle that a share kSmoothPart of them does not exceed.
 constexpr double kMoreBend = 1.25, kSmoothPart = 0.9;
-/// Share and number of the points with differing normals that must at least look like a seam.
+/// A seam is reported only if at least this share, and at least this number, of the points with differing normals look
+/// like a seam.
 constexpr double kMaxPlaces = 0.8;
 constexpr std::size_t kMinPlaces = 3;
 

@@ -96,7 +96,8 @@ class NearestDirections {
         DVec3 d = toDouble(face.tangent);
         if (!normalize(n) || !projectUnit(n, t, kMinInPlane)) return;
         if (!projectUnit(n, d, kMinOfTriangle)) {
-            // The rounding error of a direction along N may point anywhere, and methods weight it like the others.
+            // Projected to the plane, a direction along N is a rounding error that may point anywhere, but methods give
+            // it full weight. So any tangent is possible here, including the stored one.
             if (face.tangent != Vec3{}) addAngle(vertex, 0);
             return;
         }

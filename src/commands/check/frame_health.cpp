@@ -40,7 +40,7 @@ class VertexPatches {
         }
     }
 
-    /// Returns the lowest vertex of the patch.
+    /// Returns the lowest vertex index in the patch of a vertex.
     std::uint32_t of(std::uint32_t vertex) { return rootOf(parents_.data(), vertex); }
 
   private:
@@ -192,7 +192,7 @@ void examineSigns(const TangentView& mesh, const Surface& surface, const CheckOp
             health.fault(v, FindingCode::mirroredSeamAveraged, count);
             continue;
         }
-        // Tangents in other directions follow other UVs, whose orientation is unknown.
+        // A tangent far from the direction of these UVs follows other UVs, whose orientation is unknown.
         if (!std::isfinite(sign) || sign == 0 || directions[v] > options.error_deg) continue;
         ++health.signs_wrong.total;
         judged += plus + minus;
@@ -216,7 +216,8 @@ constexpr double kSameDeg = 1;
 /// Maximum number of vertices at one point that a vertex is compared with. Poles have more, but one match is
 /// sufficient.
 constexpr std::size_t kMaxCompared = 64;
-/// Share of the surface from which all directions are treated as wrong.
+/// If this share of a patch has wrong directions, all its directions are treated as wrong. kMaxly is sufficient if
+/// kNothingRight of the whole surface is wrong.
 constexpr double kNothingRight = 0.95;
 constexpr double kMaxly = 0.5;
 
@@ -298,7 +299,7 @@ void findUndecided(const TangentView& mesh, const Surface& surface, std::span<co
     for (std::uint32_t v = 0; v < count; ++v) {
         if (directions[v] == kUnknownDirection || health.isSettled(v)) continue;
         const std::uint32_t patch = patches.of(v);
-        // If most are wrong, tangents outside their cones by less than the tolerance are also treated as wrong.
+        // A tangent that is outside its cone, but within the tolerance, is treated as wrong if half of its patch is.
         const double least = directions[v] > kInsideDeg ? kMaxly : share;
         if (wrong[patch] > 0 && wrong[patch] >= least * judged[patch])
             health.fault(v, FindingCode::directionsWrong, count);

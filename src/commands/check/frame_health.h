@@ -23,7 +23,7 @@ inline constexpr std::uint32_t kUndecidedSign = 1u << 31;
 /// Additional bit for vertices whose tangent is nearly parallel to N.
 inline constexpr std::uint32_t kParallelTangent = 1u << 30;
 
-/// Lengths of normals and tangents that deviate from 1 by more are wrong, rather than rounded.
+/// Normals and tangents whose lengths deviate from 1 by more than this are wrong, rather than rounded.
 inline constexpr double kFarFromUnit = 0.1;
 
 struct FrameHealth {
@@ -45,18 +45,18 @@ struct FrameHealth {
     }
     [[nodiscard]] bool isSettled(std::uint32_t vertex) const { return !settled.empty() && settled[vertex]; }
 
-    // Values of single tangents. Tallies count all vertices; those of directions count only vertices that triangles
-    // use. Flags concern used vertices.
+    // Values of single tangents. The flags, `not_orthogonal` and `parallel` concern only vertices that triangles use;
+    // the other tallies count all vertices.
     Tally not_finite;             ///< vertices with x, y, z or w that is not finite
-    bool has_not_finite = false;  ///< some vertices are not finite
+    bool has_not_finite = false;  ///< some used vertices are not finite
     Tally not_unit;               ///< finite vertices whose length is not 1
     double far_from_unit = 0;     ///< share of the surface with lengths below 0.9 or above 1.1
     bool has_zero = false;        ///< some tangents have zero length
-    Tally not_orthogonal;         ///< finite, not zero, with a usable N
-    Tally parallel;  ///< within 5 degrees of N or -N, so that there is no frame; not counted in the other tallies
-    bool has_no_frame = false;  ///< some tangents are within 1 degree of N or -N
-    /// Only tangents parallel to N have the bit of tangentsNotOrthogonal, because they cover so little surface that
-    /// other tilted tangents are a separate warning.
+    Tally not_orthogonal;         ///< not perpendicular to N, but not `parallel`
+    Tally parallel;               ///< within 5 degrees of N or -N, so that there is no frame
+    bool has_no_frame = false;    ///< some tangents are within 1 degree of N or -N
+    /// Tangents parallel to N are reported separately, as an error, although they cover little of the surface. Only
+    /// they have the bit of tangentsNotOrthogonal; other tilted tangents are a warning.
     bool parallel_apart = false;
     Tally sign_not_one;
     bool sign_vanishes = false;  ///< some |w| is below 0.5

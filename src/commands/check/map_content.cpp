@@ -16,11 +16,12 @@ namespace {
 
 /// Maximum deviation from 1 of an 8-bit vector's length after compression and filtering.
 constexpr double kLengthSlack = 0.1;
-/// Standard deviation, of 255, below which a channel is constant; compression alone may cause this much.
+/// Standard deviation, on a scale from 0 to 255, below which a channel is constant; compression alone may cause this
+/// much.
 constexpr double kConstant = 2.5;
 /// Minimum x^2 + y^2 of tilted texels; corresponds to a tilt of 11 degrees.
 constexpr double kMinTilt = 0.04;
-/// Maximum absolute mean of x and of y in a map, unless more is known.
+/// Maximum absolute mean of x and of y in a tangent-space map, for callers that know nothing else about the map.
 constexpr double kMaxMean = 0.25;
 
 struct Spread {
@@ -303,8 +304,9 @@ class MapAnalyzer {
     /// much nearer to z than to (z + 1) / 2.
     [[nodiscard]] std::optional<MapAnalysis> unsignedZ() const {
         constexpr std::uint64_t kMinCount = 64;
-        constexpr double kMaxLong = 0.05;  // JPEG changes red and green if blue varies as much as they do
-        constexpr double kNoSpread = 0.2;  // unsigned z leaves a spread of 0.4 or more
+        // Maximum share of texels with x^2 + y^2 > 1. JPEG causes some if blue varies as much as red and green.
+        constexpr double kMaxLong = 0.05;
+        constexpr double kNoSpread = 0.2;  // limit of haveOneLength; unsigned z results in 0.4 or more
         if (!canBeXy(texels_, 0, 1, kMaxMean, kMaxLong) || haveOneLength(kNoSpread)) return {};
         double z = 0, b = 0, zz = 0, zb = 0, bb = 0, off = 0, off_signed = 0;
         std::uint64_t count = 0;
@@ -334,8 +336,8 @@ class MapAnalyzer {
         return analysis;
     }
 
-    /// Returns the share of unit vectors, by the best transfer curve. A curve is used only if the decoded vectors then
-    /// point up.
+    /// Returns the share of texels that are unit vectors when decoded by the best transfer curve. A curve is used only
+    /// if the decoded vectors point up.
     [[nodiscard]] static double unitShareOf(std::span<const TexelBytes> texels) {
         double share = fitOf(texels, {}).unit_share;
         for (const MapCurve curve : {MapCurve::srgb, MapCurve::linearized}) {
@@ -345,7 +347,8 @@ class MapAnalyzer {
         return share;
     }
 
-    /// Returns whether blue can be z: stored as z, or constant in addition to x and y.
+    /// Returns whether the map can be in tangent space: blue is z and nearly always positive, or blue is constant and
+    /// red and green can be x and y.
     [[nodiscard]] bool mayPointUp(std::span<const TexelBytes> texels, const DVec3& mean) const {
         constexpr double kMinUp = 0.7, kMaxBelow = 0.1;
         constexpr std::uint8_t kZero = 127 - 16;  // tolerance for compression errors
@@ -374,9 +377,8 @@ class MapAnalyzer {
         const auto [weakest, strongest] = std::minmax({together[0], together[1], together[2]});
         const double least = std::min({mean.x, mean.y, mean.z}), most = std::max({mean.x, mean.y, mean.z});
         const bool is_diagonal = weakest >= kTogether && (least > kMinDiagonal || most < -kMinDiagonal);
-        // The vectors may have one main direction that is not an axis. The vectors of a wall in object space do not
-        // correlate like those of a picture.
-        // like this.
+        // Detects colors that all have one direction, which is not an axis. A map of a wall in object space has such
+        // vectors too, but its channels do not rise and fall together like those of a picture.
         const bool is_aside = strongest >= kMuchTogether && !mainDirection() && length(plain_.mean) > kOneWay;
         const double unit = unitShareOf(painted);
         const double max_unit = !mayPointUp(painted, mean) ? kMaxUnit : weakest >= kTogether ? kFewUnit : 0;

@@ -33,7 +33,8 @@ struct MapAnalysis {
     /// Layout for decoding the image to vectors in tangent space (or object space).
     MapLayout layout = {};
     std::uint64_t count = 0, total = 0;  ///< texels that support the result, and examined texels
-    /// For objectSpace: the vectors follow the normals of the mesh. False if the vectors only point in all directions.
+    /// For objectSpace: the vectors follow the normals of the mesh. False: object space is assumed only because many
+    /// vectors point down and none of the axes is their main direction.
     bool follows_mesh = false;
     /// For picture: only y is stored, in green, as in a DXT5nm map that lost its alpha channel with x.
     bool is_x_lost = false;

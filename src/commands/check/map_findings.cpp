@@ -142,7 +142,8 @@ RemedyCommand withLayout(RemedyCommand command, const MapLayout& layout) {
 }
 
 /// Returns a remedy with commands for the model and for the image alone. `behind`: text after the command for the
-/// image; `more`: a command in that text. The last command has no period, which would be copied with it.
+/// image; `more`: a command in that text. The text ends without a period after the last command, because a period would
+/// be copied with the command.
 Remedy inModelOrAlone(const NamedImage& image, bool flips_green, RemedyCommand convert, const std::string& behind = {},
                       std::optional<RemedyCommand> more = {}) {
     Remedy remedy{"Convert it: {}" + behind, {}};
@@ -204,7 +205,7 @@ Remedy remedyOf(const NamedImage& image, const MapAnalysis& analysis, bool green
             {withLayout(convert, left), withLayout(convert, invertedRelief(left))}};
     }
     if ((analysis.content == MapContent::exchanged && !analysis.is_declared) || (green_is_down && !has_own_green)) {
-        // Slopes cannot distinguish these interpretations.
+        // Slopes cannot distinguish a height field from its negative, so both layouts are offered.
         return inModelOrAlone(image, green_is_down, withLayout(convert, layout),
                               ". Slopes do not distinguish bumps from dents; if bumps look like dents afterwards, "
                               "convert the original image with {}",

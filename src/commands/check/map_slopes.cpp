@@ -55,8 +55,8 @@ bool fitsWell(const GreenTest& other) {
     return hasSide(other) && std::fabs(other.correlation) > kMin;
 }
 
-/// Returns whether red and green are exchanged. Relief whose curvature along x equals that along y, such as a product
-/// of waves, does not show it.
+/// Returns whether red and green are exchanged. This cannot be detected in relief that has equal curvature along x and
+/// y, such as a product of waves.
 bool areXAndYExchanged(const DecodedMap& map) {
     constexpr double kMax = 0.5;
     return std::fabs(slopesOf(map.image, map).correlation) <= kMax && fitsWell(slopesOf(map, exchanged({})));
@@ -80,9 +80,9 @@ RgbImage decodeOctahedral(const DecodedMap& map, const MapLayout& layout, bool i
     return read;
 }
 
-/// Returns whether the decoded vectors fit a height field clearly better than the plain ones. Plain vectors fit too,
-/// because octahedral x increases with x. Only the difference of the correlation from 1 is larger, by a factor of 1.2
-/// to 300 if slopes reach 0.3.
+/// Returns whether the decoded vectors fit a height field clearly better than the plain ones. Octahedral x increases
+/// with x, so plain vectors correlate too, but less: their correlation is 1.2 to 300 times as far from 1 if slopes
+/// reach 0.3.
 bool fitsBetter(const GreenTest& decoded, const GreenTest& plain) {
     constexpr double kClear = 1.15;
     const auto deviation = [](const GreenTest& test) { return 1 - std::fabs(test.correlation); };

@@ -30,7 +30,7 @@ MapAnalysis analyzeMap(const DecodedMap& map, std::span<const TexelOnSurface> su
 MapLayout invertedRelief(MapLayout layout);
 
 /// Returns whether red and green are exchanged and one of them is negated, as in an image that was rotated by 90 or 270
-/// degrees without its vectors. `is_y_inverted`: y is inverted under the layout of `look`.
+/// degrees without its vectors. `is_y_inverted`: y is inverted under the layout of `analysis`.
 bool isRotated(const MapAnalysis& analysis, bool is_y_inverted);
 
 }  // namespace tspace

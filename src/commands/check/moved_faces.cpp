@@ -32,7 +32,7 @@ struct MovedPrimitive {
     }
 };
 
-/// Returns a key: vertices with equal positions and equal offsets are one point.
+/// Returns the key of a vertex. Vertices with equal positions and equal offsets have equal keys and are one point.
 std::array<std::uint32_t, 6> pointKey(const MovedPrimitive& moved, std::uint32_t vertex) {
     const Vec3 &p = moved.primitive.positions[vertex], &o = moved.offsets[vertex];
     return {weldBits(p.x), weldBits(p.y), weldBits(p.z), weldBits(o.x), weldBits(o.y), weldBits(o.z)};

@@ -21,9 +21,10 @@ class MovedFaces {
     MovedFaces(const ScenePrimitive& primitive, std::span<const ScenePrimitive> all, std::size_t number,
                std::span<const std::uint32_t> vertices);
 
-    /// Returns whether smoothing of faces around vertices[i] can result in this unit normal, within `slack` radians.
-    /// `turn`: rotation of the faces that share its normal on the base. `is_hard`: the base normal smooths over no
-    /// other face, so faces at more than 80 degrees from these, both on the base and moved, are ignored.
+    /// Returns whether smoothing of faces around vertices[i] can result in the unit normal `normal`, within `slack`
+    /// radians. `turn`: rotation of the faces that share the vertex normal on the base. `is_hard`: the base normal is
+    /// smooth only over these faces, so a face that is more than 80 degrees away from them on both the base and the
+    /// morphed mesh is ignored.
     [[nodiscard]] bool admit(std::size_t i, const DVec3& normal, const VertexRotation& turn, bool is_hard,
                              double slack) const;
 
@@ -34,7 +35,9 @@ class MovedFaces {
     };
     struct Point {
         std::vector<Face> list = {};
-        bool is_open = false;  ///< a face collapses or opens here: the mean depends on the weights
+        /// A face here is degenerate before or after the morph, so the mean normal depends on the face weights, and any
+        /// normal is admitted.
+        bool is_open = false;
     };
     std::vector<Point> faces_ = {};
     std::vector<std::uint32_t> point_of_ = {};  ///< one per entry of `vertices`

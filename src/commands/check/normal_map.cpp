@@ -160,7 +160,8 @@ int GreenBlocks::sideOf(std::size_t block) const {
     return votes.count < kMinAround ? 0 : votes.side(kPartCorrelation, 0.5);
 }
 
-/// Groups adjacent blocks with equal directions into parts, if they are many and agree.
+/// Groups adjacent blocks with equal directions into parts. A group with few blocks, or whose blocks disagree too much,
+/// is not a part.
 void GreenBlocks::findParts() {
     const auto voting = static_cast<double>(
         std::count_if(blocks_.begin(), blocks_.end(), [](const Block& block) { return block.votes; }));

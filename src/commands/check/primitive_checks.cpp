@@ -30,7 +30,7 @@ namespace {
 /// Cosine of the angle between a normal and the face normal below which the normal points to the back (angles over 96
 /// degrees). The margin over 90 degrees allows for coarse smooth shading.
 constexpr double kMinFacing = -0.1;
-/// Share of the surface from which the whole mesh is reported as inside out.
+/// Share of the surface from which the whole mesh is reported as inside out; kNearlyAll if it is double-sided.
 constexpr double kMaxOfSurface = 0.5;
 constexpr double kNearlyAll = 0.95;
 constexpr double kSomeNormals = 0.01;
@@ -55,7 +55,7 @@ void checkNormalValues(PrimitiveFacts& facts) {
             not_finite.add(v, facts.surface.vertex_areas[v]);
             continue;
         }
-        // The stored length is compared, because the mesh has the scaled normals.
+        // The mesh contains normals that were scaled to length 1, so the length in the file is checked.
         const bool is_scaled = scales != nullptr && scales->of_vertices[v] != 1;
         const double size = is_scaled ? 1 / scales->of_vertices[v] : length(toDouble(mesh.normals[v]));
         if (std::fabs(size - 1) > facts.options.unit_tolerance) not_unit.add(v, facts.surface.vertex_areas[v]);
@@ -207,7 +207,7 @@ void checkFarNormals(PrimitiveFacts& facts, const Directions& directions) {
         // Normals that point to the back are reported by another finding.
         const double cosine = nearest[equal.class_of[v]];
         const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-        // Normals of faces have only float precision.
+        // rounded to float, the precision of the face normals
         const auto angle = static_cast<float>(polarAngle(cosine, sine) * 180 / kPi);
         if (angle > kFarDeg && angle <= 90) far.add(v, facts.surface.vertex_areas[v], angle);
     }
@@ -456,8 +456,8 @@ double comparedShare(const PrimitiveFacts& facts) {
 /// Reports positions so coarse that triangles determine neither tangents nor, reliably, normals.
 void checkRounding(PrimitiveFacts& facts) {
     PositionRounding rounding = facts.surface.rounding;
-    // Intentional rounding of positions matters only to tangents; without tangents, only other rounding is
-    // reported.
+    // If positions were already rounded before their conversion to floats, this matters only to tangents. Without
+    // tangents, only other rounding is reported.
     const bool has_readers = !facts.primitive.uses.empty() || !facts.primitive.tangents.empty();
     if (rounding.was_before && !has_readers) {
         const std::span<const std::uint32_t> corners = facts.mesh.corners;

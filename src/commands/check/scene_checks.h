@@ -19,9 +19,10 @@ struct CheckedModel {
     std::uint64_t without_uvs_count = 0;  ///< primitives with triangles, but without UVs
 };
 
-/// checkFile as a step of another command. Throws FileError.
+/// Checks a model like checkFile, as a step of another command. Throws FileError.
 CheckedModel checkModel(const std::string& input, const CheckOptions& options);
-/// Like checkModel, for a scene that was read with the images if `options` asks for them, and for valid options.
+/// Checks a scene like checkModel. `options` must be valid; if they include the examination of images, the scene must
+/// have been read with its images.
 CheckedModel checkScene(const Scene& scene, const CheckOptions& options);
 
 // Normal maps of a scene.

@@ -43,7 +43,7 @@ Meshes readMeshes(const std::string& input, const ConvertMapFileOptions& options
     const std::string& to_mesh = options.to_mesh.empty() ? options.mesh : options.to_mesh;
     Meshes meshes;
     if (!from_tangent && !to_tangent) {
-        // Between object and world space either model can be used, because both have the transform.
+        // Conversions between object and world space can use either model, because both have the same transform.
         if (options.from != options.to) meshes.from = read(options.mesh.empty() ? to_mesh : options.mesh);
         return meshes;
     }

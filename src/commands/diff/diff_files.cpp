@@ -121,7 +121,8 @@ class WorstPlaces {
     [[nodiscard]] const std::vector<FrameDifference>& places() const { return places_; }
 
   private:
-    /// Returns the largest angle of a corner. A different sign reverses B, so the angle of B includes it.
+    /// Returns the largest angle of a corner. The angle of the bitangent includes differences of the sign, which
+    /// reverse the bitangent.
     static double worstOf(const FrameDifference& d) { return std::max({d.tangent_deg, d.normal_deg, d.bitangent_deg}); }
     static bool isWorse(const FrameDifference& a, const FrameDifference& b) { return worstOf(a) > worstOf(b); }
 

@@ -28,8 +28,8 @@ std::uint64_t geometryHash(const ScenePrimitive& primitive);
 std::vector<TrianglePair> pairByCorners(const ScenePrimitive& a, const ScenePrimitive& b);
 
 /// Pairs triangles whose corners agree within 1/1000 of the size of the mesh, after both meshes were moved and scaled
-/// to the same bounding box: quantized meshes, and those written with fewer digits. Expected linear time; if hundreds
-/// of triangles coincide, some may remain unpaired.
+/// to the same bounding box. It is meant for meshes that were quantized, or written with fewer digits. Expected linear
+/// time; if hundreds of triangles coincide, some may remain unpaired.
 std::vector<TrianglePair> pairByPlace(const ScenePrimitive& a, const ScenePrimitive& b);
 
 inline constexpr std::size_t kNoPrimitive = ~std::size_t{0};

@@ -79,7 +79,7 @@ class ModelInWork {
         GenerateOptions generate = generateOptions();
         runFirst(std::move(file), generate, {});
         if (std::vector<std::uint32_t> right = rightMeshes(); !right.empty()) {
-            // All faces of an OBJ file form one surface.
+            // The faces of an OBJ file form one surface, whose winding is fixed or kept as a whole.
             generate.mend_winding = !isObj();
             runFirst(read(), generate, {.wound_meshes = std::move(right)});
         }
@@ -90,13 +90,13 @@ class ModelInWork {
             take(run(*std::move(model_), again, {.normals = wishes}), wishes);
             check_ = runCheck(*model_, options_);
         }
-        generate.mend_winding = true;  // otherwise check would suggest it, under the option name of another command
+        generate.mend_winding = true;  // keeps warnOfWinding from suggesting --fix-winding, which finish does not have
         warnOfWinding(generate, report_.made);
         writeGlb();
         report_.without_uvs_count = check_.without_uvs_count;
     }
 
-    /// Returns the model in the state of `bytes`.
+    /// Returns the model after all changes; bytes() contains the same model as a GLB.
     [[nodiscard]] ModelFile& model() { return *model_; }
     /// Returns pictures of the model before the changes; empty unless a page is written.
     [[nodiscard]] const std::string& views() const { return views_; }
@@ -219,7 +219,7 @@ class ModelInWork {
         report_.made.output_bytes = bytes_.size();
     }
 
-    /// Adds warnings that the report does not contain.
+    /// Adds those of the warnings that are not yet in the report.
     void addWarnings(std::vector<std::string>&& more) {
         std::vector<std::string>& warnings = report_.made.warnings;
         for (std::string& warning : more) {
@@ -317,7 +317,7 @@ class Finishing {
     }
 
   private:
-    /// Throws if nothing can be baked.
+    /// Throws if no primitive of the low poly has UVs, because then nothing can be baked.
     void checkLow() const {
         if (report_.low->without_uvs_count < report_.low->made.primitives.size()) return;
         throw FileError{{.code = ErrorCode::missingAttribute,
@@ -338,7 +338,8 @@ class Finishing {
         report_.remarks.push_back(which + " no UVs, so no tangents and no maps were created; " + kUvMakers);
     }
 
-    /// Adds a note on noise, because the warning of the bake would name an option of bake.
+    /// Adds a remark on noise that suggests an option of finish; the warning of the bake would suggest an option of
+    /// bake.
     void noteNoise() {
         const auto& findings = report_.model.before.findings;
         const bool is_noisy = std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
@@ -376,7 +377,7 @@ class Finishing {
         return bytes;
     }
 
-    /// `model`: that of `bytes`.
+    /// Writes the output, and the page if requested. `bytes`: the output; `model`: the model that it contains.
     void write(const std::string& output, ByteSpan bytes, ModelFile& model) {
         report_.output_bytes = bytes.size();
         files_.add(output, bytes);

@@ -19,7 +19,7 @@ std::string viewsHtml(ModelFile& model, const std::string& caption);
 
 /// Sections of a page with pictures of models.
 struct FinishViews {
-    std::string model = {}, low = {};  ///< as in the files; `low`: empty without a low poly
+    std::string model = {}, low = {};  ///< pictures of the input models; `low`: empty without a low poly
     std::string now = {};
 };
 

@@ -18,9 +18,9 @@
 namespace tspace {
 namespace {
 
-/// Rows of a PNG need little memory but take time, and a small file may claim any number of them. The decoded size may
-/// be this multiple of the memory limit: 1 GB, about 5 seconds, for the smallest file. A single-color map of 16384 x
-/// 16384 texels has 800 MB in a file of 800 KB.
+/// Fails if the decoded image is larger than kTimesMemory times the memory limit. Rows of a PNG need little memory but
+/// take time, and a small file may claim any number of them. For the smallest file, the limit is 1 GB, or about 5
+/// seconds. A valid single-color map of 16384 x 16384 texels has 800 MB in a file of 800 KB.
 void checkWork(ByteSpan bytes, std::uint64_t memory_limit_bytes) {
     constexpr std::uint64_t kTimesMemory = 16, kMax = std::uint64_t{1} << 56;
     const std::uint64_t memory = memory_limit_bytes != 0
@@ -56,8 +56,8 @@ constexpr Extension kExtensions[] = {{".jpg", ImageFileFormat::jpeg},  {".jpeg",
                                      {".webp", ImageFileFormat::webp}, {".ktx2", ImageFileFormat::ktx2},
                                      {".dds", ImageFileFormat::dds},   {".png", ImageFileFormat::png}};
 
-/// Returns the format according to the extension of the output's name. Throws a FileError for an unknown extension, and
-/// for a format that is neither PNG nor `input`, which would lose data. `input`: sameAsInput allows all formats.
+/// Returns the format that the extension of the output stands for. Throws FileError for unknown extensions. Also throws
+/// for formats other than PNG and `input`, because re-encoding would lose data, unless `input` is sameAsInput.
 ImageFileFormat namedFormat(const std::string& output, ImageFileFormat input) {
     const std::string extension = lowerExtension(output);
     std::vector<std::string_view> allowed;

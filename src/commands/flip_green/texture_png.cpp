@@ -27,7 +27,7 @@ FlippedImage flippedTexturePng(ByteSpan bytes) {
     // Values of block formats and floats may be between integers.
     const float most = bits == 8 ? 255.0F : 65535.0F;
     flipped.report.is_exact = std::all_of(image->texels.begin(), image->texels.end(), [&](const Vec3& texel) {
-        constexpr float kRounding = 0.01F;  // tolerance for a float times 65535
+        constexpr float kRounding = 0.01F;  // rounding error of a float that was multiplied by 65535
         return std::fabs(texel.y * most - std::round(texel.y * most)) < kRounding;
     });
     if (!how_read.empty()) flipped.report.warnings.push_back(how_read);

@@ -130,7 +130,7 @@ class Applier {
             if (!elements_.has_tangent_deltas) continue;
             const bool has_tangents = findAttribute(first.targets[i], "TANGENT").has_value();
             if (pool_.keeps_tangents && has_tangents && !turns_normals) continue;
-            // Computed deltas fit computed tangents, but the file keeps different tangents.
+            // Computed deltas fit computed tangents, but a repair keeps tangents that differ from the computed ones.
             if (pool_.repairsTangents() && elements_.differing_count != 0 && !has_tangents) continue;
             ++computed_targets_;
             changed |= setAttribute(target, "TANGENT", elementsOf(elements_.morphs[i].tangents));
