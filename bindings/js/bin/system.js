@@ -44,7 +44,7 @@ const kinds = [["isFile", 8], ["isDirectory", 4], ["isSymbolicLink", 10], ["isFI
 /** Maximum number of pages; the last page of 4 GB is unused, so that no end address is 2^32. */
 export const mostPages = 65535;
 const pageBytes = 65536;
-/** Limit per call of node. */
+/** Maximum number of bytes per read or write of node. */
 const mostBytes = 2 ** 30;
 const atCurrent = -100, noFollow = 0x100, removesFolder = 0x200;
 
@@ -78,12 +78,12 @@ export function systemOf({ memory, exports, program }) {
     return Buffer.from(bytes.slice(at, bytes.indexOf(0, at)));
   }
   /**
-   * Returns a path in the form that fs needs: bytes if names are bytes. pathAt is for queries only; all other functions
-   * use pathTo, which checks access.
+   * Returns the path at an address in the form that fs needs: text on Windows, bytes elsewhere. pathAt is for queries
+   * only; all other functions use pathTo, which checks access.
    */
   const pathAt = (at) => (onWindows ? systemPath(textBytes(at >>> 0).toString()) : textBytes(at >>> 0));
   const pathTo = (at) => allowed(pathAt(at));
-  /** Writes as much as fits; returns the number of bytes. */
+  /** Copies as much of a text as fits to an address; returns the number of bytes. */
   function give(at, size, text) {
     see(at + size);
     const part = text.subarray(0, size);
@@ -129,7 +129,10 @@ export function systemOf({ memory, exports, program }) {
     if (!(folder && onWindows)) fs.closeSync(number);
   }
 
-  /** Calls transfer(place, count, position) for each part, until one is incomplete; writes the number of bytes. */
+  /**
+   * Calls transfer(place, size, position) for each part, until one is incomplete. Writes the number of transferred
+   * bytes to `result`.
+   */
   function transferAll(number, parts, count, result, transfer) {
     const file = files.get(number);
     let total = 0;
@@ -213,7 +216,7 @@ export function systemOf({ memory, exports, program }) {
     return 0;
   }
 
-  /** A path below an open folder. */
+  /** Returns the path at an address; a relative path starts at an open folder. */
   function pathBelow(folder, at) {
     const path = pathAt(at);
     const from = folder === atCurrent ? undefined : folders.get(folder);

@@ -105,7 +105,7 @@ function attributeOf(attribute, i, cornerCount) {
   return { data, size, tolerance: number(tolerance, `tolerance of ${name}`) };
 }
 
-/** Writes the module's table of attributes, followed by space for six words. */
+/** Writes the table of attributes that the module reads, followed by space for the six words of the result. */
 function putAttributes(call, list) {
   const places = list.map(({ data }) => call.put(data));
   const table = call.allocate(12 * list.length + 24);

@@ -20,8 +20,8 @@ function describe(value) {
 export const failType = (value, name, needed) => fail("wrongType", `${name} must be ${needed}, not ${describe(value)}`);
 
 /**
- * Returns a new view of the array, whose length stays constant regardless of buffers and getters. Accepts arrays of
- * other windows.
+ * Returns a new view of the array with a fixed length, which neither a growing buffer nor getters of the caller's array
+ * can change. Accepts arrays of other windows.
  */
 function viewOf(array, name, types, needed) {
   const Type = ArrayBuffer.isView(array) && types.find((type) => type.name === array[Symbol.toStringTag]);

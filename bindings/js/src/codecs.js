@@ -4,14 +4,14 @@
 import { fail, failType, isMissing, object } from "./check.js";
 import { decodeDraco, encodeDraco } from "./draco.js";
 
-/** Order of the module's enumeration (wasm/codecs.h). */
+/** Names of codecs, in the order of the module's enumeration (wasm/codecs.h). */
 const codecs = ["meshoptDecoder", "meshoptEncoder", "dracoDecoder", "dracoEncoder", "decodeImage", "encodeImage"];
 
-/** Order of tspace's enumerations. */
+/** Modes and filters of meshopt compression, in the order of tspace's enumerations. */
 const modes = ["ATTRIBUTES", "TRIANGLES", "INDICES"];
 const filters = ["NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"];
 
-/** Returns the codecs with the names above, from an option { decoder, encoder }. */
+/** Checks an option { decoder, encoder }, and returns its members as `${option}Decoder` and `${option}Encoder`. */
 function pairOf(option, value, { decoder: decoding, encoder: encoding }, from) {
   if (isMissing(value)) return {};
   const { decoder, encoder } = object(value, option, ["decoder", "encoder"]);
@@ -63,7 +63,7 @@ export class Codecs {
     return new Type(this.call.wasm.memory.buffer, place >>> 0, count);
   }
 
-  /** Copies bytes to the module's memory, which the module frees. `size`: address that receives their number. */
+  /** Copies bytes to new memory, which the module frees. `size`: address that receives the number of bytes. */
   #give(bytes, size) {
     const place = this.call.wasm.allocate(bytes.byteLength + 1) >>> 0;
     if (place === 0) fail("outOfMemory", "out of memory");

@@ -8,8 +8,8 @@ export const isReady: boolean;
 export type NumberArray = ArrayLike<number>;
 
 /**
- * The function of npm's mikktspace 1.1.1, with the same bits: takes unindexed triangles, returns four numbers per
- * vertex. The sign is for v pointing up; callers negate it for glTF. (three.js's module pairs edges differently:
- * `tspace/three` has its bits.)
+ * Replaces the function of npm's mikktspace 1.1.1, with bit-identical results: takes unindexed triangles, returns four
+ * numbers per vertex. The sign is for v pointing up; callers negate it for glTF. (three.js's module pairs edges
+ * differently: `tspace/three` is bit-identical to that module.)
  */
 export function generateTangents(positions: NumberArray, normals: NumberArray, uvs: NumberArray): NewFloat32Array;

@@ -4,7 +4,7 @@ import { generateTangents as generate, ready, release } from "./mikktspace.js";
 
 export { ready, release };
 
-/** Checked by three.js before it calls. */
+/** three.js checks this before it calls generateTangents. */
 export let isReady = false;
 ready.then(() => (isReady = true), () => {});
 

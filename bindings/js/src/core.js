@@ -87,7 +87,7 @@ export function makeIndexedFrames(mesh, options = {}) {
 
 const forgotten = new FinalizationRegistry((end) => end());
 
-/** Words of a plan, with views of its arrays. */
+/** An exported plan: its words, and views of the arrays in them. */
 class PlanBuffers {
   constructor(words) {
     const array = (first, count) => words.subarray(words[first], words[first] + count);
@@ -182,8 +182,8 @@ export class Plan {
 }
 
 /**
- * Returns the memory of the module: it grows to the size that the largest call and all plans need, and is 0 after
- * release().
+ * Returns the size of the module's memory in bytes: it grows to the size that the largest call and all plans need, and
+ * is 0 after release().
  */
 export const memoryBytes = () => wasm.memoryBytes();
 

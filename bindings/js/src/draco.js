@@ -14,7 +14,7 @@ const components = new Map([
   [5125, { Type: Uint32Array, data: "DT_UINT32", add: "AddUInt32Attribute" }],
   [5126, { Type: Float32Array, data: "DT_FLOAT32", add: "AddFloatAttribute" }],
 ]);
-/** Order of tspace's enumeration. */
+/** Kinds of attributes, in the order of tspace's enumeration. */
 const kinds = ["POSITION", "NORMAL", "COLOR", "TEX_COORD", "GENERIC"];
 
 /** Runs body(own), and destroys all objects that were passed to own(). */
@@ -59,7 +59,7 @@ function withMemory(module, bytes, read) {
 
 const copyOf = (module, Type, place, count) => new Type(module.HEAPF32.buffer, place, count).slice();
 
-/** Returns the quantization of an attribute whose values are stored as integers. */
+/** Returns the quantization of an attribute, or undefined if it is not quantized. */
 function roundingOf(module, attribute) {
   return owning(module, (own) => {
     const box = own(new module.AttributeQuantizationTransform());

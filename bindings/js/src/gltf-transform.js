@@ -51,7 +51,7 @@ function rewrite(document, primitive, indices, sources) {
   primitive.setIndices(document.createAccessor().setType("SCALAR").setArray(list).setBuffer(buffer));
 }
 
-/** Computes tangents per corner for the pose of each morph target, with the groups of the base. */
+/** Computes tangents per corner for the pose of each morph target, with the tangent groups of the base mesh. */
 function targetTangents(primitive, mesh, { makeNormals, normals, sanitize, orthogonalizeAll, report, ...options }) {
   const targets = primitive.listTargets().filter((t) => t.getAttribute("POSITION") || t.getAttribute("NORMAL"));
   if (targets.length === 0) return [];
@@ -81,7 +81,7 @@ function addTangents(document, primitive, options) {
   };
   const frames = makeIndexedFrames(mesh, { ...options, convention: "gltf" });
   if (!normal) {
-    // Computed per corner; from here on the vertices are those of the result.
+    // Computing normals per corner may have split vertices, so tangents are then computed for the split primitive.
     rewrite(document, primitive, frames.indices, frames.sourceVertices);
     const buffer = primitive.getAttribute("POSITION").getBuffer();
     primitive.setAttribute("NORMAL", document.createAccessor().setType("VEC3").setArray(frames.normals).setBuffer(buffer));

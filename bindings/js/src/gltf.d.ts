@@ -48,7 +48,7 @@ export interface Draco {
 export interface Pixels {
   width: number;
   height: number;
-  /** A Uint16Array for 16 bits. */
+  /** A Uint16Array has 16 bits per number, the other types have 8. */
   rgba: Uint8Array | Uint8ClampedArray | Uint16Array;
 }
 

@@ -11,7 +11,7 @@ import { textAt, Wasm } from "./wasm.js";
 export { TspaceError };
 export { remedyText } from "./remedies.js";
 
-/** The current call: file sources of its models, and its codecs. */
+/** State of the current call: `files` provides the files that its models reference; `codecs` decodes and encodes. */
 let current;
 
 const wasm = new Wasm({

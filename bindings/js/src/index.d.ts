@@ -59,8 +59,9 @@ export interface NormalOptions {
   /** Number of refinement steps of `best` after its fit. Default: 2. */
   refine?: 0 | 1 | 2;
   /**
-   * Only "tspace/normals", for `best` on noisy positions: uses a larger neighborhood. "auto": the measured noise, or 0
-   * if it is detected as shape; 0 (the default) to 4: multiple of the measured noise, even if it looks like shape.
+   * Denoising for `best` on noisy positions, with larger neighborhoods; only in "tspace/normals". "auto": by the
+   * measured noise, unless it looks like shape. A number from 0 (the default: off) to 4: factor of the measured noise,
+   * even if it looks like shape.
    */
   denoise?: number | "auto";
   report?: Partial<NormalReport>;
@@ -84,7 +85,7 @@ export interface Triangles {
  */
 export function triangulate(mesh: Mesh): Triangles;
 
-/** Computes normals of a mesh from its positions, indices and face sizes: three numbers per corner, unit. */
+/** Computes unit normals of a mesh from its positions, indices and face sizes: three numbers per corner. */
 export function generateNormals(mesh: Mesh, options?: NormalOptions): NewFloat32Array;
 
 /** Reports of the steps; null if a step was skipped. */

@@ -19,8 +19,8 @@ export function ignoredNormalOptions({ weighting = "angle", ...options }) {
 export const numberOrAuto = (value, name) => (value === "auto" ? -1 : number(value, name));
 
 /**
- * Returns a function that converts the options of normals to arguments of the module; it copies the smoothing groups
- * for a call. `isWhole`: the module is that of "tspace/normals", which supports all options.
+ * Checks the options of normals. Returns a function of a call that copies the smoothing groups to the module's memory
+ * and returns the arguments. `isWhole`: the module is that of "tspace/normals", which supports all options.
  */
 export function normalArguments(options, isWhole) {
   for (const [name, given] of [["creaseAngle", options.creaseAngle === "auto"], ["denoise", (options.denoise ?? 0) !== 0]])

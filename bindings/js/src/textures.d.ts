@@ -23,7 +23,7 @@ export type Numbers = "uint8" | "uint16" | "float";
 export interface ReadTextureOptions extends Unpackers {
   /** Mip level; 0 is the largest. */
   level?: number;
-  /** Default: the precision of the format. BC4, BC5 and EAC give 16 bits, and so does a reconstructed z. */
+  /** Default: the precision of the format; 16 bits for BC4, BC5, EAC, and maps with a reconstructed z. */
   numbers?: Numbers;
   /**
    * Whether a two-channel map becomes vectors: x, y and a reconstructed z in red, green and blue. Default: true; use
@@ -48,11 +48,11 @@ export interface Texture {
   /** The file declares its values as sRGB, which is wrong for normal maps. */
   isSrgb: boolean;
   container: "KTX2" | "DDS";
-  /** "BC5", "EAC RG11", "R8G8B8A8". */
+  /** Name of the format, such as "BC5", "EAC RG11" or "R8G8B8A8". */
   format: string;
   /**
-   * Channels of x and y, for a two-channel format or texels that look like one (`isGuessed`), and of z (null: it is the
-   * square root of 1 - x² - y²); null if red, green and blue have their usual meaning.
+   * Channels that hold x, y and z; null if these are red, green and blue. Other channels follow from a two-channel
+   * format, or from texels that look like one (`isGuessed`). `z` is null if it is the square root of 1 - x² - y².
    */
   layout: { x: ChannelName; y: ChannelName; z: ChannelName | null; isGuessed: boolean } | null;
   /** A sentence on how vectors were interpreted; empty if values are unchanged. */
@@ -100,7 +100,7 @@ export interface ConvertedMap {
   bitsBefore: number;
   /** A sentence that says how a texture with two channels was read; empty for other images. */
   howRead: string;
-  /** "uint8" where an image of 8 bits is flipped and nothing else, because that is exact. */
+  /** "uint8" if the only change to an 8-bit image is an inverted green channel, which is exact; otherwise "uint16". */
   numbers: "uint8" | "uint16";
   /** Four numbers for each pixel, the top row first. */
   rgba: ReturnType<typeof Uint8ClampedArray.of> | ReturnType<typeof Uint16Array.of>;
@@ -123,11 +123,14 @@ export interface CompressMapOptions extends Unpackers {
    * texels.
    */
   alpha?: "auto" | "coverage" | "data";
-  /** Header of a DDS. Default: Direct3D 10; or Direct3D 9 with BC5 as ATI2 (signed: BC5S), or as BC5U. */
+  /**
+   * Header of a DDS. "dx10" (the default): Direct3D 10. "legacy": Direct3D 9, which names BC5 ATI2 (signed: BC5S).
+   * "bc5u": Direct3D 9 with the name BC5U.
+   */
   ddsHeader?: "dx10" | "legacy" | "bc5u";
   /**
-   * A texture of occlusion, roughness (green) and metalness. Its levels get rougher by the spread of the normals in
-   * each texel.
+   * A texture of occlusion, roughness (green) and metalness. Its mip levels become rougher where the normals of a texel
+   * differ.
    */
   roughness?: MapImage | null;
   /** The material's roughnessFactor, which is applied to that texture. Default: 1. */
@@ -151,7 +154,7 @@ export interface CompressMapReport {
   meanErrorDeg: number;
   p99ErrorDeg: number;
   maxErrorDeg: number;
-  /** Position of the maximum, in texels from the top left corner. */
+  /** Position of the maximum error, in texels from the top left corner. */
   maxErrorX: number;
   maxErrorY: number;
   /** Texels with z below 0, which are clamped to the horizon. */

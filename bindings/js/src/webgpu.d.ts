@@ -38,7 +38,10 @@ export interface GpuDeformation {
 
 export interface GpuArrays {
   positions: StorageBuffer | GpuPositions;
-  /** Three floats each. If the plan computes normals: output (optional), one per result; otherwise input, one per vertex. */
+  /**
+   * Normals of three floats. If the plan computes normals, an optional output, one per result; otherwise an input, one
+   * per vertex.
+   */
   normals?: StorageBuffer | GpuArray<"float32x3"> | null;
   /** Output, one per result: four floats (tangent and sign), or packed frames as in "tspace/pack". */
   tangents: StorageBuffer | GpuArray<"float32x4" | "frame32" | "oct32" | "snorm8_pair">;

@@ -6,7 +6,7 @@ import { shader } from "./evaluate_shader.js";
 
 export { TspaceError } from "./error.js";
 
-const STORAGE = 0x80, COPY_DST = 0x08; // GPUBufferUsage, which does not exist in node
+const STORAGE = 0x80, COPY_DST = 0x08; // flags of GPUBufferUsage, which does not exist in node
 const THREADS = 64, MOST_GROUPS = 65535, SETTINGS = 32, RANGE_ALIGNMENT = 256;
 
 /** Formats: number in the settings, bytes per element, and alignment. */
@@ -66,7 +66,7 @@ function arrayOf(given, name, formats, elements) {
   return { code, stride, offset: offset - begin, range: { buffer, offset: begin, size }, scale: array.scale };
 }
 
-/** Words 12 to 19 of the settings: locations of morph targets and joints. */
+/** Returns words 12 to 19 of the settings: the locations of morph targets and joints. */
 function deformation(deform, vertexCount) {
   const words = new Uint32Array(8);
   if (isMissing(deform)) return words;
@@ -121,7 +121,7 @@ export class GpuFrames {
     this.vertexCount = vertexCountOf(words);
     this.resultCount = words[4];
     this.makesNormals = (words[2] & 1) !== 0;
-    // Normals of a pose are read per vertex.
+    // Normals that a pose provides are read per vertex.
     this.normalCount = this.makesNormals ? this.resultCount : this.vertexCount;
   }
 

@@ -236,7 +236,7 @@ describe("computeTangents for three.js", { skip: absent(three, "three") }, () =>
     box.setAttribute("tint", new three.Uint8ClampedBufferAttribute(new Uint8ClampedArray(96).fill(200), 4, true));
     box.morphAttributes.position = [half("position")];
     box.computeBoundingSphere();
-    box.boundingSphere.radius = 9; // for vertices that a shader displaces
+    box.boundingSphere.radius = 9; // enlarged, as for vertices that a shader displaces
     const made = computeTangents(box, { convention: "opengl" });
     for (const [name, attribute] of Object.entries(box.attributes)) {
       const kept = made.attributes[name];

@@ -15,7 +15,7 @@ const project = fileURLToPath(new URL("..", import.meta.url));
 const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
 const [vite, playwright, pngjs] = await Promise.all(["vite", "playwright-core", "pngjs"].map((name) => import(name).catch(() => null)));
 const golden = process.env.TSPACE_GOLDEN;
-/** A typical normal map, with halved colors. */
+/** A typical normal map: a JPEG whose color channels have half the resolution. */
 const photo = join(shared ?? "", "models/assets/sofa_03/textures/sofa_03_nor_gl_1k.jpg");
 const missing =
   (!chromium && "no Chromium here: scripts/js --all") ||
@@ -120,7 +120,7 @@ it("gives the same bits in Chromium, bundled by Vite", { skip: missing, timeout:
     await tab.goto(`http://127.0.0.1:${server.address().port}/`);
     await tab.waitForFunction("window.result", undefined, { timeout: 120_000 }).catch((error) => assert.fail([...messages, error].join("\n")));
     const { pictures, images, compared, wrong, code, refused, glb, found } = await tab.evaluate("window.result");
-    // the note disappears once pixels are available, and the pixels are correct
+    // `images`: whether a note on missing pixels appears without decodeImage and with it, and whether pixels are exact
     assert.deepEqual(images, [true, false, true]);
     if (tool && pngjs) {
       const steps = pictures.map((picture) => [picture.name, stepsFromTool(picture, folder)]);

@@ -17,7 +17,7 @@ export function readGolden(buffer) {
     wanted.set(numbers.subarray(result, result + 3), 4 * c);
     wanted[4 * c + 3] = numbers[result + 9];
   }
-  // docs/concepts/methods/mikktspace.md describes the exceptions.
+  // docs/concepts/methods/mikktspace.md promises identical bits only for these values.
   const isPromised = [positions, normals, uvs].every((array) => array.every((x) => Math.abs(x) < 1.6e38));
   return { mesh: { positions, normals, uvs, faceSizes }, threshold: numbers[3], wanted, isPromised };
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-/** A part of a torus with a UV seam, with n * n * 2 triangles. */
+/** Returns a part of a torus with 2 * n * n triangles. `turn`: its angle in radians, in both directions. */
 export function grid(n, turn = 6) {
   const positions = [], normals = [], uvs = [], indices = [];
   for (let j = 0; j <= n; ++j) {
@@ -28,7 +28,10 @@ function numbersFrom(seed) {
   };
 }
 
-/** Positions, normals and UVs of unindexed triangles between few points: shared, degenerate and mirrored ones, and UVs without area. */
+/**
+ * Returns positions, normals and UVs of unindexed triangles between random points. The points are few, so some
+ * triangles share edges, are degenerate, are mirrored in UV space, or have no area there.
+ */
 function soup(triangles, points, random) {
   const list = Array.from({ length: points }, () => ({
     position: [random(8), random(8), random(4)], normal: [[0, 0, 1], [0, 0, 1], [0.6, 0, 0.8], [0, 1, 0]][random(4)], uv: [random(6), random(6)],
@@ -37,7 +40,10 @@ function soup(triangles, points, random) {
   return ["position", "normal", "uv"].map((name) => Float32Array.from(corners.flatMap((corner) => corner[name])));
 }
 
-/** A wavy sheet with triangles in random order; every seventh one is mirrored in UV space, and some have no area. */
+/**
+ * Returns a part of a torus with unindexed triangles in random order. Every seventh one is reversed, every fiftieth one
+ * degenerate.
+ */
 function shuffledSheet(n, random) {
   const { positions, normals, uvs, indices } = grid(n);
   const order = Array.from({ length: indices.length / 3 }, (_, t) => t);
@@ -53,7 +59,7 @@ function shuffledSheet(n, random) {
   return [perCorner(positions, 3), perCorner(normals, 3), perCorner(uvs, 2)];
 }
 
-/** { name, arrays }: small soups, larger ones, and sheets of up to 5,000 triangles. */
+/** Returns random meshes { name, arrays }: small and larger soups, and sheets of up to 5,000 triangles. */
 export function randomMeshes() {
   const meshes = [];
   for (let seed = 1; seed <= 400; ++seed) {

@@ -2,7 +2,7 @@
 // A model for tests.
 import { grid } from "./meshes.mjs";
 
-/** A .gltf with one primitive, whose buffer is a file, or a data URI. */
+/** Returns a .gltf with one primitive, and its buffer. `uri`: file name of the buffer. Default: a data URI. */
 export function gridModel({ uri, tangents, image, size = 3 } = {}) {
   const { positions, normals, uvs, indices } = grid(size);
   const arrays = { POSITION: positions, NORMAL: normals, TEXCOORD_0: uvs, ...(tangents && { TANGENT: tangents }) };

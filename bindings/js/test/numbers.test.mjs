@@ -13,7 +13,7 @@ import { npmCodecs, ofTool, plain, tool } from "./tool.mjs";
 await ready;
 const codecs = await npmCodecs();
 
-/** A model with all kinds of counts and indices of glTF. */
+/** Returns the JSON of a model with all kinds of counts and indices of glTF. */
 function fullModel() {
   const json = JSON.parse(gridModel().model.toString());
   const [primitive] = json.meshes[0].primitives;
@@ -33,14 +33,14 @@ function fullModel() {
   return json;
 }
 
-/** Returns the locations of its integers, as [parent, key] and a name, except for integers that are coordinates. */
+/** Returns the paths of a value's numbers, such as "/accessors/0/count", except in "min", "max" and "variants". */
 function numbersIn(value, path = "") {
   return Object.entries(value).flatMap(([key, member]) => {
     if (typeof member === "number") return [`${path}/${key}`];
     return typeof member === "object" && key !== "min" && key !== "max" && key !== "variants" ? numbersIn(member, `${path}/${key}`) : [];
   });
 }
-/** Returns the model's text with a different number at this location. */
+/** Returns the text of fullModel() with spell(number) instead of the number at this path. */
 function withNumber(path, spell) {
   const json = fullModel();
   const keys = path.slice(1).split("/"), last = keys.pop();

@@ -35,7 +35,7 @@ describe("the archive", { skip: !archive && "run scripts/js" }, () => {
       writeFileSync(join(folder, "chair.gltf"), model);
       writeFileSync(join(folder, "chair.bin"), buffer);
       blocks.forEach((code, i) => {
-        // those run in adapters.test.mjs, where the packages are installed
+        // Examples that import three or @gltf-transform run in adapters.test.mjs, where these packages are installed.
         if (/from "(three|@gltf)/.test(code)) return;
         writeFileSync(join(folder, `readme${i}.mjs`), code);
         assert.match(execFileSync("node", [`readme${i}.mjs`], { cwd: folder, encoding: "utf8" }), /Uint32Array|Float32Array|Uint8Array/);

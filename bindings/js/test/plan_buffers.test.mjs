@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A plan as arrays for compute shaders: views of the words, which cases.test.mjs checks, and wrong arguments.
+// Tests planBuffers: its arrays are views of the words, and invalid arguments are rejected. cases.test.mjs checks the
+// words themselves.
 import assert from "node:assert/strict";
 import { describe, it } from "node:test";
 import { Plan, planBuffers, ready, release } from "tspace";

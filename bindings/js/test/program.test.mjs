@@ -24,7 +24,7 @@ function newFolder() {
   return folder;
 }
 
-// Copied to a separate folder, so that the native tool has no importer, like the package's program.
+// The native tool is copied to a separate folder, so that it has no importer, like the package's program.
 const native = join(home, "tspace");
 if (!skip) copyFileSync(tool, native);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Modules whose memory has a small maximum, as in a tab that is nearly full: each call succeeds or is an error of the code
-// outOfMemory, and the module works afterwards.
+// Tests modules whose memory has a small maximum, as in a browser tab that is nearly full: each call succeeds or fails
+// with the code outOfMemory, and the module works afterwards.
 import assert from "node:assert/strict";
 import { once } from "node:events";
 import { describe, it } from "node:test";

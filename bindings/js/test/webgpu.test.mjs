@@ -13,10 +13,10 @@ import { hasModels, shared } from "./tool.mjs";
 
 const core = await import("@gltf-transform/core").catch(() => null);
 
-/** Models with a skin, with morph targets, and without. */
+/** Models without deformation, with morph targets, and with a skin. */
 const models = ["khronos/BoomBoxWithAxes.glb", "khronos/Lantern.glb", "khronos/MorphStressTest.glb", "khronos/CesiumMan.glb"];
 
-/** Returns their primitives as one array of bytes, with an index of offsets. */
+/** Returns the primitives of these models as one array of bytes, with an index of offsets. */
 async function meshesOf() {
   const list = [], parts = [];
   let bytes = 0;

@@ -15,7 +15,7 @@
 #include <cstdio>
 #include <ctime>
 
-// Values that system.js writes.
+// Offsets, sizes and flags that system.js uses as numbers.
 static_assert(offsetof(struct stat, st_dev) == 0 && offsetof(struct stat, st_mode) == 12 &&
               offsetof(struct stat, st_nlink) == 16);
 static_assert(offsetof(struct stat, st_uid) == 20 && offsetof(struct stat, st_gid) == 24 &&

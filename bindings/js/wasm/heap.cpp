@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Allocator for the module that allocates many small blocks: the C library's allocator, on the memory of the instance.
+// Allocator for the module that allocates many small blocks: the C library's allocator, which gets the memory of the
+// WebAssembly instance.
 #include <cstdint>
 #include <cstdlib>
 

@@ -62,7 +62,7 @@ std::string faultOf(ByteSpan bytes, ImageSize size, std::uint64_t most_pixels) {
     std::string why;
     if (tspace_js_hasCodec(Codec::imageDecoder) == 0) return "this needs the option decodeImage";
     if (size.pixels() == 0) return std::string("the ") + formatName(imageFormat(bytes)) + " is damaged";
-    constexpr std::uint64_t kMostBytes = 4 * sizeof(std::uint16_t);  // of a pixel
+    constexpr std::uint64_t kMostBytes = 4 * sizeof(std::uint16_t);  // per pixel
     if (size.pixels() > SIZE_MAX / kMostBytes) return "the image has more pixels than the memory can hold";
     isTooLarge(size, bytes.size(), most_pixels, why);
     return why;
@@ -162,7 +162,7 @@ Result<std::vector<std::uint8_t>> packInverted(ByteSpan bytes, const PngHeader& 
     invertGreenSamples(pixels, channels * sample_bytes, sample_bytes);
     Result<std::vector<std::uint8_t>> packed =
         encode(pixels.data(), ImageFormat::png, size, channels, static_cast<std::uint32_t>(sample_bytes), 100);
-    constexpr std::size_t kHeaderAt = 16, kSame = 10;  // width, height, bits and color type
+    constexpr std::size_t kHeaderAt = 16, kSame = 10;  // offset and size of width, height, bits and color type
     if (!packed) return packed;
     const bool is_same =
         packed->size() > kHeaderAt + kSame &&

@@ -9,12 +9,13 @@ extern "C" unsigned char __heap_base;  // set by the linker: the first free byte
 
 namespace {
 
-/// Alignment that the core needs. Block sizes are multiples of it, minus the header.
+/// Alignment that the core needs, size of a block's header, and size of a page of WebAssembly memory. Sizes of blocks
+/// are multiples of kUnit, including the header.
 constexpr std::size_t kUnit = 64, kHead = 16, kPage = 65536;
 
 /// Free block in a list sorted by address; adjacent blocks are merged.
 struct Block {
-    std::size_t bytes;  // with this head
+    std::size_t bytes;  // including the header
     Block* next;        // only while the block is free
 };
 Block* first_free = nullptr;
@@ -41,7 +42,8 @@ void giveBack(Block* block) {
     }
 }
 
-/// First fit: large blocks that one call frees are reused by the next.
+/// Returns the first free block that is large enough (first fit), so that large blocks of one call are reused by the
+/// next; null if there is none.
 Block* take(std::size_t bytes) {
     for (Block** at = &first_free; *at != nullptr; at = &(*at)->next) {
         Block* block = *at;
@@ -71,7 +73,7 @@ bool growBy(std::size_t bytes) {
     if (missing != 0 && __builtin_wasm_memory_grow(0, (missing + kPage - 1) / kPage) == SIZE_MAX) return false;
     const std::uintptr_t end = __builtin_wasm_memory_size(0) * kPage;
     auto* block = reinterpret_cast<Block*>(heap_end);
-    // The end address of 4 GB cannot be represented.
+    // `end` is 0 if memory ends at 4 GB, an address that 32 bits cannot represent.
     block->bytes = ((end == 0 ? std::uintptr_t{0} - kUnit : end) - heap_end) / kUnit * kUnit;
     heap_end += block->bytes;
     giveBack(block);

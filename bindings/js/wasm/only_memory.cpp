@@ -49,7 +49,7 @@ gltf::Document importDocument(const Path&, const FileOptions&, const Progress&) 
     failFile(ErrorCode::unsupportedFile, "only glTF and OBJ can be read in JavaScript");
 }
 
-// Memory comes from the module's own heap, which keeps it anyway.
+// An arena takes its memory from the module's heap: freed memory is never returned to the system anyway.
 Arena::Arena()
     : impl_(nullptr),
       allocator_{.allocate = [](void*, std::size_t bytes, std::size_t alignment) -> void* {

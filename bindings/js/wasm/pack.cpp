@@ -13,7 +13,7 @@ TSPACE_JS_EXPORT(frameBytes) std::size_t bytesOf(std::uint32_t format) {
     return frameBytes(static_cast<FrameFormat>(format));
 }
 
-/// Input: three floats per normal, four per tangent.
+/// Packs frames of three floats per normal and four per tangent.
 TSPACE_JS_EXPORT(packFrames)
 std::uint32_t pack(const float* normals, std::size_t normal_count, const float* tangents, std::size_t tangent_count,
                    std::uint32_t format, std::byte* out, std::size_t out_bytes) {

@@ -45,7 +45,7 @@ bool unpackLevel(Repacking repacking, ByteSpan packed, std::span<std::uint8_t> o
 
 namespace {
 
-constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 28;  // as the tool's
+constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 28;  // the command-line tool's limit
 
 /// Results of the last call, which JavaScript copies.
 std::string text, format_name, container_name;
