@@ -73,7 +73,7 @@ def copy_notices(libraries, folder):
     """Copies the licenses of the linked libraries from Debian's packages. On other systems nothing is copied."""
     if not shutil.which("dpkg-query"):
         return
-    # Old packages list files in /usr/lib under /lib.
+    # Old packages list their files under /lib, although these are in /usr/lib.
     names = [str(library) for library in libraries] + [str(library).replace("/usr", "", 1) for library in libraries]
     owners = subprocess.run(["dpkg-query", "-S", *names], capture_output=True, text=True).stdout
     packages = set(re.findall(r"^([^:\s]+):", owners, re.M)) | set(LINKED_PACKAGES)

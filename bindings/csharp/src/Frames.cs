@@ -52,9 +52,9 @@ namespace Tspace
             return made;
         }
 
-        /// <summary>Like the overload above, into the caller's memory, with counts. Writes bitangents (3 floats),
-        /// magnitudes (1) and hasTangent (false for corners with a default or no tangent) unless they are
-        /// empty.</summary>
+        /// <summary>Computes the same tangents as the overload that returns an array, writes them to the caller's
+        /// memory, and returns counts. Optional outputs per corner, not written if empty: bitangents (3 floats),
+        /// magnitudes (1), hasTangent (false if no face contributes to the corner).</summary>
         public static TangentReport Tangents(in Mesh mesh, TangentOptions options, Span<float> tangents,
                                              Span<float> bitangents = default, Span<float> magnitudesS = default,
                                              Span<float> magnitudesT = default, Span<bool> hasTangent = default)
@@ -109,8 +109,9 @@ namespace Tspace
             return made;
         }
 
-        /// <summary>Repairs tangents per corner in place: not finite, zero, not unit, parallel to N, or of mixed sign
-        /// within a face. Returns the number of repaired tangents; valid ones keep all bits.</summary>
+        /// <summary>Repairs tangents in place, 4 floats per corner, that are not finite, zero, not unit, parallel to N,
+        /// or whose signs differ within a face. Valid tangents keep all bits. Returns the number of repaired
+        /// tangents.</summary>
         public static long Sanitize(in Mesh mesh, Span<float> tangents, bool orthogonalizeAll = false, int threads = 1)
         {
             Native.SanitizeOptions how;
@@ -204,10 +205,11 @@ namespace Tspace
     /// it.</summary>
     public sealed unsafe class Plan : SafeHandle
     {
-        /// <summary>Entries of results.</summary>
+        /// <summary>Number of tangents of a pose.</summary>
         public int OutputCount { get; }
 
-        /// <summary>Creates a plan; inputs and errors like Frames.Tangents. Keeps no reference to the mesh.</summary>
+        /// <summary>Creates a plan. Inputs and errors are those of Frames.Tangents. The plan keeps no reference to the
+        /// mesh.</summary>
         public Plan(in Mesh mesh, TangentOptions options) : base(IntPtr.Zero, true)
         {
             if (options == null) throw new ArgumentNullException(nameof(options));

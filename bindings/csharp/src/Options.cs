@@ -41,7 +41,7 @@ namespace Tspace
         /// <summary>The mathematical convention: B points along increasing v, with the sign of the MikkTSpace
         /// reference.</summary>
         public static Convention OpenGL => Preset("opengl");
-        /// <summary>glTF.</summary>
+        /// <summary>The convention of glTF: v = 0 is the top row of the image.</summary>
         public static Convention Gltf => Preset("gltf");
         /// <summary>Unity: left-handed, faces clockwise.</summary>
         public static Convention Unity => Preset("unity");

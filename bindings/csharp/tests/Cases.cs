@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The cases that all languages share, tests/cases/arrays.json: those of the calls that this binding has.
+// Runs the cases that all languages share (tests/cases/arrays.json), except those of calls that this binding lacks.
 using System;
 using System.Collections.Generic;
 using System.Globalization;
@@ -102,7 +102,7 @@ internal static class Cases
         return mesh;
     }
 
-    /// <summary>Sets the properties that the object has; other options are arguments of the call.</summary>
+    /// <summary>Sets the given options that are properties of `options`; the others are arguments of calls.</summary>
     private static T With<T>(T options, Members given)
     {
         foreach (KeyValuePair<string, object> option in given)

@@ -71,7 +71,7 @@ def main():
     if thing is None or thing.type != "MESH" or not thing.data.uv_layers:
         raise SystemExit("the active object is no mesh with UVs")
     ours, theirs = tangents_of(thing.data, tspace), blender_tangents(thing.data)
-    # Computed from the chord: a cosine near 1 has no digits left.
+    # The angle is computed from the chord, because the cosine of a small angle is rounded to 1.
     chord = numpy.linalg.norm(ours[:, :3].astype(float) - theirs[:, :3], axis=1)
     angles = numpy.degrees(2 * numpy.arcsin(numpy.clip(chord / 2, 0, 1)))
     signs = int((ours[:, 3] != theirs[:, 3]).sum())

@@ -8,7 +8,7 @@ import numpy
 
 
 def make_glb(shape, tangents=None, uri=None):
-    """Returns a GLB with one mesh whose material has a normal map. With `uri`: a glTF and separately the bytes of its
+    """Returns a GLB with one mesh whose material has a normal map. With `uri`: returns a glTF, and the bytes of its
     buffer."""
     arrays = [
         ("POSITION", "VEC3", shape.positions),

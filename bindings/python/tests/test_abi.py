@@ -42,7 +42,7 @@ def structs():
 
 
 def expected():
-    """Returns the values in Python for C expressions."""
+    """Returns the values that C expressions must have according to the Python declarations."""
     values = {"TSPACE_NO_ELEMENT": _abi.NO_ELEMENT, "TSPACE_NO_CORNER": _abi.NO_CORNER}
     values["TSPACE_ALL_THREADS"] = _abi.ALL_THREADS
     values["TSPACE_MAX_CORNERS"] = _abi.MAX_CORNERS
@@ -63,7 +63,7 @@ class Names(unittest.TestCase):
 
     @unittest.skipUnless(OPTIONS.exists(), "the sources are missing")
     def test_options_of_files_are_those_of_the_library(self):
-        """Passes every option that any function has to every function, without Python's check of names."""
+        """Passes all options to all functions without Python's check of names: the library must know the same ones."""
         names = set()
         for path in OPTIONS.rglob("*.cpp"):
             names.update(name.replace("-", "_") for name in re.findall(r'"(?:-\w+, )?--([a-z-]+)"', path.read_text()))

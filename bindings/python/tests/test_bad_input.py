@@ -29,7 +29,7 @@ class BadInput(unittest.TestCase):
         return caught.exception
 
     def refuses_tangents(self, kind, words, **changed):
-        """Checks both ways of computing tangents."""
+        """Checks that both Plan and tangents() reject the changed arguments; returns the error of tangents()."""
         self.refuses(kind, words, tspace.Plan, **self.arguments(**changed))
         return self.refuses(kind, words, tspace.tangents, **self.arguments(**changed))
 

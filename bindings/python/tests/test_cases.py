@@ -88,7 +88,7 @@ def convention(_, name):
 
 
 def flat(value):
-    """Returns words whose equality is that of bits."""
+    """Returns an array as a list of integers that are equal only if all bits of the values are equal."""
     array = numpy.ascontiguousarray(value).ravel()
     return array.view(numpy.uint32).tolist() if array.dtype == numpy.float32 else array.tolist()
 

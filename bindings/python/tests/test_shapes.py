@@ -61,7 +61,7 @@ def calls():
     ]
 
 
-# Names in messages for arrays that the functions above take in a list.
+# Names in messages for arrays that a call passes in a list.
 LISTED = {"attribute": "attributes[0]", "keep": "keep_apart[0]"}
 
 

@@ -50,7 +50,7 @@ tspace.generate_file("a.glb", "b.glb", metod="best")
 tspace.bake_file("a.glb", "b.glb", "c.png", maps=["light"])
 tspace.finish_file("a.glb", "b.glb", high="c.glb")
 """
-# Formatted as by numpy 1 and 2, whose names for bit widths differ.
+# Array types as mypy prints them; {} is the name of a bit width, which differs between numpy 1 and 2.
 FLOATS = "numpy.ndarray[Any, numpy.dtype[numpy.floating[numpy._typing._32Bit]]]"
 NUMBERS = "numpy.ndarray[Any, numpy.dtype[numpy.unsignedinteger[numpy._typing._{}Bit]]]"
 REVEALED = [

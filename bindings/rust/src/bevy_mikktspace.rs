@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-//! For code that calls the crate `bevy_mikktspace` 0.17 or 1.0: the trait, types and functions of these versions, with the
-//! bits of the MikkTSpace reference in C. (Results of the crate differ from them at 1 % of the corners of 4,000 random meshes
-//! over few points, where many triangles are duplicated or degenerate.) Replace `bevy_mikktspace::` by
-//! `tspace::bevy_mikktspace::`. The trait of `mikktspace` 0.3 and of `bevy_mikktspace` up to 0.16 is in
-//! [`mikktspace`](crate::mikktspace).
+//! Drop-in replacement for the crate `bevy_mikktspace` 0.17 and 1.0: same trait, types and functions. Results are
+//! bit-identical to the MikkTSpace reference in C. (In a test of 4,000 random meshes over few points, where many
+//! triangles are duplicated or degenerate, results of the crate differ from the reference at 1 % of the corners.)
+//! Replace `bevy_mikktspace::` by `tspace::bevy_mikktspace::`. The trait of `mikktspace` 0.3 and of `bevy_mikktspace`
+//! up to 0.16 is in [`mikktspace`](crate::mikktspace).
 //!
-//! Only the parameter `Ops` of [`Geometry`] is missing, which `no_std` programs need for their own square roots.
+//! [`Geometry`] has no parameter `Ops`, with which `no_std` programs provide their own square roots.
 //!
 //! ```
 //! use tspace::bevy_mikktspace::{generate_tangents, GenerateTangentSpaceError, Geometry, TangentSpace};

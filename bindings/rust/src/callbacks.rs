@@ -6,7 +6,7 @@ use crate::{tangents_full, Convention, Error, Mesh, Ngons, TangentOptions, Tange
 pub(crate) trait Reader {
     fn num_faces(&self) -> usize;
     fn num_vertices_of_face(&self, face: usize) -> usize;
-    /// Position, normal and UV.
+    /// Returns position, normal and UV of a corner.
     fn corner(&self, face: usize, vert: usize) -> ([f32; 3], [f32; 3], [f32; 2]);
 }
 
@@ -24,7 +24,7 @@ impl Made {
     }
 }
 
-/// Reads every corner once before anything is computed. Faces with fewer than 3 or more than 4 corners are ignored.
+/// Computes tangents, after reading every corner once. Faces with fewer than 3 or more than 4 corners are ignored.
 pub(crate) fn generate(reader: &impl Reader, angular_threshold_deg: f32) -> Result<Made, Error> {
     let (mut positions, mut normals, mut uvs) = (Vec::new(), Vec::new(), Vec::new());
     let face_sizes: Vec<u32> = (0..reader.num_faces())

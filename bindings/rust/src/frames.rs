@@ -34,14 +34,14 @@ pub struct Attribute<'a> {
 }
 
 impl<'a> Attribute<'a> {
-    /// Corners are equal if all bits are equal.
+    /// Creates an attribute whose values are equal only if all bits are equal.
     pub fn new<const N: usize>(values: &'a [[f32; N]]) -> Self {
         // SAFETY: arrays of arrays of floats are contiguous floats.
         let floats = unsafe { std::slice::from_raw_parts(values.as_ptr().cast::<f32>(), values.len() * N) };
         Attribute { floats, components: N, tolerance: 0.0 }
     }
 
-    /// Corners are equal if every component differs by at most this.
+    /// Sets the maximum difference of each component between equal values.
     pub fn tolerance(mut self, tolerance: f32) -> Self {
         self.tolerance = tolerance;
         self
@@ -72,10 +72,10 @@ pub struct Split {
     pub source_corners: Vec<Option<u32>>,
 }
 
-/// Numbers of the library, copied.
+/// Returns a copy of numbers that the library allocated.
 ///
 /// # Safety
-/// `data` points to `count` of them, or `count` is 0.
+/// `data` points to `count` numbers, or `count` is 0.
 unsafe fn copied<T: Clone>(data: *const T, count: usize) -> Vec<T> {
     if count == 0 {
         Vec::new()
@@ -136,7 +136,8 @@ pub struct Triangles {
     pub faces: Vec<u32>,
 }
 
-/// Triangulates every face with 4 or more corners; quads like MikkTSpace.
+/// Splits every face with 4 or more corners into triangles: quads along the diagonal that MikkTSpace chooses, n-gons by
+/// ear clipping.
 pub fn triangulate(mesh: &Mesh<'_>) -> Result<Triangles, Error> {
     let mut made = null_mut();
     // SAFETY: all pointers refer to slices that outlive the call; the library's result is copied, then freed.
@@ -169,7 +170,7 @@ pub struct IndexedFramesOptions<'a> {
 }
 
 impl IndexedFramesOptions<'_> {
-    /// The defaults.
+    /// Creates options with the library's defaults.
     pub fn new(convention: Convention) -> Self {
         let raw = prepared(sys::tspace_initIndexedFramesOptions);
         IndexedFramesOptions {

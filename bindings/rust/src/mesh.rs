@@ -19,12 +19,12 @@ pub struct Points<'a, const N: usize> {
 
 // SAFETY: the struct is a shared slice of floats.
 unsafe impl<const N: usize> Send for Points<'_, N> {}
-// SAFETY: as above.
+// SAFETY: the struct is a shared slice of floats.
 unsafe impl<const N: usize> Sync for Points<'_, N> {}
 
 impl<'a, const N: usize> Points<'a, N> {
-    /// Points at `first`, `first + stride`, ... of `floats`, as in interleaved vertices; incomplete points at the end
-    /// are ignored.
+    /// Creates points from the floats at `first`, `first + stride`, ..., as in interleaved vertices. Incomplete points
+    /// at the end are ignored.
     ///
     /// Errors: `StrideTooSmall` if `stride` is less than `N`, `CountMismatch` if `first` is beyond the end.
     pub fn interleaved(floats: &'a [f32], first: usize, stride: usize) -> Result<Self, Error> {
@@ -167,7 +167,7 @@ impl<'a> Mesh<'a> {
         self
     }
 
-    /// One per vertex.
+    /// Sets one UV per vertex.
     pub fn uvs(mut self, uvs: impl Into<Points<'a, 2>>) -> Self {
         self.uvs = uvs.into();
         self
@@ -212,13 +212,13 @@ impl<'a> Mesh<'a> {
 
     /// Returns the number of faces of the mesh.
     pub fn face_count(&self) -> usize {
-        // SAFETY: as above.
+        // SAFETY: raw() refers to slices that live as long as self.
         unsafe { sys::tspace_faceCount(&self.raw()) }
     }
 
     /// Checks lengths and all indices. Every function that takes a mesh calls this first.
     pub fn validate(&self) -> Result<(), Error> {
-        // SAFETY: as above.
+        // SAFETY: raw() refers to slices that live as long as self.
         checked(|error| unsafe { sys::tspace_validate(&self.raw(), error) })
     }
 

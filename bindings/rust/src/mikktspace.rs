@@ -25,7 +25,7 @@
 
 use crate::callbacks::{generate, Reader};
 
-/// Callbacks of the reference.
+/// Callbacks that read a mesh and receive its tangents, like those of the reference.
 pub trait Geometry {
     /// Number of faces of the mesh.
     fn num_faces(&self) -> usize;

@@ -7,7 +7,7 @@ use crate::sys;
 use crate::tangents::{new_report, span};
 
 impl NormalOptions<'_> {
-    /// Points into self.
+    /// Returns the struct of the C API, which refers to slices of `self`.
     pub(crate) fn raw(&self) -> sys::NormalOptions {
         let mut raw = self.fields();
         // The C API rejects all-zero options as uninitialized; flat, which is 0, uses none of the other options.
@@ -26,7 +26,7 @@ pub fn normals(mesh: &Mesh<'_>, options: &NormalOptions<'_>) -> Result<Vec<[f32;
     Ok(made)
 }
 
-/// Like [`normals`], into the caller's slice, with counts.
+/// Computes the same normals as [`normals`], writes them to the caller's slice, and returns counts.
 pub fn normals_into(
     mesh: &Mesh<'_>,
     options: &NormalOptions<'_>,

@@ -44,7 +44,7 @@ pub struct Tangents {
     /// False if no face contributes to the entry: the method's default was written, or the entry is zero (corners of
     /// skipped faces, unused vertices).
     pub has_tangent: Vec<bool>,
-    /// Counts.
+    /// Counts of faces, corners and defects of the input.
     pub report: TangentReport,
 }
 
@@ -131,7 +131,7 @@ pub fn tangents(mesh: &Mesh<'_>, options: &TangentOptions) -> Result<Vec<[f32; 4
     Ok(made)
 }
 
-/// Like [`tangents`], into the caller's slice, with counts.
+/// Computes the same tangents as [`tangents`], writes them to the caller's slice, and returns counts.
 ///
 /// Additional error: `CountMismatch` if the length of `out` differs from the number of corners.
 pub fn tangents_into(mesh: &Mesh<'_>, options: &TangentOptions, out: &mut [[f32; 4]]) -> Result<TangentReport, Error> {
@@ -169,7 +169,7 @@ pub struct Plan {
 
 // SAFETY: a plan is immutable, and the library allows any thread to evaluate and destroy it.
 unsafe impl Send for Plan {}
-// SAFETY: as above.
+// SAFETY: a plan is immutable, and the library allows any thread to evaluate and destroy it.
 unsafe impl Sync for Plan {}
 
 impl Plan {
@@ -185,7 +185,7 @@ impl Plan {
         Ok(plan)
     }
 
-    /// Entries of results.
+    /// Returns the number of tangents of a pose.
     pub fn output_count(&self) -> usize {
         self.output_count
     }
@@ -207,7 +207,8 @@ impl Plan {
         Ok(made)
     }
 
-    /// Like [`Plan::evaluate`], into the caller's slice of [`Plan::output_count`] entries.
+    /// Computes the same tangents as [`Plan::evaluate`], writes them to the caller's slice of [`Plan::output_count`]
+    /// entries, and returns counts.
     pub fn evaluate_into<'a>(
         &self,
         positions: impl Into<Points<'a, 3>>,
@@ -226,7 +227,7 @@ impl Plan {
             normals: normals.into().span(),
         };
         let (mut report, execution) = (tangent_report(), execution.raw());
-        // SAFETY: as above.
+        // SAFETY: the plan exists, and all pointers refer to slices that outlive the call, with their lengths.
         checked(|error| unsafe {
             sys::tspace_evaluateTangents(self.raw, &pose, &out, &execution, &mut report, error)
         })?;

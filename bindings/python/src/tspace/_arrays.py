@@ -85,7 +85,7 @@ def read_span(name: str, array: numpy.ndarray) -> Tuple[_abi.Span, numpy.ndarray
 
 
 def output_array(out: Optional[numpy.ndarray], count: int, components: int) -> numpy.ndarray:
-    """Returns the caller's array for results, after checks, or a new one. components == 0: of shape (count,)."""
+    """Returns the caller's array for results, after checks, or a new one. `components` 0: its shape is (count,)."""
     shape = (count, components) if components else (count,)
     if out is None:
         return new_array(shape)
@@ -163,7 +163,7 @@ def index_error(name: str, array: numpy.ndarray, place: int, entry_count: int) -
 
 
 def fail_at_index(error: _abi.Error, name: str, array: Optional[numpy.ndarray], entry_count: int) -> None:
-    """Raises the C API's error; for a negative index of this list, with the caller's original value."""
+    """Raises the C API's error. For a negative index of this list, the message has the caller's original value."""
     if error.code == _INDEX_OUT_OF_RANGE and array is not None and array.dtype == INT32:
         if error.element < array.size and array.flat[error.element] < 0:
             raise index_error(name, array, error.element, entry_count)

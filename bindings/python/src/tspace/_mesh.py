@@ -47,7 +47,7 @@ class Mesh:
         normal_indices: Any = None,
         uv_indices: Any = None,
     ):
-        # Checks all shapes first, so that nothing large is copied for a call that fails.
+        # All shapes are checked first, so that nothing large is copied for a call that fails.
         positions = float_array("positions", positions, 3)
         if normals is not None:
             normals = float_array("normals", normals, 3)

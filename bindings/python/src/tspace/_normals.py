@@ -132,8 +132,9 @@ def normals(
     weld_positions:   True: vertices at the same position are welded, so that UV seams stay smooth; False: only by index
     convention:       its handedness and winding define the outside; None: right-handed, counter-clockwise
     refine:           refinement steps of "best": 0, 1 or 2
-    denoise:          for "best" on noisy positions, such as scans: uses a larger neighborhood. "auto": the measured noise,
-                      or 0 if it is detected as shape; 0 to 4: multiple of the measured noise, even if it looks like shape
+    denoise:          for "best" on noisy positions, such as scans: uses larger neighborhoods. 0: off. "auto": by the
+                      measured noise, unless it looks like shape. Above 0, up to 4: factor of the measured noise, even
+                      if it looks like shape
     weld_distance:    with weld_positions: positions that differ by at most this in each coordinate are welded. "auto":
                       twice the spacing of floats at the largest coordinate
     threads:          number of threads, or "all". The results have the same bits for any number

@@ -39,7 +39,7 @@ def _call(command: RemedyCommand) -> str:
         return command.line
     options = {option.name: option.value for option in command.options}
     paths = [repr(path) for path in command.inputs] or ["model"]
-    # Options of the command line that are positional arguments here.
+    # These options of the command line are positional arguments in Python.
     if command.verb == "bake":
         paths.append(repr(options.pop("high")))
     paths.append(repr(options.pop("o")) if "o" in options else "output")

@@ -61,14 +61,14 @@ def _brief(value: Any) -> str:
 
 
 def _snake_case(member: str) -> str:
-    """Appends an underscore to Python keywords: from_."""
+    """Converts a JSON member to snake_case; appends an underscore to Python keywords (from_)."""
     name = re.sub("([A-Z])", lambda match: "_" + match[1].lower(), member)
     return name + "_" if keyword.iskeyword(name) else name
 
 
 @lru_cache(maxsize=None)
 def _kinds(report: Type[Any]) -> Dict[str, Type[Any]]:
-    """Returns, for each attribute, the class of the objects that it contains, in a list or optional."""
+    """Returns the class of each attribute that holds objects: one object, an optional one, or a list."""
     kinds = {}
     for name, hint in get_type_hints(report).items():
         while get_args(hint):
@@ -91,7 +91,7 @@ def _wrapped(value: Any, kind: Type[Any]) -> Any:
 
 
 def _frozen(value: Any, kind: Type[Any], name: str) -> Any:
-    """Returns a member of a dataclass, with a tuple instead of a list."""
+    """Returns the value of a member of a frozen dataclass; lists are converted to tuples."""
     if not isinstance(value, list):
         return value
     owner: Any = kind

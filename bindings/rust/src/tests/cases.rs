@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-//! The cases that all languages share: `tests/cases/arrays.json` of the repository.
+//! Runs the cases that all languages share: `tests/cases/arrays.json` of the repository.
 
 use super::json::Json;
 use crate::*;
 
-/// Flat arrays of a mesh of the table, which a [`Mesh`] borrows.
+/// Flat arrays of a mesh in the table of cases. A [`Mesh`] borrows them.
 struct Arrays {
     positions: Vec<f32>,
     normals: Vec<f32>,
@@ -41,7 +41,7 @@ fn rows<const N: usize>(list: &Json) -> Vec<[f32; N]> {
     list.floats().chunks_exact(N).map(|row| row.try_into().unwrap()).collect()
 }
 
-/// The enumerator whose name, without underscores, is that of the table.
+/// Returns the enumerator with a name of the table; underscores and case are ignored.
 fn choice<T: std::fmt::Debug + Copy>(name: &Json, values: &[T]) -> T {
     let name = name.text().replace('_', "");
     *values.iter().find(|value| format!("{value:?}").eq_ignore_ascii_case(&name)).unwrap()
@@ -51,7 +51,7 @@ fn convention(options: &Json) -> Convention {
     Convention::preset(options.get("convention").text()).unwrap()
 }
 
-/// Sets the fields that the options have.
+/// Sets the listed fields, if the options of the case have them.
 macro_rules! set {
     ($made:ident, $options:ident, $($field:ident: $value:expr),*) => {
         $(if !matches!($options.get(stringify!($field)), Json::Null) {
@@ -212,7 +212,7 @@ fn every_case_of_the_table() {
     for case in table.get("cases").list() {
         let (name, call, wanted) = (case.get("name").text(), case.get("call").text(), case.get("error"));
         if call == "plan_buffers" || call == "position_noise" {
-            continue; // not in this crate
+            continue; // this crate has no such function
         }
         let arrays = Arrays::new(table.get("meshes").get(case.get("mesh").text()), case.get("change"));
         match run(call, &arrays, case.get("options")) {
