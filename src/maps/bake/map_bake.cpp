@@ -28,7 +28,7 @@ constexpr std::uint32_t kFilterTexels = 2;
 class Baking {
   public:
     /// `layers`: layers to bake in addition to the normal map. `shared`: null, or receives the ray structure of the
-    /// high poly. If it is null, a map without any hit is an error; otherwise the map is empty.
+    /// high poly. With null, a map without any hit is an error; otherwise such a map stays empty.
     Baking(const LowPoly& low, const HighPoly& high, const BakeOptions& options, const LayerOptions& layers,
            const Execution& execution, const Progress& progress, SharedRays* shared)
         : low_(low),
@@ -133,7 +133,7 @@ class Baking {
         if (options_.reading.two_channels) completeThirds(texels);
     }
 
-    /// Recomputes z from x and y, which may be too long for a unit vector.
+    /// Recomputes z of unit vectors from x and y. Keeps z where (x, y) is longer than 1.
     void completeThirds(std::span<Vec3> texels) {
         for (Vec3& texel : texels) {
             const float flat = texel.x * texel.x + texel.y * texel.y;
@@ -245,7 +245,7 @@ Error checkBakeOptions(const BakeOptions& options, std::size_t low_triangles, st
 }
 
 std::uint64_t bakeBytes(std::uint64_t low_triangles, std::uint64_t high_triangles, const BakeOptions& options) {
-    // Bytes per texel: texel triangles, target vectors with votes, and the result; then the strip with its system and
+    // Bytes per texel: triangles, target vectors with votes, and the result. For texels of a strip also the system and
     // the memory for solving it.
     constexpr std::uint64_t kPlain = 26 + 16 + 13, kStrip = sizeof(TexelRow) + 60 + 24, kHeat = 6;
     const std::uint64_t texel = kPlain + (options.heat ? kHeat : 0);

@@ -137,8 +137,8 @@ class Planning {
 CellSampling samplingOf(const BakeOptions& options) {
     constexpr std::uint64_t kLarge = std::uint64_t{1} << 20;
     const bool is_large = std::uint64_t{options.width} * options.height > kLarge;
-    // Large maps have two sample points per texel and axis, at 1/4 and 3/4 of a texel. There a chord deviates from a
-    // parabola by half of its maximum deviation.
+    // Large maps have two sample points per texel and axis, at 1/4 and 3/4 of a texel. At these points, the distance of
+    // a chord from a parabola is three quarters of its maximum.
     if (options.bits == 8) return {.tolerance = 2e-3F, .points = is_large ? 2U : 3U};
     if (is_large) return {.tolerance = 6e-4F, .points = 2};
     return {};

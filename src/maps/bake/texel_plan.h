@@ -47,12 +47,13 @@ struct CellSampling {
     std::uint32_t points = 3;  ///< number of points per texel and axis in cells that are not smooth
 };
 
-/// Returns the density of samples. For 16 bits, it is as high as the precision of the texels justifies, but lower for
-/// maps of more than 1024 x 1024 texels, whose texels are small relative to the detail, and which take most of the
-/// time. For 8 bits, whose rounding error is far larger, it is always lower.
+/// Returns the density of samples. For 8 bits it is low, because the rounding error is far larger than the error of
+/// sampling. For 16 bits it is as high as the precision of the texels justifies, but lower for maps of more than 1024 x
+/// 1024 texels: their texels are small relative to the detail, and they take most of the time.
 CellSampling samplingOf(const BakeOptions& options);
 
-/// Length of target vectors in real numbers: below 1, so that no channel of a nearby texel has to exceed 1.
+/// Length of target vectors if texels are solved as real numbers, not as integers. It is below 1, so that texels can be
+/// longer than their target while all channels stay within -1 to 1.
 inline constexpr float kWantedLength = 0.98F;
 
 /// Classifies all cells. `all_unknown`: if true, all texels that are read are unknown, and no cell is `sampled`;

@@ -55,7 +55,7 @@ class WantedVectors {
 
 FitSample sampleOf(const BakeOptions& options, const Vec3& wanted) {
     if (options.reading.two_channels) return twoChannelSample(wanted);
-    // Integers may have any length. Real numbers need a term for the length, otherwise the vectors would shrink.
+    // Integer texels may have any length. Real numbers need an error term for the length; otherwise they would shrink.
     return acrossSample(wanted, options.bits == 8 ? 0.0F : kAlong, kWantedLength);
 }
 
@@ -102,7 +102,7 @@ class Tracing {
             return std::size_t{sample.row} * options_.width + sample.column;
         };
         const auto traceBand = [&](std::size_t band) {
-            // All samples of a texel are in the same band, so no other thread writes it.
+            // All samples of a texel are in the same band, so no other thread changes its owner.
             if (traced_.ranks.size() > 0) {
                 bands.forSamples(band, [&](const BandSample& sample) {
                     std::uint32_t& owner = traced_.owners[texelOf(sample)];
@@ -214,9 +214,9 @@ void traceTexels(const MapSurfaces& surfaces, const TexelTriangles& triangles, c
 
 namespace {
 
-/// Weight of a sample at a texel center, relative to other samples. If samples are at 1/4 and 3/4 between centers, the
-/// centers are sampled too, and weighted so that the integral of the square of any linear function over a cell is
-/// exact: a corner has an eighth of the weight of such a sample.
+/// Weight that each adjacent cell adds to the sample at a texel center, relative to other samples. If the other samples
+/// are at 1/4 and 3/4 between centers, the centers are sampled too: with this weight, the integral over a cell of the
+/// square of any linear function is exact.
 constexpr float kCornerOfCell = 0.125F;
 
 void addCenters(const TracedTexels& traced, const TexelPlan& plan, const TexelWindow& window,
@@ -254,7 +254,7 @@ std::vector<std::size_t> bandsOf(const TexelWindow& window) {
 void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const TexelPlan& plan,
                   const TexelWindow& window, const PointsBetween& points, const BakeOptions& options,
                   const MapWork& work, ProgressSteps& steps, TexelSystem& system) {
-    // Samples count for the texel that they are nearest to, like the sample at its center.
+    // A sample is used only if the UV island of its triangle owns the nearest texel, or if no island owns it.
     const auto counts = [&](std::uint32_t triangle, const BetweenTexels& x, const BetweenTexels& y) {
         if (traced.ranks.size() == 0) return true;
         const std::size_t column = x.part < 0.5F ? x.texel : system.right(x.texel),
@@ -324,8 +324,8 @@ void fillFromNeighbors(TracedTexels& traced, const TextureShape& shape) {
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         if (traced.origins[i] != TexelOrigin::background && isZero(wanted[i])) empty.push_back(i);
     }
-    // The first ring extrapolates from the two texels before it, because a filter reads it at the rim. Farther rings
-    // use the mean of their neighbors, which cannot exceed them.
+    // The first ring is extrapolated from the two nearest texels in each direction, because filtering at the rim of a
+    // chart reads it. Farther rings use the mean of their neighbors, which cannot overshoot.
     bool is_first_ring = true;
     const auto meanAround = [&](std::size_t texel) {
         const auto x = static_cast<std::int64_t>(texel % shape.width),

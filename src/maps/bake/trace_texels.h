@@ -25,8 +25,8 @@ struct PointsBetween {
 std::vector<std::size_t> bandsOf(const TexelWindow& window);
 
 /// Traces rays at points in the `sampled` and `rough` cells of the plan, and adds the results to the system of the
-/// window, together with the centers that are none of these points. Advances `steps` by the number of bands in the
-/// window. The progress is reported as part of the stage that solves the system.
+/// window. Adds the vectors at texel centers as well if these are not among the points. Advances `steps` by the number
+/// of bands in the window. The progress is reported as part of the stage that solves the system.
 void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const TexelPlan& plan,
                   const TexelWindow& window, const PointsBetween& points, const BakeOptions& options,
                   const MapWork& work, ProgressSteps& steps, TexelSystem& system);
@@ -36,8 +36,9 @@ void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const
 void addSmoothCells(const TexelPlan& plan, const TexelWindow& window, std::span<const Vec3> texels,
                     std::uint32_t points, const BakeOptions& options, Parallel& parallel, TexelSystem& system);
 
-/// Fills texels that have an origin but no vector, ring by ring: the first ring extrapolates from the texels before it,
-/// and farther rings use the mean of their neighbors. Texels without known neighbors become flat.
+/// Fills texels that have an origin but no vector, ring by ring: the first ring is extrapolated from the two nearest
+/// texels in each direction, and farther rings use the mean of their neighbors. Texels without known neighbors become
+/// flat.
 void fillFromNeighbors(TracedTexels& traced, const TextureShape& shape);
 
 }  // namespace tspace

@@ -31,7 +31,7 @@ MapReading readingOf(const MapSide& side) {
 
 bool hasFrames(const MapSide& side) { return side.space == MapSpace::tangent && !side.uvs.empty(); }
 
-/// Counts over a range of texels, and sums of angles, which are added in order.
+/// Counts of texels and sums of angles over a range of texels. The sums of all ranges are added in order.
 struct Sums {
     std::uint64_t converted = 0, changed = 0, background = 0, without_frame = 0, below_horizon = 0, unmatched = 0,
                   apart = 0;
@@ -123,8 +123,9 @@ void forEachTexel(const UvTriangles& triangles, std::size_t triangle, const Text
     });
 }
 
-/// Chooses triangles of `other` for texels inside triangles of both sides, where triangles may overlap: the triangle
-/// that is closest in space to the texel's point on `side`, given by `places`. Both sides must have positions.
+/// Chooses among overlapping triangles of `other`: each texel inside triangles of both sides gets the triangle that is
+/// closest in space to the texel's point on `side`. `places`: triangle of each texel on `side`. Both sides must have
+/// positions.
 void chooseByPosition(const MapSide& side, const UvTriangles& triangles, const TexelTriangles& places,
                       const MapSide& other, const UvTriangles& other_triangles, TexelTriangles& other_places,
                       const Allocator* allocator) {
@@ -383,7 +384,7 @@ class Conversion {
     Buffer<Vec3> vectors_ = {};
     Buffer<bool> keeps_ = {};
     std::uint64_t conflict_count_ = 0;
-    double size_ = 0;                     ///< size of the mesh; only if both sides have positions
+    double size_ = 0;  ///< diagonal of the main mesh's bounding box; 0 unless both sides have positions
     Buffer<std::uint32_t> matches_ = {};  ///< matching triangle of the other side for each triangle of the main side
 };
 

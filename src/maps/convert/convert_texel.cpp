@@ -29,7 +29,8 @@ bool isOnGrid(const Vec3& texel, const TexelNumbers& numbers) {
     return isOnGrid(texel.x, most) && isOnGrid(texel.y, most) && isOnGrid(texel.z, most);
 }
 
-/// Returns the texel for a vector, which keeps its length if possible.
+/// Returns the texel that stores a vector. If it chooses 8-bit integers, the length of the vector may change for a
+/// better direction. Otherwise the length changes only if a component exceeds 1.
 Vec3 storedTexel(const DVec3& vector, const MapReading& reading, const TexelNumbers& numbers) {
     const DVec3 encoded = encodeTexel(vector, reading);
     DVec3 stored{2 * encoded.x - 1, 2 * encoded.y - 1, 2 * encoded.z - 1};
@@ -118,8 +119,8 @@ CarriedError measureCarried(const MapImage& map, std::span<const Vec3> converted
     const TextureShape shape{map.width, map.height, map.wrap_u, map.wrap_v};
     const std::size_t triangles = from.uvs.count / 3, tasks = (triangles + kTrianglesOfTask - 1) / kTrianglesOfTask;
     std::vector<AngleSums> sums(tasks);
-    // The error is sampled at one of four points per texel, away from its center, like the points that renderers
-    // filter.
+    // The error is measured at one of four points per texel, which differs between adjacent texels. None of the points
+    // is a texel center, so the maps are filtered as in a renderer.
     const auto isTaken = [](const UvSample& sample) {
         const double column = std::floor(sample.x), row = std::floor(sample.y);
         const int corner = (sample.x - column > 0.5 ? 1 : 0) + (sample.y - row > 0.5 ? 2 : 0);

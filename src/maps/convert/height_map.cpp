@@ -135,8 +135,9 @@ class Heights {
 
     /// Returns the slope at a texel.
     /// Based on: Scharr, "Optimale Operatoren in der Digitalen Bildverarbeitung", 2000: the weights 3, 10, 3 have the
-    /// least dependence on the direction of the slope. At the ends of columns (rows) only the texel itself is used,
-    /// because one-sided weights would give the derivative next to it.
+    /// least dependence on the direction of the slope. In the first and last row (for the slope along u) or column
+    /// (along v), only the texel's own derivative is used, because the mean with a single neighbor would be the
+    /// derivative between the two texels.
     [[nodiscard]] Slope slopeAt(std::int64_t column, std::int64_t row) const {
         const auto mean = [&](bool along_u) {
             const double own = derivativeAt(column, row, along_u);

@@ -150,7 +150,7 @@ MapError MeasurePoints::measure(const MapImage& map, const MapSurfaces& surfaces
             if (!point.is_hit) continue;
             const DVec3 shaded = shadedAt(map, candidate, surfaces.corners(point.triangle, tangents), weights, uv);
             const double angle = degreesBetween(shaded, toDouble(point.normal));
-            // A point without a shaded direction has the largest possible error.
+            // A point for which the map yields no direction gets the largest possible error.
             angles[i] = dot(shaded, shaded) > 0 && std::isfinite(angle) ? static_cast<float>(angle) : 180.0F;
         }
     });

@@ -37,7 +37,7 @@ inline BetweenTexels betweenTexels(std::uint32_t at, std::uint32_t n, std::uint3
 struct BandSample {
     std::uint32_t triangle = 0;
     std::uint32_t row = 0, column = 0;  ///< row and column of the grid in the image
-    double x = 0, y = 0;                ///< position in texels, relative to the placed triangle
+    double x = 0, y = 0;                ///< position in texels, relative to the origin of the placed triangle
     const ExactTriangle* exact = nullptr;
 
     [[nodiscard]] std::array<double, 3> weights() const { return exact->weights(x, y); }
@@ -143,8 +143,8 @@ class SampleBands {
         }
     }
 
-    /// Calls visit(band) once for each band in which the triangle has rows. A triangle that extends over three tiles
-    /// covers one of them completely.
+    /// Calls visit(band) once for each band in which the triangle has rows. Three tiles suffice: a triangle that
+    /// extends over more than two tiles covers all rows of a tile, and so all bands.
     template <class Visit>
     void forBands(std::size_t triangle, Visit&& visit) {
         PlacedTriangle placed;

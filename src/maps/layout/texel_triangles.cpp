@@ -16,12 +16,12 @@ namespace tspace {
 namespace {
 
 constexpr std::uint32_t kBandRows = 64;
-/// Distance, in texels, within which texels beside a triangle get the triangle: bilinear filtering inside a chart reads
-/// no texel that is farther away than sqrt(2).
+/// Distance from a triangle, in texels, within which texels outside it are assigned to it: bilinear filtering inside a
+/// chart reads no texel that is farther away than sqrt(2).
 constexpr double kNearTexels = 1.5;
 constexpr std::int64_t kNearRows = 2;
-/// Number of rows above which triangles are remembered, and limit of remembered triangles, as in uv_coverage: many
-/// cards of one tree share the same part of an image.
+/// Triangles with more than kLargeTriangleRows rows are remembered, at most kMostLarge of them, so that repeated ones
+/// can be skipped: many cards of one tree share the same part of an image.
 constexpr std::int64_t kLargeTriangleRows = 64;
 constexpr std::size_t kMostLarge = std::size_t{1} << 16;
 /// Number of texels per work step.
@@ -54,8 +54,8 @@ struct TriangleSearch {
 
 // -- 1. bands of rows --
 
-/// Returns whether two earlier triangles have the same position as this one. The second of them still counts as
-/// overlapping.
+/// Returns whether two earlier triangles have the same position as this one. The second triangle is not skipped, so
+/// that its overlap is counted.
 bool hasTwoEqual(TriangleSearch& search, const PlacedTriangle& placed) {
     const std::array<std::int64_t, 6> key = placed.key();
     const auto known = search.known.find(key);
@@ -88,7 +88,8 @@ std::uint64_t placeRows(TriangleSearch& search, std::size_t i) {
     return row_count + static_cast<std::uint64_t>(area) / (2 * kTexelParts * kTexelParts * kTexelsOfStep);
 }
 
-/// Calls visit(band) once for each band. A triangle that extends over three tiles covers one of them completely.
+/// Calls visit(band) once for each band. Three tiles suffice: a triangle that extends over more than two tiles covers
+/// all rows of a tile, and so all bands.
 template <class Visit>
 void forBands(TriangleSearch& search, RowRange rows, const Visit& visit) {
     if (rows.last < rows.first) return;

@@ -105,8 +105,8 @@ std::uint64_t TexelMask::count(const TexelRect& rect) const {
 
 namespace {
 
-/// Number of rows above which triangles are remembered, and limit of remembered triangles: many cards of one tree share
-/// the same large part of an image.
+/// Triangles with more than kLargeRows rows are remembered, at most kMostRemembered of them, so that repeated ones can
+/// be skipped: many cards of one tree share the same large part of an image.
 constexpr std::int64_t kLargeRows = 64;
 constexpr std::size_t kMostRemembered = std::size_t{1} << 16;
 

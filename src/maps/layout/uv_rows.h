@@ -63,11 +63,11 @@ struct TexelRange {
     [[nodiscard]] bool isEmpty() const { return last < first; }
 };
 
-/// Returns whether an image of the infinite plane is shown mirrored.
+/// Returns whether a tile (a copy of the image in the infinite plane) is mirrored.
 inline bool isFlipped(std::int64_t tile, TextureWrap wrap) { return wrap == TextureWrap::mirror && tile % 2 != 0; }
 
-/// Returns the rows, among the rows `first` to `last` of an image, that a range of rows of the infinite plane covers in
-/// one of its images.
+/// Returns the rows of the image that a range of rows of the infinite plane covers in a tile, limited to the rows
+/// `first` to `last`.
 inline TexelRange rowsOfTile(TexelRange rows, std::int64_t tile, std::uint32_t size, TextureWrap wrap,
                              std::int64_t first, std::int64_t last) {
     if (wrap == TextureWrap::clamp && tile != 0) return {};

@@ -13,10 +13,10 @@ namespace tspace {
 
 namespace {
 
-/// Ratio of the sizes of two models from which they are assumed to use different units.
+/// Ratio of the sizes of two models above which they are assumed to use different units.
 constexpr double kOtherUnit = 8;
-/// Maximum difference between the sides of matching boxes, and minimum difference of boxes that do not match, relative
-/// to their diagonal.
+/// Maximum distance between corresponding sides of two boxes, relative to the low poly's diagonal: kFits for boxes that
+/// match after a rotation, kMismatch for boxes that match as they are (or after scaling).
 constexpr double kFits = 0.02, kMismatch = 0.1;
 
 /// Returns the bounding box of the transformed corners of a box.
@@ -285,7 +285,8 @@ bool MapSurfaces::meetBeyond(const Ray& ray, RayHit& hit) const {
 }
 
 RayNeighborhood MapSurfaces::around(const Ray& ray, const RayHit* hit) const {
-    // A line through an edge hits both triangles at the edge, so hits within this distance count as one.
+    // A line through an edge hits both triangles at the edge, so hits within this distance count as one. It is relative
+    // to the length of the ray.
     constexpr double kNearby = 1e-6;
     const double most = std::max(ray.height, reach_), least = -reach_;
     if (hit == nullptr) return {.met_back = rays_->crossings(ray.place, ray.outward, least, most, ray.group).backs > 0};

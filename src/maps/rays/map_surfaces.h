@@ -99,7 +99,7 @@ class MapSurfaces {
     /// Computes truthAt for at most kLinesAtOnce points, which is faster than single calls if they are close together.
     /// The normal of a point without a hit is zero.
     void truthsAt(std::span<const LowPoint> points, double& guess, std::span<DVec3> normals) const;
-    /// Computes complete hits, otherwise like truthsAt. Bit i of the result is set if hits[i] is valid.
+    /// Like truthsAt, but computes complete hits. Bit i of the result is set if hits[i] is valid.
     [[nodiscard]] std::uint32_t hitsAt(std::span<const LowPoint> points, double& guess,
                                        std::span<SurfaceHit> hits) const;
 
@@ -113,7 +113,8 @@ class MapSurfaces {
     RayField field_ = {};
     std::shared_ptr<const RaySurface> rays_ = {};
 
-    /// Ray of a point: its origin, its outward direction, and the distance of the low poly from the origin.
+    /// Ray of a point of the low poly: the point (`place`), the outward direction, and the distance from the point to
+    /// the cage (`height`).
     struct Ray {
         std::size_t triangle = 0;
         std::array<double, 3> weights = {};
@@ -124,7 +125,8 @@ class MapSurfaces {
     bool rayAt(std::size_t triangle, const std::array<double, 3>& weights, Ray& ray) const;
     /// Finds the hit of a ray; `hit`.distance is measured outward from the low poly.
     bool meet(const Ray& ray, double& guess, RayHit& hit) const;
-    /// Finds a hit farther outward for a ray that hit nothing from the cage inward. Returns false if there is none.
+    /// Finds the innermost hit beyond the cage, for a ray that hit nothing from the cage inward. Returns false if there
+    /// is none.
     bool meetBeyond(const Ray& ray, RayHit& hit) const;
     /// Calls meet() for several points at once. Bit i of the result is set if hits[i] is valid.
     std::uint32_t meetAll(std::span<const LowPoint> points, double& guess, std::span<RayHit> hits) const;

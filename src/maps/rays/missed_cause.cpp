@@ -110,7 +110,7 @@ std::vector<Sample> samplesOf(const LowPoly& low) {
     return samples;
 }
 
-/// Counts the samples that hit the high poly after a rotation and scaling.
+/// Counts the samples whose ray hits the high poly after the high poly is rotated and scaled.
 class Trial {
   public:
     Trial(const RaySurface& surface, std::vector<Sample> samples) : surface_(surface), samples_(std::move(samples)) {}
@@ -147,8 +147,8 @@ class Trial {
     std::vector<Sample> samples_;
 };
 
-/// Describes the rotation and scale with which most rays hit the high poly, if their share exceeds `enough`; otherwise
-/// returns an empty string.
+/// Describes the rotation and scale of the high poly with which the largest share of rays hits it. Returns an empty
+/// string if no share exceeds `enough`.
 std::string likelyPlacement(const Trial& trial, double size, double high_size, double reach, double enough) {
     constexpr double kOtherSize = 1.5;
     std::vector<NamedTurn> turns = quarterTurns();

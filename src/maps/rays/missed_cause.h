@@ -19,13 +19,15 @@ struct SharedRays {
 };
 
 /// Returns the likely reason for the misses, as part of a sentence about the high poly: inward faces, a reach that is
-/// too short, a different up axis, or a different unit. Each correction is tried, and named if at least four of five
-/// rays then hit. Returns an empty string if none helps. Requires checked meshes. `surface`: ray structure of the high
-/// poly; `reach`: the reach used by the rays.
+/// too short, a different up axis, or a different unit. Inward faces are named if at least half of the rays hit only
+/// back faces. Every other correction is tried, and named if at least four of five rays then hit. Returns an empty
+/// string if no reason is found. Requires checked meshes. `surface`: ray structure of the high poly; `reach`: the reach
+/// used by the rays.
 std::string causeOfMisses(const LowPoly& low, const HighPoly& high, const RaySurface& surface, double reach);
 
-/// Diagnoses a bake with hits in most places: returns the axes or unit for which nearly all of the high poly coincides
-/// with the low poly, if less than half of it coincides without that change. Returns an empty string if there is none.
+/// Diagnoses a bake with hits in most places. Returns the change of axes or unit with which rays from more than 95 % of
+/// the low poly hit the high poly, if less than half of them hit without this change. Returns an empty string if there
+/// is none.
 std::string likelyPlacementOf(const LowPoly& low, const HighPoly& high, const RaySurface& surface);
 
 /// Bakes like bakeMaps, but if there is no hit at all, returns a map without texels instead of an error. `shared`: ray

@@ -157,13 +157,14 @@ namespace {
 /// Maximum ratio of the cage distance at a corner to that at its faces. Without this limit, the distance at spikes
 /// would be unbounded.
 constexpr double kMostFactor = 3;
-/// Minimum cosine between the mean normal and a corner's own normal for the corner to use the mean: both sides of a
-/// leaf share positions.
+/// Minimum cosine between the mean normal and a corner's own normal for the corner to use the mean: the two sides of a
+/// leaf share positions but have opposite normals.
 constexpr double kOwnPart = 0.05;
 
-/// Distance from a hard edge within which ray directions bend toward it, relative to the cage offset. On boxes with
-/// bevels, ribs and bolts at an offset of 0.1, seen from seven sides: 1 and 0.5 are equally close to the high poly,
-/// 0.25 is as close except for misses at sharp rims, and 0.1 is as inaccurate as stored normals.
+/// Distance from a hard edge within which ray directions bend toward it, relative to the cage offset. Measured on boxes
+/// with bevels, ribs and bolts at an offset of 0.1, seen from seven sides: the results of 1 and 0.5 are equally close
+/// to the high poly, those of 0.25 are as close except for misses at sharp rims, and those of 0.1 are as inaccurate as
+/// with stored normals.
 constexpr double kBend = 0.5;
 
 DVec3 unitOr(DVec3 v, const DVec3& other) { return normalize(v) ? v : other; }
@@ -211,7 +212,7 @@ struct WholeMesh {
 DVec3 ownOf(const WholeMesh& mesh, std::size_t corner) { return unitOr(toDouble(mesh.normals[corner]), {}); }
 
 /// Returns, at the first corner of each position, the offset to the cage along the mean of all normals at that
-/// position; zero if there is none.
+/// position; zero if the mean has no direction.
 Buffer<Vec3> meanOffsets(const WholeMesh& mesh, const Allocator* allocator) {
     const std::size_t count = mesh.positions.size();
     Buffer<DVec3> means(allocator, count, DVec3{});
@@ -231,8 +232,8 @@ Buffer<Vec3> meanOffsets(const WholeMesh& mesh, const Allocator* allocator) {
     return ways;
 }
 
-/// Returns, for each corner that the map covers, the offset of its position, or its own normal if the mean points to
-/// its other side.
+/// Returns, for each corner that the map covers, the mean offset of its position. If the mean is nearly perpendicular
+/// or opposite to the corner's own normal, returns that normal instead.
 Buffer<Vec3> averagedOffsets(const WholeMesh& mesh, const Buffer<Vec3>& means, std::size_t shown,
                              const Allocator* allocator) {
     Buffer<Vec3> ways(allocator, shown);
@@ -348,8 +349,8 @@ DVec3 RayField::bentAtEdges(std::size_t triangle, const DVec3& point, const DVec
         const DVec3 at = from + part * (to - from);
         const double away = length(point - at);
         if (!(away < bend_)) continue;
-        // At an edge the direction of the edge is used, and at its ends that of the vertex, so that the directions of
-        // adjacent faces agree.
+        // Along an edge, its own offset is used; near its ends, the offset blends into that of the end vertex, so that
+        // the directions of adjacent faces agree.
         const double size = length(to - from), near_end = std::min(bend_, size / 2);
         const double of_from = smooth(std::max(0.0, 1 - part * size / near_end)),
                      of_to = smooth(std::max(0.0, 1 - (1 - part) * size / near_end));

@@ -30,8 +30,8 @@ namespace {
 
 /// Functions of Embree that are used. The library is installed separately, and loaded at run time.
 struct Embree {
-    /// Memory of Embree 3 and TBB after loading is 47 MB. Their constructors terminate the process if memory runs out,
-    /// so this much must be available.
+    /// Embree 3 and TBB take 47 MB after loading. Their constructors terminate the process if memory runs out, so this
+    /// much must be available.
     static constexpr std::size_t kLoadedBytes = std::size_t{64} << 20;
     LoadedLibrary library = LoadedLibrary(TSPACE_EMBREE_LIBRARY, kLoadedBytes);
     decltype(&rtcNewDevice) newDevice = library.find("rtcNewDevice");
@@ -263,10 +263,10 @@ void findPlace(RaySurface::State& state) {
     state.size = 1 / state.scale;
 }
 
-/// Creates a device whose scenes are built by the threads that call joinCommitScene, at most `threads`. Its thread
-/// count limits TBB for the whole process, including a host that uses TBB, unless another device has a larger limit: a
-/// second device without a limit removes the restriction, while the first keeps its arena. Returns false if no device
-/// can be created.
+/// Creates two devices. Scenes of the first one are built by the threads that call joinCommitScene, at most `threads`.
+/// The thread count of a device limits TBB for the whole process, including a host that uses TBB, unless another device
+/// has a higher limit. So the second device has no limit, which removes the restriction; the first one keeps its arena.
+/// Returns false if a device cannot be created.
 bool makeDevices(RaySurface::State& state, unsigned threads) {
     char settings[96];
     // Without this option, each device reserves 128 MB for subdivision surfaces.

@@ -52,10 +52,10 @@ class RaySurface {
     RaySurface(const RaySurface&) = delete;
     RaySurface& operator=(const RaySurface&) = delete;
 
-    /// Finds the triangle nearest to `from` on the line along `outward` (unit), at most `reach` away on either side,
-    /// whose front faces `outward`; the first of equally near ones. Only triangles of `group` are considered if the
-    /// surface has groups. `guess`: expected distance; it affects only the time, and is updated for the next call
-    /// nearby.
+    /// Finds the triangle that is nearest to `from` on the line along `outward` (unit), among triangles whose front
+    /// faces `outward` and that are at most `reach` away on either side. Of equally near triangles, the one with the
+    /// lowest index is used. If the surface has groups, only triangles of `group` are considered. `guess`: expected
+    /// distance; it affects only the time, and is updated for the next call nearby.
     bool nearest(const DVec3& from, const DVec3& outward, double reach, std::uint32_t group, double& guess,
                  RayHit& hit) const;
 

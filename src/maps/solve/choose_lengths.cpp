@@ -145,8 +145,8 @@ class Band {
 }  // namespace
 
 IntegerChoice integerChoice(TexelLengths lengths) {
-    // Ranges narrower than that of `even` do not improve smaller mip levels, but cost the first level more (figures:
-    // docs/evidence/bake-theory.md).
+    // A range narrower than that of `even` would not improve smaller mip levels, but would increase the error of the
+    // first level (figures: docs/evidence/bake-theory.md).
     if (lengths == TexelLengths::free) return {.least_length = 0.7F, .most_length = 1.1F};
     return {.least_length = 0.9F, .most_length = 1.0F};
 }

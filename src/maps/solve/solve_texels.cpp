@@ -261,7 +261,8 @@ class IntegerTexel {
     Vec3 best(const Vec3& start) const { return choice_.is_two_channel ? bestOfTwo(start) : bestOfThree(start); }
 
   private:
-    /// Squared length of the surrounding texels, multiplied by their part in the filtered value.
+    /// Assumed contribution of the surrounding texels to the squared length of the filtered vector, relative to a texel
+    /// of unit length.
     static constexpr float kOthers = 0.4F;
 
     [[nodiscard]] int indexOf(float value) const { return static_cast<int>(std::floor((value + 1) / step_ + 0.5f)); }
@@ -269,7 +270,8 @@ class IntegerTexel {
     /// Returns the increase of the error form if x and y deviate by dx and dy from the optimal real numbers.
     [[nodiscard]] float added(float dx, float dy) const { return dx * (m_[0] * dx + 2 * m_[1] * dy) + m_[3] * dy * dy; }
 
-    /// Integers for a given z, in steps: the nearest x, and the y with the least error for that x.
+    /// Quantized x and y for a given quantized z, with their distances from the real-valued optimum, all in
+    /// quantization steps. x is rounded to the nearest integer; y minimizes the error for that x.
     template <class Number>
     struct PlanarIntegers {
         Number x, y, error_x, error_y;
@@ -288,16 +290,17 @@ class IntegerTexel {
     }
 
     [[nodiscard]] Vec3 bestOfThree(const Vec3& start) const {
-        // Assumed minimum of the error form over real numbers: a small value (squared, for a sample of which the texel
-        // is half). The form is a sum of squares, up to a constant that depends only on the neighbors.
+        // The error form is known only up to a constant that depends on the neighbors, so its minimum over real numbers
+        // is unknown. A small squared error is assumed instead: kLeftOver / 4 times the squared filter weight of the
+        // texel, summed over its samples (m_[0] + m_[3] + m_[5] is twice the sum of these squares).
         constexpr float kLeftOver = 2e-6F;
         const float x = start_x_ + slope_x_ * start.z, y = start_y_ + slope_y_ * start.z;
         const float linear = 2 * (m_[2] * x + m_[4] * y + m_[5] * start.z + h_.z);
         const float square = m_[2] * slope_x_ + m_[4] * slope_y_ + m_[5];
         const float rest =
             kLeftOver * (m_[0] + m_[3] + m_[5]) / 8 + (square > 0 ? linear * linear / (4 * square) : 0.0F);
-        // Range of z of the vectors that point like the start and have the least to the most length, with a margin of
-        // one step.
+        // Range of z, with a margin of one step, of vectors that have the direction of `start` and a length within the
+        // limits.
         const float size = std::max(length(start), 1e-6F), slope = start.z / size;
         const float a = slope * choice_.least_length, b = slope * choice_.most_length;
         const int first = std::max(0, indexOf(std::min(a, b)) - 1);
@@ -375,12 +378,13 @@ class IntegerTexel {
 float typicalLength(const IntegerChoice& choice) { return (choice.least_length + choice.most_length) / 2; }
 
 bool keepsLength(const IntegerChoice& choice, const Vec3& wanted) {
-    // Tolerance for unit vectors, which the rounding of their components may make longer.
+    // Tolerance for unit vectors, whose length may differ from 1 because their components are rounded.
     constexpr float kSlack = 1e-5F;
     return choice.keeps_lengths && std::fabs(length(wanted) - 1) > kSlack;
 }
 
-/// Chooses the integers, plane by plane of z. If x or y is the longest component, the axes are exchanged first.
+/// Chooses the integers of a texel: tries each z with the best x and y for it. If x or y is the longest component, the
+/// axes are permuted first, so that it takes the place of z.
 Vec3 bestIntegers(IntegerChoice choice, const SymmetricBlock& m, const Vec3& h, Vec3 wanted) {
     if (keepsLength(choice, wanted)) {
         const float size = length(wanted);
@@ -413,8 +417,8 @@ Vec3 chosenFor(const IntegerChoice& choice, const SymmetricBlock& own, const Vec
     return bestIntegers(choice, block, rest - kHold * hold.side, wanted);
 }
 
-/// Chooses the integers of texels that are not in the system, independently of each other. Most of them are background,
-/// and equal.
+/// Chooses the integers of texels that are not in the system, independently of each other. Most of them are background
+/// texels with equal values, so the last result is reused.
 void chooseIndependently(const TexelSystem& system, const IntegerChoice& choice, std::span<Vec3> texels,
                          Parallel& parallel) {
     parallel.forRanges(system.height(), 4, [&](std::size_t begin, std::size_t end) {
@@ -467,8 +471,8 @@ void chooseIntegers(const TexelSystem& system, const IntegerChoice& choice, std:
 
 namespace {
 
-/// Rounding of one texel to integers. Vectors are in steps relative to the middle of the integer range: integers plus
-/// one half if the number of values is even.
+/// Rounds a texel to integers. Vectors are in quantization steps, relative to the middle of the integer range. If the
+/// number of integers is even, representable components are integers plus one half.
 class StepRounding {
   public:
     explicit StepRounding(const TexelRounding& rounding)
@@ -478,8 +482,8 @@ class StepRounding {
 
     [[nodiscard]] Vec3 nearest(const Vec3& v) const { return {nearest(v.x), nearest(v.y), nearest(v.z)}; }
 
-    /// Returns the vector near `wanted`, among those that integers represent and that may be slightly longer or
-    /// shorter, with the least perpendicular error.
+    /// Returns the representable vector near `wanted` that has the smallest error perpendicular to it. Its length may
+    /// differ slightly.
     [[nodiscard]] Vec3 nearestAcross(const Vec3& wanted) const {
         std::array<float, 3> v{wanted.x, wanted.y, wanted.z};
         std::size_t main = 0;
@@ -514,8 +518,8 @@ class StepRounding {
     }
 
   private:
-    /// Number of lengths that are tried. Their spacing moves one of the other components by a fraction of a step; the
-    /// spacing has a maximum, in steps.
+    /// kLengths: number of lengths that are tried. kMove: intended change of the larger of the two other components
+    /// from one length to the next, in steps. kMostStride: maximum distance between two lengths, in steps.
     static constexpr int kLengths = 8;
     static constexpr float kMove = 0.4F, kMostStride = 40;
 

@@ -49,7 +49,7 @@ struct FitSample {
 enum class TexelRole : std::uint8_t {
     excluded,  ///< not in the system: samples that mix this texel are skipped
     fixed,     ///< fixed value, which samples mix with unknown texels
-    unknown    ///< to be solved; every sample that reads it mixes only texels with a row
+    unknown    ///< to be solved; samples that mix it with an excluded texel are skipped
 };
 
 class TexelSystem {

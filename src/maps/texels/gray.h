@@ -13,7 +13,7 @@ namespace tspace {
 /// constant.
 template <class TexelAt>
 std::array<double, 3> channelCorrelations(std::size_t count, const TexelAt& texelAt) {
-    // RMS deviation of a constant channel, in units of 1/255: compression adds about as much
+    // maximum RMS deviation of a channel that counts as constant, in units of 1/255: compression adds about as much
     constexpr double kConstant = 2.5;
     std::array<double, 3> sum = {}, squares = {}, products = {};
     for (std::size_t i = 0; i < count; ++i) {

@@ -17,7 +17,8 @@ double nearestTo(double value, unsigned most) {
     return std::clamp(std::floor((value + 1) * 0.5 * most + 0.5), 0.0, static_cast<double>(most));
 }
 
-/// Returns the squared sine of the angle between directions that are less than a right angle apart, and 4 for others.
+/// Returns the squared sine of the angle between two vectors, multiplied by the squared length of `direction`. Returns
+/// 4 if the angle is at least a right angle.
 double distance(const DVec3& vector, const DVec3& direction) {
     const double along = dot(vector, direction), squared = dot(vector, vector);
     if (!(along > 0)) return 4;
