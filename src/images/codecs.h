@@ -75,7 +75,7 @@ RgbImage roundedImage(const FloatImage& image);
 // Decoding and encoding of PNG pixels; flip_png.cpp handles the chunks. The bindings use other decoders than libspng.
 
 struct PngHeader {
-    /// Bits of the color type in a PNG header.
+    /// Color types in a PNG header: kPalette is the type of an image with a palette; the other constants are flags.
     static constexpr std::uint8_t kPalette = 3, kHasColor = 2, kHasAlpha = 4;
 
     std::uint32_t width = 0, height = 0;

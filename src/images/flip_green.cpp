@@ -130,8 +130,8 @@ std::uint64_t flipWorkBytes(ByteSpan bytes) {
     const ImageClaim claim = claimOf(bytes);
     switch (imageFormat(bytes)) {
         case ImageFormat::png: {
-            // Input and output rows of 4 channels with 16 bits, and the rows that filters need. If the image is
-            // interlaced, all rows.
+            // Memory of input and output rows of 4 channels with 16 bits, and of the rows that filters need; for an
+            // interlaced image also of all rows.
             constexpr std::size_t kInterlaceAt = 28;
             const std::uint64_t row_bytes = std::uint64_t{8} * claim.size.width;
             const bool is_interlaced = bytes.size() > kInterlaceAt && bytes[kInterlaceAt] != 0;

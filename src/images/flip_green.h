@@ -10,7 +10,7 @@ namespace tspace {
 /// Returns the memory that flipping needs in addition to input and output.
 std::uint64_t flipWorkBytes(ByteSpan bytes);
 /// Returns the decompressed size of the rows of a PNG according to its header, plus 16 bytes per row: a measure of the
-/// time that flipping takes. 0 for other formats, which are decoded completely in memory.
+/// time that flipping takes. Returns 0 for other formats, which are decoded completely in memory.
 std::uint64_t flipUnpackedBytes(ByteSpan bytes);
 
 /// Returns the format that flipping writes by default; sameAsInput for inputs that it can only write as PNG, or not at all.

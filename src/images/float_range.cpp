@@ -16,7 +16,7 @@ class RangeEvidence {
     explicit RangeEvidence(bool has_z) : has_z_(has_z) {}
 
     void add(const Vec3& texel) {
-        constexpr float kBelowZero = -1.0F / 64.0F;  // sharpening filters cause values down to this limit
+        constexpr float kBelowZero = -1.0F / 64.0F;  // values down to this limit may come from sharpening filters
         is_gray_ = is_gray_ && texel.x == texel.y && texel.y == texel.z;
         if (texel == Vec3{}) return;
         const Vec3 moved{2 * texel.x - 1, 2 * texel.y - 1, 2 * texel.z - 1};
@@ -56,8 +56,8 @@ class RangeEvidence {
     [[nodiscard]] double share(std::uint64_t count) const {
         return static_cast<double>(count) / static_cast<double>(count_);
     }
-    /// Returns whether most vectors point along +z. Unit length alone is not sufficient, because colors and factors
-    /// can have it too.
+    /// Returns whether the vectors point along +z on average. Unit length alone is not sufficient evidence, because
+    /// colors and factors can have it too.
     [[nodiscard]] bool pointsUp() const {
         constexpr double kUp = 0.8, kMaxMeanXy = 0.25;
         const auto n = static_cast<double>(count_);

@@ -44,10 +44,10 @@ ImageClaim claimOfPng(ByteSpan bytes) {
 }
 
 /// Returns the declared size of a JPEG and the memory for decoding it. libjpeg-turbo stores the pixels, and also the
-/// coefficients of all components if they are split into several scans.
+/// coefficients of all components if the components are split into several scans.
 ImageClaim claimOfJpeg(ByteSpan bytes) {
     constexpr std::size_t kHeadBytes = 4, kFrameBytes = 8;
-    constexpr unsigned kProgressive = 2;  // the lowest two bits of a frame marker
+    constexpr unsigned kProgressive = 2;  // lowest two bits of the frame marker of a progressive JPEG
     ImageSize size;
     std::uint64_t components = 0;
     for (std::size_t at = 2; at + kHeadBytes + kFrameBytes < bytes.size();) {
@@ -72,7 +72,7 @@ ImageClaim claimOfJpeg(ByteSpan bytes) {
 }
 
 std::vector<std::uint8_t> joinJpeg(ByteSpan packed, ByteSpan like) {
-    // Offset of the size field, after the start marker and the JFIF marker.
+    // Offsets of the JFIF marker, which follows the start marker, and of its size field.
     constexpr std::size_t kMark = 2, kSizeAt = 4;
     const bool has_jfif = packed.size() > kSizeAt + 1 && packed[kMark] == 0xff && packed[kMark + 1] == 0xe0;
     const std::size_t count = has_jfif ? kMark + (std::size_t{packed[kSizeAt]} << 8 | packed[kSizeAt + 1]) : 0;

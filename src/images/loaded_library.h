@@ -25,8 +25,8 @@ inline void requireMemory(std::size_t bytes) {
 class LoadedLibrary {
   public:
     /// `needed_bytes`: upper limit of the address space of the library and its dependencies. Throws OutOfMemory if that
-    /// is not available, or if the loader reports anything but an absent or unusable library. A static variable is then
-    /// initialized again by the next call.
+    /// is not available, or if the loader reports anything but an absent or unusable library. If the constructor of a
+    /// static variable throws, the next call initializes the variable again.
     LoadedLibrary(const char* name, std::size_t needed_bytes) {
         requireMemory(needed_bytes);
         library_ = dlopen(name, RTLD_NOW | RTLD_LOCAL);

@@ -38,7 +38,7 @@ enum class ImageUse {
 /// Pixel information from a file with its own channel layout (KTX2, DDS, EXR).
 struct TextureFacts {
     std::string name = {};  ///< such as "BC5 in a DDS"
-    /// Layout of a normal map: the channels of x, y and z. If not the default, z must be reconstructed.
+    /// Channels of x, y and z in a normal map. If the channel of z is `none`, z must be reconstructed.
     MapLayout layout = {};
     bool is_guessed = false;  ///< the layout was detected from the texels, because the format does not define it
     bool is_srgb = false;     ///< the file declares its values as sRGB, which is wrong for normal maps
@@ -47,9 +47,9 @@ struct TextureFacts {
 };
 
 /// Channels as stored in the file, scaled so that the integer 0 is 0 and the largest integer is 1. Floats are
-/// unchanged, except that vectors in the range -1 to 1 are mapped (ImageUse). Rgba in texel_format.h describes
-/// textures. The first row is the top row. An integer of up to 16 bits is restored exactly when it is written with the
-/// same number of bits.
+/// unchanged, except that vectors in the range -1 to 1 are mapped (ImageUse). For texture files, see Rgba in
+/// texel_format.h. The first row is the top row. An integer of up to 16 bits is restored exactly when it is written
+/// with the same number of bits.
 struct FloatImage {
     std::uint32_t width = 0, height = 0;
     unsigned bits = 8;              ///< bits per channel in the file: 8 or 16; floats: 16 or 32. BC4, BC5 and EAC: 16

@@ -181,8 +181,8 @@ std::optional<TgaImage> decodeTgaPixels(ByteSpan bytes, std::uint64_t most_pixel
     if (!head || isTooLarge(head->size, bytes.size(), most_pixels, why)) return {};
     TgaImage out;
     if (!TgaReader(bytes, *head).read(out)) return {};
-    // Programs that do not know the meaning of the fourth byte write 0, and declare no alpha. Others have alpha but do
-    // not declare it.
+    // Some programs write 0 to the fourth byte although it means nothing to them, and declare no alpha. Others write
+    // alpha but do not declare it. So undeclared alpha is ignored only if it is 0 in all pixels.
     const bool is_declared = head->alpha_bits != 0;
     const bool is_all_zero = std::all_of(out.alpha.begin(), out.alpha.end(), [](std::uint8_t a) { return a == 0; });
     if (!is_declared && is_all_zero) out.alpha = {};

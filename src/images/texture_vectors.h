@@ -13,14 +13,15 @@ namespace tspace {
 /// (FloatImage::range_text); empty if neither was necessary.
 std::string readTextureVectors(FloatImage& image);
 
-/// Parses the value of `--channels`: "bgr" means z, y and x; a capital letter inverts a channel; with two letters z is
-/// reconstructed. Returns an error message about `letters`, or an empty string.
+/// Parses the value of `--channels`. Its letters name the channels that contain x, y and z: "bgr" reads x from blue, y
+/// from green and z from red. A capital letter inverts a channel; with two letters, z is reconstructed. Returns an
+/// error message about `letters`, or an empty string.
 std::string takeChannels(const std::string& letters, MapLayout& layout);
 
 /// Returns whether alpha contains a component of the vectors.
 bool readsAlpha(const MapLayout& layout);
 
-/// Moves x, y and z of all texels to red, green and blue. Removes alpha if it contained one of them.
+/// Moves x, y and z of all texels to red, green and blue. Removes alpha if it contained a component.
 void readTexels(const MapLayout& layout, FloatImage& image);
 
 }  // namespace tspace

@@ -14,8 +14,8 @@ namespace tspace {
 namespace {
 
 /// Returns unit vectors, and counts texels without a direction and texels below the horizon. `far_off`: number of
-/// texels with a length that no normal map has: `bake --lengths free` and `convert-map --bits 8` write lengths from 0.7
-/// to 1.1, rounded.
+/// texels whose length is outside 0.65 to 1.15, which normal maps do not have: `bake --lengths free` and `convert-map
+/// --bits 8` write lengths from 0.7 to 1.1 before rounding.
 NormalLevel normalsOf(const FloatImage& image, std::vector<float>&& coverage, std::uint64_t& far_off,
                       CompressMapFileReport& report) {
     constexpr double kMostOff = 0.1, kShortest = 0.65, kLongest = 1.15;

@@ -178,7 +178,8 @@ std::int64_t exrByteCount(exr_const_context_t, void* data) {
 
 /// Channels to read from a file.
 struct ExrChannels {
-    /// Channels of red, green and blue. The second is empty if there is one channel, the third if there are only x and y.
+    /// Names of the channels that become red, green and blue. The second is empty if there is one channel, the third if
+    /// there are only x and y.
     std::array<std::string, 3> colors = {};
     std::string alpha = {};  ///< name of the alpha channel; empty if the image is opaque
 
@@ -194,12 +195,13 @@ struct ExrChannels {
     }
 };
 
-/// Channel names of one layer ("layer.R"; empty: no layer), without the layer name, in lower case.
+/// Channels of one layer, such as "layer.R", or of no layer (empty prefix).
 struct ExrLayer {
     std::string prefix = {};  ///< name of the layer with the dot
     std::vector<std::string_view> names = {};
 
-    /// Returns the channel with this lower-case letter; empty if there is none.
+    /// Returns the full name of the channel whose name without the prefix is this lower-case letter, in either case;
+    /// empty if there is none.
     [[nodiscard]] std::string find(const char* letter) const {
         for (const std::string_view name : names) {
             if (lowerAscii(std::string(name.substr(prefix.size()))) == letter) return std::string(name);
@@ -231,8 +233,8 @@ struct ExrLayer {
     }
 };
 
-/// Chooses channels: those without a layer first, then those of a layer whose name contains "normal", or of the only
-/// layer with vectors; finally a single channel.
+/// Chooses the channels to read, in this order: vectors without a layer; vectors of the only layer whose name contains
+/// "normal"; vectors of the only layer that has any; a single channel.
 std::optional<ExrChannels> chooseExrChannels(std::span<const std::string_view> names, std::string& why) {
     std::vector<ExrLayer> layers;
     for (const std::string_view name : names) {
@@ -370,7 +372,7 @@ class ExrReader {
         return true;
     }
 
-    /// Copies the chunk's pixels to the image, with its corner at (x, y).
+    /// Decodes a chunk into the image, with the chunk's upper left corner at (x, y).
     bool readChunk(const exr_chunk_info_t& chunk, std::uint32_t x, std::uint32_t y) {
         if (chunk.width <= 0 || chunk.height <= 0 || static_cast<std::uint32_t>(chunk.width) > size_.width - x ||
             static_cast<std::uint32_t>(chunk.height) > size_.height - y) {

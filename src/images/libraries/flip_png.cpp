@@ -62,7 +62,7 @@ void appendChanged(std::vector<std::uint8_t>& out, const Chunk& chunk, const Cha
     for (std::size_t i = 0; i < 4; ++i) out[out.size() - 4 + i] = static_cast<std::uint8_t>(sum >> (24 - 8 * i));
 }
 
-/// Inverts a color of three 16-bit numbers, of which only 8 bits are used in 8-bit images.
+/// Inverts the green of a color of three 16-bit numbers. 8-bit images use only the low byte of each number.
 void invertColor(std::span<std::uint8_t> data, std::uint8_t bits) {
     constexpr std::size_t kGreenAt = 2;
     if (data.size() != 6) return;
@@ -70,7 +70,8 @@ void invertColor(std::span<std::uint8_t> data, std::uint8_t bits) {
     data[kGreenAt + 1] ^= 0xff;
 }
 
-/// Returns the input's chunks, with modified pixels, header and colors.
+/// Returns the file with inverted green: pixel data and header are taken from `packed` (if it is not empty), the
+/// palette and the colors of tRNS and bKGD are inverted, and all other chunks are copied.
 std::vector<std::uint8_t> joinChunks(ByteSpan bytes, const std::vector<Chunk>& chunks, const PngHeader& header,
                                      const std::vector<Chunk>& packed) {
     std::vector<std::uint8_t> out;

@@ -50,8 +50,8 @@ ImageClaim claimOfWebp(ByteSpan bytes) {
     WebPBitstreamFeatures features;
     if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK) return {};
     const ImageSize size{static_cast<std::uint32_t>(features.width), static_cast<std::uint32_t>(features.height)};
-    // libwebp stores all pixels of a lossless image, and the whole alpha channel of a lossy one (8 bits, expanded from
-    // 32), in addition to the pixels that it returns.
+    // In addition to the pixels that it returns, libwebp stores all pixels of a lossless image, and the alpha channel
+    // of a lossy one, with up to 32 bits per pixel while it is decoded.
     return {size, (features.format == 2 || features.has_alpha != 0 ? 8 : 4) * size.pixels()};
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kBc7Texels = 16;
 
-/// Bits of each field of a mode.
+/// Number of subsets, and number of bits of each field, in a mode.
 struct Bc7Mode {
     std::uint8_t subsets, partition_bits, rotation_bits, selection_bits, color_bits, alpha_bits, endpoint_p, shared_p,
         index_bits, second_bits;

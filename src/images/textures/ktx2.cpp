@@ -165,7 +165,7 @@ class Ktx2Reader {
         return data.has_value();
     }
 
-    /// Checks that all levels are after the header and do not overlap.
+    /// Lists the levels, and checks that they follow the header and do not overlap.
     bool findLevel() {
         constexpr std::size_t kHeadBytes = 80, kEntry = 24, kMaxLevels = 31;
         const std::size_t count = std::max<std::uint32_t>(number(40), 1);
@@ -224,7 +224,7 @@ class Ktx2Reader {
             swizzle[i] = static_cast<std::uint8_t>(found);
         }
         texture_.swizzle = swizzle;
-        // The swizzle shows only two of the four channels, so these are x and y.
+        // The swizzle uses only two of the four channels, so these contain x and y.
         if (swizzle[0] < 4 && swizzle[1] < 4 && swizzle[2] == TextureFile::kZero && swizzle[3] == TextureFile::kOne) {
             x_ = swizzle[0];
             y_ = swizzle[1];
@@ -232,7 +232,7 @@ class Ktx2Reader {
         if (x_ != y_) setChannels(x_, y_);
     }
 
-    /// Sets the channels of the format that hold x and y, and finds the output colors that show them.
+    /// Sets the channels of the format that contain x and y, and finds the output colors that the swizzle maps them to.
     void setChannels(std::uint8_t x, std::uint8_t y) {
         x_ = x;
         y_ = y;

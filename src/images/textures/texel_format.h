@@ -57,8 +57,8 @@ enum class TexelKind : std::uint8_t {
     eacRg,
     eacRgs,
     uastc,
-    etc1s,       ///< blocks that unpackBasisLz decodes
-    etc1sAlpha,  ///< with a second slice, whose green channel is alpha
+    etc1s,       ///< blocks as unpackBasisLz returns them
+    etc1sAlpha,  ///< like etc1s, with a second slice per block, whose green channel is alpha
     astc,        ///< blocks of 4 x 4 texels; the caller sets other block sizes
     none
 };

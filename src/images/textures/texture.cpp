@@ -89,7 +89,7 @@ class TextureLevel {
     std::vector<std::uint8_t> unpacked_ = {};
 };
 
-/// Returns whether the swizzle shows alpha, so that it may differ from 1.
+/// Returns whether the alpha of decoded texels can differ from 1.
 bool hasAlpha(const TextureFile& texture) {
     const std::uint8_t source = texture.swizzle[3];
     return source != TextureFile::kOne && (source != 3 || texture.format.channels == 4);
@@ -247,7 +247,7 @@ Result<FlippedImage> flipTexture(ByteSpan bytes, ImageFileFormat format) {
         if (!image) return Error{ErrorCode::invalidFile, why};
         facts = image->texture;
     }
-    // The stored channel that contains y; usually the one that is shown as green.
+    // The stored channel that contains y; usually the one that the swizzle maps to green.
     const std::uint8_t source = texture->swizzle[static_cast<std::size_t>(facts.layout.y.channel)];
     const bool is_masked_out = texels.masks[0] != 0 && source < texels.masks.size() && texels.masks[source] == 0;
     if (source >= texels.channels || texels.channels == 1 || is_masked_out)

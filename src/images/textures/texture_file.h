@@ -28,9 +28,10 @@ struct TextureFile {
     ImageSize size = {};         ///< at most kMaxTextureSide each
     TexelFormat format = {};
     Repacking repacking = Repacking::none;
-    /// First (largest) level, as stored in the file. In a supercompressed KTX2 it may have any size.
+    /// Level `level_number`, as stored in the file. In a supercompressed KTX2 it may have any number of bytes.
     ByteSpan level = {};
-    std::size_t level_number = 0;  ///< index of the level in `level` and `size`: 0 unless another one was requested
+    /// Index of the level that `level` and `size` describe: 0 (the largest) unless another one was requested.
+    std::size_t level_number = 0;
     struct Place {
         std::size_t at = 0, bytes = 0;
     };
@@ -39,14 +40,14 @@ struct TextureFile {
     std::uint32_t cut_count = 0;
     ByteSpan global = {};                            ///< codebooks of BasisLZ
     bool is_srgb = false;                            ///< the file declares its values as sRGB
-    bool turns_columns = false, turns_rows = false;  ///< the first texel is not the top left one
+    bool turns_columns = false, turns_rows = false;  ///< columns are stored from right to left, rows from bottom to top
     /// Source of each output color: a channel of the format, or one of these constants.
     static constexpr std::uint8_t kZero = 4, kOne = 5;
     std::array<std::uint8_t, 4> swizzle = {0, 1, 2, 3};
     /// Channels of x, y and z among the output colors if the format defines them; otherwise as in glTF.
     MapLayout layout = {};
 
-    /// Returns the size of the first level, decompressed.
+    /// Returns the decompressed size of the level, in bytes.
     [[nodiscard]] std::uint64_t levelBytes() const { return format.bytesOf(size.width, size.height); }
     /// Returns a name such as "BC5 in a DDS".
     [[nodiscard]] std::string name() const {
@@ -62,7 +63,7 @@ Result<TextureFile> readTextureHeader(ByteSpan bytes);
 Result<TextureFile> readKtx2Header(ByteSpan bytes);
 Result<TextureFile> readDdsHeader(ByteSpan bytes);
 
-/// Unpacks the blocks of the first level from BasisLZ. Returns false if it is corrupt.
+/// Unpacks the blocks of texture.level from BasisLZ. Returns false if the data is corrupt.
 bool unpackBasisLz(const TextureFile& texture, std::span<std::uint8_t> blocks);
 
 /// Returns why ASTC cannot be read, or null if it can.

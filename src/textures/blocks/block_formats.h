@@ -141,8 +141,8 @@ class Bc4Format {
     float most_;
 };
 
-/// EAC block format. Palettes are in steps of 1 / 2047 (signed: 1 / 2046), with a base in steps of 8, plus the
-/// modifiers of one of 16 tables, multiplied by 8 and a multiplier of up to 15, or by 1. `kind`: index of the table.
+/// EAC block format, in steps of 1 / 2047 (signed: 1 / 2046). A value is a base, which is a multiple of 8, plus a
+/// modifier from one of 16 tables, multiplied by 1 or by a multiple of 8 up to 8 * 15. `kind`: index of the table.
 class EacFormat {
   public:
     explicit EacFormat(bool is_signed)

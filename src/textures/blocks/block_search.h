@@ -28,7 +28,8 @@ using Stencil = std::array<float, 9>;
 struct ChannelBlock {
     std::array<bool, 16> is_used = {};   ///< false: the texel lies beyond the edge of the image
     std::array<float, 16> targets = {};  ///< target of each texel, in steps of the format, 0 to `most`
-    /// Rows of H; entries for texels outside the block are contained in `pull` only.
+    /// Rows of H. They contain entries for texels outside the block too, but the errors of these texels are fixed, so
+    /// they contribute to `pull` only.
     std::array<Stencil, 16> mix = {};
     std::array<float, 16> own_parts = {};  ///< for each row of H: the sum of its entries for texels inside the block
     std::array<float, 16> pull = {};       ///< vector g of each texel
@@ -51,7 +52,7 @@ struct FittedChannel {
 struct SearchEffort {
     bool all_starts = true;  ///< true: start with palettes of all kinds; false: only of the most common kind
     int start_fits = 1;      ///< number of least-squares fits per start
-    float near_range = 0;    ///< blocks with a smaller range try all palettes within it, in steps of 8 bits
+    float near_range = 0;    ///< blocks whose range is below this try all palettes within the range; in units of 1/255
     /// Blocks with few distinct values try all palettes whose endpoints are near the extremes.
     bool few_values = false;
     int sweeps = 1;
@@ -63,7 +64,7 @@ class BlockSearch {
   public:
     BlockSearch(const Format& format, const ChannelBlock& block) : format_(format), block_(block) {}
 
-    /// Returns the best encoding of each texel, chosen independently of its neighbors.
+    /// Returns the best encoding if the error of each texel counts by itself, independently of its neighbors.
     FittedChannel bestIndependent(const SearchEffort& effort) {
         constexpr std::size_t kDescents = 3;
         chooseStarts(block_.targets, effort, kDescents);

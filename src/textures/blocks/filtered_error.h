@@ -15,8 +15,8 @@ struct FilteredError {
 };
 
 /// Compares the shading normals at 3 x 3 points per texel (in a subset of the rows for more than 4 million texels).
-/// `truth` is filtered and normalized, and so is `texels`; with `makes_z`, its x and y are filtered, and z is computed
-/// from them. The map repeats. The result does not depend on the number of threads.
+/// `truth` and `texels` are filtered and normalized. With `makes_z`, only x and y of `texels` are filtered, and z is
+/// computed from them. The map repeats. The result does not depend on the number of threads.
 FilteredError measureFiltered(const NormalLevel& truth, std::span<const Vec3> texels, bool makes_z, Parallel& parallel);
 
 }  // namespace tspace

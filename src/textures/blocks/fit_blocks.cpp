@@ -94,8 +94,8 @@ class FilteredForm {
             for (const Vec2& one : off)
                 off_by += 0.25F * (metric.x * one.x * one.x + 2 * metric.y * one.x * one.y + metric.z * one.y * one.y);
             // At a hard edge, unweighted squares would spread an error that no texels can remove over the flat areas
-            // next to it. An error of half a degree halves the weight: the least-squares error of the seven kinds of
-            // maps is then 0.885 of the mean instead of 0.889, with no loss at the 99th percentile.
+            // next to it. An error of half a degree halves the weight. This reduces the mean error of seven kinds of
+            // maps by 0.4 %, and does not increase the 99th percentile.
             constexpr float kUsual = 0.5F / 57.29578F;
             metric = (kUsual / (kUsual + std::sqrt(off_by))) * metric;
             metrics_[row + x] = metric;
@@ -150,8 +150,7 @@ class FilteredForm {
     std::vector<Vec2> best_;
 };
 
-/// Palette of a channel of a block, which is kept between rounds. The errors of its texels are stored for the whole
-/// level.
+/// Palette of a channel of a block, kept between rounds. The errors of its texels are stored for the whole level.
 struct KeptChannel {
     Palette palette = {};
     std::array<std::int8_t, 16> codes = {};

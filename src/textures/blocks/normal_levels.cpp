@@ -24,7 +24,7 @@ struct MeanLevel {
 std::vector<Cover> coversOf(std::uint32_t from, std::uint32_t to) {
     std::vector<Cover> covers(to);
     for (std::uint32_t i = 0; i < to; ++i) {
-        // Texel edges in units of 1 / to of a texel, in which they are integers.
+        // Edges of texel i in units of 1 / to of a source texel, so that they are integers.
         const std::uint64_t begin = std::uint64_t{i} * from, end = begin + from;
         covers[i].begin = static_cast<std::size_t>(begin / to);
         for (std::uint64_t texel = begin / to; texel * to < end; ++texel) {

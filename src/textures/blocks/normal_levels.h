@@ -13,8 +13,8 @@ namespace tspace {
 struct NormalLevel {
     std::uint32_t width = 0, height = 0;
     std::vector<Vec3> normals = {};  ///< unit normal of each texel
-    /// Spread of the covered normals around the texel's normal n: 1 - mean (m . n)^2, the trace of their covariance
-    /// perpendicular to it. Empty unless requested.
+    /// Spread of the covered normals m around the texel's normal n: 1 - mean((m . n)^2), which is the mean squared part
+    /// of m perpendicular to n. Empty unless requested.
     std::vector<float> spreads = {};
     /// Fraction of each texel that is surface, 0 to 1; empty: fully covered.
     std::vector<float> coverage = {};
@@ -29,9 +29,9 @@ struct Cover {
 std::vector<Cover> coversOf(std::uint32_t from, std::uint32_t to);
 
 /// Returns the given level and all smaller ones down to 1 x 1, each half as wide and high, rounded down. A texel of any
-/// level is the normalized mean of the normals that it covers in the first level, weighted by area and coverage, or z
-/// if that mean has no direction. A texel without coverage, in any level including the first, gets the normal of the
-/// next smaller level, so that filters at silhouettes read no unrelated direction. Memory: twice that of the first
+/// level is the normalized mean of the normals that it covers in the first level, weighted by area and coverage, or (0,
+/// 0, 1) if that mean has no direction. A texel without coverage, in any level including the first, gets the normal of
+/// the next smaller level, so that filters at silhouettes read no unrelated direction. Memory: twice that of the first
 /// level, four times with spreads. The result does not depend on the number of threads.
 std::vector<NormalLevel> makeNormalLevels(NormalLevel first, Parallel& parallel, bool with_spreads = false);
 
