@@ -100,7 +100,7 @@ Error caughtError() {
     } catch (const Cancelled&) {
         return {ErrorCode::cancelled, "the call was canceled before it finished"};
     } catch (...) {
-        // This message is longer, so std::string allocates memory for it, which may fail.
+        // The message has more than 15 characters, so std::string allocates memory for it, which may fail.
         try {
             return {ErrorCode::internal, "internal error: an unexpected exception occurred"};
         } catch (...) {
@@ -111,7 +111,7 @@ Error caughtError() {
 
 #else
 
-// Defined by the program that links the library: bindings without exceptions abort the call there.
+// The program that links the library defines this function. In bindings without exceptions, it aborts the call.
 extern "C" [[noreturn]] void tspace_endCallOutOfMemory(void);
 void throwOutOfMemory() { tspace_endCallOutOfMemory(); }
 

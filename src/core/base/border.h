@@ -71,7 +71,8 @@ Error checkSpan(const StridedSpan<T>& span, std::size_t expected_count, const ch
 /// Performs the checks of validate(). With `parallel`, all threads check indices.
 Error checkMesh(const MeshView& mesh, Parallel* parallel = nullptr);
 
-/// Checks that indices exist and that each is below `vertex_count`, with `parallel` on all threads. Error as checkSpan.
+/// Checks type, pointer and alignment of `indices`, and that each index is below `vertex_count`; with `parallel`, on
+/// all threads. Returns an Error like checkSpan.
 Error checkIndices(const IndexView& indices, std::size_t vertex_count, Parallel* parallel = nullptr);
 
 /// Options and execution of a call, which are passed together below the API boundary.

@@ -131,7 +131,7 @@ class Buffer {
 // Requests that do not fit into the block are passed to the caller's allocator.
 
 /// Allocator for the duration of a call: allocates from a block in order. Memory is reused if the most recent buffer is
-/// released first. For the calling thread only, like every allocator.
+/// released first. Like every Allocator, it is used by the calling thread only.
 class ScratchBlock {
   public:
     ScratchBlock(const Allocator* parent, std::size_t bytes)

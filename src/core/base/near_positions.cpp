@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Hash grid with cells of four times the weld distance: a position is compared with the cells within the distance, in
-// most cases one. The table only contains positions that others may join, so that chains of close positions are not all
-// welded, and cells have few entries.
+// most cases one. Positions that were welded to another one are not added to the table, so chains of close positions
+// are not all welded together, and cells have few entries.
 #include "core/base/near_positions.h"
 
 #include <algorithm>
@@ -20,9 +20,9 @@ namespace tspace {
 namespace {
 
 constexpr std::uint32_t kNoVertexNear = 0xffffffffu;
-/// Parameters of weld_auto: the weld distance, in float spacings, and the minimum edge length, in weld distances.
-/// Meshes so far from the origin that their edges are shorter are not welded, which preserves what is left of their
-/// shape.
+/// Parameters of weld_auto: the weld distance, in float spacings, and the minimum length of the longest edge at a
+/// vertex, in weld distances. Vertices with shorter edges are not welded, which preserves the shape of meshes far from
+/// the origin.
 constexpr double kSpacings = 2, kLeastEdge = 32;
 constexpr double kCellWidth = 4;
 

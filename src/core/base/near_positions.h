@@ -23,7 +23,7 @@ class NearPositions {
     /// Returns whether no positions are welded.
     [[nodiscard]] bool empty() const { return roots_.empty(); }
     /// Returns the positions of the mesh, or of a pose of it, each replaced by the position of the vertex it is welded
-    /// to. In a pose this only applies to vertices that are also close there.
+    /// to. Vertices that a pose moves apart by more than the weld distance keep their own positions.
     [[nodiscard]] Buffer<Vec3> moved(StridedSpan<const Vec3> positions) const;
 
   private:
@@ -35,7 +35,7 @@ class NearPositions {
 /// Returns an Error, with code ok for a valid weld_distance: a nonnegative length, or NormalOptions::weld_auto.
 Error checkWeldDistance(float distance);
 
-/// View of a mesh with the positions of NearPositions. `mesh` must outlive it.
+/// View of a mesh in which positions are replaced by NearPositions::moved. `mesh` must outlive it.
 class NearMesh {
   public:
     NearMesh(const MeshView& mesh, float distance, const Allocator* allocator, Parallel& parallel)

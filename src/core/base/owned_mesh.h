@@ -15,7 +15,7 @@ namespace tspace {
 /// Arrays of a mesh, with tangents; used by all classes that own a mesh.
 struct OwnedMesh {
     std::vector<Vec3> positions = {};
-    std::vector<Vec3> normals = {};  ///< one normal per vertex, or empty; also for tangents and uvs
+    std::vector<Vec3> normals = {};  ///< one per vertex, or empty, like tangents and uvs
     std::vector<Vec4> tangents = {};
     std::vector<Vec2> uvs = {};
     std::vector<std::uint32_t> indices = {};     ///< one per corner; empty: every corner has its own vertex
@@ -28,7 +28,7 @@ struct OwnedMesh {
         return mesh;
     }
 
-    /// Appends `count` vertices of another mesh, starting at `first`, to the arrays that this mesh has.
+    /// Appends `count` vertices of another mesh, starting at `first`. Attributes that `from` lacks are unchanged.
     void addVertices(const OwnedMesh& from, std::size_t first, std::size_t count) {
         const auto add = [&](const auto& values, auto& to) {
             if (values.empty()) return;

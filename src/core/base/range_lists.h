@@ -22,8 +22,8 @@ class TriangleGroups {
     TriangleGroups(const TriangleGroups&) = delete;
     TriangleGroups& operator=(const TriangleGroups&) = delete;
 
-    /// Writes three numbers per triangle to both arrays; `vertices` may be null. A number that is not a group (2^31 or
-    /// more, and above all groups) means no contribution.
+    /// Writes three numbers per triangle to both arrays; `vertices` may be null. A group number of 2^31 or more, which
+    /// no group has, means that the corner contributes to no group.
     virtual void read(std::size_t first, std::size_t triangles, std::uint32_t* vertices,
                       std::uint32_t* groups) const = 0;
     /// Like read(), for any list of triangles.
@@ -119,7 +119,7 @@ class RangeLists {
     class Batches {
       public:
         Batches(const TriangleGroups& triangles, const RangeLists& lists, std::size_t range);
-        /// Iterates over all triangles of some blocks, whatever their groups.
+        /// Iterates over all triangles of the blocks [begin, end), whatever their groups.
         Batches(const TriangleGroups& triangles, std::size_t block_size, std::size_t begin, std::size_t end)
             : triangles_(triangles), block_size_(block_size), next_(begin), end_(end) {}
         /// Reads the next batch; returns false at the end. Reads only groups if `needs_vertices` is false.
@@ -133,8 +133,8 @@ class RangeLists {
         std::size_t next_, end_;                  ///< positions of the next and the last batch, in entries or blocks
     };
 
-    /// Returns the list of a range, ascending: blocks that contribute only to this range, with kBlock; single triangles
-    /// of other blocks.
+    /// Returns the list of a range, in ascending order: blocks that contribute only to this range, with the flag
+    /// kBlock, and single triangles of other blocks.
     static constexpr std::uint32_t kBlock = 0x80000000u;
     [[nodiscard]] std::span<const std::uint32_t> entries(std::size_t range) const {
         return {entries_.data() + begin_[range], begin_[range + 1] - begin_[range]};
@@ -183,7 +183,7 @@ class SumRound {
 class SumRounds {
   public:
     /// `most_rows`: maximum over all passes. `adding_corners`: 3, or 1 if only the first corner of each triangle
-    /// contributes. Uses up to 1 MB per task and range_lists.h. Throws OutOfMemory.
+    /// contributes. Uses up to 1 MB per task, and the memory of RangeLists. Throws OutOfMemory.
     SumRounds(const TriangleGroups& triangles, std::size_t adding_corners, std::size_t group_count,
               std::size_t most_rows, const Allocator* allocator, Parallel& parallel);
 
@@ -206,14 +206,15 @@ class SumRounds {
 struct InputScale {
     float positions = 1, uvs = 1;
 
-    /// Returns the factor for lengths of dP/du in scaled units.
+    /// Returns the factor that converts lengths of dP/du and dP/dv from scaled to original units.
     [[nodiscard]] float lengthFactor() const {
         return static_cast<float>(std::clamp(static_cast<double>(uvs) / positions, double{FLT_MIN}, double{FLT_MAX}));
     }
 };
 
-/// Computes the scale from a sample of at most 1024 triangles, so that it does not depend on shared vertices, nor on
-/// unused vertices. Zeros, values that are not finite, and degenerate triangles are ignored. `uvs` may be empty.
+/// Computes the scale from a sample of at most 1024 triangles, so that it depends neither on how triangles share
+/// vertices nor on unused vertices. Zeros, values that are not finite, and degenerate triangles are ignored. `uvs` may
+/// be empty.
 InputScale inputScale(const TriangleGroups& triangles, const StridedSpan<const Vec3>& positions,
                       const StridedSpan<const Vec2>& uvs);
 

@@ -148,7 +148,7 @@ inline double polarAngle(double x, double y) {
     const double large = width < y ? y : width;
     if (large == 0) return 0;
 
-    // atan(s) = atan(c) + atan((s - c) / (1 + s c)), with c the quarter nearest to s, leaves |t| <= 1/8.
+    // atan(s) = atan(c) + atan(t) with t = (s - c) / (1 + s c). If c is the multiple of 1/4 nearest to s, |t| <= 1/8.
     constexpr double kAtanOfQuarters[5] = {0, 0.24497866312686414, 0.46364760900080615, 0.64350110879328437,
                                            0.78539816339744828};
     const int quarter = static_cast<int>(small / large * 4 + 0.5);

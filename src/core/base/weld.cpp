@@ -142,7 +142,7 @@ class Welder {
     }
 
   private:
-    static constexpr std::size_t kFew = 4096;  // maximum number of vertices that are all looked up
+    static constexpr std::size_t kFew = 4096;  // up to this number of vertices, all are looked up
 
     struct Slot {
         std::uint32_t hash = 0, vertex = Weldable::kNoRoot;
@@ -247,8 +247,8 @@ class Welder {
         return true;
     }
 
-    /// Finds the roots of vertices that share their hash with different vertices, by sorting. A NaN never equals its
-    /// neighbor in the order.
+    /// Finds the roots of vertices that share their hash with different vertices, by sorting. A vertex that does not
+    /// equal its predecessor in the order becomes its own root.
     [[gnu::cold]] void matchBySorting() {
         std::uint32_t* const roots = roots_.data();
         Buffer<std::uint32_t> rest(

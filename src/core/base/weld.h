@@ -10,7 +10,7 @@
 
 namespace tspace {
 
-/// Vertices to compare. A vertex with a NaN does not equal itself, and equals no other vertex.
+/// Vertices to compare. The implementation defines which vertices are equal, also if they contain a NaN.
 class Weldable {
   public:
     static constexpr std::uint32_t kNoRoot = 0xffffffffu;

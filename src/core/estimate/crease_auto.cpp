@@ -321,10 +321,9 @@ void filterNormals(CreaseFinder& finder) {
         filterFaces(finder, nearOf, per_turn, passes);
 }
 
-/// Returns whether less than a quarter of the edges, by length, is flat within 8 degrees. For shapes with sharp
-/// edges, decimated to 1 % or less, a quarter is within 4 degrees; for smooth shapes with so few triangles that the
-/// histogram has no gap, a quarter is within 12 (scripts/accuracy --kinds): their edges have angles of 40 degrees
-/// and more, and are soft.
+/// Returns whether less than a quarter of the edges, by length, has angles of up to 8 degrees. In shapes with sharp
+/// edges, decimated to 1 % or less, the flattest quarter reaches 4 degrees. In smooth shapes with so few triangles that
+/// the histogram has no gap, it reaches 12 (scripts/accuracy --kinds); their edges of 40 degrees and more are soft.
 bool isBentEverywhere(const Histogram& angles) {
     double flat = 0;
     for (std::size_t bin = 0; bin < 8; ++bin) flat += angles.lengths[bin];

@@ -16,11 +16,11 @@ struct Creases {
     Buffer<EdgeKind> edges = {};  ///< edge kind of each corner
 };
 
-/// Finds hard edges from the histogram of dihedral angles: the threshold is in the widest gap between the angles of
-/// most edges and those of few edges. For noisy positions, uses faces whose normals were smoothed except across edges.
-/// Then removes creases of one edge, and closes gaps of one edge. Requires a validated mesh and options.
-/// Uses NormalGroups (denoise.h), then 57 bytes per corner. O(n log n) for points with many edges, otherwise linear.
-/// Throws OutOfMemory.
+/// Finds hard edges from the histogram of dihedral angles: the threshold is the middle of its widest gap, between the
+/// many small angles and the few large ones. For noisy positions, uses faces whose normals were smoothed except across
+/// edges. Then removes creases of one edge, and closes gaps of one edge. Requires a validated mesh and options.
+/// Memory: that of NormalGroups (denoise.h), then 57 bytes per corner. O(n log n) for points with many edges, otherwise
+/// linear. Throws OutOfMemory.
 /// Based on: Zheng, Fu, Au & Tai, "Bilateral Normal Filtering for Mesh Denoising", 2011.
 Creases findCreases(const MeshView& mesh, const NormalOptions& options, const Execution& execution, Parallel& parallel);
 

@@ -84,8 +84,8 @@ Dihedrals sampleDihedrals(const NormalGroups& groups, std::size_t all, const All
     return found;
 }
 
-/// Noise of 1 edge length rotates edges by 110 to 160 degrees in the median; the minimum measured, on shapes with many
-/// sharp edges, is 78. Decimated shapes with sharp edges, whose faces are flat, stay below 31.
+/// Median dihedral angle, in degrees, per edge length of noise: 110 to 160 on most shapes, and at least 78, on shapes
+/// with many sharp edges. Decimated shapes with sharp edges, whose faces are flat, stay below 31.
 constexpr double kTurnOfNoise = 126, kLeastTurnOfNoise = 90;
 
 }  // namespace
@@ -97,7 +97,7 @@ double noisePart(double sigma, double kink_share, const Dihedrals& dihedrals) {
     const double high = std::min(0.4, kNoisyShare + 3 * sigma);
     const double turn = dihedrals.median / (kTurnOfNoise * sigma);
     // Noise leaves no edge flat: the lower quartile of its dihedral angles is 0.36 to 0.49 of their median. Decimated
-    // meshes have flat faces: there it is at most 0.3 (eleven shapes).
+    // meshes have flat faces: their ratio is at most 0.3 (eleven shapes).
     const double part = std::min(sigma, dihedrals.median / kLeastTurnOfNoise) * smoothStep(high / 2, high, kink_share) *
                         smoothStep(0.25, 0.5, turn) * smoothStep(0.31, 0.36, dihedrals.quarter / dihedrals.median);
     return part >= kLeast ? part : 0;

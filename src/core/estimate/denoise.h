@@ -58,15 +58,15 @@ class NormalGroups {
     [[nodiscard]] Float4 position(std::size_t group) const { return loadFloat4(positions_.data() + 4 * group); }
     /// Returns the area-weighted unit mean of the face normals, or zero.
     [[nodiscard]] Float4 areaNormal(std::size_t group) const { return loadFloat4(normals_.data() + 4 * group); }
-    /// Returns the variance of the direction of areaNormal (of both angles together, in rad^2) if noise moves all
-    /// points except this one by 1 along the normal. Infinite if there is no area normal.
+    /// Returns the variance of the direction of areaNormal (the sum for both angles, in rad^2) for noise that moves all
+    /// points except this one along the normal, with a standard deviation of 1. Infinite if there is no area normal.
     [[nodiscard]] float areaVariance(std::size_t group) const { return variances_[group]; }
     [[nodiscard]] std::span<const std::uint32_t> neighbors(std::size_t group) const {
         return {neighbors_.data() + begins_[group], counts_[group]};
     }
 
     /// Calls body(i, group, marks) for i in [0, count), where group = groupOf(i); each group may occur once. `marks`:
-    /// one number per group, initially not the number of any group.
+    /// scratch memory with one entry per group; at the start of each task, no entry is the number of a group.
     template <class GroupOf, class Body>
     void forSome(std::size_t count, const GroupOf& groupOf, const Body& body) const {
         constexpr std::size_t kChunk = 256;
@@ -342,7 +342,8 @@ std::size_t sampledPlace(std::size_t number, std::size_t count, std::size_t all)
 /// Returns the median; reorders the values.
 double medianOf(float* begin, float* end);
 
-/// Reported noise (PositionNoise::noise of at least 0.03) requires a kink share of 0.22, for any sigma (noisePart).
+/// Kink share up to which noise is never reported: a PositionNoise::noise of 0.03 or more requires a kink share of at
+/// least 0.22, for any sigma (noisePart).
 inline constexpr double kFewKinks = 0.2;
 
 /// Returns whether a validated triangle mesh may have at least this noise (PositionNoise::noise). The result false is

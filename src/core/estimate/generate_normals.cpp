@@ -18,8 +18,8 @@ namespace tspace {
 
 namespace {
 
-/// Time of `best`, and of creases, relative to other weightings, approximately. Both take longer because each point
-/// groups its faces.
+/// Time of `best`, and of creases, relative to other weightings, approximately. Both take longer because they group the
+/// faces around each point.
 constexpr std::uint64_t kSlow = 4;
 
 Error checkOptions(const MeshView& mesh, const NormalOptions& options) {

@@ -16,8 +16,8 @@ namespace tspace {
 namespace {
 
 constexpr std::size_t kEdges = 512;
-/// Maximum number of points in the two rings around the sampled edge ends. Most meshes have 20,000 there; more than
-/// kMostPoints indicate triangle fans.
+/// Maximum number of points in the two rings around the sampled edge ends. Most meshes have about 20,000 of these; more
+/// than kMostPoints indicate triangle fans.
 constexpr std::size_t kMostPoints = 32768;
 
 /// Safety factors for the values that all vertices would give. For sigma: three standard errors, each 5.3 % for the
@@ -97,8 +97,8 @@ class NoiseScreen {
     bool mayHave(double noise) {
         sampleEdges();
         if (edge_count_ == 0) return false;
-        // These normals show more kinks than the normals of `best` (measured on 235 primitives); the error of the
-        // median is 0.02.
+        // The kink share of these normals is larger than that of the normals of `best` (measured on 235 primitives), so
+        // a low share is reliable. The error of the median is 0.02.
         const double kinks = kinkShareOfEdges(noise);
         if (kinks <= kFewKinks) return false;
         const std::optional<Roughness> roughness = roughnessAroundEdges();

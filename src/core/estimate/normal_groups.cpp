@@ -15,7 +15,8 @@ CornerGroups::CornerGroups(const NormalsCall& call, Buffer<std::uint32_t> compon
     if (numbers_.empty()) return;
     std::uint32_t count = 0;
     for (std::uint32_t c = 0; c < numbers_.size(); ++c) {
-        const std::uint32_t lowest = numbers_[c];  // already numbered, unless it is this corner
+        // the component's first corner; if it is not c, its entry is already its number
+        const std::uint32_t lowest = numbers_[c];
         numbers_[c] = lowest == c ? count++ : numbers_[lowest];
     }
     count_ = count;

@@ -12,7 +12,8 @@ namespace tspace {
 
 namespace {
 
-// Sine of an angle below which the angle between two float directions (relative error 6e-8) is rounding noise.
+// Sine of the angle below which two float directions count as parallel: smaller angles are rounding noise (each
+// direction has a relative error of 6e-8).
 constexpr double kParallelSine = 1e-6;
 
 Vec3 unitOr(DVec3 v, const Vec3& substitute) { return normalize(v) ? toFloat(v) : substitute; }
@@ -39,7 +40,7 @@ DFrame orthonormal(const Frame& frame) {
     DFrame f = toDouble(frame);
     if (!normalize(f.normal)) f.normal = {0, 0, 1};
     if (!reject(f.tangent, f.normal)) f.tangent = planeAxes(f.normal).x;
-    // In three dimensions only one line is orthogonal to both; B determines the direction along it.
+    // In three dimensions, only one line is orthogonal to both N and T; B determines the direction along it.
     const DVec3 side = cross(f.normal, f.tangent);
     const double along = dot(f.bitangent, side);
     const bool backwards = std::isfinite(along) && along < -kParallelSine * length(f.bitangent);

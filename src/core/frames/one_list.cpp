@@ -9,7 +9,8 @@ namespace tspace {
 
 namespace {
 
-/// Returns, for each vertex, its entry of an attribute: from its corner in the attribute's own list, or its own index.
+/// Returns, for each new vertex, the index of its attribute entry: from the attribute's index list, at the vertex's
+/// source corner, or, without a list, the source vertex.
 std::vector<std::uint32_t> sourcesOf(const IndexView& list, const SplitResult& split) {
     if (list.type == IndexType::none) return split.source_vertices;
     std::vector<std::uint32_t> sources(split.vertexCount());
@@ -51,7 +52,8 @@ Result<Done> useOneList(const MeshView& mesh, const Execution& execution, OneLis
                                               corner_count, attributes, execution);
     if (!split) return std::move(split).error();
     if (!welded.empty()) {
-        // Without indices, each corner is a vertex, and the new vertex gets the other attributes of that vertex.
+        // In a mesh without indices, each corner has its own vertex: a new vertex copies all attributes of the vertex
+        // of its source corner.
         for (std::size_t v = 0; v < split->vertexCount(); ++v) {
             if (split->source_corners[v] != kNoCorner) split->source_vertices[v] = split->source_corners[v];
         }

@@ -20,7 +20,8 @@ struct OneListMesh {
     /// arrays of the new vertices; normals are zero for vertices that no corner uses
     OwnedMesh own = {};
     std::vector<std::uint32_t> source_vertices = {};  ///< one per vertex: the vertex of the input mesh
-    std::vector<std::uint32_t> source_normals = {};  ///< index of the source normal, or kNoCorner if no corner uses one
+    /// source normal of each vertex; kNoCorner: no corner uses the vertex
+    std::vector<std::uint32_t> source_normals = {};
     MeshView view = {};  ///< view of these arrays, with the faces of the input mesh; the struct must not be moved
 
     OneListMesh() = default;

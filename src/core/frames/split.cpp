@@ -83,8 +83,8 @@ class Variants {
     Variants(AttributeSpan attributes, SplitResult& result)
         : attributes_(attributes), corners_(result.source_corners), next_(result.source_vertices) {}
 
-    /// Returns the new vertex for a corner of `vertex` that differs from its first corner: its earliest variant that
-    /// equals the corner, or a new one.
+    /// Returns the new vertex for a corner that differs from the first corner of `vertex`: the earliest variant of
+    /// `vertex` that equals the corner, or a new variant.
     std::uint32_t variantOf(std::uint32_t corner, std::uint32_t vertex) {
         if (next_.empty()) resizeAtOnce(next_, corners_.size(), corners_.capacity(), kNoVariant);
         std::uint32_t variant = vertex;
@@ -178,8 +178,8 @@ class Variants {
 };
 
 /// Writes the corners of a range that differ from the first corner of their vertex to `different`, and returns their
-/// number. Also sets first corners (`firsts`, for all vertices). For exact attributes with these component counts, in
-/// this order; for any attributes if none are given.
+/// number. Also sets first corners (`firsts`, for all vertices). `Counts`: component counts of the attributes, in this
+/// order, which are compared exactly; without Counts, attributes may have any tolerance.
 template <std::uint32_t... Counts>
 std::size_t listDifferent(AttributeSpan attributes, std::uint32_t corner, std::size_t count,
                           const std::uint32_t* vertices, std::uint32_t* firsts, std::uint32_t* different) {

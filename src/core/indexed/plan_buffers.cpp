@@ -275,7 +275,7 @@ class BufferWriter {
         std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
             return std::tie(a.source, a.component, a.result) < std::tie(b.source, b.component, b.result);
         });
-        WordList first_like(count);  // first result with the same entries as each result
+        WordList first_like(count);  // for each result: the first result with the same entries
         for (std::size_t i = 0, first = 0; i < count; ++i) {
             if (!keys[i].isLike(keys[first])) first = i;
             first_like[keys[i].result] = keys[first].result;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Kernels of BestKernels: the normal of the quadratic surface through the edges around a point, or, if the edges look
 // like noise or a bevel, the mean by angle * area; in between a blend. Uses sums in single precision, so no list of the
-// corners around a point is needed.
+// corners around a point is needed. Below, sharp normals are the means by `max`, and robust normals those by angle *
+// area.
 // Based on: Zhang & Naga, "A New Finite Element Gradient Recovery Method: Superconvergence Property", 2005 (a quadratic
 // fit around each point, here of the height above a plane; a ridge keeps it solvable); Max, "Weights for Computing
 // Vertex Normals from Facet Normals", 1999 (the plane).
@@ -33,11 +34,11 @@ constexpr double kFillet = 1.3;
 // bend (as in kJump, in radians) from which kKink and kFillet apply fully: in fine meshes both misfits are small, and
 // their ratio is random
 constexpr double kBent = 1.25;
-// angle over the longest edge if all of it bent like the most bent edge, in radians, times the sine between the two
-// means
+// angle, in radians, by which the longest edge would bend with the curvature of the most bent edge, times the sine of
+// the angle between the two means
 constexpr double kJump = 2.5;
 constexpr double kTurn = 0.8;     // twice the sine of half the angle between the sharp normals at an edge's ends
-constexpr double kSpread = 0.42;  // sine between fit and robust mean
+constexpr double kSpread = 0.42;  // sine of the angle between the fitted normal and the robust mean
 
 // Ridge regularization relative to the quadratic part: enough for rings with too few edges, and negligible elsewhere.
 // It weights second derivatives by their Frobenius norm, as the method `best` for tangents does
@@ -50,7 +51,7 @@ constexpr std::size_t kFitStep = 12 * kFitRows;  // floats per triangle
 
 // Values at which a refinement step has half of its effect, tuned like the doubts above.
 constexpr double kStepLeft = 0.5;          // ratio of the unexplained to the explained change of the normal
-constexpr double kStepNoise = 1.0 / 30.0;  // part of the step's residual relative to the angles of the edges
+constexpr double kStepNoise = 1.0 / 30.0;  // ratio of the unexplained change to the bend of the edges
 
 constexpr std::size_t kStepStride = 12 * kStepRows;  // floats per triangle
 
@@ -282,8 +283,8 @@ inline Vectors fittedNormal(const Plane& plane, const PointSums& s, const Slopes
             select(sound, inverse * n.z, plane.n.z)};
 }
 
-/// Limits x to kNoTrust. 0/0 occurs on a plane, where all normals are equal and trust does not matter; an overflow is
-/// certain doubt.
+/// Limits x to kNoTrust, which an overflow also becomes. 0/0 becomes 0: it occurs on a plane, where all normals are
+/// equal and trust does not matter.
 inline Floats bounded(Floats x) {
     const Floats most = broadcast(static_cast<float>(kNoTrust));
     return select(x < most, x, keep(absolute(x) > zero(), most));
@@ -374,7 +375,7 @@ void addStep(const BestSource& source, const std::uint32_t* vertices, const std:
 }
 
 /// Finishes a refinement step. It rotates the normal by at most 14 degrees, even if the edges barely span the plane:
-/// the tangent of the rotation is x / (1 + x^2) / 2.
+/// the tangent of the rotation is at most x / (1 + x^2) / 2, where x is the length of `lean`.
 void finishStep(float* sums, const float* normals, const float*, std::size_t count) {
     constexpr std::size_t kStep = 4 * kStepRows;
     const Floats one = broadcast(1.0f), half = broadcast(0.5f);
@@ -390,7 +391,7 @@ void finishStep(float* sums, const float* normals, const float*, std::size_t cou
         const Slopes slopes(xx, xy, yy);
         const Flat lean = minus(one) * slopes.solve(xm, ym);
         const Floats explained = minus(lean.x * xm + lean.y * ym), left = larger(mm - explained, zero());
-        // This is NaN if the edges leave no residual to explain.
+        // NaN if the edges leave no residual to explain; the normal is then unchanged.
         const Floats share =
             half / (trust(kStepLeft, left / explained) * trust(kStepNoise, left / turn) * (one + dot(lean, lean)));
         const Plane plane(n);

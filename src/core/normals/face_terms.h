@@ -49,9 +49,9 @@ struct FaceKernel {
     /// [begin, end).
     void (*add)(const FaceTerms& terms, const std::uint32_t* points, std::size_t count, double* sums,
                 std::uint32_t begin, std::uint32_t end);
-    /// Finishes `count` rows of sums, a multiple of kTermGroup: writes four floats to the front of each row: the unit
-    /// normal and 0, or three zeros and -0 if the sum is not above `least` times the weights (the fourth number).
-    /// Returns the number of such rows that have weights.
+    /// Finishes `count` rows of sums, a multiple of kTermGroup. The first four floats of each row become the unit
+    /// normal and 0, or three zeros and -0 if the sum is not above `least` times the weights (the fourth number of the
+    /// row). Returns the number of rows that have weights but no normal.
     std::uint64_t (*finish)(double* sums, std::size_t count, double least);
 };
 
@@ -69,8 +69,8 @@ inline FaceKernel faceKernelFor(SimdTarget requested) {
 struct BestSource {
     FaceSource faces;  ///< faces, whose weights are not used
     float scale = 1;   ///< scale factor of positions: a power of four that brings them close to 1
-    /// Means by angle * area, and by `max`; four bytes after each are also read. A step reads the normals of the
-    /// previous pass as `robust`; zero normals remain zero, and edges to them are ignored.
+    /// Means by angle * area, and by `max`; the four bytes after each array are also read. A step reads the normals of
+    /// the previous pass as `robust`; zero normals remain zero, and edges to them are ignored.
     const Vec3 *robust = nullptr, *sharp = nullptr;
 };
 

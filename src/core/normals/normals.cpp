@@ -38,7 +38,7 @@ struct Fours {
 
 class BestRound final : public SumRound {
   public:
-    /// `to`: the result of each group. The source must not read it, except for the means by `max` in their own pass.
+    /// `to`: output, one normal per group. It must not be an array whose values this pass uses.
     BestRound(const BestKernel& kernel, const BestSource& source, StridedSpan<Vec3> to)
         : SumRound(kernel.row_count, kernel.row_count == kFitRows), kernel_(kernel), source_(source), to_(to) {}
 

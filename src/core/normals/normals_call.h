@@ -89,7 +89,8 @@ class PointItems final : public TriangleGroups {
     const MeshView& mesh_;
     const MeshFaces& faces_;
     const Buffer<std::uint32_t>& points_;
-    const std::uint32_t* in_place_;  ///< the indices; null if they are not triangles with 32-bit numbers
+    /// the mesh indices, if all faces are triangles and indices have 32 bits; otherwise null
+    const std::uint32_t* in_place_;
     /// Cached results of inPlace, one per block: a comparison replaces looking up points in each pass. Nearly all
     /// blocks are `own` if neighboring triangles are stored close together.
     mutable Buffer<std::uint8_t> blocks_;
@@ -160,15 +161,16 @@ struct NormalsCall {
 };
 
 /// Fast path for the common case: triangles, all weightings except max, and one normal per point. Scratch memory: 4
-/// bytes per vertex, core/base/range_lists.h and 1 MB, or up to 4 MB for each of several threads; if consecutive
-/// triangles are far apart, 36 bytes per vertex; for `best` 60, and SumRounds. Welding temporarily takes 10 to 24 bytes
-/// per vertex. Throws OutOfMemory.
+/// bytes per vertex, that of RangeLists, and 1 MB, or up to 4 MB for each of several threads. If consecutive triangles
+/// are far apart: 36 bytes per vertex. For `best`: 60 bytes per vertex, and SumRounds. Welding temporarily takes 10 to
+/// 24 bytes per vertex. Throws OutOfMemory.
 NormalReport smoothTriangles(const NormalsCall& call);
 
 /// General path: faces of any size, hard edges, all weightings. Processes ranges of points, with a list of the corners
-/// around each point. Scratch memory: 4 bytes per vertex, core/base/range_lists.h, MeshFaces if faces differ in size,
-/// and for each task 150 bytes per triangle of a range (an eighth of a small mesh, about 8000 triangles of a large
-/// one); for `best` also 28 bytes per corner. Welding temporarily takes 10 to 24 bytes per vertex. Throws OutOfMemory.
+/// around each point. Scratch memory: 4 bytes per vertex, that of RangeLists, that of MeshFaces if faces differ in
+/// size, and for each task 150 bytes per triangle of a range (an eighth of a small mesh, about 8000 triangles of a
+/// large one); for `best`, 28 more bytes per corner. Welding temporarily takes 10 to 24 bytes per vertex. Throws
+/// OutOfMemory.
 NormalReport smoothFaces(const NormalsCall& call);
 
 /// Calls smoothTriangles or smoothFaces.

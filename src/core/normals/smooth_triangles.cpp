@@ -65,10 +65,10 @@ class TriangleSmoother {
   public:
     explicit TriangleSmoother(const NormalsCall& call) : call_(call), lists_(makeLists()) {}
 
-    /// Computes the normals. Each range is written after it is summed, with memory for one range per task, which stays
-    /// in the cache. If triangles are not stored close together, and for `best`, which processes all sums in between,
-    /// vertices get copies of the sums of their points, so that corners need not look up points, and all corners are
-    /// written at the end.
+    /// Computes the normals. If triangles are stored close together, each range is written after it is summed, with
+    /// memory for one range per task, which stays in the cache. Otherwise, and for `best`, which processes all sums
+    /// before any is written, vertices get copies of the sums of their points, so that corners need not look up points,
+    /// and all corners are written at the end.
     NormalReport run() {
         const bool is_near = is_near_ && !call_.is_best;
         const std::size_t ranges = lists_.count(), size = lists_.range(0).size() + kTermGroup;

@@ -18,8 +18,8 @@ struct AngleGrid {
 inline constexpr AngleGrid kOct32Grid{511, 512}, kFrame48Grid{23169, 16384}, kFrame64Grid{1048575, 524288};
 
 // Warps barycentric coordinates b on a face of the octahedron as b (2.5 - b), which makes its cells more uniform: for
-// the same grid the maximum error of N decreases from 0.159 to 0.134 degrees. Similarly, x (2.75 - x) warps the angle
-// along the side of a diamond, whose speed then varies by less than 1 %.
+// the same grid the maximum error of N decreases from 0.159 to 0.134 degrees. Similarly, x (2.75 - x) warps steps along
+// the side of a diamond, so that the angle per step varies by less than 1 %.
 inline constexpr double kFaceWarp = 2.5, kAngleWarp = 2.75;
 
 /// Decoded N of grid points, with the sign of its z from the integer coordinates.

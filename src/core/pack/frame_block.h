@@ -36,8 +36,8 @@ struct FrameKernel {
     void (*decode)(const WordBlock& words, std::size_t count, const FrameRows& rows) = nullptr;
 };
 
-/// Tolerance within which frames count as unit (their squares within twice as much) and orthogonal. They are encoded
-/// unchanged, so that unpacked frames are reproduced exactly.
+/// Tolerance within which frames count as unit (squared lengths within twice this value) and orthogonal. They are
+/// encoded unchanged, so that unpacked frames are reproduced exactly.
 inline constexpr double kValidTolerance = 5e-7;
 TSPACE_DECLARE_KERNEL(std::uint64_t validFrames(const FrameBlock& frames, std::size_t count))
 

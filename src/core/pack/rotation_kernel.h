@@ -177,7 +177,7 @@ inline Cells bestAround(Vectors p) {
     const Floats x[2] = {x0, x0 + one}, z[2] = {z0, z0 + one};
     const Floats dx[2] = {atColumn(x[0]) - p.x, atColumn(x[1]) - p.x};
     const Floats dz[2] = {atColumn(z[0]) - p.z, atColumn(z[1]) - p.z};
-    // Shifts of the columns: x0, z0 and x1, z1 have one shift, the other two columns have the other.
+    // Shifts of the columns: (x0, z0) and (x1, z1) have one shift, (x0, z1) and (x1, z0) the other.
     const Floats half_sum = (x0 + z0) * half, is_odd = (half_sum - wholeBelow(half_sum)) * broadcast(2.0f);
     const Floats shift[2] = {is_odd, one - is_odd};
     Floats twice_y[2][2], dy[2][2];

@@ -64,7 +64,7 @@ inline void storeQuadPairs(float* rows, FloatVector low, FloatVector high, std::
 }
 
 /// Reads the elements with the numbers index[0], index[3], index[6], ... (one corner of consecutive triangles) of an
-/// array of vectors. `exact` reads only their 12 bytes; otherwise the following 4 bytes are also read.
+/// array of vectors. With `exact`, only the 12 bytes of each vector are read; otherwise also the following 4 bytes.
 TSPACE_ROWS inline void gather3(const std::byte* base, std::size_t stride, const std::uint32_t* index, bool exact,
                                 Floats& x, Floats& y, Floats& z) {
     Floats none;

@@ -34,7 +34,7 @@ template <bool kTight>
 inline Group load(const TriangleSource& source, const std::uint32_t* vertices, bool exact) {
     const std::size_t position_stride = kTight ? 12 : source.position_stride, uv_stride = kTight ? 8 : source.uv_stride;
     Group g;
-#pragma GCC unroll 3  // otherwise the indexed arrays would be kept in memory
+#pragma GCC unroll 3  // keeps the arrays in registers
     for (std::size_t k = 0; k < 3; ++k) {
         g.p[k] = gatherVectors(source.positions, position_stride, vertices + k, exact);
         gather2(source.uvs, uv_stride, vertices + k, g.u[k], g.v[k]);

@@ -78,7 +78,8 @@ struct Derivatives {
 /// returns NaN.
 CornerFrame makeCornerFrame(const Derivatives& derivatives, const Vec3& normal, float sign_factor);
 
-/// Returns the length of sum / count as a float, which a mean of floats can exceed only by its rounding.
+/// Returns the length of sum / count, limited to the largest float, which the mean length of float vectors exceeds at
+/// most by rounding.
 float meanLength(const DVec3& sum, double count);
 
 /// Write the requested outputs; writeExtras writes all of them except the tangent.

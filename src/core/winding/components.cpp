@@ -174,7 +174,7 @@ class Pairing {
         }
     }
 
-    /// Pairs the two faces that continue each other most straightly. `faces` must be sorted by angle.
+    /// Pairs the two faces whose angle about the edge is closest to 180 degrees. `faces` must be sorted by angle.
     void pairStraightest(std::span<const FaceAtEdge> faces) {
         std::size_t a = 0, b = 1;
         double least = 4 * kPi;

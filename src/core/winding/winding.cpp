@@ -214,8 +214,8 @@ class WindingRepair {
         if (component.conflicts_after != 0 && component.conflicts_after >= component.conflicts_before) {
             for (std::uint32_t i = component.begin; i < component.end; ++i) call_.turned[memory_.order[i]] = 0;
             component.conflicts_after = component.conflicts_before;
-            // An open body with holes may have an edge that had four faces, of which the two that are left are not
-            // neighbors.
+            // Contradictions do not prove that a component is one-sided: in an open body with holes, an edge may have
+            // had four faces, and the two that are left are not neighbors. The winding number then decides.
             const double number = component.is_closed ? 0 : ownWindingNumber(call_, memory_.order, component);
             return finish(component, number < -kLeastWindingNumber, report_.one_sided_count);
         }
@@ -230,7 +230,7 @@ class WindingRepair {
         }
     }
 
-    /// Returns whether at least half of the area has normals, and four fifths of that agree.
+    /// Returns whether at least half of the area has normals, and four fifths of that area have them on the same side.
     static bool normalsAgree(const Component& component) {
         return component.faced > 0.5 * component.area && std::fabs(component.facing) > 0.6 * component.faced;
     }

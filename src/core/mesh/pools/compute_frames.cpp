@@ -75,7 +75,7 @@ struct PoolComputation {
     std::span<const std::uint32_t> corners = {};
     std::vector<std::uint32_t> own_corners = {};
     std::vector<Vec3> normals = {};
-    // Allocated at the start, for all primitives.
+    // Computed tangents and bitangents of all primitives, allocated at the start.
     Buffer<Vec4> tangent_buffer = {};
     Buffer<Vec3> bitangent_buffer = {};
     std::vector<std::size_t> corner_counts = {};
@@ -183,7 +183,7 @@ Result<Done> computeTangents(PoolComputation& state, const LocalMesh& mesh, Fram
     return Done{};
 }
 
-/// Repairs the tangents of the mesh that was just computed, which is appended next.
+/// Repairs the tangents of the mesh that was computed last, before its corners are appended.
 void repairTangents(PoolComputation& state, std::span<const std::uint32_t> vertices, const Repairs& repairs) {
     const std::span<Vec4> tangents = state.tangents().subspan(state.corners.size(), vertices.size());
     const std::vector<Vec4> computed(tangents.begin(), tangents.end());
@@ -215,9 +215,9 @@ void append(PoolComputation& state, std::span<const std::uint32_t> vertices, boo
     state.corner_counts.push_back(vertices.size());
 }
 
-/// Computes the frames of one primitive and appends them for the split. Polygons are triangulated after the normals are
-/// computed, which need whole faces, and before the tangents are: readers of the result get triangles, and would
-/// compute tangents on these.
+/// Computes the frames of one primitive and appends them for the split. Polygons are triangulated after normals are
+/// computed, because normals need whole faces, and before tangents are, because readers of the output get triangles and
+/// would compute tangents on them.
 Result<Done> computePrimitive(PoolComputation& state, const PrimitiveGeometry& primitive, FramesReport& report) {
     if (primitive.indices.empty()) {
         state.corner_counts.push_back(0);

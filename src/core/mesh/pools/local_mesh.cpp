@@ -89,9 +89,9 @@ std::vector<Vec3> gatherNormals(const std::vector<Vec3>& normals, const std::vec
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
-/// Maximum angle between a computed normal and a kept normal at the same position for the kept one to be used. A stored
-/// normal that was computed on its own side of the border only differs by half of the bend at the border; a normal that
-/// differs by more is an intended hard edge.
+/// Maximum angle, in degrees, between a computed normal and a stored normal at the same position that replaces it. If
+/// the stored normal was computed without the faces across the border, the two differ by half of the bend at the
+/// border; a stored normal that differs by more is an intended hard edge.
 constexpr double kMostAdoptedDeg = 30;
 
 }  // namespace
@@ -115,7 +115,7 @@ BorderedNormals::BorderedNormals(const LocalMesh& mesh, const Surroundings* arou
 
 Result<NormalReport> BorderedNormals::base(StridedSpan<Vec3> out) {
     if (around_ == nullptr) return generateNormals(mesh_.view(), options_, out, execution_);
-    // Counts exclude triangles of the surroundings.
+    // Counts the degenerate faces of the surroundings, which the report must exclude.
     const MeshView others = around_->mesh.view();
     std::vector<Vec3> normals(others.cornerCount());
     NormalOptions flat = options_;

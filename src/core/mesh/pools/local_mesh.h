@@ -27,7 +27,7 @@ struct LocalMesh {
     std::span<const std::uint32_t> face_sizes;
 
     OwnedMesh own;  ///< arrays that are not borrowed from the pool
-    /// Vertex of the pool that each vertex was copied from; empty: the same vertex.
+    /// Vertex of the pool that each vertex was copied from. Empty: the vertices are those of the pool.
     std::vector<std::uint32_t> sources;
     /// For quads that were formed from pairs of triangles: the face corner of each triangle corner. Empty: all faces
     /// are triangles.
@@ -44,7 +44,7 @@ struct LocalMesh {
         uvs = own.uvs;
     }
 
-    /// Returns the number of corners of the triangles.
+    /// Returns the number of triangle corners, also if pairs of triangles form quads.
     [[nodiscard]] std::size_t triangleCornerCount() const {
         return face_corners.empty() ? indices.size() : face_corners.size();
     }
@@ -63,7 +63,7 @@ struct LocalMesh {
 /// Replaces the faces of a triangle mesh by `faces`, which are formed from its triangles.
 void replaceFaces(QuadFaces&& faces, LocalMesh& mesh);
 
-/// Sets of_triangles[c] to the value of the face corner of each triangle corner c.
+/// Sets of_triangles[c], for each triangle corner c, to the value of its face corner.
 template <class T>
 void toTriangles(const LocalMesh& mesh, std::span<const T> values, std::span<T> of_triangles) {
     for (std::size_t c = 0; c < of_triangles.size(); ++c) of_triangles[c] = values[mesh.face_corners[c]];
@@ -85,7 +85,7 @@ class LocalMeshes {
 
     const PoolView& pool_;
     std::size_t primitive_count_;
-    /// local vertex of each vertex of the pool; all kNoSlot between primitives
+    /// local vertex of each vertex of the pool; all entries are kNoSlot, except while a primitive is copied
     std::vector<std::uint32_t> local_of_vertex_;
 };
 
@@ -113,7 +113,7 @@ std::vector<Vec3> gatherNormals(const std::vector<Vec3>& normals, const std::vec
 
 /// Triangles of other primitives around a primitive, and their existing normals.
 struct Surroundings {
-    /// vertices and triangles, with normals that are kept, or zero; may have no normals
+    /// Vertices and triangles. Normals: those that are kept, zero at other vertices; empty if none are kept.
     OwnedMesh mesh = {};
     std::size_t triangles_before = 0;  ///< triangles of primitives that precede this one in the file
     std::uint64_t point_count = 0;     ///< positions that the primitive shares with the others

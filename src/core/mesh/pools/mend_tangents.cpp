@@ -58,7 +58,8 @@ Vec4 repairedAlone(const Vec4& kept, const Vec4& computed, const Vec3& normal, s
 }
 
 constexpr double kUnitTolerance = 5e-4;  // tolerance for unit length, as in sanitize.cpp
-// sine of an angle; normals with few bits are not unit, which rotates tangents out of the plane by a degree
+// Sine of the maximum angle between a bitangent and the plane perpendicular to N. Normals with few bits are not unit,
+// which rotates tangents out of this plane by up to a degree.
 constexpr double kOffPlane = 0.05;
 constexpr double kSameDirection = 0.99;  // cosine of 8 degrees
 // Minimum triple product of a frame; the frame of UVs sheared by 89.9 degrees has 0.0017.

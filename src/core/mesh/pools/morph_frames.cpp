@@ -226,9 +226,9 @@ Result<Done> MorphTangents::evaluate(const Piece& piece, std::span<const Vec4> b
     return Done{};
 }
 
-/// Regroups the moved shape where equal vertices have moved apart. If the corner's own triangles give no tangent (a
-/// default points out of the plane), or the opposite sign, which a target cannot represent, the tangent of the base's
-/// group is projected into the plane.
+/// Regroups the moved shape where equal vertices have moved apart. Corners without a tangent of their own (a default
+/// points out of the plane), or whose sign is inverted, which a target cannot represent, keep the tangent of the base's
+/// group, projected into the plane.
 Result<Done> MorphTangents::regroup(const Piece& piece, const MeshView& posed) {
     regrouped_.resize(tangents_.size());
     const Result<TangentReport> made =
@@ -247,7 +247,7 @@ Result<Done> MorphTangents::regroup(const Piece& piece, const MeshView& posed) {
     return Done{};
 }
 
-/// Returns whether the corner's tangent has the bits of the base, before any repair.
+/// Returns whether the corner's normal, and its tangent before any repair, equal those of the base.
 bool MorphTangents::isUnchangedAt(const Piece& piece, std::size_t corner) const {
     const std::uint32_t v = piece.mesh.indices[corner];
     return std::memcmp(&tangents_[corner], &piece.unrepaired[corner], sizeof(Vec4)) == 0 &&
@@ -358,7 +358,8 @@ std::vector<VertexOffsets> MorphSplit::finish() {
 VertexOffsets spread(const VertexOffsets& offsets, std::span<const std::uint32_t> sources, std::size_t old_count) {
     VertexOffsets result = offsets;
     if (offsets.vertices.empty() || old_count == sources.size()) return result;
-    std::vector<std::uint32_t> places(sources.size(), 0);  // 1-based position of each vertex; 0: none
+    // 1-based position of each vertex in offsets.vertices; 0: none
+    std::vector<std::uint32_t> places(sources.size(), 0);
     for (std::size_t i = 0; i < offsets.vertices.size(); ++i) {
         places[offsets.vertices[i]] = static_cast<std::uint32_t>(i + 1);
     }

@@ -90,7 +90,7 @@ class MorphPose {
 /// Returns to - from, without negative zeros; zero if it is not finite.
 Vec3 offsetBetween(const Vec3& from, const Vec3& to);
 
-/// Corners whose offsets are read from the file and kept while tangents are repaired, in targets that have offsets.
+/// Corners that keep the offsets of the file while tangents are repaired, in targets that have offsets.
 struct KeptOffsets {
     std::span<const std::uint32_t> vertices = {};  ///< vertex of the pool for each corner
     const std::vector<bool>& is_new;               ///< one per corner

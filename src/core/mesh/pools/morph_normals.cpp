@@ -128,7 +128,8 @@ class PoolNormals {
     std::vector<BorderedNormals> makers_ = {};
     std::vector<std::uint32_t> indices_ = {};  ///< vertices of the corners of all primitives
     std::vector<Vec3> normals_ = {};           ///< normals of the base, one per corner
-    /// normals of the base as stored in the file, to which offsets refer: they are 0 where nothing moves
+    /// Normals of the base as stored in the file. Offsets are relative to these, and are therefore 0 where nothing
+    /// moves.
     std::vector<Vec3> written_ = {};
     MorphPose pose_ = {};
 };

@@ -173,8 +173,9 @@ struct PoolFrames {
     std::vector<Vec3> bitangents = {};  ///< one per new vertex where FramesOptions::bitangents is set, else empty
     /// Triangles of each primitive after triangulation: three new vertices per triangle, in face order.
     std::vector<std::vector<std::uint32_t>> indices = {};
-    /// One entry per morph target. If tangents are kept, it is empty unless they equal computed ones; if tangents are
-    /// repaired, this applies to targets that had no tangents.
+    /// One entry per morph target. If tangents are kept, the list is empty unless they equal computed ones. If tangents
+    /// are repaired, targets that had tangents keep their offsets at unrepaired corners, and the entries of targets
+    /// without tangents are valid only if differing_count is 0.
     std::vector<MorphFrames> morphs = {};
     /// Number of corners whose kept tangent, repaired or not, differs from the computed one by its sign or by over 5
     /// degrees.

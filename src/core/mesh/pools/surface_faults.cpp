@@ -77,7 +77,7 @@ template <std::size_t count>
 struct Side {
     std::array<std::uint32_t, count> points = {};
     std::array<std::uint32_t, 2> triangles = {};
-    bool is_even = false;  ///< true: the order is a rotation of the face's own order; false: of its reverse
+    bool is_even = false;  ///< true: `points` is a rotation of the face's order; false: a rotation of its reverse
 
     Side(std::array<std::uint32_t, count> p, std::array<std::uint32_t, 2> of) : points(p), triangles(of) {
         std::rotate(points.begin(), std::min_element(points.begin(), points.end()), points.end());
@@ -141,8 +141,8 @@ class Sheets {
         return at(t, 0) == at(t, 1) || at(t, 1) == at(t, 2) || at(t, 2) == at(t, 0);
     }
 
-    /// Adds a quad if it is flat: a tetrahedron looks like a flat quad except for its volume. `from` runs from the
-    /// lower point to the higher one.
+    /// Adds a quad if it is flat, because the two pairs of faces of a tetrahedron also have the same four points.
+    /// `from` runs from the point with the lower index to the other one.
     void addQuad(const EdgeUse& from, const EdgeUse& back, std::vector<Side<4>>& quads) const {
         constexpr double kFlat = 1e-6;
         if (isCollapsed(from.triangle) || isCollapsed(back.triangle)) return;

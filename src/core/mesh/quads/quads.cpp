@@ -164,7 +164,7 @@ QuadFaces facesOfPairs(const QuadCandidates& candidates, const QuadPairs& pairs)
         std::array<std::uint32_t, 4> quad;
         candidates.cornersOf(t, pairs[t] == PairKind::turned, quad.data());
         for (const std::uint32_t corner : quad) add(corner);
-        // Ends of the diagonal, as corners of the second triangle.
+        // The corners of the second triangle at the diagonal belong to the same face corners as those of the first.
         const std::size_t i = candidates.patternOf(t) / 3, k = candidates.patternOf(t) % 3, second = 3 * (t + 1);
         faces.face_corners[second + k] = faces.face_corners[3 * t + (i + 1) % 3];
         faces.face_corners[second + (k + 1) % 3] = faces.face_corners[3 * t + i];
@@ -262,8 +262,8 @@ class Fitter {
         return Done{};
     }
 
-    /// Returns the pairs that explain most according to the recorded results. A pair that makes no difference is
-    /// accepted, because quads are being searched.
+    /// Returns the pairs that explain most according to the recorded results. A pair that explains as many corners as
+    /// its two triangles is accepted, because quads are preferred.
     [[nodiscard]] QuadPairs bestPairs() const {
         constexpr float kTie = 1e-3F;
         std::vector<float> gains(paired_.size(), 0);
@@ -280,8 +280,8 @@ class Fitter {
     QuadFit& fit() { return fit_; }
 
   private:
-    /// Returns how well the triangle's corners are explained: highest for equal tangents, at least half for near
-    /// tangents.
+    /// Returns how well the triangle's corners are explained: 0 to 1 per corner, 1 for equal tangents, and at least 0.5
+    /// within the tolerance.
     [[nodiscard]] float fitOf(const std::vector<float>& degrees, std::size_t t) const {
         if (votes_[t] == 0) return 0;
         float sum = 0;
@@ -315,7 +315,7 @@ class Fitter {
     QuadFit fit_ = {};
 };
 
-/// Returns pairs that share no triangle with the pairs of the argument.
+/// Returns alternative pairs: none of them is in `pairs`, but they may contain the same triangles.
 QuadPairs otherPairs(const QuadCandidates& candidates, const QuadPairs& pairs) {
     std::vector<float> gains(pairs.size());
     for (std::size_t t = 0; t < pairs.size(); ++t) gains[t] = pairs[t] == PairKind::none ? 1.0F : 0.0F;
@@ -428,7 +428,7 @@ Result<QuadFaces> chooseFaces(const MeshView& triangles, std::span<const Vec4> s
 QuadFaces facesOfPolygons(std::span<const std::uint32_t> face_sizes, const Triangulation& triangles) {
     constexpr std::uint32_t kSkipped = 0xffffffffU;
     QuadFaces faces;
-    std::vector<std::uint32_t> face_corner_of;  // corner of the polygon's face for each corner of a polygon
+    std::vector<std::uint32_t> face_corner_of;  // for each corner of a polygon: its corner in `faces`
     for (const std::uint32_t size : face_sizes) {
         for (std::uint32_t k = 0; k < size; ++k) {
             face_corner_of.push_back(size < 3 ? kSkipped : static_cast<std::uint32_t>(faces.corners.size()));

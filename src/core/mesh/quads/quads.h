@@ -47,7 +47,7 @@ class QuadCandidates {
 enum class PairKind : std::uint8_t {
     none = 0,    ///< the triangle is not paired, or is the second triangle of a quad
     quad = 1,    ///< the triangle forms a quad with triangle t + 1
-    turned = 2,  ///< the triangle forms a quad with triangle t + 1, which starts one corner later
+    turned = 2,  ///< like `quad`, but the corners of the quad start one corner later
 };
 using QuadPairs = std::vector<PairKind>;
 
@@ -70,7 +70,7 @@ QuadPairs choosePairs(const QuadCandidates& candidates, std::span<const float> g
 /// whose shared edges have the most frequent pattern of the list, and whose corners are closest to right angles.
 QuadPairs pairsByShape(const MeshView& triangles, const QuadCandidates& candidates);
 
-/// Returns whether turning any of these quads changes the diagonal that MikkTSpace cuts.
+/// Returns whether turning any of these quads changes the diagonal along which MikkTSpace cuts it.
 bool hasTies(const MeshView& triangles, const QuadCandidates& candidates, const QuadPairs& pairs);
 
 /// Builds the faces. `pairs`: one entry per triangle.
@@ -94,9 +94,9 @@ struct QuadFit {
 };
 
 /// Finds the pairs of triangles that explain most corners. Starts with the pairs by shape; then weighs each pair by the
-/// distance of the stored tangents of its six corners from the mikktspace results with and without the pair. These come
-/// from the pairs by shape, the same pairs turned, and the pairs they exclude, computed once each; then repeats with
-/// the improved neighbors, as long as that explains more.
+/// distance of the stored tangents of its six corners from the mikktspace results with and without the pair. These
+/// results come from three runs: with the pairs by shape, with the same pairs turned, and with alternative pairs. Then
+/// selects pairs again, with the improved neighbors, as long as that explains more.
 ///
 /// triangles      valid; three corners per face; with normals and UVs. Triangles whose UVs determine no direction
 ///                (uvVotes) are ignored

@@ -30,14 +30,14 @@ struct FloatLoss {
 /// Returns the loss from rounding positions minus `offset`. Linear.
 FloatLoss floatLoss(const VisitEdges& edges, const DVec3& offset);
 
-/// Returns the center of the middle 90 % of the corners along each axis (a twentieth, 1 / `parts`, is excluded at each
-/// end), rounded to a multiple of the largest power of ten that does not exceed their extent. Linear; 8 bytes per
-/// corner.
+/// Returns the center of the corners along each axis, without the first and the last 1 / `parts` of them (by default,
+/// the center of the middle 90 %). The result is rounded to a multiple of the largest power of ten that does not exceed
+/// the extent of these corners. Linear; 8 bytes per corner.
 DVec3 roundMiddle(const VisitEdges& edges, std::size_t parts = 20);
 
 /// Returns the offset to subtract from positions before conversion to float, along axes with noticeable loss: the
-/// center of the middle 90 % of the corners, or else of half of them. Zero if the loss is not noticeable, or if neither
-/// halves it. Linear.
+/// center of the middle 90 % of the corners, or, if that does not halve the loss, of the middle 50 %. Zero if the loss
+/// is not noticeable, or if neither center halves it. Linear.
 DVec3 offsetForFloats(const VisitEdges& edges);
 
 }  // namespace tspace

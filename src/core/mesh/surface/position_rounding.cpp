@@ -83,9 +83,9 @@ RotatedDirection directionOf(StridedSpan<const Vec3> positions, StridedSpan<cons
     const UvFrame frame = uvFrame(positions[v[0]], positions[v[1]], positions[v[2]], a, b, c);
     const double area = std::fabs(frame.determinant), length_of_tangent = length(frame.tangent);
     if (!(area > 0) || !std::isfinite(length_of_tangent)) return {};
-    // dP/du is proportional to t2 (P1 - P0) - t1 (P2 - P0), which is linear in the corners; the two coordinates of each
-    // corner perpendicular to it rotate it. The mean square of each is a third of the square of half a step, which is a
-    // third of the square of `error`.
+    // dP/du is proportional to t2 (P1 - P0) - t1 (P2 - P0). Rounding errors of the corners perpendicular to it, in two
+    // coordinates, rotate it. The mean square error of a coordinate is (step / 2)^2 / 3, and error^2 is 3 (step / 2)^2,
+    // so it is error^2 / 9.
     const double t1 = double{b.y} - a.y, t2 = double{c.y} - a.y;
     const double off = std::sqrt(2.0 / 9 * (t1 * t1 + t2 * t2 + (t2 - t1) * (t2 - t1))) * error;
     RotatedDirection result{.size = length_of_tangent / area,
@@ -274,8 +274,8 @@ RotatedTriangles rotatedBy(const PositionRounding& rounding, StridedSpan<const V
         if (!(size > 0) || !std::isfinite(size)) continue;
         ++turned.total;
         whole += size;
-        // A corner moves along N by a third of the maximum error (root mean square), and the plane rotates by that over
-        // the height of the triangle; two corners move.
+        // Root mean square values: a corner moves along N by a third of the maximum error, and this movement of two
+        // corners rotates the plane by their distance over the height of the triangle.
         const double longest = std::max({length(e), length(f), length(f - e)});
         const double sine = std::sqrt(2.0) / 3 * rounding.error * longest / size;
         const double deg = sine >= 1 ? 90 : polarAngle(std::sqrt(1 - sine * sine), sine) * 180 / kPi;

@@ -165,7 +165,7 @@ struct Triangle {
     }
 };
 
-/// Returns whether a normal is near the mean; a zero normal always is.
+/// Returns whether a normal is near the mean; true for a zero normal.
 bool isNear(const Vec3& normal, const DVec3& mean) {
     constexpr double kCosineOf40Degrees = 0.76604444311897801;
     return isZero(normal) || dot(toDouble(normal), mean) >= kCosineOf40Degrees * length(mean);
@@ -202,7 +202,7 @@ std::vector<VertexRotation> SurfaceRotations::under(std::span<const Vec3> offset
         fan_of[v] = keys.indexOf({class_of_[v], weldBits(offset.x), weldBits(offset.y), weldBits(offset.z)});
     }
     std::vector<Fan> fans(keys.size());
-    std::vector<std::array<Vec3, 2>> normals;  // normals of each triangle, before and after
+    std::vector<std::array<Vec3, 2>> normals;  // normals of each triangle, before and after the movement
     for (std::size_t c = 0; c + 2 < corners_.size(); c += 3) {
         const auto old = [&](std::size_t k) { return toDouble(positions_[corners_[c + k]]); };
         const auto moved = [&](std::size_t k) { return old(k) + toDouble(offsets[corners_[c + k]]); };

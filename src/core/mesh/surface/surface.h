@@ -29,7 +29,7 @@ struct TangentView {
     std::span<const Vec4> tangents = {};          ///< tangents; w is the sign
     std::span<const Vec2> uvs = {};               ///< UVs that the texture uses, after its transform
     std::span<const std::uint32_t> corners = {};  ///< three per triangle, all smaller than positions.size()
-    double position_step = 0;  ///< quantization step of positions stored as integers, in their units; 0: floats
+    double position_step = 0;  ///< quantization step of positions stored as integers, in position units; 0: floats
 
     /// Returns the triangles as a MeshView.
     [[nodiscard]] MeshView triangles() const {
@@ -84,9 +84,10 @@ struct PositionRounding {
 
 /// Estimates the rounding of positions. `stored_step`: step of an integer format, in position units; 0 for floats. The
 /// step of floats is their spacing at the largest coordinates, or coarser if all positions are multiples of a larger
-/// step; none along axes of a raster. Near the origin, multiples count as rounding only if the UVs indicate it (empty:
-/// never). `corner_lists`: three corners per triangle, for each mesh over these positions. Returns zeros if the mesh is
-/// 2^16 steps wide or more. `allocator`: for temporary memory; null: operator new.
+/// step. Axes along which terrain has a regular raster are ignored. Near the origin, multiples of a step count as
+/// rounding only if the UVs indicate it (without UVs: never). `corner_lists`: three corners per triangle, for each mesh
+/// over these positions. Returns zeros if the mesh is 2^16 steps wide or more. `allocator`: for temporary memory; null:
+/// operator new.
 PositionRounding roundingOf(StridedSpan<const Vec3> positions, StridedSpan<const Vec2> uvs,
                             std::span<const std::span<const std::uint32_t>> corner_lists, double stored_step = 0,
                             const Allocator* allocator = nullptr);

@@ -42,10 +42,11 @@ struct UvMatrix {
 /// Returns the matrix whose frames are those of rotation * scale (KHR_texture_transform). A positive rotation (radians)
 /// rotates (1, 0) toward (0, -1), which is counter-clockwise if v increases downward.
 ///
-/// Scales that preserve directions are removed, so a matrix that does not change frames is exactly the identity:
-/// without a rotation the magnitudes of both scales, with one the common factor of both axes. Angles within 1e-6 of a
-/// quarter turn are snapped to it: the matrix then only contains 0, 1 and -1, and does not round UVs. A scale of 0,
-/// which shows one row of texels everywhere and has no frame, counts as 1.
+/// Factors that do not change directions are removed: for multiples of a quarter turn, the magnitudes of both scales;
+/// for other rotations, the larger of the two, by which both are divided. A transform that does not change frames
+/// therefore gives exactly the identity. Angles within 1e-6 of a quarter turn are snapped to it: the matrix then only
+/// contains 0, 1 and -1, and does not round UVs. A scale of 0, which shows one row of texels everywhere and has no
+/// frame, counts as 1.
 UvMatrix uvMatrix(double rotation, double scale_u, double scale_v);
 
 /// Multiplies each UV by the matrix, in double precision, and rounds the result once.

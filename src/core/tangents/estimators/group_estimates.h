@@ -28,8 +28,8 @@ struct GroupEstimates {
 
 /// Estimates all groups. Positions, normals and UVs are nonempty, with one entry per vertex. All corners of a group
 /// have the same normal. `refine` steps follow the fit of `best`. Sums are in the order of triangles. `to`: outputs of
-/// consecutive ranges of groups. Scratch memory: up to 1 MB per task, and range_lists.h; with steps 32 or 64 bytes per
-/// group. Linear. Throws OutOfMemory.
+/// consecutive ranges of groups. Scratch memory: up to 1 MB per task, and that of RangeLists; with refinement steps, 32
+/// or 64 bytes per group. Linear. Throws OutOfMemory.
 void estimateGroups(Method method, unsigned refine, const TriangleGroups& triangles, const Pose& pose,
                     const StridedSpan<const Vec2>& uvs, const InputScale& scale, std::span<const GroupEstimates> to,
                     const Execution& execution, Parallel& parallel);

@@ -281,7 +281,7 @@ inline Doubt doubtIn(const Fit& f, const Reduced& m, const Solution& s) {
         m.ridge * dot(s.q[0], s.q[0]) + (m.ridge + m.ridge) * dot(s.q[1], s.q[1]) + m.ridge * dot(s.q[2], s.q[2]);
     const Floats explained = dot(s.q[0], m.p[0]) + dot(s.q[1], m.p[1]) + dot(s.q[2], m.p[2]) + broadcast(kRidge) * held;
     const Floats left = f.energy - dot(f.r[0], m.linear[0]) - dot(f.r[1], m.linear[1]) - explained;
-    // If this is NaN, it becomes the limit; only the second doubt then matters.
+    // A NaN becomes kMissLimit; only the doubt because of rounding then matters.
     const Floats miss = smaller(larger(left, zero()) / explained, broadcast(kMissLimit));
     const Floats doubt = broadcast(kBendWeight) * (bend * bend) +
                          broadcast(kMissWeight) * miss * (bend / (bend + broadcast(kSmallBend)));
@@ -431,7 +431,7 @@ void finishEdgeStep(float* sums, const float* normals, const float* from, std::s
         const Flat u = plane.flatten(ju), v = plane.flatten(jv), du = s * a0, dv = t * a1;
         const Floats turn = dot(du, du) / dot(u, u) + dot(dv, dv) / dot(v, v);
         const Floats doubt = broadcast(kLeftWeight) * (left / explained);
-        // This is NaN if the edges leave no residual to explain.
+        // NaN if the edges leave no residual to explain; the group is then unchanged.
         const Floats f = half * (one - m) / ((one + doubt * doubt) * (one + turn));
         const Flat new_u = u + f * du, new_v = v + f * dv;
         const Vectors x = unit(plane.raise(unit(new_u))), y = unit(plane.raise(unit(new_v)));

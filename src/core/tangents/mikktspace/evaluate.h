@@ -85,7 +85,7 @@ EvaluationPlan planGrouped(const MeshView& mesh, const Call<TangentOptions>& opt
                            PlanUse use = PlanUse::kept);
 
 /// Evaluates one pose into validated outputs, and returns the completed report. `uvs`: one per vertex. Scratch memory:
-/// 12 bytes per group if only tangents are requested, otherwise 36, and core/base/range_lists.h if several threads
+/// 12 bytes per group if only tangents are requested, otherwise 36, and the memory of RangeLists if several threads
 /// compute sums. `estimates`: null, or the estimators' results for the groups (allocateSums), which are moved from.
 /// Throws OutOfMemory.
 TangentReport evaluateGroups(const EvaluationPlan& plan, const Pose& pose, const StridedSpan<const Vec2>& uvs,

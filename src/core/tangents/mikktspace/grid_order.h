@@ -16,9 +16,10 @@ namespace tspace::mikk {
 // for which it matters.
 
 /// Sets representatives[node] to the corner that the reference keeps, for the nodes of `vertices`; kNone if a node has
-/// no corners. Other nodes in the same cells (of 2048) may also be set, correctly. Returns the triangles that have a
-/// corner in these cells, ascending, including all triangles at the nodes. Requires finite nodes. Linear in the
-/// vertices and indices, and in the corners of these cells times the halvings of a float interval.
+/// no corners. Also sets, correctly, some other nodes in the same cells of the reference's grid (2048 along the longest
+/// axis). Returns the triangles that have a corner in these cells, ascending, including all triangles at the nodes.
+/// Requires finite nodes. Time: linear in the vertices and indices, plus the corners in these cells times the number of
+/// partition levels, which the range of floats bounds.
 Buffer<std::uint32_t> findRepresentatives(const WeldedMesh& welded, std::span<const std::uint32_t> vertices,
                                           std::uint32_t* representatives, const Allocator* allocator,
                                           Parallel& parallel);

@@ -95,7 +95,7 @@ float thresholdCosine(float degrees);
 /// Corners of one group, ascending, including those that do not contribute.
 using Members = std::span<const NodeCorner>;
 
-/// Tests quickly whether every two members are within the threshold. If the test returns false, this is unknown.
+/// Tests quickly whether every two members are within the threshold. The result true is certain; false means unknown.
 bool areTogether(Members members, float threshold_cosine);
 
 /// Maximum number of members of a group that may be split. Subsets take quadratic time and memory: each member may have

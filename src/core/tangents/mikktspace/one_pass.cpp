@@ -211,8 +211,8 @@ void checkDegenerateUvs(OnePass& pass) {
 
 // -- 4. estimates --
 
-/// Triangles whose groups are the nodes, or, for complex nodes, the groups of their plan, whose numbers follow those of
-/// the nodes: all groups of a mesh are estimated together.
+/// Triangles with one numbering for all groups. A simple node is one group, with the number of the node. Groups of
+/// complex nodes come from `plan`, and their numbers follow those of all nodes. So all groups are estimated together.
 class JoinedTriangles final : public TriangleGroups {
   public:
     /// `is_planned`: one bit per node, set for complex nodes.

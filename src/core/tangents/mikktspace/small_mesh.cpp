@@ -322,7 +322,7 @@ class SmallMesh {
     // index of the corner at the group's node, for each member of the current group
     std::uint8_t corner_of_[kTermTriangles];
     std::uint8_t mean_of_[kTermCorners] = {};  // number of the mean that each corner gets
-    // Sums, means and properties of each mean.
+    // Number of means so far, including number 0, and the sum and sign of each mean.
     unsigned means_ = 1;
     float sums_[kTermCorners + 4][4];
     float signs_[kTermCorners + 4];

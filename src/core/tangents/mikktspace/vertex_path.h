@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The vertex path lists the corners around each selected node, links them across their shared edges, groups them, and
-// writes a plan, which is evaluated (evaluate.h). One-pass evaluation selects the complex nodes: several groups, fans
-// of too many parts, contested triangles, sums that do not prove that nothing splits, corners of degenerate triangles,
-// the reference's last bucket. planTangents selects all nodes.
+// writes a plan, which is evaluated (evaluate.h). One-pass evaluation selects the complex nodes: those with several
+// groups, with a fan of too many parts, with contested or degenerate triangles, with sums that do not prove that
+// nothing splits, or in the reference's last bucket. planTangents selects all nodes.
 //
 //   plan.cpp            triangles around the selected nodes, one orientation per face, corners node by node; and the plan
 //   groups.cpp          links between the corners of a node, groups, contested triangles; groups that an angular threshold
@@ -115,8 +115,9 @@ TangentReport evaluateInOnePass(const NodeSetting& setting, const TangentOutput&
 
 /// Returns whether evaluateSmall applies: mikktspace, at most 64 triangular faces with few vertices and finite values.
 bool isSmall(const WeldedMesh& welded, Method method);
-/// Computes the results of evaluateInOnePass, or, for any angular threshold, of a plan, for a small mesh
-/// (small_mesh.cpp). Requires listVertices. `transient`: allocates memory that is released before tangents are written.
+/// Computes the tangents of a small mesh (small_mesh.cpp), for any angular threshold: the results of evaluateInOnePass,
+/// or, below 180 degrees, those of a plan. Requires listVertices. `transient`: allocates memory that is released before
+/// tangents are written.
 TangentReport evaluateSmall(const WeldedMesh& welded, const Call<TangentOptions>& options, const TangentOutput& out,
                             const Allocator* transient, Parallel& parallel);
 

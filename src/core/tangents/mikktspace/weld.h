@@ -11,7 +11,7 @@ namespace tspace::mikk {
 
 TriangleList cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* allocator);
 
-/// Welds equal vertices. Takes the memory of findRoots (core/base/weld.h), of which up to 4 bytes per vertex remain
+/// Welds equal vertices. Uses as much memory as findRoots (core/base/weld.h); up to 4 bytes per vertex remain
 /// allocated. `transient` allocates temporary memory; null: `allocator`.
 Nodes weld(const MeshView& mesh, const TriangleList& triangles, const Allocator* allocator, Parallel& parallel,
            const Allocator* transient = nullptr);

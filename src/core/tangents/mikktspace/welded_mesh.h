@@ -46,8 +46,8 @@ inline const std::uint32_t* readTriangles(const MeshView& mesh, const TriangleLi
     return readCutTriangles(mesh, triangles, first, count, buffer);
 }
 
-// Welded vertices: vertices with equal position, normal and UV become one node. A NaN equals its own bits, so that a
-// file may store such a vertex once or twice.
+// Welded vertices: vertices with equal position, normal and UV become one node. NaNs with equal bits are equal, so the
+// result does not depend on whether a file stores such a vertex once or repeatedly.
 
 /// Nodes of a mesh, numbered by their first vertices, ascending. An unused vertex also has a node, which may then have
 /// no corners.
