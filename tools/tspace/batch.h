@@ -38,9 +38,9 @@ unsigned workerCount(const BatchArguments& batch, std::size_t job_count);
 /// Returns the default number of threads per file: the cores, divided among the files in progress.
 unsigned threadsPerFile(unsigned asked, unsigned workers);
 
-/// Calls work(i) for every i below `count` on `workers` threads, or fewer if the system provides fewer, and finished(i)
-/// for each in ascending order, one call at a time, as soon as it and all before it are done. Starts no work after
-/// stop() returns true; finished() is then called only for jobs that were processed.
+/// Calls work(i) for every i below `count` on `workers` threads, or fewer if the system provides fewer. Calls
+/// finished(i) in ascending order, one call at a time, as soon as the jobs 0 to i are done. Starts no work after stop()
+/// returns true; finished() is then called only for jobs that were processed.
 void runBatch(std::size_t count, unsigned workers, const std::function<void(std::size_t)>& work,
               const std::function<void(std::size_t)>& finished, const std::function<bool()>& stop);
 

@@ -69,8 +69,8 @@ bool isNormalMapName(const std::string& file) {
     return false;
 }
 
-/// Returns whether a search found an image that is not a normal map according to its name and its texels, such as a
-/// base color or roughness. An image named by the user is always reported.
+/// Returns whether the job is an image that a search found, and that is not a normal map according to its name and its
+/// texels, such as a base color or roughness. An image named by the user is always reported.
 bool isOtherImage(const Job& job, const CheckReport& report) {
     if (!job.is_found_image || !report.image || isNormalMapName(job.input)) return false;
     const std::string& content = report.image->content;
@@ -114,7 +114,8 @@ ExitCode runCheck(const CheckArguments& arguments) {
         if (outcome.result && options::makesCheckFail(arguments.request, *outcome.result))
             exit_code = worse(exit_code, ExitCode::findings);
     }
-    // A report contains files that cannot be read. An exception is a single file that did not fit into memory.
+    // Reports are written even if files cannot be read, and list the errors. But if the only file did not fit into
+    // memory, no report is written.
     const auto is_reported = [](const report::CheckOutcome& outcome) {
         return outcome.result || outcome.result.error().code != ErrorCode::outOfMemory;
     };

@@ -54,8 +54,9 @@ auto callOnImage(const std::string& input, const std::string& output, std::uint6
     return callWithOutput(output, std::move(options), call);
 }
 
-/// Writes the image with make(), which returns a Result. Prints the error, or the result as text, textOf(outcome), or
-/// as JSON, jsonOf(outcome, exit_code); on stderr if the image is written to stdout.
+/// Writes the image with make(), which returns a Result. Then prints the error, or the report: as text by
+/// textOf(outcome), or as JSON by jsonOf(outcome, exit_code). The report goes to stderr if the image is written to
+/// stdout.
 template <class Arguments, class Make, class JsonOf, class TextOf>
 ExitCode makeAndPrint(const Arguments& arguments, const Make& make, JsonOf jsonOf, TextOf textOf) {
     HeldOutputs outputs;

@@ -47,8 +47,8 @@ enum class SearchedFiles {
     modelsOrImages  ///< images if a folder or a pattern has no model
 };
 
-/// Returns every input file, the model files of every input folder and below, sorted by name, and the model files that
-/// match a pattern (glob.h) that is not itself a file.
+/// Returns all input files. A folder stands for the model files in it and its subfolders, sorted by name; a pattern
+/// (glob.h) stands for the model files that match, unless a file has that name.
 std::vector<Job> inputJobs(const std::vector<std::string>& inputs, SearchedFiles searched = SearchedFiles::models);
 
 /// Returns the input files with their outputs. Creates no folders; they are created when files are written. An error

@@ -38,8 +38,9 @@ void keepFreedMemory() {
 #endif
 }
 
-/// Returns large freed blocks to the system. All other commands keep small results between them: in one heap, freed
-/// blocks would be fragmented, and files with many primitives would need a multiple of the memory.
+/// Makes the allocator return large freed blocks to the system. It is used for commands that keep small results between
+/// large blocks: these results would fragment a common heap, and files with many primitives would need a multiple of
+/// the memory.
 void returnFreedMemory() {
 #ifdef __GLIBC__
     mallopt(M_MMAP_THRESHOLD, 256 << 10);

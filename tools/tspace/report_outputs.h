@@ -34,8 +34,8 @@ inline std::string lineWithoutReport(const std::vector<std::string>& files) {
 }
 
 /// Ends a command whose outputs are held. prepare(failure) composes the report: `failure` is null before the outputs
-/// are put in place; if that fails, prepare is called again with the reason, and no output exists. Files that it writes
-/// are outputs, too. Nothing allocates once outputs are in place; std::bad_alloc before that leaves no outputs.
+/// are put in place; if that fails, prepare is called again with the reason, and no output exists. Files that prepare()
+/// writes are outputs, too. Nothing allocates once outputs are in place; std::bad_alloc before that leaves no outputs.
 template <class Prepare>
 ExitCode commitAndPrint(HeldOutputs& outputs, const Prepare& prepare) {
     PreparedReport report = prepare(static_cast<const Error*>(nullptr));
@@ -75,8 +75,9 @@ inline constexpr const char* kNoMemoryForReport =
 inline constexpr const char* kNoMemoryForManifest =
     "tspace: out of memory: cannot write the manifest; all output files are complete\n";
 
-/// Calls work(), which runs after outputs are in place and concerns several files, or the files written. If memory runs
-/// out in it, prints `line`, which needs no memory, and returns the exit code of a file that cannot be written.
+/// Calls work(), a step after outputs have been put in place, such as writing a report on several files or the
+/// manifest. If memory runs out in it, prints `line`, which needs no memory, and returns the exit code of a file that
+/// cannot be written.
 template <class Work>
 ExitCode afterOutputs(const char* line, const Work& work) {
     const Result<ExitCode> done = atBorder([&]() -> Result<ExitCode> { return work(); });

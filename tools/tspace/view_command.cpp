@@ -27,7 +27,7 @@ struct ViewArguments {
 
 namespace fs = std::filesystem;
 
-/// Returns the path next to an installed tool, or in the build folder; empty if it was not built.
+/// Returns the path of the page: next to an installed tool, or in the build folder. Empty if the page was not built.
 std::string pagePath() {
     const Path own = ownProgram();
     if (own.empty()) return {};

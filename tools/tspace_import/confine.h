@@ -7,7 +7,7 @@
 
 namespace tspace::import {
 
-/// Restrictions in effect. A kernel that supports neither leaves only the resource limits.
+/// Restrictions in effect, in addition to the resource limits. A kernel may support both, one or none of them.
 struct Confinement {
     /// Landlock: only allowed files can be read; nothing can be written, created, renamed or executed.
     bool of_files = false;

@@ -312,8 +312,8 @@ struct Reading {
     bool takes_tangents;
 };
 
-/// Reads the file again, near the origin. Returns why that does not help, or an empty string if it does; `scene` is
-/// then invalid.
+/// Reads the file again with an offset subtracted from its coordinates. Returns an empty string if the
+/// shape is then precise, otherwise the reason why it is not. `scene` may be invalid afterwards.
 std::string readNearOrigin(const Reading& reading, const aiScene& scene, Imported& imported) {
     const std::optional<NearFile> moved = nearOrigin(reading.path);
     if (!moved) return "; the file does not store more digits, so move the model to the origin before exporting it";

@@ -100,8 +100,8 @@ class MaterialWriter {
         return json;
     }
 
-    /// Adds the transform of a texture. Because v is flipped (v' = 1 - v) before and after v * scale + offset, a
-    /// rotation would have a different pivot; it is ignored.
+    /// Adds the transform of a texture, converted because v points up in Assimp and down in glTF (v' = 1 - v).
+    /// Rotations are ignored, because they would have a different pivot.
     void addTransform(const aiUVTransform& t, Json& json) {
         if (!isFinite(&t.mScaling.x, 2) || !isFinite(&t.mTranslation.x, 2)) return;
         if (t.mScaling.x == 1 && t.mScaling.y == 1 && t.mTranslation.x == 0 && t.mTranslation.y == 0) return;

@@ -93,8 +93,9 @@ void addWeights(const aiMesh& mesh, const std::vector<std::uint16_t>& joints, st
     }
 }
 
-/// Returns T unchanged, and the side of cross(N, T) that the bitangent is on. The bitangent points along increasing v,
-/// upward here; glTF expects the same direction, although its v points down: so w is that side, unchanged.
+/// Returns tangents with T unchanged, and with the side of cross(N, T) on which the bitangent lies as w. The bitangent
+/// of Assimp points along increasing v, which is up in the image. In glTF v increases downward, but the bitangent also
+/// points up, so w needs no conversion.
 Attribute tangentsOf(const aiMesh& mesh) {
     Attribute tangents{"TANGENT", 4};
     tangents.values.reserve(std::size_t{4} * mesh.mNumVertices);

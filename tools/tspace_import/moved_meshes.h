@@ -21,8 +21,8 @@ struct MovedMeshes {
 /// Returns the first finite vertex of each mesh.
 std::vector<aiVector3D> firstVertices(const aiScene& scene);
 
-/// Returns which meshes of the scene of NearFile are moved, by comparing with the first vertices of the original scene:
-/// one geometry may be several meshes.
+/// Returns which meshes of `scene`, which was read from NearFile::bytes, were moved. Their first vertices are compared
+/// with those of the original scene, because one geometry of the file may become several meshes.
 MovedMeshes movedMeshes(const aiScene& scene, const std::vector<aiVector3D>& first_vertices, const DVec3& offset);
 
 }  // namespace tspace::import

@@ -71,7 +71,7 @@ void eraseAttribute(Editor& editor, const Primitive& primitive, const char* name
 ///
 /// new_file    as for Editor
 /// primitives  primitives of the document; read them again afterwards
-/// turned      per primitive: one entry per triangle, 1 to flip it; or empty: no triangle is flipped
+/// flipped     per primitive: one entry per triangle, 1 to flip it; or empty: no triangle is flipped
 void flipTriangles(Document& document, const std::string& new_file, std::span<const Primitive> primitives,
                    std::span<const std::vector<std::uint8_t>> flipped);
 
@@ -79,9 +79,9 @@ void flipTriangles(Document& document, const std::string& new_file, std::span<co
 /// directions, and their lengths would no longer reveal it.
 bool canScaleNormals(const Document& document, const Primitive& primitive);
 
-/// Writes the normals of primitives with canScaleNormals with length 1, and scales the offsets of morph targets
-/// accordingly. Floats and normalized signed integers keep their format, other formats become floats; normals that
-/// have unit length keep their bits. Parameters as for flipTriangles.
+/// Scales normals to length 1 in the primitives for which canScaleNormals returns true, and scales the offsets of morph
+/// targets accordingly. Floats and normalized signed integers keep their format, other formats become floats; normals
+/// that have unit length keep their bits. Parameters as for flipTriangles.
 void writeUnitNormals(Document& document, const std::string& new_file, std::span<const Primitive> primitives);
 
 }  // namespace tspace::gltf

@@ -101,7 +101,8 @@ Verdict verdictOf(const PrimitiveJudgement& judgement, bool is_free) {
         const bool is_inverted = finding.code == FindingCode::signsInverted;
         rules.emplace_back(is_inverted ? faultBit(FindingCode::signsWrong) | kUndecidedSign : faultBit(finding.code),
                            partsOf(finding.code));
-        // If signs are flipped, no seam between them may remain, however short.
+        // If signs are flipped, seams at which mirrored and unmirrored triangles share a tangent are repaired too,
+        // however short they are.
         if (is_inverted) rules.emplace_back(faultBit(FindingCode::mirroredSeamAveraged), repair::kSides);
         verdict.why += (verdict.why.empty() ? "" : "; and ") + finding.message;
     }
@@ -156,7 +157,7 @@ std::vector<Verdict> judge(Model& model, const GenerateOptions& options) {
 void keep(const Verdict& verdict, PrimitiveReport& report) {
     report.action = PrimitiveAction::kept;
     report.reason = verdict.kept;
-    // Kept tangents were not computed, so it is unknown whether they follow the transform.
+    // The note states which UVs computed tangents follow; for kept tangents this is unknown.
     std::erase_if(report.notes, [](const std::string& note) { return note.rfind(kTransformNote, 0) == 0; });
 }
 
@@ -165,7 +166,8 @@ bool hasIrreplaceableTangents(const Primitive& primitive, const PrimitiveReport&
     return report.action == PrimitiveAction::impossible && primitive.find("TANGENT") && primitive.find("NORMAL");
 }
 
-/// Returns the pool with some of its primitives, grouped by equal repairs. `repairsOf`: null for primitives to omit.
+/// Returns the pool with some of its primitives, grouped by equal repairs. `repairsOf`: returns the repairs of a
+/// primitive, or null to omit the primitive.
 template <class RepairsOf>
 PoolPlan selected(const PoolPlan& pool, std::span<const Primitive> primitives, const RepairsOf& repairsOf) {
     PoolPlan result = pool;
@@ -324,7 +326,7 @@ bool isRead(const Document& document, const Primitive& primitive) {
     return hasTriangles(primitive.mode) && primitive.find("NORMAL") && !tangentUses(document, primitive).empty();
 }
 
-/// Returns the first primitive whose tangents a material reads, or else the first of all.
+/// Returns the first of the primitives whose tangents a material reads; if there is none, the first primitive.
 std::size_t representativeOf(const Document& document, std::span<const Primitive> primitives,
                              const std::vector<std::size_t>& numbers) {
     const auto read = std::find_if(numbers.begin(), numbers.end(),

@@ -35,9 +35,9 @@ Bytes flipImage(std::span<const std::uint8_t> bytes, const MemoryBudget& budget,
 /// Examines the normal maps of the scene, whose images must be loaded, and inverts those that FlipGreen selects
 /// (FlipGreen::none: no map).
 ///
-/// keeps_tangents    per primitive of the scene: its tangents are kept, or a repair or tangents for new normals keep
-///                   inverted signs that an inverted map cancels. If the signs of kept tangents are inverted too, the
-///                   two inversions cancel out, and FlipGreen::down leaves the map unchanged
+/// keeps_tangents    per primitive of the scene: whether inverted signs of its tangents stay inverted. They stay if the
+///                   tangents are kept, and also if a repair or tangents for new normals keep signs that an inverted
+///                   map cancels. Then FlipGreen::down leaves the map unchanged, because the two inversions cancel out
 ///
 /// Throws FileError.
 std::vector<JudgedMap> judgeMaps(const Scene& scene, const std::vector<bool>& keeps_tangents,

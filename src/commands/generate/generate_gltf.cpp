@@ -104,7 +104,7 @@ Storage prepareStorage(Input& input, std::vector<std::string>& warnings) {
 struct Decisions {
     GeneratePlan plan = {};
     MapFlips flips = {};
-    std::optional<MapConversion> maps = {};             ///< keeps the appearance with the old tangents
+    std::optional<MapConversion> maps = {};  ///< converts the normal maps so that they look as with the old tangents
     std::vector<std::vector<std::size_t>> broken = {};  ///< primitives of each TANGENT whose values are repaired
     bool has_unreadable_tangents = false;
 
@@ -159,8 +159,8 @@ void computeAndApply(Input& input, Decisions& decisions, Editor& editor, std::ve
         }
     }
     reportProgress(input.options, "computing tangents", total, total);
-    // Runs after new frames are stored, in other accessors, and before tangents are removed, so that notes have this
-    // order.
+    // Invalid values are repaired after new frames have been stored (in other accessors), and before tangents are
+    // removed: this determines the order of the notes.
     repairInvalidValues(editor, document, primitives, decisions.broken, plan.reports);
     for (std::string& warning : numbers.warnings()) warnings.push_back(std::move(warning));
 }
@@ -233,7 +233,7 @@ bool repairFaults(Input& input, const Storage& storage, bool is_asked_for, Recom
     return true;
 }
 
-/// Normalizes normals of other lengths if tangents are repaired. Returns whether there were any.
+/// If tangents are repaired, scales normals that do not have unit length. Returns whether there were any.
 bool normalizeNormals(Input& input, const Storage& storage, std::vector<std::string>& warnings) {
     const std::vector<Primitive>& primitives = input.model.primitives();
     Document& document = input.model.document();
@@ -247,8 +247,8 @@ bool normalizeNormals(Input& input, const Storage& storage, std::vector<std::str
     return true;
 }
 
-/// Completes the warning about normals with other lengths if the output has only unit normals. `scaled`: primitives
-/// whose normals have other lengths and were not repaired.
+/// Completes the warning about normals without unit length if the output has only unit normals. `scaled`: primitives
+/// whose normals did not have unit length and were not repaired.
 void noteUnitNormals(std::span<const std::size_t> scaled, const ScaledNormalsWarning& warning, GenerateReport& report) {
     const bool are_unit = std::all_of(scaled.begin(), scaled.end(),
                                       [&](std::size_t number) { return report.primitives[number].normals_generated; });

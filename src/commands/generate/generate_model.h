@@ -50,7 +50,7 @@ Result<GenerateReport> generateGltf(const std::string& input, const std::string&
 
 namespace tspace {
 
-/// Generates in memory like gltf::generateModel, from a model file of any format. `path`: that of the file.
+/// Generates in memory like gltf::generateModel, from a model file of any format. `path`: path of this file.
 gltf::GeneratedModel generateModel(ModelFile&& input, const std::string& path, const GenerateOptions& options,
                                    bool with_images, const GenerateStep& step);
 gltf::GeneratedModel generateModel(const std::string& input, const GenerateOptions& options, bool with_images,
@@ -63,7 +63,7 @@ Result<GenerateReport> generateStep(const std::string& input, const std::string&
 /// Implements generateFile for an OBJ input; `output` is a .glb or .gltf file.
 Result<GenerateReport> generateObj(const std::string& input, const std::string& output, const GenerateOptions& options,
                                    const GenerateStep* step);
-/// Implements generateModel for an OBJ input; `path`: that of the file. Throws FileError.
+/// Implements generateModel for an OBJ input; `path`: path of the OBJ file. Throws FileError.
 gltf::GeneratedModel generateObjModel(obj::Model&& input, const std::string& path, const GenerateOptions& options,
                                       const GenerateStep& step);
 

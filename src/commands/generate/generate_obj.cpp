@@ -77,8 +77,8 @@ void convertHeights(const Scene& scene, const GenerateOptions& options, Model& m
 
 /// Converts gray images that materials reference as `map_bump` to normal maps, using the frames of their faces and the
 /// factor -bm as strength in model units. An image that cannot be converted is removed from its material, with a
-/// warning in the model. Then repairs and inverts other maps, if requested; because all tangents are new, none are made
-/// for a green that points down. The primitives must have normals. Throws FileError.
+/// warning in the model. Then repairs and inverts other maps, if requested; all tangents are new, so none of them has
+/// signs that compensate for green pointing down. The primitives must have normals. Throws FileError.
 std::vector<NormalMapReport> prepareMaps(std::span<const ObjPrimitive> primitives, const GenerateOptions& options,
                                          Model& model) {
     std::vector<NormalMapReport> reports;

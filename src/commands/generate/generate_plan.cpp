@@ -188,7 +188,8 @@ std::string poolKey(const Primitive& primitive, std::int32_t uv_set, const UvMat
     std::string key = std::to_string(uv_set) + (makes_tangents ? "" : "without") + (overwrites_normals ? "anew" : "");
     for (const double entry : {matrix.uu, matrix.uv, matrix.vu, matrix.vv})
         key += ',' + std::to_string(std::bit_cast<std::uint64_t>(entry));
-    // Triangle lists without indices need no split, so no other primitive may cause one.
+    // A triangle list without indices never needs a split, because each corner has its own vertex. In a pool with other
+    // primitives, they could cause one.
     key += !primitive.indices && primitive.mode == Mode::triangles ? "n|" : "i|";
     return key + vertexKey(primitive);
 }
@@ -327,8 +328,8 @@ class MeshPieces {
         joined_ = std::make_unique<JoinedPieces>(vertex_spans_, pieces_, weld_distance);
     }
 
-    /// Returns the triangles around a piece, or null if no other piece forms one surface with it. `makes_normals`: one
-    /// per primitive of the document.
+    /// Returns the triangles around a piece, or null if no other piece forms one surface with it. `makes_normals`: for
+    /// each primitive of the document, whether its normals are computed.
     [[nodiscard]] std::shared_ptr<const Surroundings> around(std::uint32_t piece, unsigned rings,
                                                              const std::vector<bool>& makes_normals) const {
         const std::vector<PieceTriangle> triangles = joined_->around(piece, rings);

@@ -79,9 +79,9 @@ struct Totals {
     VertexTotals vertices = {};
     std::uint64_t normals_generated = 0, normals_replaced = 0;
     std::uint64_t morph_normals_computed = 0;
-    std::uint64_t on_quads = 0, quad_count = 0;  ///< number of primitives, and of their quads
+    std::uint64_t on_quads = 0, quad_count = 0;  ///< primitives whose tangents were computed on quads, and their quads
     std::uint64_t bitangents_generated = 0;
-    std::uint64_t frames_packed = 0, packed_repaired = 0;  ///< number of primitives, and of their repaired frames
+    std::uint64_t frames_packed = 0, packed_repaired = 0;  ///< primitives with packed frames, and their repaired frames
     std::uint64_t tangents_dropped = 0, normals_dropped = 0;
     std::uint64_t morph_deltas_computed = 0;
     std::uint64_t morph_sign_flip_count = 0;

@@ -83,9 +83,9 @@ class MapConversion {
     /// Records the current appearance; call before the model is changed. The arguments must outlive the object.
     MapConversion(Model& model, const GenerateOptions& options);
 
-    /// Call after the new tangents have been stored and after Model::wasEdited. Inserts converted maps if they make the
-    /// shading closer to the original. `reports`: one per primitive. Files referenced by the document are never
-    /// changed: the output has new files.
+    /// Inserts converted maps into the document if they make the shading closer to the original. Call it after the new
+    /// tangents have been stored, and after Model::wasEdited. `reports`: one per primitive. Files referenced by the
+    /// document are never changed: the output has new files.
     std::vector<ConvertedMapReport> run(Editor& editor, const OutputTarget& target,
                                         std::span<const PrimitiveReport> reports);
 

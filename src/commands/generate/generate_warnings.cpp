@@ -147,7 +147,7 @@ void warnOfTangents(const GenerateOptions& options, GenerateReport& report) {
     if (tangents.angular_threshold_deg != plain.angular_threshold_deg) idle.emplace_back("--threshold");
     if (options.tangents.faces == Faces::quads) idle.emplace_back("--faces");
     if (has_refine) idle.emplace_back("--refine");
-    // Repairs use the convention for judging tangents.
+    // A repair also judges the existing tangents by the convention, so the option has an effect.
     if (tangents.convention != GenerateOptions{}.tangents.compute.convention &&
         options.selection.existing != ExistingTangents::repair)
         idle.emplace_back("--convention");

@@ -115,7 +115,8 @@ class ImagePlacer {
     void place(std::size_t image, Bytes&& bytes, bool keeps_old);
     /// Replaces only this image, even if others share its bytes.
     void placeOwn(std::size_t image, Bytes&& bytes) { put(image, std::move(bytes), false, false); }
-    /// Adds an entry to /images, otherwise equal to entry `like`. Returns its index.
+    /// Adds an entry to /images with these bytes, and copies all other members from the entry `like`. Returns its
+    /// index.
     std::size_t add(std::size_t like, Bytes&& bytes);
 
   private:

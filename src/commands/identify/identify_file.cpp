@@ -42,8 +42,8 @@ bool hasTwoReadings(const PrimitiveIdentity& primitive) {
             with_transform->gltf_sign_count != plain->gltf_sign_count);
 }
 
-/// Returns the explanation by a method along the UV set of the texture, in the interpretation that explains more; on
-/// quads if requested and if they explain more.
+/// Returns the explanation by a method with the UV set of the texture, transformed or as stored, whichever explains
+/// more corners. For Faces::quads, returns the explanation on triangles if quads do not explain more.
 const Explanation* partOf(const PrimitiveIdentity& primitive, Method method, Faces faces) {
     const Explanation* part = nullptr;
     for (const Explanation& entry : primitive.explanations) {
@@ -55,8 +55,8 @@ const Explanation* partOf(const PrimitiveIdentity& primitive, Method method, Fac
     return part;
 }
 
-/// Sums explanations over all primitives. The sum on quads uses the triangles of primitives where quads do not explain
-/// more. It is added only if quads explain more in some primitive.
+/// Sums explanations over all primitives. In the sum on quads, primitives for which quads do not explain more are
+/// counted on triangles. The sum is omitted if quads do not explain clearly more in total (quadsWin).
 std::vector<Explanation> overAllPrimitives(const std::vector<PrimitiveIdentity>& primitives) {
     std::vector<Explanation> sums;
     const auto add = [&](Method method, Faces faces) {

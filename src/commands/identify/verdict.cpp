@@ -160,9 +160,9 @@ class Explainer {
     std::vector<std::uint8_t> votes_;
 };
 
-/// Returns the score of a method: the near corners, plus half of the corners that are near to another corner of their
-/// vertex, minus a margin for methods that only tspace implements. The weight is half because `flat` has so many
-/// directions at a vertex that one is near by chance.
+/// Returns the score of a method: the number of near corners, minus a margin for methods that only tspace implements. A
+/// corner that is near only to the result of another corner of its vertex counts half. It does not count for `flat`,
+/// which has so many directions at a vertex that one is near by chance.
 double scoreOf(const Explanation& entry) {
     constexpr double kOwnMethodsShare = 0.05;
     const bool is_own = entry.method == Method::fast || entry.method == Method::best;
@@ -206,7 +206,8 @@ void sortExplanations(std::vector<Explanation>& explanations) {
         const double score_a = scoreOf(a), score_b = scoreOf(b);
         return score_a != score_b ? score_a > score_b : a.near_count > b.near_count;
     });
-    // A method that reproduces the stored bits is not a coincidence, even if other methods are near.
+    // Among methods that are near at equally many corners, a clearly closer one comes first: results that equal the
+    // stored bits are no coincidence.
     auto top = explanations.begin();
     for (auto entry = top + 1; entry != explanations.end(); ++entry) {
         const bool is_same_reading =
@@ -315,7 +316,8 @@ std::string differentMakers(const Identification& result) {
     return covers && makers.size() > 1 ? makers.text() : "";
 }
 
-/// Returns methods that explain about as much as the best. On quads and on triangles they may differ at few corners.
+/// Lists the methods that explain about as much as the best. For example, mikktspace on quads and on triangles may
+/// differ at only a few corners.
 std::string tiesOf(const std::vector<Explanation>& explanations) {
     const Explanation& best = explanations.front();
     std::string ties;

@@ -298,7 +298,7 @@ PrimitiveInfo describePrimitive(const obj::Model& model, const ObjPrimitive& pri
     const std::vector<std::uint32_t> corners = triangleCorners(mesh);
     info.triangle_count = corners.size() / 3;
     describeUvMap(corners, mesh.positions, mesh.uvs, true, info);
-    MeshView cut;  // triangulated like in check
+    MeshView cut;  // triangulated in the same way as by check
     cut.positions = std::span(mesh.positions);
     cut.indices = IndexView(std::span(corners));
     if (model.memory->has(reportableNoiseMemory(cut))) info.position_noise = reportableNoise(cut, 0);

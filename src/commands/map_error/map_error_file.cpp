@@ -29,7 +29,7 @@ namespace {
 /// Another interpretation is reported if its error is below this fraction of the requested one, and lower by at least
 /// this angle; smaller differences may be random.
 constexpr double kMuchBetter = 0.7, kMinGainDeg = 0.02;
-/// Error of all interpretations above which none of them explains the map.
+/// If the errors of all interpretations are above this angle, none of them explains the map.
 constexpr double kUnexplainedDeg = 5;
 
 struct TriedFrames {
@@ -132,8 +132,7 @@ void listFrames(Measuring& state, const std::string& low, const LowModel& known)
     }
 }
 
-/// Returns whether z of the texels differs from the z reconstructed from x and y, in more than a few of the tilted
-/// texels.
+/// Returns whether z of the texels differs from the z reconstructed from x and y, in more than one of 20 tilted texels.
 bool blueMatters(const Measuring& state) {
     constexpr double kLeanDeg = 5, kOtherDeg = 2;
     constexpr std::size_t kOneOf = 20;
@@ -190,7 +189,8 @@ void storeErrors(Measuring& state, const std::vector<MapError>& errors) {
 
 // -- 3. rays --
 
-/// Lists the requested rays first, then others. A cage is also tried with a smaller and a larger reach.
+/// Lists the requested rays first, and then other targets and directions, each with one, a quarter and three times the
+/// reach.
 void listRays(Measuring& state, const RayOptions& asked) {
     const double reach = state.options.map.reach;
     state.tried.push_back({asked, reach});
@@ -246,7 +246,7 @@ void tryRays(Measuring& state, const Measure& measure) {
 
 // -- 4. verdict --
 
-/// Describes how the conditions that the map was baked for differ from this model; empty if they do not.
+/// Describes how the interpretation `best` differs from the requested one, `asked`; empty if it does not.
 std::string difference(const ExplainedReading& asked, const ExplainedReading& best) {
     if (best.frames == "object")
         return best.axes == kMapAxesZUp ? "object space with z up, as in Blender (convert-map --from object --axes "

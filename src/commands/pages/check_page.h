@@ -50,10 +50,11 @@ class FindingPictures {
     FindingPictures(const FindingPictures&) = delete;
     FindingPictures& operator=(const FindingPictures&) = delete;
 
-    /// Draws the location of a finding. If there is a picture after the command, camera and light show the difference
-    /// best (drawPair); otherwise the camera is above the triangles of the finding's vertices, or shows the whole
-    /// primitive if there are none. There is no picture if the scene does not draw the primitive, or if the command
-    /// changes nothing visible. Each command is run once for all findings that name it. Throws FileError.
+    /// Draws the location of a finding, before and after the command of its remedy. With both pictures, camera and
+    /// light are chosen to show the difference best (drawPair). Without a picture after the command, the camera is
+    /// above the triangles at the finding's vertices, or shows the whole primitive if the finding lists no vertices.
+    /// There is no picture at all if the scene does not draw the primitive, or if the command makes no visible
+    /// difference. Each command is run once for all findings that name it. Throws FileError.
     FindingPicture draw(const Finding& finding);
 
   private:
@@ -77,7 +78,7 @@ std::string checkedFileHtml(const report::CheckOutcome& outcome, std::size_t num
 std::string checkPage(const std::vector<report::CheckOutcome>& outcomes, const FileOptions& file,
                       const PageOrigin& origin, const Progress& progress = {});
 
-/// Returns the section of such a page about one file, without pictures.
+/// Returns the section of a report page about one file, without pictures.
 std::string findingsHtml(const report::CheckOutcome& outcome);
 
 }  // namespace tspace

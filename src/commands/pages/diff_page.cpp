@@ -12,11 +12,12 @@
 namespace tspace {
 namespace {
 
-/// Returns the frames of B at the corners of A, as far as both primitives of a pair have them.
+/// Returns the normals and tangents of B at the corners of A. Vectors that B lacks are zero; a list is empty if it is
+/// not compared.
 OtherFrames framesAtCorners(const ScenePrimitive& a, const ScenePrimitive& b, const PrimitivePair& pair) {
     OtherFrames frames;
     const bool has_normals = !a.normals.empty() && !b.normals.empty();
-    // Tangents that only one of the primitives has cannot be compared.
+    // The list of tangents is not empty if only one side has tangents, so that its corners count as not comparable.
     if (has_normals) frames.normals.resize(a.corners.size());
     if (!a.tangents.empty() || !b.tangents.empty()) frames.tangents.resize(a.corners.size());
     for (const TrianglePair& two : pair.triangles) {

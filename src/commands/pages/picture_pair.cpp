@@ -24,7 +24,7 @@ constexpr int kSeenStep = 12;
 /// One side of a comparison: all meshes of its model, or only the primitive.
 struct Side {
     const ModelPicture& model;
-    std::size_t number = 0;  ///< index in the primitive's mesh
+    std::size_t number = 0;  ///< index of the mesh that draws the primitive
 
     [[nodiscard]] RgbImage draw(RenderShow show, const PlaceView& view, const PictureSize& size, const DVec3& to_light,
                                 std::span<const ShownSurface* const> surfaces) const {
@@ -76,7 +76,7 @@ struct Trial {
     PlaceView view = {};
     DVec3 to_light = {};
     double difference = 0;
-    std::size_t pixel = 0;  ///< at the center of the largest difference
+    std::size_t pixel = 0;  ///< pixel of the largest difference, see densestPixel
 };
 
 class PairSearch {
@@ -122,7 +122,7 @@ class PairSearch {
     }
 
   private:
-    /// Returns the center of the block of pixels with the largest sum.
+    /// Finds the block of pixels with the largest sum, and returns the pixel with the largest difference in it.
     static std::size_t densestPixel(std::span<const double> differences) {
         constexpr std::uint32_t kBlock = 10;
         double most = -1;
@@ -147,7 +147,7 @@ class PairSearch {
         return pixel;
     }
 
-    /// Returns triangles within a seventh of the size of the mesh.
+    /// Returns the triangles whose centers are near that of `triangle`: within a seventh of the bounding-box diagonal.
     static std::vector<std::size_t> trianglesNear(const DrawnMesh& mesh, std::size_t triangle) {
         const auto center = [&](std::size_t i) {
             DVec3 sum;
@@ -214,7 +214,7 @@ int largestDifference(const RgbImage& a, const RgbImage& b, std::size_t pixel) {
     return most;
 }
 
-/// Returns the difference of the brightness that people perceive, in thousandths: blue hardly contributes.
+/// Returns the difference in perceived brightness, in thousandths of a byte step; blue contributes least.
 std::uint64_t brightnessDifference(const RgbImage& a, const RgbImage& b, std::size_t pixel) {
     constexpr int kWeights[] = {213, 715, 72};
     int sum = 0;

@@ -14,7 +14,7 @@ namespace tspace {
 /// PNGs of equal size. Empty if no camera and light shows a difference.
 struct PicturePair {
     std::vector<std::uint8_t> before = {}, after = {};
-    std::vector<std::uint8_t> difference = {};  ///< brightness: the largest difference of any channel, times `gain`
+    std::vector<std::uint8_t> difference = {};  ///< grayscale: the largest difference of any channel, times `gain`
     unsigned gain = 1;
     double differing_share = 0;  ///< share of the pixels that differ
     bool is_clay = false;        ///< base colors are omitted, because they would hide the difference
@@ -26,10 +26,11 @@ struct PicturedPrimitive {
     std::size_t primitive = 0;
 };
 
-/// Tries, in this order, cameras above `triangles` of the primitive before the change, cameras from six sides of the
-/// whole primitive, and cameras above the location with the largest difference, each with lights from all directions.
-/// The largest difference is chosen, and the given location if it shows half of that. A frame around the location marks
-/// it. The bytes are the same on every machine. Throws FileError.
+/// Draws both pictures with the camera and light that show the largest difference. Tries cameras above `triangles` of
+/// the primitive before the change, cameras from six sides of the whole primitive, and cameras above the location with
+/// the largest difference, each with lights from all directions. A view of `triangles` is chosen if it shows at least
+/// half of the largest difference, unless the whole primitive shows a clear difference. In this view, a frame marks the
+/// triangles. The bytes are the same on every machine. Throws FileError.
 PicturePair drawPair(const PicturedPrimitive& before, std::span<const std::size_t> triangles,
                      const PicturedPrimitive& after);
 

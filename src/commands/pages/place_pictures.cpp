@@ -24,7 +24,7 @@ DVec3 placeOfCorner(const DrawnMesh& mesh, std::size_t corner) {
     return mesh.to_world.point(toDouble(mesh.positions[mesh.corners[corner]]));
 }
 
-/// Returns the view angles of a camera in this direction.
+/// Returns the view angles of a camera in this direction from the center.
 ViewAngles anglesOf(DVec3 direction) {
     if (!normalize(direction)) return {35, 20};
     const double flat = std::sqrt(direction.x * direction.x + direction.z * direction.z);
@@ -34,7 +34,8 @@ ViewAngles anglesOf(DVec3 direction) {
     return {kDegrees * (direction.x < 0 ? -yaw : yaw), kDegrees * (direction.y < 0 ? -pitch : pitch)};
 }
 
-/// Returns the scale of a location at which its picture shows some of the surroundings, but nothing beyond the mesh.
+/// Returns the factor, from 1.2 to 2.5, by which the picture of a location is larger than the location itself, so that
+/// it shows surroundings but little beyond the mesh.
 double aroundOf(const DrawnMesh& mesh, const PlacePoints& place) {
     constexpr double kMax = 2.5, kMin = 1.2;
     PositionBox whole, part;
@@ -70,7 +71,8 @@ PlaceView viewOver(std::span<const DrawnMesh> meshes, std::size_t mesh, std::spa
     constexpr ViewAngles kTurns[] = {{12, 8}, {-30, 8}, {40, 8}, {12, 40}, {12, -40}, {-65, 8}, {70, 8}};
     constexpr PictureSize kGlance{80, 60, 1};
     constexpr std::size_t kEnoughSamples = 60;
-    constexpr std::size_t kMaxTriangles = 2000000;  // meshes with more triangles get no small preview pictures
+    // With more triangles in the scene, the first angle is used without drawing it in a small size.
+    constexpr std::size_t kMaxTriangles = 2000000;
     PlaceView best{.points = PlacePoints(meshes[mesh], triangles), .is_alone = true, .is_place = true};
     best.around = aroundOf(meshes[mesh], best.points);
     const ViewAngles over = anglesOf(best.points.normal);

@@ -57,20 +57,20 @@ struct PlaceView {
     PlacePoints points = {};
     ViewAngles angles = {35, 20};
     double around = 1;  ///< scales the points about their center, so that the picture shows some of the surroundings
-    bool is_alone = false;  ///< without other meshes, which hide the location from every side
+    bool is_alone = false;  ///< draws only one mesh, because others hide the location from every side
     bool is_place = false;  ///< part of a primitive, not all of it
 
     [[nodiscard]] Camera camera(const PictureSize& size) const;
 };
 
-/// Returns a camera above triangles of a mesh, which are sorted; slightly oblique, so that relief is visible, and more
-/// oblique if other triangles hide them.
+/// Returns a camera above triangles of a mesh; slightly oblique, so that relief is visible, and more oblique if other
+/// triangles hide them. `triangles`: sorted.
 PlaceView viewOver(std::span<const DrawnMesh> meshes, std::size_t mesh, std::span<const std::size_t> triangles);
 
 /// Returns the index of the first mesh that draws a primitive, or nothing if the scene does not draw it.
 std::optional<std::size_t> meshOf(const ModelPicture& model, std::size_t primitive);
 
-/// Draws all meshes, or only the mesh with this index if the view is for it alone.
+/// Draws all meshes, or only the mesh with the index `mesh` if view.is_alone is true.
 RgbImage drawView(RenderShow show, std::span<const DrawnMesh> meshes, std::span<const ShownSurface* const> surfaces,
                   std::size_t mesh, const PlaceView& view, const PictureSize& size, const DVec3& to_light);
 

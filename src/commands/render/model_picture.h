@@ -62,8 +62,8 @@ class ModelTextures {
     };
     /// Returns null if the texture cannot be used; a warning then states the reason.
     const PictureTexture* read(const Wanted& wanted);
-    /// Returns the texture of a material without its UVs, which follow from its transform (textureUvs). It has no image if
-    /// there is none, or if the primitive lacks its UV set.
+    /// Returns the texture of a material without its UVs, which textureUvs computes from its transform. The result has
+    /// no image if the material has no such texture, or if the primitive lacks its UV set.
     PlacedTexture find(const ScenePrimitive& primitive, const std::optional<TextureReading>& texture, Use use,
                        bool alpha);
 
@@ -92,7 +92,7 @@ struct ModelSurface {
 struct PosedSurface {
     std::vector<Vec3> positions = {};
     std::vector<Vec3> normals = {};                  ///< one per vertex, or per corner if the file has no normals
-    std::vector<Vec4> tangents = {}, expected = {};  ///< layout as in the rest pose
+    std::vector<Vec4> tangents = {}, expected = {};  ///< one per vertex or per corner, like those of the surface
     ShownSurface shown = {};
 };
 

@@ -31,7 +31,7 @@ inline constexpr Named<Faces> kFaces[] = {
     {"auto", Faces::automatic},
 };
 
-/// Headings in help. Options under the last two control how a call runs, not its results or outputs.
+/// Headings in help. Options under kRunning and kReporting control how a call runs, not its results or outputs.
 inline constexpr const char* kInputAndOutput = "Input and output";
 inline constexpr const char* kRunning = "Running";
 inline constexpr const char* kReporting = "Reporting";

@@ -19,7 +19,7 @@ namespace tspace {
 // The part of a model that shows a normal map, as arrays of corners.
 
 struct MapMesh {
-    OwnedMesh corners = {};  ///< one vertex per corner; UVs as the texture is sampled
+    OwnedMesh corners = {};  ///< one vertex per corner, with the UVs that sample the texture
     /// Directions of the axes of the mesh in world space, one entry per triangle, for transforming normals. Empty in
     /// other spaces.
     std::vector<MapAxes> axes = {};
@@ -31,9 +31,9 @@ struct MapMesh {
 /// Returns whether the image is used as a normal map.
 bool showsNormals(const TangentUse& use);
 
-/// Appends the corners of a primitive as a map is sampled there, one vertex each. `use`: how the map is sampled; null:
-/// with the first UV set, untransformed. Missing frames are computed along the UVs that generate uses. Returns whether
-/// they were computed. Throws FileError.
+/// Appends one vertex per corner of a primitive, with the UVs at which the material samples the map. `use`: texture
+/// reference with UV set and transform; null: the first UV set without a transform. Missing frames are computed along
+/// the UVs that generate uses. Returns whether they were computed. Throws FileError.
 bool addMapCorners(const ScenePrimitive& primitive, const TangentUse* use, const TangentOptions& tangents,
                    const Execution& execution, OwnedMesh& mesh);
 

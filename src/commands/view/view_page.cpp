@@ -54,7 +54,7 @@ std::string stillHtml(const Path& input, ModelFile& model, const PageOrigin& ori
            "</div></noscript>\n";
 }
 
-/// A page in work.
+/// Content of the page that is computed from the model.
 struct ViewedModel {
     std::string still = {};            ///< content without scripts
     std::set<std::string> files = {};  ///< files that the model references, relative to its folder
@@ -77,7 +77,7 @@ ViewedModel readViewed(const Path& input, const FileOptions& options, const Page
         if (file != input.string())
             viewed.files.insert(Path(fs::path(Path(file)).lexically_normal().lexically_relative(folder)).string());
     };
-    watched.named = {};  // `opened` receives them
+    watched.named = {};  // null: images are reported to `opened`, too
     ModelFile model(input.string(), watched);
     if (!model.isObj()) static_cast<void>(model.gltf().primitives());  // fails if the primitives are invalid
     viewed.still = stillHtml(input, model, origin);

@@ -57,8 +57,8 @@ DVec3 middleOf(const std::vector<const VertexList*>& lists) {
     });
 }
 
-/// Returns whether the origin is several times as far away as most vertices extend. Measured from a corner of a square
-/// or cube the factor is two; an offset with a factor of less than four gains only two bits.
+/// Returns whether the origin is more than four times as far from `middle` as the median vertex. For an origin at a
+/// corner of a square or cube, this factor is about two; at a factor below four, an offset would gain only two bits.
 bool isFar(const VertexList& list, const DVec3& middle) {
     std::vector<double> distances;
     for (std::size_t i = 0; i < list.values.size() / 3; ++i) {
@@ -72,10 +72,9 @@ bool isFar(const VertexList& list, const DVec3& middle) {
     return length(middle) > kFar * *median;
 }
 
-/// Returns whether at least one value in twenty, along the axes that are far from the origin, has more digits than a
-/// float, so that it lies between two floats. Values that were written from floats with few digits are close to a
-/// float. `middles`: centers of the lists; empty: all axes are used.
-/// empty: every axis counts.
+/// Returns whether at least one value in twenty has more digits than a float, so that it lies between two floats. Only
+/// values along axes that are far from the origin are examined. Values that were written from floats with few digits
+/// are close to a float. `middles`: centers of the lists; empty: all axes are examined.
 bool hasMoreThanFloats(const std::vector<const VertexList*>& lists, const std::vector<DVec3>& middles) {
     constexpr double kClose = 1.0 / 16, kFarthest = 1024;
     std::array<double, 3> axes{};

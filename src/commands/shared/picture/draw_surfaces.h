@@ -22,8 +22,8 @@ namespace tspace {
 
 struct PictureTexture {
     std::uint32_t width = 0, height = 0;
-    std::vector<std::uint8_t> bytes = {};  ///< three per texel, or
-    std::vector<Vec3> texels = {};         ///< one per texel, if 8 bits are not sufficient
+    std::vector<std::uint8_t> bytes = {};  ///< 8 bits: three per texel; otherwise empty
+    std::vector<Vec3> texels = {};         ///< more than 8 bits: one per texel; otherwise empty
     std::vector<float> values = {};        ///< 256 entries: decoded value of each byte
     std::vector<float> alpha = {};         ///< one per texel; empty: opaque, or not requested
 

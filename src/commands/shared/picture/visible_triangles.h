@@ -111,8 +111,9 @@ class VisibleTriangles {
         std::size_t mesh = 0, triangle = 0;
     };
 
-    /// Draws all meshes. Of triangles at equal distance the first is visible. Triangles that share an edge leave no gap
-    /// and no sample twice. Throws FileError: tooLarge for 2^32 - 1 triangles or more, and if `work_limit` is exhausted.
+    /// Draws all meshes. Among triangles at equal distance the first is visible. Triangles that share an edge leave no
+    /// gap, and cover no sample twice. Throws FileError: tooLarge for 2^32 - 1 triangles or more, and if `work_limit`
+    /// is exhausted.
     VisibleTriangles(std::span<const DrawnMesh> meshes, const Camera& camera, std::uint32_t width, std::uint32_t height,
                      WorkLimit& work_limit);
 
