@@ -44,8 +44,8 @@ void giveReport(const std::string& json, tspace_Bytes* to) {
     if (to != nullptr) GrowingBytes(json).giveTo(to);
 }
 
-/// Stores the result of call(), which writes files, in `outcome`, and returns its report, toJson(), in `to`. Files are
-/// put in place once the report is complete.
+/// Calls call(), which writes files. Stores its result in `outcome`, and the report that toJson() returns in `to`.
+/// Files are put in place once the report is complete.
 template <class Outcome, class Call, class ToJson>
 void giveOutcome(Outcome& outcome, const Call& call, const ToJson& toJson, tspace_Bytes* to) {
     HeldOutputs outputs;

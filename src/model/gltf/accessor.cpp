@@ -120,8 +120,8 @@ bool viewHasData(const Document& document, std::size_t index) {
                                      document.views_without_data.count(index) == 0);
 }
 
-/// Returns `count` bytes of a view, starting at `offset`. The caller has checked the range against the declared length;
-/// the data has this length unless it is absent.
+/// Returns `count` bytes of a view, starting at `offset`. The caller must have checked the range against the declared
+/// length. Fails if the data is absent.
 const std::uint8_t* viewBytes(const Document& document, std::size_t index, std::size_t offset, std::size_t count) {
     const BufferView view = readBufferView(document, index);
     const Buffer& buffer = document.buffers[view.buffer];
@@ -164,7 +164,8 @@ void applySparse(const Document& document, const Accessor& accessor, std::uint8_
     }
 }
 
-/// Returns the address of the elements; null if they are all zero. Fails if there are none, and for unknown types.
+/// Returns the address of the elements; null if they are all zero. Fails if their data is not available, if there are
+/// too many zero elements, and for unknown types.
 const std::uint8_t* elementSource(const Document& document, const Accessor& accessor) {
     if (accessor.component_count == 0) {
         failAt("the accessor type " + inQuotes(accessor.type) + " does not exist", join(accessor.place(), "type"));

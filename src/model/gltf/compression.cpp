@@ -91,7 +91,7 @@ class Packer {
         });
     }
 
-    /// Returns whether only the primitives of the group use these vertices.
+    /// Returns whether only the primitives of the group use the group's vertices.
     bool ownsVertices(const std::vector<const Primitive*>& group) {
         std::map<std::size_t, std::size_t> uses;
         for (const Primitive* primitive : group) {
@@ -285,7 +285,7 @@ struct ViewUse {
     std::set<std::size_t> accessors = {};
     bool by_indices = false, by_vertices = false;
     std::size_t stride = 0;      ///< common stride of all accessors; 0 if they differ
-    std::size_t byte_count = 0;  ///< size of the complete rows that they read
+    std::size_t byte_count = 0;  ///< size of the complete rows that the accessors read
 };
 
 class ViewUses {

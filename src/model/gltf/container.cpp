@@ -255,7 +255,7 @@ void embedImages(Document& document, std::vector<std::string>& warnings) {
         if (uri.empty()) continue;
         const auto image = loadImage(document, uri, readString(old, "mimeType", place), i, warnings);
         if (!image) continue;
-        // Must come first, because a new root member invalidates references to other members.
+        // binBuffer() must be called first, because a new root member invalidates references to other members.
         Buffer& bin = binBuffer(document);
         Json& views = editableRootArray(document, "bufferViews");
         const std::size_t begin = appendAligned(bin, image->bytes, 4);
@@ -274,7 +274,7 @@ void embedImages(Document& document, std::vector<std::string>& warnings) {
     }
 }
 
-/// Returns a path relative to the folder of the output; without a folder if the output has none.
+/// Returns the path of a file in the output's folder; `name` itself if the output's path has no folder.
 Path pathNextToTarget(const OutputTarget& target, const Path& name) {
     return fs::path(target.path).parent_path() / fs::path(name);
 }
@@ -291,7 +291,7 @@ void copyNamedFile(const Document& document, const OutputTarget& target, const s
     std::string why = document.files.whyNotRead(uri, place);
     if (leadsAway(relative) != nullptr) why = "it is outside the folder of the model";
     if (!why.empty()) {
-        // A model that embeds its images has already reported the missing one.
+        // A model that embeds its images has already reported missing images.
         if (!target.embeds_images) warnings.push_back("the file " + inQuotes(uri) + " was not copied: " + why);
         return;
     }

@@ -50,7 +50,7 @@ struct OutputTarget {
     bool embeds_images = false;  ///< a .gltf becomes a .glb, which embeds its images
 };
 
-/// Determines the target by isGlbOutput(). Fails with unsupportedFile for names that are neither a GLB's nor end in
+/// Determines the target by isGlbOutput(). Fails with unsupportedFile for names that neither are GLB names nor end in
 /// .gltf, and with invalidOption for a .gltf that is written to a stream.
 OutputTarget outputTarget(const Document& document, const Path& path, bool is_stream);
 

@@ -74,7 +74,7 @@ class DecodedArrays {
     std::map<std::size_t, Known<Vec2>> vec2_ = {};  ///< decoded vectors, keyed by accessor
     std::map<std::size_t, Known<Vec3>> vec3_ = {};
     std::map<std::size_t, Known<Vec4>> vec4_ = {};
-    /// Keyed by the accessors of the base and of the array.
+    /// scaled normals and normal deltas, keyed by the accessor of NORMAL and their own accessor
     std::map<std::pair<std::size_t, std::size_t>, Known<Vec3>> scaled_normals_ = {};
     std::map<CornerKey, Known<std::uint32_t>> corners_ = {};
     std::map<std::vector<std::size_t>, Known<std::uint8_t>> words_ = {};  ///< keyed by the accessors of the words

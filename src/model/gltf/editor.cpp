@@ -73,7 +73,7 @@ void Editor::shrinkView(std::size_t index) {
     if (!document_.buffers[old.buffer].own) {
         view["byteLength"] = 1;
         if (!has_own_bytes) return;
-        // Moved to the output's own buffer, so that an unused view does not keep a reference to the old buffer.
+        // The view moves to the output's own buffer, so that an unused view keeps no reference to the old buffer.
         vacated_.push_back({old.buffer, old.begin, old.begin + old.byte_count});
         view["buffer"] = targetBuffer();
         view["byteOffset"] = 0;
@@ -249,7 +249,7 @@ Json Editor::storeSparse(ElementData& data) {
 }
 
 std::size_t Editor::store(ElementData&& data, std::optional<std::size_t> replaces) {
-    // Charged for the whole run, because the data stays in memory until the file is written.
+    // The budget is charged for the whole run, because the data stays in memory until the file is written.
     document_.memory->take(data.byteCount() + data.unfiltered.size(), "/accessors");
     changed_ = true;
     const Form form = data.in_draco ? Form{.is_draco = true} : formLike(data.like);
@@ -339,7 +339,7 @@ void Editor::finish() {
     for (const std::size_t view : spare_views_) shrinkView(view);
     spare_views_.clear();
     if (!vacated_.empty()) cutVacated(document_, vacated_);
-    // Looked up per buffer, because a document without buffers has no array of them.
+    // The array is looked up for each buffer, because a document without buffers has none.
     for (std::size_t i = 0; i < document_.buffers.size(); ++i) {
         if (document_.buffers[i].edited) document_.json["buffers"][i]["byteLength"] = document_.buffers[i].bytes.size();
     }

@@ -62,7 +62,7 @@ std::string compressionMissing(const std::string& name) {
 
 /// Checks the root object once, so that later code finds its arrays in constant time, and may assume types of members.
 void checkRoot(const Json& root) {
-    // Member lookup is a linear search, done for every accessor.
+    // The number of members is limited, because member lookup is a linear search and is done for every accessor.
     constexpr std::size_t kMaxRootMembers = 1000;
     if (root.size() > kMaxRootMembers)
         failFile(ErrorCode::invalidFile, "the root object has more than 1000 members, which is not supported", "");

@@ -323,7 +323,7 @@ std::vector<TangentUse> tangentUses(const Document& document, const Primitive& p
     for (const std::size_t material : variantMaterials(document, primitive)) {
         if (material != primitive.material) MaterialUses(document, material, true, uses).collect();
     }
-    // Textures determine the direction of tangents; uses without one (only a factor) follow them.
+    // Textures determine the direction of tangents, so uses before the first texture (only a factor) take its UVs.
     const auto texture = std::find_if(uses.begin(), uses.end(), [](const TangentUse& use) { return use.has_texture; });
     if (texture == uses.end()) return uses;
     for (auto use = uses.begin(); use != texture; ++use) {

@@ -20,9 +20,9 @@ namespace tspace::gltf {
 ///
 /// The primitive's own material comes first, then those of KHR_materials_variants in the order of the mappings, each
 /// material once. Within a material: normalTexture, clearcoatNormalTexture (KHR_materials_clearcoat), anisotropy
-/// (KHR_materials_anisotropy: a texture, or only a nonzero strength. A strength has the UVs of the material's first
-/// use, or of the first texture if it is the first use itself; its `place` is the extension). The image is set if the
-/// texture refers to one. Fails with invalidFile.
+/// (KHR_materials_anisotropy: a texture, or only a nonzero strength, whose `place` is the extension). A strength takes
+/// the UVs of its material's first use; uses before the first texture take the UVs of that texture. The image is set if
+/// the texture refers to one. Fails with invalidFile.
 std::vector<TangentUse> tangentUses(const Document& document, const Primitive& primitive);
 
 /// Returns a sentence on what else may read the primitive's tangents or suggests that an artist made them: an unknown

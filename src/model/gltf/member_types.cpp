@@ -180,7 +180,7 @@ void checkMemberValue(const Json& value, MemberType type, const MemberPlace& pla
         failFile(ErrorCode::invalidFile,
                  subject + " is not " + memberTypeName(expected) + " but " + jsonTypeName(found), at.pointer());
     };
-    // Elements of arrays are members of objects whose keys any file may choose, or have no key.
+    // An element of an array has no key. Keys are quoted, because files choose the keys of some objects.
     const std::string name = place.key.empty() ? "the entry" : inQuotes(place.key);
     if (!hasMemberType(type, value)) fail(name, type, value, place);
     if (!isListType(type)) return;

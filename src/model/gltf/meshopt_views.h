@@ -27,8 +27,8 @@ struct MeshoptView {
 std::optional<MeshoptView> readMeshoptView(const Document& document, std::size_t index);
 
 /// Checks all extensions, and decodes the views whose fallback buffer has no data. The required memory is at most
-/// meshoptRatio times the size of the file. Fails with invalidFile at the extension's JSON pointer. Without the library
-/// those buffers stay absent.
+/// meshoptRatio times the size of the file. Fails with invalidFile at the extension's JSON pointer. Without the
+/// library, these fallback buffers stay absent.
 void decodeMeshoptViews(Document& document);
 
 /// Returns the elements sources[0], sources[1], ... of an accessor before the filter of its view, in rows of a multiple

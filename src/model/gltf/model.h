@@ -28,8 +28,7 @@ class Model {
     /// Returns the primitives of the document; they are read once and cached.
     [[nodiscard]] std::vector<Primitive>& primitives();
 
-    /// Returns all primitives as a Scene, which is valid, with its arrays, until dropScene. Copies of it share the
-    /// arrays.
+    /// Returns all primitives as a Scene. It and its arrays stay valid until dropScene(); copies share the arrays.
     [[nodiscard]] const Scene& scene();
     /// Returns a scene that the caller owns, with all primitives or only the given ones.
     [[nodiscard]] Scene sceneOf();
@@ -37,7 +36,7 @@ class Model {
     void dropScene() { scene_.reset(); }
 
     /// Returns the scene with surface looks and placements; `with_images`: with the bytes of the images that pictures
-    /// show. The model does not keep it.
+    /// show. The model does not keep the scene.
     [[nodiscard]] DrawnScene drawnScene(bool with_images);
     /// Returns the scene with the inputs of complete materials: image bytes of base color, metalness and emission, and
     /// vertex colors. `with_normal_maps`: also image bytes of normal maps.

@@ -24,8 +24,8 @@ struct StoredPacking {
 /// Returns the formats for which the primitive has an attribute, in the order of FrameFormat.
 std::vector<StoredPacking> findPacked(const Document& document, const Primitive& primitive);
 
-/// Returns the packed attribute if it contains the primitive's only frames, that is, without valid NORMAL and TANGENT.
-/// Empty if the primitive has other frames, or none.
+/// Returns the first valid packed attribute of a primitive that lacks NORMAL or TANGENT, so that its packed frames are
+/// its only frames. Returns an empty text for other primitives.
 std::string packedAlone(const Document& document, const Primitive& primitive);
 
 /// Returns the words, without padding, of a format without a fault. Fails like copyElements.

@@ -19,7 +19,7 @@ namespace tspace::gltf {
 namespace {
 
 AttributeList readAttributes(const Json& object, const std::string& place, std::size_t accessor_count) {
-    // Attribute lookup is a linear search, done for each attribute.
+    // The number of attributes is limited, because attribute lookup is a linear search and is done for each attribute.
     constexpr std::size_t kMaxAttributes = 1000;
     if (object.size() > kMaxAttributes)
         failFile(ErrorCode::unsupportedFile, "more than 1000 attributes are not supported", place);
@@ -84,8 +84,8 @@ std::size_t vectorSize(const Accessor& accessor) {
     return accessor.type.starts_with("VEC") ? accessor.component_count : 0;
 }
 
-/// Returns whether joints and weights lack the same components, so that these represent influences that no vertex has.
-/// Only weights may lack one component, which readers compute from the others.
+/// Returns whether joints and weights have the same number of components, so that the missing components are influences
+/// that no vertex has. A component that only the weights lack need not be zero: readers compute it from the others.
 bool lackSameInfluences(const Document& document, const Primitive& primitive, const std::string& name) {
     const std::string set = name.substr(name.find('_'));
     const auto joints = primitive.find("JOINTS" + set), weights = primitive.find("WEIGHTS" + set);
@@ -199,8 +199,8 @@ std::optional<StridedSpan<const Vec>> viewVectors(const Document& document, cons
     return StridedSpan<const Vec>(reinterpret_cast<const Vec*>(elements->data), accessor.count, elements->stride);
 }
 
-/// Returns the scale to unit length, as unitScale does, and also for shorter normals whose squared length is a
-/// normalized float, since shaders can normalize those.
+/// Returns the factor that gives a normal unit length. Like unitScale, but also scales shorter normals, down to a
+/// squared length that is a normal (not subnormal) float, because shaders can normalize these too.
 double storedScale(const Vec3& normal) {
     constexpr double kMin = 0x1p-63;
     const double size = length(toDouble(normal));

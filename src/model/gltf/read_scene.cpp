@@ -95,7 +95,8 @@ class Nodes {
         below(roots_);
     }
 
-    /// Returns the nodes of the default scene, parents before children.
+    /// Returns the nodes of the default scene, otherwise of the first scene, otherwise of the whole forest; parents
+    /// before children.
     std::vector<std::size_t> shown() {
         const Json& scenes = rootArray(document_, "scenes");
         if (scenes.empty()) return below(roots_);
@@ -116,7 +117,8 @@ class Nodes {
         return result;
     }
 
-    /// Visits each node once, with the transform of the first path that reaches it.
+    /// Returns `roots` and all nodes below them, each once. Computes the world transform of each node, by the first
+    /// path that reaches it in any traversal.
     std::vector<std::size_t> below(const std::vector<std::size_t>& roots) {
         ++walk_;
         std::vector<std::size_t> order;

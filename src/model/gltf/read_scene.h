@@ -21,8 +21,8 @@ SurfaceLook readLook(const Document& document, const Primitive& primitive);
 void readMetalAndEmission(const Document& document, const Primitive& primitive, SurfaceLook& look);
 
 /// Returns every primitive at each node that draws it, in the default scene, otherwise the first scene, otherwise all
-/// nodes. If those draw nothing: all primitives, without a transform. A skinned mesh is placed by the first joint of
-/// its skin, which is exact in the bind pose. Each node is visited once, even if the graph has cycles. Fails with
+/// nodes. If these nodes draw nothing: all primitives, without a transform. A skinned mesh is placed by the first joint
+/// of its skin, which is exact in the bind pose. Each node is visited once, even if the graph has cycles. Fails with
 /// invalidFile, and with tooLarge if the budget does not suffice.
 std::vector<ScenePlacement> readPlacements(const Document& document, std::span<const Primitive> primitives);
 

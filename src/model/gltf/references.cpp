@@ -311,7 +311,7 @@ void removeEmptiedBuffers(Document& document) {
     const auto is_emptied = [](const Buffer& buffer) {
         return buffer.own && buffer.edited && buffer.source != BufferSource::bin && buffer.bytes.size() == 0;
     };
-    // Rare, so it is checked first: finding used buffers reads every view.
+    // Empty buffers are rare, so the function looks for them before it finds used buffers, which reads every view.
     if (std::none_of(document.buffers.begin(), document.buffers.end(), is_emptied)) return;
     std::vector<bool> is_kept = usedBuffers(document);
     for (std::size_t i = 0; i < is_kept.size(); ++i) is_kept[i] = is_kept[i] || !is_emptied(document.buffers[i]);

@@ -89,7 +89,8 @@ ImportLimits limitsFor(std::uint64_t size, const FileOptions& options) {
     return limits;
 }
 
-/// Returns the reason why the importer may have failed that the first bytes of the file show, or an empty text.
+/// Returns a reason, recognized by the first bytes of the file, why the importer may have failed; empty if there is
+/// none.
 std::string encodingReason(const Path& path) {
     std::string text(8, '\0');
     const CFile file = openFile(path, "rb");

@@ -23,7 +23,7 @@ bool isFolder(const Path& path);
 bool isOneFile(const Path& a, const Path& b);
 /// Returns a string that is equal for all names of a file, which need not exist yet.
 std::string identityOf(const Path& path);
-/// Returns whether both paths refer to the same existing file, or are equal if nothing exists yet.
+/// Returns whether both paths refer to the same file, which need not exist yet.
 bool isSameFile(const Path& a, const Path& b);
 
 /// Returns the file that `uri` refers to in a folder on the disk. Fails like checkedPathOfUri; with forbiddenPath if a

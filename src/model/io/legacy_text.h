@@ -30,9 +30,9 @@ inline bool isUtf8(std::string_view text) {
     return true;
 }
 
-/// Returns whether the byte at `at`, which has the value of a backslash, is the second byte of a two-byte character: if
-/// an odd number of preceding bytes are lead bytes of Shift-JIS, or of GBK, Big5 and similar encodings. `text` must not
-/// be UTF-8.
+/// Returns whether the byte at `at`, which has the value of a backslash, is the second byte of a two-byte character:
+/// whether an odd number of bytes directly before it are lead bytes of Shift-JIS, or of GBK, Big5 and similar
+/// encodings. `text` must not be UTF-8.
 inline bool isSecondByte(std::string_view text, std::size_t at) {
     const auto followsOddCount = [&](auto&& begins) {
         std::size_t leads = 0;

@@ -10,7 +10,7 @@
 
 namespace tspace {
 
-// Defined here instead of inline, because reports construct hundreds of members.
+// These constructors are not inline, because reports construct hundreds of members.
 Json::Json(const char* text) : Json(std::string(text)) {}
 Json::Json(std::string_view text) : Json(std::string(text)) {}
 Json::Json(std::string text) : kind_(Kind::text) { value_.text = new std::string(std::move(text)); }

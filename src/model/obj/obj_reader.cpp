@@ -295,8 +295,9 @@ void addNormal(void* user, double x, double y, double z) {
     build.model->normals.push_back(normal);
 }
 
-/// Converts an index of the file to a zero-based one: in the file 1 is the first, -1 the latest so far. Positive
-/// indices may still point ahead; returns kNone for negative ones that reach before the first.
+/// Converts an index of the file to a zero-based one. In the file, 1 is the first element, and -1 the latest element so
+/// far. Positive indices may refer to elements that follow later. Returns kNone for negative indices that refer to
+/// elements before the first.
 std::uint32_t resolveIndex(int index, std::size_t count_so_far) {
     if (index > 0) return static_cast<std::uint32_t>(index - 1);
     const auto back = static_cast<std::size_t>(-static_cast<std::int64_t>(index));

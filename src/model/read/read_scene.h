@@ -61,16 +61,16 @@ class ModelFile {
     [[nodiscard]] obj::Model& obj();
 
   private:
-    /// Frees what earlier calls decoded.
+    /// Frees the arrays that earlier calls decoded, and restores the budget.
     void startAnew();
     [[nodiscard]] DrawnScene drawnObj(bool with_images);
 
     std::variant<gltf::Model, obj::Model> model_;
     std::shared_ptr<MemoryBudget> memory_;
-    std::int64_t left_ = 0;  ///< of the budget, after reading
+    std::int64_t left_ = 0;  ///< bytes that the budget had left after reading
 };
 
-// One scene of a model file, as the member function of ModelFile.
+// Return one scene of a model file, like the functions scene, drawnScene and posedScene of ModelFile.
 
 Scene readScene(const std::string& input, const FileOptions& options, bool with_images);
 DrawnScene readDrawnScene(const std::string& input, const FileOptions& options, bool with_images);

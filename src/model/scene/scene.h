@@ -201,14 +201,15 @@ struct ScenePrimitive {
         return found == attribute_faults.end() ? nullptr : &*found;
     }
 
-    /// Returns whether tangents exist that something may read, but without a texture. An artist may have authored them,
-    /// along hair or brushed metal, so that UVs do not determine their direction.
+    /// Returns whether the primitive has tangents that something may read, but no texture that is read with them. An
+    /// artist may have authored such tangents, along hair or brushed metal, so that UVs do not determine their
+    /// direction.
     [[nodiscard]] bool mayHaveAuthoredTangents() const {
         return !tangents.empty() && (uses.empty() ? !other_reader.empty() : !uvsDetermineDirection());
     }
 
-    /// Returns the packed frames if they are the primitive's only frames, otherwise null. `generate` does not change
-    /// such a primitive.
+    /// Returns the first valid packed frames if NORMAL or TANGENT is missing, so that these are the primitive's only
+    /// frames; otherwise null. `generate` does not change such a primitive.
     [[nodiscard]] const ScenePacked* packedAlone() const {
         if (!normals.empty() && !tangents.empty()) return nullptr;
         for (const ScenePacked& frames : packed) {
@@ -239,7 +240,8 @@ struct Scene {
     std::vector<ScenePrimitive> primitives = {};  ///< primitives, in file order
     std::vector<SceneImage> images = {};          ///< referenced by TangentUse::image
     std::vector<std::string> warnings = {};       ///< warnings of the reader
-    /// Index of the warning about scaled normals, which findings on their primitives report too.
+    /// Index, in `warnings`, of the warning about scaled normals. Checks report these normals by findings on their
+    /// primitives instead.
     std::optional<std::size_t> scaled_normals_warning = {};
     DVec3 offset = {};                          ///< offset subtracted from all positions while reading (OBJ)
     std::shared_ptr<MemoryBudget> memory = {};  ///< remaining memory budget

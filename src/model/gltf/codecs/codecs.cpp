@@ -83,7 +83,7 @@ bool comesBack(const MeshoptCoding& coding, std::span<const std::uint8_t> rows, 
 }  // namespace
 
 std::uint64_t meshoptRatio(bool is_khr) {
-    // A vertex block uses 2 bits for 16 equal bytes of a column with codec 0, and for 256 of them with codec 1.
+    // A vertex block uses 2 bits for 16 equal bytes of a column with codec 0, and for 256 equal bytes with codec 1.
     return is_khr ? 1024 : 64;
 }
 
@@ -91,7 +91,7 @@ std::string meshoptFault(const MeshoptCoding& coding, std::size_t byte_count) {
     const bool is_attributes = coding.mode == MeshoptMode::attributes;
     std::string fault = is_attributes ? attributeFault(coding) : indexFault(coding);
     if (!fault.empty()) return fault;
-    // A triangle takes at least one byte, and so does an index in the other index mode.
+    // A triangle takes at least one byte, and so does an index in the mode `indices`.
     const std::uint64_t most = coding.mode == MeshoptMode::triangles ? std::uint64_t{byte_count} * 3
                                : is_attributes ? byte_count * meshoptRatio(coding.is_khr) / coding.stride
                                                : byte_count;
