@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Correctness checks of everything that is timed. All jobs: equal bits with 1, 2 and 3 threads, with outputs that
-// contain garbage before. mikktspace: equal to the bits of the reference's interface, which reads and welds corner by
-// corner, and to recorded results of the reference itself. evaluate: equal to mikktspace. lengyel: directions of the
-// plain loop. split: every corner finds its old vertex and its tangent.
+// Correctness checks of everything that is timed.
+// All jobs: the results have the same bits with 1, 2 and 3 threads, even if the outputs contain garbage before the
+// call.
+// mikktspace: the results have the same bits as those of the reference's interface, which reads and welds corner by
+// corner, and equal recorded results of the reference itself.
+// evaluate: the results equal those of mikktspace.
+// lengyel: the directions agree with those of the plain loop.
+// split: every corner has a vertex with the source vertex and the tangent of the corner.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -79,7 +83,7 @@ std::uint64_t hashThroughCallbacks(const Mesh& mesh) {
 }
 
 std::string mikktspaceError(const Mesh& mesh, const Outputs& outputs) {
-    // The reference's interface ignores polygons.
+    // The reference's interface ignores faces with more than four corners.
     const bool has_polygons = std::ranges::any_of(mesh.face_sizes, [](std::uint32_t n) { return n > 4; });
     if (!has_polygons && hashThroughCallbacks(mesh) != hashOf(outputs)) {
         return "the reference's interface gives other bits";
@@ -90,8 +94,9 @@ std::string mikktspaceError(const Mesh& mesh, const Outputs& outputs) {
 }
 
 std::string lengyelError(const Mesh& mesh, const Outputs& outputs) {
-    constexpr float kNear = 0.9998f;  // one degree
-    // If UVs are nearly degenerate, different rounding may rotate a tangent: at most one corner in this many.
+    constexpr float kNear = 0.9998f;  // cosine of about one degree
+    // If UVs are nearly degenerate, different rounding may rotate a tangent: this is accepted at one of this many
+    // corners.
     constexpr std::size_t kOneInSoMany = 50;
     const Mesh triangles = mesh.triangulated();
     std::vector<Vec4> expected(mesh.positions.size());

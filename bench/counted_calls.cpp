@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Calls whose instructions are counted by the test: tspace_counted_calls CASE, under callgrind. One thread, SSE2 if the
-// library has a choice, meshes that are equal on every machine: the count depends only on the code and the compiler.
+// Calls whose instructions are counted by a test, which runs "tspace_counted_calls CASE" under callgrind. They use one
+// thread, SSE2 where the library lets a caller choose, and meshes that are equal on every machine, so that the count
+// depends only on the code and the compiler.
 #include <cstdio>
 #include <cstring>
 #include <functional>
@@ -12,7 +13,7 @@
 namespace tspace::bench {
 namespace {
 
-/// Function that callgrind observes: with a fixed name, and never inlined.
+/// Function whose instructions callgrind counts. It has a fixed name and is never inlined.
 extern "C" [[gnu::noinline]] void tspaceCountedCall(const Job& job, const Execution& execution) {
     job.call(execution);
     // prevents a tail call, which would leave the function too early
@@ -59,7 +60,7 @@ constexpr PackCase kPackCases[] = {
     {"unpack_oct32_20k", FrameFormat::oct32, true},
 };
 
-/// Below the API boundary, where SIMD targets can be selected.
+/// Calls the internal functions, because callers of the API cannot choose the SIMD target of packing.
 Job packJob(FrameFormat name, bool unpack) {
     const pack::Format& format = *pack::formatOf(name);
     test::RandomBits random(1);
@@ -101,7 +102,7 @@ int run(const char* name) {
 int main(int argc, char** argv) {
     if (argc == 2 && std::strcmp(argv[1], "--compiler") == 0) {
 #ifndef __x86_64__
-        std::fputs("not for x86-64: ", stdout);  // the recorded counts are for x86-64
+        std::fputs("not for x86-64: ", stdout);  // only the counts for x86-64 are recorded
 #endif
 #ifdef __clang__
         std::puts("clang " __clang_version__ " " TSPACE_BENCH_FLAGS);

@@ -44,7 +44,8 @@ RowResult measureFile(const std::string& title, const std::string& model, Lab& l
     if (!std::filesystem::exists(input) || !std::filesystem::exists(lab.tool()) || folder.empty()) {
         return row.note = "not there: " + input + " or the tool", row;
     }
-    // The model's materials need no tangents, so without --all the tool reads and examines it, and writes its bytes.
+    // The model's materials need no tangents, so without --all the tool reads and examines the file, and writes its
+    // bytes unchanged.
     const std::string copy = folder + "/copy.glb", result = folder + "/result.glb";
     const std::vector<std::string> unchanged = {lab.tool(), "generate", "--quiet", input, "-o", copy};
     const auto generate = [&](const char* threads) {

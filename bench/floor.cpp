@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads as fast as the machine can, and writes with ordinary stores.
+// Reads memory as fast as the machine can, and writes with ordinary stores.
 #include "floor.h"
 
 #include <cstring>
@@ -8,7 +8,7 @@ namespace tspace::bench {
 
 namespace {
 
-/// Returns the sum of all 64-bit words: cheap enough that only reading matters.
+/// Returns the sum of all 64-bit words. Adding is so cheap that only the reading takes time.
 template <class T>
 std::uint64_t readAll(const std::vector<T>& values) {
     const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Lower bound for any tangent generator: the time to move its data.
+// Lower bound of the time of any tangent generator: the time to read its inputs and write its outputs.
 #pragma once
 
 #include "mesh.h"
 
 namespace tspace::bench {
 
-/// Reads all inputs once and writes 16 bytes for each entry of `out` once: one per vertex or one per corner.
+/// Reads all inputs once, and writes each entry of `out` (16 bytes) once. `out` has one entry per vertex or one per
+/// corner.
 void memoryFloor(const Mesh& mesh, std::vector<Vec4>& out);
 
 }  // namespace tspace::bench

@@ -10,13 +10,14 @@ namespace tspace::bench {
 
 namespace {
 
-/// sin and cos of `periods` turns divided into `steps`, and of a ripple on top.
+/// Sine and cosine of a full turn divided into `steps`, and a ripple of `waves` periods with its derivative.
 struct Turn {
     std::vector<double> sine, cosine, ripple, ripple_slope;
 
     Turn(std::uint32_t steps, double waves) {
         for (std::uint32_t i = 0; i <= steps; ++i) {
-            // The last step equals the first one exactly: a seam is two vertices at one position.
+            // The last step has exactly the angle of the first one, so that the two vertices at a seam have the same
+            // position.
             const double angle = 2 * std::numbers::pi * (i % steps) / steps;
             sine.push_back(std::sin(angle));
             cosine.push_back(std::cos(angle));
@@ -35,8 +36,8 @@ Vec3 unit(double x, double y, double z) {
     return toFloat(x / length, y / length, z / length);
 }
 
-/// Returns u of each column: increases for `fold` columns, then decreases at three quarters of the rate, so that it
-/// never returns to the same value at the seam.
+/// Returns u for each line between columns: it increases for `fold` columns, then decreases at three quarters of the
+/// rate, and so on. The different rates make u differ on the two sides of the seam.
 std::vector<float> foldedU(std::uint32_t columns, std::uint32_t fold) {
     std::vector<float> u = {0};
     double value = 0;
@@ -58,7 +59,7 @@ void addTorusVertices(Mesh& mesh, std::uint32_t columns, std::uint32_t rows, std
             const double by_u = kHeight * around.ripple_slope[i] * across.ripple[j];
             const double by_v = kHeight * around.ripple[i] * across.ripple_slope[j];
             const double reach = kMajor + radius * cv;
-            // The normal is the cross product of the two derivatives of the position.
+            // The normal is the cross product of the derivatives of the position along u and v.
             const double ux = by_u * cv * cu - reach * su, uy = by_u * cv * su + reach * cu, uz = by_u * sv;
             const double slope = by_v * cv - radius * sv;
             const double vx = slope * cu, vy = slope * su, vz = by_v * sv + radius * cv;
@@ -69,7 +70,7 @@ void addTorusVertices(Mesh& mesh, std::uint32_t columns, std::uint32_t rows, std
     }
 }
 
-/// Returns sqrt(triangles / 4), so that twice as many columns give that many triangles.
+/// Returns the number of rows with which a torus of twice as many columns has about `triangles` triangles.
 std::uint32_t rowsFor(std::size_t triangles) {
     return std::max(1u, static_cast<std::uint32_t>(std::sqrt(static_cast<double>(triangles) / 4)));
 }

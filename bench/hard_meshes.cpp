@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shapes of the linear-time tests, under the names of the table.
+// Shapes of the tests for linear time, with the names that the table shows.
 #include <utility>
 
 #include "core/tangents/shapes.h"

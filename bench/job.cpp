@@ -20,7 +20,7 @@ T orDie(Result<T> result) {
     return *std::move(result);
 }
 
-/// Hashes by multiplying and rotating 32-bit words; depends on the order.
+/// Updates the hash by multiplying and rotating 32-bit words. The result depends on their order.
 template <class T>
 void mix(std::uint64_t& hash, const std::vector<T>& values) {
     static_assert(sizeof(T) % 4 == 0);
@@ -105,7 +105,7 @@ Job normalsJob(const Mesh& mesh, NormalWeighting weighting = NormalWeighting::an
             }};
 }
 
-/// Splits with threads, if the library supports that.
+/// Splits vertices with the threads of `execution`, if the library supports that.
 template <class Run>
 Result<SplitResult> split(const Mesh& mesh, const Outputs& outputs, const Run& execution) {
     const CornerAttribute attributes[] = {cornerAttribute(outputs.tangents)};

@@ -30,20 +30,20 @@ std::uint64_t hashOf(const Mesh& mesh);
 
 struct Job {
     std::shared_ptr<Outputs> outputs;
-    /// Terminates the program if the library reports an error.
+    /// Runs the call. Terminates the program if the library reports an error.
     std::function<void(const Execution&)> call;
 };
 
-/// Creates a job; `mesh` must outlive it. "mikktspace", "mikktspace_all" (every output), "mikktspace_corrected",
-/// "evaluate" (on an existing plan), "evaluate_lengyel" (on an existing plan, one result per vertex), "uniform",
-/// "angle", "area", "fast", "best", "lengyel", "lengyel_vertex" (one result per vertex), "flat", "basis", "normals"
-/// (angle-weighted), "normals_crease" (with a crease angle), "normals_flat", "split" (by the tangents of mikktspace).
-/// The job has no outputs if the library does not support it.
+/// Creates a job; `mesh` must outlive it. The job has no outputs if the library does not support it. Names:
+/// "mikktspace", "mikktspace_all" (every output), "mikktspace_corrected", "evaluate" (on an existing plan),
+/// "evaluate_lengyel" (on an existing plan, one result per vertex), "uniform", "angle", "area", "fast", "best",
+/// "lengyel", "lengyel_vertex" (one result per vertex), "flat", "basis", "normals" (angle-weighted), "normals_crease"
+/// (with a crease angle), "normals_flat", "split" (by the tangents of mikktspace).
 Job makeJob(const std::string& name, const Mesh& mesh);
 const std::vector<std::string>& jobNames();
 
-/// Returns why a result is wrong, or an empty string: other thread counts, and alternative ways to compute the same
-/// result, must give the same bits; see check.cpp.
+/// Returns the reason why a result is wrong, or an empty string. Other thread counts, and alternative ways to compute
+/// the same result, must give the same bits; see check.cpp.
 std::string findError(const std::string& job_name, const Mesh& mesh);
 
 /// Selects a target by name: "scalar", "sse2", "avx2", "avx512", "neon". Returns false if the library has no such

@@ -11,7 +11,7 @@ namespace tspace::bench {
 
 namespace {
 
-/// Returns the number for "20k" or "8M"; otherwise 0.
+/// Returns the number of triangles for a size such as "20k" or "8M", and 0 for other texts.
 std::size_t trianglesOf(const std::string& size) {
     const std::size_t number = std::strtoul(size.c_str(), nullptr, 10);
     return size.ends_with("k") ? 1000 * number : size.ends_with("M") ? 1000000 * number : 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rows over many meshes: real models as in their files, tori of all sizes for which a rule of the reference may matter,
-// triangles in other orders, sizes for which threads may not be worthwhile.
+// Rows over many meshes: models as stored in their files, tori of all sizes at which the reference's last-bucket rule
+// may matter, triangles in other orders, and sizes at which threads may not be worthwhile.
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
@@ -17,9 +17,9 @@ namespace tspace::bench {
 
 namespace {
 
-/// One mesh of a row: two calls, measured alternately.
+/// Measurement of two alternating calls on one mesh.
 struct Pair {
-    double seconds = 0, base_seconds = 0;  ///< times of the best round
+    double seconds = 0, base_seconds = 0;  ///< seconds per call in the best round
     double ratio = 0;                      ///< median over rounds
     std::size_t triangles = 0;
 };
@@ -37,7 +37,7 @@ std::string inWords(double value) {
     return text.substr(0, text.find('.') + 3);
 }
 
-/// Sets the row's value to the worst mesh.
+/// Sets the row's value to the ratio of the worst mesh.
 void summarize(const std::vector<Pair>& pairs, double asked, RowResult& row) {
     if (pairs.empty()) return void(row.note = "no meshes");
     const auto worst = std::ranges::max_element(pairs, {}, &Pair::ratio);
@@ -47,7 +47,7 @@ void summarize(const std::vector<Pair>& pairs, double asked, RowResult& row) {
                std::to_string(worst->triangles) + " triangles";
 }
 
-/// Sets the row's value to the sum of times.
+/// Sets the row's value to the ratio of the total times.
 void summarizeTotal(std::vector<Pair> pairs, RowResult& row) {
     if (pairs.empty()) return void(row.note = "no meshes");
     double seconds = 0, base_seconds = 0;
@@ -81,7 +81,8 @@ Row models(const std::string& title, std::size_t least, std::size_t most) {
         }};
 }
 
-/// Compares Pairing::reference, which tests whether the reference's last bucket matters, with Pairing::corrected.
+/// Compares Pairing::reference with Pairing::corrected. The former also determines whether the reference's last bucket
+/// affects the result.
 Pair racePairings(const Mesh& mesh, int rounds) {
     const Job reference = makeJob("mikktspace", mesh), corrected = makeJob("mikktspace_corrected", mesh);
     const Execution one{.thread_count = 1};
@@ -115,7 +116,8 @@ std::string torusName(const std::string& size, const std::string& order) {
     return "torus_" + size + (order == "natural" ? "" : "_" + order);
 }
 
-/// Compares tori whose triangles are in another order with natural order. `sizes`: empty for the size of the run.
+/// Compares tori with their triangles in the order `name` with tori in natural order. `sizes`: empty for the size of
+/// the run.
 Row order(const std::string& title, const std::string& name, std::vector<std::string> sizes, double asked) {
     return {title, [=](Lab& lab) {
                 RowResult row{.title = title};
@@ -158,7 +160,7 @@ std::vector<Row> orderRows() {
     return rows;
 }
 
-/// Compares `threads` (0: all) with one thread, for tori of some sizes.
+/// Compares `thread_count` threads (kAllThreads: one per core) with one thread, for tori of these sizes.
 Row threads(const std::string& title, unsigned thread_count, std::vector<std::size_t> sizes) {
     return {title, [=](Lab& lab) {
                 RowResult row{.title = title};
@@ -174,7 +176,7 @@ Row threads(const std::string& title, unsigned thread_count, std::vector<std::si
             }};
 }
 
-/// Compares two threads with one thread, for boxes in a single call.
+/// Compares two threads with one thread, for a single call that processes `box_count` boxes.
 Row meshJobs(const std::string& title, std::size_t box_count) {
     return {title, [=](Lab& lab) {
                 RowResult row{.title = title};
@@ -196,8 +198,8 @@ Row meshJobs(const std::string& title, std::size_t box_count) {
             }};
 }
 
-/// Compares plans of 100 characters, which are evaluated one after the other, with plain loops over the same
-/// characters. Each character has its own arrays, as in a frame of a game.
+/// Compares plans of 100 characters, evaluated one after the other, with plain loops over the same characters. Each
+/// character has its own arrays, as in a frame of a game.
 Row characters(const std::string& title, const std::string& job_name) {
     return {title, [=](Lab& lab) {
                 RowResult row{.title = title};
@@ -228,7 +230,8 @@ Row characters(const std::string& title, const std::string& job_name) {
 
 Row smallCall(const std::string& title) {
     return {title, [=](Lab& lab) {
-                constexpr int kCalls = 1000;  // a single call is below the resolution of clocks and caches
+                constexpr int kCalls =
+                    1000;  // a single call is too short for the clock, and its time depends on the state of the caches
                 RowResult row{.title = title, .unit = " us"};
                 const Mesh mesh = boxMesh();
                 const Job job = makeJob("mikktspace", mesh);

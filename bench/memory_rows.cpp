@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scratch memory in addition to inputs and outputs, counted by the allocator, and page faults of a second call.
+// Rows for memory: scratch memory, counted by the allocator (without inputs and outputs), and page faults of a second
+// call.
 #include <sys/resource.h>
 
 #include "counting_allocator.h"
@@ -47,7 +48,7 @@ void measureSecondCall(RowResult& row, const Job& job) {
     };
     row.one_thread.value = measure(1);
     row.one_thread.asked = 0;
-    row.two_threads.value = measure(2);  // a started thread touches its own stack
+    row.two_threads.value = measure(2);  // not 0: the started thread touches its own stack
 }
 
 Row secondCallFaults(const std::string& title, const std::string& job_name) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Functions of all meshes, whatever their source.
+// Functions for meshes of any source.
 #include "mesh.h"
 
 #include <random>

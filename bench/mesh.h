@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Measured meshes. Every name gives the same mesh on every machine.
+// Meshes that are measured. Every name gives the same mesh on every machine.
 #pragma once
 
 #include <cstdint>
@@ -29,43 +29,44 @@ struct Mesh {
 };
 
 /// Returns a displaced torus of 2 * columns * rows triangles. Its UVs have seams in u and v, where vertices are
-/// duplicated, and u reverses every `fold` columns, so every second band is mirrored and vertices between bands split.
-/// One quad in 200 has a triangle without UV area. Up to 8 triangles (one for each 1000) have two corners at one
-/// vertex.
+/// duplicated. The direction of u reverses every `fold` columns, so every second band is mirrored, and vertices between
+/// bands are split. One quad in 200 has a triangle without UV area. Up to 8 triangles (at most one per 1000) have two
+/// corners at one vertex.
 Mesh torus(std::uint32_t columns, std::uint32_t rows, std::uint32_t fold);
-/// Returns a torus of about that many triangles, with twice as many columns as rows, and one half mirrored.
+/// Returns a torus of about `triangles` triangles, with twice as many columns as rows, and one half mirrored.
 Mesh torusOf(std::size_t triangles);
-/// Returns a box with a chart for each side: 24 vertices, 12 triangles.
+/// Returns a box with one chart per face: 24 vertices, 12 triangles.
 Mesh boxMesh();
-/// Returns a torus of about that many triangles that is mirrored every tenth column: 10 % of its vertices split.
+/// Returns a torus of about `triangles` triangles whose u reverses every tenth column, so 10 % of its vertices are
+/// split.
 Mesh foldsOf(std::size_t triangles);
-/// Returns a UV sphere, with one vertex per column at each pole.
+/// Returns a UV sphere. Each pole consists of one vertex per column.
 Mesh sphereOf(std::size_t triangles);
 /// Returns a wavy sheet without seams.
 Mesh gridOf(std::size_t triangles);
-/// Returns torusOf(triangles) with two triangles combined to a quad, without degenerate ones.
+/// Returns torusOf(triangles) with each pair of triangles combined into a quad, and without degenerate triangles.
 Mesh quadsOf(std::size_t triangles);
 
-/// Gives each corner its own vertex.
+/// Returns the mesh with a vertex of its own for each corner.
 Mesh unindexed(const Mesh& mesh);
-/// Puts faces in random order; vertices keep their order.
+/// Returns the mesh with its faces in random order; the order of vertices is kept.
 Mesh shuffled(Mesh mesh);
-/// Puts the triangles of an indexed mesh in one of triangleOrders(); vertices keep their order.
+/// Returns an indexed mesh with its triangles in one of triangleOrders(); the order of vertices is kept.
 Mesh inOrder(Mesh mesh, const std::string& order);
-/// "reversed"; "two_sweep": each second triangle, then the others, as array code cuts quads; "vertex_cache": as tools
-/// order triangles for the vertex cache of a GPU; "spatial": along a Morton curve; "shuffled", which supports any
-/// faces.
+/// Returns the names of the orders. "reversed"; "two_sweep": first every second triangle, then the others, as array
+/// code cuts quads; "vertex_cache": optimized for the vertex cache of a GPU; "spatial": along a Morton curve;
+/// "shuffled": random (the only order that supports faces of any size).
 const std::vector<std::string>& triangleOrders();
 
-/// Returns one of the meshes that make naive implementations slow: a name of hardMeshNames().
+/// Returns a mesh that makes naive implementations slow. `name`: one of hardMeshNames().
 Mesh hardMesh(const std::string& name, std::size_t triangles);
 std::vector<std::string> hardMeshNames();
 
-/// Returns all triangles of a .glb, .gltf or .obj as one mesh. Polygons of OBJ files are kept. Without triangles if the
-/// file cannot be read.
+/// Returns all triangles of a .glb, .gltf or .obj file as one mesh; polygons of OBJ files are kept. Returns a mesh
+/// without triangles if the file cannot be read.
 Mesh modelMesh(const std::string& path);
-/// Returns the triangle primitives with normals and UVs of all .glb and .gltf files in a folder and its subfolders, by
-/// path.
+/// Returns the triangle primitives with normals and UVs of all .glb and .gltf files in a folder and its subfolders, in
+/// the order of their paths.
 std::vector<Mesh> modelPrimitives(const std::string& folder);
 
 }  // namespace tspace::bench

@@ -84,7 +84,7 @@ std::vector<Mesh> modelPrimitives(const std::string& folder) {
         try {
             std::ranges::move(gltfPrimitives(path), std::back_inserter(meshes));
         } catch (const FileError&) {
-            // Some files are invalid by design, and are rejected.
+            // Some files are invalid by design: they are skipped.
         }
     }
     std::erase_if(meshes, [](const Mesh& mesh) { return mesh.triangleCount() == 0; });

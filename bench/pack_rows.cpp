@@ -12,7 +12,7 @@ namespace tspace::bench {
 
 namespace {
 
-constexpr std::size_t kFrames = 16384;  ///< these fit into the L2 cache
+constexpr std::size_t kFrames = 16384;  ///< small enough for the L2 cache
 constexpr double kPackAsked = 60, kUnpackAsked = 3;
 
 const test::FrameList& someFrames() {

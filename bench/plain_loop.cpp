@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Intentionally simple: this is the code of most programs.
+// Baseline for all times. It is intentionally simple, like the code of most programs.
 #include "plain_loop.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rounds of all runners, and their statistics.
+// Runs rounds of all runners, and computes their statistics.
 #include "race.h"
 
 #include <time.h>
@@ -19,7 +19,7 @@ double now(clockid_t clock) {
 }  // namespace
 
 std::size_t Race::add(std::function<void()> body) {
-    // long enough for the clocks, short enough to be rarely disturbed
+    // long enough for the resolution of the clocks, and short enough to be rarely disturbed
     constexpr double kSecondsPerRound = 2e-3;
     body();
     const double start = now(CLOCK_MONOTONIC);

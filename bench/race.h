@@ -14,16 +14,16 @@ enum class Clock { processor, wall };
 
 class Race {
   public:
-    /// Adds a runner and returns its number. `body` is called once now, to warm up and to measure its duration: short
-    /// ones run several times per round.
+    /// Adds a runner and returns its number. Calls `body` once immediately, to warm up and to measure its duration: a
+    /// short body is called several times per round.
     std::size_t add(std::function<void()> body);
     void run(int rounds);
 
     /// Returns the seconds per call in the best round, which is disturbed least by other load.
     [[nodiscard]] double best(std::size_t runner, Clock clock = Clock::processor) const;
 
-    /// Quartiles of the ratios within each round. On a shared machine the speed changes from second to second, by half
-    /// and more; measurements of one round have the same speed, the best rounds of two runners need not.
+    /// Quartiles of the ratios within each round. On a shared machine the speed can change by half and more from second
+    /// to second. Measurements of one round are made at the same speed, but the best rounds of two runners need not be.
     struct Ratio {
         double median = 0, low = 0, high = 0;
     };
@@ -33,7 +33,7 @@ class Race {
     struct Runner {
         std::function<void()> body;
         int calls_per_round = 1;
-        std::vector<double> processor_seconds = {}, wall_seconds = {};  ///< one per round, for one call
+        std::vector<double> processor_seconds = {}, wall_seconds = {};  ///< one entry per round: seconds per call
 
         [[nodiscard]] const std::vector<double>& seconds(Clock clock) const {
             return clock == Clock::wall ? wall_seconds : processor_seconds;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Created with the reference at commit 3e895b4, compiled by gcc 12.2 with -O2 -ffp-contract=off: check.cpp linked with
-// the reference instead of tspace/compat/mikktspace.h, printing a line for each mesh.
+// These results were created with the reference at commit 3e895b4, compiled by gcc 12.2 with -O2 -ffp-contract=off:
+// check.cpp was linked with the reference instead of tspace/compat/mikktspace.h, and printed a line for each mesh.
 #include "reference_results.h"
 
 namespace tspace::bench {

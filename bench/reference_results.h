@@ -6,8 +6,8 @@
 
 namespace tspace::bench {
 
-/// Returns the hash of the reference's tangents and signs for the mesh with that hash; 0: unknown, for example because
-/// the sine function of this machine has other last bits.
+/// Returns the hash of the reference's tangents and signs for the mesh with this hash. Returns 0 if it is unknown, for
+/// example because this machine's sine function has other last bits and so gives another mesh.
 std::uint64_t referenceResult(std::uint64_t mesh_hash);
 
 }  // namespace tspace::bench

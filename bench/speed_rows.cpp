@@ -18,11 +18,11 @@ struct Contest {
     std::string job;
     std::string mesh;  ///< "SIZE" is replaced by the size of the run
     std::optional<double> asked_one, asked_two;
-    std::string simd = {};     ///< forced target, or the best
-    bool any_threads = false;  ///< only the default number of threads, instead of one
+    std::string simd = {};     ///< name of the SIMD target to use; empty: the best one
+    bool any_threads = false;  ///< measures only the default number of threads, instead of one thread
 };
 
-/// If two concurrent plain loops take this many times as long as one, they did not both have a core.
+/// If two concurrent plain loops take this many times as long as one, they did not each have a core.
 constexpr double kBusy = 1.25;
 
 std::string withSize(std::string mesh, const Lab& lab) {
@@ -66,7 +66,7 @@ bool isReady(RowResult& row, const Contest& contest, const std::string& mesh_nam
     return row.note.empty();
 }
 
-/// Returns remarks on what the times depend on.
+/// Returns remarks about what influenced the times.
 std::string remarks(const Contest& contest, const Mesh& mesh, const Job& job, std::size_t started_threads) {
     std::string text;
     if (contest.any_threads) text += "; threads started: " + std::to_string(started_threads);
@@ -116,7 +116,7 @@ Row contest(const std::string& title, const Contest& contest) {
     return {title, [=](Lab& lab) { return runContest(title, contest, lab); }};
 }
 
-/// Measures a mesh eight times as large, as time per triangle relative to the smaller one.
+/// Measures a mesh eight times as large. The value is its time per triangle, relative to the smaller mesh.
 RowResult runGrowth(const std::string& title, Lab& lab) {
     RowResult row{.title = title};
     const std::string large_name = lab.quick() ? "torus_1M" : "torus_8M", small_name = "torus_" + lab.size();
@@ -143,7 +143,7 @@ RowResult runGrowth(const std::string& title, Lab& lab) {
     return row;
 }
 
-/// Measures the largest mesh with memory from the system against memory that an arena keeps between calls.
+/// Measures the largest mesh with memory from the system, relative to memory that an arena keeps between calls.
 RowResult runWithoutArena(const std::string& title, Lab& lab) {
     RowResult row{.title = title};
     row.note = lab.quick() ? "torus_1M" : "torus_8M";

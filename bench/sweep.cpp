@@ -29,7 +29,7 @@ double secondsOf(const std::function<void()>& body) {
 }
 
 void measure(benchmark::State& state, Lab& lab, std::string& current_mesh, const Combination& c) {
-    // Meshes are used one after the other, and the largest are too large to keep.
+    // Meshes are used one after the other, and are released because the largest need too much memory.
     if (current_mesh != c.mesh) lab.forgetMeshes();
     current_mesh = c.mesh;
     const Mesh &mesh = lab.mesh(c.mesh), &plain_mesh = lab.plainMesh(c.mesh);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All combinations, without targets.
+// Measures all combinations of meshes, jobs, thread counts and SIMD targets, without targets for their times.
 #pragma once
 
 #include <string>

@@ -87,7 +87,7 @@ Json rowJson(const char* section, const RowResult& row) {
             {"wrong", row.wrong}};
 }
 
-/// Times of the plain loop and of reading and writing memory alone, with which all other times are compared.
+/// Times of the plain loop, and of reading and writing memory alone, to which all other times are compared.
 struct Yardsticks {
     double plain, plain_shuffled, floor_vertex, floor_corner;  ///< ns per triangle
 };

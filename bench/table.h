@@ -9,7 +9,7 @@
 namespace tspace::bench {
 
 struct TableOptions {
-    std::string pattern = {};  ///< regular expression on titles and sections; empty: all
+    std::string pattern = {};  ///< regular expression for titles and sections of rows; empty: all rows
     std::string json = {};     ///< file, "-" (instead of the table), or empty
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Number of started threads, to test whether a call starts any.
+// Counts started threads, to test whether a call starts any.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Typical orders in which tools leave the triangles of a mesh.
+// Typical orders in which tools write the triangles of a mesh.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -22,7 +22,7 @@ Numbers twoSweep(std::size_t triangles) {
     return order;
 }
 
-/// Orders triangles by a Morton code of the center, 10 bits per axis.
+/// Orders triangles by the Morton codes of their centers, with 10 bits per axis.
 Numbers spatial(const Mesh& mesh) {
     const auto middleOf = [&](std::size_t t) {
         Vec3 middle;
@@ -54,8 +54,8 @@ Numbers spatial(const Mesh& mesh) {
     return order;
 }
 
-/// Orders triangles as fans around one vertex after the other; the next vertex is one of those in the cache. Based on:
-/// Sander, Nehab, Barczak, "Fast Triangle Reordering for Vertex Locality and Reduced Overdraw", 2007.
+/// Orders triangles as fans around one vertex after the other. The next vertex is taken from those in the vertex cache.
+/// Based on: Sander, Nehab, Barczak, "Fast Triangle Reordering for Vertex Locality and Reduced Overdraw", 2007.
 Numbers vertexCache(const Mesh& mesh) {
     constexpr std::uint32_t kCache = 16;
     const std::size_t vertices = mesh.positions.size();
@@ -82,7 +82,7 @@ Numbers vertexCache(const Mesh& mesh) {
                 if (time - used[v] > kCache) used[v] = time++;
             }
         }
-        // The oldest vertex that will still be in the cache when its fan is finished.
+        // Choose the oldest vertex that will still be in the cache when its fan is finished.
         std::uint32_t best = 0;
         found = false;
         for (const std::uint32_t v : candidates) {

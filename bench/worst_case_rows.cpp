@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Meshes that make naive implementations quadratic or recursive: ten times the triangles, and a stack of 64 KB.
+// Rows for meshes that make naive implementations quadratic or recursive: time with ten times the triangles, and
+// whether a stack of 64 KB suffices.
 #include <pthread.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,7 +13,7 @@ namespace tspace::bench {
 
 namespace {
 
-/// Runs in a separate process, which may crash.
+/// Runs the job in a separate process, because a stack overflow would crash it.
 bool runsOnSmallStack(const Job& job) {
     const pid_t child = fork();
     if (child == 0) {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// A square face with rounded borders: large flat triangles adjacent to thin ones, on which the texture may have another
-// direction. If it is sheared, the patches at the face's corners have no UV area (45 degrees) or are mirrored (72
-// degrees).
+// A square face with rounded borders: large flat triangles next to thin ones. On the rounded borders the texture may
+// have another direction. If the UV map is sheared by 45 degrees, the patches at the face's corners have no UV area; if
+// it is sheared by 72 degrees, they are mirrored.
 #include "test_mesh.h"
 
 namespace tspace::accuracy {
 
 namespace {
 
-// the rounded part rotates by 45 degrees: the rest belongs to the next face
+// half of a right angle: the other half of each rounded edge belongs to the adjacent face
 constexpr double kQuarter = 0.78539816339744831;
 
 class BevelGrid {
@@ -33,7 +33,7 @@ class BevelGrid {
   private:
     struct Line {
         double flat = 0;   ///< coordinate on the flat part
-        double angle = 0;  ///< angle of the normal there
+        double angle = 0;  ///< angle of the normal at this line
     };
 
     [[nodiscard]] const Line& line(int i) const { return lines_[static_cast<std::size_t>(i)]; }
@@ -47,7 +47,7 @@ class BevelGrid {
         ExactFrame frame;
         frame.position = DVec3{x.flat, y.flat, -r} + r * normal;
         frame.normal = normal;
-        frame.tangent = {1, 0, 0};  // of the flat part; other parts are not measured
+        frame.tangent = {1, 0, 0};  // exact only on the flat part; errors on the rounded part are not measured
         frame.bitangent = {0, 1, 0};
         frame.u = x.flat + bevel_.stretch * past_x + shear * past_y;
         frame.v = y.flat + bevel_.stretch * past_y + shear * past_x;

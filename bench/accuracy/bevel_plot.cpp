@@ -32,7 +32,7 @@ double turn(const Vec3& a, const Vec3& b, double x, double y) {
     return (double{b.x} - a.x) * (y - a.y) - (double{b.y} - a.y) * (x - a.x);
 }
 
-/// Returns the error at a position of the flat face, seen from above.
+/// Returns the error at the position (x, y) of the flat face.
 double errorAt(const TestMesh& mesh, const BevelPanel& panel, const DVec3& exact, double x, double y) {
     for (const std::uint32_t triangle : mesh.measured) {
         const std::size_t first = 3 * std::size_t{triangle};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Errors over the flat face of a bevel, as colors.
+// Plots of the errors on the flat face of a bevel, as colors.
 #pragma once
 
 #include <string>
@@ -9,7 +9,8 @@
 
 namespace tspace::accuracy {
 
-/// One square of the image: a vector per corner of the mesh, which is interpolated and compared with `exact`.
+/// One square of the plot. `vectors`: one per corner of the mesh; they are interpolated and compared with the exact
+/// vector.
 struct BevelPanel {
     std::string name;
     std::vector<Vec3> vectors;

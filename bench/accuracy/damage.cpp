@@ -33,8 +33,8 @@ std::vector<double> meanEdges(const TestMesh& mesh, At at) {
     return sums;
 }
 
-/// Returns whether a vertex is the second copy of a vertex on the fold. Both copies are consecutive, and must move
-/// together.
+/// Returns whether a vertex is the second copy of a vertex on the mirrored seam. The two copies are consecutive, and
+/// must move together.
 bool isSecondCopy(const TestMesh& mesh, std::size_t v) {
     return v > 0 && mesh.s[v] == mesh.s[v - 1] && mesh.t[v] == mesh.t[v - 1];
 }

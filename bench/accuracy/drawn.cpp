@@ -22,7 +22,8 @@ std::uint32_t addPoint(Scan& to, const DVec3& p) {
     return static_cast<std::uint32_t>(to.positions.size() - 1);
 }
 
-/// Rotates the profile about z, as quads cut into triangles. Unless it is closed, its ends are fans from one vertex.
+/// Returns the surface of revolution of the profile about z: quads cut into triangles and, unless the profile is
+/// closed, a fan from one vertex at each end.
 Scan turnedAboutZ(const Shape& shape, const std::vector<ProfilePoint>& profile, std::uint32_t sides, bool is_closed) {
     Scan made{&shape};
     const auto rings = static_cast<std::uint32_t>(profile.size());
@@ -65,7 +66,7 @@ Scan filleted(std::uint32_t sides, std::uint32_t segments) {
     return turnedAboutZ(drawnShapes()[1], profile, sides, false);
 }
 
-/// Returns a slab with two sides of `strips` long quads each, and single quads on the others.
+/// Returns a slab: two opposite faces consist of `strips` long quads each, and the other four of single quads.
 Scan slab(std::uint32_t strips) {
     Scan made{&drawnShapes()[3]};
     std::vector<std::uint32_t> lower, upper;

@@ -11,7 +11,7 @@ struct Dual {
     double value = 0, ds = 0, dt = 0;
 
     constexpr Dual() = default;
-    constexpr Dual(double v) : value(v) {}  // constants may be used in formulas
+    constexpr Dual(double v) : value(v) {}  // implicit, so that formulas can contain constants
     constexpr Dual(double v, double along_s, double along_t) : value(v), ds(along_s), dt(along_t) {}
 };
 

@@ -10,7 +10,7 @@ namespace tspace::accuracy {
 
 namespace {
 
-// In the figures "scattered" denotes irregular and random together.
+// The name of the tessellations `irregular` and `random` together, in figures.
 const char* const kScattered = "scattered";
 
 template <class RecordType>
@@ -24,7 +24,7 @@ double meanOf(const std::vector<RecordType>& records, const std::function<bool(c
     return geometricMean(collect<RecordType>(records, wanted, value));
 }
 
-/// Returns the mean over all surfaces, without damage.
+/// Returns the mean value over all surfaces without damage, tessellated with `cells` cells per side.
 template <class RecordType>
 double cleanMean(const std::vector<RecordType>& records, const std::string& method, const std::string& tessellation,
                  int cells, bool held_out, const std::function<double(const RecordType&)>& value) {
@@ -37,7 +37,7 @@ double cleanMean(const std::vector<RecordType>& records, const std::string& meth
         value);
 }
 
-/// Returns vertex errors of damaged meshes, with shares in [low, high].
+/// Returns the mean vertex error of damaged meshes whose amount of damage is in [low, high].
 template <class RecordType>
 double damagedMean(const std::vector<RecordType>& records, const std::string& method, const std::string& damage,
                    double low, double high, bool held_out) {
@@ -67,7 +67,8 @@ double largest(const std::vector<double>& values) {
     return values.empty() ? std::nan("") : *std::max_element(values.begin(), values.end());
 }
 
-/// Returns the order of convergence: how many times the error halves if the cell size halves.
+/// Returns the order of convergence p: the error is proportional to the cell size to the power p. `factor`: ratio of
+/// the two cell sizes.
 double order(double coarse, double fine, double factor) { return std::log(coarse / fine) / std::log(factor); }
 
 Figure shadingFigure(const std::string& tessellation, int cells) {
@@ -130,7 +131,7 @@ Figure bevelFigure(const char* key, const char* title, double Record::*value) {
             }};
 }
 
-/// Returns the mean over the surfaces with a fold.
+/// Returns the figure for the gap at mirrored seams (folds): the mean over the surfaces that have one.
 Figure foldFigure() {
     return {"fold_gap_scattered_32", "both sides of a fold, 32x32 scattered",
             [](const Study& study, const std::string& method, bool held_out) {

@@ -10,18 +10,18 @@
 
 namespace tspace::accuracy {
 
-/// A column of the wide table. NaN if a quick study did not measure it.
+/// A row of the table. `value` returns NaN if a quick study did not measure it.
 struct Figure {
     std::string key;    ///< for JSON
-    std::string title;  ///< for people
+    std::string title;  ///< for readers of the table
     std::function<double(const Study&, const std::string& method, bool held_out)> value;
 };
 
-/// Tangents by method.
+/// Returns the figures of tangents, to be compared by method.
 std::span<const Figure> tangentFigures();
-/// Vertex normals by weighting.
+/// Returns the figures of vertex normals, to be compared by weighting.
 std::span<const Figure> normalFigures();
-/// Returns the tangent figure with that key.
+/// Returns the tangent figure with this key.
 const Figure& tangentFigure(const std::string& key);
 
 /// Return the mean vertex error, or the mean shading error, over the surfaces of one tessellation.

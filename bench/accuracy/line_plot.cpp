@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kLeft = 70, kTop = 44, kWidth = 520, kHeight = 360, kLegend = 130;
 
-/// Logarithmic mapping from values to positions.
+/// Logarithmic mapping from values (low to high) to positions on the plot (from, to).
 struct Axis {
     double low, high, from, to;
 

@@ -12,7 +12,7 @@ struct Spread {
 };
 Spread spreadOf(std::vector<double> values);
 
-/// Corners to include.
+/// Selects the corners over which errors are averaged.
 enum class Corners { all, inside, border, measured };
 
 /// Returns the errors of tangents against the exact dP/du, orthogonalized against the mesh's normal.
@@ -21,11 +21,12 @@ Spread tangentErrors(const TestMesh& mesh, const Frames& frames, Corners corners
 Spread bitangentErrors(const TestMesh& mesh, const Frames& frames, Corners corners);
 /// Returns the errors of sign * cross(N, T) against dP/dv.
 Spread crossErrors(const TestMesh& mesh, const Frames& frames, Corners corners);
-/// Returns the mean deviation of tangents on both sides of a fold of the chart from being opposite. 0 without a fold.
+/// Returns the mean angle, in degrees, between the tangent on one side of a mirrored seam (fold) and the negated
+/// tangent on the other side. Returns 0 if the mesh has no such seam.
 double foldGap(const TestMesh& mesh, const Frames& frames);
 Spread normalErrors(const TestMesh& mesh, const std::vector<Vec3>& normals, Corners corners);
 
-/// Points on the mesh, distributed by area, with the directions from a normal map there.
+/// Measures shading at points that are distributed over the mesh by area, with normals from a normal map.
 class Shading {
   public:
     Shading(const TestMesh& mesh, int count, Random random);
@@ -44,8 +45,8 @@ class Shading {
     struct Sample {
         std::uint32_t triangle;
         double weights[3];
-        DVec3 texel;  ///< in tangent space
-        DVec3 exact;  ///< in space
+        DVec3 texel;  ///< normal from the map, in tangent space
+        DVec3 exact;  ///< exact normal of the map in object space
         DVec3 normal;
     };
     [[nodiscard]] DVec3 normalAt(const Sample& sample, const std::vector<Vec3>& normals) const;

@@ -28,7 +28,7 @@ struct NamedMethod {
     std::uint32_t refine = 1;
 };
 
-/// Returns every method that uses UVs.
+/// Returns all methods that use UVs.
 std::vector<NamedMethod> methods();
 Frames framesBy(Method method, const TestMesh& mesh, std::uint32_t refine = 1);
 Frames exactFrames(const TestMesh& mesh);
@@ -40,7 +40,7 @@ struct NamedWeighting {
 };
 
 std::vector<NamedWeighting> weightings();
-/// Returns normals per corner. Copies of a vertex on a fold are welded.
+/// Returns normals per corner. The two copies of a vertex on a mirrored seam are welded.
 std::vector<Vec3> normalsBy(NormalWeighting weighting, const TestMesh& mesh,
                             std::uint32_t refine = NormalOptions{}.refine);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Random numbers that are equal on every machine: the distributions of the standard library are not.
+// Random numbers that are equal on every machine, unlike those of the standard library's distributions.
 // Based on: Steele, Lea & Flood, "Fast Splittable Pseudorandom Number Generators", 2014 (SplitMix64).
 #pragma once
 
@@ -18,9 +18,9 @@ class Random {
         for (const std::uint64_t seed : seeds) state_ = mix(state_ ^ mix(seed + kStep));
     }
     std::uint64_t bits() { return mix(state_ += kStep); }
-    /// In [0, 1).
+    /// Returns a number in [0, 1).
     double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
-    /// In [-size, size).
+    /// Returns a number in [-size, size).
     double around(double size) { return size * (2 * unit() - 1); }
     bool coin() { return (bits() >> 63) != 0; }
     std::size_t below(std::size_t count) { return static_cast<std::size_t>(unit() * static_cast<double>(count)); }

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Target of a method. 0: no target.
+/// Targets of `fast` and `best` for a figure. A target of 0 means that there is none.
 struct Target {
     const char* key;
     double fast, best;
@@ -32,7 +32,7 @@ constexpr Target kTargets[] = {
 
 std::string text(double value) {
     if (std::isnan(value)) return "";
-    if (value < 1e-5) return "0";  // float rounding
+    if (value < 1e-5) return "0";  // the rest is float rounding
     return fmt::format("{:.3g}", value);
 }
 
@@ -42,7 +42,8 @@ bool has(const Study& study, const std::string& method) {
 
 bool passes(double value, double asked, bool is_least) { return is_least ? value >= asked : value <= asked; }
 
-/// Returns three columns: measured, target, verdict. Empty if the method does not exist or has no target.
+/// Returns three columns: measured value, target and verdict. They are empty if the method was not measured or has no
+/// target.
 std::string targetText(const Study& study, const Target& target, const std::string& method, double asked) {
     if (!has(study, method)) return " | | |";
     const double value = tangentFigure(target.key).value(study, method, false);
@@ -74,7 +75,7 @@ void printFigures(const Study& study, std::span<const Figure> figures, const std
     fmt::print("\n");
     for (const Figure& figure : figures) {
         if (std::isnan(figure.value(study, methods.front(), held_out))) continue;
-        // Bevels are neither among the twelve surfaces nor held out.
+        // The figures of bevels use no surface of either set, so they are printed only once.
         if (held_out && figure.key.find("bevel") != std::string::npos) continue;
         fmt::print("| {} |", figure.title);
         for (const std::string& method : methods) fmt::print(" {} |", text(figure.value(study, method, held_out)));

@@ -11,10 +11,10 @@ namespace tspace::accuracy {
 
 namespace {
 
-constexpr double kHalfSize = 1.05;  // of the grid; shapes are in the unit cube
+constexpr double kHalfSize = 1.05;  // half the edge of the grid's cube; shapes lie in the cube from -1 to 1
 
-/// Returns an approximately normal number: the sum of twelve uniform numbers, without functions whose last bits differ
-/// between C libraries.
+/// Returns an approximately normally distributed number: the sum of twelve uniform numbers. It avoids functions whose
+/// last bits differ between C libraries.
 double normalNumber(Random& random) {
     double sum = -6;
     for (int i = 0; i < 12; ++i) sum += random.unit();
@@ -103,7 +103,8 @@ class Nets {
         to.positions.push_back(toFloat(field_.place(sum.x / count, sum.y / count, sum.z / count)));
     }
 
-    /// Adds the points of the four cells around an edge that the shape crosses, cut along the shorter diagonal.
+    /// Adds a quad if the shape crosses an edge of the grid: its corners are the points of the four cells around the
+    /// edge, and it is cut along the shorter diagonal.
     void addQuad(const Cell& from, int axis, Scan& to) const {
         Cell end = from;
         ++end[static_cast<std::size_t>(axis)];
@@ -130,7 +131,7 @@ class Nets {
     std::vector<std::uint32_t> points_;
 };
 
-/// Marching cubes: points where the shape crosses edges of cells.
+/// Marching cubes: the vertices are points at which the shape crosses edges of the grid.
 class Cubes {
   public:
     explicit Cubes(const Field& field) : field_(field), points_(3 * field.count(), kNone) {}
@@ -140,11 +141,12 @@ class Cubes {
     }
 
   private:
-    /// Corners, as bits of x, y and z, of each side of a cell: counter-clockwise seen from outside.
+    /// Corners of each face of a cell, as bits of x, y and z: counter-clockwise seen from outside.
     static constexpr unsigned kSides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                                               {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
 
-    /// On each side, a line surrounds each run of corners inside; the lines form loops, and each loop becomes a fan.
+    /// Adds the triangles of a cell. On each face of the cell, a segment separates each run of corners inside the shape
+    /// from the other corners. The segments form loops, and each loop is triangulated as a fan.
     void addCell(const Cell& cell, Scan& to) {
         std::array<std::uint32_t, 64>
             next{};  // by the corners of an edge of the cell, lower one times 8: kNone or a point's
@@ -158,7 +160,7 @@ class Cubes {
             std::array<bool, 4> in{};
             for (std::size_t k = 0; k < 4; ++k) in[k] = field_.isInside(at(side[k]));
             for (std::size_t k = 0; k < 4; ++k) {
-                if (in[k] || !in[(k + 1) % 4]) continue;  // start of a run
+                if (in[k] || !in[(k + 1) % 4]) continue;  // not the start of a run of inside corners
                 std::size_t last = (k + 1) % 4;
                 while (in[(last + 1) % 4]) last = (last + 1) % 4;
                 const std::size_t leave = slot(side[last], side[(last + 1) % 4]),

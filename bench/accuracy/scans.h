@@ -18,15 +18,17 @@ struct Shape {
     bool is_sharp = false;
 
     [[nodiscard]] DVec3 normalAt(const DVec3& p) const;
-    /// Returns the closest surface point for a nearby point.
+    /// Returns the surface point closest to p, which must be near the surface.
     [[nodiscard]] DVec3 nearest(DVec3 p) const;
 };
 
-/// Blended ellipsoids, a torus, a rounded box; then a part with holes, and a gear.
+/// Returns the shapes that were used for tuning. Smooth: blended ellipsoids, a torus, a rounded box. Sharp: a part with
+/// holes, a gear.
 std::span<const Shape> shapes();
-/// A hand, ripples, links; then a nut, steps, a bracket. Not used for tuning.
+/// Returns shapes that were not used for tuning. Smooth: a hand, ripples, links. Sharp: a nut, steps, a bracket.
 std::span<const Shape> heldOutShapes();
-/// Shapes of drawnMeshes(): a torus and a cylinder with a fillet of 0.16; then a cylinder and a slab.
+/// Returns the shapes of drawnMeshes(). Smooth: a torus, a cylinder with a fillet of radius 0.16. Sharp: a cylinder, a
+/// slab.
 std::span<const Shape> drawnShapes();
 
 struct Scan {
@@ -37,21 +39,24 @@ struct Scan {
     [[nodiscard]] MeshView view() const { return {.positions = positions, .indices = {indices}}; }
 };
 
-/// Returns surface nets on a grid of cells^3, with the points moved onto the surface and then, in each direction, by a
-/// normal distribution whose standard deviation is `noise` of the mean edge.
+/// Returns a surface net on a grid of cells^3. Its points are moved onto the surface, and then by noise: the standard
+/// deviation per axis is `noise` times the mean edge length.
 /// Based on: Gibson, "Constrained Elastic Surface Nets", 1998.
 Scan scan(const Shape& shape, int cells, double noise, Random random);
 
-/// Return surface nets, or marching cubes, unmodified: the noise is in the field, in cells.
-/// Based on: Lorensen & Cline, "Marching Cubes", 1987; two diagonal corners inside on a face are separated.
+/// Return a surface net, or the result of marching cubes, without moving its points onto the surface. The noise is in
+/// the field: its standard deviation is `noise` cells. Marching cubes separates two diagonally opposite inside corners
+/// of a face.
+/// Based on: Lorensen & Cline, "Marching Cubes", 1987.
 Scan surfaceNets(const Shape& shape, int cells, double noise, Random random);
 Scan marchingCubes(const Shape& shape, int cells, double noise, Random random);
 
-/// Applies meshoptimizer's simplifier; empty if the bench was built without it. share: of the triangles
+/// Applies meshoptimizer's simplifier. Returns an empty mesh if the bench was built without meshoptimizer. `share`: the
+/// share of triangles to keep.
 Scan decimated(const Scan& scan, double share);
 
-/// Returns meshes as triangulated by CAD kernels: long strips, caps that are fans from one vertex of the rim, fillets
-/// with few segments.
+/// Returns meshes as CAD kernels triangulate them: long strips, caps that are fans from one vertex of the rim, and
+/// fillets with few segments.
 std::vector<Scan> drawnMeshes(bool is_sharp);
 
 /// Returns the mean angle, in degrees, between normals as interpolated by shaders and normals of the shape, at points

@@ -131,7 +131,7 @@ double bracket(const DVec3& at) {
 constexpr Shape kHeldOut[] = {{"hand", hand},     {"ripples", ripples},   {"links", links},
                               {"nut", nut, true}, {"steps", steps, true}, {"bracket", bracket, true}};
 
-// Shapes of meshes that are not created on a grid.
+// Shapes of drawnMeshes(), whose triangles do not come from a grid.
 
 double lathed(const DVec3& p) { return radiusOf(radiusOf(p.x, p.y) - 0.6, p.z) - 0.25; }
 double filleted(const DVec3& p) { return cylinder(radiusOf(p.x, p.y), p.z, 0.64, 0.64) - 0.16; }
@@ -150,7 +150,7 @@ DVec3 differences(const Shape& shape, const DVec3& p) {
 
 DVec3 Shape::normalAt(const DVec3& p) const {
     DVec3 slope = differences(*this, p);
-    // Between two faces the differences may cancel out.
+    // At equal distance from two faces, the differences may cancel out.
     if (!(length(slope) > 0)) slope = differences(*this, p + DVec3{1e-4, 2e-4, 3e-4});
     return (1 / length(slope)) * slope;
 }

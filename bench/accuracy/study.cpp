@@ -119,10 +119,10 @@ class Runner {
         for (const NamedMethod& method : methods()) add(method.name, framesBy(method.method, mesh, method.refine));
         add(kFloor, exactFrames(mesh));
         const bool is_flat = mesh.surface != nullptr && mesh.surface->is_flat;
-        if (!is_flat) measureNormals(mesh, record, shading ? &*shading : nullptr);  // all of them would be exact
+        if (!is_flat) measureNormals(mesh, record, shading ? &*shading : nullptr);  // they would be exact
     }
 
-    /// `shading`: null if not requested.
+    /// `shading`: null if shading is not to be measured.
     void measureNormals(const TestMesh& mesh, const Record& of, const Shading* shading) {
         for (const NamedWeighting& weighting : weightings()) {
             const std::vector<Vec3> normals = normalsBy(weighting.weighting, mesh, weighting.refine);

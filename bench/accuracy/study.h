@@ -17,12 +17,12 @@ struct Record {
     bool held_out = false;
     int cells = 0;
     double share = 0;              ///< amount of damage
-    Spread inside = {}, all = {};  ///< tangents
-    double border = 0;             ///< mean at the border of the chart
+    Spread inside = {}, all = {};  ///< errors of tangents
+    double border = 0;             ///< mean error of tangents at the border of the chart and at the fold
     double fold_gap = 0;
     double shading = 0;
-    double from_mikktspace = 0;       ///< shading difference from `mikktspace`
-    double bitangent = 0, cross = 0;  ///< mean errors of both kinds of bitangents
+    double from_mikktspace = 0;       ///< mean angle between the shading of this method and of `mikktspace`
+    double bitangent = 0, cross = 0;  ///< mean errors of stored bitangents and of sign * cross(N, T)
 
     [[nodiscard]] bool isIrregular() const { return tessellation == "irregular" || tessellation == "random"; }
 };
@@ -34,8 +34,8 @@ struct NormalRecord {
     int cells = 0;
     double share = 0;
     Spread inside = {}, all = {};
-    double flat_shading = 0;  ///< with a flat map
-    double bent_shading = 0;  ///< with a bumpy map, and tangents by `best` from these normals
+    double flat_shading = 0;  ///< shading error with a flat map
+    double bent_shading = 0;  ///< shading error with a bumpy map, and tangents by `best` from these normals
 
     [[nodiscard]] bool isIrregular() const { return tessellation == "irregular" || tessellation == "random"; }
 };
@@ -50,14 +50,14 @@ struct Study {
     StudyOptions options = {};
     std::vector<Record> records = {};
     std::vector<NormalRecord> normals = {};
-    /// Names in table order: the methods, then the floor.
+    /// Names in the order of the table; `floor` is the last of the methods.
     std::vector<std::string> methods = {}, weightings = {};
 };
 
 Study runStudy(const StudyOptions& options);
 
-/// Returns the geometric mean, so that difficult surfaces have no larger weight. Errors below a millionth of a degree
-/// are raised to it. NaN if there are no values.
+/// Returns the geometric mean, so that difficult surfaces do not dominate. Errors below a millionth of a degree count
+/// as a millionth. Returns NaN if there are no values.
 double geometricMean(const std::vector<double>& values);
 
 template <class RecordType>

@@ -16,16 +16,16 @@ struct SurfacePoint {
 /// Mapping from the unit square, (s, t), to space and to the texture.
 struct Surface {
     const char* name;
-    /// `side`: -1 or 1, the side of the fold to which a point on it is assigned.
+    /// `side`: -1 or 1, the side of the fold to which a point on the fold is assigned.
     SurfacePoint (*at)(const Dual& s, const Dual& t, int side);
-    /// Line of constant s along which the UV map reverses, or none.
+    /// The s of the line along which the UV map is mirrored (the fold), or -1 if there is none.
     double fold = -1;
     bool is_flat = false;
 };
 
-/// Surfaces for the documented results.
+/// Returns the surfaces used for the documented results.
 std::span<const Surface> surfaces();
-/// Held-out surfaces, which were not used for tuning: reported separately.
+/// Returns held-out surfaces, which were not used for tuning and are reported separately.
 std::span<const Surface> heldOutSurfaces();
 
 /// Exact frame of a point.
@@ -35,7 +35,7 @@ struct ExactFrame {
     double u = 0, v = 0;
     double sign = 1;  ///< sign of the UV orientation
 
-    /// Returns the unit tangent perpendicular to `n`.
+    /// Returns the unit tangent after projection onto the plane perpendicular to `n`.
     [[nodiscard]] DVec3 tangentAcross(const DVec3& n) const;
 };
 
@@ -45,7 +45,8 @@ ExactFrame exactFrame(const Surface& surface, double s, double t, int side);
 void findUv(const Surface& surface, double u, double v, int side, double& s, double& t);
 
 inline DVec3 unit(const DVec3& v) { return (1 / length(v)) * v; }
-/// Returns the angle in degrees; 180 if a vector is zero or not finite, since a missing frame must not count as good.
+/// Returns the angle in degrees. Returns 180 if a vector is zero or not finite, so that a missing frame does not count
+/// as good.
 double angleDeg(const DVec3& a, const DVec3& b);
 
 }  // namespace tspace::accuracy

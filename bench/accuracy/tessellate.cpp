@@ -110,7 +110,8 @@ class Grid {
         addTriangle(corner[first], corner[first + 2], corner[(first + 3) % 4]);
     }
 
-    /// Returns 0 if the diagonal connects corners 0 and 2; 1 for corners 1 and 3.
+    /// Returns the first corner of the cell's diagonal: 0 if it connects corners 0 and 2, 1 if it connects corners 1
+    /// and 3.
     int firstOfDiagonal(const std::size_t (&corner)[4], int column, int row) {
         const Point &a = points_[corner[0]], &b = points_[corner[1]], &c = points_[corner[2]], &d = points_[corner[3]];
         const bool chance = random_.coin();

@@ -19,7 +19,7 @@ struct TestMesh {
     // One per vertex:
     std::vector<ExactFrame> frames;
     std::vector<double> s, t;
-    std::vector<std::int8_t> sides;       ///< side of the fold; vertices on it exist twice, once for each side
+    std::vector<std::int8_t> sides;       ///< side of the fold (mirrored seam); vertices on it exist once per side
     std::vector<std::uint8_t> is_inside;  ///< neither on the border of the chart nor on the fold
     /// Triangles on which shading is measured: all, or those of the flat part of a bevel.
     std::vector<std::uint32_t> measured;
@@ -37,7 +37,7 @@ enum class Tessellation {
     irregular,    ///< points moved by up to 0.36 of a cell, Delaunay diagonals
     random,       ///< points moved by up to 0.3 of a cell, random diagonals
     anisotropic,  ///< like irregular, with an eighth of the rows
-    loops,        ///< every fourth row and column has a tenth of the width
+    loops,        ///< every fourth row and column has a tenth of the others' width
 };
 
 const char* nameOf(Tessellation tessellation);
@@ -50,11 +50,11 @@ struct Bevel {
     double radius = 0.05;
     int strips = 1;                     ///< across the rounded part
     int flat_cells = 1;                 ///< along each side of the flat part
-    int diagonal = 0;                   ///< 0 or 1: one of the two; 2: random
+    int diagonal = 0;                   ///< 0 or 1: one of the two diagonals in all cells; 2: random
     double stretch = 1, shear_deg = 0;  ///< stretch and shear of the UV map across the rounded part
 };
 
-/// Returns the configurations over which the results are averaged.
+/// Returns the bevels over which the results are averaged.
 std::vector<Bevel> bevels();
 TestMesh bevelMesh(const Bevel& bevel, Random random);
 

@@ -23,7 +23,7 @@ struct Square {
     double x = 0, y = 0, size = 1;
 };
 
-/// Rotates the UVs of some corners and fits them into a square with a margin.
+/// Rotates (and optionally mirrors) the UVs of these corners, and fits them into a square with a margin.
 void placeChart(std::vector<Vec2>& uvs, const std::vector<std::size_t>& corners, double degrees, bool mirrored,
                 const Square& square) {
     const double c = std::cos(degrees * kPi / 180), s = std::sin(degrees * kPi / 180);
@@ -71,7 +71,7 @@ void placeCharts(const TestMesh& mesh, Charts charts, std::vector<Vec2>& uvs) {
     }
 }
 
-/// Returns the height of the relief at a point.
+/// Returns the height of the relief at a point. `size`: the size of the surface.
 double lift(const DVec3& at, double size) {
     const double k = 2 * kPi * 11 / size;
     const DVec3 from = at - (0.2 * size) * DVec3{1, 0.3, -0.4};
@@ -130,7 +130,7 @@ HighMesh makeHigh(const Surface& surface, int cells, bool relief, int beyond) {
             for (const std::uint32_t vertex : {a, b, d, a, d, c}) high.corners.push_back(vertex);
         }
     }
-    // Counter-clockwise is outside, for either orientation of the parameters.
+    // Makes all triangles counter-clockwise seen from outside, for either orientation of the parameters.
     for (std::size_t i = 0; i < high.corners.size(); i += 3) {
         const Vec3 &a = high.positions[high.corners[i]], &b = high.positions[high.corners[i + 1]],
                    &c = high.positions[high.corners[i + 2]];

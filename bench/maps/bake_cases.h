@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Low polys with matching high polys, of surfaces given by formulas.
+// Low polys with matching high polys, of surfaces that are given by formulas.
 #pragma once
 
 #include <string>
@@ -13,11 +13,11 @@ namespace tspace::bench {
 
 enum class Charts {
     one,
-    four,     ///< quarters, rotated by 0, 37 and 90 degrees, and one mirrored
+    four,     ///< one chart per quarter, rotated by 0, 37 and 90 degrees; one of them mirrored
     mirrored  ///< both halves use the same texels, one of them mirrored
 };
 
-/// Three entries per triangle, like LowPoly.
+/// Low poly with three entries per triangle, as in LowPoly.
 struct LowMesh {
     std::vector<Vec3> positions = {}, normals = {};
     std::vector<Vec4> tangents = {};
@@ -35,12 +35,12 @@ struct HighMesh {
     [[nodiscard]] HighPoly view() const { return {.positions = positions, .normals = normals, .corners = corners}; }
 };
 
-/// Returns 16 x 16 irregular cells with frames of the method, in glTF's convention.
+/// Returns a mesh of 16 x 16 irregular cells with frames of the method, in glTF's convention.
 LowMesh makeLow(const accuracy::Surface& surface, Charts charts, Method method = Method::mikktspace);
 
-/// Returns `cells` x `cells` x 2 triangles. `relief`: waves and rings with a mean slope of about 10 degrees. `beyond`:
-/// cells added on each side, because chords of a curved border are outside of it, and rays from there would hit
-/// nothing.
+/// Returns a mesh of `cells` x `cells` x 2 triangles. `relief`: adds waves and rings with a mean slope of about 10
+/// degrees. `beyond`: number of cells added on each side, because the low poly's chords of a curved border may lie
+/// outside of the surface, and rays from them would hit nothing.
 HighMesh makeHigh(const accuracy::Surface& surface, int cells, bool relief, int beyond = 0);
 
 }  // namespace tspace::bench

@@ -23,7 +23,7 @@ namespace {
 using namespace tspace;
 using namespace tspace::bench;
 
-/// Geometric means over surfaces.
+/// Geometric means over surfaces, accumulated as sums of logarithms.
 struct Means {
     double log_mean = 0, log_p99 = 0, log_seam = 0, log_inside = 0;
     int count = 0;
@@ -56,7 +56,8 @@ std::vector<const accuracy::Surface*> chosenSurfaces(bool held_out) {
     return chosen;
 }
 
-/// Results for one kind of case: maps that are exact at each texel's center, and solved maps.
+/// Results for one kind of case. `exact`: the map is exact at each texel's center; `solved`: the map is fitted by least
+/// squares; `plain`: the exact map rounded to 8 bits.
 struct CaseMeans {
     Means exact16, solved16, plain8, solved8;
     double slowest = 0;
@@ -79,7 +80,7 @@ void addSurface(const accuracy::Surface& surface, Charts charts, bool relief, st
     means.exact16.add(exact.error);
     means.solved16.add(baked(16, MapFit::solve).error);
     means.solved8.add(baked(8, MapFit::solve).error);
-    // Simple rounding of the same map.
+    // The exact map rounded to 8 bits, channel by channel.
     std::vector<Vec3> texels = exact.texels;
     const auto rounded = [](float channel) { return std::floor(channel * 255 + 0.5F) / 255; };
     for (Vec3& texel : texels) texel = {rounded(texel.x), rounded(texel.y), rounded(texel.z)};
@@ -113,9 +114,9 @@ void printTable(std::uint32_t size, bool held_out) {
             for (const accuracy::Surface* surface : chosenSurfaces(held_out))
                 addSurface(*surface, kind.charts, relief, size, means);
             const std::string name = std::string(relief ? "relief, " : "smooth, ") + kind.name;
-            // No map is correct for halves that require different normals.
+            // If the mirrored halves require different normals, no map is correct for both, so there is no target.
             const bool has_none = kind.charts == Charts::mirrored && relief;
-            // One texel serves both halves, whose frames and triangles differ slightly.
+            // Each texel is used by both halves, whose frames and triangles differ slightly.
             const bool is_shared = kind.charts == Charts::mirrored;
             const char* const asked16 = has_none ? "" : is_shared ? "1.0, 1.0" : relief ? "0.55, 0.70" : "0.92, 0.70";
             const char* const asked8 = has_none ? "" : is_shared ? "1.0, 1.0" : relief ? "0.40, 0.95" : "0.65, 0.95";
@@ -127,7 +128,7 @@ void printTable(std::uint32_t size, bool held_out) {
     std::printf("\nSlowest bake: %.1f s (2 threads, on the clock).\n", slowest);
 }
 
-/// A row of printLevels: means over surfaces of the shading and of each level.
+/// A row of printLevels: means over surfaces of the error of the shading, and of the error of each mip level.
 struct LevelRow {
     const char* name;
     unsigned bits;
@@ -137,7 +138,7 @@ struct LevelRow {
     std::array<double, kLevels> log_levels = {};
 };
 
-/// Returns the map with a minimum vector length, with 16 bits.
+/// Returns the 16-bit map with all shorter vectors lengthened to `least`, and its error.
 BakedMap lengthened(BakedMap map, float least, const LowMesh& low, const HighMesh& high) {
     for (Vec3& texel : map.texels) {
         const DVec3 vector = 2 * toDouble(texel) - DVec3{1, 1, 1};
@@ -198,7 +199,7 @@ void writeObj(const std::string& path, std::span<const Vec3> positions, std::spa
     file.precision(9);
     for (const Vec3& at : positions) file << "v " << at.x << ' ' << at.y << ' ' << at.z << '\n';
     for (const Vec3& normal : normals) file << "vn " << normal.x << ' ' << normal.y << ' ' << normal.z << '\n';
-    // v points up in OBJ, down here
+    // v points up in OBJ files, and down in this library.
     for (const Vec2& uv : uvs) file << "vt " << uv.x << ' ' << 1 - uv.y << '\n';
     for (std::size_t i = 0; i < corners.size(); ++i) {
         if (i % 3 == 0) file << (i == 0 ? "f" : "\nf");
@@ -220,7 +221,7 @@ struct WeldedMesh {
     std::vector<std::uint32_t> corners = {};
 };
 
-/// Merges equal corners into one vertex: Blender rounds normals, and split vertices would remain split.
+/// Merges equal corners into one vertex. Otherwise the vertices would remain separate in Blender, which rounds normals.
 WeldedMesh weld(const LowMesh& low) {
     WeldedMesh welded;
     std::map<std::array<float, 8>, std::uint32_t> known;

@@ -131,7 +131,7 @@ def lifted(thing, height):
     return moved(thing, lambda at: at + height(at) * at.normalized())
 
 
-# Each of the following functions creates one case and returns its low poly and its high poly.
+# Each of the following functions creates one case and returns its low poly and high poly.
 
 
 def rib(size, at):
@@ -189,7 +189,7 @@ def all_smooth():
 def organic():
     low = smooth(lifted(ball(1, 4), lambda at: lumps(at, 0.25)))
     high = smooth(lifted(ball(1, 8), lambda at: lumps(at, 0.25) + 0.004 * noise.noise(40 * at)))
-    # One UV island around each vertex of an icosahedron, each rotated.
+    # Create one UV island around each vertex of an icosahedron, and rotate each island by a different angle.
     corners = ball(1, 1)
     centers = [vertex.co.normalized() for vertex in corners.data.vertices]
     bpy.data.objects.remove(corners)
@@ -408,7 +408,7 @@ def run(case, folder, size):
     low, high = begin(CASES[case])
     blender_cycles.set_up(1)
     os.makedirs(folder, exist_ok=True)
-    # The cage is a copy without markers; they are added afterwards, in the same order for all files.
+    # The cage is a copy of the low poly alone; the markers are exported after it, as in low.gltf.
     cage = cage_of(low) if case in WITH_CAGE else None
     corners = marks([low, high])
     export(os.path.join(folder, "low.gltf"), [low, corners])

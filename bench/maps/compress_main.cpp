@@ -25,10 +25,10 @@
 namespace tspace::bench {
 namespace {
 
-constexpr std::uint32_t kSeed = 11;  ///< seed of the tables in docs/guides/compress-map.md
+constexpr std::uint32_t kSeed = 11;  ///< seed of the maps for the tables in docs/guides/compress-map.md
 constexpr double kDegrees = 57.29577951308232;
 
-/// Returns x and y of a map after compression.
+/// Compresses a map and returns x and y of the decoded texels.
 using Pack = std::function<std::vector<Vec3>(const NormalLevel&, Parallel&)>;
 
 struct Row {
@@ -54,7 +54,8 @@ std::vector<Vec3> rounded(const NormalLevel& level, Parallel&) {
 
 std::vector<Vec3> exact(const NormalLevel& level, Parallel&) { return level.normals; }
 
-/// Tries all pairs of end points near the extremes, both kinds of palettes, and least squares of each channel.
+/// Packs BC5 blocks by search: tries all pairs of end points near the extremes and both kinds of palettes, and
+/// minimizes the squared error of each channel.
 std::vector<Vec3> leastSquares(const NormalLevel& level, Parallel& parallel) {
     std::vector<Vec3> texels(level.normals.size());
     const std::size_t across = level.width / 4;
@@ -98,7 +99,7 @@ std::vector<Vec3> leastSquares(const NormalLevel& level, Parallel& parallel) {
 }
 
 #ifdef TSPACE_HAS_SQUISH
-/// Compresses from 8 bits, as the library requires.
+/// Packs BC5 blocks from texels with 8 bits per channel, as the library squish requires.
 std::vector<Vec3> bySquish(const NormalLevel& level, Parallel&) {
     std::vector<Vec3> texels(level.normals.size());
     const TexelFormat format = texelFormat(TexelKind::bc5);
@@ -124,7 +125,8 @@ std::vector<Vec3> bySquish(const NormalLevel& level, Parallel&) {
 }
 #endif
 
-/// Compresses with the library astcenc: x and y unchanged, or with `fits` optimized for the filtered map.
+/// Compresses with the library astcenc. `fits`: first optimizes x and y for filtering; otherwise they are compressed
+/// unchanged.
 Pack astc(AstcEffort effort, bool fits) {
     return [=](const NormalLevel& level, Parallel& parallel) {
         std::vector<Vec2> wanted;
@@ -199,9 +201,9 @@ bool writeMaps(const std::vector<CompressedCase>& cases, const std::string& fold
     return true;
 }
 
-// Mip levels: shading by one normal and one roughness instead of all normals that a texel covers.
+// Mip levels: a texel is shaded by one normal and one roughness, instead of by all normals that it covers.
 
-/// GGX with height-correlated Smith, as in glTF, without Fresnel, times the cosine.
+/// Returns the GGX reflection with height-correlated Smith shadowing, as in glTF, without Fresnel, times the cosine.
 double shaded(const DVec3& normal, double alpha, const DVec3& view, const DVec3& light) {
     const double nv = dot(normal, view), nl = dot(normal, light);
     if (nv <= 0 || nl <= 0) return 0;
@@ -220,8 +222,8 @@ class LevelShading {
         wide_ = std::min(1.0, std::sqrt(alpha_ * alpha_ + spread));
     }
 
-    /// Returns the relative RMS error of the shading, integrated over lights: with the original roughness, and with the
-    /// widened one.
+    /// Returns the relative RMS errors of the shading, integrated over lights: with the original roughness, and with
+    /// the widened one.
     std::array<double, 2> errors() {
         constexpr int kViews = 6, kLights = 66;
         std::array<double, 2> off{};
@@ -247,8 +249,8 @@ class LevelShading {
         return {std::sqrt(off[0] / all), std::sqrt(off[1] / all)};
     }
 
-    /// Returns |ln| of the ratio of the angle that contains half of the energy of the lobe of half vectors to the true
-    /// angle.
+    /// Compares, for both roughnesses, the angle that contains half of the energy of the lobe of half vectors with the
+    /// true angle. Returns the absolute values of the logarithms of their ratios.
     std::array<double, 2> widths() {
         constexpr std::size_t kSamples = 2001;
         std::vector<double> angles;
@@ -295,7 +297,7 @@ class LevelShading {
     std::mt19937 engine_;
 };
 
-/// Returns the unit vector that a renderer samples at a position in texels; integers are corners of texels.
+/// Returns the unit vector that a renderer samples at a position. x, y: in texels; integers are corners of texels.
 DVec3 filteredAt(const NormalLevel& level, double x, double y) {
     const double left = std::floor(x - 0.5), top = std::floor(y - 0.5), right = x - 0.5 - left, down = y - 0.5 - top;
     const auto at = [&](double column, double row) {
@@ -330,7 +332,8 @@ void printLevels(const std::vector<CompressedCase>& cases, std::uint32_t seed, P
                     const std::size_t texel = engine() % level.normals.size();
                     const std::size_t x = texel % level.width << k, y = texel / level.width << k;
                     std::vector<DVec3> normals;
-                    // Between texels a renderer samples filtered values; for large footprints texels are sufficient.
+                    // Between texels, a renderer samples filtered values, so small footprints are sampled more finely
+                    // than once per texel.
                     const std::size_t points = k <= 2 ? 4 : k == 3 ? 2 : 1;
                     const std::size_t side = points << k, all = side * side,
                                       step = std::max<std::size_t>(1, all / kMostNormals);

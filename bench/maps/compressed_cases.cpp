@@ -15,7 +15,7 @@ constexpr double kTurn = 6.283185307179586;
 class Random {
   public:
     explicit Random(std::uint32_t seed) : engine_(seed) {}
-    /// Returns a number in 0 to 1; equal for every standard library.
+    /// Returns a number from 0 to 1, equal for every standard library.
     double operator()() { return static_cast<double>(engine_()) / 4294967296.0; }
     double around(double most) { return most * (2 * (*this)() - 1); }
 
@@ -23,13 +23,13 @@ class Random {
     std::mt19937 engine_;
 };
 
-/// Values at the corners of a periodic grid, interpolated smoothly.
+/// Smooth interpolation of random values at the corners of a periodic grid.
 class ValueNoise {
   public:
     ValueNoise(std::size_t cells, Random& random) : cells_(cells), values_(cells * cells) {
         for (double& value : values_) value = random.around(1);
     }
-    /// x, y in cells.
+    /// x, y: in cells.
     double operator()(double x, double y) const {
         const double left = std::floor(x), top = std::floor(y);
         const auto smooth = [](double t) { return t * t * (3 - 2 * t); };
@@ -47,7 +47,8 @@ class ValueNoise {
     std::vector<double> values_;
 };
 
-/// Returns mean directions of a height field, in texels, that is sampled `fine` times along each side of a texel.
+/// Returns the mean normal of each texel of a height field. `heights`: in texels, with `fine` x `fine` samples per
+/// texel.
 NormalLevel levelOf(const std::vector<double>& heights, std::uint32_t size, std::uint32_t fine) {
     const std::size_t wide = std::size_t{size} * fine;
     const auto height = [&](std::size_t x, std::size_t y) { return heights[y % wide * wide + x % wide]; };

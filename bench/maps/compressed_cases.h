@@ -15,9 +15,10 @@ struct CompressedCase {
     NormalLevel level = {};
 };
 
-/// smooth: a bake of a smooth low poly, with kinks at its edges, up to 15 degrees. relief: bricks, bevels and domes, up
-/// to 67 degrees. leather: cells of 4 to 8 texels, 18 degrees in the mean. hard: flats tilted by up to 40 degrees,
-/// edges of one texel. scratch: grooves of 1 to 3 texels. All are periodic. `size`: a multiple of 64.
+/// Returns periodic maps. smooth: a bake of a smooth low poly, with kinks of up to 15 degrees at its edges. relief:
+/// bricks, bevels and domes with slopes up to 67 degrees. leather: cells of 4 to 8 texels with a mean slope of 18
+/// degrees. hard: flat areas tilted by up to 40 degrees, with edges one texel wide. scratch: grooves 1 to 3 texels
+/// wide. `size`: width and height, a multiple of 64.
 std::vector<CompressedCase> compressedCases(std::uint32_t size, std::uint32_t seed);
 
 }  // namespace tspace::bench

@@ -45,7 +45,7 @@ Map converted(const Map& map, const MapSide& from, const MapSide& to, unsigned b
     return out;
 }
 
-/// Returns the shading of a mesh with a filtered map, at points distributed evenly over its area.
+/// Returns the shading normals of a mesh with a bilinearly filtered map, at points distributed evenly over its area.
 std::vector<DVec3> pictureOf(const Map& map, const LowMesh& mesh) {
     constexpr double kPoints = 100000;
     std::vector<double> areas(mesh.positions.size() / 3);
@@ -65,7 +65,8 @@ std::vector<DVec3> pictureOf(const Map& map, const LowMesh& mesh) {
             corners.tangents[i] = mesh.tangents[3 * t + i];
         }
         for (due += kPoints * areas[t] / whole; due >= 1; --due) {
-            // Additive recurrence of the plastic number: evenly distributed in any range, and equal for every map.
+            // Points by the additive recurrence of the plastic number: evenly distributed in any range, and equal for
+            // every map.
             ++number;
             double a = std::fmod(number * 0.7548776662466927, 1), b = std::fmod(number * 0.5698402909980532, 1);
             if (a + b > 1) {
@@ -102,7 +103,7 @@ Angles apart(const std::vector<DVec3>& a, const std::vector<DVec3>& b) {
     return {sum / static_cast<double>(angles.size()), angles[at]};
 }
 
-/// Geometric means over surfaces.
+/// Row of the table: geometric means over surfaces of the mean and of the 99th percentile.
 class Row {
   public:
     explicit Row(const char* name, double most_mean, double most_p99 = 0)
@@ -119,7 +120,7 @@ class Row {
         row.most_mean_ = most_mean;
         return row;
     }
-    /// Returns false if it misses its target.
+    /// Prints the row. Returns false if it misses a target.
     [[nodiscard]] bool print() const {
         const double mean = std::exp(log_mean_ / count_), p99 = std::exp(log_p99_ / count_);
         const bool is_met = (most_mean_ == 0 || mean <= most_mean_) && (most_p99_ == 0 || p99 <= most_p99_);

@@ -13,7 +13,7 @@ namespace {
 
 DVec3 vectorOf(const Vec3& texel) { return {2.0 * texel.x - 1, 2.0 * texel.y - 1, 2.0 * texel.z - 1}; }
 
-/// Sums of vectors over squares of `side` texels; zero if any texel is outside of all triangles.
+/// Sums of vectors over squares of `side` x `side` texels. A sum is zero if any of its texels is background.
 struct Blocks {
     Blocks(const BakedMap& map, std::size_t side, bool unit) : width(map.width / side) {
         sums.resize(width * (map.height / side));

@@ -11,12 +11,12 @@
 
 namespace tspace::bench {
 
-inline constexpr std::size_t kBatch = 16384;  ///< frames that fit into the cache
+inline constexpr std::size_t kBatch = 16384;  ///< number of frames per batch, which fits into the cache
 
 struct Code {
     std::string name, function;  ///< function: the GLSL decoder
     std::size_t bytes = 0;
-    /// kBatch frames at a time; decode returns the frames that were encoded last.
+    /// encode and decode process kBatch frames; decode returns the frames that were encoded last.
     std::function<void(const test::FrameList&)> encode;
     std::function<void(test::FrameList&)> decode;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Encoders for the decoders of peers.glsl, and those decoders in C++.
+// Encoders for the decoders of peers.glsl, which is also compiled as C++ here.
 #include "peers.h"
 
 #include <cmath>
@@ -42,7 +42,8 @@ DVec3 tangentOf(const PeerFrame& f) { return {f.tangent.x, f.tangent.y, f.tangen
 bool isMirrored(const PeerFrame& f) { return f.tangent.w < 0; }
 std::uint32_t rounded(double x) { return static_cast<std::uint32_t>(std::lround(x)); }
 
-/// Encodes N as an octahedron with kBits in each direction, and the angle in the rest of 31 bits.
+/// Encodes N as an octahedron with kBits per coordinate, and the angle of T with the remaining bits except one for the
+/// sign.
 template <unsigned kBits, peer_Frame (*decode)(uvec2)>
 PeerWords encodeAngle(const PeerFrame& f) {
     constexpr unsigned kAngleBits = 31 - 2 * kBits;
@@ -50,7 +51,7 @@ PeerWords encodeAngle(const PeerFrame& f) {
     const Point at = unfolded(toDouble(f.normal));
     const std::uint32_t i = rounded((at.x + 1) * kHalf), j = rounded((at.y + 1) * kHalf);
     const std::uint32_t word = i << (32 - kBits) | j << (32 - 2 * kBits) | (isMirrored(f) ? 1 : 0);
-    // T at angle 0, and at a quarter turn, are the axes that the decoder uses.
+    // The decoded T for angle 0 and for a quarter turn are the axes from which the decoder measures the angle.
     const DVec3 p = tangentOf(decoded<decode>(word)), q = tangentOf(decoded<decode>(word | 1u << (kAngleBits - 1)));
     const double angle = std::atan2(dot(tangentOf(f), q), dot(tangentOf(f), p)) / 6.283185307179586;
     return word | (rounded((angle + 1) * kAngles) & ((1u << kAngleBits) - 1)) << 1;
@@ -59,8 +60,8 @@ PeerWords encodeAngle(const PeerFrame& f) {
 struct Quaternion {
     double at[4];
 };
-/// Returns the quaternion of the rotation T, N x T, N, with w >= 0: the largest component first, which divides the
-/// others.
+/// Returns the unit quaternion of the rotation with columns T, N x T, N, with w >= 0. For accuracy, the other
+/// components are computed from the largest one.
 Quaternion quaternionOf(const PeerFrame& f) {
     const DVec3 t = tangentOf(f), n = toDouble(f.normal), b = cross(n, t);
     const double squares[4] = {1 + t.x - b.y - n.z, 1 - t.x + b.y - n.z, 1 - t.x - b.y + n.z, 1 + t.x + b.y + n.z};
@@ -97,7 +98,8 @@ PeerWords encodeSmallestThree(const PeerFrame& f) {
     return word << 3 | largest << 1 | (isMirrored(f) ? 1 : 0);
 }
 
-/// w is at least one step, and the others are reduced accordingly: the bias from the talk.
+/// Makes w at least one step, so that it has a sign, and reduces the other components accordingly, as in the SIGGRAPH
+/// talk (peers.glsl).
 PeerWords encodeQtangent16(const PeerFrame& f) {
     Quaternion q = quaternionOf(f);
     constexpr double kBias = 1.0 / 32767;
@@ -117,7 +119,7 @@ PeerWords encodeQtangent16(const PeerFrame& f) {
 PeerWords encodeTwoOct16(const PeerFrame& f) {
     const Point n = unfolded(toDouble(f.normal)), t = unfolded(tangentOf(f));
     const auto bits = [](double x) { return static_cast<PeerWords>(rounded((x + 1) / 2 * 65535)); };
-    // A bias of one step, so that the value is never 0 and always has a sign.
+    // A bias of one step keeps this value from being 0, so that it always has a sign.
     const double half_y = std::fmax((t.y + 1) / 2, 1.0 / 32767);
     return bits(n.x) | bits(n.y) << 16 | bits(t.x) << 32 | bits(isMirrored(f) ? -half_y : half_y) << 48;
 }

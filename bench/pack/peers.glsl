@@ -16,14 +16,15 @@ peer_Frame peer_frame(vec3 normal, vec3 tangent, float mirrored) {
     return frame;
 }
 
-// Returns the direction of a point of the unfolded octahedron, [-1, 1] in both directions.
+// Returns the direction of a point of the unfolded octahedron. x, y: from -1 to 1.
 vec3 peer_octahedron(float x, float y) {
     float z = 1.0 - abs(x) - abs(y);
     float fold = max(-z, 0.0);
     return normalize(vec3(x >= 0.0 ? x - fold : x + fold, y >= 0.0 ? y - fold : y + fold, z));
 }
 
-// Returns T at this angle in the basis of Duff et al., whose side comes from the rounded N.z.
+// Returns T at this angle in the basis of Duff et al. The basis depends on the sign of N.z, so N must be the rounded
+// one.
 vec3 peer_atAngle(vec3 n, float angle) {
     float s = n.z >= 0.0 ? 1.0 : -1.0;
     float h = -1.0 / (s + n.z);
@@ -33,7 +34,7 @@ vec3 peer_atAngle(vec3 n, float angle) {
     return p * cos(angle) + q * sin(angle);
 }
 
-// N as octahedron 10 + 10, angle 11, sign 1.
+// Decodes N from an octahedron with 10 + 10 bits, the angle of T from 11 bits, and the sign from 1 bit.
 peer_Frame peer_oct10_10_11(uvec2 words) {
     uint word = words.x;
     vec3 n = peer_octahedron(float(word >> 22u) * (1.0 / 511.0) - 1.0, float(word >> 12u & 1023u) * (1.0 / 511.0) - 1.0);
@@ -41,7 +42,7 @@ peer_Frame peer_oct10_10_11(uvec2 words) {
     return peer_frame(n, t, (word & 1u) != 0u ? -1.0 : 1.0);
 }
 
-// N as octahedron 11 + 11, angle 9, sign 1.
+// Decodes N from an octahedron with 11 + 11 bits, the angle of T from 9 bits, and the sign from 1 bit.
 peer_Frame peer_oct11_11_9(uvec2 words) {
     uint word = words.x;
     vec3 n = peer_octahedron(float(word >> 21u) * (1.0 / 1023.0) - 1.0, float(word >> 10u & 2047u) * (1.0 / 1023.0) - 1.0);
@@ -49,14 +50,15 @@ peer_Frame peer_oct11_11_9(uvec2 words) {
     return peer_frame(n, t, (word & 1u) != 0u ? -1.0 : 1.0);
 }
 
-// Columns x and z of the matrix of a unit quaternion.
+// Returns N and T, columns z and x of the rotation matrix of a unit quaternion.
 peer_Frame peer_unitQuaternion(float x, float y, float z, float w, float mirrored) {
     vec3 n = vec3(2.0 * (z * x + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y));
     vec3 t = vec3(1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (z * x - w * y));
     return peer_frame(n, t, mirrored);
 }
 
-// The three smaller components of the quaternion, 10 + 10 + 9 bits; which one is omitted; and the sign.
+// Decodes the three smaller components of a quaternion from 10 + 10 + 9 bits, the index of the omitted one from 2 bits,
+// and the sign from 1 bit.
 peer_Frame peer_smallestThree(uvec2 words) {
     uint word = words.x;
     float a = (float(word >> 22u) * (1.0 / 1023.0) * 2.0 - 1.0) * 0.70710678;
@@ -73,13 +75,14 @@ peer_Frame peer_smallestThree(uvec2 words) {
 
 float peer_short(uint bits) { return max(float(int(bits << 16u) >> 16u) * (1.0 / 32767.0), -1.0); }
 
-// The quaternion as four shorts, neither normalized nor nearest; the sign is the sign of w, which has a bias.
+// Decodes a quaternion from four 16-bit integers, without normalizing it. The sign of w is the sign of the frame.
 peer_Frame peer_qtangent16(uvec2 words) {
     float w = peer_short(words.y >> 16u);
     return peer_unitQuaternion(peer_short(words.x), peer_short(words.x >> 16u), peer_short(words.y), w, w);
 }
 
-// N and T as octahedra of 16 + 16 bits each; the sign is the half of the range of T's second number.
+// Decodes N and T from octahedra with 16 + 16 bits each. The sign of the frame is that of T's second number; its
+// magnitude is the coordinate.
 peer_Frame peer_twoOct16(uvec2 words) {
     vec3 n = peer_octahedron(float(words.x & 65535u) * (1.0 / 65535.0) * 2.0 - 1.0, float(words.x >> 16u) * (1.0 / 65535.0) * 2.0 - 1.0);
     float half_y = float(words.y >> 16u) * (1.0 / 65535.0) * 2.0 - 1.0;

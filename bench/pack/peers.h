@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Other encodings of whole frames, from engines and public code: simple rounding, no search.
+// Other encodings of whole frames, from engines and public code, with simple rounding instead of a search for the best
+// code.
 #pragma once
 
 #include <cstddef>

@@ -38,7 +38,7 @@ DVec3 turned(const DVec3& v) {
     return {v.x, c * v.y - s * v.z, s * v.y + c * v.z};
 }
 
-/// Returns a grid of a closed surface around the y axis: at(longitude, latitude) returns a point, both from 0 to 1. u
+/// Returns a grid of a closed surface around the y axis. at(longitude, latitude), both from 0 to 1, returns a point. u
 /// runs from the front to the back on both sides, so that one half is mirrored.
 template <class At>
 Mesh gridOf(At at) {
@@ -82,13 +82,13 @@ Mesh torus() {
     });
 }
 
-/// Returns a texel of a bumpy map: z is up.
+/// Returns a tangent-space normal of a bumpy map.
 DVec3 texelAt(double u, double v) {
     const double bumps = 2 * kPi * 8;
     return unitOf({0.35 * std::cos(bumps * u), 0.35 * std::cos(bumps * v), 1});
 }
 
-/// Shades by MikkTSpace, with a light and its specular highlight.
+/// Shades as MikkTSpace prescribes, with one light and its specular highlight.
 double shade(const DVec3& normal, const DVec3& tangent, double sign, double u, double v) {
     const DVec3 texel = texelAt(u, v), bitangent = sign * cross(normal, tangent);
     const DVec3 n = unitOf(texel.x * tangent + texel.y * bitangent + texel.z * normal);
@@ -101,7 +101,7 @@ struct Pixels {
     std::vector<double> shade, depth;
 };
 
-/// Draws an orthographic view along -z with a depth test. Values below 0 mark the background.
+/// Draws an orthographic view along -z with a depth test. Shades below 0 mark the background.
 Pixels draw(const Mesh& mesh, const test::FrameList& frames, int size) {
     const std::size_t count = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
     Pixels pixels{std::vector<double>(count, -1), std::vector<double>(count, std::numeric_limits<double>::lowest())};
@@ -155,7 +155,7 @@ Picture differencePicture(const std::vector<Code>& codes, int size) {
         for (int column = 0; column < columns; ++column) {
             test::FrameList frames = mesh.frames;
             if (column > 0) {
-                frames.resize(kBatch);  // zero frames after those of the mesh are repaired
+                frames.resize(kBatch);  // pads to a full batch with zero frames, which the encoder repairs
                 codes[static_cast<std::size_t>(column - 1)].encode(frames);
                 codes[static_cast<std::size_t>(column - 1)].decode(frames);
             }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Effect of encoding errors on a rendered image.
+// Images that show the effect of encoding errors.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,9 @@ struct Picture {
     std::vector<std::uint8_t> gray;  ///< from the top row downward
 };
 
-/// Two rows, a sphere and a torus, each with a normal map and mirrored UVs on one half; from the left: shaded with
-/// float frames, then for each encoding 100 times the difference from that.
+/// Returns a picture with two rows, a sphere and a torus, each with a normal map and mirrored UVs on one half. The left
+/// column is shaded with float frames. There is one further column per encoding, with 100 times the difference from the
+/// left column.
 Picture differencePicture(const std::vector<Code>& codes, int size);
 
 }  // namespace tspace::bench
