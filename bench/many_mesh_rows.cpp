@@ -230,8 +230,7 @@ Row characters(const std::string& title, const std::string& job_name) {
 
 Row smallCall(const std::string& title) {
     return {title, [=](Lab& lab) {
-                constexpr int kCalls =
-                    1000;  // a single call is too short for the clock, and its time depends on the state of the caches
+                constexpr int kCalls = 1000;  // one call is too short for the clock, and depends on the caches
                 RowResult row{.title = title, .unit = " us"};
                 const Mesh mesh = boxMesh();
                 const Job job = makeJob("mikktspace", mesh);

@@ -97,7 +97,7 @@ typedef struct Buffer {
     void* mapped;
 } Buffer;
 
-/* A storage buffer in memory that stays mapped; `data` may be null. */
+/* Creates a storage buffer in memory that stays mapped. `data`: initial contents, or null. */
 static Buffer makeBuffer(const void* data, size_t bytes) {
     Buffer made;
     const VkBufferCreateInfo info = {
@@ -189,7 +189,7 @@ static void bindBuffers(const Buffer* buffers) {
     }
 }
 
-/* One frame: a thread for each result. */
+/* Computes the frames of one pose on the GPU, with one thread per result. */
 static void dispatch(uint32_t results) {
     const VkCommandPoolCreateInfo pool_info = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                                .queueFamilyIndex = family};
@@ -205,7 +205,7 @@ static void dispatch(uint32_t results) {
     vkCmdBindPipeline(buffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
     vkCmdBindDescriptorSets(buffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, NULL);
     vkCmdDispatch(buffer, (results + THREADS - 1) / THREADS, 1, 1); /* the limit in x is 65535; larger counts need y */
-    /* The next reader of the results: here the host; a renderer uses VERTEX_INPUT and VERTEX_ATTRIBUTE_READ. */
+    /* Makes the results visible to the host; a renderer uses VERTEX_INPUT and VERTEX_ATTRIBUTE_READ. */
     const VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
                                      .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT,
                                      .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
@@ -235,7 +235,7 @@ static void closeDevice(const Buffer* buffers) {
 
 /* ---- comparison with the library */
 
-/* Degrees between two unit vectors. */
+/* Returns the angle between two unit vectors, in degrees. */
 static double angleBetween(const float* a, const float* b) {
     const double x = a[1] * (double)b[2] - a[2] * (double)b[1], y = a[2] * (double)b[0] - a[0] * (double)b[2];
     const double z = a[0] * (double)b[1] - a[1] * (double)b[0];
@@ -277,7 +277,7 @@ int main(int argument_count, char** arguments) {
     }
     makeSheet();
 
-    /* Once: normals of the mesh, a vertex for each result, a plan, and its words. */
+    /* Done once: computes normals, makes a vertex for each result, and creates a plan and its words. */
     tspace_TangentOptions options;
     TSPACE_INIT(options);
     TS(tspace_findConvention("gltf", &options.convention, &error));
@@ -304,7 +304,7 @@ int main(int argument_count, char** arguments) {
     tspace_PlanBuffers* words;
     TS(tspace_planBuffers(plan, &buffer_options, NULL, &words, &error));
 
-    /* Settings, by word: positions (0..5), normals (6..8) and tangents (9..11) as formats, offsets and strides in bytes. */
+    /* Words: formats, offsets and strides (in bytes) of positions (0..5), normals (6..8) and tangents (9..11). */
     uint32_t settings[SETTING_WORDS] = {0, 0, 12};
     settings[6] = 1;
     settings[8] = 12;

@@ -30,8 +30,7 @@ std::vector<tspace::Vec4> lengyelTangents(const std::vector<Vec3>& positions, co
             add(along_v[vertex], face.bitangent);
         }
     }
-    // Make each tangent perpendicular to the normal (Gram-Schmidt). The sign states on which side of the tangent dP/dv
-    // is.
+    // Make each tangent perpendicular to the normal (Gram-Schmidt). The sign says on which side of T and N dP/dv lies.
     std::vector<tspace::Vec4> tangents(positions.size());
     for (std::size_t v = 0; v < positions.size(); ++v)
         tangents[v] = tspace::packTangent({.tangent = along_u[v], .bitangent = along_v[v], .normal = normals[v]});

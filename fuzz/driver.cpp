@@ -30,7 +30,8 @@ void keepInput() {
     std::fprintf(stderr, "fuzz: the input is in crash-input (%zu bytes)\n", current.size());
 }
 
-/// Saves the input on a signal, without sanitizers. The process ends afterwards, so signal safety does not matter.
+/// Saves the input when a signal arrives, for builds without sanitizers. The process ends afterwards, so the function
+/// need not be signal-safe.
 void keepInputOf(int signal) {
     keepInput();
     std::signal(signal, SIG_DFL);
@@ -83,7 +84,7 @@ class Mutator {
                              piece.end());
                 break;
             }
-            default: {  // part of another seed
+            default: {  // copies a part of another seed into the input
                 const Input& other = seeds_[below(seeds_.size())];
                 if (other.empty()) break;
                 const std::size_t from = below(other.size()),

@@ -15,7 +15,7 @@
 
 namespace tspace::fuzz {
 
-/// Creates a folder, in memory if possible.
+/// Creates a temporary folder, in memory rather than on disk if possible.
 inline std::filesystem::path makeFolder() {
     std::error_code failed;
     const std::filesystem::path shm = "/dev/shm";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Baking and measuring: any low poly, high poly and options result in an error, or in a map whose channels are all in 0
-// to 1 and equal for two threads. Without Embree nothing is tested.
+// Baking and measuring: any low poly, high poly and options result in an error, or in a map whose channels are all from
+// 0 to 1, with equal texels for one and two threads. Nothing is tested in builds without Embree.
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -16,7 +16,8 @@ class BakeReader : public ByteReader {
   public:
     using ByteReader::ByteReader;
 
-    /// Returns mostly multiples of a small step, so that surfaces intersect; sometimes arbitrary bits.
+    /// Returns a value: usually a multiple of a small step, so that surfaces intersect; sometimes a float with
+    /// arbitrary bits.
     float value() {
         const std::uint8_t b = byte();
         return b == 255 ? any() : static_cast<float>(b % 17) / 8 - 1;

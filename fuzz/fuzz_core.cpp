@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// API boundary of the core: any mesh with any options. One thread with scalar code and three threads with the best SIMD
-// target give the same bits, as do generate and plan + evaluate; sanitize leaves no invalid tangent.
+// API boundary of the core: any mesh with any options. One thread with scalar code gives the same bits as three threads
+// with the best SIMD target, and generate gives the same bits as plan and evaluate. sanitize leaves no invalid tangent.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -21,7 +21,8 @@ class Reader : public ByteReader {
   public:
     using ByteReader::ByteReader;
 
-    /// Returns few different values, so that corners are welded and triangles collapse; sometimes arbitrary bits.
+    /// Returns one of few values, so that corners are welded and triangles collapse; sometimes a float with arbitrary
+    /// bits.
     float value() {
         const std::uint8_t b = byte();
         return b == 255 ? any() : static_cast<float>(b % 7) - 3;
@@ -60,7 +61,7 @@ struct Input {
     }
 };
 
-/// Separate index lists for each attribute over the same faces: normals and UVs of other vertices.
+/// Separate index lists for normals and UVs, over the faces of the input.
 struct Lists {
     std::vector<std::uint8_t> normals = {};
     std::vector<std::uint16_t> uvs = {};
@@ -78,7 +79,7 @@ struct Lists {
     }
 };
 
-/// All outputs of a call. A NaN equals any NaN: the processor chooses which NaN a sum of two returns.
+/// All outputs of a call. Any two NaNs count as equal, because the processor chooses which NaN the sum of two NaNs is.
 struct Outputs {
     std::vector<Vec4> tangents;
     std::vector<Vec3> bitangents;

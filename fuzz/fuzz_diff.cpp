@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Comparison of two models: consistent values within their bounds, equal numbers of pairs in both directions, and no
-// difference between a model and itself.
+// Comparison of two models: values are consistent and within their bounds, both directions give equal numbers of pairs,
+// and a model does not differ from itself.
 #include <cmath>
 
 #include "made_model.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Output of an importer that is under control of a hostile model: arbitrary messages and results, through every
-// command.
+// Output of an importer that a hostile model controls: every command gets arbitrary messages and results from it.
 #include "whole_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

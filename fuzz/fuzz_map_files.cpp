@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Maps together with models, from file to file: convert-map, height-to-normal, bake and map-error with any models,
-// images and options. A call that fails leaves no file; written files must be readable.
+// Commands that read maps and models and write files: convert-map, height-to-normal, bake and map-error with any
+// models, images and options. A call that fails leaves no file; written files must be readable.
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Engines of convert-map, height-to-normal and map-error: any texels, frames and options result in an error, or in
-// channels in 0 to 1 that are equal for two threads.
+// Functions behind convert-map, height-to-normal and map-error: any texels, frames and options result in an error, or
+// in channels from 0 to 1, with equal results for one and two threads.
 #include <cmath>
 #include <cstring>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whole files: Wavefront OBJ.
+// Whole Wavefront OBJ files.
 #include "whole_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Packed frames: any bytes are valid frames; any floats can be packed, and unpacked frames pack to the same bytes;
-// models with valid or invalid packed frames get new ones without findings in check.
+// Packed frames: any bytes are valid frames; any floats can be packed; unpacked frames pack to the same bytes. generate
+// repacks models with valid or invalid packed frames, and check then has no findings.
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -27,7 +27,8 @@ void requireUnit(const std::vector<Vec3>& normals, const std::vector<Vec4>& tang
     }
 }
 
-/// Checks the frames of `bytes`, and whether packing and unpacking reproduces them.
+/// Checks that any bytes unpack to unit frames that can be packed again and, if `is_exact`, that these unpack to the
+/// same frames.
 void checkBytes(FrameFormat format, std::span<const std::byte> bytes, bool is_exact) {
     const std::size_t count = bytes.size() / frameBytes(format);
     std::vector<Vec3> normals(count), again_normals(count);
@@ -46,7 +47,7 @@ void checkBytes(FrameFormat format, std::span<const std::byte> bytes, bool is_ex
 }
 
 void checkFloats(ByteReader& in, FrameFormat format) {
-    constexpr std::size_t kCount = 9;  // more than the lanes of any SIMD target
+    constexpr std::size_t kCount = 9;  // more than any SIMD target has lanes
     std::vector<Vec3> normals;
     std::vector<Vec4> tangents;
     const auto value = [&in] {
@@ -80,7 +81,7 @@ void checkModel(ByteReader& in, FrameFormat format) {
     const bool is_sound = checkFile("a.glb", {.file = options.file}).ok();
     const Result<GenerateReport> report = generateFile("a.glb", "b.glb", options);
     if (!report) return require(!report.error().message.empty(), "an error has a message");
-    // Unchanged primitives are copied as they are; only check finds indices out of range.
+    // generate copies primitives that it does not change, so faults that only check detects may remain in them.
     if (!is_sound) return;
     const Result<CheckReport> checked = checkFile("b.glb", {.file = {.content = output}});
     require(checked.ok(), "what was written can be read");
@@ -104,7 +105,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     ByteReader in(data, size);
     const auto format = static_cast<FrameFormat>(in.byte() % 9);
     const std::size_t count = size / frameBytes(format);
-    // Exact for the formats for which the header guarantees it.
+    // Only the formats up to oct32 guarantee exact round trips (see the header).
     checkBytes(format, {reinterpret_cast<const std::byte*>(data), count * frameBytes(format)},
                format <= FrameFormat::oct32);
     checkFloats(in, format);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Images of any model with any options: a PNG of the requested size, equal for two threads, or an error.
+// Images of any model with any options: the result is an error, or a PNG of the requested size that is equal for one
+// and two threads.
 #include <string>
 #include <vector>
 

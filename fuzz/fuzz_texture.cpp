@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// KTX2 and DDS files with valid headers, except for values from the input: arbitrary bytes as blocks and levels.
-// fuzz_image covers files that are corrupt anywhere.
+// KTX2 and DDS files whose headers are valid except for some values from the input, with arbitrary bytes as blocks and
+// levels. fuzz_image covers files that are corrupt anywhere.
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -20,7 +20,7 @@ void put(Bytes& to, Number number) {
     for (std::size_t i = 0; i < sizeof number; ++i) to.push_back(static_cast<std::uint8_t>(number >> 8 * i));
 }
 
-/// Header values of a file.
+/// Values in the header of a file, which may be wrong.
 struct Claims {
     std::uint32_t format = 0, width = 0, height = 0, levels = 1;
     std::uint8_t scheme = 0, model = 1, channel = 0, transfer = 1;
@@ -50,7 +50,7 @@ Bytes makeDds(const Claims& claims, const Bytes& data) {
     for (const std::uint32_t number : {124U, 0x1007U, claims.height, claims.width, 0U, 0U, claims.levels})
         put(file, number);
     file.resize(76);
-    for (const std::uint32_t number : {32U, 4U, 0x30315844U}) put(file, number);  // DX10
+    for (const std::uint32_t number : {32U, 4U, 0x30315844U}) put(file, number);  // pixel format with the code DX10
     file.resize(128);
     for (const std::uint32_t number : {claims.format, 3U, 0U, 1U, 0U}) put(file, number);
     file.insert(file.end(), data.begin(), data.end());
@@ -86,8 +86,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     claims.channel = choices / 16;
     if (claims.model == 166) claims.format = 0;
     claims.levels = 1;
-    // Claims the size of 16-byte blocks; for formats with other sizes the file is then invalid, unless the sizes happen
-    // to match.
+    // Sometimes the header states the size of 16-byte blocks. The file is then invalid for other formats, unless the
+    // sizes happen to match.
     const std::uint64_t blocks = (claims.width + 3) / 4 * ((claims.height + 3) / 4);
     const std::uint8_t per_texel = in.byte() % 18;
     claims.unpacked = per_texel > 16   ? blocks * 16

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Simulates an importer under control of a hostile model. The "model" is its script: exit status (1 byte), length of
-// the messages (2 bytes, little-endian), the messages, and the result.
+// Simulates an importer that a hostile model controls. The "model" is the importer's script: exit status (1 byte),
+// length of the messages (2 bytes, little-endian), the messages, and the result.
 #include <cstdio>
 #include <cstdlib>
 #include <iterator>

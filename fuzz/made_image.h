@@ -10,7 +10,7 @@
 
 namespace tspace::fuzz {
 
-/// Creates a random image of up to 12 x 12 texels; often mostly blue, like a normal map.
+/// Creates a random image of up to 12 x 12 texels. Often most of it is blue, as in a normal map.
 inline FloatImage makeImage(ByteReader& in) {
     const std::uint32_t width = 1 + in.byte() % 12u, height = 1 + in.byte() % 12u;
     const bool is_blue = in.byte() % 2 == 0;
@@ -22,7 +22,7 @@ inline FloatImage makeImage(ByteReader& in) {
     return image;
 }
 
-/// Returns such an image as a PNG; empty if this build cannot write PNGs.
+/// Returns a random image as a PNG. Returns no bytes if this build cannot write PNGs.
 inline std::vector<std::uint8_t> makePng(ByteReader& in) {
     const FloatImage image = makeImage(in);
     return encodePng(image, image.bits).value_or(std::vector<std::uint8_t>{});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Creates a GLB from the input. Its structure is mostly valid, so that the code behind the reader runs, on arbitrary
-// values. Other targets cover invalid files.
+// Creates a GLB from the input. Most of its structure is valid, so that the code after the reader runs, on arbitrary
+// values. Other fuzz targets cover invalid files.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@
 
 namespace tspace::fuzz {
 
-/// Component type of an accessor.
+/// Component type of an accessor, and whether it is normalized.
 struct NumberFormat {
     gltf::ComponentType component;
     bool is_normalized = false;
@@ -24,7 +24,7 @@ struct NumberFormat {
 
 class ModelMaker {
   public:
-    /// `image`: file for its textures; empty: no textures.
+    /// `image`: the image file for the model's textures; empty: the model has no textures.
     explicit ModelMaker(ByteReader& in, std::vector<std::uint8_t> image = {}) : in_(in), image_(std::move(image)) {}
 
     std::vector<std::uint8_t> glb() {
@@ -52,8 +52,8 @@ class ModelMaker {
     using ComponentType = gltf::ComponentType;
     using Numbers = NumberFormat;
 
-    /// Returns mostly multiples of a small step, so that corners are welded and triangles meet; sometimes arbitrary
-    /// bits.
+    /// Returns a value: usually a multiple of a small step, so that corners are welded and triangles meet; sometimes a
+    /// float with arbitrary bits.
     float value() {
         const std::uint8_t b = in_.byte();
         return b == 255 ? in_.any() : static_cast<float>(b % 17) / 8 - 1;
@@ -80,7 +80,8 @@ class ModelMaker {
         return view_count_++;
     }
 
-    /// Adds elements of `width` numbers, aligned to four bytes each if `is_aligned`. Returns the accessor.
+    /// Adds an accessor of `count` elements with `width` numbers each, and returns its index. `is_aligned`: elements
+    /// are aligned to four bytes.
     std::size_t addAccessor(const Numbers& kind, const char* type, std::size_t width, std::size_t count,
                             bool is_aligned) {
         const std::size_t stride = is_aligned ? (kind.bytes() * width + 3) / 4 * 4 : kind.bytes() * width;
@@ -190,7 +191,7 @@ class ModelMaker {
         return list;
     }
 
-    /// Returns a chain of nodes from node 0, whose matrices may be singular or mirroring.
+    /// Returns the JSON of a chain of nodes that starts at node 0. Their matrices may be singular or mirroring.
     std::string nodes() {
         std::string list;
         for (std::size_t n = 0; n < 3; ++n) {

@@ -57,7 +57,7 @@ constexpr Place placeOf(Side side) {
     }
     return {0, 0};
 }
-/// Returns whether the halves x > 0 and x < 0 of the side share its texture.
+/// Returns whether the halves x > 0 and x < 0 of the side use the same texels.
 constexpr bool isMirrored(Side side) { return side != Side::right && side != Side::left; }
 
 struct Mesh {

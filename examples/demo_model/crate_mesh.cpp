@@ -10,10 +10,10 @@ namespace {
 
 using Vec = std::array<double, 3>;
 
-/// A grid line across a side, as seen along the other axis of that side.
+/// A row or column of the grid on a side.
 struct Line {
     double flat = 0;    ///< nearest coordinate on the flat part
-    double lean = 0;    ///< -1..1: tilt of the normal, 1 in the middle of the edge
+    double lean = 0;    ///< -1 to 1: tilt of the normal; -1 and 1 are at the middle of the edges
     double offset = 0;  ///< distance from the center of the side on the unrolled surface
 };
 
@@ -38,7 +38,7 @@ std::vector<Line> gridLines() {
     return lines;
 }
 
-/// Directions of a side in space: outwards, along u (for x > 0), along v.
+/// A side and its directions in space: outward, along u (for x > 0), and along v.
 struct Axes {
     Side side;
     Vec out, right, down;
@@ -63,7 +63,7 @@ void addVertex(Mesh& mesh, const Axes& axes, const Line& column, const Line& row
     mesh.uvs.push_back(static_cast<float>(place.v + kUvPerMeter * row.offset));
 }
 
-/// Adds vertically adjacent sides, which share the vertices of their common edge.
+/// Adds sides that are one above the other. They share the vertices of their common edge.
 void addStrip(Mesh& mesh, const std::vector<Axes>& sides) {
     const std::vector<Line> lines = gridLines();
     const std::size_t columns = lines.size();

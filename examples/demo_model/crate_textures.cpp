@@ -35,7 +35,7 @@ double segment(Point p, Point a, Point b, double radius) {
     return length(p.x - a.x - t * x, p.y - a.y - t * y) - radius;
 }
 
-// The following functions return heights in meters for distances from an outline.
+// The following functions return heights in meters. `distance`: from an outline, in meters.
 
 double plate(double distance, double height) { return height * smoothstep(0.006, -0.006, distance); }
 
@@ -74,7 +74,7 @@ double tread(Point p) {
     return segment(local, {-0.022, -0.022 * turn}, {0.022, 0.022 * turn}, 0.006);
 }
 
-/// Returns the height of the details that are specific to a side.
+/// Returns the height of the details that only this side has.
 double detail(Side side, Point p) {
     const double inside = smoothstep(-0.03, -0.04, panel(p));
     switch (side) {
@@ -96,7 +96,7 @@ double detail(Side side, Point p) {
                                                    : 0;
         }
         case Side::right: {
-            // Eight bolts by symmetry: maps to one eighth of the circle.
+            // The eight bolts are symmetric, so the position is mirrored into one eighth of the circle.
             double x = std::abs(p.x), y = std::abs(p.y);
             if (y > x) {
                 std::swap(x, y);
@@ -161,7 +161,7 @@ Color paint(Side side, Point p) {
     if (side == Side::top) {
         color = mix(color, kSteel, 0.5 * smoothstep(0.002, -0.002, std::max(tread(p), panel(p) + 0.035)));
     }
-    const double shift = 3 * static_cast<int>(side);  // offset so that sides differ in wear
+    const double shift = 3 * static_cast<int>(side);  // noise offset, so that each side is worn in other places
     const double grain = 0.6 * noise({p.x + shift, p.y}, 23) + 0.4 * noise({p.x, p.y + shift + 7}, 91);
     const double edge = smoothstep(0.41, 0.47, std::max(std::abs(p.x), std::abs(p.y)));
     color = mix(color, kSteel, smoothstep(0.80, 0.84, grain + 0.22 * edge));

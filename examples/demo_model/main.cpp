@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // tspace_demo_model FILE.glb [SIZE]: writes the procedural model that scripts/demo uses, with images of SIZE by SIZE
-// texels. A crate with a normal map, mirrored UVs, UV seams and bevels, and without tangents. Every run writes the same
-// bytes.
+// texels. It is a crate with a normal map, mirrored UVs, UV seams and bevels, and without tangents. Every run writes
+// the same bytes.
 #include <algorithm>
 #include <bit>
 #include <cstdio>

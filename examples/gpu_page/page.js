@@ -12,7 +12,7 @@ import { GpuFrames } from "tspace/webgpu";
 
 const SIZE = 384, HEAT_DEGREES = 20;
 
-/** A sheet of n * n quads in the plane z = 0, whose texture repeats three times. */
+/** Returns a sheet of n * n quads in the plane z = 0, on which the texture repeats three times in each direction. */
 function clothMesh(n) {
   const positions = new Float32Array(3 * (n + 1) ** 2), uvs = new Float32Array(2 * (n + 1) ** 2), indices = [];
   for (let j = 0, v = 0; j <= n; ++j) {
@@ -25,7 +25,7 @@ function clothMesh(n) {
   return { positions, uvs, indices: Uint32Array.from(indices) };
 }
 
-/** The pose of the cloth, four numbers per vertex: a simulation would write this buffer. */
+/** Writes the pose of the cloth at a time, four numbers per vertex. In a game, a simulation would write this buffer. */
 function waveCloth(rest, time, to) {
   for (let i = 0, k = 0; i < rest.length; i += 3, k += 4) {
     const [x, y] = [rest[i], rest[i + 1]], lift = 0.5 * (1 - y);
@@ -35,7 +35,7 @@ function waveCloth(rest, time, to) {
   }
 }
 
-/** A sphere of few triangles, and a morph target that gives it five lobes. */
+/** Returns a sphere of few triangles with a morph target that gives it five lobes. */
 function morphingMesh() {
   const sphere = new THREE.SphereGeometry(0.8, 36, 24), { position, uv: uvs } = sphere.attributes;
   const positions = Float32Array.from(position.array), target = positions.slice();
@@ -49,7 +49,7 @@ function morphingMesh() {
 
 const gather = (array, size, sources) => Float32Array.from({ length: size * sources.length }, (_, i) => array[size * sources[Math.floor(i / size)] + (i % size)]);
 
-/** A geometry with a vertex for each result, and the words of its plan. */
+/** Returns a geometry with a vertex for each result, and the words of its plan. */
 function planned(mesh) {
   const { positions, uvs, indices } = mesh;
   const made = makeIndexedFrames({ positions, uvs, indices }, { convention: "opengl" });
@@ -71,13 +71,13 @@ function planned(mesh) {
   return { geometry, buffers, rest: vertices.positions, target: mesh.target && take(mesh.target, 3), count };
 }
 
-/** Normal in tangent space of a pattern of round bumps, without a texture. */
+/** Tangent-space normal of a pattern of round bumps, computed without a texture. */
 const bumps = Fn(() => {
   const p = uv().mul(2 * Math.PI * 3);
   return normalize(vec3(sin(p.x).mul(0.55), sin(p.y).mul(0.55), 1));
 });
 
-/** The frame of a pixel from derivatives (Mikkelsen, "Bump Mapping Unparametrized Surfaces on the GPU", 2010): no attributes. */
+/** Normal of a pixel from derivatives (Mikkelsen, "Bump Mapping Unparametrized Surfaces on the GPU", 2010). */
 const derivativeNormal = Fn(() => {
   const dx = dFdx(positionWorld), dy = dFdy(positionWorld);
   const n = normalize(cross(dx, dy));
@@ -90,7 +90,7 @@ const derivativeFrame = Fn(([n, bump]) => {
   const scale = float(1).div(dot(t, t).max(dot(s, s)).max(1e-20).sqrt());
   return normalize(t.mul(scale).mul(bump.x).add(s.mul(scale).mul(bump.y)).add(n.mul(bump.z)));
 });
-/** Decodes like MikkTSpace: interpolated vectors, normalized at the end. */
+/** Decodes as MikkTSpace prescribes: with interpolated vectors; only the result is normalized. */
 const attributeFrame = Fn(([bump]) => {
   const n = normalWorldGeometry, facing = sign(dot(n, cameraPosition.sub(positionWorld)));
   return normalize(tangentWorld.mul(bump.x).add(bitangentWorld.mul(bump.y)).add(n.mul(bump.z))).mul(facing);
@@ -116,7 +116,7 @@ const columns = [
   ['difference: 0 <span id="scale"></span> 20° and more', () => heat(attributeFrame(bumps()), derivativeFrame(derivativeNormal(), bumps()))],
 ];
 
-/** The model on the GPU. update(time) computes the frames of a pose: no result is read back. */
+/** Creates the model on the GPU. Its update(time) computes the frames of a pose there; no result is read back. */
 async function makeModel(renderer, mesh, name) {
   const model = planned(mesh), { geometry, rest, target, count } = model, { device } = renderer.backend;
   const arrayOf = (attribute) => {
@@ -187,7 +187,7 @@ async function main() {
         context.drawImage(renderer.domElement, 0, 0);
       }
     },
-    /** One picture of each view, for browsers that cannot show WebGPU, such as headless ones. */
+    /** Draws one picture of each view into its canvas, for browsers that cannot show WebGPU, such as headless ones. */
     async drawStill(time) {
       for (const model of models) model.update(time);
       for (const { scene, context } of views) {

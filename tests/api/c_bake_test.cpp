@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: MIT
-// Compares baking and finishing with the C API with the tool: equal files, JSON, and errors.
+// Compares baking and finishing by the C API with the tool: files, JSON and errors must be equal.
 #include "api/made_bytes.h"
 #include "tool/baked_sheets.h"
 
 namespace tspace::test {
 namespace {
 
-/// Runs in the folder of the sheets.
+/// Tests of bake whose working directory is the folder of the models.
 class CFilesBake : public BakeCommand {
   protected:
     void SetUp() override {
         BakeCommand::SetUp();
         std::filesystem::current_path(folder.path());
     }
-    /// Returns the names of all files in the folder.
+    /// Returns the names of all files in the folder of the models.
     [[nodiscard]] std::set<std::string> names() const {
         std::set<std::string> found;
         for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
             found.insert(entry.path().filename().string());
         return found;
     }
-    /// Returns the files that a run of the tool wrote, and removes them.
+    /// Returns the contents of the files that a run of the tool wrote, and removes the files.
     [[nodiscard]] std::map<std::string, std::string> taken(const std::vector<std::string>& outputs) const {
         std::map<std::string, std::string> bytes;
         for (const std::string& output : outputs) {
@@ -76,7 +76,7 @@ TEST_F(CFilesBake, AFinishedModelWithItsMapsIsThatOfTheTool) {
         TSPACE_OK)
         << error.message;
     expectWritten(bytes);
-    // The page is an additional file.
+    // The API call also wrote a page, which the tool run did not.
     const auto ofTool = nlohmann::json::parse(run.out), made = nlohmann::json::parse(report.text());
     for (const char* member :
          {"schema", "exitCode", "input", "low", "output", "models", "check", "outputBytes", "remarks"})

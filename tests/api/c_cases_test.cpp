@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// The value of an option; `type` is the name of its type in C.
+/// Returns an option as a number. `type`: the name of the option's enum in C.
 double numberOf(const Json& value, const char* type) {
     if (value.is_boolean()) return value.get<bool>() ? 1 : 0;
     return value.is_string() ? kEnumerators.at(type).at(value.get<std::string>()) : value.get<double>();
@@ -31,7 +31,7 @@ std::vector<T> listOf(const Json& object, const std::string& name) {
     return list;
 }
 
-/// The arrays of a case and the mesh that refers to them.
+/// The arrays of a test case, and a mesh that refers to them.
 struct CaseMesh {
     explicit CaseMesh(const Json& arrays)
         : positions(listOf<float>(arrays, "positions")),
@@ -109,7 +109,7 @@ struct CaseCall {
 
 tspace_TangentOptions tangentOptionsOf(const CaseCall& call) {
     auto made = call.prepared<tspace_TangentOptions>();
-    // The C API rejects zero for both as uninitialized; no method uses both.
+    // The C API rejects options in which both are 0, as uninitialized. No method uses both, so the unused one is set.
     if (made.angular_threshold_deg == 0 && made.refine == 0) {
         if (made.method == TSPACE_METHOD_BEST) made.angular_threshold_deg = 180;
         if (made.method != TSPACE_METHOD_BEST) made.refine = 1;
@@ -154,7 +154,8 @@ void runTangents(CaseCall& call) {
 
 void runNormals(CaseCall& call) {
     auto options = call.prepared<tspace_NormalOptions>();
-    // The C API rejects options of zeros as uninitialized; flat, which is 0, uses no other option.
+    // The C API rejects options of zeros as uninitialized. `flat` is 0, and uses no other option, so an unused one is
+    // set.
     if (options.weighting == TSPACE_NORMAL_WEIGHTING_FLAT && options.refine == 0) options.refine = 1;
     const auto groups = listOf<std::uint32_t>(call.options, "smoothing_groups");
     options.smoothing_groups = groups.empty() ? nullptr : groups.data();

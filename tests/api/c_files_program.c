@@ -9,7 +9,7 @@
 
 enum { MOST_FILES = 16 };
 
-/* Files in the folder of the model, which are kept in memory until the end. */
+/* Files in the folder of the model. They are kept in memory until the program ends. */
 typedef struct Folder {
     char path[1024];
     uint8_t* bytes[MOST_FILES];
@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
     tspace_destroyBytes(&report);
     CHECK(report.data == NULL && report.size == 0);
 
-    /* The result contains all data. */
+    /* The result is self-contained, so the next call needs no other files. */
     TSPACE_INIT(made);
     made.data = output.data;
     made.size = output.size;

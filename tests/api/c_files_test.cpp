@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compares the C file API with the tool: equal bytes, JSON, and messages; and errors for models in memory.
+// Compares the C file API with the tool (bytes, JSON and messages must be equal), and tests its errors for models in
+// memory.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -13,7 +14,7 @@
 namespace tspace::test {
 namespace {
 
-/// A model in memory with the files of its folder.
+/// A model in memory, with the other files of its folder.
 class MemoryModel {
   public:
     MemoryModel(std::string name, std::string bytes) : name_(std::move(name)), bytes_(std::move(bytes)) {}
@@ -32,7 +33,7 @@ class MemoryModel {
         return model;
     }
 
-    /// Valid as long as this object is not moved.
+    /// Returns a view of the model, which is valid as long as this object is not moved.
     [[nodiscard]] tspace_Model view(bool with_files = true) {
         tspace_Model model;
         TSPACE_INIT(model);
@@ -46,7 +47,7 @@ class MemoryModel {
 
     std::map<std::string, std::string> files = {};
     std::vector<std::string> asked = {};
-    tspace_ErrorCode fail_with = TSPACE_OK;  ///< for every file
+    tspace_ErrorCode fail_with = TSPACE_OK;  ///< returned for every file if not TSPACE_OK
 
   private:
     static tspace_ErrorCode find(void* user, const char* path, const std::uint8_t** data, std::size_t* size) {
@@ -170,7 +171,7 @@ TEST(CFiles, AnObjAndItsMaterialsAndMapsComeFromMemory) {
     tspace_Error error;
     ASSERT_EQ(tspace_generateBytes(&view, nullptr, &output.bytes, nullptr, &error), TSPACE_OK) << error.message;
     EXPECT_TRUE(output.text() == folder.read("folder/out.glb"));
-    // It is a valid model even without its materials.
+    // The model is valid even without its material library.
     const tspace_Model alone = model.view(false);
     Made plain;
     EXPECT_EQ(tspace_generateBytes(&alone, R"({"all": true})", &plain.bytes, nullptr, &error), TSPACE_OK)
@@ -421,8 +422,8 @@ TEST(CFilesConvertMap, FilesAreThoseOfTheTool) {
 }
 
 TEST(CFilesConvertMap, CombinedOptionsAreApplied) {
-    // Both channels are inverted after all options are known; a model that will use the map requires the original
-    // model.
+    // The channels are inverted after all options are known, so both options apply. The option to-mesh (the model that
+    // will use the map) is an error without the option mesh (the original model).
     expectFilesOfTheTool(tspace_convertMapFile, "convert-map bump.png -o out.png --flip-green --flip-red",
                          R"({"flip-green":true,"flip-red":true})", R"({"to-mesh":"wall.obj"})");
 }

@@ -27,7 +27,7 @@ struct Made {
     [[nodiscard]] bool isEmpty() const { return bytes.data == nullptr && bytes.size == 0; }
 };
 
-/// Removes durations, the only difference between runs.
+/// Returns the JSON without durations, which are the only difference between runs.
 inline std::string withoutSeconds(const std::string& json) {
     return std::regex_replace(json, std::regex("\"seconds\": [0-9.e+-]+"), "\"seconds\": 0");
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// shading_normals MODEL OUT SIZE: writes the normals that `tspace render` shades, with normal maps interpreted like in
-// three.js, from the front without perspective: SIZE x SIZE pixels of four floats, the last of which is 1 where there
-// is a surface. Corners of triangles are rounded like in Chromium's software rasterizer, so that the same points of a
-// surface are compared.
+// shading_normals MODEL OUT SIZE: writes the shading normals of `tspace render`, with normal maps interpreted as in
+// three.js, seen from the front without perspective: SIZE x SIZE pixels of four floats, the last of which is 1 where
+// there is a surface. Corners of triangles are rounded as in Chromium's software rasterizer, so that the same points of
+// a surface are compared.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -16,10 +16,11 @@ using namespace tspace;  // NOLINT: a small program
 
 namespace {
 
-/// SUBPIXEL_BITS of SwiftShader is 4. If eight texels are below one pixel, this alone changes normals by 0.2 degrees.
+/// Corners are rounded to 1 / kPixelParts of a pixel, as in SwiftShader (its SUBPIXEL_BITS is 4). If eight texels fall
+/// into one pixel, this rounding alone changes normals by 0.2 degrees.
 constexpr double kPixelParts = 16;
 
-/// Returns a triangle as seen by that rasterizer, without perspective.
+/// Returns a triangle as Chromium's software rasterizer sees it, without perspective.
 SeenTriangle roundedTriangle(const DrawnMesh& mesh, std::size_t triangle, const Camera& camera) {
     std::array<SeenPoint, 3> points;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -56,7 +57,7 @@ std::vector<float> normalsOf(const std::string& path, std::uint32_t size) {
             const VisibleTriangles::Place place = visible.placeOf(number);
             const DrawnMesh& mesh = model.meshes()[place.mesh];
             const SeenTriangle rounded = roundedTriangle(mesh, place.triangle, camera);
-            // Rounding removes the thinnest triangles.
+            // The thinnest triangles vanish when their corners are rounded; then the exact corners are used.
             const SeenTriangle seen = rounded.isSeen() ? rounded : visible.seen(place);
             const Affine& to_world = mesh.to_world;
             const SurfacePoint point{.triangle = place.triangle,

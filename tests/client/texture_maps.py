@@ -10,7 +10,7 @@ import sys
 import zlib
 
 WIDTH, HEIGHT = 64, 48
-MOST = 4  # of 255: a step of a block, plus changes by the optimization for filtering
+MOST = 4  # maximum difference of a channel, of 255: a step of a block, plus the optimization for filtering
 
 
 def write(path, numbers):

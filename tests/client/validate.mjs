@@ -53,7 +53,7 @@ async function findings(file) {
     return found;
 }
 
-/// Returns the errors at a TANGENT of a primitive or morph target, or at an accessor used as one.
+/// Returns the errors of tangents: at a TANGENT of a primitive or morph target, or at an accessor used as one.
 async function tangentErrors(file) {
     const bytes = readFileSync(file);
     let report;
@@ -67,7 +67,7 @@ async function tangentErrors(file) {
     } catch (error) {
         return []; // not JSON, or not glTF 2.0
     }
-    // Wrong declared bounds are not errors of the tangents: they are kept with kept tangents.
+    // Wrong declared bounds do not count as errors of the tangents: tangents that are kept also keep their bounds.
     const isOfBounds = /^ACCESSOR_(M(IN|AX)_MISMATCH|ELEMENT_OUT_OF_M(IN|AX)_BOUND)$/;
     const errors = report.issues.messages.filter(({ severity, code }) => severity === 0 && !isOfBounds.test(code));
     if (errors.length === 0) return [];

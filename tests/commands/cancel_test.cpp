@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Progress callbacks are frequent enough to end a call within a second, and a canceled call writes nothing.
+// Progress callbacks are frequent enough for a call to end within a second after it is canceled, and a canceled call
+// writes nothing.
 #include <gtest/gtest.h>
 #include <time.h>
 
@@ -24,7 +25,7 @@ double seconds() {
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// Runs call(progress) to its end, then stops it at some of its callbacks.
+/// Runs call(progress) to its end, and then again several times, each time canceled at another callback.
 void expectStops(const std::string& name, const TempFolder& folder,
                  const std::function<ErrorCode(const Progress&)>& call) {
     const std::set<std::string> inputs = folder.files();

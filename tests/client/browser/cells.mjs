@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Evaluates a picture of NormalTangentTest. The model is a grid of square cells, three pairs per row. The left cell of
-// a pair is a dome of triangles; the right one is a flat square with a normal map of such a dome, and its UVs are
-// rotated by a different angle in each row. If the frames are right, both cells of a pair are lit on the same side.
+// Evaluates a picture of NormalTangentTest. The model is a grid of square cells, with three pairs per row. The left
+// cell of a pair is a dome of triangles; the right one is a flat square with a normal map of such a dome, and the UVs
+// are rotated by a different angle in each row. If the frames are right, both cells of a pair are lit on the same side.
 
 /// The rendered part of the model's front: x and y from -half to half, in size by size pixels.
 export const VIEW = { half: 1.25, size: 600 };
@@ -11,7 +11,7 @@ export const VIEW = { half: 1.25, size: 600 };
 export const LIGHTS = { right: [1, 0], top: [0, 1] };
 
 const ROWS = [0.8, 0.4, 0, -0.4, -0.8];
-const PAIRS = [-0.96, -0.16, 0.64]; // x of the dome of triangles; the mapped cell is next to it
+const PAIRS = [-0.96, -0.16, 0.64];  // x of the domes of triangles; mapped cells are PAIR_DISTANCE to the right
 const PAIR_DISTANCE = 0.32;
 const DOME_RADIUS = 0.1;
 
@@ -20,7 +20,7 @@ export const MAPPED_CELLS = ROWS.length * PAIRS.length;
 const MOST_DEGREES = 20; // maximum angle between the lit sides of the two cells of a pair
 // minimum contrast of a mapped cell relative to its dome: an unused normal map has no contrast
 const LEAST_CONTRAST = 0.5;
-const LEAST_DOME_CONTRAST = 5; // minimum contrast of a dome, of 255; it is about 19 here
+const LEAST_DOME_CONTRAST = 5; // minimum contrast of a dome, in steps of 1/255; it is about 19 here
 
 /// Returns the direction of increasing brightness, scaled by its amount. Pixels are RGBA, starting with the bottom row.
 function litSide(pixels, center_x, center_y) {
@@ -64,8 +64,8 @@ export function comparePairs(pixels_of_lights) {
     return compared;
 }
 
-/// Returns the entries whose dome of triangles is missing, or not lit from the light direction: then the picture is
-/// invalid.
+/// Returns the entries whose dome of triangles is missing or is not lit from the direction of the light. If there are
+/// any, the picture is invalid.
 export const missingDomes = (compared) =>
     compared.filter((entry) => !(entry.dome_degrees <= MOST_DEGREES && entry.dome_contrast >= LEAST_DOME_CONTRAST));
 

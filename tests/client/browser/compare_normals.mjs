@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // compare_normals.mjs CHROMIUM THREE SIZE NAME=MODEL=NORMALS...: three.js renders each model, and its shading normals
-// are compared with those in the file NORMALS (shading_normals.cpp). Fails if the mean difference exceeds 0.1 degrees,
-// away from edges.
+// are compared with those in the file NORMALS (shading_normals.cpp). The program fails if the mean difference, away
+// from edges, exceeds 0.1 degrees.
 import { readFileSync } from "node:fs";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
 import { openPage } from "./open_page.mjs";
 
 const MOST_MEAN_DEGREES = 0.1;
-const EDGE_DEGREES = 20; // next to a pixel whose neighbors differ by more, the visible surface depends on rounding
+const EDGE_DEGREES = 20; // a neighbor that differs by more is an edge: there the visible surface depends on rounding
 const LEAST_SHARE = 0.25; // minimum share of the surface that is compared
 
 const page_folder = path.dirname(fileURLToPath(import.meta.url));
@@ -39,7 +39,7 @@ const degrees = (a, b) => {
     return Math.atan2(cross, a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) * (180 / Math.PI);
 };
 
-/// Decodes a pixel of three.js: rows from the bottom, colors 0.5 n + 0.5.
+/// Returns the normal of a pixel of three.js, whose rows start at the bottom and whose colors are 0.5 n + 0.5.
 function normalOfThree(pixels, x, y) {
     const at = 4 * ((size - 1 - y) * size + x);
     return pixels[at + 3] === 0 ? undefined : [0, 1, 2].map((k) => 2 * pixels[at + k] - 1);
@@ -49,7 +49,7 @@ function normalOfOurs(pixels, x, y) {
     return pixels[at + 3] === 0 ? undefined : [pixels[at], pixels[at + 1], pixels[at + 2]];
 }
 
-/// Returns whether neighbors in one picture differ strongly, or are missing.
+/// Returns whether a neighbor of a pixel differs strongly from it, or is missing.
 function isEdge(normalOf, pixels, x, y) {
     const center = normalOf(pixels, x, y);
     for (let dy = -1; dy <= 1; ++dy) {

@@ -25,7 +25,8 @@ function showNormals(root) {
     });
 }
 
-/// Frames a model like Camera::around in src/commands/shared/picture: 94 % of the picture.
+/// Returns a camera that frames the model like Camera::around in src/commands/shared/picture: the model fills 94 % of
+/// the picture.
 function cameraFor(model, size) {
     model.updateMatrixWorld(true);
     const box = new THREE.Box3().setFromObject(model, true);

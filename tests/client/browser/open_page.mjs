@@ -43,11 +43,11 @@ function startChromium(chromium, more_flags, address, home) {
         `--user-data-dir=${home}/profile`, `--crash-dumps-dir=${home}/crashes`,
     ];
     const env = { ...process.env, HOME: home, TMPDIR: home, XDG_CONFIG_HOME: home, XDG_CACHE_HOME: home, XDG_RUNTIME_DIR: home };
-    // A separate process group: ending it ends all processes of Chromium.
+    // Chromium gets a process group of its own, so that all of its processes can be ended together.
     return spawn(chromium, [...flags, ...more_flags, address], { env, detached: true, stdio: ["ignore", "ignore", "pipe"] });
 }
 
-/// Ends the group. Processes that remain after two seconds are killed.
+/// Ends the process group. Processes that remain after two seconds are killed.
 async function stopGroup(pid) {
     const there = (signal) => { try { return process.kill(-pid, signal); } catch { return false; } };
     there("SIGTERM");
@@ -57,9 +57,9 @@ async function stopGroup(pid) {
     }
 }
 
-/// Opens `page`, an address on the server, and returns the data that it posts to /done; throws if it posts to /failed
-/// or nothing. answer(parts of an address): { file: path }, { json: value } or undefined; received(parts, bytes)
-/// receives other posts.
+/// Opens `page`, an address on the server, and returns the data that it posts to /done. Throws if the page posts to
+/// /failed, or nothing within `timeout_ms`. answer(parts of an address) returns { file: path }, { json: value } or
+/// undefined. received(parts, bytes) is called for other posts.
 export async function openPage({ chromium, flags = [], page, answer, received, timeout_ms }) {
     const home = mkdtempSync(path.join(os.tmpdir(), "tspace-chromium-"));
     const outcome = {};

@@ -12,7 +12,8 @@ const send = async (address, body) => {
     if (!answer.ok) throw new Error(`${address}: ${answer.status}`);
 };
 
-/// Removes gloss and environment, so that only the lit side matters. Normal map and tangents are unchanged.
+/// Removes gloss and environment, so that only the side that is lit matters. The normal map and the tangents are
+/// unchanged.
 function makeMatte(root) {
     root.traverse(({ material }) => {
         if (!material) return;

@@ -6,10 +6,11 @@ import { openPage } from "./open_page.mjs";
 
 const page_folder = path.dirname(fileURLToPath(import.meta.url));
 
-/// models: name -> path of a GLB. Returns { by: renderer, pixels: name -> side -> bytes, pictures: the same as PNG }.
+/// Renders models. `models`: name -> path of a GLB. Returns { by: renderer, pixels: name -> side -> bytes, pictures:
+/// name -> side -> PNG }.
 export async function renderModels({ chromium, three_folder, models, timeout_ms }) {
     const result = { pixels: {}, pictures: {} };
-    /// Addresses below /page and /three are files; /models/NAME is models[NAME].
+    /// Addresses below /page and /three are files. /models/NAME is the file models[NAME].
     const answer = ([area, ...rest]) => {
         if (area === "list") return { json: Object.keys(models) };
         if (area === "models") return { file: models[rest.join("/")] };

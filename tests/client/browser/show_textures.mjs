@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// show_textures.mjs CHROMIUM THREE NUMBERS KTX2...: three.js shows these textures, whose x and y must equal those of
-// the map NUMBERS (texture_maps.py), if the GPU supports their format.
+// show_textures.mjs CHROMIUM THREE NUMBERS KTX2...: three.js shows these textures. If the GPU supports their format, x
+// and y must equal those of the map in the file NUMBERS (texture_maps.py).
 import { readFileSync } from "node:fs";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
 import { openPage } from "./open_page.mjs";
 
-const WIDTH = 64, HEIGHT = 48, MOST = 4; // as texture_maps.py
+const WIDTH = 64, HEIGHT = 48, MOST = 4; // the same values as in texture_maps.py
 const page_folder = path.dirname(fileURLToPath(import.meta.url));
 const [chromium, three_folder, numbers, ...paths] = process.argv.slice(2);
 const files = new Map(paths.map((file) => [path.basename(file), file]));
@@ -34,7 +34,7 @@ console.log(by);
 const wanted = readFileSync(numbers);
 let failures = 0;
 for (const name of files.keys()) {
-    const pixels = shown.get(name), y = name.startsWith("astc") ? 3 : 1; // ASTC has y in alpha
+    const pixels = shown.get(name), y = name.startsWith("astc") ? 3 : 1; // ASTC stores y in alpha
     let worst = 0;
     for (let i = 0; i < WIDTH * HEIGHT; ++i) {
         worst = Math.max(worst, Math.abs(pixels[4 * i] - wanted[2 * i]), Math.abs(pixels[4 * i + y] - wanted[2 * i + 1]));

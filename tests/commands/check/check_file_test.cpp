@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// checkFile: findings of a whole file, their locations and order.
+// checkFile: findings for a whole file, their locations and order.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 using gltf::Json;
 
-/// Frames are relative to the mesh's own space.
+/// Frames are relative to the mesh's own coordinate system.
 TEST(CheckFile, IgnoresNodeTransforms) {
     const TestModel still;
     TestModel moved;
@@ -83,7 +83,8 @@ RgbImage halfFlipped() {
     return map;
 }
 
-/// Adds half of a square, left or right, with UVs of the same half of the image, moved by whole repeats.
+/// Adds the left or right half of a square, with UVs of the same half of the image. `move`: added to the UVs, in whole
+/// repeats of the image.
 void addHalf(GltfBuilder& builder, bool is_right, float move = 0) {
     const float left = is_right ? 0.5f : 0, right = left + 0.5f;
     std::vector<float> normals, tangents;
@@ -215,7 +216,7 @@ TEST(CheckFile, ReportsUnneededTangentsOnce) {
     EXPECT_NE(report.findings[1].remedy.find("tspace generate --strip"), std::string::npos);
 }
 
-/// An empty target is not allowed, so its tangents cannot be removed.
+/// A morph target without attributes is not valid, so the tangents of a target that has nothing else cannot be removed.
 TEST(CheckFile, AdvisesNothingImpossible) {
     TestModel model;
     Json& primitive = model.builder.json()["meshes"][0]["primitives"][0];
@@ -238,7 +239,7 @@ TEST(CheckFile, IgnoresMapsThatAnUnlitMaterialDoesNotUse) {
     EXPECT_EQ(codes(model.check()), CodeCounts{"note tangentsUnused"});
 }
 
-/// KHR_materials_unlit is the fallback for readers without the other extension.
+/// KHR_materials_unlit is the fallback for readers that do not support the other extension.
 TEST(CheckFile, GivesOneVerdictWithAndWithoutAnUnlitFallback) {
     const auto verdict = [](const char* extension, const char* content, bool has_fallback) {
         TestModel model(false, true);
@@ -301,7 +302,7 @@ TEST(CheckFile, ReportsThatAnImageWasNotExamined) {
 TEST(CheckFile, GivesEachPrimitiveItsOwnFindings) {
     TestModel model(false, true);
     Json& primitives = model.builder.json()["meshes"][0]["primitives"];
-    primitives.push_back(primitives[0]);  // the same arrays, which are checked once
+    primitives.push_back(primitives[0]);  // the same arrays as primitive 0: they are checked once
     addPatch(model.builder, goodPatch());
     primitives.push_back(primitives[0]);
     primitives[3].erase("material");

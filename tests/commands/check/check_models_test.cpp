@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Real models: known faults are found, correct models have no error, and neither does the output of tspace.
+// Real models: known faults are found, correct models have no errors, and the output of tspace has none either.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tangent deltas of morph targets: missing, wrong, and for triangles that a target collapses.
+// Tangent deltas of morph targets: missing ones, wrong ones, and those of triangles that a target collapses.
 #include <gtest/gtest.h>
 
 #include "commands/check/patch.h"
@@ -9,7 +9,7 @@ namespace {
 
 using Codes = std::set<std::string>;
 
-/// Bends the patch: rotates every vertex about the x axis by an angle that grows with y.
+/// Returns a morph target that bends the patch: it rotates every vertex about the x axis by an angle that grows with y.
 SceneMorphTarget bend(const ScenePrimitive& patch, double most) {
     std::vector<Vec3> positions, normals, tangents;
     const auto delta = [](const Vec3& v, double angle) {
@@ -53,7 +53,7 @@ TEST(CheckMorphs, FindsMorphTargetsWhoseTangentsDoNotFit) {
     EXPECT_EQ(codesOf(patch), Codes{"error morphTangentsWrong"});
 }
 
-/// Moves the first three rows of the first half to one point.
+/// Makes the target move the first three rows of the first half to one point.
 void collapse(const ScenePrimitive& patch, SceneMorphTarget& target) {
     edit(target.positions, [&](auto& deltas) {
         for (std::size_t v = 0; v < 3 * kSide; ++v) deltas[v] = Vec3{1, 2, 3} - patch.positions[v];
@@ -80,7 +80,7 @@ TEST(CheckMorphs, FindsWrongMorphTangentsNextToCollapsedTriangles) {
     EXPECT_EQ(codesOf(patch), Codes{"error morphTangentsWrong"});
 }
 
-/// Deltas that make tangents opposite to the correct direction, zero, or parallel to the normal.
+/// Sets deltas that make tangents opposite to the correct direction, zero, or parallel to the normal.
 TEST(CheckMorphs, FindsEveryWayInWhichMorphTangentsAreWrong) {
     for (const double share : {-2.0, -1.0, 0.0}) {
         ScenePrimitive patch = goodPatch();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Normals that deviate strongly from their triangles, seams between primitives, and normals that targets do not update.
+// Normals that deviate strongly from their triangles, seams between primitives, and normals that morph targets do not
+// update.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -16,8 +17,8 @@ bool has(const std::vector<Finding>& findings, FindingCode code) {
     return std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) { return finding.code == code; });
 }
 
-/// Returns a box of 8 vertices whose normals point away from its center, or of 24 vertices with the normals of the
-/// sides.
+/// Returns a box with 8 vertices whose normals point away from its center, or with 24 vertices that have the normals of
+/// its faces.
 ScenePrimitive box(bool is_smooth) {
     std::vector<Vec3> positions, normals;
     std::vector<std::uint32_t> corners;
@@ -55,8 +56,8 @@ TEST(CheckNormals, FindsNormalsThatAreFarFromAllTheirTriangles) {
     EXPECT_FALSE(has(*checkPrimitive(goodPatch(), {}, true), FindingCode::normalsFarFromFaces));
 }
 
-/// Returns a strip of a cylinder, starting at angle `first`, with `count` steps of `step` degrees, with the normals of
-/// its triangles or those of the cylinder.
+/// Returns a strip of a cylinder that starts at the angle `first` and has `count` steps of `step` degrees. `is_own`:
+/// selects the normals of the strip's triangles instead of those of the cylinder.
 ScenePrimitive strip(std::uint32_t number, double first, int count, double step, bool is_own) {
     std::vector<Vec3> positions, normals;
     std::vector<std::uint32_t> corners;
@@ -110,7 +111,7 @@ TEST(CheckSeams, ReportsNothingAtPossibleHardEdgesAndSmoothBorders) {
     auto other = strip(1, 48, 6, 8, true);
     other.mesh = 1;
     EXPECT_TRUE(seamsOf({strip(0, 0, 6, 8, true), other}).empty()) << "meshes move apart";
-    // The angle at the border is larger than the smooth angles elsewhere.
+    // The angle at the border is larger than the angles of smooth edges elsewhere.
     ScenePrimitive sharp = strip(1, 48, 6, 8, true);
     std::vector<Vec3> positions(sharp.positions.begin(), sharp.positions.end()),
         normals(sharp.normals.begin(), sharp.normals.end());
@@ -130,7 +131,8 @@ TEST(CheckSeams, ReportsNothingAtPossibleHardEdgesAndSmoothBorders) {
     EXPECT_TRUE(seamsOf({strip(0, 0, 6, 8, true), sharp}).empty()) << "a hard edge";
 }
 
-/// Rolls up a flat patch; `how`: deltas of normals relative to the rotation of the surface.
+/// Returns a flat patch with a target that rolls it up. `how`: factor of the deltas of normals; 1 rotates them with the
+/// surface.
 ScenePrimitive rolled(double how, bool has_normals = true) {
     constexpr std::uint32_t side = 17;
     std::vector<Vec3> positions, normals, offsets, turns;
@@ -175,8 +177,8 @@ TEST(CheckMorphNormals, FindsMissingAndWrongDeltas) {
     EXPECT_TRUE(checkPrimitive(unlit, {}, true)->empty());
 }
 
-/// A target that mirrors a part flips its triangles, and exporters write the normals of the mirrored part. In between
-/// all triangles collapse, so neither result is wrong.
+/// A target that mirrors a part flips its triangles, and exporters write the normals of the mirrored part. Halfway
+/// between base and target all triangles collapse, so both directions of the normals are acceptable.
 TEST(CheckMorphNormals, DoesNotJudgeWhereTrianglesAreFlipped) {
     for (const float turn : {-2.0f, 0.0f, -1.9f}) {
         ScenePrimitive mirrored = rolled(1);
@@ -186,7 +188,7 @@ TEST(CheckMorphNormals, DoesNotJudgeWhereTrianglesAreFlipped) {
         mirrored.morph_targets[0].normals = std::vector<Vec3>(offsets.size(), Vec3{0.2f, 0, turn});
         EXPECT_TRUE(checkPrimitive(mirrored, {}, true)->empty()) << turn;
     }
-    // Normals next to folded triangles are still checked.
+    // Normals next to a flipped triangle are still checked.
     ScenePrimitive folded = rolled(-1);
     edit(folded.morph_targets[0].positions, [&](auto& offsets) { offsets[40] = {0.5f, 0, 0}; });
     EXPECT_EQ(checkPrimitive(folded, {}, true)->front().code, FindingCode::morphNormalsWrong);
@@ -202,9 +204,9 @@ TEST(CheckMorphNormals, JudgesTheChangeAndNotTheNormals) {
     EXPECT_TRUE(checkPrimitive(tilted, {}, true)->empty());
 }
 
-// Exporters such as Blender recompute the normals of a target.
+// Some exporters, such as Blender, recompute the normals of a morph target from its displaced triangles.
 
-/// Returns a square of two triangles, one unit above x = `left`, facing z.
+/// Returns a square of two triangles from x = `left` to `left` + 1 that faces +z.
 ScenePrimitive squareFrom(float left) {
     ScenePrimitive square;
     square.place = "/meshes/0/primitives/0";
@@ -252,7 +254,7 @@ TEST(CheckMorphNormals, AtBordersAreThoseOfTheWholeMesh) {
     }
     raise({0, 0.95F, 0.3F});
     for (const ScenePrimitive& side : roof) EXPECT_EQ(wrongNormals(side, roof), 1u);
-    // A different mesh at the same position is not part of the surface.
+    // A surface does not continue in a different mesh at the same position.
     raise(ridge);
     roof[1].mesh = 1;
     EXPECT_EQ(wrongNormals(roof[0], roof), 1u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// checkFile on packed frames: verdicts on correct ones, detected faults, and remedies that work.
+// checkFile on packed frames: correct ones are accepted, faults are detected, and the suggested remedies work.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -44,7 +44,7 @@ const Finding* find(const CheckReport& report, FindingCode code) {
     return nullptr;
 }
 
-/// A grid with tangents and _FRAME32, changed by `edit` after packing. Writing tangents is optional: -T is used.
+/// A model of a grid with TANGENT and _FRAME32 attributes, which `edit` changes after packing.
 class PackedGrid {
   public:
     explicit PackedGrid(const std::function<void(GltfBuilder&)>& edit) {
@@ -156,7 +156,7 @@ TEST(CheckPacked, FindsWrongFramesAndSigns) {
 
 TEST(CheckPacked, SmallDifferencesAreANote) {
     const PackedGrid leaning([](GltfBuilder& model) {
-        const std::vector<Vec3> normals(1, {0, 0.00873f, 0.99996f});  // half a degree
+        const std::vector<Vec3> normals(1, {0, 0.00873f, 0.99996f});  // tilted by half a degree
         const std::vector<Vec4> tangents(1, {1, 0, 0, 1});
         std::uint8_t* words = model.bytes().data() + model.bytes().size() - 100;
         ASSERT_TRUE(packFrames(std::span(normals), std::span(tangents), FrameFormat::frame32,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A correct primitive has no findings; with one fault it has the corresponding finding, and its consequences.
+// A correct primitive has no findings; a primitive with one fault has the corresponding finding, and those that follow
+// from it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -170,7 +171,7 @@ TEST(Check, NotesNormalsThatUnlitMaterialsDoNotUse) {
     EXPECT_EQ(codesOf(patch).count("error normalsAgainstWinding"), 1u);
 }
 
-/// Foliage often uses the normals of the whole tree.
+/// Leaves of trees often have the normals of the whole tree.
 TEST(Check, WarnsOfNormalsAgainstTheWindingOfDoubleSidedMaterials) {
     ScenePrimitive patch = goodPatch();
     edit(patch.corners, [](auto& corners) {
@@ -266,12 +267,12 @@ TEST(Check, FindsAMirroredSeamWhoseVerticesWereNotSplit) {
     EXPECT_EQ(only(findings, FindingCode::mirroredSeamAveraged).count, kSide);
 }
 
-/// Gives both vertices of each pair on the seam the mean of their tangents.
+/// Gives the two vertices of each pair on the seam the same tangent: a mean of their tangents.
 void averageSeam(ScenePrimitive& patch) {
     edit(patch.tangents, [&](auto& tangents) {
         for (std::size_t row = 0; row < kSide; ++row) {
             Vec4 &a = tangents[seamVertex(0, row)], &b = tangents[seamVertex(1, row)];
-            // Not the exact mean, where opposite tangents would cancel.
+            // The exact mean of opposite tangents would be zero.
             DVec3 mean = toDouble(xyz(a)) + 0.8 * toDouble(xyz(b)) + DVec3{0, 0.1, 0};
             const DVec3 normal = toDouble(patch.normals[seamVertex(0, row)]);
             mean = mean - dot(mean, normal) * normal;
@@ -314,8 +315,8 @@ TEST(Check, FindsDirectionsThatAreOff) {
     EXPECT_NEAR(findingsOf(off(60))[0].worst_deg, 60, 3);
 }
 
-/// Collapses the UVs of a patch to a point except for one column of its first half: only the triangles there determine
-/// the right direction.
+/// Collapses the UVs of a patch to a point, except for one column of its first half: only the triangles of this column
+/// determine the right direction.
 TEST(Check, IgnoresTrianglesWithoutUvArea) {
     ScenePrimitive patch = goodPatch();
     edit(patch.uv_sets[0], [](auto& uvs) {
@@ -341,7 +342,7 @@ TEST(Check, IgnoresTrianglesWithoutUvArea) {
 TEST(Check, AcceptsTangentsOfGenerate) {
     EXPECT_TRUE(rc::check([] {
         ScenePrimitive patch = goodPatch(Seam::none);
-        // Few UVs, so that many triangles have no area, fold over or overlap.
+        // Choose from few UVs, so that many triangles have no area, are mirrored or overlap.
         edit(patch.uv_sets[0], [](auto& uvs) {
             for (Vec2& uv : uvs) uv = {static_cast<float>(anyInt(0, 3)) / 3, static_cast<float>(anyInt(0, 3)) / 3};
         });
@@ -368,7 +369,7 @@ TEST(Check, AcceptsTangentsOfGenerate) {
     }));
 }
 
-/// A mesh of text whose second UV set was never unwrapped.
+/// A mesh of text with a second UV set that was never unwrapped.
 TEST(Check, DoesNotBlameAUvSetWithoutArea) {
     ScenePrimitive patch = goodPatch();
     edit(patch.tangents, [](auto& tangents) {
@@ -376,8 +377,8 @@ TEST(Check, DoesNotBlameAUvSetWithoutArea) {
     });
     patch.uv_sets.push_back(std::vector<Vec2>(patch.positions.size()));
     EXPECT_EQ(codesOf(patch), Codes{"error directionsWrong"});
-    // A set that has UV area only in a corner of the surface, which the tangents follow by chance, is not an
-    // explanation either.
+    // A second set is not an explanation either if it has UV area only in a corner of the surface, where the tangents
+    // follow it by chance.
     edit(patch.uv_sets[1], [&](auto& uvs) {
         for (std::size_t v = 0; v < 2 * kSide; ++v) {
             uvs[v] = {-patch.uv_sets[0][v].x, -patch.uv_sets[0][v].y};

@@ -26,7 +26,7 @@ TEST(CheckFile, NamesTheFormatOfAnUnsupportedImage) {
     EXPECT_NE(report.findings[0].message.find("the KTX2 is damaged"), std::string::npos);
 }
 
-/// Returns a map of x, y and z, compressed with Zstandard.
+/// Returns a KTX2 file of a map with x, y and z, compressed with Zstandard.
 std::string plainKtx2(bool green_down) {
     const RgbImage map = normalMapOf(256, bumps, green_down);
     const std::string data(map.rgb.begin(), map.rgb.end());
@@ -51,7 +51,7 @@ TEST(CheckFile, ReadsKtx2AndDds) {
     model.folder.write("normal.png", ddsFile(83, 256, 256, bc5Blocks(normalMapOf(256, bumps, true))));
     EXPECT_EQ(codes(model.check()),
               (CodeCounts{"warning normalMapTwoChannels", "warning greenFlipped", "note normalMapLevels"}));
-    // A sampler that reads only the largest level needs no other levels.
+    // If a sampler reads only the largest level, the file needs no other levels.
     model.builder.json()["textures"][0]["sampler"] = 0;
     for (const auto& [filter, reads_levels] : {std::pair(9729, false), std::pair(9987, true)}) {
         model.builder.json()["samplers"] = Json::array({{{"minFilter", filter}}});
@@ -116,7 +116,7 @@ TEST(CheckFile, FindsATextureThatDeclaresLinearNumbersAsSrgb) {
     const CheckReport report = model.check();
     ASSERT_EQ(codes(report), CodeCounts{"warning normalMapIsSrgb"});
     EXPECT_NE(report.findings[0].remedy.find("linear"), std::string::npos) << report.findings[0].remedy;
-    // If the values are sRGB-encoded too, there is one finding, on the values.
+    // If the values are sRGB-encoded too, there is still one finding, which is about the values.
     for (char& byte : parts.levels[0]) {
         const double part = static_cast<unsigned char>(byte) / 255.0;
         const double coded = part <= 0.0031308 ? 12.92 * part : 1.055 * std::pow(part, 1 / 2.4) - 0.055;
@@ -127,7 +127,7 @@ TEST(CheckFile, FindsATextureThatDeclaresLinearNumbersAsSrgb) {
 }
 
 TEST(CheckFile, FindsXAndYInOtherChannelsOfATexture) {
-    // Waves along both axes distinguish x from y, whereas products of them do not.
+    // Waves along each axis distinguish x from y, whereas products of waves along both do not.
     const RgbImage map = normalMapOf(256, [](double x, double y) {
         return 0.012 * std::sin(50 * x) + 0.01 * std::cos(43 * y) + 0.006 * std::cos(30 * x) * std::sin(31 * y);
     });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// check reports no fault in the output of generate: morph targets of small meshes in which triangles are degenerate,
-// collapse and open.
+// check reports no fault in the output of generate, for small meshes whose triangles are degenerate in the base shape
+// or in a morph target.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace tspace::test {
 namespace {
 
-/// Returns `count` vectors of small integers, sometimes with small deviations.
+/// Returns `count` vectors of small integers, some of them with small deviations.
 std::vector<float> anyVectors(std::size_t count, std::size_t components) {
     const auto vectors = *rc::gen::container<std::vector<int>>(count * components, rc::gen::inRange(-100, 101));
     std::vector<float> numbers;
@@ -23,7 +23,7 @@ std::vector<float> anyVectors(std::size_t count, std::size_t components) {
     return numbers;
 }
 
-/// Returns normals along the axes and between them.
+/// Returns normals along the axes and along diagonals between them.
 std::vector<float> anyNormals(std::size_t count) {
     std::vector<float> normals;
     for (std::size_t i = 0; i < count; ++i) {

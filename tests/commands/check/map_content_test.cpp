@@ -24,7 +24,7 @@ MapAnalysis analyze(const RgbImage& image, std::span<const std::uint8_t> alpha =
     return analyzeTexels(sampleTexels(image, alpha, all), !alpha.empty(), surface);
 }
 
-/// Calls change(texel) with the three bytes of each texel.
+/// Returns the image after calling change(texel) with the three bytes of each texel.
 template <class Change>
 RgbImage changed(RgbImage image, const Change& change) {
     for (std::size_t i = 0; i < image.rgb.size(); i += 3) change(image.rgb.data() + i);
@@ -88,7 +88,7 @@ TEST(MapContent, IsNormalsForVectorsOfOneLengthBelowOne) {
     }
 }
 
-/// Flat except for a few texels: blue is constant nearly everywhere.
+/// A map that is flat except for a few texels, so blue is constant nearly everywhere.
 TEST(MapContent, IsNormalsForMapsThatAreFlatNearlyEverywhere) {
     const auto rivet = [](double x, double y) {
         return 0.02 * std::exp(-900 * ((x - .5) * (x - .5) + (y - .5) * (y - .5)));
@@ -213,7 +213,7 @@ TEST(MapContent, DetectsObjectSpaceByTheMesh) {
     }
 }
 
-/// A surface over u and v from -1 to 1, and a map of it.
+/// A surface over u and v, both from -1 to 1, and an image that is to be identified.
 struct Shown {
     RgbImage map{64, 64, {}};
     std::vector<TexelOnSurface> surface;
@@ -236,7 +236,7 @@ Shown shownBy(const NormalOf& normalOf, const TexelOf& texelOf) {
 
 MapAnalysis analyze(const Shown& shown) { return analyze(shown.map, {}, shown.surface); }
 
-/// Relief with the shape of the mesh correlates with its normals, but is in tangent space nevertheless.
+/// Relief that has the shape of the mesh correlates with its normals, but the map is in tangent space nevertheless.
 TEST(MapContent, IsNormalsForABulgeOnABulge) {
     const auto bulge = [](double half) {
         return [half](double u, double) { return DVec3{std::sin(half * u), 0, std::cos(half * u)}; };
@@ -249,7 +249,7 @@ TEST(MapContent, IsNormalsForABulgeOnABulge) {
     }
 }
 
-/// Normals of hills that are tilted by up to 40 degrees.
+/// Returns the normal of hilly terrain with slopes of up to 40 degrees.
 DVec3 hills(double u, double v) {
     const double x = 0.5 * std::cos(5 * u + 1) * std::cos(4 * v), y = 0.5 * std::cos(7 * v + u);
     const double size = std::sqrt(x * x + y * y + 1);
@@ -266,12 +266,12 @@ TEST(MapContent, IsInObjectSpaceOnlyWhereItFollowsTheMesh) {
         EXPECT_EQ(analysis.content, MapContent::objectSpace);
         EXPECT_TRUE(analysis.follows_mesh);
     }
-    // Green and blue exchanged, on hills that face y like the vectors.
+    // The map has green and blue exchanged, and is on hills that face y like its vectors.
     const auto weak = [](double u, double v) { return DVec3{0.07 * std::sin(40 * u), 0.995, 0.07 * std::sin(37 * v)}; };
     EXPECT_EQ(analyze(shownBy(turned, weak)).content, MapContent::exchanged);
 }
 
-/// Terrain with slopes of at most 20 degrees, and relief of over 40 degrees, which dominates single texels.
+/// Terrain with slopes of at most 20 degrees, and relief of over 40 degrees, which dominates the single texels.
 TEST(MapContent, IsInObjectSpaceUnderStrongReliefToo) {
     const auto leaning = [](double x, double y) {
         const double size = std::sqrt(x * x + y * y + 1);
@@ -309,7 +309,7 @@ TEST(MapContent, IsInObjectSpaceUnderStrongReliefToo) {
     EXPECT_EQ(analyze(shownBy(turned(of_mesh), turned(in_tangent_space))).content, MapContent::exchanged);
 }
 
-/// colorOf(u, v, random) returns red, green and blue from 0 to 1.
+/// Returns an image whose texels are colorOf(u, v, random): red, green and blue from 0 to 1.
 template <class ColorOf>
 RgbImage painted(const ColorOf& colorOf) {
     RgbImage image{64, 64, {}};
@@ -376,7 +376,7 @@ TEST(MapContent, DetectsTintedHeights) {
     }
 }
 
-/// Valid maps, and maps with other findings.
+/// Colors of valid maps, and of maps for which there are other findings.
 TEST(MapContent, IsNotAPictureIfItMayBeVectors) {
     for (const TexelBytes& color :
          {TexelBytes{0, 0, 255, 255}, TexelBytes{128, 128, 255, 255}, TexelBytes{200, 90, 10, 255}}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Properties of a map that its slopes reveal: encoding and channel order, but never bumps versus dents.
+// Properties of a map that its slopes reveal: encoding and channel order, but never whether bumps are dents.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ double rings(double x, double y) { return 0.004 * std::cos(120 * std::hypot(x - 
 
 const std::vector<Height> kReliefs = {bumps, roundBumps, waves, rings};
 
-/// Calls change(r, g, b) with the components of each texel, from -1 to 1.
+/// Returns the map of a height field after calling change(r, g, b) with each texel's components, from -1 to 1.
 template <class Change>
 RgbImage stored(const Height& height, const Change& change) {
     RgbImage image = normalMapOf(128, height);
@@ -86,7 +86,7 @@ void encodeOctahedral(double& x, double& y, double z) {
     y /= sum;
 }
 
-/// Octahedral maps also fit x and y well. Both interpretations remain possible.
+/// The x and y of octahedral maps also fit a plain encoding well, so both interpretations remain possible.
 TEST(MapSlopes, DoubtTwoChannelsThatFitBetterAsOctahedral) {
     for (const Height& relief : kReliefs) {
         for (const double scale : {1.0, 2.0, 4.0}) {
@@ -100,7 +100,7 @@ TEST(MapSlopes, DoubtTwoChannelsThatFitBetterAsOctahedral) {
                     encodeOctahedral(x, y, z);
                     z = blue;
                 }));
-                // Blue 255 is near z of gentle relief. Gentle waves fit both encodings equally.
+                // Blue 255 is near the z of gentle relief, and gentle waves (kReliefs[2]) fit both encodings equally.
                 const bool is_clear = scale > 1 || (blue != 1 && &relief != &kReliefs[2]);
                 if (blue != 1) {
                     EXPECT_EQ(analysis.content, MapContent::twoChannels) << where();
@@ -127,8 +127,8 @@ TEST(MapSlopes, DetectHemiOctahedralMapsInAlphaAndGreen) {
     EXPECT_EQ(analysis.layout.x.channel, MapChannel::alpha);
 }
 
-/// If green contains the slopes of a different height field, the map matches a single height field as little as an
-/// unknown encoding.
+/// Green contains the slopes of another height field than red. Then a single height field explains the map as badly as
+/// a map with an unknown encoding.
 TEST(MapSlopes, DoubtTwoChannelsThatAreTheSlopesOfNoHeight) {
     const RgbImage other = normalMapOf(256, rings);
     RgbImage map = normalMapOf(256, roundBumps);
@@ -144,7 +144,7 @@ TEST(MapSlopes, DoubtTwoChannelsThatAreTheSlopesOfNoHeight) {
 TEST(MapSlopes, DetectImagesRotatedWithoutTheirVectors) {
     for (const bool is_clockwise : {false, true}) {
         const RgbImage map = stored(roundBumps, [&](double& x, double& y, double&) {
-            // The vectors of the rotated relief are correct, so the rotation is undone.
+            // Only the image is rotated, not its vectors: rotate the vectors of the rotated relief back.
             const double old_x = x;
             x = is_clockwise ? -y : y;
             y = is_clockwise ? old_x : -old_x;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Direction of green, in a map and in parts of it.
+// Direction of green, in a whole map and in parts of it.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -24,7 +24,7 @@ GreenTest testGreen(const RgbImage& image) {
     return GreenBlocks(image, all).all();
 }
 
-/// Inverts green in a rectangle.
+/// Inverts green within a rectangle.
 void flip(RgbImage& image, const TexelRect& rect) {
     for (std::size_t y = rect.top; y < rect.bottom; ++y) {
         for (std::size_t x = rect.left; x < rect.right; ++x) image.rgb[3 * (y * image.width + x) + 1] ^= 0xff;
@@ -75,7 +75,7 @@ TEST(GreenTest, GivesNoVerdictOnNoise) {
 }
 
 TEST(GreenTest, GivesNoVerdictOnAColorImage) {
-    // Blue below the middle represents normals that point into the surface.
+    // Blue below the middle would represent normals that point into the surface.
     RgbImage picture = normalMapOf(256, bumps, true);
     for (std::size_t i = 2; i < picture.rgb.size(); i += 3) picture.rgb[i] = 60;
     EXPECT_EQ(testGreen(picture).verdict, GreenVerdict::unknown);
@@ -90,7 +90,7 @@ TEST(GreenTest, WorksOnJpeg) {
 }
 
 TEST(GreenTest, WorksOnNoiseThatAveragingRemoves) {
-    // The noise is so strong that single texels correlate by 0.05, and means of four by 0.45.
+    // The noise is so strong that single texels have a correlation of 0.05, and means of four texels one of 0.45.
     for (const bool down : {false, true}) {
         RgbImage map = normalMapOf(512, bumps, down);
         std::uint32_t state = 7;
@@ -106,7 +106,7 @@ TEST(GreenTest, WorksOnNoiseThatAveragingRemoves) {
 }
 
 TEST(GreenTest, ReadsOnlyTexelsInsideTheMask) {
-    // Like padding that was computed differently from the islands.
+    // Invert a part of the map, like padding whose green differs from that of the islands.
     RgbImage map = normalMapOf(256, bumps);
     flip(map, {0, 0, 256, 160});
     TexelMask lower(256, 256), upper = lower;
@@ -151,7 +151,7 @@ TEST(GreenTest, DistinguishesThePartsOfAMixedMap) {
 }
 
 TEST(GreenTest, DoesNotDependOnTheRotationOfIslands) {
-    // A map rotated as a whole, including its normals, as bakers do for a rotated island.
+    // A map that is rotated as a whole, including its normals: bakers write such maps for a rotated island.
     const auto turned = [](double x, double y) { return bumps(y, 1 - x); };
     const auto mirrored = [](double x, double y) { return bumps(1 - x, y); };
     EXPECT_EQ(testGreen(normalMapOf(256, turned)).verdict, GreenVerdict::up);

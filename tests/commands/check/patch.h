@@ -20,7 +20,7 @@ namespace tspace::test {
 
 /// Relation of the UVs of the second half to those of the first.
 enum class Seam {
-    none,      ///< continuous, without a seam
+    none,      ///< the second half uses the texels of the first, mirrored
     mirrored,  ///< mirrored texels
     turned     ///< a separate island, rotated by 90 degrees
 };
@@ -28,8 +28,8 @@ enum class Seam {
 inline constexpr std::size_t kSide = 9;              ///< vertices along each side of a half
 inline constexpr std::size_t kHalf = kSide * kSide;  ///< vertices of a half
 
-/// Returns the vertex in row `row` (0 to kSide - 1) of the seam; `half`: 0 or 1. Both have the same position and
-/// normal.
+/// Returns a vertex of the seam. `half`: 0 or 1; `row`: 0 to kSide - 1. The vertices of both halves in a row have the
+/// same position and normal.
 inline std::uint32_t seamVertex(std::size_t half, std::size_t row) {
     return static_cast<std::uint32_t>(half * kHalf + row * kSide + (half == 0 ? kSide - 1 : 0));
 }
@@ -42,7 +42,7 @@ inline TangentView viewOf(const ScenePrimitive& primitive) {
             .corners = primitive.corners.span()};
 }
 
-/// Returns tangents of a method, one per vertex: no vertex of a patch needs two.
+/// Returns tangents of a method, one per vertex. This is possible because no vertex of a patch needs two tangents.
 inline std::vector<Vec4> tangentsOf(const ScenePrimitive& primitive, Method method = Method::mikktspace) {
     const MeshView mesh = primitive.view(primitive.uv_sets[0].span());
     std::vector<Vec4> corners(primitive.corners.size()), tangents(primitive.positions.size());
@@ -51,7 +51,7 @@ inline std::vector<Vec4> tangentsOf(const ScenePrimitive& primitive, Method meth
     return tangents;
 }
 
-/// Returns a part of a torus with MikkTSpace's tangents and a material that has a normal map, without any fault.
+/// Returns a part of a torus without any fault, with MikkTSpace's tangents and a material that has a normal map.
 inline ScenePrimitive goodPatch(Seam seam = Seam::none) {
     std::vector<Vec3> positions, normals;
     std::vector<Vec2> uvs;
@@ -61,7 +61,7 @@ inline ScenePrimitive goodPatch(Seam seam = Seam::none) {
             for (std::size_t column = 0; column < kSide; ++column) {
                 const double a = static_cast<double>(column + half * (kSide - 1)) / (kSide - 1) - 1;  // -1 to 1
                 const double b = static_cast<double>(row) / (kSide - 1);
-                // Both halves compute the same value at the seam: all bits must be equal.
+                // Both halves compute the same bits at the seam.
                 const DVec3 n{std::cos(b) * std::sin(a), std::sin(b), std::cos(b) * std::cos(a)};
                 const DVec3 ring{2 * std::sin(a), 0, 2 * std::cos(a)};
                 positions.push_back(toFloat(ring + n));
@@ -101,7 +101,7 @@ void edit(SharedArray<T>& array, Change&& change) {
     array = std::move(values);
 }
 
-/// Rotates a tangent about its normal.
+/// Returns a tangent that is rotated about its normal.
 inline Vec4 turned(const Vec4& tangent, const Vec3& normal, double degrees) {
     const double angle = degrees * std::numbers::pi / 180;
     const DVec3 t = toDouble(xyz(tangent)), n = toDouble(normal);
@@ -120,11 +120,11 @@ inline const Finding& only(const std::vector<Finding>& findings, FindingCode cod
     return *found;
 }
 
-/// For property tests: returns an integer from low to high, or a float in between.
+/// Functions for property tests: they return an integer from low to high, or a double in this range.
 inline int anyInt(int low, int high) { return *rc::gen::inRange(low, high + 1); }
 inline double anyNumber(double low, double high) { return low + (high - low) * anyInt(0, 1 << 20) / (1 << 20); }
 
-/// "error signsInverted", ...
+/// Returns the severities and names of all findings, such as "error signsInverted".
 inline std::set<std::string> codesOf(const ScenePrimitive& primitive, const CheckOptions& options = {}) {
     std::set<std::string> codes;
     for (const Finding& finding : findingsOf(primitive, options)) {

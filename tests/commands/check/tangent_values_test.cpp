@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Requirements on tangents that do not depend on UVs, and cases that are no fault of tangents: authored ones, rounded
-// positions.
+// Requirements on tangents that do not depend on UVs, and deviations that are not faults of tangents: authored tangents
+// and rounded positions.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -14,7 +14,7 @@ namespace {
 using Codes = std::set<std::string>;
 constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
 
-/// Returns a patch whose second half has no UV area, with tangents in its surface.
+/// Returns a patch whose second half has no UV area, but has tangents in its surface.
 ScenePrimitive halfWithoutUvArea() {
     ScenePrimitive patch = goodPatch();
     edit(patch.uv_sets[0], [](auto& uvs) {
@@ -69,7 +69,7 @@ TEST(Check, FindsBrokenValuesAtVerticesThatNoTriangleUses) {
     EXPECT_EQ(codesOf(patch), Codes{"warning tangentsNotFinite"}) << "nobody sees it";
 }
 
-/// Brushed metal: anisotropy by a factor, tangents along the strokes.
+/// Brushed metal: a material with anisotropy but without a texture for it; tangents are along the strokes.
 TEST(Check, ChecksOnlyValuesIfNoTextureUsesTheTangents) {
     ScenePrimitive patch = goodPatch();
     patch.uses = {{.needed_by = "anisotropy", .has_texture = false}};
@@ -105,7 +105,7 @@ TEST(Check, NamesTheAxesOfUnconvertedTangents) {
     for (const std::uint32_t bits : verdict->faults) EXPECT_NE(bits & faultBit(FindingCode::directionsWrong), 0u);
 }
 
-/// A tile of a globe in its own coordinates, stored as floats.
+/// Like a tile of a globe in the globe's coordinates, stored as floats: positions far from the origin are rounded.
 TEST(Check, AttributesErrorsToRoundedPositions) {
     ScenePrimitive patch = goodPatch();
     const auto moveBy = [&](float offset) {
@@ -138,8 +138,8 @@ ScenePrimitive roundedPatch(double step) {
     return patch;
 }
 
-/// Rounded to decimals, to a binary fraction, and to fractions of a bounding box; edges are half a step to three steps
-/// long.
+/// Positions are rounded to decimals, to a binary fraction, and to fractions of a bounding box. Edges are half a step
+/// to three steps long.
 TEST(Check, DetectsPositionsRoundedNearTheOrigin) {
     for (const double step : {0.1, 0.125, 0.2, 0.25, 0.3, 7.0 / 65535 * 2000}) {
         EXPECT_EQ(codesOf(roundedPatch(step)), Codes{"warning positionsRounded"}) << step;
@@ -154,7 +154,7 @@ TEST(Check, DetectsPositionsRoundedNearTheOrigin) {
     EXPECT_EQ(codesOf(bare).count("warning positionsRounded"), 0u) << "no tangents, and none are needed";
 }
 
-/// Modeled on a grid without rounding: triangles match the UVs, and wrong tangents are reported.
+/// If positions were modeled on a grid, they are not rounded: triangles match the UVs, and wrong tangents are reported.
 TEST(Check, TreatsModelsBuiltOnAGridAsExact) {
     for (const float step : {1.0F, 0.1F}) {
         ScenePrimitive grid = goodPatch();
@@ -180,7 +180,7 @@ TEST(Check, TreatsModelsBuiltOnAGridAsExact) {
     }
 }
 
-/// Terrain with a grid spacing of one meter, in meters of a map projection.
+/// Terrain in meters of a map projection, with a grid spacing of one meter.
 TEST(Check, TreatsRastersFarFromTheOriginAsExact) {
     ScenePrimitive terrain = goodPatch();
     edit(terrain.positions, [&](auto& positions) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A glTF model of one correct patch with a normal map, to which tests of checkFile add faults.
+// A glTF model that consists of one correct patch with a normal map. Tests of checkFile add faults to it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ std::vector<float> floatsOf(const SharedArray<T>& values) {
     return {first, first + values.size() * sizeof(T) / sizeof(float)};
 }
 
-/// Adds a patch to mesh 0; material 0.
+/// Adds a patch to mesh 0, with material 0.
 inline void addPatch(GltfBuilder& builder, const ScenePrimitive& patch) {
     gltf::Json attributes = gltf::Json::object();
     attributes["POSITION"] = builder.addFloats(floatsOf(patch.positions), 3);

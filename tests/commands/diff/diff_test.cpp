@@ -32,7 +32,7 @@ Vec4 turned(const Vec4& t, const Vec3& n, double degrees) {
 
 ModelData sheet() { return withTangents(bentSheet(6), Method::mikktspace); }
 
-/// Returns the triangles in a different order, starting at different corners, with shuffled vertices.
+/// Returns the triangles in a different order, each starting at a different corner, with shuffled vertices.
 ModelData shuffled(const ModelData& data, unsigned seed) {
     std::mt19937 random(seed);
     std::vector<std::uint32_t> new_place(data.positions.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The result of generating in memory equals what a reader of the generated GLB gets.
+// The result of generating in memory equals what a reader gets from the generated GLB.
 #include "commands/generate/generate_model.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Normals whose length is not 1, in the commands that read files; and computed normals at positions that are equal
-// except for rounding.
+// Commands that read files with normals whose length is not 1; and computed normals at positions that are equal except
+// for rounding.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -63,7 +63,7 @@ std::size_t warningsOnLengths(const Report& report) {
                       [](const std::string& warning) { return warning.rfind(kNormalLengths, 0) == 0; }));
 }
 
-/// Returns a bent sheet with a normal map, all of whose normals have this length.
+/// Returns a bent sheet with a normal map whose normals all have this length.
 GltfBuilder sheetOf(float length) {
     ModelData sheet = bentSheet(6);
     for (Vec3& n : sheet.normals) n = {n.x * length, n.y * length, n.z * length};
@@ -152,7 +152,7 @@ TEST(NormalLengths, OfQuantizedNormalsAreHandledToo) {
         return Stored(files.input(sheetOf(1))).normals();
     }();
     for (const int bits : {8, 16}) {
-        const float most = bits == 8 ? 63.0f : 16000.0f;  // about half of the length 1
+        const float most = bits == 8 ? 63.0f : 16000.0f;  // a factor for normals of about half of unit length
         GltfBuilder builder = sheetOf(1);
         std::size_t accessor = 0;
         if (bits == 8) {
@@ -300,7 +300,8 @@ TEST(NormalLengths, RepairKeepsTangentsThatAreRight) {
     EXPECT_EQ(Stored(output).tangents(), right);
 }
 
-/// Base and offsets are scaled equally, so that the normal has the same direction for any weight.
+/// The base normal and its offsets are scaled equally, so that the direction of the normal does not change for any
+/// weight.
 TEST(NormalLengths, OffsetsOfMorphTargetsAreScaledWithTheNormals) {
     const auto build = [](float length) {
         GltfBuilder builder = sheetOf(length);

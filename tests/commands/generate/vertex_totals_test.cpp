@@ -30,8 +30,8 @@ std::size_t listCount(const std::string& input) {
     return lists.size();
 }
 
-/// Returns primitives that each draw the whole sheet, with one material each: those of the second half follow other
-/// UVs.
+/// Returns `count` primitives that each draw the whole sheet with a material of its own. The materials of the second
+/// half use TEXCOORD_1.
 GltfBuilder sheets(std::size_t count, bool share_vertices) {
     const ModelData sheet = bentSheet(6);
     GltfBuilder builder;

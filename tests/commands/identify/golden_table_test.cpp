@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The measured table of shipped tangents compared with the reference implementation: `identify` reproduces each row,
-// and so does `diff` with the output of `generate`.
+// The table that compares shipped tangents with the reference implementation: `identify` reproduces each row, and so
+// does `diff` with the output of `generate`.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -16,8 +16,8 @@
 namespace tspace::test {
 namespace {
 
-/// One file, with shares in percent of its corners. The table was computed with glTF UVs as stored (v down), so the
-/// inverted sign, `sign_flipped`, is the correct one.
+/// A row for one file, with shares in percent of its corners. The table was computed with glTF UVs as stored (v down),
+/// so corners with the inverted sign, `sign_flipped`, have the correct one.
 struct Row {
     std::string file = {};
     std::uint64_t corner_count = 0;
@@ -41,8 +41,8 @@ std::vector<Row> readTable() {
     return rows;
 }
 
-/// The table has one decimal. Its angles were computed in float arithmetic, in which one degree corresponds to the last
-/// few bits of a cosine: up to 0.46 % of the corners are on the other side of a limit.
+/// Tolerances in percent. The table has one decimal. Its angles were computed with floats, in which one degree
+/// corresponds to the last few bits of a cosine: up to 0.46 % of the corners are on the other side of a limit.
 constexpr double kSignSlack = 0.15, kAngleSlack = 0.5;
 
 double percentOf(std::uint64_t count, std::uint64_t total) {
@@ -59,7 +59,7 @@ TEST(GoldenTable, IsWhatIdentifyFinds) {
         std::uint64_t corners = 0, undecided = 0, near = 0, gltf = 0, inverted = 0;
         for (const PrimitiveIdentity& primitive : result->primitives) {
             for (const Explanation& entry : primitive.explanations) {
-                // The table uses TEXCOORD_0 as stored, regardless of the textures.
+                // The table uses TEXCOORD_0 as stored, regardless of which UV set the textures use.
                 if (entry.method != Method::mikktspace || entry.uv_set != 0 || entry.is_transformed) continue;
                 if (entry.faces != Faces::triangles) continue;
                 corners += entry.corner_count;
@@ -69,8 +69,8 @@ TEST(GoldenTable, IsWhatIdentifyFinds) {
                 inverted += entry.inverted_sign_count;
             }
         }
-        // The table counts every corner. Corners with indeterminate UVs are ignored here, whatever their state in the
-        // table.
+        // The table counts every corner. Corners with indeterminate UVs are not compared, so either state is accepted
+        // for them.
         EXPECT_LE(corners + undecided, row.corner_count) << row.file;
         const std::uint64_t left_out = row.corner_count - corners;
         const auto expectAllBut = [&](std::uint64_t count, double percent, double slack) {
@@ -80,7 +80,7 @@ TEST(GoldenTable, IsWhatIdentifyFinds) {
         expectAllBut(near, row.within_1_deg, kAngleSlack);
         expectAllBut(gltf, row.sign_flipped, kSignSlack);
         expectAllBut(inverted, row.sign_same, kSignSlack);
-        // Primitives without any UV area are skipped, and therefore not counted at all.
+        // Primitives without any UV area are skipped, so their corners are in neither count.
         EXPECT_TRUE(undecided != 0 || corners == 0 || corners == row.corner_count) << row.file;
     }
 }

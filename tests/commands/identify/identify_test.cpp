@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// identify finds the method and the convention that computed tangents.
+// identify finds the method and the convention by which tangents were computed.
 #include "tspace/generate.h"
 #include "tspace/inspect.h"
 
@@ -21,8 +21,8 @@ Identification identityOf(const std::vector<ModelData>& models, const IdentifyOp
 }
 
 TEST(Identify, FindsTheMethodThatMadeTheTangents) {
-    // Strongly distorted UVs, so that the methods differ by more than the tolerance. flat is not tested: without shared
-    // vertices it equals lengyel.
+    // Strongly distorted UVs, so that the results of the methods differ by more than the tolerance. flat is not tested,
+    // because without shared vertices its results equal those of lengyel.
     for (const Method method : {Method::mikktspace, Method::area, Method::uniform, Method::lengyel}) {
         ModelData data = bentSheet(5);
         for (Vec2& uv : data.uvs) uv = {uv.x * uv.x + 2 * uv.y, uv.y * uv.y - uv.x};
@@ -46,7 +46,7 @@ TEST(Identify, FindsBestWithAnyNumberOfSteps) {
     }
 }
 
-/// If tangents are stored as integers, differences between methods that are smaller than a step vanish.
+/// If tangents are stored as integers, differences between methods that are smaller than a step are lost.
 TEST(Identify, NamesAllMethodsThatFitTangentsOfEightBits) {
     const TempFolder folder;
     ModelData data = bentSheet(6);
@@ -76,7 +76,8 @@ TEST(Identify, TellsTheSignsOfGltfFromInvertedOnes) {
 }
 
 TEST(Identify, DetectsTangentsWrittenPerVertex) {
-    // A mirrored seam through the middle, welded after computing: the last corner wins.
+    // A mirrored seam runs through the middle. Its vertices are welded after tangents are computed, and keep the
+    // tangent of their last corner.
     ModelData data = bentSheet(8);
     for (std::size_t i = 0; i < data.uvs.size(); ++i)
         data.uvs[i] = {std::fabs(data.positions[i].x - 0.5f), data.positions[i].y};
@@ -88,7 +89,8 @@ TEST(Identify, DetectsTangentsWrittenPerVertex) {
     EXPECT_EQ(best.near_any_count, best.corner_count);
 }
 
-/// Returns the identification of a sheet whose normal map has this transform, with mikktspace tangents for other UVs.
+/// Returns the identification of a sheet whose normal map has this transform, with the tangents of `data`, which may
+/// belong to other UVs.
 Identification identityWithTransform(const ModelData& data, const Json& transform) {
     const TempFolder folder;
     GltfBuilder builder;
@@ -193,7 +195,7 @@ TEST(Identify, CountsThePrimitivesOnTrianglesWithThoseOnQuads) {
 
 TEST(Identify, IgnoresCornersWithoutUvArea) {
     ModelData data = withTangents(bentSheet(6), Method::mikktspace);
-    // Adds as many triangles whose UVs are a single point, with meaningless tangents and signs.
+    // Add the same number of triangles whose UVs are a single point, with meaningless tangents and signs.
     ModelData flat = unwelded(bentSheet(6));
     const auto first = static_cast<std::uint32_t>(data.positions.size());
     for (std::size_t v = 0; v < flat.positions.size(); ++v) {
@@ -215,7 +217,8 @@ TEST(Identify, IgnoresCornersWithoutUvArea) {
 TEST(Identify, FollowsNoUvSetThatHasNoArea) {
     ModelData data = withTangents(bentSheet(5), Method::mikktspace);
     data.other_uvs.assign(data.uvs.size(), Vec2{0.25F, 0.75F});
-    // The default tangent of a method without UV direction, opposite to increasing u of the real set.
+    // The tangents resemble a default tangent, which some methods write for UVs without direction. They are opposite to
+    // increasing u of the UV set with area.
     for (Vec4& tangent : data.tangents) tangent = {-tangent.x, -tangent.y, -tangent.z, tangent.w};
     const Identification result = identityOf({data});
     for (const Explanation& entry : result.primitives[0].explanations) EXPECT_EQ(entry.uv_set, 0);
@@ -234,7 +237,7 @@ TEST(Identify, NamesTheMethodOfEachPrimitive) {
 }
 
 TEST(Identify, PrefersCommonMethodsOverThoseOfTspace) {
-    // Nine of ten tangents are those of all methods, and the others are those of `best`.
+    // On nine of ten tangents (a flat part) all methods agree; the rest match only `best`.
     ModelData flat = bentSheet(12);
     for (std::size_t v = 0; v < flat.positions.size(); ++v) {
         flat.positions[v].z = 0;
@@ -293,12 +296,12 @@ TEST(Identify, ThreadsChangeNothing) {
 struct Known {
     const char* file;
     Method method;
-    double least, most;  ///< share of close corners, in percent, measured with the reference itself
+    double least, most;  ///< range of the share of close corners, in percent
     SignReading signs;
 };
 
 /// The shares of mikktspace are those of the reference implementation on these files, among the corners with
-/// determinate UVs (four fifths of Ghost's); the others were measured once, and are far above chance.
+/// determinate UVs (four fifths of Ghost's corners). The other shares were measured once, and are far above chance.
 TEST(Identify, AgreesWithTheReferenceOnPublicModels) {
     const Known known[] = {
         {"khronos/TwoSidedPlane.glb", Method::mikktspace, 100, 100, SignReading::inverted},

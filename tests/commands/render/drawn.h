@@ -27,7 +27,7 @@ struct Drawn {
     [[nodiscard]] Pixel center() const { return at(image.width / 2, image.height / 2); }
 };
 
-/// Renders a PNG, as renderFile passes it to a sink.
+/// Renders a PNG into `png`, through a sink as renderFile uses it.
 inline Result<RenderReport> renderTo(std::vector<std::uint8_t>& png, std::span<const std::uint8_t> model,
                                      RenderOptions options) {
     options.file.content = model;
@@ -63,8 +63,8 @@ inline Drawn draw(const GltfBuilder& model, const RenderOptions& options) {
     return drawn;
 }
 
-/// The square from (-1, -1, 0) to (1, 1, 0), which faces +z, with correct tangents for glTF and one material. The
-/// texture's upper left corner is that of the square.
+/// The square from (-1, -1, 0) to (1, 1, 0). It faces +z, and has correct tangents for glTF and one material. Its upper
+/// left corner is at the upper left corner of the texture.
 struct SquareModel {
     std::vector<float> positions = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
     std::vector<float> normals = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
@@ -87,7 +87,7 @@ struct SquareModel {
     }
 };
 
-/// Adds a texture of one color, and returns its index.
+/// Adds a texture with this image, and returns its index.
 inline std::size_t addTexture(GltfBuilder& builder, const RgbImage& image) {
     Json& json = builder.json();
     for (const char* name : {"images", "textures"}) {

@@ -52,7 +52,7 @@ TEST(HostileRender, CyclesOfNodesAreIgnored) {
 }
 
 TEST(HostileRender, EndlessInstancesAreRejected) {
-    // Each is as large as the picture, drawn by a few thousand nodes from back to front.
+    // Each of thousands of instances covers the whole picture, and they are drawn from back to front.
     SquareModel model;
     for (int i = 0; i < 2000; ++i) model.indices.insert(model.indices.end(), {0, 1, 2, 0, 2, 3});
     GltfBuilder builder = model.build();

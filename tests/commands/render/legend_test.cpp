@@ -30,7 +30,7 @@ TEST(RenderLegend, IsBelowEveryViewWithoutChangingThePicture) {
         options.legend = RenderOptions{}.legend;
         const RgbImage with = draw(model, options).image;
         ASSERT_EQ(with.height, 512U) << renderShowName(show);
-        // One to three lines of two pixels per dot, with or without a scale.
+        // A legend has one to three lines of text with two pixels per dot, with or without a scale.
         options.legend = false;
         std::uint32_t fitting = 0;
         for (const std::uint32_t dots : {17U, 28U, 39U, 37U, 48U, 59U}) {

@@ -30,8 +30,8 @@ DVec3 unit(DVec3 v) {
     return v;
 }
 
-/// Returns the shading normal of the shaders of three.js and of Khronos' viewer: N by the inverse transpose and T by
-/// the matrix, normalized at each vertex, interpolated; B = w cross(N, T).
+/// Returns the shading normal as the shaders of three.js and of Khronos' viewer compute it: N is transformed by the
+/// inverse transpose and T by the matrix; both are normalized at each vertex and interpolated; B = w cross(N, T).
 DVec3 shaderNormal(const Leaning& mesh, const DVec3& scale, const std::array<double, 3>& weights) {
     DVec3 normal{}, tangent{};
     for (std::size_t i = 0; i < 3; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures of pages: the angles between two models, and locations of findings after their remedies.
+// Pictures for pages: angles between two models, and locations of findings before and after their remedies.
 #include <cmath>
 
 #include "commands/check/remedy.h"
@@ -36,19 +36,17 @@ SquareModel turnedSquare(double degrees, float sign = 1) {
     return model;
 }
 
-/// Checks the color in the center of the heat map of two models, from 0 to 1, scaled to the brightness of the color of
-/// `degrees`.
+/// Checks that the center of the heat map of two models has the color of `degrees`, except for its brightness.
 void expectHeat(const SquareModel& a, const SquareModel& b, float degrees) {
     const Bytes file_a = a.build().glb(), file_b = b.build().glb();
     DiffOptions options{.file = inMemory(file_a), .file_b = inMemory(file_b)};
     DiffPictures pictures("a.glb", "b.glb", options);
     const RgbImage image = decoded(pictures.heatMap(DiffPictures::Side::front));
     ASSERT_EQ(image.width, DiffPictures::kHeatWidth);
-    // The scale takes some rows at the bottom; the square is symmetric, and so is the picture around the center of the
-    // rest.
+    // The legend takes some rows at the bottom. The square is symmetric, so it is around the center of the other rows.
     const std::size_t i = 3 * (std::size_t{image.height / 2 - 10} * image.width + image.width / 2);
     const Vec3 expected = heatColor(degrees);
-    // Inclined surfaces are darker: all channels by the same factor.
+    // Inclined surfaces are darker: all channels are multiplied by the same factor.
     const double factor = image.rgb[i + 2] / (255.0 * expected.z);
     EXPECT_GT(factor, 0.7);
     EXPECT_LE(factor, 1.01);
@@ -143,7 +141,7 @@ std::size_t differingPixels(const RgbImage& a, const RgbImage& b) {
 }
 
 TEST(FindingPictures, ShowWhatRepairChanges) {
-    // T is rotated slightly, which is not a finding: repair changes only the sign.
+    // T is also rotated slightly, which is not a finding: repair changes only the sign.
     const Finding finding = findingAt(FindingCode::signsInverted, {0, 1, 2, 3});
     const FindingPicture picture = pictureOf(mapped(turnedSquare(8, -1)), finding);
     EXPECT_EQ(picture.command, "tspace generate --repair");
@@ -163,7 +161,7 @@ TEST(FindingPictures, AreOmittedIfNothingIsVisible) {
 }
 
 TEST(FindingPictures, OmitColorsThatHideTheDifference) {
-    // Nearly black, and blue, whose brightness people hardly see.
+    // Colors that hide differences: one that is nearly black, and blue, whose brightness people hardly see.
     for (const auto& color : {Json{0.004, 0.004, 0.004, 1}, Json{0, 0, 1, 1}}) {
         GltfBuilder builder = turnedSquare(0, -1).build();
         builder.json()["materials"][0]["normalTexture"] = {{"index", addTexture(builder, plainImage(200, 90, 200))}};
@@ -190,7 +188,8 @@ TEST(FindingPictures, ShowTheSideThatIsVisibleAfterTheFix) {
 }
 
 TEST(FindingPictures, ShowLocationsBehindOtherSurfaces) {
-    // A square behind a plate that faces it, and is ten times as large: the square is visible only without the plate.
+    // A square behind a plate that faces it and is ten times as large. The square is visible only if the plate is not
+    // drawn.
     GltfBuilder builder = turnedSquare(0).build();
     SquareModel plate;
     for (std::size_t i = 0; i < plate.positions.size(); i += 3) {

@@ -89,7 +89,7 @@ TEST(Render, TangentsAreColored) {
     EXPECT_TRUE(isNearTo(draw(SquareModel().build(), plainView(RenderShow::tangents)).center(), {255, 128, 128}, 1));
 }
 
-/// Returns a pair of squares; the left one is mirrored.
+/// Returns two squares side by side; the left one is mirrored.
 SquareModel mirroredPair() {
     SquareModel model;
     model.positions = {-2, -1, 0, 0, -1, 0, 0, 1, 0, -2, 1, 0, 0, -1, 0, 2, -1, 0, 2, 1, 0, 0, 1, 0};
@@ -105,7 +105,7 @@ SquareModel mirroredPair() {
     return model;
 }
 
-/// Returns the number of pixels of a row with the color.
+/// Returns the number of pixels from `begin` to `end` in the middle row that have the color.
 int countOf(const Drawn& drawn, std::uint32_t begin, std::uint32_t end, bool (*is_it)(const Pixel&)) {
     int count = 0;
     for (std::uint32_t x = begin; x < end; ++x) count += is_it(drawn.at(x, drawn.image.height / 2));
@@ -119,7 +119,7 @@ TEST(Render, AMirroredHalfShowsTheOtherSign) {
     const RenderOptions options = plainView(RenderShow::sign);
     const Drawn right = draw(mirroredPair().build(), options);
     EXPECT_GT(countOf(right, 36, 60, isBlue), 20);
-    EXPECT_GT(countOf(right, 4, 28, isOrange), 8);  // and stripes
+    EXPECT_GT(countOf(right, 4, 28, isOrange), 8);  // not all pixels are orange, because mirrored parts have stripes
     EXPECT_EQ(countOf(right, 0, 64, isRed), 0);
 
     SquareModel lost = mirroredPair();
@@ -130,7 +130,7 @@ TEST(Render, AMirroredHalfShowsTheOtherSign) {
     EXPECT_EQ(countOf(wrong, 34, 64, isRed), 0);
 }
 
-/// Returns a square whose normal map is tilted upward (green up) or downward.
+/// Returns a square whose normal map is tilted upward or downward. `green`: above 128 is upward in glTF.
 GltfBuilder leaning(std::uint8_t green) {
     GltfBuilder builder = SquareModel().build();
     const std::size_t map = addTexture(builder, plainImage(128, green, 218));
@@ -146,7 +146,7 @@ TEST(Render, FlippedGreenIsLitFromTheOtherSide) {
     };
     EXPECT_GT(lit(218, 1), lit(218, -1) + 100);
     EXPECT_GT(lit(38, -1), lit(38, 1) + 100);
-    // A program with green down renders the first map like glTF renders the second one.
+    // A program that expects green down renders the map with green 218 as a program for glTF renders green 38.
     options.reading = *findMapReading("directx");
     EXPECT_GT(lit(218, -1), lit(218, 1) + 100);
 }
@@ -169,13 +169,13 @@ TEST(Render, TexturesAreOrientedAsInGltf) {
     material["extensions"]["KHR_materials_unlit"] = Json::object();
     const RenderOptions options = plainView(RenderShow::lit);
     const Drawn drawn = draw(builder, options);
-    // The pixels nearest to texel centers are slightly off-center, and a small difference in linear light is large in
-    // sRGB.
+    // The pixels nearest to texel centers are slightly off-center, and in sRGB a small difference in linear light is
+    // large.
     EXPECT_TRUE(isNearTo(drawn.at(16, 16), {255, 0, 0}, 60));
     EXPECT_TRUE(isNearTo(drawn.at(47, 16), {0, 255, 0}, 60));
     EXPECT_TRUE(isNearTo(drawn.at(16, 47), {0, 0, 255}, 60));
     EXPECT_TRUE(isNearTo(drawn.at(47, 47), {255, 255, 255}, 60));
-    // A transform that moves the image by half of its width shows the other column.
+    // A transform that moves the image by half of its width exchanges the two columns.
     material["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]["KHR_texture_transform"]["offset"] = {0.5, 0};
     EXPECT_TRUE(isNearTo(draw(builder, options).at(16, 16), {0, 255, 0}, 60));
 }
@@ -215,7 +215,8 @@ TEST(Render, MaskedTexelsAreTransparent) {
 
 TEST(Render, NodesPlaceTheMesh) {
     GltfBuilder builder = SquareModel().build();
-    // Drawn twice: once rotated by 90 degrees about y, so that its edge is visible, and once mirrored and moved.
+    // The mesh is drawn twice: once rotated by 90 degrees about y, so that only its edge is visible, and once mirrored
+    // and moved.
     builder.json()["nodes"] = Json::parse(
         R"([{"children":[1,2],"translation":[5,0,0]},{"mesh":0,"rotation":[0,0.70710678,0,0.70710678]},
             {"mesh":0,"scale":[-1,1,1],"translation":[1,0,0]}])");
@@ -230,7 +231,8 @@ TEST(Render, NodesPlaceTheMesh) {
 
 TEST(Render, ASkinIsDrawnInItsPose) {
     GltfBuilder builder = SquareModel().build();
-    // The joint moves by (3, 0, 0), and the mesh was bound there, so it does not move. The node's own scale is ignored.
+    // The joint moves by (3, 0, 0), but the mesh was bound at this position, so it does not move. The mesh node's own
+    // scale is ignored.
     const std::size_t bind =
         builder.addAccessor(std::vector<float>{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0, 3, 0, 1}, 5126, "MAT4", 1);
     builder.json()["nodes"] = Json::parse(R"([{"mesh":0,"skin":0,"scale":[1,1,-1]},{"translation":[3,0,0]}])");

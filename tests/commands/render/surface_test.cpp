@@ -65,7 +65,8 @@ TEST(RenderSurface, ABlendedSurfaceIsDrawnWhereItsAlphaIsAtLeastHalfOfTheMateria
 TEST(RenderSurface, WeightsOfMorphTargetsMoveTheSurface) {
     GltfBuilder builder = SquareModel().build();
     Json& mesh = builder.json()["meshes"][0];
-    // The square rotated by 90 degrees about y, where N is +x: halfway it is tilted by 45 degrees.
+    // The target's N is +x, as if the square was rotated by 90 degrees about y. With weight 0.5, N is tilted by 45
+    // degrees.
     const std::size_t normals = builder.addFloats(std::vector<float>{1, 0, -1, 1, 0, -1, 1, 0, -1, 1, 0, -1}, 3);
     mesh["primitives"][0]["targets"] = Json::array({Json{{"NORMAL", normals}}});
     mesh["weights"] = Json::array({0});
@@ -75,7 +76,7 @@ TEST(RenderSurface, WeightsOfMorphTargetsMoveTheSurface) {
     EXPECT_TRUE(isNear(draw(builder, options).center(), {128, 128, 255}, 1));
     mesh["weights"] = Json::array({0.5});
     EXPECT_TRUE(isNear(draw(builder, options).center(), {218, 128, 218}, 1));
-    // A node's own weights have priority.
+    // The weights of a node have priority over those of its mesh.
     builder.json()["nodes"][0]["weights"] = Json::array({0});
     EXPECT_TRUE(isNear(draw(builder, options).center(), {128, 128, 255}, 1));
 }
@@ -87,7 +88,7 @@ TEST(RenderSurface, BonesTransformFramesAndTheNodeOfASkinnedMeshIsIgnored) {
         std::vector<std::uint16_t>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 5123, "VEC4", 4);
     attributes["WEIGHTS_0"] =
         builder.addFloats(std::vector<float>{1, 0, 0, 0, 0.5f, 0, 0, 0, 0.5f, 0, 0, 0, 1, 0, 0, 0}, 4);
-    // The second joint rotates x to y. Weights are normalized to the sum 1.
+    // The second joint rotates x to y. Weights are normalized so that their sum is 1.
     builder.json()["nodes"] = Json::parse(
         R"([{"mesh":0,"skin":0,"scale":[1,1,-1],"translation":[9,0,0]},{},{"rotation":[0,0,0.70710678,0.70710678]}])");
     builder.json()["skins"] = Json::array({Json{{"joints", {1, 2}}}});
@@ -102,7 +103,7 @@ TEST(RenderSurface, BonesTransformFramesAndTheNodeOfASkinnedMeshIsIgnored) {
 
 TEST(RenderSurface, BothSidesAreThePicturesOfTheStoredAndTheComputedFrames) {
     SquareModel square;
-    for (std::size_t i = 3; i < square.tangents.size(); i += 4) square.tangents[i] = -1;  // wrong
+    for (std::size_t i = 3; i < square.tangents.size(); i += 4) square.tangents[i] = -1;  // the wrong sign
     GltfBuilder builder = square.build();
     const std::size_t map = addTexture(builder, plainImage(128, 218, 218));
     builder.json()["materials"][0]["normalTexture"] = {{"index", map}};

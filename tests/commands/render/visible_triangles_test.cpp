@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Adjacent triangles leave no gap; the nearest triangle is visible.
+// Adjacent triangles leave no gaps, and the nearest triangle is visible.
 #include "commands/shared/picture/visible_triangles.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ Camera cameraFor(const std::vector<Vec3>& points, double field_of_view_deg, cons
 
 float someNumber(int least, int end) { return 0.01f * static_cast<float>(*rc::gen::inRange(least, end)); }
 
-/// A square divided into a fan around a point in it, with shared corners.
+/// A square that is divided into a fan of triangles around an inner point, with shared vertices.
 RC_GTEST_PROP(VisibleTriangles, NeighborsLeaveNoGapAndNoSampleTwice, ()) {
     const Vec3 inner{someNumber(-90, 90), someNumber(-90, 90), 0};
     const std::vector<Vec3> points = {inner, {-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
@@ -61,8 +61,8 @@ RC_GTEST_PROP(VisibleTriangles, TheNearestTriangleIsVisible, ()) {
     const VisibleTriangles visible(std::span(&mesh, 1), camera, kSize, kSize, effort);
     for (std::uint32_t y = 0; y < kSize; y += 3) {
         for (std::uint32_t x = 0; x < kSize; x += 3) {
-            // Depths at the sample, computed from areas in the picture plane. Near edges the result depends on
-            // rounding.
+            // Compute depths at the sample from areas in the picture plane. Samples near edges are doubtful, because
+            // they depend on rounding.
             double nearest = -HUGE_VAL, seen = -HUGE_VAL;
             bool is_doubtful = false;
             for (std::size_t t = 0; t < static_cast<std::size_t>(count); ++t) {
@@ -87,7 +87,7 @@ RC_GTEST_PROP(VisibleTriangles, TheNearestTriangleIsVisible, ()) {
     }
 }
 
-/// Returns the smallest sine of the angles of a triangle in the picture.
+/// Returns the smallest sine of the angles of a triangle, as it appears in the picture.
 double leastSine(const std::vector<Vec3>& points, const Camera& camera) {
     DVec3 seen[3];
     for (std::size_t k = 0; k < 3; ++k) {
@@ -113,8 +113,9 @@ RC_GTEST_PROP(VisibleTriangles, WeightsLeadToTheSample, ()) {
     WorkLimit effort(1 << 20);
     const VisibleTriangles visible(std::span(&mesh, 1), camera, kSize, kSize, effort);
     const SeenTriangle seen = visible.seen({0, 0});
-    // Corners are rounded to 1/256, by at most sqrt(2) / 512 = 0.0028. A sample next to an edge is therefore moved to
-    // it along the line to the opposite corner; the distance increases for narrow triangles.
+    // Corners are rounded to 1/256 of a pixel, so they move by at most sqrt(2) / 512 = 0.0028 pixels. A sample just
+    // outside of an edge is therefore moved to the edge, toward the opposite corner; it moves farther in narrow
+    // triangles.
     const double most = 0.003 / leastSine(points, camera);
     for (std::uint32_t y = 0; y < kSize; ++y) {
         for (std::uint32_t x = 0; x < kSize; ++x) {
@@ -130,7 +131,7 @@ RC_GTEST_PROP(VisibleTriangles, WeightsLeadToTheSample, ()) {
 }
 
 TEST(VisibleTriangles, TrianglesBehindTheCameraAreClipped) {
-    // A floor through the camera position; the camera looks at a small part of it.
+    // A floor that extends below and behind the camera, of which the camera sees a small part.
     const std::vector<Vec3> points = {{-100, -1, 100}, {100, -1, 100}, {100, -1, -100}, {-100, -1, -100}};
     const std::vector<std::uint32_t> corners = {0, 1, 2, 0, 2, 3};
     const DrawnMesh mesh{.positions = points, .corners = corners, .is_double_sided = true};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Accuracy of frames relative to exact ones, on a few small meshes. scripts/accuracy measures it in full.
+// Accuracy of frames relative to exact ones, on a few small meshes. scripts/accuracy makes the full measurement.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -20,7 +20,7 @@ std::vector<const Surface*> allSurfaces() {
     return all;
 }
 
-/// Returns the geometric mean of `errorOf` over the irregular meshes of the twelve surfaces.
+/// Returns the geometric mean of `errorOf` over irregular meshes of the twelve surfaces.
 double meanOver(int cells, const std::function<double(const TestMesh&)>& errorOf) {
     std::vector<double> errors;
     for (const Surface& surface : surfaces()) {
@@ -144,7 +144,8 @@ TEST(BestTangents, AreSeveralTimesCloserThanMikktspaceOnSmoothSurfaces) {
     EXPECT_LT(1.3 * errorOf(Method::fast), mikktspace);
 }
 
-// Vertices with four neighbors, which do not determine a quadratic map, must not reduce the order of convergence.
+// If a vertex has only four neighbors, they do not determine a quadratic map. Such vertices must not reduce the order
+// of convergence.
 TEST(BestTangents, ConvergeNearlyWithTheSecondOrderOnIrregularMeshes) {
     for (const bool held_out : {false, true}) {
         std::vector<double> coarse, fine;
@@ -215,7 +216,7 @@ TEST(BestTangents, RefinementHardlyIncreasesTheErrorOnNoisyMeshes) {
     }
 }
 
-/// Returns the errors of `best` normals with 0, 1 and 2 steps: geometric means over all curved surfaces.
+/// Returns the errors of `best` normals with 0, 1 and 2 refinement steps: geometric means over all curved surfaces.
 std::array<double, 3> errorsBySteps(Tessellation tessellation, int cells, double noise) {
     std::array<double, 3> means{};
     for (std::uint32_t refine = 0; refine < 3; ++refine) {
@@ -274,7 +275,7 @@ TEST(BestNormals, AreNoWorseThanAngleTimesAreaOnBevels) {
     }
     EXPECT_LT(best, 1.03 * angle_area);
     EXPECT_LT(best, 1.01 * fit);
-    EXPECT_GT(max, 10 * angle_area);  // proves that the error to resist exists
+    EXPECT_GT(max, 10 * angle_area);  // shows that these meshes cause large errors
 }
 
 }  // namespace

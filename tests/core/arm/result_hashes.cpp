@@ -48,12 +48,14 @@ struct Mesh {
     }
 };
 
-/// Uses only integers, whose results the standard defines, and no C library functions.
+/// Generates meshes with integers only, because their results are defined by the C++ standard, and without functions of
+/// the C library.
 class Maker {
   public:
     explicit Maker(std::uint32_t seed) : random_(seed) {}
 
-    /// Returns few vertices with many faces between them: welded corners, edges with many faces, faces without area.
+    /// Returns a mesh of few vertices with many faces, so that there are welded corners, edges with many faces, and
+    /// faces without area.
     Mesh soup() {
         Mesh mesh;
         const std::uint32_t count = 3 + below(12), most_corners = 1 + below(3), faces = 1 + below(40);
@@ -69,7 +71,7 @@ class Maker {
         return mesh;
     }
 
-    /// Returns a rough sheet of triangles and quads, mirrored in bands, with normals that are not unit.
+    /// Returns a rough sheet of triangles and quads that is mirrored in bands. Its normals do not have unit length.
     Mesh sheet() {
         Mesh mesh;
         const std::uint32_t columns = 2 + below(14), rows = 1 + below(14), band = 1 + below(columns);
@@ -133,7 +135,7 @@ struct Results {
     bool all_worked = true;
 };
 
-/// Adds all outputs, the sanitized tangents, and the evaluation of a plan.
+/// Adds hashes of all outputs of a method, of the sanitized tangents, and of the evaluation of a plan.
 void addTangents(const Mesh& mesh, Method method, const Execution& execution, Results& results) {
     const MeshView view = mesh.view();
     const std::size_t count = view.cornerCount();
@@ -165,7 +167,8 @@ void addNormals(const Mesh& mesh, NormalWeighting weighting, const Execution& ex
     results.hashes["normals " + std::to_string(static_cast<unsigned>(weighting))].add(normals);
 }
 
-/// Packs frames that are built from the positions of a rough mesh: most of them are invalid, and are repaired first.
+/// Adds the hash of packed frames that are built from the positions of a rough mesh. Most of these frames are invalid
+/// and are repaired first.
 void addPacked(const Mesh& mesh, FrameFormat format, Results& results) {
     const std::size_t count = mesh.normals.size();
     std::vector<Vec4> tangents;

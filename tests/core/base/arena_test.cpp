@@ -148,7 +148,7 @@ TEST(Arena, ReservesLittleIfAddressSpaceIsLimited) {
     EXPECT_EXIT(std::exit(use() ? 0 : 1), testing::ExitedWithCode(0), "");
 }
 
-/// Returns the bytes of address space that this process has mapped.
+/// Returns the number of bytes of address space that this process has mapped.
 std::size_t mappedBytes() {
     long pages = 0;
     if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
@@ -158,8 +158,9 @@ std::size_t mappedBytes() {
     return static_cast<std::size_t>(pages) * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-/// Uses an arena while `left` bytes of address space are free. A mapping created before it is placed where an arena
-/// that exceeds its reservation would write. Returns false if a byte of that mapping changed, or if blocks overlap.
+/// Uses an arena while `left` bytes of address space are free. Before that, memory is mapped at the place where an
+/// arena that exceeds its reservation would write. Returns false if a byte of this memory changed, or if blocks
+/// overlap.
 bool stayInsideWith(std::size_t left) {
     constexpr std::size_t kNeighborBytes = std::size_t{16} << 20, kBlockBytes = std::size_t{1} << 19;
     void* const mapping = mmap(nullptr, kNeighborBytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -187,7 +188,7 @@ TEST(Arena, WritesOnlyToItsOwnMemoryIfAddressSpaceIsScarce) {
 }
 #endif
 
-/// A torus with two triangles per cell and shared seams.
+/// A torus with two triangles per cell. The seams share their vertices.
 struct Torus {
     std::vector<Vec3> positions, normals;
     std::vector<Vec2> uvs;
@@ -221,7 +222,7 @@ struct Torus {
     }
 };
 
-/// Tracks the peak of live memory.
+/// Allocator that tracks the peak of live memory.
 struct PeakAllocator {
     std::size_t live = 0, peak = 0;
     Allocator allocator{.allocate =
@@ -256,7 +257,7 @@ void computeAll(const Torus& torus, Method method, const Allocator* allocator) {
 
 #if defined(__GLIBC__) && !defined(TSPACE_SANITIZED)
 TEST(Arena, KeepsMemoryInsteadOfThreads) {
-    // also stops glibc from adapting the threshold: each large buffer gets fresh pages
+    // Setting the threshold also stops glibc from adapting it, so that each large buffer gets fresh pages.
     mallopt(M_MMAP_THRESHOLD, 131072);
     const Torus torus(100);
     std::vector<Vec4> tangents(torus.indices.size());

@@ -75,7 +75,7 @@ TEST(Parallel, ReturnsOnlyWhenAllTasksAreDone) {
 TEST(Parallel, WakesThreadsThatFellAsleepBetweenLoops) {
     Parallel parallel(Execution{.thread_count = 2});
     for (int loop = 0; loop < 3; ++loop) {
-        // Two tasks that wait for each other need two threads.
+        // Two tasks wait for each other, so both threads must run.
         std::atomic<int> met{0};
         parallel.forTasks(2, [&](std::size_t) {
             ++met;
@@ -88,7 +88,7 @@ TEST(Parallel, WakesThreadsThatFellAsleepBetweenLoops) {
 TEST(Parallel, StartsNoThreadForLittleWork) {
     const Execution eight{.thread_count = 8};
     EXPECT_EQ(Parallel(eight, 0).width(), 1u);
-    EXPECT_EQ(Parallel(eight, 75'000).width(), 1u);  // 25,000 triangles
+    EXPECT_EQ(Parallel(eight, 75'000).width(), 1u);  // corners of 25,000 triangles: too few for two threads
     EXPECT_EQ(Parallel(eight, 120'000).width(), 2u);
     EXPECT_EQ(Parallel(eight, 30'000'000).width(), 8u);
     const Executor team{.run = [](void*, std::size_t, void (*)(void*, std::size_t), void*) {}, .concurrency = 8};
@@ -125,7 +125,7 @@ TEST(Parallel, PropagatesExceptionsToTheCaller) {
     for (const Execution& execution : {Execution{}, Execution{.thread_count = 4}, Execution{.executor = &executor}}) {
         for (int round = 0; round < 50; ++round) {
             Parallel parallel(execution);
-            // Destroyed when the exception arrives: no thread may still use it.
+            // The vector is destroyed when the exception arrives, so no thread may still use it.
             auto seen = std::make_unique<std::vector<std::atomic<int>>>(64);
             try {
                 parallel.forTasks(seen->size(), [&](std::size_t task) {

@@ -38,7 +38,7 @@ double areaAlongZ(const std::vector<Vec3>& polygon) {
     return sum;
 }
 
-/// Returns a star around the origin with random radii: simple, counter-clockwise, usually not convex.
+/// Returns a star around the origin with these radii. It is simple, counter-clockwise, and usually not convex.
 std::vector<Vec3> star(const std::vector<int>& radii) {
     std::vector<Vec3> polygon;
     for (std::size_t i = 0; i < radii.size(); ++i) {
@@ -58,7 +58,7 @@ rc::Gen<std::vector<Vec3>> anyStar() {
                         star);
 }
 
-/// Returns triangles as sorted lists of coordinates, which do not depend on the numbering of the polygon.
+/// Returns the triangles as coordinates, which do not depend on the numbering of the polygon's vertices.
 std::vector<std::array<float, 9>> geometry(const std::vector<Vec3>& positions, const Triangles& triangles) {
     std::vector<std::array<float, 9>> result;
     for (const auto& t : triangles) {
@@ -91,7 +91,7 @@ TEST(Polygon, CutsAQuadWithEqualUvDiagonalsByItsShapeAndPrefers02) {
 }
 
 TEST(Polygon, CutsTheEarWithTheShortestDiagonalFirst) {
-    // A regular hexagon with one corner moved inward: its neighbors get closer.
+    // A regular hexagon with one corner moved inward, which shortens the diagonals that end at it.
     std::vector<Vec3> hexagon = star({10, 10, 10, 8, 10, 10});
     const Triangles triangles = cut(hexagon);
     const auto length2 = [&](std::uint32_t a, std::uint32_t b) {
@@ -136,7 +136,7 @@ RC_GTEST_PROP(Polygon, UsesEachEdgeOfThePolygonOnceAndEachDiagonalBothWays, ()) 
 }
 
 RC_GTEST_PROP(Polygon, GivesTheSameTrianglesFromAnyStartingVertex, ()) {
-    // Few distinct coordinates, so that ties and self-intersections are common.
+    // Choose from few coordinates, so that ties and self-intersections are common.
     const auto count = *rc::gen::inRange<std::size_t>(5, 12);
     std::vector<Vec3> polygon;
     for (std::size_t i = 0; i < count; ++i) {
@@ -149,8 +149,8 @@ RC_GTEST_PROP(Polygon, GivesTheSameTrianglesFromAnyStartingVertex, ()) {
     RC_ASSERT(geometry(polygon, cut(polygon)) == geometry(rotated, cut(rotated)));
 }
 
-/// Requires that all vertices are ears and all diagonals have different lengths: cuts off the vertex of the shortest
-/// diagonal while at least five vertices are left.
+/// Triangulates a polygon whose vertices are all ears and whose diagonals all have different lengths: cuts off the
+/// vertex with the shortest diagonal while at least five vertices are left.
 Triangles cutShortestFirst(const std::vector<Vec3>& positions) {
     std::vector<std::uint32_t> left(positions.size());
     std::iota(left.begin(), left.end(), 0u);
@@ -170,7 +170,7 @@ Triangles cutShortestFirst(const std::vector<Vec3>& positions) {
 }
 
 RC_GTEST_PROP(Polygon, CutsTheShortestDiagonalOfAConvexPolygonFirst, ()) {
-    // On less than half of a rotated ellipse, so that no two chords have equal lengths.
+    // All vertices are on less than half of a rotated ellipse, so that no two chords have equal lengths.
     std::vector<int> steps =
         *rc::gen::unique<std::vector<int>>(*rc::gen::inRange<std::size_t>(5, 150), rc::gen::inRange(0, 700));
     std::sort(steps.begin(), steps.end());
@@ -180,7 +180,7 @@ RC_GTEST_PROP(Polygon, CutsTheShortestDiagonalOfAConvexPolygonFirst, ()) {
         positions.push_back({static_cast<float>(x), static_cast<float>(std::sin(angle) + 0.37 * x), 0});
     }
     Triangles triangles = cut(positions);
-    triangles.resize(triangles.size() - 2);  // in a quad, each diagonal cuts off two vertices
+    triangles.resize(triangles.size() - 2);  // not compared: each diagonal of a quad cuts off two vertices
     RC_ASSERT(triangles == cutShortestFirst(positions));
 }
 

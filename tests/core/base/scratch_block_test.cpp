@@ -9,7 +9,7 @@
 namespace tspace {
 namespace {
 
-/// Counts allocations, and fails after a limit.
+/// Counts allocations, and fails after `most_calls` of them.
 struct Source {
     int calls = 0, held = 0, most_calls = 1000;
     Allocator allocator{allocate, release, this};

@@ -9,7 +9,7 @@
 namespace tspace {
 namespace {
 
-/// Vertices represented by numbers, with a hash that may be poor. Negative numbers equal nothing, like NaN.
+/// Vertices represented by numbers, with a hash that may be poor. Like NaN, negative numbers are not equal to anything.
 class Numbers final : public Weldable {
   public:
     Numbers(std::vector<int> values, std::uint32_t factor) : values_(std::move(values)), factor_(factor) {}
@@ -61,7 +61,7 @@ TEST(Welding, FindsTheLowestEqualVertex) {
     }
 }
 
-/// All vertices in one table slot, or with one hash: comparing all pairs would take hours.
+/// All vertices have hashes for the same table slot, or all have the same hash. Comparing all pairs would take hours.
 TEST(Welding, TakesLinearTimeIfHashesCollide) {
     for (const int distinct : {99999, 300000}) {
         expectRoots(300000, distinct, 1u << 20);

@@ -102,7 +102,8 @@ TEST(CApi, APlanOutlivesTheStructsItWasMadeWith) {
     CountingMemory memory;
     tspace_TangentPlan* plan = nullptr;
     {
-        // Heap-allocated and freed, so that AddressSanitizer detects a plan that still refers to them.
+        // These structs are on the heap and are freed, so that AddressSanitizer detects a plan that still refers to
+        // them.
         const auto allocator = std::make_unique<tspace_Allocator>(memory.hooks());
         const auto c_mesh = std::make_unique<tspace_Mesh>(mesh.c());
         tspace_TangentOptions options = tangentOptions();

@@ -39,8 +39,8 @@ TEST(CApi, TheConventionHasNoDefault) {
 template <class Struct>
 using Init = tspace_ErrorCode (*)(Struct*, uint32_t, tspace_Error*) noexcept;
 
-/// Options that `init` prepares have the same bytes as those of TSPACE_INIT, up to each size that the struct has ever
-/// had.
+/// Checks that options prepared by `init` have the same bytes as those prepared by TSPACE_INIT, for each size that the
+/// struct has ever had.
 template <class Struct>
 void expectInitLikeTheMacro(Init<Struct> init, std::initializer_list<std::size_t> old_sizes = {}) {
     Struct by_macro;
@@ -76,7 +76,7 @@ TEST(CApi, InitFunctionsSetTheValuesOfTheMacro) {
     expectInitLikeTheMacro<tspace_IndexedFramesOptions>(tspace_initIndexedFramesOptions);
 }
 
-/// Initializes a struct like a language without the macro: zeros, and the size.
+/// Initializes a struct as a language without the macro does: with zeros and the size.
 template <class Struct>
 Struct zerosWithSize() {
     Struct zeros{};
@@ -98,7 +98,7 @@ TEST(CApi, RejectsTangentOptionsOfZeros) {
     EXPECT_EQ(nullptr, std::strstr(error.message, "TSPACE_")) << "bindings show it too: " << error.message;
     tspace_TangentPlan* plan = nullptr;
     EXPECT_EQ(TSPACE_ERROR_INVALID_OPTION, tspace_planTangents(&c_mesh, &options, nullptr, &plan, nullptr));
-    options.refine = 1;  // then a caller requests 0 degrees
+    options.refine = 1;  // if refine is not 0, a threshold of 0 degrees is accepted
     EXPECT_EQ(TSPACE_OK, tspace_generateTangents(&c_mesh, &options, &out, nullptr, nullptr, nullptr));
     options.refine = 0;
     options.angular_threshold_deg = 180;
@@ -117,8 +117,7 @@ TEST(CApi, RejectsNormalOptionsOfZeros) {
     ASSERT_EQ(TSPACE_OK, tspace_initNormalOptions(&options, sizeof options, nullptr));
     options.weighting = TSPACE_NORMAL_WEIGHTING_FLAT;
     EXPECT_EQ(TSPACE_OK, tspace_generateNormals(&c_mesh, &options, out, nullptr, nullptr, nullptr));
-    // Every combination of options is possible: with each other option set to 0 separately, the result equals that of
-    // zeros.
+    // Rejecting zeros loses no result: `flat` gives the same normals if another option is not 0.
     ASSERT_TRUE(generateNormals(mesh.view(), {NormalWeighting::flat, {}, 0, {}, false, false, 0}, flat));
     EXPECT_TRUE(sameBits(flat, made));
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Checks for test programs in C: a failed one prints where and ends the program with status 1. */
+/* Checks for test programs in C: a check that fails prints its location and ends the program with status 1. */
 #ifndef TSPACE_TESTS_C_CHECK_H
 #define TSPACE_TESTS_C_CHECK_H
 

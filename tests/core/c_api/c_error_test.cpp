@@ -69,7 +69,8 @@ TEST_F(CErrors, CutALongMessageBetweenCharacters) {
     }
 }
 
-/// Checks that every wrong size is rejected, above and below, except the size of an earlier version.
+/// Checks that every wrong struct size is rejected, whether smaller or larger. `earlier`: size of an earlier version,
+/// which is accepted.
 template <class Struct, class Call>
 void expectSizeChecked(const char* what, Struct& sized, Call call, std::size_t earlier = 0) {
     const std::uint32_t right = sized.struct_size;
@@ -127,7 +128,7 @@ TEST_F(CErrors, RejectSizesOfStructsThatThisVersionDoesNotKnow) {
     tspace_destroyTangentPlan(plan);
 }
 
-/// The struct of an older header that ended before `first_new`: the callee must not access the bytes after it.
+/// The struct of an older header, which ended before `first_new`. The callee must not access the bytes after its end.
 template <class Struct>
 struct AsOldCaller {
     AsOldCaller(const Struct& now, std::size_t first_new) : size(first_new) {
@@ -261,7 +262,7 @@ TEST_F(CErrors, RejectChoicesThatDoNotExist) {
     expectRefused([](auto& o) { o.ngons = 2; });
     expectRefused([](auto& o) { o.domain = 2; });
     expectRefused([](auto& o) { o.frame = 2; });
-    expectRefused([](auto& o) { o.domain = TSPACE_DOMAIN_VERTEX; });  // not with mikktspace
+    expectRefused([](auto& o) { o.domain = TSPACE_DOMAIN_VERTEX; });  // mikktspace has no results per vertex
     expectRefused([](auto& o) { o.convention.v_axis = 3; });
     expectRefused([](auto& o) { o.convention.green = 2; });
     expectRefused([](auto& o) { o.convention.stored_sign = 2; });

@@ -9,7 +9,7 @@ static int isVec3(tspace_Vec3 v, float x, float y, float z) { return v.x == x &&
 static float distance(float a, float b) { return a < b ? b - a : a - b; }
 
 static void checkFaceFrames(void) {
-    /* u runs along y with 2 units per uv, v along x: mirrored. */
+    /* u runs along y, with 2 units of length per unit of u, and v runs along x, so the triangle is mirrored. */
     const tspace_Vec3 positions[3] = {{0, 0, 0}, {0, 2, 0}, {3, 0, 0}};
     const tspace_Vec2 uvs[3] = {{0, 0}, {1, 0}, {0, 1}};
     const tspace_FaceFrame both[2] = {tspace_faceFrame(positions, uvs), tspace_faceFrameFromPath(positions, uvs)};

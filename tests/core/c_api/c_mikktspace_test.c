@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* An engine in C that uses the MikkTSpace interface: its include line is the reference's. */
+/* A program in C that uses the MikkTSpace interface, with the same include line as for the reference. */
 #include "mikktspace.h"
 
 #include "c_check.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Packed frames from C: errors. c_cases_test packs and unpacks. */
+/* Errors of packing and unpacking frames from C. Their results are tested by c_cases_test. */
 #include "tspace/tspace.h"
 
 #include "c_check.h"

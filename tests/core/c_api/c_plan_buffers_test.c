@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A plan as words, from C: errors. c_cases_test checks the words. */
+/* Errors of writing a plan as words from C. The words are tested by c_cases_test. */
 #include <string.h>
 
 #include "tspace/tspace.h"
@@ -43,7 +43,7 @@ int main(void) {
     CHECK(tspace_planBuffers(plan, &given, NULL, &buffers, &error) == TSPACE_OK);
     tspace_destroyPlanBuffers(buffers);
 
-    /* Errors leave no buffers. */
+    /* A call with an error sets the buffers to NULL. */
     CHECK(tspace_planBuffers(NULL, NULL, NULL, &buffers, &error) == TSPACE_ERROR_NULL_DATA && buffers == NULL);
     CHECK(tspace_planBuffers(plan, NULL, NULL, NULL, &error) == TSPACE_ERROR_NULL_DATA);
     given.source_corners = NULL;

@@ -7,7 +7,7 @@
 void checkFrameFunctions(void);
 void checkPackFunctions(void);
 
-/* Two quads side by side, the second with mirrored u; interleaved position, normal, uv. */
+/* Two quads side by side, the second one with mirrored u. Per vertex: position, normal, UV. */
 static const float vertices[6][8] = {
     {0, 0, 0, 0, 0, 1, 0, 0}, {1, 0, 0, 0, 0, 1, 1, 0}, {2, 0, 0, 0, 0, 1, 0, 0},
     {0, 1, 0, 0, 0, 1, 0, 1}, {1, 1, 0, 0, 0, 1, 1, 1}, {2, 1, 0, 0, 0, 1, 0, 1},

@@ -60,7 +60,7 @@ void setFull(const SMikkTSpaceContext* context, const float tangent[], const flo
     words[8] = static_cast<std::uint32_t>(preserving);
 }
 
-/// Called after setFull; must receive the same tangent.
+/// The drop-in calls this after setFull, with the same tangent.
 void setBasic(const SMikkTSpaceContext* context, const float tangent[], const float sign, const int face,
               const int vertex) {
     Golden& golden = of(context);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lets each allocation of a MikkTSpace call fail once: the call returns false and calls no setter. This program has its
-// own operator new, so the test has a separate file.
+// Lets each allocation of a MikkTSpace call fail once: the call returns false and calls no setter. This program
+// replaces operator new, so the test is in a separate file.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -11,7 +11,7 @@
 namespace {
 
 constexpr long kNoLimit = -1;
-long allowed = kNoLimit;  ///< allocations until one fails; the meshes have too few faces for threads
+long allowed = kNoLimit;  ///< allocations before one fails (not atomic: the meshes are too small for threads)
 
 void* allocateOrNull(std::size_t bytes, std::size_t alignment) {
     if (allowed == 0) return nullptr;

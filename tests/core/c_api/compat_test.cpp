@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The MikkTSpace drop-in: which callbacks are called, when and in which order, and the handling of unusual callback
-// results.
+// The MikkTSpace drop-in: which callbacks it calls, when and in which order, and how it handles unusual results of
+// callbacks.
 #include "tspace/compat/mikktspace.h"
 
 #include <gtest/gtest.h>

@@ -10,7 +10,7 @@
 
 namespace tspace::test {
 
-/// Returns the defaults, with a convention, which has no default.
+/// Returns the default options with a convention, because the convention has no default.
 inline tspace_TangentOptions tangentOptions() {
     tspace_TangentOptions options;
     TSPACE_INIT(options);
@@ -30,7 +30,7 @@ struct RandomMesh : SimpleMesh {
         }
         for (std::uint32_t f = 0; f < face_count; ++f) {
             face_sizes.push_back(3 + f % 3);
-            // Consecutive vertices, so that the corners of a face differ and faces share vertices.
+            // Choose consecutive vertices, so that the corners of a face differ, but faces share vertices.
             const std::uint32_t first = static_cast<std::uint32_t>(random()) % (vertex_count - 4);
             for (std::uint32_t k = 0; k < face_sizes.back(); ++k) indices.push_back(first + k);
         }

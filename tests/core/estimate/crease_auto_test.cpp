@@ -83,7 +83,8 @@ TEST(AutomaticCreases, AreNoneOnSmoothShapes) {
     }
 }
 
-/// The edges of these shapes have angles of 40 degrees and more, distributed continuously.
+/// The edges of these shapes have angles of 40 degrees and more, but the distribution of angles is continuous, without
+/// the gap that hard edges cause.
 TEST(AutomaticCreases, AreNoneOnSmoothShapesDecimatedToSomeHundredTriangles) {
     for (const std::span<const Shape> all : {accuracy::shapes(), accuracy::heldOutShapes()}) {
         for (const Shape& shape : all) {
@@ -113,7 +114,8 @@ TEST(AutomaticCreases, AreDetectedOnPartsDecimatedToSomeHundredTriangles) {
     }
 }
 
-/// Returns the shading error, relative to the smallest error of four weightings with three angles.
+/// Returns the shading error of `normals`, relative to the smallest error of four weightings with three crease angles
+/// each.
 double partOfExisting(const Scan& scan, const std::vector<Vec3>& normals) {
     using enum NormalWeighting;
     double least = 180;
@@ -145,10 +147,10 @@ TEST(AutomaticCreases, HaveTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST(AutomaticCreases, HaveTheSameBitsNextToAPolygon) {
-    // Noise is then smoothed face by face instead of four triangles at a time.
+    // Next to a polygon, noise is smoothed face by face instead of four triangles at a time.
     for (const double noise : {0.025, 0.05, 0.1}) {
         Scan scan = accuracy::scan(shape("part"), 24, noise, Random{7});
-        for (int left = 0; left < 4; ++left) {  // any number of triangles in the last four, some of them at a border
+        for (int left = 0; left < 4; ++left) {  // fewer triangles each time: 0 to 3 remain after groups of four
             std::vector<std::uint32_t> sizes(scan.indices.size() / 3, 3), indices = scan.indices;
             MeshView triangles = scan.view();
             triangles.face_sizes = sizes;

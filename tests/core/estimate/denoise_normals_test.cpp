@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// NormalOptions::denoise: its improvement on noisy meshes, cases where it must not change any bit, and invalid meshes.
+// NormalOptions::denoise: how much it improves noisy meshes, when it must not change any bit, and invalid meshes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -66,12 +66,13 @@ SimpleMesh cappedCylinder(std::uint32_t sides, std::uint32_t rows) {
     return mesh;
 }
 
-/// Returns the sides of kCubeFaces one after the other, with cells^2 squares each, and noise in units of edge lengths.
+/// Returns a cube of the sides in kCubeFaces, one after the other, with cells^2 squares each. `noise`: standard
+/// deviation, in edge lengths.
 SimpleMesh noisyCube(std::uint32_t cells, double noise, Random random) {
     SimpleMesh cube;
     const std::vector<Vec3> corners = test::cubePositions();
     std::map<std::array<float, 3>, Vec3> moved;              // vertices shared by two sides move together
-    const double size = 2 * noise / cells * std::sqrt(3.0);  // random numbers around 0 deviate by 1 / sqrt(3)
+    const double size = 2 * noise / cells * std::sqrt(3.0);  // random.around(1) deviates by 1 / sqrt(3)
     for (const auto& face : test::kCubeFaces) {
         const auto first = static_cast<std::uint32_t>(cube.positions.size());
         const Vec3 origin = corners[face[0]], right = corners[face[1]] - origin, up = corners[face[3]] - origin;
@@ -98,7 +99,7 @@ SimpleMesh noisyCube(std::uint32_t cells, double noise, Random random) {
     return cube;
 }
 
-/// Returns the shading error, relative to the smallest error of area, angle, angleArea and best.
+/// Returns the shading error of `normals`, relative to the smallest error of area, angle, angleArea and best.
 double partOfExisting(const Scan& scan, const std::vector<Vec3>& normals) {
     using enum NormalWeighting;
     constexpr int kPoints = 3000;
@@ -174,7 +175,7 @@ TEST(DenoisedNormals, HaveTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST(DenoisedNormals, KeepHardEdges) {
-    // A noisy cube: the fit on each side uses only that side, so its normals stay within the noise of one direction.
+    // On a noisy cube, the fit for each side uses only this side, so its normals deviate only by the noise.
     SimpleMesh cube = noisyCube(24, 0.1, Random{3});
     const Outcome hard = bestOf(cube.view(), kAuto, 50), before = bestOf(cube.view(), 0, 50);
     EXPECT_GT(hard.report.noise, 0.05);
@@ -193,7 +194,7 @@ TEST(DenoisedNormals, TakeAFactorOnTheNoiseThatIsMeasured) {
     const Scan scan = accuracy::scan(shape("torus"), 40, 0.1, Random{4});
     const Outcome automatic = bestOf(scan.view(), kAuto), once = bestOf(scan.view(), 1),
                   thrice = bestOf(scan.view(), 3);
-    EXPECT_TRUE(sameBits(automatic.normals, once.normals));  // the whole deviation is noise
+    EXPECT_TRUE(sameBits(automatic.normals, once.normals));  // because the whole deviation is noise
     EXPECT_FLOAT_EQ(thrice.report.noise, 3 * once.report.noise);
     EXPECT_FALSE(sameBits(once.normals, thrice.normals));
     for (const float wrong : {-0.5f, -2.0f, 4.5f, std::numeric_limits<float>::quiet_NaN()}) {
@@ -226,7 +227,7 @@ TEST(DenoisedNormals, OfAPoseKeepTheirBitsWhereNothingMoves) {
     EXPECT_EQ(report->noise, still.report.noise);
     std::size_t far = 0;
     for (std::size_t c = 0; c < posed.size(); ++c) {
-        if (scan.positions[scan.indices[c]].x > -0.4f) continue;  // 18 edges away
+        if (scan.positions[scan.indices[c]].x > -0.4f) continue;  // others are 18 edges away from moved ones
         EXPECT_EQ(posed[c], still.normals[c]);
         ++far;
     }
@@ -238,7 +239,7 @@ TEST(DenoisedNormals, OfPolygonsAreBetterToo) {
     const Scan scan = accuracy::scan(shape("torus"), 48, 0.1, Random{7});
     SimpleMesh quads;
     quads.positions = scan.positions;
-    for (std::size_t c = 0; c < scan.indices.size(); c += 6) {  // two triangles a, b, c and a, c, d
+    for (std::size_t c = 0; c < scan.indices.size(); c += 6) {  // two triangles a, b, c and a, c, d form a quad
         const std::uint32_t* v = scan.indices.data() + c;
         quads.addFace({v[0], v[1], v[2], v[5]});
     }
@@ -274,7 +275,7 @@ SimpleMesh noisyFan(std::uint32_t count, Random random) {
 
 TEST(DenoisedNormals, OfAFanTakeLinearTime) {
     const SimpleMesh small = noisyFan(25'000, Random{8}), large = noisyFan(400'000, Random{8});
-    EXPECT_LT(timeOf(large, 1), 60 * timeOf(small, 1) + 1);  // 16 times the triangles; the machine may be busy
+    EXPECT_LT(timeOf(large, 1), 60 * timeOf(small, 1) + 1);  // allows for 16 times the triangles on a busy machine
 }
 
 TEST(DenoisedNormals, OfBrokenMeshesAreFiniteAndUnit) {

@@ -104,7 +104,7 @@ RC_GTEST_PROP(OrthonormalizeProperty, IsGramSchmidtInThatOrder, ()) {
     const Frame f = randomSoundFrame();
     const Frame o = orthonormalize(f);
     RC_ASSERT(frameSign(o) == frameSign(f));
-    // T stays in the plane of T and N, on the same side; B stays on its side.
+    // T stays in the plane of T and N, on the same side of N. B stays on the same side of that plane.
     RC_ASSERT(std::fabs(dot(f.tangent, o.bitangent)) < 1e-6);
     RC_ASSERT(dot(f.tangent, o.tangent) > 0);
     RC_ASSERT(dot(f.bitangent, o.bitangent) > 0);
@@ -116,7 +116,7 @@ RC_GTEST_PROP(OrthonormalizeProperty, IsGramSchmidtInThatOrder, ()) {
 RC_GTEST_PROP(BasisProperty, IsRightHandedAndOrthonormal, ()) {
     Vec3 n = randomUnit();
     if (randomInt(0, 2) == 0) {
-        // Normals near the pole, where the formula of 2012 loses precision.
+        // Normals near the south pole, where the published formula of 2012 loses precision.
         const float tilt = std::ldexp(1.0f, randomInt(-30, -8));
         n = {tilt, -tilt, -std::sqrt(1 - 2 * tilt * tilt)};
     }

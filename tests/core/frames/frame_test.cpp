@@ -30,7 +30,8 @@ TEST(FaceFrame, IsTheDerivativeOfPositionByUv) {
 }
 
 TEST(FaceFrame, TakesTheMinusSignInTheTangent) {
-    // u and v both increase along both edges, so that a plus in t2 E1 - t1 E2 would rotate T.
+    // u and v both increase along both edges, so that T would have another direction if t2 E1 - t1 E2 was computed with
+    // a plus sign.
     const Vec3 positions[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     const Vec2 uvs[3] = {{0, 0}, {1, 0.5f}, {0.5f, 1}};
     const FaceFrame frame = faceFrame(positions, uvs);
@@ -153,7 +154,7 @@ TEST(Lambert, IsTheCosineAgainstTheBentNormal) {
 }
 
 TEST(ObjectNormalMikktspace, NormalizesOnlyTheResult) {
-    // N is half as long, so the same texel tilts more than in the normalized frame.
+    // N has half the length, so the same texel tilts the result more than in the normalized frame.
     const Vec3 texel{0.6f, 0, 0.8f};
     const Vec3 bent = objectNormalMikktspace({0, 0, 0.5f}, {1, 0, 0, 1}, texel);
     expectNear(bent, {0.6f / std::hypot(0.6f, 0.4f), 0, 0.4f / std::hypot(0.6f, 0.4f)});

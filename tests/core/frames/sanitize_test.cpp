@@ -69,7 +69,7 @@ void expectMended(const Vec4& t, const Vec3& n) {
 
 TEST(Sanitize, ChangesNoBitOfValidTangents) {
     Scene scene = twoTriangles();
-    scene.tangents[0] = {1.0004f, 0, -0.0f, 1};  // unit within the validator's tolerance
+    scene.tangents[0] = {1.0004f, 0, -0.0f, 1};  // of unit length within the validator's tolerance
     scene.tangents[1] = {0.8f, 0, 0.6f, 1};      // not orthogonal, which is not a fault of the frame
     scene.tangents[2] = {0.9f, std::sqrt(0.19f), 0, 1};
     const std::vector<Vec4> before = scene.tangents;
@@ -88,7 +88,7 @@ TEST(Sanitize, CountsEachCornerByItsFirstCauseAndItsRepair) {
     EXPECT_EQ(report.bad_sign_count, 1u);
     EXPECT_EQ(report.mendedCount(), 5u);
     EXPECT_EQ(report.normalized_count, 2u);     // the long one and the one without a sign
-    EXPECT_EQ(report.from_neighbor_count, 2u);  // from the valid corner of the first face
+    EXPECT_EQ(report.from_neighbor_count, 2u);  // from the valid corner of their face
     EXPECT_EQ(report.from_basis_count, 1u);     // no valid corner in its face or at its position
     EXPECT_TRUE(sameBits(scene.tangents[0], {1, 0, 0, 1}));
     EXPECT_TRUE(sameBits(scene.tangents[1], {1, 0, 0, 1}));
@@ -187,7 +187,7 @@ TEST(Sanitize, TreatsLessThanOneDegreeAsParallel) {
 TEST(Sanitize, ProjectsPlaceholdersOntoTheSurface) {
     Scene scene = twoTriangles();
     scene.normals[1] = {0.6f, 0, 0.8f};
-    scene.normals[3] = {3, 0, 0.1f};  // 2 degrees from the placeholder
+    scene.normals[3] = {3, 0, 0.1f};  // 2 degrees from the placeholder's direction
     const SanitizeReport report = scene.sanitize();
     EXPECT_EQ(report.placeholder_count, 3u);
     EXPECT_EQ(report.mendedCount(), 3u);
@@ -245,7 +245,7 @@ TEST(Sanitize, GivesAUnitTangentIfTheNormalIsInvalid) {
     expectMended(scene.tangents[5], scene.normals[3]);
 }
 
-/// A vertex whose N has no direction needs one tangent, and no copies.
+/// A vertex whose N has no direction needs only one tangent, so it need not be split.
 TEST(Sanitize, GivesOneTangentToAVertexWithAnInvalidNormal) {
     for (const Vec3& normal : {Vec3{}, Vec3{kNan, kNan, kNan}}) {
         Scene scene = twoTriangles();
@@ -254,7 +254,7 @@ TEST(Sanitize, GivesOneTangentToAVertexWithAnInvalidNormal) {
         EXPECT_EQ(scene.sanitize().from_neighbor_count, 2u);
         EXPECT_TRUE(sameBits(scene.tangents[1], {1, 0, 0, 1}));
         EXPECT_TRUE(sameBits(scene.tangents[4], {1, 0, 0, 1}));
-        // Faces with different signs keep them.
+        // Each face keeps its sign if the signs of the faces differ.
         scene.tangents = {{1, 0, 0, 1}, {kNan, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, -1}, {kNan, 0, 0, 1}, {0, 1, 0, -1}};
         scene.sanitize();
         EXPECT_TRUE(sameBits(scene.tangents[1], {1, 0, 0, 1}));
@@ -297,7 +297,7 @@ float anyValue() {
                           [](std::uint32_t bits) { return std::bit_cast<float>(bits); })}});
 }
 
-/// Returns random values everywhere, with many valid frames in between.
+/// Returns a scene of random values, many of which are valid frames.
 Scene anyScene() {
     Scene scene;
     const auto vertices = *rc::gen::inRange<std::size_t>(1, 12);
@@ -434,7 +434,7 @@ TEST(Sanitize, ReportsThatMemoryRanOutAndFreesAllOfIt) {
     }
 }
 
-/// An algorithm with quadratic time would exceed the test's time limit.
+/// An algorithm that takes quadratic time would exceed the test's time limit.
 TEST(SanitizeTime, StaysLinearWhenEveryCornerLooksForANeighborAtOnePosition) {
     Scene scene;
     const std::uint32_t faces = 300000;

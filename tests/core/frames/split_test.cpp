@@ -30,7 +30,7 @@ SplitResult split(const Indices& indices, std::size_t vertex_count, std::vector<
 
 bool sameBits(float a, float b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-/// The definition of splitVertices (indexed_frames.h), implemented literally, in quadratic time.
+/// Implements the definition of splitVertices (indexed_frames.h) literally, in quadratic time.
 SplitResult splitSlowly(const Indices& indices, std::size_t vertex_count, std::span<const CornerAttribute> attributes) {
     const auto equal = [&](std::size_t a, std::size_t b) {
         for (const CornerAttribute& attribute : attributes) {
@@ -150,7 +150,7 @@ struct RandomCorners {
     std::vector<CornerAttribute> attributes;
 };
 
-/// Returns few vertices and few values, so that vertices have between one and many variants.
+/// Returns corners with few vertices and few values, so that vertices have between one and many variants.
 RandomCorners anyCorners() {
     RandomCorners r;
     r.vertex_count = *rc::gen::inRange<std::size_t>(1, 6);
@@ -160,7 +160,7 @@ RandomCorners anyCorners() {
     using Layout = std::vector<std::size_t>;
     const auto any_layout =
         *rc::gen::container<Layout>(*rc::gen::inRange<std::size_t>(0, 4), rc::gen::inRange<std::size_t>(1, 6));
-    // Some layouts are common, and have specialized code if they are exact.
+    // Some layouts are common, and have specialized code if all attributes are exact.
     const auto layout = *rc::gen::element(any_layout, any_layout, Layout{3}, Layout{4}, Layout{3, 4});
     const bool all_exact = *rc::gen::arbitrary<bool>();
     for (const std::size_t components : layout) {
@@ -248,7 +248,7 @@ TEST(Split, StartsNoThreadForASmallMesh) {
     EXPECT_EQ(runs, 0);
 }
 
-/// An algorithm with quadratic time would take minutes and exceed the test's time limit.
+/// An algorithm that takes quadratic time would need minutes and exceed the test's time limit.
 TEST(SplitTime, StaysLinearWhenOneVertexHasManyVariants) {
     const std::size_t count = 400000;
     const Indices indices(count, 0);
@@ -268,7 +268,7 @@ TEST(SplitTime, StaysLinearWhenOneVertexHasManyVariants) {
                                                {frames.data() + 4, 28, 3, tolerance}};
         EXPECT_EQ(split(indices, 1, all).vertexCount(), count);
     }
-    // Variants that differ only in direction, as dense as the tolerance allows.
+    // Compare only directions. The variants are as dense as the tolerance allows.
     const std::vector<CornerAttribute> directions{{frames.data(), 28, 4, 1e-2f}};
     const SplitResult merged = split(indices, 1, directions);
     EXPECT_GT(merged.vertexCount(), 10000u);

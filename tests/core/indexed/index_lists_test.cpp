@@ -134,13 +134,13 @@ TEST(IndexLists, AreCheckedAsIndicesAre) {
     view.normal_indices.type = static_cast<IndexType>(3);
     EXPECT_EQ(codeOf(view), ErrorCode::invalidOption);
     view = mesh.view();
-    view.normal_indices = {nullptr, 0, IndexType::corners};  // more corners than normals
+    view.normal_indices = {nullptr, 0, IndexType::corners};  // one normal per corner, but there are fewer
     EXPECT_EQ(codeOf(view), ErrorCode::countMismatch);
     view = mesh.view();
     view.indices.type = IndexType::corners;
     EXPECT_EQ(codeOf(view), ErrorCode::invalidOption);
     view = mesh.view();
-    view.uv_indices = {};  // now there are too many UVs for the vertices
+    view.uv_indices = {};  // without their list, there are more UVs than vertices
     EXPECT_EQ(codeOf(view), ErrorCode::countMismatch);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An indexed mesh with frames from one call equals the result of the single steps.
+// An indexed mesh with frames, computed by one call, equals the result of the single steps.
 #include "tspace/indexed_frames.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ IndexedFramesOptions gltfOptions(Method method = Method::mikktspace) {
     return {.tangents = {.method = method, .convention = conventions::gltf}};
 }
 
-/// Returns tangents per corner, computed with the single steps.
+/// Returns tangents per corner, computed by the single steps.
 std::vector<Vec4> tangentsAtCorners(const MeshView& mesh, const TangentOptions& options) {
     std::vector<Vec4> tangents(mesh.cornerCount());
     EXPECT_TRUE(generateTangents(mesh, options, {tangents}));
@@ -32,8 +32,7 @@ std::vector<T> atCorners(const IndexedFrames& frames, const std::vector<T>& valu
     return result;
 }
 
-/// Checks that every corner keeps its position, and that every vertex is the source of a corner that uses it, or is
-/// unused.
+/// Checks that every corner keeps its position, and that every vertex either is used by its source corner or is unused.
 void expectSources(const MeshView& mesh, const IndexedFrames& frames) {
     ASSERT_EQ(frames.indices.size(), mesh.cornerCount());
     ASSERT_EQ(frames.source_corners.size(), frames.vertexCount());
@@ -121,7 +120,7 @@ TEST(IndexedFrames, TheConventionDefinesTheOutside) {
     for (std::size_t c = 0; c < a.size(); ++c) EXPECT_EQ(a[c], (Vec3{-b[c].x, -b[c].y, -b[c].z}));
 }
 
-/// The values of a vertex that determine whether two vertices are merged.
+/// The values of a vertex that decide whether it is merged with another one.
 using VertexKey = std::array<float, 12>;
 
 TEST(IndexedFrames, AMeshWithoutIndicesGetsThem) {
@@ -194,7 +193,7 @@ TEST(IndexedFrames, ReportErrors) {
         const auto frames = makeIndexedFrames(mesh, options);
         return frames ? ErrorCode::ok : frames.error().code;
     };
-    EXPECT_EQ(codeOf(lists.view(), {}), ErrorCode::invalidOption);  // no convention
+    EXPECT_EQ(codeOf(lists.view(), {}), ErrorCode::invalidOption);  // the convention is missing
     IndexedFramesOptions per_vertex = gltfOptions(Method::lengyel);
     per_vertex.tangents.domain = OutputDomain::vertex;
     EXPECT_EQ(codeOf(lists.view(), per_vertex), ErrorCode::invalidOption);

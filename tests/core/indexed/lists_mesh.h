@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A random mesh with an index list per attribute, and the same mesh with a single list, as a caller would unroll it.
+// A random mesh with an index list per attribute, and the same mesh with a single list, as a caller would convert it.
 #pragma once
 
 #include <array>
@@ -18,14 +18,14 @@ struct ListsMesh : SimpleMesh {
     std::vector<std::uint32_t> uv_indices;
     std::vector<std::uint16_t> normal_indices;
 
-    /// Creates triangles, quads and pentagons over few vertices, so that they share vertices.
+    /// Creates triangles, quads and pentagons from few vertices, so that faces share vertices.
     ListsMesh(unsigned seed, std::uint32_t face_count) {
         std::mt19937 random(seed);
         std::uniform_real_distribution<float> value(-1.0f, 1.0f);
         const std::uint32_t vertex_count = face_count / 2 + 5, uv_count = face_count / 2 + 9;
         for (std::uint32_t v = 0; v < vertex_count; ++v)
             positions.push_back({value(random), value(random), value(random)});
-        positions.push_back({7, 7, 7});  // no corner uses it
+        positions.push_back({7, 7, 7});  // a vertex that no corner uses
         for (int n = 0; n < 7; ++n) normals.push_back({value(random), value(random), 1.5f});
         for (std::uint32_t u = 0; u < uv_count; ++u) uvs.push_back({value(random), value(random)});
         for (std::uint32_t f = 0; f < face_count; ++f) {

@@ -194,7 +194,7 @@ TEST(ComputeFrames, TriangulatesPolygonsAndSkipsFacesWithoutArea) {
     for (std::size_t c = 12; c < 15; ++c) last.push_back(result.frames.source_vertices[corners[c]]);
     EXPECT_EQ(last, (Indices{2, 1, 3}));
     for (const Vec4& t : result.frames.tangents) EXPECT_NEAR(std::hypot(t.x, t.y, t.z), 1.0f, 5e-4f);
-    // The hexagon faces up and the triangle, which has the opposite winding, faces down; they share no corner.
+    // The hexagon faces up. The triangle has the opposite winding, faces down, and shares no vertex with the hexagon.
     for (std::size_t c = 0; c < 15; ++c) EXPECT_EQ(result.frames.normals[corners[c]].z, c < 12 ? 1.0f : -1.0f);
 }
 
@@ -218,7 +218,7 @@ TEST(ComputeFrames, RejectsMismatchingIndicesAndCounts) {
     EXPECT_EQ(code(pool, {.indices = {0, 1, 2}}), ErrorCode::countMismatch);
 }
 
-/// Processing the whole pool for each primitive would exceed the test's time limit.
+/// An implementation that processes the whole pool for each primitive would exceed the test's time limit.
 TEST(ComputeFramesTime, StaysLinearWhenManyPrimitivesShareALargePool) {
     OwnedMesh pool;
     std::vector<PrimitiveGeometry> primitives;
@@ -234,8 +234,8 @@ TEST(ComputeFramesTime, StaysLinearWhenManyPrimitivesShareALargePool) {
     EXPECT_FALSE(compute(pool, primitives, options).frames.wasSplit(pool.positions.size()));
 }
 
-/// Returns the processor seconds for computing normals and tangents of a grid of 20,000 triangles that is divided into
-/// this number of primitives.
+/// Returns the processor time, in seconds, of computing normals and tangents for a grid of 20,000 triangles that is
+/// divided into `primitive_count` primitives.
 double secondsForPrimitives(std::uint32_t primitive_count) {
     constexpr std::uint32_t kCells = 100;
     OwnedMesh pool;

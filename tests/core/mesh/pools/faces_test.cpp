@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Frames on quads: those of mikktspace on the polygons, at the corners of the triangles.
+// Frames computed on quads: the corners of the triangles get the tangents that mikktspace gives to the polygons.
 #include <gtest/gtest.h>
 
 #include "core/base/vec_math.h"
@@ -21,14 +21,15 @@ FramesOptions onFaces(Faces faces) {
     return options;
 }
 
-/// Returns the tangent of each corner of the triangles.
+/// Returns the tangents of all corners of the triangles.
 std::vector<Vec4> atCorners(const PoolFrames& frames) {
     std::vector<Vec4> tangents;
     for (const std::uint32_t v : frames.indices[0]) tangents.push_back(frames.tangents[v]);
     return tangents;
 }
 
-/// Returns the share of corners with the tangents of the polygons, which the pool contains.
+/// Cuts polygons into triangles, recomputes tangents, and returns the share of corners that get the tangents of the
+/// polygons.
 double shareLikePolygons(const PolygonMesh& mesh, const Cut& cut, Faces faces) {
     const FramesOptions options = onFaces(faces);
     std::vector<Vec4> on_polygons(mesh.corners.size()), old_tangents;
@@ -83,7 +84,8 @@ TEST(Faces, PolygonsOfAFileAreQuadsAsTheyAre) {
     const PoolOutcome quads = compute(poolOf(mesh.data), {geometry}, onFaces(Faces::quads));
     const auto count = static_cast<std::uint64_t>(std::count(mesh.sizes.begin(), mesh.sizes.end(), 4U));
     EXPECT_EQ(quads.reports[0].quad_count, count);
-    // Triangulated by MikkTSpace's own rule, so triangles give the same result here, except for the last bits of sums.
+    // The quads are cut by MikkTSpace's own rule, so the triangles give the same result here, except for the last bits
+    // of sums.
     const std::vector<Vec4> a = atCorners(compute(poolOf(mesh.data), {geometry}, FramesOptions{}).frames),
                             b = atCorners(quads.frames);
     ASSERT_EQ(a.size(), b.size());
@@ -105,7 +107,7 @@ TEST(Faces, MorphTargetsTakeTheQuadsOfTheirBase) {
     const PrimitiveGeometry geometry{.indices = data.indices};
     const PoolOutcome morphed = compute(pool, {geometry}, onFaces(Faces::quads));
     ASSERT_EQ(morphed.frames.morphs.size(), 1U);
-    // Expected result: the displaced shape computed directly, with quads detected on it.
+    // Expected result: the frames of the displaced shape, with quads detected on it.
     for (std::size_t v = 0; v < moved.positions.size(); ++v) {
         moved.positions[v] = moved.positions[v] + offsets[v];
         const Vec3 n = moved.normals[v] + turns[v];

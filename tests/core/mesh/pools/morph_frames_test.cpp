@@ -40,7 +40,7 @@ std::vector<Vec3> dense(const VertexOffsets& offsets, std::size_t count) {
     return result;
 }
 
-/// Returns offsets like those of an artist: most are zero, and none is infinite.
+/// Returns offsets like those of authored morph targets: most are zero, and all are finite.
 std::vector<Vec3> anyOffsets(std::size_t count) {
     std::vector<Vec3> offsets(count);
     for (Vec3& offset : offsets) {
@@ -60,7 +60,7 @@ Targets anyTargets(const OwnedMesh& pool) {
     return targets;
 }
 
-/// Returns the targets as stored in the written file.
+/// Returns the targets as they are stored in the written file.
 Targets rebuiltTargets(const Targets& targets, const PoolFrames& frames) {
     Targets result;
     for (std::size_t t = 0; t < targets.size(); ++t) {
@@ -93,8 +93,8 @@ bool isOne(float a, float b) { return a == b || (std::isnan(a) && std::isnan(b))
 bool isOne(const Vec3& a, const Vec3& b) { return isOne(a.x, b.x) && isOne(a.y, b.y) && isOne(a.z, b.z); }
 bool isOne(const Vec2& a, const Vec2& b) { return isOne(a.x, b.x) && isOne(a.y, b.y); }
 
-/// Returns the corners whose vertex equals that of another corner in the base shape, but not in the displaced shape,
-/// and, for each step of `best`, the other corners of their triangles.
+/// Marks corners whose vertex equals that of another corner in the base shape, but not in the displaced shape. For each
+/// refinement step of `best`, also marks the other corners of their triangles.
 std::vector<bool> takenApart(const OwnedMesh& base, const OwnedMesh& moved, const Indices& corners,
                              const TangentOptions& options) {
     const auto areTwins = [&](std::uint32_t a, std::uint32_t b) {
@@ -132,16 +132,16 @@ std::vector<bool> takenApart(const OwnedMesh& base, const OwnedMesh& moved, cons
     return result;
 }
 
-/// Returns the sine of the angle between the vector and the plane.
+/// Returns the sine of the angle between t and the plane with the normal n.
 double sineOf(const Vec3& t, const Vec3& n) {
     return (double{n.x} * t.x + double{n.y} * t.y + double{n.z} * t.z) / lengthOf(n) / lengthOf(t);
 }
 
 constexpr float kAnyDirection = 1e9f;
 
-/// Evaluates one primitive of a written pool, displaced by a target, with the groups of the base shape, or with those
-/// of the displaced shape if it separates equal vertices. If this gives a corner no tangent, or one that leaves the
-/// plane in which the base tangent lies, the result is kAnyDirection.
+/// Evaluates one primitive of a written pool, displaced by a target. Uses the tangent groups of the base shape, or
+/// those of the displaced shape if it separates equal vertices. The result is kAnyDirection at corners that get no
+/// tangent, or one that leaves the plane of the base tangent.
 std::vector<Vec4> evaluated(OwnedMesh pool, const PrimitiveGeometry& primitive, const MorphOffsets& target,
                             const std::vector<Vec4>& base, const FramesOptions& options) {
     MeshView mesh;
@@ -213,9 +213,10 @@ std::vector<Vec4> evaluated(OwnedMesh pool, const PrimitiveGeometry& primitive, 
 
 RC_GTEST_PROP(MorphFrames, AreThoseOfTheMovedShapeWithTheGroupsOfTheBase, ()) {
     const OwnedMesh pool = anyPoolWithTwins();
-    RC_PRE(isOrdinary(pool));  // with 1e20 next to 1, rounding would determine directions
+    RC_PRE(isOrdinary(pool));  // with 1e20 next to 1, directions would depend on rounding
     const FramesOptions options = anyOptions();
-    // An invalid corner may get the tangent of any other corner of its face, and the file contains only triangles.
+    // Sanitizing may give an invalid corner the tangent of any other corner of its face, and the written file contains
+    // only triangles.
     const std::vector<PrimitiveGeometry> primitives = options.sanitize ? anyTriangles(pool) : anyFaces(pool);
     const Targets targets = anyTargets(pool);
     const PoolOutcome result = compute(withTargets(pool, targets), primitives, options);
@@ -243,7 +244,7 @@ RC_GTEST_PROP(MorphFrames, AreThoseOfTheMovedShapeWithTheGroupsOfTheBase, ()) {
 
 RC_GTEST_PROP(MorphFrames, ReproduceThemselvesOnTheirOwnOutput, ()) {
     const OwnedMesh pool = anyPoolWithTwins();
-    RC_PRE(isOrdinary(pool));  // a NaN does not equal itself, so copies of its vertex join no neighbors
+    RC_PRE(isOrdinary(pool));  // a NaN does not equal itself, so copies of its vertex are not merged
     const std::vector<PrimitiveGeometry> primitives = anyFaces(pool);
     const FramesOptions options = anyOptions();
     const Targets targets = anyTargets(pool);
