@@ -63,7 +63,7 @@ uint tspace_word(uint4 bytes) { return bytes.x | bytes.y << 8u | bytes.z << 16u 
 // Cost: 4 operations.
 uint2 tspace_words(uint4 shorts) { return shorts.xz | shorts.yw << 16u; }
 
-// Decodes 4 bytes, N and T within 0.135 degrees: one of 24 rotations of the axes, after a small rotation.
+// Decodes 4 bytes, N and T within 0.135 degrees: a small rotation, followed by one of 24 rotations of the axes.
 // Cost: 119 operations, 1 division.
 tspace_Frame tspace_decodeFrame32(uint word) {
     uint code = min(word >> 1u, 2147306975u);
@@ -87,12 +87,12 @@ tspace_Frame tspace_decodeFrame32(uint word) {
     return tspace_makeFrame(n * s, float4(t * s, 1.0 - 2.0 * float(word & 1u)));
 }
 
-// Returns N at (i, j) of the unfolded octahedron, which is 2 half + 1 wide, and T at step k of a turn of 4 quarter
-// steps around N.
+// Returns the frame whose N is at `ij` of the unfolded octahedron, a grid of 2 * half_width + 1 points per side. T is
+// rotated around N by `quarters` quarter turns and `k` steps; a quarter turn has `quarter` steps.
 // Cost: 84 operations, 2 roots, 1 division.
 tspace_Frame tspace_frameOfAngle(float2 ij, uint quarters, float k, float half_width, float quarter, uint mirrored) {
     float2 d = ij - half_width;
-    // Integers: negative in the lower half, which is folded over the edges.
+    // c is an exact integer: negative in the lower half of the octahedron, which is folded over the edges.
     float c = half_width - abs(d.x) - abs(d.y);
     float s = c < 0.0 ? -1.0 : 1.0;
     float3 b = float3(abs(d) + min(c, 0.0), abs(c));
@@ -137,8 +137,8 @@ tspace_Frame tspace_decodeFrame64(uint2 words) {
 }
 
 // Decodes a quaternion of any length, as in a normalized attribute: qtangent64 in glTF (_QTANGENT64), Filament and
-// CryEngine. The sign is the sign of w, which encoders never leave 0, not even for half turns: there it is 1/32767 or
-// -1/32767. Half precision may flush such a w to zero, and lose the sign.
+// CryEngine. The sign of the frame is the sign of w. Encoders therefore store 1/32767 or -1/32767 instead of a w of 0
+// (half turns). Half precision may flush such a w to zero, and lose the sign.
 // Cost: 39 operations, 1 division.
 tspace_Frame tspace_frameOfQuaternion(float4 q) {
     float square = dot(q, q), w = square > 0.0 ? q.w : 1.0, k = square > 0.0 ? 2.0 / square : 2.0;
@@ -218,9 +218,9 @@ float3 tspace_texelOfTwo(float2 rg) {
     return float3(v, sqrt(max(0.0, 1.0 - dot(v, v))));
 }
 
-// ---- applying a texel. Use the function for which the map was baked: they differ by degrees on coarse meshes. normal,
-// tangent and bitangent are as interpolated, from vertices with unit normal and tangent: tspace_transformFrame
-// normalizes them after the matrix of a node. Other lengths change the slopes of the relief.
+// ---- applying a texel. Use the function for which the map was baked: results differ by degrees on coarse meshes. Pass
+// normal, tangent and bitangent as interpolated. At the vertices they must be unit vectors, as tspace_transformFrame
+// returns them; other lengths change the slopes of the relief.
 
 // MikkTSpace, bitangent per pixel (Blender): only the result is normalized.
 // Cost: 37 operations, 1 root.
@@ -228,7 +228,7 @@ float3 tspace_applyMikktspace(float3 texel, float3 normal, float4 tangent) {
     return normalize(texel.x * tangent.xyz + texel.y * tspace_bitangent(normal, tangent) + texel.z * normal);
 }
 
-// MikkTSpace, bitangent per vertex (Unity's built-in pipeline): tspace_bitangent in the vertex shader.
+// MikkTSpace, bitangent per vertex (Unity's built-in pipeline): the vertex shader calls tspace_bitangent.
 // Cost: 23 operations, 1 root.
 float3 tspace_applyMikktspacePerVertex(float3 texel, float3 normal, float3 tangent, float3 bitangent) {
     return normalize(texel.x * tangent + texel.y * bitangent + texel.z * normal);
@@ -308,9 +308,9 @@ tspace_Frame tspace_morphFrame(tspace_Frame frame, float3 normal_delta, float3 t
 // ---- meshes without tangents
 
 // Returns the frame from the change of position and UV between pixels: T along dP/du, perpendicular to N, and the sign
-// of the UVs as seen along N. Constant over each triangle, so there are seams where stored tangents would be smooth. V
-// must increase in the direction of green: for glTF pass (u, -v). If UVs do not change, T is any vector perpendicular
-// to N.
+// of the UVs as seen along N. dP/du is constant over each triangle, so there are seams where stored tangents would be
+// smooth. V must increase in the direction of green: for glTF pass (u, -v). If UVs do not change, T is any vector
+// perpendicular to N.
 // Cost: 91 operations, 3 roots, 1 division.
 tspace_Frame tspace_frameOfSteps(float3 normal, float3 p_dx, float3 p_dy, float2 uv_dx, float2 uv_dy) {
     float3 n = normalize(normal);
@@ -321,7 +321,7 @@ tspace_Frame tspace_frameOfSteps(float3 normal, float3 p_dx, float3 p_dy, float2
 }
 
 #ifdef TSPACE_FRAGMENT
-// Like tspace_frameOfSteps, at this pixel; `position` in the space of `normal`.
+// Calls tspace_frameOfSteps with the derivatives at this pixel. `position` must be in the space of `normal`.
 // Cost: 91 operations, 3 roots, 1 division, 10 derivatives.
 tspace_Frame tspace_frameOfPixel(float3 normal, float3 position, float2 uv) {
     return tspace_frameOfSteps(normal, ddx(position), ddy(position), ddx(uv), ddy(uv));

@@ -60,7 +60,7 @@ inline uint tspace_word(uint4 bytes) { return bytes.x | bytes.y << 8u | bytes.z 
 // Cost: 4 operations.
 inline uint2 tspace_words(uint4 shorts) { return shorts.xz | shorts.yw << 16u; }
 
-// Decodes 4 bytes, N and T within 0.135 degrees: one of 24 rotations of the axes, after a small rotation.
+// Decodes 4 bytes, N and T within 0.135 degrees: a small rotation, followed by one of 24 rotations of the axes.
 // Cost: 119 operations, 1 division.
 inline tspace_Frame tspace_decodeFrame32(uint word) {
     uint code = metal::min(word >> 1u, 2147306975u);
@@ -84,13 +84,13 @@ inline tspace_Frame tspace_decodeFrame32(uint word) {
     return tspace_Frame{n * s, float4(t * s, 1.0f - 2.0f * float(word & 1u))};
 }
 
-// Returns N at (i, j) of the unfolded octahedron, which is 2 half + 1 wide, and T at step k of a turn of 4 quarter
-// steps around N.
+// Returns the frame whose N is at `ij` of the unfolded octahedron, a grid of 2 * half_width + 1 points per side. T is
+// rotated around N by `quarters` quarter turns and `k` steps; a quarter turn has `quarter` steps.
 // Cost: 84 operations, 2 roots, 1 division.
 inline tspace_Frame tspace_frameOfAngle(float2 ij, uint quarters, float k, float half_width, float quarter,
                                         uint mirrored) {
     float2 d = ij - half_width;
-    // Integers: negative in the lower half, which is folded over the edges.
+    // c is an exact integer: negative in the lower half of the octahedron, which is folded over the edges.
     float c = half_width - metal::abs(d.x) - metal::abs(d.y);
     float s = c < 0.0f ? -1.0f : 1.0f;
     float3 b = float3(metal::abs(d) + metal::min(c, 0.0f), metal::abs(c));
@@ -135,8 +135,8 @@ inline tspace_Frame tspace_decodeFrame64(uint2 words) {
 }
 
 // Decodes a quaternion of any length, as in a normalized attribute: qtangent64 in glTF (_QTANGENT64), Filament and
-// CryEngine. The sign is the sign of w, which encoders never leave 0, not even for half turns: there it is 1/32767 or
-// -1/32767. Half precision may flush such a w to zero, and lose the sign.
+// CryEngine. The sign of the frame is the sign of w. Encoders therefore store 1/32767 or -1/32767 instead of a w of 0
+// (half turns). Half precision may flush such a w to zero, and lose the sign.
 // Cost: 39 operations, 1 division.
 inline tspace_Frame tspace_frameOfQuaternion(float4 q) {
     float square = metal::dot(q, q), w = square > 0.0f ? q.w : 1.0f, k = square > 0.0f ? 2.0f / square : 2.0f;
@@ -216,9 +216,9 @@ inline float3 tspace_texelOfTwo(float2 rg) {
     return float3(v, metal::sqrt(metal::max(0.0f, 1.0f - metal::dot(v, v))));
 }
 
-// ---- applying a texel. Use the function for which the map was baked: they differ by degrees on coarse meshes. normal,
-// tangent and bitangent are as interpolated, from vertices with unit normal and tangent: tspace_transformFrame
-// normalizes them after the matrix of a node. Other lengths change the slopes of the relief.
+// ---- applying a texel. Use the function for which the map was baked: results differ by degrees on coarse meshes. Pass
+// normal, tangent and bitangent as interpolated. At the vertices they must be unit vectors, as tspace_transformFrame
+// returns them; other lengths change the slopes of the relief.
 
 // MikkTSpace, bitangent per pixel (Blender): only the result is normalized.
 // Cost: 37 operations, 1 root.
@@ -226,7 +226,7 @@ inline float3 tspace_applyMikktspace(float3 texel, float3 normal, float4 tangent
     return metal::normalize(texel.x * tangent.xyz + texel.y * tspace_bitangent(normal, tangent) + texel.z * normal);
 }
 
-// MikkTSpace, bitangent per vertex (Unity's built-in pipeline): tspace_bitangent in the vertex shader.
+// MikkTSpace, bitangent per vertex (Unity's built-in pipeline): the vertex shader calls tspace_bitangent.
 // Cost: 23 operations, 1 root.
 inline float3 tspace_applyMikktspacePerVertex(float3 texel, float3 normal, float3 tangent, float3 bitangent) {
     return metal::normalize(texel.x * tangent + texel.y * bitangent + texel.z * normal);
@@ -304,9 +304,9 @@ inline tspace_Frame tspace_morphFrame(tspace_Frame frame, float3 normal_delta, f
 // ---- meshes without tangents
 
 // Returns the frame from the change of position and UV between pixels: T along dP/du, perpendicular to N, and the sign
-// of the UVs as seen along N. Constant over each triangle, so there are seams where stored tangents would be smooth. V
-// must increase in the direction of green: for glTF pass (u, -v). If UVs do not change, T is any vector perpendicular
-// to N.
+// of the UVs as seen along N. dP/du is constant over each triangle, so there are seams where stored tangents would be
+// smooth. V must increase in the direction of green: for glTF pass (u, -v). If UVs do not change, T is any vector
+// perpendicular to N.
 // Cost: 91 operations, 3 roots, 1 division.
 inline tspace_Frame tspace_frameOfSteps(float3 normal, float3 p_dx, float3 p_dy, float2 uv_dx, float2 uv_dy) {
     float3 n = metal::normalize(normal);
@@ -317,7 +317,7 @@ inline tspace_Frame tspace_frameOfSteps(float3 normal, float3 p_dx, float3 p_dy,
 }
 
 #ifdef TSPACE_FRAGMENT
-// Like tspace_frameOfSteps, at this pixel; `position` in the space of `normal`.
+// Calls tspace_frameOfSteps with the derivatives at this pixel. `position` must be in the space of `normal`.
 // Cost: 91 operations, 3 roots, 1 division, 10 derivatives.
 inline tspace_Frame tspace_frameOfPixel(float3 normal, float3 position, float2 uv) {
     return tspace_frameOfSteps(normal, metal::dfdx(position), metal::dfdy(position), metal::dfdx(uv), metal::dfdy(uv));

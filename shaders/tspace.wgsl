@@ -58,7 +58,7 @@ fn tspace_word(bytes: vec4u) -> u32 {
 // Cost: 4 operations.
 fn tspace_words(shorts: vec4u) -> vec2u { return shorts.xz | (shorts.yw << vec2u(16u)); }
 
-// Decodes 4 bytes, N and T within 0.135 degrees: one of 24 rotations of the axes, after a small rotation.
+// Decodes 4 bytes, N and T within 0.135 degrees: a small rotation, followed by one of 24 rotations of the axes.
 // Cost: 119 operations, 1 division.
 fn tspace_decodeFrame32(word: u32) -> tspace_Frame {
     let code = min(word >> 1u, 2147306975u);
@@ -85,12 +85,12 @@ fn tspace_decodeFrame32(word: u32) -> tspace_Frame {
     return tspace_Frame(n * s, vec4f(t * s, 1.0 - 2.0 * f32(word & 1u)));
 }
 
-// Returns N at (i, j) of the unfolded octahedron, which is 2 half + 1 wide, and T at step k of a turn of 4 quarter
-// steps around N.
+// Returns the frame whose N is at `ij` of the unfolded octahedron, a grid of 2 * half_width + 1 points per side. T is
+// rotated around N by `quarters` quarter turns and `k` steps; a quarter turn has `quarter` steps.
 // Cost: 84 operations, 2 roots, 1 division.
 fn tspace_frameOfAngle(ij: vec2f, quarters: u32, k: f32, half_width: f32, quarter: f32, mirrored: u32) -> tspace_Frame {
     let d = ij - half_width;
-    // Integers: negative in the lower half, which is folded over the edges.
+    // c is an exact integer: negative in the lower half of the octahedron, which is folded over the edges.
     let c = half_width - abs(d.x) - abs(d.y);
     let s = select(1.0, -1.0, c < 0.0);
     let b = vec3f(abs(d) + min(c, 0.0), abs(c));
@@ -139,8 +139,8 @@ fn tspace_decodeFrame64(words: vec2u) -> tspace_Frame {
 }
 
 // Decodes a quaternion of any length, as in a normalized attribute: qtangent64 in glTF (_QTANGENT64), Filament and
-// CryEngine. The sign is the sign of w, which encoders never leave 0, not even for half turns: there it is 1/32767 or
-// -1/32767. Half precision may flush such a w to zero, and lose the sign.
+// CryEngine. The sign of the frame is the sign of w. Encoders therefore store 1/32767 or -1/32767 instead of a w of 0
+// (half turns). Half precision may flush such a w to zero, and lose the sign.
 // Cost: 39 operations, 1 division.
 fn tspace_frameOfQuaternion(q: vec4f) -> tspace_Frame {
     let square = dot(q, q);
@@ -226,9 +226,9 @@ fn tspace_texelOfTwo(rg: vec2f) -> vec3f {
     return vec3f(v, sqrt(max(0.0, 1.0 - dot(v, v))));
 }
 
-// ---- applying a texel. Use the function for which the map was baked: they differ by degrees on coarse meshes. normal,
-// tangent and bitangent are as interpolated, from vertices with unit normal and tangent: tspace_transformFrame
-// normalizes them after the matrix of a node. Other lengths change the slopes of the relief.
+// ---- applying a texel. Use the function for which the map was baked: results differ by degrees on coarse meshes. Pass
+// normal, tangent and bitangent as interpolated. At the vertices they must be unit vectors, as tspace_transformFrame
+// returns them; other lengths change the slopes of the relief.
 
 // MikkTSpace, bitangent per pixel (Blender): only the result is normalized.
 // Cost: 37 operations, 1 root.
@@ -236,7 +236,7 @@ fn tspace_applyMikktspace(texel: vec3f, normal: vec3f, tangent: vec4f) -> vec3f 
     return normalize(texel.x * tangent.xyz + texel.y * tspace_bitangent(normal, tangent) + texel.z * normal);
 }
 
-// MikkTSpace, bitangent per vertex (Unity's built-in pipeline): tspace_bitangent in the vertex shader.
+// MikkTSpace, bitangent per vertex (Unity's built-in pipeline): the vertex shader calls tspace_bitangent.
 // Cost: 23 operations, 1 root.
 fn tspace_applyMikktspacePerVertex(texel: vec3f, normal: vec3f, tangent: vec3f, bitangent: vec3f) -> vec3f {
     return normalize(texel.x * tangent + texel.y * bitangent + texel.z * normal);
@@ -316,9 +316,9 @@ fn tspace_morphFrame(frame: tspace_Frame, normal_delta: vec3f, tangent_delta: ve
 // ---- meshes without tangents
 
 // Returns the frame from the change of position and UV between pixels: T along dP/du, perpendicular to N, and the sign
-// of the UVs as seen along N. Constant over each triangle, so there are seams where stored tangents would be smooth. V
-// must increase in the direction of green: for glTF pass (u, -v). If UVs do not change, T is any vector perpendicular
-// to N.
+// of the UVs as seen along N. dP/du is constant over each triangle, so there are seams where stored tangents would be
+// smooth. V must increase in the direction of green: for glTF pass (u, -v). If UVs do not change, T is any vector
+// perpendicular to N.
 // Cost: 91 operations, 3 roots, 1 division.
 fn tspace_frameOfSteps(normal: vec3f, p_dx: vec3f, p_dy: vec3f, uv_dx: vec2f, uv_dy: vec2f) -> tspace_Frame {
     let n = normalize(normal);
@@ -328,7 +328,8 @@ fn tspace_frameOfSteps(normal: vec3f, p_dx: vec3f, p_dy: vec3f, uv_dx: vec2f, uv
     return tspace_Frame(n, vec4f(tspace_unit(t - n * dot(n, t), tspace_axisAcross(n)), s));
 }
 
-// Like tspace_frameOfSteps, at this pixel, for fragment shaders; `position` in the space of `normal`.
+// Calls tspace_frameOfSteps with the derivatives at this pixel, in fragment shaders. `position` must be in the space of
+// `normal`.
 // Cost: 91 operations, 3 roots, 1 division, 10 derivatives.
 fn tspace_frameOfPixel(normal: vec3f, position: vec3f, uv: vec2f) -> tspace_Frame {
     return tspace_frameOfSteps(normal, dpdx(position), dpdy(position), dpdx(uv), dpdy(uv));

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Written by scripts/shaders from tspace_evaluate.hlsl.
-// Normals and tangents of a pose from a plan (planBuffers of tspace), in the Metal shading language: one thread gathers one result. No atomics, and
-// sums in a fixed order: the same bits from run to run. docs/guides/gpu.md of tspace describes the buffers.
+// Computes normals and tangents of a pose from a plan
+// (planBuffers of tspace), in the Metal shading language: one result per thread.
+// Threads use no atomics and add in a fixed order, so results have the same bits in every run. docs/guides/gpu.md of
+// tspace describes the buffers.
 //
-// Dispatch tspace_evaluate with 64 threads per group, ceil(results / 64) groups in x and y together (65535 at most in x).
+// Dispatch tspace_evaluate with 64 threads per group and ceil(results / 64) groups: in x, or in rows of 65535 along y.
 
 #include <metal_stdlib>
 
@@ -38,7 +40,7 @@ constant float tspace_greatest = 3.4e38f;
 struct tspace_Evaluator {
     // The words of a plan: PlanBuffers in plan_buffers.h.
     const device uint* tspace_plan;
-    // Layout of the arrays of a pose in their buffers: 32 words, see tspace_setting.
+    // Layout of the arrays of a pose in their buffers: 32 words, whose indices are tspace_position_format and following.
     const device uint* tspace_settings;
     const device uint* tspace_positions;
     // Morph deltas, joints, weights and matrices, if the settings enable them.
@@ -50,7 +52,7 @@ struct tspace_Evaluator {
     uint tspace_setting(uint word) { return tspace_settings[word]; }
     float tspace_float(uint word) { return as_type<float>(tspace_settings[word]); }
 
-    // Subnormal numbers, zero and NaN count as zero.
+    // Returns whether a component is neither zero nor subnormal; NaN counts as zero.
     bool tspace_notZero(float3 v) {
         return metal::abs(v.x) > tspace_least_normal || metal::abs(v.y) > tspace_least_normal ||
                metal::abs(v.z) > tspace_least_normal;
@@ -65,7 +67,7 @@ struct tspace_Evaluator {
         }
         return (1.0f / metal::sqrt(metal::dot(v, v))) * v;
     }
-    // Returns v without its component along n (not normalized first), as a unit vector.
+    // Returns v without its component along n, as a unit vector. n is used as given, without normalization.
     float3 tspace_flatten(float3 n, float3 v) { return tspace_normalized(v - metal::dot(n, v) * n); }
 
     float tspace_arcCosine(float cosine) {
@@ -191,7 +193,7 @@ struct tspace_Evaluator {
         if ((tspace_plan[2] & 4u) == 0u) {
             return normal;
         }
-        // Changes only lengths that rounding to 8 bits does not explain.
+        // Lengths that differ from 1 by no more than rounding to 8 bits explains are not changed.
         float square = metal::dot(normal, normal);
         if (metal::abs(square - 1.0f) <= 0.0134f || !(square >= 1e-12f) || !(square < tspace_greatest)) {
             return normal;
@@ -301,7 +303,8 @@ struct tspace_Evaluator {
         return weight;
     }
 
-    // Returns the normal of a result; w is 1 if the mean is zero, and the results that share it need separate normals.
+    // Returns the normal of a result. w is 1 if the mean is zero: the normal is then that of the result's own triangle, so
+    // other corners of the vertex have different normals.
     float4 tspace_normalOfResult(uint begin, uint end, uint own, float scale) {
         float factor = 1.0f;
         if ((tspace_plan[2] & 2u) != 0u) {
@@ -356,13 +359,14 @@ struct tspace_Evaluator {
 
     // ---- tangents
 
-    // Sums of a result. `a`: tangents; `b`: a second sum of fast and lengyel.
+    // Sums over the corners of a result. `a`: tangents. `b`: a second sum, for fast and lengyel.
     struct tspace_Sums {
         float3 a;
         float3 b;
     };
 
-    // Returns the term of a corner for mikktspace, uniform, angle, area: its tangent across the normal, unit, times its weight.
+    // Returns what a corner adds to the sum of mikktspace, uniform, angle and area: its unit tangent perpendicular to the
+    // normal, times its weight.
     float3 tspace_weightedTangent(tspace_Corner corner, float3 n, uint method) {
         float a = as_type<float>(tspace_plan[corner.uvs]);
         float b = as_type<float>(tspace_plan[corner.uvs + 1u]);
@@ -386,7 +390,7 @@ struct tspace_Evaluator {
         return weight * tangent;
     }
 
-    // Returns the terms of a corner for fast: one sum that is accurate on smooth surfaces, one that is robust.
+    // Returns what a corner adds to the two sums of fast: `a` is accurate on smooth surfaces, `b` is robust.
     tspace_Sums tspace_twoWeights(tspace_Corner corner, float scale) {
         tspace_Sums sums;
         sums.a = float3(0.0f, 0.0f, 0.0f);
@@ -453,7 +457,7 @@ struct tspace_Evaluator {
         return tspace_direction((1.0f - m) * accurate + m * robust);
     }
 
-    // lengyel: sums of dP/du and dP/dv, then Gram-Schmidt. w: the sign, or 0 if there is no tangent.
+    // Returns the tangent of lengyel from the sums of dP/du and dP/dv, by Gram-Schmidt. w: the sign.
     float4 tspace_fromDerivatives(float3 n, tspace_Sums sums) {
         float largest = tspace_largest(sums.a);
         if (!(largest > 0.0f) || !(largest < tspace_greatest)) {
@@ -474,7 +478,7 @@ struct tspace_Evaluator {
         return float4(t.x, t.y, t.z, sign);
     }
 
-    // Finishes a part of a result: normalizes its sum, or uses the default.
+    // Returns the tangent for a sum: normalized, or the default if it is zero and the result's flags request that.
     float3 tspace_finish(float3 normal, tspace_Sums sums, uint method, uint flags) {
         float3 tangent = sums.a;
         if (method == 7u) {
@@ -587,7 +591,7 @@ struct tspace_Evaluator {
         return float4(x, y, sign * n.z, sign);
     }
 
-    // Returns the two directions perpendicular to a grid normal that define the angle.
+    // Returns the direction of angle 0 around a grid normal; tspace_octAlong returns the direction a quarter turn further.
     float3 tspace_octAcross(float4 n) {
         float h = -1.0f / (n.w + n.z);
         return float3(1.0f + n.w * n.x * n.x * h, n.w * n.x * n.y * h, -n.w * n.x);
@@ -615,8 +619,8 @@ struct tspace_Evaluator {
         return tspace_direction(t);
     }
 
-    // Returns the point of a unit vector on the unfolded octahedron, -1 to 1: the b with b (2.5 - b) along |n| and sum 1, by three
-    // steps of Newton's method.
+    // Returns the point of the unfolded octahedron, -1 to 1, whose normal is the unit vector n. Its barycentric coordinates
+    // b have the sum 1, and b (2.5 - b) is parallel to |n|; three steps of Newton's method solve this.
     float2 tspace_octPoint(float3 n) {
         float3 size = metal::abs(n);
         float3 b = size / (size.x + size.y + size.z);
@@ -706,10 +710,10 @@ struct tspace_Evaluator {
         return (uint(i) << 22u) | (uint(j) << 12u) | (k << 1u) | tspace_mirroredBit(tangent);
     }
 
-    // Returns a coordinate of the Rodrigues vector at u, -1 to 1 along an edge of a chart of frame32.
+    // Returns a coordinate of the Rodrigues vector for a coordinate u of a chart of frame32, from -1 to 1.
     float tspace_warped(float u) { return u * (0.38728988f + 0.026923878f * (u * u)); }
 
-    // Returns the u of a coordinate of a Rodrigues vector: an initial guess, and two steps of Newton's method.
+    // Returns the inverse of tspace_warped, by an initial guess and two steps of Newton's method.
     float tspace_unwarped(float p) {
         float straight = p * 2.41421356f;
         float u = straight * (1.0f + 0.065f * (1.0f - straight * straight));
@@ -719,7 +723,7 @@ struct tspace_Evaluator {
         return u;
     }
 
-    // Returns the components of v with the signs of chart g of frame32, in the chart's order.
+    // Returns v in the axes of chart g of frame32: with reordered components, some of them negated.
     float3 tspace_inChart(float3 v, uint g) {
         uint order = g >> 2u;
         float first = 1.0f;
@@ -795,7 +799,8 @@ struct tspace_Evaluator {
             float3 row_n = tspace_inChart(n, g);
             float trace = row_t.x + row_b.y + row_n.z;
             float3 axis = float3(row_b.z - row_n.y, row_n.x - row_t.z, row_t.y - row_b.x);
-            // The corners of a chart have a trace of 1.64, its faces are at tan(22.5 degrees); half a step beyond is allowed.
+            // A chart is a cube of Rodrigues vectors. Its faces are at tan(22.5 degrees), and its corners have a trace of
+            // 1.64; the limits allow half a step beyond.
             if (trace > 1.63f && tspace_largest(axis) <= 0.41531323f * (1.0f + trace)) {
                 float4 found = tspace_nearestInChart((1.0f / (1.0f + trace)) * axis);
                 if (found.w < least) {
@@ -845,7 +850,7 @@ struct tspace_Evaluator {
             float4 made = tspace_normalOfResult(begin, end, own, scale);
             normal = float3(made.x, made.y, made.z);
             if (made.w != 0.0f) {
-                flags = flags | 0x10000000u;  // mixes_normals
+                flags = flags | 0x10000000u;  // PlanBuffers::mixes_normals
             }
             if (tspace_setting(tspace_normal_format) == 1u) {
                 uint at = (tspace_setting(tspace_normal_offset) + result * tspace_setting(tspace_normal_stride)) >> 2u;

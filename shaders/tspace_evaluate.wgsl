@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Written by scripts/shaders from tspace_evaluate.hlsl.
-// Normals and tangents of a pose from a plan (planBuffers of tspace), in WGSL: one thread gathers one result. No atomics, and
-// sums in a fixed order: the same bits from run to run. docs/guides/gpu.md of tspace describes the buffers.
+// Computes normals and tangents of a pose from a plan
+// (planBuffers of tspace), in WGSL: one result per thread.
+// Threads use no atomics and add in a fixed order, so results have the same bits in every run. docs/guides/gpu.md of
+// tspace describes the buffers.
 //
-// Dispatch tspace_evaluate with 64 threads per group, ceil(results / 64) groups in x and y together (65535 at most in x).
+// Dispatch tspace_evaluate with 64 threads per group and ceil(results / 64) groups: in x, or in rows of 65535 along y.
 
 // The words of a plan: PlanBuffers in plan_buffers.h.
 @group(0) @binding(0) var<storage, read> tspace_plan: array<u32>;
-// Layout of the arrays of a pose in their buffers: 32 words, see tspace_setting.
+// Layout of the arrays of a pose in their buffers: 32 words, whose indices are tspace_position_format and following.
 @group(0) @binding(1) var<storage, read> tspace_settings: array<u32>;
 @group(0) @binding(2) var<storage, read> tspace_positions: array<u32>;
 // Morph deltas, joints, weights and matrices, if the settings enable them.
@@ -46,7 +48,7 @@ const tspace_greatest: f32 = 3.4e38;
 fn tspace_setting(word: u32) -> u32 { return tspace_settings[word]; }
 fn tspace_float(word: u32) -> f32 { return bitcast<f32>(tspace_settings[word]); }
 
-// Subnormal numbers, zero and NaN count as zero.
+// Returns whether a component is neither zero nor subnormal; NaN counts as zero.
 fn tspace_notZero(v: vec3f) -> bool {
     return abs(v.x) > tspace_least_normal || abs(v.y) > tspace_least_normal || abs(v.z) > tspace_least_normal;
 }
@@ -59,7 +61,7 @@ fn tspace_normalized(v: vec3f) -> vec3f {
     }
     return (1.0 / sqrt(dot(v, v))) * v;
 }
-// Returns v without its component along n (not normalized first), as a unit vector.
+// Returns v without its component along n, as a unit vector. n is used as given, without normalization.
 fn tspace_flatten(n: vec3f, v: vec3f) -> vec3f { return tspace_normalized(v - dot(n, v) * n); }
 
 fn tspace_arcCosine(cosine: f32) -> f32 {
@@ -183,7 +185,7 @@ fn tspace_normalOf(vertex_number: u32) -> vec3f {
     if ((tspace_plan[2] & 4u) == 0u) {
         return normal;
     }
-    // Changes only lengths that rounding to 8 bits does not explain.
+    // Lengths that differ from 1 by no more than rounding to 8 bits explains are not changed.
     var square: f32 = dot(normal, normal);
     if (abs(square - 1.0) <= 0.0134 || !(square >= 1e-12) || !(square < tspace_greatest)) {
         return normal;
@@ -293,7 +295,8 @@ fn tspace_normalWeight(corner: tspace_Corner, scale: f32, area: f32) -> f32 {
     return weight;
 }
 
-// Returns the normal of a result; w is 1 if the mean is zero, and the results that share it need separate normals.
+// Returns the normal of a result. w is 1 if the mean is zero: the normal is then that of the result's own triangle, so
+// other corners of the vertex have different normals.
 fn tspace_normalOfResult(begin: u32, end: u32, own: u32, scale: f32) -> vec4f {
     var factor: f32 = 1.0;
     if ((tspace_plan[2] & 2u) != 0u) {
@@ -348,13 +351,14 @@ fn tspace_normalAt(entry: u32, vertex_number: u32) -> vec3f {
 
 // ---- tangents
 
-// Sums of a result. `a`: tangents; `b`: a second sum of fast and lengyel.
+// Sums over the corners of a result. `a`: tangents. `b`: a second sum, for fast and lengyel.
 struct tspace_Sums {
     a: vec3f,
     b: vec3f,
 }
 
-// Returns the term of a corner for mikktspace, uniform, angle, area: its tangent across the normal, unit, times its weight.
+// Returns what a corner adds to the sum of mikktspace, uniform, angle and area: its unit tangent perpendicular to the
+// normal, times its weight.
 fn tspace_weightedTangent(corner: tspace_Corner, n: vec3f, method: u32) -> vec3f {
     var a: f32 = bitcast<f32>(tspace_plan[corner.uvs]);
     var b: f32 = bitcast<f32>(tspace_plan[corner.uvs + 1u]);
@@ -378,7 +382,7 @@ fn tspace_weightedTangent(corner: tspace_Corner, n: vec3f, method: u32) -> vec3f
     return weight * tangent;
 }
 
-// Returns the terms of a corner for fast: one sum that is accurate on smooth surfaces, one that is robust.
+// Returns what a corner adds to the two sums of fast: `a` is accurate on smooth surfaces, `b` is robust.
 fn tspace_twoWeights(corner: tspace_Corner, scale: f32) -> tspace_Sums {
     var sums: tspace_Sums;
     sums.a = vec3f(0.0, 0.0, 0.0);
@@ -445,7 +449,7 @@ fn tspace_mixed(normal: vec3f, sums: tspace_Sums) -> vec3f {
     return tspace_direction((1.0 - m) * accurate + m * robust);
 }
 
-// lengyel: sums of dP/du and dP/dv, then Gram-Schmidt. w: the sign, or 0 if there is no tangent.
+// Returns the tangent of lengyel from the sums of dP/du and dP/dv, by Gram-Schmidt. w: the sign.
 fn tspace_fromDerivatives(n: vec3f, sums: tspace_Sums) -> vec4f {
     var largest: f32 = tspace_largest(sums.a);
     if (!(largest > 0.0) || !(largest < tspace_greatest)) {
@@ -466,7 +470,7 @@ fn tspace_fromDerivatives(n: vec3f, sums: tspace_Sums) -> vec4f {
     return vec4f(t.x, t.y, t.z, sign);
 }
 
-// Finishes a part of a result: normalizes its sum, or uses the default.
+// Returns the tangent for a sum: normalized, or the default if it is zero and the result's flags request that.
 fn tspace_finish(normal: vec3f, sums: tspace_Sums, method: u32, flags: u32) -> vec3f {
     var tangent: vec3f = sums.a;
     if (method == 7u) {
@@ -577,7 +581,7 @@ fn tspace_octNormal(i: f32, j: f32) -> vec4f {
     return vec4f(x, y, sign * n.z, sign);
 }
 
-// Returns the two directions perpendicular to a grid normal that define the angle.
+// Returns the direction of angle 0 around a grid normal; tspace_octAlong returns the direction a quarter turn further.
 fn tspace_octAcross(n: vec4f) -> vec3f {
     var h: f32 = -1.0 / (n.w + n.z);
     return vec3f(1.0 + n.w * n.x * n.x * h, n.w * n.x * n.y * h, -n.w * n.x);
@@ -605,8 +609,8 @@ fn tspace_octTangent(n: vec4f, k: u32) -> vec3f {
     return tspace_direction(t);
 }
 
-// Returns the point of a unit vector on the unfolded octahedron, -1 to 1: the b with b (2.5 - b) along |n| and sum 1, by three
-// steps of Newton's method.
+// Returns the point of the unfolded octahedron, -1 to 1, whose normal is the unit vector n. Its barycentric coordinates
+// b have the sum 1, and b (2.5 - b) is parallel to |n|; three steps of Newton's method solve this.
 fn tspace_octPoint(n: vec3f) -> vec2f {
     var size: vec3f = abs(n);
     var b: vec3f = size / (size.x + size.y + size.z);
@@ -696,10 +700,10 @@ fn tspace_encodeOct32(normal: vec3f, tangent: vec4f) -> u32 {
     return (u32(i) << 22u) | (u32(j) << 12u) | (k << 1u) | tspace_mirroredBit(tangent);
 }
 
-// Returns a coordinate of the Rodrigues vector at u, -1 to 1 along an edge of a chart of frame32.
+// Returns a coordinate of the Rodrigues vector for a coordinate u of a chart of frame32, from -1 to 1.
 fn tspace_warped(u: f32) -> f32 { return u * (0.38728988 + 0.026923878 * (u * u)); }
 
-// Returns the u of a coordinate of a Rodrigues vector: an initial guess, and two steps of Newton's method.
+// Returns the inverse of tspace_warped, by an initial guess and two steps of Newton's method.
 fn tspace_unwarped(p: f32) -> f32 {
     var straight: f32 = p * 2.41421356;
     var u: f32 = straight * (1.0 + 0.065 * (1.0 - straight * straight));
@@ -709,7 +713,7 @@ fn tspace_unwarped(p: f32) -> f32 {
     return u;
 }
 
-// Returns the components of v with the signs of chart g of frame32, in the chart's order.
+// Returns v in the axes of chart g of frame32: with reordered components, some of them negated.
 fn tspace_inChart(v: vec3f, g: u32) -> vec3f {
     var order: u32 = g >> 2u;
     var first: f32 = 1.0;
@@ -783,7 +787,8 @@ fn tspace_encodeFrame32(normal: vec3f, tangent: vec4f) -> u32 {
         var row_n: vec3f = tspace_inChart(n, g);
         var trace: f32 = row_t.x + row_b.y + row_n.z;
         var axis: vec3f = vec3f(row_b.z - row_n.y, row_n.x - row_t.z, row_t.y - row_b.x);
-        // The corners of a chart have a trace of 1.64, its faces are at tan(22.5 degrees); half a step beyond is allowed.
+        // A chart is a cube of Rodrigues vectors. Its faces are at tan(22.5 degrees), and its corners have a trace of
+        // 1.64; the limits allow half a step beyond.
         if (trace > 1.63 && tspace_largest(axis) <= 0.41531323 * (1.0 + trace)) {
             var found: vec4f = tspace_nearestInChart((1.0 / (1.0 + trace)) * axis);
             if (found.w < least) {
@@ -833,7 +838,7 @@ fn tspace_evaluateResult(result: u32) {
         var made: vec4f = tspace_normalOfResult(begin, end, own, scale);
         normal = vec3f(made.x, made.y, made.z);
         if (made.w != 0.0) {
-            flags = flags | 0x10000000u;  // mixes_normals
+            flags = flags | 0x10000000u;  // PlanBuffers::mixes_normals
         }
         if (tspace_setting(tspace_normal_format) == 1u) {
             var at: u32 = (tspace_setting(tspace_normal_offset) + result * tspace_setting(tspace_normal_stride)) >> 2u;
