@@ -298,7 +298,7 @@ class Headers:
 
         for name, declared in self.items.items():
             text = self.texts[name]
-            for item in {item.start: item for item in reversed(declared)}.values():  # from the end; the first per line
+            for item in {item.start: item for item in reversed(declared)}.values():  # last line first, and the first item of each line
                 if item.full() in pairs.twin and not item.code.startswith("enum {"):
                     text = text[: item.start] + rewritten(item, pairs, words, defaults) + text[item.end:]
             end = read(name).partition(DEFAULTS)[2]

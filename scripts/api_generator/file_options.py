@@ -7,7 +7,7 @@ import textwrap
 
 from names import camel
 
-PATHS = ("match",)  # a name or a path
+PATHS = ("match",)  # options whose value is a name or a path
 # Options that the JavaScript module lacks, because it has no threads, disks or importers, and does not copy maps.
 NOT_IN_JS = ("threads", "no-sync", "import-seconds", "convert-maps")
 JS_CALLS = ("generate", "check", "inspect", "identify", "diff")

@@ -36,7 +36,7 @@ class Mirrors:
             text = re.sub(phrase, said, text)
         text = re.sub(r"`?\b[A-Z]\w+::(\w+)`?", r"`\1`", text)
         text = re.sub(r"`(\w+)`", lambda found: f"`{dict(own).get(found[1], found[1])}`", text)
-        text = text[:1].upper() + text[1:] if re.match(r"(?!true\b|false\b)(a [a-z]|[a-z]{2,}[ ,:])", text) else text  # not a formula
+        text = text[:1].upper() + text[1:] if re.match(r"(?!true\b|false\b)(a [a-z]|[a-z]{2,}[ ,:])", text) else text  # not for formulas
         return text if not text or text.endswith(".") else f"{text}."
 
     def choice(self, name):
@@ -228,7 +228,7 @@ def wasm_reports(mirrors):
         counts = [f"&{name}::{entity.member()}" for entity in members if entity.type == "std::uint64_t"]
         others = [f"{entity.member()}{'()' * (entity.kind == 'method')}" for entity in members[len(counts):]]
         lines.append(f"inline std::size_t keep(const {name}& from, std::size_t first = 0) {{")
-        if counts:  # a loop over them is smaller than one statement for each
+        if counts:  # in WebAssembly, a loop over the counts is smaller than one statement for each
             lines += [f"    static constexpr std::uint64_t {name}::* kCounts[] = {{{', '.join(counts)}}};",
                       "    for (const auto count : kCounts) report[first++] = static_cast<double>(from.*count);"]
         lines += [*(f"    report[first++] = static_cast<double>(from.{other});" for other in others), "    return first;", "}", ""]

@@ -48,7 +48,7 @@ from ._library import declare, load
         return [*lines, "}"]
 
     def abi(self, model, presets):
-        """`model` describes the core, whose enumerations and functions are declared first."""
+        """Returns _abi.py. `model` describes the core, whose enumerations and functions are declared first."""
         lines = [self.HEAD]
         for name, values in model.enums.items():
             lines += [f"{plural(snake(name)).upper()} = {{", *(f'    "{value.lower()}": {number},' for value, number in values.items()), "}"]

@@ -48,7 +48,7 @@ export function showHero(canvas: HTMLCanvasElement, line: HTMLInputElement, said
   const pixels = canvas.getContext("2d");
   let { yaw, pitch } = kStart, probe: Vec2 = [0.42, -0.62], isAsked = false;
 
-  /** Rotations from camera space to the ring's object space, and back. */
+  /** Returns the rotations from camera space to the ring's object space (`inside`) and back (`seen`). */
   const turns = () => {
     const [cy, sy, cp, sp] = [Math.cos(yaw), Math.sin(yaw), Math.cos(pitch), Math.sin(pitch)];
     const right: Vec3 = [cy, 0, -sy], up: Vec3 = [-sy * sp, cp, -cy * sp], back: Vec3 = [sy * cp, sp, cy * cp];

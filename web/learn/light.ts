@@ -16,13 +16,13 @@ const onHemisphere = ([x, y]: Vec2): Vec3 => {
   return [k * x, k * y, Math.sqrt(1 - k * k * size * size)];
 };
 
-/** M^-1 v by Cramer's rule, for the columns of M; null where M is singular. */
+/** Returns M^-1 v by Cramer's rule, from the columns of M; null if M is singular. */
 function inverse([a, b, c]: readonly [Vec3, Vec3, Vec3], v: Vec3): Vec3 | null {
   const determinant = dot(a, cross(b, c));
   return Math.abs(determinant) < 1e-6 ? null : scale(1 / determinant, [dot(v, cross(b, c)), dot(v, cross(c, a)), dot(v, cross(a, b))]);
 }
 
-/** Normal map of a round bump, as a function of coordinates from -1 to 1. */
+/** Returns the normal of a round bump at coordinates from -1 to 1. */
 function bump(x: number, y: number): Vec3 {
   const r = Math.hypot(x, y);
   return r < 0.75 ? unit([0.95 * x, 0.95 * y, Math.sqrt(Math.max(0.05, 0.75 - r * r))]) : [0, 0, 1];

@@ -16,7 +16,7 @@ const kArrow = 24, kApart = 27;
 const kSurfaces = { sheet, bevel, mirrored };
 export type SurfaceName = keyof typeof kSurfaces;
 
-/** Oblique view from above, without perspective. */
+/** Projects a point to an oblique view from above, without perspective. */
 const project = ([x, y, z]: Vec3): Vec2 => [0.86 * x - 0.5 * y, 0.28 * x + 0.42 * y + 0.8 * z];
 
 const flatten = (values: readonly (readonly number[])[]) => new Float32Array(values.flat());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Figure 4: a mirrored texture, and the purpose of the sign.
+// Figure 5: a mirrored texture, and the purpose of the sign.
 
 import { generateTangents } from "tspace";
 import { Figure, Numbers, type Plane } from "./figure";

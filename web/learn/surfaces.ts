@@ -34,7 +34,7 @@ function gridIndices(columns: number, rows: number): number[] {
 
 const perCorner = (indices: number[], values: Vec3[]) => indices.map((i) => values[i]!);
 
-/** A curved sheet with a bent texture. The handle moves its middle vertex over the surface. */
+/** Returns a curved sheet with a bent texture. The handle moves its middle vertex over the surface. */
 export function sheet([mx, my]: Vec2): Surface {
   const made: Surface = { positions: [], normals: [], uvs: [], indices: gridIndices(kSize, kSize), truth: [], watched: [], words: "a curved sheet", enlarged: 5 };
   const truth: Vec3[] = [];
@@ -63,7 +63,7 @@ export function sheet([mx, my]: Vec2): Surface {
   return made;
 }
 
-/** A box edge with a bevel of one strip. Normals are those of the large faces, as is common in game models. */
+/** Returns a box edge with a bevel of one strip. Normals are those of the large faces, as is common in game models. */
 export function bevel([lean, width]: Vec2): Surface {
   const made: Surface = { positions: [], normals: [], uvs: [], indices: [], truth: [], watched: [], words: "a beveled edge with a rotated texture", enlarged: 3 };
   const w = 0.08 + 0.3 * Math.abs(width), turn = lean * 1.2;
@@ -91,7 +91,7 @@ export function bevel([lean, width]: Vec2): Surface {
   return made;
 }
 
-/** A sheet that shares its vertices along a line where the texture is mirrored. */
+/** Returns a sheet that shares its vertices along a line where the texture is mirrored. */
 export function mirrored([fold]: Vec2): Surface {
   const made = sheet([0, 0]);
   made.words = "a texture that is mirrored along a line of shared vertices";

@@ -30,7 +30,7 @@ export function showTriangle(host: HTMLElement, rows: HTMLElement, system: HTMLE
   const inTexture = new Matrix(2, 2, "edges in the texture", edit(uvs)), slopes = new Matrix(2, 2, "T and B"), inSpace = new Matrix(2, 2, "edges in space", edit(points));
   system.append(inTexture.element, slopes.element, " = ", inSpace.element);
 
-  /** Grid lines of the texture on the triangle. */
+  /** Draws grid lines of the texture on the triangle. */
   const drawGrid = (tangent: Vec3, bitangent: Vec3) => {
     const clip = figure.add("clipPath", { id: "inside" });
     clip.append(figure.polygon(kSpace, points, ""));

@@ -24,7 +24,7 @@ export interface Triangle {
   uvs: readonly [Vec2, Vec2, Vec2];
 }
 
-/** Lengyel's formula: dP/du and dP/dv of a triangle. Zero vectors where the UVs have no area. */
+/** Returns dP/du and dP/dv of a triangle by Lengyel's formula, and its terms. Both are zero if the UVs have no area. */
 export function derivatives({ positions: [p0, p1, p2], uvs: [a, b, c] }: Triangle) {
   const e1 = sub(p1, p0), e2 = sub(p2, p0);
   const s1 = b[0] - a[0], t1 = b[1] - a[1], s2 = c[0] - a[0], t2 = c[1] - a[1];

@@ -30,7 +30,7 @@ function indicesOf({ json, binary }, index) {
 
 const gathered = (data, size, sources) => Float32Array.from({ length: size * sources.length }, (_, i) => data[size * sources[Math.floor(i / size)] + (i % size)]);
 
-/** The crate with mikktspace's tangents. */
+/** Returns a GLB of the crate with mikktspace's tangents. */
 function makeCrate(source) {
   const { attributes, indices } = source.json.meshes[0].primitives[0];
   const mesh = {
@@ -64,7 +64,7 @@ function brickHeight(u, v) {
   return 0.02 * brick + 0.012 * Math.sqrt(stud);
 }
 
-/** Normal map of the bricks in the DirectX convention (green points down). */
+/** Returns a texel of the bricks' normal map, in the DirectX convention (green points down). */
 function ringNormal(x, y) {
   const e = 1 / kRingSize, u = (x + 0.5) * e, v = (y + 0.5) * e;
   const slopeU = (brickHeight((u + e) % 1, v) - brickHeight((u - e + 1) % 1, v)) / (2 * e);
@@ -73,7 +73,7 @@ function ringNormal(x, y) {
   return n.map((k) => Math.round((k / length) * 127.5 + 127.5));
 }
 
-/** A ring of 8 by 3 tiles. */
+/** Returns a GLB of a ring with 8 by 3 tiles of bricks. */
 function makeRing() {
   const kAround = 64, kAcross = 16, positions = [], normals = [], uvs = [], indices = [];
   for (let i = 0; i <= kAround; ++i) {

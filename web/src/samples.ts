@@ -50,7 +50,7 @@ function withTangents(change: (tangents: Float32Array, read: (attribute: string,
   };
 }
 
-/** As written by an exporter that omits the sign: every sign is +1. */
+/** Every sign is +1, as if written by an exporter that omits the sign. */
 const signsLost = withTangents((tangents) => {
   for (let i = 3; i < tangents.length; i += 4) tangents[i] = 1;
 });
@@ -64,7 +64,7 @@ const alongNormals = withTangents((tangents, read) => {
   for (let v = 0; v < tangents.length / 4; ++v) tangents.set(normals.subarray(3 * v, 3 * v + 3), 4 * v);
 });
 
-/** As written by a tool that rotated the model from Z up to Y up, but not its tangents. */
+/** Tangents as if a tool had rotated the model from Z up to Y up, but not its tangents. */
 const wrongAxes = withTangents((tangents) => {
   for (let i = 0; i < tangents.length; i += 4) [tangents[i + 1], tangents[i + 2]] = [-tangents[i + 2], tangents[i + 1]];
 });

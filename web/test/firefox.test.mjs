@@ -20,7 +20,7 @@ const timeout = 5 * kPatience;
 
 let home, display, browser;
 
-/** The number of the display that Xvfb chose. */
+/** Starts Xvfb; resolves with the number of the display that Xvfb chose. */
 const startDisplay = () => new Promise((done, fail) => {
   display = spawn("/usr/bin/Xvfb", ["-displayfd", "3", "-screen", "0", "1600x1200x24", "-nolisten", "tcp"], { stdio: ["ignore", "ignore", "ignore", "pipe"] });
   display.on("error", fail);
@@ -43,7 +43,7 @@ after(async () => {
   if (home) rmSync(home, { recursive: true, force: true });
 });
 
-/** Any error, and any request except for the page itself and its embedded data, fails the test. */
+/** Calls run(tab) on a page. Any error, and any request except for the page and its embedded data, fails the test. */
 async function withTab(url, viewport, run) {
   const tab = await browser.newPage(), faults = [];
   tab.setDefaultTimeout(kPatience);

@@ -9,7 +9,7 @@ const kReaders = {
 };
 const padded = (bytes, fill) => Buffer.concat([bytes, Buffer.alloc((4 - (bytes.length % 4)) % 4, fill)]);
 
-/** `size`: total size of the buffer's pieces. */
+/** Returns the bytes of a GLB with this JSON, and a buffer of these pieces. `size`: total size of the pieces. */
 function glbOf(json, pieces, size) {
   const text = padded(Buffer.from(JSON.stringify(json)), 0x20), head = Buffer.alloc(20), binaryHead = Buffer.alloc(8);
   [0x46546c67, 2, 28 + text.length + size, text.length, 0x4e4f534a].forEach((word, i) => head.writeUInt32LE(word, 4 * i));

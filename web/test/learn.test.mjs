@@ -202,7 +202,7 @@ it("interpolates tangents between corners, shorter where they differ", { skip },
   const before = await lit();
   await tab.check("#unit");
   assert.notEqual(await lit(), before);
-  // Moves all three vectors along x.
+  // These moves make the tangents of the three corners nearly parallel.
   await press(tab, "T at corner 1", "Shift+ArrowRight", 12);
   await press(tab, "T at corner 2", "Shift+ArrowUp", 1);
   assert.ok((await at()) > 0.95, String(await at()));
@@ -214,7 +214,7 @@ it("scales T by the matrix and N by its inverse transpose, and reports the chang
   const values = async (name) => (await number(tab, "scaled", name)).replaceAll("\u2212", "-").match(/-?\d+\.\d+/g).map(Number);
   assert.ok(Math.abs((await values("N by M"))[2] - 90) > 30, "N by the matrix leans");
   assert.equal((await values("N by the inverse transpose"))[3], 90);
-  // From (1.6, 0.6) to (1.6, 1.5), and then to (1.5, 1.5).
+  // Moves the scale from (1.6, 0.6) to (1.6, 1.5), and then to (1.5, 1.5).
   await press(tab, "scale of the node", "Shift+ArrowDown", 12);
   await press(tab, "scale of the node", "Shift+ArrowLeft", 1);
   assert.deepEqual((await values("the matrix")).slice(0, 2), [1.5, 1.5]);

@@ -94,7 +94,7 @@ test("fixed compressed models have the bytes of the tool's uncompressed output",
     await withPage(async (tab) => {
       await tab.locator(".mend summary").click();
       const exact = ["features/BoxMeshopt.glb", "features/BoxDraco/BoxDraco.gltf", "derived/Suzanne_draco.glb"];
-      // Their normals use a filter of meshopt whose versions differ in the last bit.
+      // The normals of these models use a filter of meshopt, whose versions differ in the last bit.
       const filtered = ["features/pirate_meshopt.glb", "derived/BoomBoxWithAxes_meshopt.glb"];
       for (const name of [...exact, ...filtered]) {
         const path = join(shared, "models", name);

@@ -20,7 +20,7 @@ const compressed = [
   "assets/MaterialsVariantsShoe_draco.glb", "assets/ChessBoard_draco.glb", "features/DenseSphere.glb",
 ].map((name) => join(shared ?? "", "models", name));
 
-/** The tool's report on one file, and its exit code. */
+/** Returns the tool's report on one file, and its exit code. */
 function reportOf(verb, path) {
   const run = () => execFileSync(tool, [verb, "--json", basename(path)], { cwd: dirname(path), encoding: "utf8", maxBuffer: 1 << 28, stdio: ["ignore", "pipe", "ignore"] });
   let text;

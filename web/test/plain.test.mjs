@@ -45,7 +45,8 @@ test("models look like in three.js: mean difference of at most 6 of 255", { skip
 
 test("on a cat with inverted signs a quarter of the pixels differ from the correct picture", { skip: noShared }, async (t) => {
   await withPage(async (tab) => {
-    // Its normal map is for DirectX and its signs are inverted, which cancels out; with corrected signs, the map is wrong.
+    // The cat's normal map is for DirectX and its signs are inverted, which cancels out. With corrected signs alone,
+    // the map is wrong.
     const glb = new Glb(readFileSync(join(shared, "models/assets/Cat.glb"))), seen = new Set();
     for (const { attributes } of glb.primitives("TANGENT")) {
       if (seen.has(attributes.TANGENT)) continue;

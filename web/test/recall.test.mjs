@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Share of the damage in damaged models that check finds, and that it finds none in the intact ones: a table for the tool and the page.
+// Tests that check finds most of the damage in damaged models, and none in intact ones. Prints a table for the tool and
+// the page.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";

@@ -12,7 +12,7 @@ const plain = process.env.TSPACE_PLAIN, noPlain = missing || (!plain && "the pag
 const small = { width: 900, height: 700 };
 const looks = ["lit", "clay", "difference", "normals", "signs", "mirrored", "error", "islands"];
 
-/** Both sides of every look, each filling the picture. */
+/** Returns pictures of both sides of every look, each side filling the picture. */
 async function pictures(tab, bytes, wanted = looks) {
   await openBytes(tab, "crate.glb", bytes);
   // Other content of the page must not change the size of the picture.
@@ -44,7 +44,10 @@ function scaled(bytes, scale, hasTangents = true) {
   return glb.finish();
 }
 
-/** The same surface without a node scale: transformed vertices, N by the inverse transpose and T by the matrix. */
+/**
+ * Returns the model with a scale applied to its vertices instead of its node: N is transformed by the inverse
+ * transpose, T by the matrix.
+ */
 function applied(bytes, scale) {
   const glb = new Glb(bytes), isMirror = scale[0] * scale[1] * scale[2] < 0;
   for (const primitive of glb.primitives("POSITION", "NORMAL", "TANGENT")) {

@@ -90,7 +90,7 @@ export function named(path) {
       if (!relative(dirname(path), file).startsWith("..") && existsSync(file) && statSync(file).isFile()) found[decodeURIComponent(uri)] = file;
     }
   } catch {
-    // Corrupt files may contain any names.
+    // Corrupt files may contain invalid JSON or URIs; files that they reference are then omitted.
   }
   return found;
 }
@@ -163,7 +163,10 @@ export async function shares(tab, colors, area = { left: 0, top: 0, right: 1, bo
   }, [png, colors, area]);
 }
 
-/** Returns the picture of the page as PNG, completely with the file's frames (or the other side: 0), and the positions of camera and lamp. */
+/**
+ * Returns the picture of the page as PNG, and the positions of camera and lamp. `split`: 1 draws the file's frames, 0
+ * those of the right side.
+ */
 export const ownPicture = (tab, split = 1) => tab.evaluate(async (split) => {
   const { stage } = window.tspaceView.views, { viewport } = stage, { camera, target } = viewport;
   stage.setSplit(split);

@@ -16,7 +16,7 @@ before(() => (folder = mkdtempSync(join(tmpdir(), "tspace-textures-"))));
 after(() => rmSync(folder, { recursive: true, force: true }));
 const run = (...args) => execFileSync(tool, args, { stdio: ["ignore", "pipe", "pipe"] });
 
-/** A KTX2 with one block of ASTC, which the page's decoders do not support. */
+/** Returns a KTX2 with one block of ASTC, which the page's decoders do not support. */
 function astc() {
   const file = ktx2(4, 4, Buffer.alloc(16), 0);
   file.writeUInt32LE(157, 12);

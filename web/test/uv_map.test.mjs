@@ -115,7 +115,7 @@ test("overlapping triangles are all found, and each click shows the next one", {
       }
       return null;
     });
-    if (!overlap) return; // its islands lie apart
+    if (!overlap) return; // the islands of this model do not overlap
     for (let i = 0; i < 3; ++i) await tab.locator(".map canvas").first().press("0");
     const { x, y } = await placeOf(tab, overlap.uv);
     await tab.mouse.move(x, y);

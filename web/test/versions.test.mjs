@@ -69,7 +69,7 @@ test("side by side, both files have a picture with the same camera and the angle
     assert.ok(apart(first, second) < 0.01, `${apart(first, second)}`);
     await tab.locator(".frame canvas").focus();
     for (const key of ["ArrowLeft", "ArrowLeft", "ArrowUp", "+", "Shift+ArrowRight"]) await tab.keyboard.press(key);
-    await tab.locator(".frame canvas").evaluate((canvas) => canvas.blur()); // its outline is around both pictures
+    await tab.locator(".frame canvas").evaluate((canvas) => canvas.blur()); // removes the focus outline of the canvas, which surrounds both pictures
     const [turned, other] = await halves(tab);
     assert.ok(apart(first, turned) > 0.05, "the camera was moved");
     assert.ok(apart(turned, other) < 0.01, `${apart(turned, other)}`);

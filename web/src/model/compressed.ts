@@ -4,7 +4,7 @@ import { BufferAttribute, BufferGeometry } from "three";
 import type { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import type { Work } from "../worker/client.js";
 
-/** `ids` and `types` of attributes, by name. */
+/** Decodes a Draco mesh in the worker. `ids` and `types`: IDs and types of the attributes, keyed by their names. */
 async function decodedDraco(work: Work, data: ArrayBuffer, ids: Record<string, number>, types: Record<string, string>): Promise<BufferGeometry> {
   const wanted = Object.entries(ids).map(([name, id]) => ({ name, id, type: types[name] }));
   const { indices, attributes } = await work.run("draco", { data, attributes: wanted });

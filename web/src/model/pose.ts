@@ -82,9 +82,8 @@ function facesItsNormals({ positions: p, normals: n }: Pick<Corners, "positions"
 
 /**
  * Transforms tangents to the pose. If bones mirror, cross(N, T) is inverted but the surface is not: w changes its sign,
- * so that B follows the surface. `rest`: the tangents were computed by a method, whose w follows the winding in the UV
- * map. If triangles have the winding of the mirrored pose, opposite to their normals at rest, that w is already correct
- * for the pose.
+ * so that B follows the surface. `rest`: corners at rest, for tangents of a method, whose w depends on the winding. A
+ * triangle whose winding is opposite to its normals at rest is wound for the mirrored pose: its w is already correct.
  */
 export function poseTangents(matrices: Float32Array | null, arrays: Arrays, tangents: Float32Array, rest: Pick<Corners, "positions" | "normals"> | null = null): void {
   const matrix = new Matrix4();

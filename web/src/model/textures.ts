@@ -19,7 +19,7 @@ interface MaterialJson {
 }
 
 const kBasis = "KHR_texture_basisu", kDds = "MSFT_texture_dds";
-/** Order in which renderers choose an image. */
+/** Extensions whose images renderers prefer to `source`, in this order. */
 const kSources = [kBasis, "EXT_texture_avif", "EXT_texture_webp"];
 
 function imageOf(texture: TextureJson | undefined): number {

@@ -19,7 +19,10 @@ function vectorAt(drawn: Drawn, frame: PlacedFrame, tangents: Float32Array | nul
   return axis === "t" ? frame.tangent(t).multiplyScalar(t.length()) : frame.bitangent(n, t, w).setLength(n.clone().cross(t).length() * Math.abs(w));
 }
 
-/** Returns one corner per vertex, or per corner if frames differ by corner; at most `most`, evenly chosen. */
+/**
+ * Returns the corners whose frames are drawn, at most `most`, evenly chosen: one per vertex, or all corners if frames
+ * differ by corner.
+ */
 function shownCorners(drawn: Drawn, isRight: boolean, most: number): number[] {
   const indices = drawn.part.arrays.indices, count = drawn.corners.positions.length / 3;
   if (isRight || !indices) {
@@ -90,7 +93,7 @@ export interface Place {
   outline: Group;
   center: Vector3;
   radius: number;
-  /** Outward normal of each triangle, with the length of its area. */
+  /** Outward normal of each triangle; its length is the triangle's area. */
   faces: Vector3[];
 }
 

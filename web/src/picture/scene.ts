@@ -17,7 +17,7 @@ export interface Drawn {
   rest: { corners: Pick<Corners, "positions" | "normals" | "tangents">; right: Float32Array<ArrayBuffer> | null; isOfMethod: boolean } | null;
   /** The normal map right of the split line. */
   rightMap: Texture | null;
-  /** Green of that map is inverted for display, because `check` reports that it points down. */
+  /** Green of `rightMap` is inverted for display, because `check` reports that it points down. */
   turnsGreen: boolean;
   geometry: BufferGeometry;
   /** Material of all looks except `lit` with colors, which uses `surface`. */

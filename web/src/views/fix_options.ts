@@ -182,7 +182,7 @@ export class FixOptionsView {
 
   #refresh(): void {
     this.#takeAdvice();
-    // A repair would undo such signs.
+    // Intentionally inverted signs are written only if all tangents are recomputed; a repair would correct them.
     this.#signsChoice.element.disabled = this.#tangents !== "overwrite";
     this.#unpacks.hidden = !this.#isCompressed;
     this.#button.disabled = this.#model === null;

@@ -134,7 +134,7 @@ export async function computeFrames(arrays: Arrays, method: Method): Promise<Fra
   const vertices = cornerVertices(arrays);
   let mesh = meshOf(arrays, vertices);
   if (!mesh.normals) {
-    // Indexed per corner, like the picture.
+    // Flat normals differ by corner, so the mesh gets one vertex per corner, like the picture.
     const own = Uint32Array.from(vertices, (_, corner) => corner);
     mesh = { positions: gather(arrays.positions, 3, vertices), normals: generateNormals(mesh, { weighting: "flat" }), uvs: arrays.uvs && gather(arrays.uvs, 2, vertices), indices: own };
   }
@@ -154,7 +154,7 @@ export function otherFrames(arrays: Arrays, others: Arrays): Frames | null {
   return compared(gather(others.tangents, 4, theirs), arrays, vertices);
 }
 
-/** Adds the deviation of the arrays' own tangents. */
+/** Returns frames with these tangents, and the deviation of the tangents in `arrays` from them. */
 function compared(tangents: Float32Array<ArrayBuffer>, arrays: Arrays, vertices: Uint32Array): Frames {
   const frames: Frames = { tangents, errors: new Float32Array(2 * vertices.length), compared: 0, meanDegrees: 0, maxDegrees: 0, wrongSigns: 0 };
   for (let corner = 0; corner < vertices.length; ++corner) {

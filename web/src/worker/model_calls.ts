@@ -24,7 +24,7 @@ export async function reportOn(verb: Verb, model: ModelFiles): Promise<unknown> 
   return calls[verb](model.bytes, await (verb === "check" ? withImages(model) : optionsFor(model)));
 }
 
-/** Judges KTX2 and DDS by the texels of their first level. */
+/** Checks a lone normal map; KTX2 and DDS are decoded to a PNG of their first level. */
 export async function judgeImage({ name, bytes }: ModelFiles): Promise<{ report: unknown; image: Uint8Array<ArrayBuffer> }> {
   await ready;
   const texels = /\.(ktx2|dds)$/i.test(name) ? await decodeTexture(bytes) : null;
@@ -33,7 +33,7 @@ export async function judgeImage({ name, bytes }: ModelFiles): Promise<{ report:
   return { report: check(image, { name, memoryLimit: "2G", decodeImage: () => pixels }), image };
 }
 
-/** Reads images too, because an inverted green channel may explain inverted signs. */
+/** Runs generate on a model and its images, because an inverted green channel may explain inverted signs. */
 export async function generateModel(model: ModelFiles, options: Record<string, unknown>): Promise<{ report: unknown; bytes: Uint8Array<ArrayBuffer> }> {
   const given = await withImages(model);
   const { bytes, report } = await withEncoder((encodeImage) => generate(model.bytes, { ...given, ...options, encodeImage }));

@@ -23,7 +23,7 @@ export const damages = {
 };
 export const codes = Object.values(damages).flatMap(({ named, found }) => [...named, ...found]);
 
-/** Seams of very few triangles, or with very small rotations of tangents, are not counted. */
+/** Minimum share of triangles whose tangents averageSeams changes visibly; below it, seams are no kind of damage. */
 const kLeastTouched = 0.01;
 
 /**
