@@ -51,7 +51,7 @@ std::vector<std::uint8_t> pngOf(std::uint32_t width, std::uint32_t height, std::
 struct FileBaking {
     const std::string& output;
     std::string high = {};
-    bool is_without_map = false;  ///< no ray of an image hit anything
+    bool is_without_map = false;  ///< all rays of an image missed
     BakeFileOptions options;
     const BakeStep& step;
     BakeModels models = {};
@@ -75,8 +75,8 @@ void setLimits(FileBaking& state) {
     if (limit == 0) limit = kUsualLimit;
 }
 
-/// Checks the type of the output: .png; .tga with 8 bits; or a texture, whose blocks are fitted to the filtered 16-bit
-/// texels.
+/// Checks the extension of the output, and sets the bits per channel: 8 for .tga; 16 for a texture, whose blocks are
+/// fitted to the filtered texels.
 void checkOutput(FileBaking& state) {
     if (lowerExtension(state.output) == ".png") return;
     if (isTgaName(state.output)) {

@@ -30,11 +30,11 @@ class HighMapReading {
     /// The scene must contain its images and outlive this object.
     HighMapReading(const Scene& scene, const BakeFileOptions& options) : scene_(scene), options_(options) {}
 
-    /// Returns the use of a primitive's normal map, or null if it has none or one that cannot be baked (reported as a
-    /// warning).
+    /// Returns how a primitive uses its normal map. Null if it has no normal map, or if the map cannot be baked, which
+    /// adds a warning.
     const TangentUse* find(const ScenePrimitive& primitive);
-    /// Returns the index of the map of a use that find() returned, and adds `triangle_count` to the triangles that use
-    /// it.
+    /// Returns the index in HighMaps::maps for a `use` that find() returned. Adds `triangle_count` to the number of
+    /// triangles with this map.
     std::uint32_t numberOf(const ScenePrimitive& primitive, const TangentUse& use, std::size_t triangle_count);
     [[nodiscard]] HighMaps take() { return std::move(made_); }
 
@@ -43,7 +43,7 @@ class HighMapReading {
     struct Image {
         std::optional<std::size_t> number = {};  ///< index in HighMaps::images; none: unused
         bool is_gray = false;
-        Green green = Green::up;  ///< direction of green according to its texels
+        Green green = Green::up;  ///< direction of green, determined from the texels
         bool shows_green = false;
     };
 

@@ -62,7 +62,7 @@ std::vector<Names> firstNames(const DrawnScene& drawn) {
     return result;
 }
 
-using Pairs = std::map<std::string, std::string>;  ///< names of the low poly by names of the high poly
+using Pairs = std::map<std::string, std::string>;  ///< maps a name in the high poly to a name in the low poly
 
 /// Reads lines "LOW = HIGH". Empty lines and lines that begin with # are ignored.
 Pairs readPairs(const std::string& path, const FileOptions& file) {
@@ -147,8 +147,8 @@ class Matching {
 
     [[nodiscard]] std::string keyOf(const std::string& name) const { return pairs_ != nullptr ? name : nameStem(name); }
 
-    /// Numbers the objects of the low poly. A node is an object; if nodes have no names, all meshes with one name form
-    /// an object.
+    /// Numbers the objects of the low poly. Each node is an object; if nodes have no names, all meshes with the same
+    /// name form one object.
     void numberLow() {
         for (std::size_t i = 0; i < low_names_.size(); ++i) {
             const std::string key = keyOf(low_names_[i].shown());

@@ -19,7 +19,7 @@ struct MeshMatch {
     std::vector<std::string> warnings = {};  ///< one sentence per object without a partner
 };
 
-/// Returns the path of the file of pairs in BakeFileOptions::match, or "" if it is `names` or `all`.
+/// Returns the path of the file of pairs if `how` (BakeFileOptions::match) names one, or "" for `names` and `all`.
 std::string matchFileOf(const std::string& how);
 
 /// Matches objects by names of nodes, and objects without a partner by names of meshes. `how`: BakeFileOptions::match.

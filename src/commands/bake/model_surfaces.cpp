@@ -155,7 +155,7 @@ void addPlaced(const MeshView& triangles, std::span<const Vec4> tangents, const 
     }
 }
 
-/// Adds the bounding boxes of a primitive at all of its places.
+/// Extends `box` by all placements of a primitive in the scene.
 void addPlaces(const DrawnScene& drawn, std::size_t primitive, PositionBox& box) {
     const PositionBox own(drawn.scene.primitives[primitive].positions);
     if (own.isEmpty()) return;
@@ -263,7 +263,7 @@ std::vector<Vec3> smoothNormals(const ScenePrimitive& primitive, const BakeFileO
     return normals;
 }
 
-/// Adds one vertex per corner if the primitive has a normal map, with the frames with which that map is read.
+/// Adds a primitive that has a normal map: one vertex per corner, with the frames with which the map is read.
 void addMapped(const ScenePrimitive& primitive, const TangentUse& use, const Affine& place, std::uint32_t map,
                const BakeFileOptions& options, HighModel& model) {
     OwnedMesh corners;

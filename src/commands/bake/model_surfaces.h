@@ -23,7 +23,7 @@
 
 namespace tspace {
 
-// Writing a low poly whose materials use the maps that were baked for it.
+// Writes a low poly whose materials use the maps that were baked for it.
 
 /// A primitive, and the UVs with which its map is sampled.
 struct MappedPrimitive {
@@ -148,7 +148,7 @@ struct BakeModels {
     std::optional<gltf::Model> low_model = {};  ///< the low poly with its frames, if `out_mesh` is given
     bool matched_by_name = false;
 
-    FloatImage skew = {};  ///< no texels if there is no such image
+    FloatImage skew = {};  ///< without texels if no skew image is given
     /// Returns the ray options of a bake or a measurement: the requested ones, with the skew image and these wrap
     /// modes.
     [[nodiscard]] RayOptions rays(const RayOptions& asked, TextureWrap wrap_u, TextureWrap wrap_v) const;
@@ -160,7 +160,8 @@ struct BakeModels {
     [[nodiscard]] PositionBox lowBox() const;
 };
 
-/// Returns the index in the primitive of corner i of a placed triangle; a mirroring transform reverses the order.
+/// Returns the corner of the primitive that becomes corner `i` of its placed triangles. A mirroring transform reverses
+/// the order of the corners in each triangle.
 std::size_t placedCorner(const Affine& place, std::size_t i);
 
 /// Returns how a primitive samples its normal map, or will sample it: the normal map of its material, or else the first
@@ -176,9 +177,9 @@ struct BakeSources {
     ModelFile *low = nullptr, *high = nullptr;
 };
 
-/// Reads the models, computes missing frames of the low poly, and matches meshes by name. Throws FileError, whose
-/// element is the BakeInput it refers to; also if the low poly has no UVs, the cage has different triangles, or a model
-/// has no triangles.
+/// Reads the models, computes missing frames of the low poly, and matches meshes by name. Throws FileError if a file
+/// cannot be read, if the low poly has no UVs, if the cage has different triangles, or if a model has no triangles. The
+/// error's element is the BakeInput that it refers to.
 BakeModels readBakeModels(const std::string& low, const std::string& high, const BakeFileOptions& options,
                           const BakeSources& sources = {});
 

@@ -114,7 +114,7 @@ CheckedModel checkScene(const Scene& scene, const CheckOptions& options) {
     for (Finding& finding : images.findings) report.findings.push_back(std::move(finding));
     for (Finding& finding : checkMapScales(scene)) report.findings.push_back(std::move(finding));
     for (std::size_t i = 0; i < scene.warnings.size(); ++i) {
-        // A finding on the primitives already reports the lengths of their normals.
+        // The lengths of normals are already reported by a finding on each primitive.
         if (i != scene.scaled_normals_warning) report.findings.push_back(fileRemark(scene.warnings[i]));
     }
     finishFindings(report);

@@ -24,15 +24,15 @@
 namespace tspace {
 namespace {
 
-/// Part of an image that one use shows: its triangles, and the primitives that contain them.
+/// Part of an image that one texture use samples: its triangles, and the primitives that contain them.
 struct MapPart {
-    const ScenePrimitive* primitive = nullptr;  ///< first primitive that shows the part
+    const ScenePrimitive* primitive = nullptr;  ///< first primitive that uses the part
     const TangentUse* use = nullptr;
     std::vector<std::size_t> followers = {};  ///< primitives whose tangents are meant for this use
     GreenTest test = {};
 };
 
-/// A normal map, and the parts of the scene that show it.
+/// A normal map, and the parts of it that the scene uses.
 struct NormalMap {
     std::size_t image = 0;
     std::vector<MapPart> parts = {};
@@ -42,7 +42,7 @@ struct NormalMap {
     double packing_deg = 0;  ///< approximate error of the vectors of an image with lossy color compression
 };
 
-/// Key of a part: parts with equal keys show the same texels.
+/// Key of a part: parts with equal keys cover the same texels.
 using PartKey = std::tuple<std::size_t, const void*, const void*, std::array<double, 5>, TextureWrap, TextureWrap>;
 
 PartKey keyOf(const ScenePrimitive& primitive, const TangentUse& use) {
@@ -75,7 +75,7 @@ std::vector<NormalMap> collectNormalMaps(const Scene& scene) {
     return maps;
 }
 
-/// Marks the texels that a part shows: none if the primitive has no triangles or no UVs. Returns false if the step
+/// Marks the texels that a part covers: none if the primitive has no triangles or no UVs. Returns false if the step
 /// limit was reached.
 bool cover(const MapPart& part, TexelMask& mask, std::uint64_t& steps) {
     const ScenePrimitive& primitive = *part.primitive;
@@ -98,7 +98,7 @@ std::uint64_t workBytes(const Scene& scene, const NormalMap& map) {
 
 /// Determines the direction of green for each part. `mask`: scratch memory with the size of the image.
 void examineParts(const GreenBlocks& blocks, TexelMask&& mask, NormalMap& map) {
-    // If there are more parts, or UVs are hostile, the remaining parts get the verdict of the whole map.
+    // Parts beyond this number, or beyond the step limit, get the verdict of the whole map.
     constexpr std::size_t kMaxParts = 4096;
     std::uint64_t steps = kCoverSteps;
     bool is_exact = map.parts.size() > 1;
@@ -291,7 +291,7 @@ std::string rectText(const TexelRect& rect) {
     return "columns " + range(rect.left, rect.right) + ", rows " + range(rect.top, rect.bottom);
 }
 
-/// Returns the part of the map that a finding names: the first part that shows green pointing down.
+/// Returns the part of the map that a finding names: the first part in which green points down.
 const MapPart& partOf(const NormalMap& map) {
     for (const MapPart& part : map.parts) {
         if (part.test.verdict == GreenVerdict::down || part.test.verdict == GreenVerdict::mixed) return part;

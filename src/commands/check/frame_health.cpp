@@ -388,7 +388,7 @@ Result<bool> settleVertices(const TangentView& mesh, const Surface& surface, con
     health.settled.assign(mesh.positions.size(), false);
     TangentOptions how{.convention = options.convention};
     if (Result<Done> done = settleBy(how, mesh, surface, health); !done) return done.error();
-    // Tangents of fitting methods may lie slightly outside the cone of the adjacent triangles.
+    // Tangents of Method::best may lie slightly outside the cone of the adjacent triangles.
     how.method = Method::best;
     for (how.refine = 0; how.refine <= 2 && health.directions_wrong.count != 0; ++how.refine) {
         if (Result<Done> done = settleBy(how, mesh, surface, health); !done) return done.error();

@@ -213,7 +213,7 @@ class MapAnalyzer {
         const Spread& blue = channels_[2];
         if (blue.deviation > kNearlyConstant) return {};
         if (!canBeXy(texels_, 0, 1, max_mean)) return {};
-        // Shading correlates red with green, and slightly with blue.
+        // In shaded pictures, red correlates with green, and slightly with blue.
         if (blue.deviation > kConstant && channelCorrelations(texels_.size(), colorsOf(texels_))[0] > kMaxTogether)
             return {};
         double off = 0, wanted = 0, error = 0, product = 0, angle = 0;

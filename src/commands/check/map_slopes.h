@@ -17,7 +17,7 @@ namespace tspace {
 struct DecodedMap {
     const RgbImage& image;
     std::span<const std::uint8_t> alpha = {};  ///< one per pixel; empty: none, or opaque
-    const TexelMask& inside;                   ///< texels that triangles show
+    const TexelMask& inside;                   ///< texels that triangles cover
     const MapLayout* declared = nullptr;       ///< layout that a texture file declares; null for PNG, JPEG and WebP
 };
 

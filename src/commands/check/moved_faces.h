@@ -15,9 +15,9 @@ namespace tspace {
 
 class MovedFaces {
   public:
-    /// Collects faces around these vertices of a primitive under the target `number`. `all`: primitives of the scene,
-    /// of which those of the same mesh are used. Linear in the triangles of the primitives whose bounding boxes overlap
-    /// the vertices.
+    /// Collects the faces around `vertices` of a primitive, before and after morph target `number`. `all`: primitives
+    /// of the scene; faces of all primitives of the same mesh are collected. Time: linear in the triangles of the
+    /// primitives whose bounding boxes overlap the vertices.
     MovedFaces(const ScenePrimitive& primitive, std::span<const ScenePrimitive> all, std::size_t number,
                std::span<const std::uint32_t> vertices);
 

@@ -86,7 +86,7 @@ struct Votes {
 };
 
 constexpr std::uint64_t kMinBlocks = 16;
-/// Thresholds for a whole map, or for the texels that one primitive shows.
+/// Thresholds for a whole map, or for the texels that one primitive covers.
 constexpr double kMinCorrelation = 0.1, kMinAgreement = 0.65;
 /// Thresholds for a part that contradicts another part of its map, and for means if single texels give no verdict. They
 /// are strict, so that chance and unusual relief do not produce such a part.
@@ -213,7 +213,7 @@ GreenTest GreenBlocks::judge(const IsChosen& isChosen) const {
     test.block_count = all.count;
     test.down_block_count = all.down_count;
     test.correlation = all.correlation();
-    std::uint32_t down_part = 0, up_part = 0;  // the largest part of each side; 0: none
+    std::uint32_t down_part = 0, up_part = 0;  // numbers of the largest parts with green down and up; 0: none
     sizes[0] = 0;
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
         const Block& block = blocks_[i];

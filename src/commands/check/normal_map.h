@@ -41,7 +41,7 @@ class GreenBlocks {
   public:
     static constexpr std::uint32_t kBlock = 16;  ///< texels along each side of a block
 
-    /// Uses the texels in `inside`, a mask of the size of the image: the texels that triangles show.
+    /// Uses the texels in `inside`: the texels that triangles cover, as a mask with the size of the image.
     GreenBlocks(const RgbImage& image, const TexelMask& inside);
 
     /// Returns the result of all blocks of the map.

@@ -46,7 +46,7 @@ void checkNormalValues(PrimitiveFacts& facts) {
     Tally not_finite, not_unit;
     std::uint64_t zero_count = 0;
     double far_share = 0;
-    constexpr double kRounding = 1e-6;  // a length of 0.9 is not far, regardless of rounding
+    constexpr double kRounding = 1e-6;  // so that a stored length of 0.9 does not count as far
     for (std::uint32_t v = 0; v < facts.used.size(); ++v) {
         if (!facts.used[v]) continue;
         ++not_finite.total;

@@ -27,8 +27,8 @@ CheckedModel checkScene(const Scene& scene, const CheckOptions& options);
 
 // Normal maps of a scene.
 
-/// Direction of green in one normal map, or in the part of it that one primitive shows. If the file declares green-down
-/// and green points down, the value is `up`, because readers invert it.
+/// Direction of green in one normal map, or in the part of it that one primitive covers. If the file declares
+/// green-down and green points down, the value is `up`, because readers invert it.
 enum class GreenSide {
     noMap,    ///< the tangents of the primitive belong to no normal map
     unread,   ///< the image could not be examined
@@ -42,8 +42,8 @@ struct ImageFindings {
     std::vector<Finding> findings = {};
     std::vector<std::size_t> images = {};     ///< per finding: index of its image
     std::vector<GreenSide> image_green = {};  ///< per image of the scene
-    /// Per primitive of the scene: direction in the normal map that its tangents belong to (the first of its uses), in
-    /// the texels that the primitive shows.
+    /// Per primitive of the scene: direction of green in the normal map that its tangents belong to (the first of its
+    /// uses), in the texels that the primitive covers.
     std::vector<GreenSide> primitive_green = {};
     std::uint64_t examined_count = 0;        ///< number of images that could be decoded
     std::uint64_t green_known_count = 0;     ///< number of decoded maps whose direction of green is known
@@ -56,7 +56,8 @@ struct ImageFindings {
 /// Examines each image that is used as a normal map, once.
 ImageFindings checkImages(const Scene& scene, const CheckOptions& options);
 
-/// Examines scene.images[0], which no primitive shows, like checkImages. Throws FileError if it cannot be read.
+/// Result of checkLoneMap, which examines scene.images[0] like checkImages, although no primitive uses the image.
+/// Throws FileError if the image cannot be read.
 struct LoneMap {
     MapAnalysis analysis = {};
     GreenTest test = {};
@@ -75,7 +76,7 @@ inline constexpr const char* kUnnamed = "MAP";
 struct NamedImage {
     std::string name = {};  ///< name in quotes
     std::string file = {};  ///< name, quoted for a command line, or kUnnamed
-    bool is_alone = false;  ///< no model shows the image, so generate does not apply
+    bool is_alone = false;  ///< no model uses the image, so generate does not apply
 };
 
 /// Returns the command `verb` for the image, with the output OUT.png.

@@ -156,7 +156,7 @@ std::string nameOf(const Convention& convention) {
     for (const char* name : {"opengl", "directx", "unreal", "unity"}) {
         if (*findConvention(name) == convention) return name;
     }
-    return "opengl";  // has the same signs as the convention
+    return "opengl";  // not a preset, but with the same signs as opengl
 }
 
 /// Returns whether a command computes tangents, either all or only wrong ones, as its first option specifies.

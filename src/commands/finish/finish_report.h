@@ -36,7 +36,7 @@ std::vector<std::string> finishOutputs(const std::vector<std::string>& others, c
 
 namespace tspace::report {
 
-/// Exit code of a finished model.
+/// Returns the exit code for a finished model.
 inline ExitCode exitCodeOf(const FinishReport& report) {
     const bool has_findings = report.check.error_count != 0 || (report.bake && !report.bake->findings.empty());
     return has_findings ? ExitCode::findings : ExitCode::done;

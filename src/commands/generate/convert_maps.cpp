@@ -18,7 +18,7 @@
 namespace tspace::gltf {
 namespace {
 
-/// A primitive that shows the map, and the frames of its corners.
+/// A primitive that uses the map, and the frames of its corners.
 struct ShownMap {
     MapUser user = {};
     OwnedMesh from = {}, to = {};  ///< one vertex per corner
@@ -156,7 +156,7 @@ NewMap convertFor(const MapGroup& group, const FloatImage& image, const Generate
     return made;
 }
 
-/// All primitives that show one image, and the conversion of that image for them.
+/// All primitives that use one image, and the conversion of that image for them.
 class OneMap {
   public:
     OneMap(const Bytes& file, const GenerateOptions& options) : file_(file), options_(options) {}

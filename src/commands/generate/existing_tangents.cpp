@@ -265,7 +265,7 @@ bool seemInverted(const ScenePrimitive& primitive, const Convention& convention)
     return inverted > 0;
 }
 
-/// Returns the indices of primitives whose tangents are replaced and that show a normal map.
+/// Returns the indices of primitives that use a normal map, and whose tangents are replaced.
 std::vector<std::size_t> replacedPrimitives(Model& model, const GeneratePlan& plan) {
     const std::span<const Primitive> primitives = model.primitives();
     std::vector<bool> is_replaced(primitives.size());

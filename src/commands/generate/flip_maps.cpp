@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Decides which normal maps are inverted, and makes the textures that show them use the new images.
+// Decides which normal maps are inverted, and replaces their images in the textures that use them.
 #include "commands/generate/flip_maps.h"
 
 #include <algorithm>
@@ -152,7 +152,7 @@ class TextureUses {
         }
     }
 
-    /// Returns whether anything other than a normal map shows the image.
+    /// Returns whether the image is also used as something other than a normal map.
     [[nodiscard]] bool isOther(std::size_t image) {
         const std::vector<std::size_t>& all = textures_of_[image];
         return std::any_of(all.begin(), all.end(), [&](std::size_t texture) { return uses_[texture].is_other; });
@@ -166,7 +166,7 @@ class TextureUses {
         others.erase(image);
         return others;
     }
-    /// Makes normal maps that show `from` show `to`; other uses are unchanged. Call applyRedirections at the end.
+    /// Replaces image `from` by image `to` in normal maps; other uses are unchanged. Call applyRedirections at the end.
     void redirect(std::size_t from, std::size_t to) {
         for (const std::size_t shared : textures_of_[from]) {
             if (!uses_[shared].is_normal_map) continue;
@@ -210,7 +210,7 @@ class TextureUses {
 
     Document& document_;
     std::vector<Use> uses_ = {};  ///< uses of each texture, by index
-    /// Indices of the textures that show an image, by image.
+    /// Indices of the textures that use an image, by image.
     std::map<std::size_t, std::vector<std::size_t>> textures_of_ = {};
     std::map<std::size_t, std::size_t> own_textures_ = {};  ///< shared texture -> its copy for normal maps
 };

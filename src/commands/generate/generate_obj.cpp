@@ -185,7 +185,8 @@ void cutPolygons(OwnedMesh& mesh, PrimitiveReport& report) {
     report.vertices_before = report.vertices_after = mesh.positions.size();
 }
 
-/// Packs the frames as they are written, and removes the attributes that PackDrop selects.
+/// Packs the frames after rounding them to the format in which they are written, and removes the attributes that
+/// PackDrop selects.
 void packWritten(const GenerateOptions& options, FinishedPrimitive& finished, PrimitiveReport& report) {
     OwnedMesh& mesh = finished.mesh;
     if (mesh.tangents.empty()) {

@@ -92,7 +92,7 @@ class MapConversion {
   private:
     Model& model_;
     const GenerateOptions& options_;
-    std::vector<std::size_t> numbers_ = {};     ///< primitives that show normal maps
+    std::vector<std::size_t> numbers_ = {};     ///< primitives that use normal maps
     Scene before_ = {};                         ///< primitives `numbers_` before the change, in this order
     std::map<std::size_t, Bytes> images_ = {};  ///< files of the normal maps, by image index
 };

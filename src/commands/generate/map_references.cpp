@@ -32,7 +32,7 @@ bool MapReferences::shows(const Primitive& primitive, std::size_t material) cons
     return std::find(variants.begin(), variants.end(), material) != variants.end();
 }
 
-/// Returns whether a primitive that is not one of the users shows the material.
+/// Returns whether a primitive that is not in `users` uses the material.
 bool MapReferences::isShared(std::size_t material, std::span<const MapUser> users) const {
     return std::any_of(primitives_.begin(), primitives_.end(), [&](const Primitive& primitive) {
         const bool is_one =
@@ -110,7 +110,7 @@ std::string MapReferences::whyNotSeparate(std::span<const MapUser> users) const 
 
 void MapReferences::redirect(std::span<const MapUser> users, std::size_t to_image) {
     std::map<std::size_t, std::size_t> copies;    // original material -> copy
-    std::map<std::size_t, std::size_t> textures;  // original texture -> copy that shows the new image
+    std::map<std::size_t, std::size_t> textures;  // original texture -> copy that uses the new image
     const auto ownTexture = [&](std::size_t from) {
         const auto [own, is_new] = textures.try_emplace(from, document_.json["textures"].size());
         if (is_new) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Images of a glTF document: which textures and materials show an image. Gives some primitives their own image, and
-// replaces image files.
+// Images of a glTF document: finds the textures and materials that use an image, gives some primitives their own image,
+// and replaces image files.
 #pragma once
 
 #include <cstddef>
@@ -42,7 +42,7 @@ void forSourceExtensions(const Visit& visit) {
         visit(name);
 }
 
-/// Calls visit(number) for each image that the texture may show: its source, and its alternatives in other formats.
+/// Calls visit(number) for each image of the texture: its source, and its alternatives in other formats.
 template <class Visit>
 void forSources(Json& texture, const Visit& visit) {
     if (!texture.is_object()) return;
@@ -70,17 +70,17 @@ class MapReferences {
     MapReferences(Document& document, std::span<const Primitive> primitives)
         : document_(document), primitives_(primitives) {}
 
-    /// Returns whether only these primitives show the image, so that it can be replaced in place.
+    /// Returns whether only these primitives use the image, so that it can be replaced in place.
     [[nodiscard]] bool isUsedOnlyBy(std::size_t image, std::span<const MapUser> users) const;
 
-    /// Makes the image the only source of all textures that show it, without alternatives in other formats. Its format
+    /// Makes the image the only source of all textures that use it, without alternatives in other formats. Its format
     /// must be one that all viewers support. Removes extensions for other formats that no texture uses any more.
     void makeOnlySource(std::size_t image);
 
     /// Returns why these primitives cannot have an image of their own, as a clause; empty if they can.
     [[nodiscard]] std::string whyNotSeparate(std::span<const MapUser> users) const;
 
-    /// Makes these primitives show another image. Copies their textures, and materials that other primitives use too.
+    /// Makes these primitives use another image. Copies their textures, and materials that other primitives use too.
     void redirect(std::span<const MapUser> users, std::size_t to_image);
 
   private:

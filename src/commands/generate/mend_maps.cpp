@@ -72,7 +72,7 @@ bool isPicture(const FloatImage& image) {
     return analyzeTexels(texels, false, {}).content == MapContent::picture;
 }
 
-/// Returns all triangles that show the image, with tangents that approximate those of the output. `isUser(TangentUse)`:
+/// Returns all triangles that use the image, with tangents that approximate those of the output. `isUser(TangentUse)`:
 /// selects the uses.
 template <class IsUser>
 MapMesh meshOf(const Scene& scene, const GenerateOptions& options, const IsUser& isUser) {

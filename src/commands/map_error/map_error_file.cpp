@@ -85,7 +85,7 @@ struct Measuring {
     std::vector<MapCandidate> candidates = {};
     std::vector<TriedRays> tried = {};  ///< sorted, the best first
     bool other_rays = false;            ///< rays other than the requested ones explain the map much better
-    bool shows_several = false;         ///< several materials are shown
+    bool shows_several = false;         ///< the measured triangles have several materials
     MapErrorFileReport report = {};
 };
 

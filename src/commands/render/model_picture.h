@@ -143,7 +143,7 @@ RgbImage sideBySide(const RgbImage& left, const RgbImage& right);
 /// Encodes an 8-bit PNG. Throws FileError (unsupportedFile) if this build cannot write PNG.
 std::vector<std::uint8_t> encodePicture(const RgbImage& image);
 
-// Height maps of OBJ (map_bump) as pictures show them: as the normal maps that generate makes of them.
+// Height maps of OBJ (map_bump) are drawn as the normal maps that generate makes of them.
 
 /// Replaces height maps of OBJ (map_bump) in `drawn` by normal maps, as generate does. Height maps that cannot be
 /// converted are omitted, with a warning. `method`: method of the tangents with which the maps are used. Throws

@@ -30,7 +30,7 @@ std::string stemOf(const std::string& name) {
     return file.substr(0, file.find_last_of('.'));
 }
 
-/// Returns the use by which a primitive shows the map, or null.
+/// Returns the primitive's use of the map, or null.
 const TangentUse* useOfImage(const Scene& scene, const ScenePrimitive& primitive, const std::string& stem) {
     for (const TangentUse& use : primitive.uses) {
         if (!use.image || !showsNormals(use)) continue;
@@ -116,7 +116,7 @@ double scaleOf(std::span<const ChosenPrimitive> chosen) {
     return scale_of(first);
 }
 
-/// Fails if several materials may show the map and their UVs overlap, because a map fits only one of them.
+/// Fails if several materials may use the map and their UVs overlap, because a map fits only one of them.
 void checkMaterials(std::span<const ChosenPrimitive> chosen) {
     constexpr std::uint32_t kSide = 512;
     constexpr std::uint64_t kOneOf = 100;
@@ -158,7 +158,7 @@ bool rotateAlike(const Affine& a, const Affine& b) {
     return std::max({apart(a.x, b.x), apart(a.y, b.y), apart(a.z, b.z)}) <= kSame * size(a) * size(b);
 }
 
-/// Returns the transform by which the scene shows a primitive, or nothing if the scene does not show it.
+/// Returns the transform with which the scene draws a primitive, or nothing if the scene does not draw it.
 std::optional<Affine> placeOf(const DrawnScene& drawn, const ChosenPrimitive& chosen) {
     std::optional<Affine> place;
     for (const ScenePlacement& placement : drawn.placements) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Image files as input of map commands, and the part of a model that shows a map as arrays of corners. Functions throw
+// Image files as input of map commands, and the part of a model that uses a map, as arrays of corners. Functions throw
 // FileError.
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace tspace {
 
-// The part of a model that shows a normal map, as arrays of corners.
+// The part of a model that uses a normal map, as arrays of corners.
 
 struct MapMesh {
     OwnedMesh corners = {};  ///< one vertex per corner, with the UVs that sample the texture
@@ -43,13 +43,13 @@ struct MapMeshChoice {
     bool in_world = false;        ///< transform normals and tangents by the nodes of the scene
     std::uint32_t tile = 0;       ///< number of the UDIM tile, see ConvertMapFileOptions::tile
     /// If true, reading fails if neither the name of the material nor that of the image identifies the materials that
-    /// show the map, and their UVs overlap.
+    /// use the map, and their UVs overlap.
     bool needs_material = false;
 };
 
-/// Reads a model and returns the triangles that show the map. Throws FileError: invalidFile if there are none, or if
-/// their materials set different scales or scale 0 for the map. In world space also if nodes transform the triangles
-/// differently, or if no node uses them.
+/// Reads a model and returns the triangles that use the map. Throws FileError: invalidFile if there are none, or if
+/// their materials set different scales or scale 0 for the map; in world space also if nodes transform the triangles
+/// differently, or if no node draws them.
 MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const TangentOptions& tangents,
                     const FileOptions& file, const Execution& execution);
 

@@ -25,7 +25,7 @@ struct HelpText {
 using HelpText = std::string;
 #endif
 
-/// Kind of the files that an option or operand names, as far as their extensions show it.
+/// Kind of the files that an option or operand names, as far as it is known from their extensions.
 enum class InputKind { any, model, image, text };
 
 /// An option, or an operand of a command line (a word without an option name, such as an input file).

@@ -21,9 +21,9 @@ bool isReadInDouble(const std::string& path);
 
 /// Returns the file with an offset subtracted, in double precision, from the vertices of every geometry that is closer
 /// to the offset than to the origin. The offset may be useless if geometries are far from each other. If no geometry is
-/// far from the origin, `offset` is zero and `bytes` empty. Returns nullopt if the coordinates (of the geometries that are
-/// far from the origin, if any are) have no more digits than floats, whatever their type. Also if the file is corrupt
-/// or has a layout that the readers do not support.
+/// far from the origin, `offset` is zero and `bytes` empty. Returns nullopt if the coordinates (of the geometries that
+/// are far from the origin, if any are) have no more digits than floats, whatever their type. Also if the file is
+/// corrupt or has a layout that the readers do not support.
 std::optional<NearFile> nearOrigin(const std::string& path);
 
 }  // namespace tspace::import

@@ -69,10 +69,10 @@ struct PlacedTexture {
 Vec3 sampleAt(const PlacedTexture& texture, const std::array<std::uint32_t, 3>& vertices,
               const std::array<double, 3>& weights);
 
-/// Whether a triangle shows its texture mirrored.
+/// Orientation of a triangle's texture: unmirrored (`plain`) or mirrored.
 enum class UvSide : std::uint8_t { unknown, plain, mirrored };
 
-/// Data of one primitive that views show.
+/// Data of one primitive for all views.
 struct ShownSurface {
     std::span<const std::uint32_t> corners = {};
     CornerValues<Vec3> normals = {};
