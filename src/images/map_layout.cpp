@@ -8,7 +8,7 @@ namespace tspace {
 
 namespace {
 
-/// Conversions from sRGB to linear and back (IEC 61966-2-1).
+/// withoutSrgb converts a channel from sRGB to linear, withSrgb converts it back (IEC 61966-2-1).
 double withoutSrgb(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
 double withSrgb(double c) { return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055; }
 

@@ -41,7 +41,7 @@ std::uint32_t channelsOf(MapLayer layer) {
     }
 }
 
-/// Background value, used where no triangle is near.
+/// Returns the background value of a layer, which is used where no triangle is near.
 Vec3 backgroundOf(MapLayer layer) {
     switch (layer) {
         case MapLayer::ao:

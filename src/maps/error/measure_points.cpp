@@ -17,7 +17,7 @@ constexpr std::size_t kPointsOfTask = 1024;
 
 std::uint64_t bitsOf(float value) { return std::bit_cast<std::uint32_t>(value == 0 ? 0.0F : value); }
 
-/// Hash of an edge, equal for both directions.
+/// Returns a hash of an edge that is equal for both directions.
 std::uint64_t hashEdge(const LowPoly& low, std::size_t a, std::size_t b) {
     const auto hashEnd = [&](std::size_t corner) {
         const Vec2& uv = low.uvs[corner];

@@ -153,7 +153,7 @@ std::optional<DataUri> loadImage(Document& document, const std::string& uri, con
         warnings.push_back("the image " + inQuotes(uri) + " is not a file and was not embedded in the GLB");
         return {};
     } else {
-        // FBX files store the folder of an image that has no name.
+        // The URI may name a folder: FBX files store one for images without a name.
         if (const std::string why = document.files.whyNotRead(uri, place); !why.empty()) {
             warnings.push_back("the image " + inQuotes(uri) +
                                " was not embedded in the GLB, and its URI was kept: " + why);

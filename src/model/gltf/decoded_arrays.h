@@ -40,8 +40,8 @@ class DecodedArrays {
     /// Returns packed frames like readPackedWords.
     SharedArray<std::uint8_t> packedWords(const Primitive& primitive, const PackedLayout& layout);
 
-    /// Returns a cached array, or decodes one for the caller without charging the budget. For callers that reserve all
-    /// of their memory in the budget. The attribute must exist.
+    /// Returns a cached array, or decodes one for the caller without charging the budget. It is meant for callers that
+    /// reserve all of their memory in the budget. The attribute must exist.
     SharedArray<Vec2> borrowUvs(const Primitive& primitive, std::size_t uv_set);
     SharedArray<Vec3> borrowVec3(const Primitive& primitive, const char* attribute);
     SharedArray<Vec4> borrowTangents(const Primitive& primitive);

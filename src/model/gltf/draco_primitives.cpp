@@ -146,7 +146,7 @@ class Decoder {
         }
     }
 
-    /// Returns the accessor that represents `source` in this primitive: `source` itself, or a copy if the accessor
+    /// Returns the accessor that represents `source` in this primitive: `accessor` itself, or a copy if `accessor`
     /// represents other data elsewhere.
     std::size_t own(std::size_t accessor, const Source& source) {
         const auto [entry, is_new] = sources_.try_emplace(accessor, source);
@@ -180,7 +180,8 @@ class Decoder {
         if (packed.mode != kTriangles) json["mode"] = kTriangles;
     }
 
-    /// Charges the budget for the declared size of accessors before values are decoded.
+    /// Checks the declared size of accessors before values are decoded: against the user's limit, or against the limit
+    /// for Draco data, to which it is charged.
     void takeFromBudget(std::uint64_t bytes, const std::string& place) {
         if (document_.memory->isFromUser()) {
             document_.memory->require(bytes * kWorkFactor, place);

@@ -142,7 +142,8 @@ std::size_t Editor::targetBuffer() {
     for (std::size_t i = 0; i < document_.buffers.size(); ++i) {
         if (document_.buffers[i].own) target_buffer_ = i;
     }
-    // A compressed view also references its buffer by index; appending data does not affect it.
+    // Data may be appended to any own buffer: existing views keep their ranges, and so does the data of compressed
+    // views.
     if (target_buffer_) return *target_buffer_;
     Json& buffers = editableRootArray(document_, "buffers");
     target_buffer_ = buffers.size();
@@ -192,7 +193,7 @@ Editor::Form Editor::formLike(std::optional<std::size_t> accessor) const {
 }
 
 std::size_t Editor::storeView(ElementData& data, const Form& form) {
-    // Vertex attributes are aligned to 4 bytes each; indices are tightly packed.
+    // Each element of a vertex attribute is aligned to 4 bytes; indices are tightly packed.
     const std::size_t stride = data.target == kVertexTarget ? (data.element_bytes + 3) / 4 * 4 : data.element_bytes;
     const std::size_t count = data.byteCount() / data.element_bytes;
     // The codec does not support 1-byte indices.

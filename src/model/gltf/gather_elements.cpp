@@ -126,7 +126,7 @@ void makeSparseWhereSmaller(ElementData& data) {
         }
     }
     // An accessor without a view and without sparse values is valid and all zero, but Assimp and other readers cannot
-    // load it: keep one element.
+    // load it, so one element is kept.
     if (places.empty() && data.count != 0) places.push_back(0);
     const std::size_t sparse_bytes = places.size() * (size + sizeof(std::uint32_t)) + kJsonBytes;
     if (2 * places.size() > data.count || sparse_bytes >= data.bytes.size()) return;

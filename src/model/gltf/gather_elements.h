@@ -96,7 +96,8 @@ void makeSparseWhereSmaller(ElementData& data);
 /// Returns index lists as elements. u8 and u16 keep their width while all vertex indices are below the primitive
 /// restart value.
 ElementData indexElements(std::vector<std::uint32_t>&& indices, ComponentType narrowest, std::size_t vertex_count);
-/// Returns a primitive's index list that replaces its old one: no narrower, and with bounds if the old one has them.
+/// Returns a primitive's index list as elements that replace its old accessor: with a component type that is no
+/// narrower, and with bounds if the old accessor has them.
 ElementData newIndices(const Document& document, const Primitive& primitive, std::vector<std::uint32_t>&& indices,
                        std::size_t vertex_count);
 

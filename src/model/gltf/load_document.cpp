@@ -55,7 +55,7 @@ constexpr std::array<const char*, 28> kHarmless = {"KHR_mesh_quantization",
 
 bool isCompression(const std::string& name) { return name == kExtMeshopt || name == kKhrMeshopt || name == kDraco; }
 
-/// Returns why this build cannot read an extension, or an empty string if it can.
+/// Returns why this build cannot read a compression extension, or an empty string if it can.
 std::string compressionMissing(const std::string& name) {
     return name == kDraco ? dracoMissing() : meshoptMissing(name == kKhrMeshopt);
 }

@@ -42,8 +42,8 @@ void readUvs(const Json& texture, const std::string& place, TextureReading& read
     readNumbers(*transform, "scale", transform_place, reading.transform.scale);
 }
 
-/// Returns a member that is an index below `limit`, or nullopt if there is none. An invalid image is not an error,
-/// because frames do not depend on it.
+/// Returns a member that is an index below `limit`, or nullopt if there is none. An invalid index is not an error,
+/// because frames do not depend on images.
 std::optional<std::size_t> indexBelow(const Json& object, const char* key, std::size_t limit) {
     const Json* value = findMember(object, key);
     if (value == nullptr || !value->is_number_integer()) return {};
@@ -120,8 +120,8 @@ const Json* vrmMaterial(const Document& document, std::size_t material) {
 
 namespace {
 
-/// Material extensions that read no tangents, or whose tangent uses are collected here. Any other extension may read
-/// tangents.
+/// Returns whether a material extension reads no tangents, or has its uses of tangents collected in this file. Any
+/// other extension may read tangents.
 bool isKnownExtension(const std::string& name) {
     static const std::set<std::string> kKnown{"ASOBO_normal_map_convention",
                                               "KHR_materials_unlit",
@@ -230,7 +230,7 @@ class MaterialUses {
         if (!has_map && vrmNormalMap(document_, material_) != nullptr)
             add("normalTexture", join("/extensions/VRM/materialProperties", material_) + "/textureProperties/_BumpMap");
         if (isUnlit(document_, material_)) {
-            // Malformed textures are rejected for unlit materials too.
+            // The uses are discarded; they were read because malformed textures are rejected for unlit materials too.
             uses_.resize(first_);
             return;
         }
@@ -257,7 +257,7 @@ class MaterialUses {
         return use;
     }
 
-    /// Adds a texture use. Returns false if the texture does not exist.
+    /// Adds the use of the texture that `object` references by `key`. Returns false if there is no such member.
     bool addTexture(const Json& object, const std::string& place, const char* key, const char* needed_by) {
         const Json* texture = readObject(object, key, place);
         if (texture == nullptr) return false;

@@ -119,7 +119,7 @@ const char* jsonTypeName(const Json& value) {
                                                                                              : "a number";
 }
 
-/// MemberType of the elements of an array type.
+/// Returns the type of the elements of an array type.
 MemberType elementMemberType(MemberType type) {
     switch (type) {
         case MemberType::texts:

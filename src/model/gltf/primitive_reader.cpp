@@ -253,7 +253,7 @@ void findScales(const Document& document, std::vector<Primitive>& primitives) {
     }
 }
 
-/// Memory of a primitive in addition to its arrays: lists, report, and findings.
+/// Charges the memory that a primitive needs in addition to its arrays: lists, report, and findings.
 void takePrimitive(const Document& document, const Json& object, std::size_t mesh, std::size_t index) {
     constexpr std::size_t kPrimitiveBytes = 1500, kTargetBytes = 100;
     const Json* targets = findMember(object, "targets");

@@ -159,7 +159,8 @@ Affine readFirstBind(const Document& document, const Json& skin, const std::stri
     return {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
 }
 
-/// Returns the transform of a mesh by the first joint of the node's skin; nullopt if it has no skin.
+/// Returns the transform of a mesh by the first joint of the node's skin; nullopt if the node has no skin or the skin
+/// has no joints.
 std::optional<Affine> boundPlace(const Document& document, const Nodes& nodes, std::size_t node) {
     const Json& skins = rootArray(document, "skins");
     const auto skin = readIndex(nodes[node], "skin", join("/nodes", node), skins.size(), "skin");

@@ -102,7 +102,7 @@ std::vector<std::uint32_t> carriedEdges(std::span<const std::uint32_t> edges, co
     return result;
 }
 
-/// Returns the lowest unused feature ID: n of the first "_FEATURE_ID_n" that no primitive has.
+/// Returns the lowest n for which no primitive has an attribute "_FEATURE_ID_n".
 std::size_t freeFeatureId(const Document& document, std::span<const Primitive* const> primitives) {
     for (std::size_t n = 0;; ++n) {
         const std::string name = "_FEATURE_ID_" + std::to_string(n);

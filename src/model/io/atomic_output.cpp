@@ -55,15 +55,15 @@ class Batch {
     Bytes block_;
 };
 
-/// Returns 0, or errno.
+/// Writes all pieces to the sink, in order. Returns 0 or errno.
 int writePieces(const Sink& sink, std::span<const OutputPiece> pieces, Parallel& parallel) {
     Batch batches[2];
     std::size_t piece = 0, offset = 0;
     int error = 0;
     batches[0].fill(pieces, piece, offset);
     for (std::size_t current = 0; error == 0 && !batches[current].empty(); current ^= 1) {
-        // Fills the next batch while this one is written; at the end the batch is empty. An exception of the caller's
-        // sink is passed on.
+        // Fills the next batch while the current one is written; at the end, the next batch is empty. An exception of
+        // the caller's sink is passed on.
         parallel.forTasks(2, [&](std::size_t task) {
             if (task == 1) return batches[current ^ 1].fill(pieces, piece, offset);
             errno = 0;

@@ -52,9 +52,9 @@ using Bytes = std::vector<std::uint8_t, UnsetAllocator<std::uint8_t>>;
 
 }  // namespace tspace
 
-// The functions are instantiated in bytes.cpp, with optimization. Otherwise each program would use one of the copies
-// that its files instantiate, possibly from an unoptimized file: its destructor loops over every byte, which took 40 %
-// of model_golden_test. (WebAssembly modules have no bytes.cpp.)
+// The functions are instantiated in bytes.cpp, with optimization. Otherwise each program would use a copy that one of
+// its files instantiates. In an unoptimized copy, the destructor loops over every byte, which took 40 % of the time of
+// model_golden_test. (WebAssembly modules have no bytes.cpp.)
 #ifndef __EMSCRIPTEN__
 extern template class std::vector<std::uint8_t, tspace::UnsetAllocator<std::uint8_t>>;
 #endif

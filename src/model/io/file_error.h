@@ -40,8 +40,8 @@ T valueOrThrow(Result<T> result) {
     return *std::move(result);
 }
 
-/// Runs `body` and returns the error of a FileError that it throws. Bindings without exceptions unwind differently
-/// (tryFile of a function and its context).
+/// Runs `body` and returns the error of a FileError that it throws. Bindings without exceptions implement the overload
+/// for a function and its context, which ends `body` in another way.
 #ifdef TSPACE_THROWS_END_CALL
 std::optional<Error> tryFile(void (*body)(void*), void* context);
 template <class Body>
@@ -60,8 +60,8 @@ std::optional<Error> tryFile(Body&& body) {
 }
 #endif
 
-/// Returns the error of the current exception, for FileError, CallerError and std::filesystem's; rethrows any other.
-/// Must be called inside a catch block.
+/// Returns the error of the current exception if it is a FileError, a CallerError or an exception of std::filesystem;
+/// rethrows any other exception. Must be called inside a catch block.
 Error fileErrorInFlight();
 
 /// Runs `body`, which returns a Result and may throw FileError or CallerError.

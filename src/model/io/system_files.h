@@ -94,8 +94,8 @@ void waitBriefly();
 std::uint32_t processNumber();
 /// Returns whether a process with this ID may exist; false only if there is certainly none.
 bool isRunning(std::uint32_t process);
-/// Returns a text that identifies the PID namespace: it differs on another machine, after a reboot, and in another
-/// container.
+/// Returns a text that identifies the machine. On Linux it also identifies the boot and the PID namespace, so that it
+/// differs after a reboot and in another container.
 std::string processSpace();
 
 /// Returns the path of the running program; empty if it cannot be determined.

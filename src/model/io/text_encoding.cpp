@@ -9,7 +9,7 @@ std::string_view wideEncoding(std::string_view text) {
     using std::operator""sv;
     if (text.starts_with("\xff\xfe\0\0"sv) || text.starts_with("\0\0\xfe\xff"sv)) return "UTF-32";
     if (text.starts_with("\xff\xfe"sv) || text.starts_with("\xfe\xff"sv)) return "UTF-16";
-    // Text made of bytes contains no NUL.
+    // Text in an encoding with code units of one byte contains no NUL.
     std::string zeros;
     for (const char byte : text.substr(0, 8)) zeros += byte == '\0' ? '0' : 'x';
     if (zeros == "x000x000" || zeros == "000x000x") return "UTF-32";

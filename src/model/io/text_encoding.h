@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Encodings of text files that are not made of bytes: UTF-16 and UTF-32, which editors and PowerShell write.
+// Text encodings whose code units are larger than a byte: UTF-16 and UTF-32, which editors and PowerShell write.
 #pragma once
 
 #include <string>

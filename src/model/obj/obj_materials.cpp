@@ -170,7 +170,8 @@ std::vector<std::string> splitWords(const std::string& names) {
     return result;
 }
 
-/// Returns the names of the materials that specify Kd. The parser makes the others black; tspace makes them white.
+/// Returns the names of the materials that specify Kd. The parser makes materials without Kd black; tspace makes them
+/// white.
 std::set<std::string> materialsWithDiffuse(const std::string& text) {
     std::set<std::string> names;
     std::string name;
@@ -194,9 +195,9 @@ class FileFinder {
     FileFinder(const NamedFiles& files, Path folder, std::vector<std::string>& warnings)
         : files_(files), folder_(std::move(folder)), warnings_(warnings) {}
 
-    /// Returns the path in the folder, as the text of a URI would be resolved, if that file exists. Otherwise only the
-    /// file name is tried, because absolute paths nearly always come from another computer. If no file exists, returns
-    /// the path without quotes and with slashes as separators.
+    /// Returns a path in the folder, resolved like a URI, if that file exists. Of an absolute path, the file name alone
+    /// is tried too, because such paths nearly always come from another computer. If no file exists, returns the path
+    /// without quotes and with slashes as separators.
     std::string find(const std::string& text) {
         std::string slashed = unquoted(text);
         const std::string plain = withSlashes(slashed);
@@ -278,7 +279,7 @@ bool readLibrary(const std::string& name, Model& model, std::vector<Material>& m
                                  "' uses texture offsets, scales or turbulence (-o, -s, -t), which are ignored");
     }
 
-    // Charged before the parser allocates a large object for each material.
+    // The memory is charged before the parser allocates a large object for each material.
     model.memory->take(countOf("newmtl", text) * (2 * sizeof(tinyobj::material_t) + sizeof(Material)), "mtllib");
     const std::vector<tinyobj::material_t> sources = parseMtl(text);
     const std::set<std::string> with_diffuse = materialsWithDiffuse(text);

@@ -246,7 +246,7 @@ ScenePrimitive loadPrimitive(const Model& model, const ObjPrimitive& primitive, 
 
 namespace {
 
-/// Returns the scene without images; their names are added to `files`.
+/// Returns the scene without images, which are added to `files`.
 Scene loadScene(const Model& model, std::span<const ObjPrimitive> primitives, ImageFiles& files) {
     Scene scene;
     scene.format = "obj";

@@ -219,7 +219,7 @@ void takePositions(std::vector<DVec3> positions, const FileOptions& options, Mod
 }
 namespace {
 
-/// Number of corner indices that refer to data that does not exist.
+/// Corner indices that refer to missing elements: their number, and the first line with one.
 struct DeadIndices {
     std::uint64_t count = 0;
     std::uint32_t first_line = kNone;
@@ -316,7 +316,8 @@ std::uint32_t resolvePosition(const Build& build, int index) {
     return position;
 }
 
-/// Returns the index of a UV or normal. Some exporters write 0 for "none", or indices that do not exist in the file.
+/// Returns the index of a UV or normal. Returns kNone for 0, which some exporters write for "none", and for negative
+/// indices that refer to missing elements, which are added to `dead`.
 std::uint32_t resolveOptional(int index, std::size_t count_so_far, std::uint32_t line, DeadIndices& dead) {
     if (index == 0) return kNone;
     const std::uint32_t resolved = resolveIndex(index, count_so_far);

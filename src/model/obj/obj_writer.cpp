@@ -99,7 +99,8 @@ class ImageBuilder {
     }
 
   private:
-    /// Adds a texture. `flipped`: replaces the file in the output; may be null.
+    /// Adds a texture and returns its index; -1 if its image cannot be used. `flipped`: bytes that replace the file in
+    /// the output; may be null.
     int addTexture(const Texture& texture, const Bytes* flipped) {
         int number = -1;
         const std::optional<Error> failure = tryFile([&] {
@@ -107,7 +108,7 @@ class ImageBuilder {
             const Bytes read = named_.read(path);
             sources_.push_back(path.string());
             const Bytes& bytes = flipped == nullptr ? read : *flipped;
-            // Determined by content, because names can be wrong. Core glTF allows no other formats.
+            // The format is determined by content, because names can be wrong. Core glTF allows only PNG and JPEG.
             const ImageFormat format = imageFormat(bytes);
             if (format != ImageFormat::png && format != ImageFormat::jpeg) {
                 warnings_.push_back("the texture '" + texture.file + "' was ignored: it is neither PNG nor JPEG");
@@ -126,7 +127,7 @@ class ImageBuilder {
         return number;
     }
 
-    /// Each image has one texture with the same index.
+    /// Adds an image and its texture, which has the same index, and returns this index.
     std::size_t append(Json image) {
         return builder_.append("textures", {{"source", builder_.append("images", std::move(image))}});
     }

@@ -105,7 +105,7 @@ std::string sixteenDigits(std::uint64_t number) {
     return digits;
 }
 
-/// Returns a hash of the PID namespace.
+/// Returns the hash of processSpace() as 16 hexadecimal digits.
 std::string machineTag() {
     const std::string text = processSpace();
     std::uint64_t hash = text.size();
@@ -118,7 +118,7 @@ const std::string& machineMark() {
     return mark;
 }
 
-/// Arguments of temporaryName() in a process that no longer runs.
+/// Target and kind of a temporary file that a process left behind, according to its name.
 struct Abandoned {
     std::string target_name;
     bool is_backup;  ///< false: a temporary file
@@ -239,7 +239,7 @@ bool isKept(const std::string& identity) {
     return kept.identities.contains(identity);
 }
 
-/// Uses of a file by the calls of one run, keyed by resolved path.
+/// Uses of a file by the calls of one run.
 struct RunFile {
     std::set<std::uint64_t> readers = {};
     std::uint64_t owner = 0;  ///< the call that wrote the file, or left it unchanged
@@ -271,8 +271,8 @@ void inRun(const Path& path, const Work& work) {
     if (run.is_run) work(run.files[runName(path)]);
 }
 
-/// Mutex that is locked from checking whether a file exists until it is renamed, because a thread that works on another
-/// model may write the same name.
+/// Returns the mutex that is locked from the check whether a file exists until another file is renamed to its name,
+/// because a thread that works on another model may write the same file.
 std::mutex& renaming() {
     static std::mutex mutex;
     return mutex;

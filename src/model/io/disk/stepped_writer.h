@@ -28,7 +28,7 @@ class SteppedWriter {
   public:
     SteppedWriter(std::FILE* file, bool flushes) : file_(file), flushes_(flushes) {}
 
-    /// Returns 0 or errno.
+    /// Writes the next bytes of the file. Returns 0 or errno.
     int write(std::span<const std::uint8_t> bytes) {
         while (!bytes.empty()) {
             const auto part = bytes.first(std::min(bytes.size(), kStep - step_bytes_));

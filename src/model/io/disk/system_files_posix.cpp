@@ -228,7 +228,7 @@ std::string processSpace() {
     ::gethostname(name.data(), name.size() - 1);
     std::string text = name.data();
     std::string line;
-    // The text consists of the IDs of this boot and of the PID namespace of Linux. It is empty on other systems.
+    // On Linux, the host name is followed by the IDs of this boot and of the PID namespace.
     if (std::ifstream boot("/proc/sys/kernel/random/boot_id"); std::getline(boot, line)) text += line;
     std::error_code ignored;
     text += fs::read_symlink("/proc/self/ns/pid", ignored).string();
