@@ -257,7 +257,7 @@ std::vector<Row> manyMeshRows() {
         models("models, above 5000 triangles", 5001, kAny),
         models("models, all", 1, kAny),
         threads("two threads against one, 7k to 25k triangles", 2, {7000, 10000, 14000, 18000, 25000}),
-        threads("all threads against one, 100 to 500 triangles", 0, {100, 200, 300, 400, 500}),
+        threads("all threads against one, 100 to 500 triangles", kAllThreads, {100, 200, 300, 400, 500}),
         meshJobs("10,000 boxes in one call, two threads against one", 10000),
         characters("a frame of 100 characters, `evaluate` with `mikktspace`, a result per corner", "evaluate"),
         characters("a frame of 100 characters, `evaluate` with `lengyel`, a result per vertex", "evaluate_lengyel"),

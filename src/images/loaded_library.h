@@ -30,6 +30,8 @@ class LoadedLibrary {
     LoadedLibrary(const char* name, std::size_t needed_bytes) {
         requireMemory(needed_bytes);
         library_ = dlopen(name, RTLD_NOW | RTLD_LOCAL);
+        // The loader skips folders for whose names it has no memory, and then reports an absent library.
+        if (library_ == nullptr) library_ = dlopen(name, RTLD_NOW | RTLD_LOCAL);
         if (library_ != nullptr) return;
         const char* const reason = dlerror();
         const auto mentions = [reason](const char* part) {

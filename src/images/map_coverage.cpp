@@ -73,10 +73,9 @@ std::vector<float> takeCoverage(MapAlpha alpha, FloatImage& image, std::vector<s
     }
     if (alpha == MapAlpha::automatic)
         warnings.push_back(
-            "alpha is read as coverage, because the texels with alpha 0 hold no unit vectors and the others do: "
-            "these " +
+            "alpha is read as coverage, because only texels with alpha above 0 hold unit vectors; the " +
             std::to_string(evidence.transparent) +
-            " texels are excluded from mip levels; set the option alpha to data to ignore alpha");
+            " texels with alpha 0 are excluded from mip levels; set the option alpha to data to ignore alpha");
     if (evidence.isPremultiplied()) {
         for (std::size_t i = 0; i < image.texels.size(); ++i) {
             if (coverage[i] > kTransparent) image.texels[i] = dividedBy(image.texels[i], coverage[i]);

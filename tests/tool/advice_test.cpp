@@ -152,7 +152,10 @@ TEST_P(Advice, FixesItsFindingAndCausesNoNewOne) {
         if (is_of_model ? !runOnModel(command) : !runOnImages(command, findings)) continue;
         // Other formats become glTF, in which places have different names.
         const Json after = findingsOf(folder_, output_);
-        const Places old = placesOf(before, is_gltf_), now = placesOf(after, is_gltf_);
+        Places old = placesOf(before, is_gltf_);
+        const Places now = placesOf(after, is_gltf_);
+        // glTF cannot reference an image that does not exist, so the new material has no normal map.
+        if (!is_gltf_ && old.contains({"normalMapUnreadable", ""})) old.insert({"tangentsUnused", ""});
         for (const auto& [code, place] : placesOf(findings, is_gltf_))
             EXPECT_FALSE(now.contains({code, place})) << command << " does not mend " << code << " at " << place;
         for (const auto& [code, place] : placesOf(withoutHarmless(after), is_gltf_))

@@ -155,7 +155,7 @@ Command bakeCommand() {
         if (option.name() == "--shard")
             option.help =
                 "Process only shard I of N (1-based), to split a batch across machines. The shard of a pair depends "
-                "only on the name of LOW in the file, so adding or removing other pairs does not change it.";
+                "only on the name of LOW in TABLE, so adding or removing other pairs does not change it.";
     }
     command.add(kReporting,
                 fileOption("--report", "JSON", arguments.report, "Also write the report as JSON to this file."));

@@ -52,7 +52,8 @@ Command compressMapCommand() {
         .operands = "IN -o OUT",
         .description =
             "Compresses a tangent-space normal map to a texture of x and y, from which the reader reconstructs z. BC5 "
-            "and EAC RG11 store x in red and y in green, in one byte per texel. The encoder minimizes the error of the "
+            "and EAC RG11 store x in red and y in green, with 8 bits per texel in total. The encoder minimizes the "
+            "error of the "
             "filtered texture and uses all bits of the image, so 16-bit input results in a smaller error than 8-bit "
             "input. Mip levels are computed by averaging the normals of the image. If a roughness texture is given, "
             "its mip levels are made rougher according to the spread of the normals. The report states the error of "

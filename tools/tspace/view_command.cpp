@@ -84,8 +84,9 @@ Command viewCommand() {
         .operands = "IN -o OUT.html",
         .description =
             "Writes one self-contained HTML file of the model. It opens from disk in any browser and needs no network. "
-            "It shows the findings of tspace check, shows the model lit with its own frames and with correct ones, and "
-            "can repair it. The template of the page is installed with tspace.",
+            "The page shows the findings of tspace check and the model lit with its own frames and with correct ones. "
+            "It can "
+            "also repair the model. The template of the page is installed with tspace.",
         .examples = {"tspace view helmet.glb -o helmet.html"},
     };
     const char* group = kInputAndOutput;
@@ -93,7 +94,10 @@ Command viewCommand() {
                                "A model: .glb, .vrm, .gltf or .obj. The files that it references are embedded."));
     command.add(group, htmlOutput("-o, --output", "OUT", arguments.output, "Output file: .html or .htm.")).is_required =
         true;
-    command.add(inspectOptions(arguments.file));
+    OptionList limits;
+    options::addAllowExternal(limits, arguments.file);
+    options::addMemoryLimit(limits, arguments.file.memory_limit_bytes);
+    command.add(std::move(limits));
     addReporting(command, arguments.json, arguments.quiet);
     command.run = [owned] { return runView(*owned); };
     return command;

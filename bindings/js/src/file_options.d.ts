@@ -61,13 +61,14 @@ export interface GenerateFileOptions {
   threshold?: number | string;
   /**
    * Tangent direction where UVs are sheared. gram-schmidt: along dP/du; symmetric: halfway between dP/du and the
-   * direction perpendicular to dP/dv. symmetric is not available with `method` mikktspace and basis. Default: gram-
+   * direction perpendicular to dP/dv. symmetric is not available with `method` mikktspace or basis. Default: gram-
    * schmidt.
    */
   frame?: "gram-schmidt" | "symmetric";
   /**
-   * Number of refinement steps of `method` best and `normals` best: 0, 1 or 2. Each step reduces the shading error:
-   * vectors interpolated along edges then reproduce these edges more closely. Default: 1 for tangents, 2 for normals.
+   * Number of refinement steps of `method` best and `normals` best: 0, 1 or 2. Each step reduces the shading error
+   * between vertices: interpolated tangents follow the edges more closely, and interpolated normals are closer to
+   * perpendicular to them. Default: 1 for tangents, 2 for normals.
    */
   refine?: number | string;
   /**
@@ -105,7 +106,7 @@ export interface GenerateFileOptions {
   /** Invert the green channel of every normal map, whatever its direction. */
   flipGreenAll?: boolean;
   /**
-   * Rewrite normal maps whose encoding is not that of glTF, as detected by check: maps with only x and y, with swapped
+   * Rewrite normal maps whose encoding is not that of glTF, as detected by check: maps with only x and y, with exchanged
    * channels, with x in the alpha channel (DXT5nm), with values encoded as sRGB, or with vectors in object space.
    * Rewritten maps are PNG, even if the input is KTX2 or DDS. Height maps are kept, because their strength is unknown
    * (see tspace height-to-normal).

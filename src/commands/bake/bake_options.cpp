@@ -136,18 +136,19 @@ void addRayOptions(OptionList& list, double& reach, RayOptions& rays, std::strin
     add(list, group,
         lengthOption(
             "--reach", reach,
-            "Maximum search distance from the low poly, outward and inward, in model units. Default: 5% of the "
-            "diagonal of the larger bounding box, or 1.5 times the largest distance between corresponding sides of the "
-            "two boxes if that is larger, up to 25% of the diagonal; the report states the value."));
+            "Maximum search distance from the low poly, outward and inward, in model units. Default: the "
+            "larger of 5% of the diagonal of the larger bounding box and 1.5 times the largest distance between "
+            "corresponding sides of the two boxes, but at most 25% of the diagonal; the report states the value."));
     add(list, group,
         numberOrAuto("--weld-distance", "DISTANCE", "a distance", rays.weld_distance, NormalOptions::weld_auto,
                      1000000000,
                      "Weld distance, in model units: positions that differ by at most this in each coordinate are "
-                     "welded for ray directions, curvature, shells and generated normals. 0: only equal positions; "
+                     "welded for ray directions, generated normals, curvature and ID maps. 0: only equal positions; "
                      "auto: twice the float spacing at the largest coordinate of the mesh."));
     Option painted = fileOption("--skew", "IMAGE", skew,
-                                "Skew map, used instead of --directions: an image in the UVs of the low poly. Rays are "
-                                "averaged where it is black and follow the face normals where it is white.",
+                                "Skew map, used instead of --directions: an image in the UVs of the low poly. Ray "
+                                "directions are averaged where it is black, and follow the face normals where it is "
+                                "white.",
                                 InputKind::image);
     painted.excludes = {"--directions"};
     add(list, group, std::move(painted));
@@ -261,8 +262,8 @@ OptionList bakeOptions(BakeFileOptions& options) {
                      "a larger neighborhood, so that noise is not baked. auto: strength from the measured noise "
                      "level, or off if the deviations look like real detail; 0: off; up to 4: multiple of the "
                      "measured noise level, applied even if the deviations look like real detail."));
-    addRunning(list, options.execution, "Number of threads; 0: one per core. The output is the same for every number.",
-               options.file);
+    addRunning(list, options.execution,
+               "Number of threads; 0: one per core. The output is the same for any number of threads.", options.file);
     return list;
 }
 
@@ -295,7 +296,7 @@ OptionList mapErrorOptions(MapErrorFileOptions& options) {
     addHighMapOptions(list, options.ignore_high_maps, options.high_green);
     addRayOptions(list, options.map.reach, options.map.rays, options.cage, options.skew);
     addRunning(list, options.execution,
-               "Number of threads; 0: one per core. The results are the same for every number.", options.file);
+               "Number of threads; 0: one per core. The results are the same for any number of threads.", options.file);
     return list;
 }
 

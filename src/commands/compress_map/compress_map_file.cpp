@@ -302,8 +302,10 @@ OptionList compressMapOptions(CompressMapFileOptions& options) {
         number("--bits", options.bits, 16, "Bits per channel of the normal-map PNGs, if OUT is a folder: 8 or 16."));
     addRoughness(list, options);
     add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything except writing the output."));
-    addRunning(list, options.execution, "Number of threads; 0: one per core. The output is the same for every number.",
-               options.file);
+    addThreads(list, options.execution,
+               "Number of threads; 0: one per core. The output is the same for any number of threads.");
+    addMemoryLimit(list, options.file.memory_limit_bytes);
+    addSync(list, options.file.sync);
     return list;
 }
 

@@ -289,7 +289,7 @@ OptionList identifyOptions(IdentifyOptions& options) {
         degrees("--tolerance", options.tolerance_deg, 180,
                 "Tangents that differ by less than this angle are treated as equal. In degrees, 0 to 180."));
     addThreads(list, options.execution,
-               "Number of threads; 0: one per core. The results are the same for every number.");
+               "Number of threads; 0: one per core. The results are the same for any number of threads.");
     addLimits(list, options.file);
     return list;
 }

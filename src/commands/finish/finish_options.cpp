@@ -97,8 +97,8 @@ OptionList finishOptions(FinishOptions& options) {
         if (option.name() == "--high-green") option.excludes = {"--ignore-high-maps"};
         list.push_back(std::move(option));
     }
-    addRunning(list, options.execution, "Number of threads; 0: one per core. The output is the same for every number.",
-               options.file);
+    addRunning(list, options.execution,
+               "Number of threads; 0: one per core. The output is the same for any number of threads.", options.file);
     add(list, kReporting,
         htmlOutput("--html", "PAGE", options.page,
                    "Also write a self-contained HTML report to this file, with pictures before and after and the "

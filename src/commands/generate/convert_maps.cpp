@@ -128,8 +128,8 @@ NewMap convertFor(const MapGroup& group, const FloatImage& image, const Generate
     if (texels.changed == 0) {
         const bool is_intended =
             std::any_of(group.begin(), group.end(), [](const ShownMap* one) { return one->is_intended; });
-        report.reason =
-            is_intended ? "new normals change the shading intentionally" : "the new tangents shade it as before";
+        report.reason = is_intended ? "new normals change the shading intentionally"
+                                    : "the map gives the same shading with the new tangents";
         return made;
     }
     Parallel parallel(options.execution);

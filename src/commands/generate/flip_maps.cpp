@@ -259,9 +259,9 @@ class Alternatives {
 
     /// Returns why the image is not inverted; empty if it is. Inverts the image first if it was not judged yet.
     std::string whyUnchanged(std::size_t image) {
-        const std::string start = "image " + std::to_string(image) + " is the same map in another format, and ";
+        const std::string start = "image " + std::to_string(image) + " is the same map in another format and ";
         const auto judged = judged_.find(image);
-        if (judged != judged_.end()) return judged->second->flipped ? "" : start + "stays";
+        if (judged != judged_.end()) return judged->second->flipped ? "" : start + "was not inverted";
         std::string why = "it cannot be read";
         Bytes bytes;
         if (image < rootArray(document_, "images").size()) bytes = tryReadImage(document_, image);

@@ -124,12 +124,12 @@ void addTangentOptions(OptionList& list, GenerateOptions& options) {
         choice(
             "--frame", "NAME", kFrames, tangents.frame,
             "Tangent direction where UVs are sheared. gram-schmidt: along dP/du; symmetric: halfway between dP/du and "
-            "the direction perpendicular to dP/dv. symmetric is not available with --method mikktspace and basis."));
+            "the direction perpendicular to dP/dv. symmetric is not available with --method mikktspace or basis."));
     add(list, group,
         number("--refine", tangents.refine, 2,
                "Number of refinement steps of --method best and --normals best: 0, 1 or 2. Each step reduces the "
-               "shading error: vectors interpolated along edges then reproduce these edges more closely. Default: 1 "
-               "for tangents, 2 for normals."))
+               "shading error between vertices: interpolated tangents follow the edges more closely, and interpolated "
+               "normals are closer to perpendicular to them. Default: 1 for tangents, 2 for normals."))
         .default_text.clear();
     add(list, group,
         flag("--bitangents", options.tangents.bitangents,
@@ -192,7 +192,7 @@ void addMapOptions(OptionList& list, GenerateOptions& options) {
     add(list, group,
         flag("--fix-maps", options.maps.mend,
              "Rewrite normal maps whose encoding is not that of glTF, as detected by check: maps with only x and y, "
-             "with swapped channels, with x in the alpha channel (DXT5nm), with values encoded as sRGB, or with "
+             "with exchanged channels, with x in the alpha channel (DXT5nm), with values encoded as sRGB, or with "
              "vectors in object space. Rewritten maps are PNG, even if the input is KTX2 or DDS. Height maps are kept, "
              "because their strength is unknown (see tspace height-to-normal)."))
         .old_names = {"--mend-maps"};
@@ -271,8 +271,8 @@ void addOtherOptions(OptionList& list, GenerateOptions& options) {
         flag("--orthogonalize", options.tangents.sanitize_options.orthogonalize_all,
              "Also give every valid tangent unit length and make it orthogonal to its normal. Where normals are not of "
              "unit length, the result then no longer matches bakes exactly."));
-    addRunning(list, options.execution, "Number of threads; 0: one per core. The output is the same for every number.",
-               options.file);
+    addRunning(list, options.execution,
+               "Number of threads; 0: one per core. The output is the same for any number of threads.", options.file);
 }
 
 }  // namespace

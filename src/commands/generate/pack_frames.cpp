@@ -170,7 +170,7 @@ class PackedWriter {
         if (!keeps_more) return;
         report.notes.push_back(
             std::string(dropped.tangents ? "its NORMAL was kept" : "its NORMAL and TANGENT were kept") +
-            " in addition to the packed frames, because morph targets have deltas for them");
+            " in addition to the packed frames, because morph targets have such deltas");
     }
 
     Editor& editor_;

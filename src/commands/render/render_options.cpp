@@ -116,8 +116,9 @@ Option readingOption(RenderOptions& options) {
         return std::string();
     };
     Option made = option("--reading", "PROGRAM", take,
-                         "Program whose shading convention for normal maps is used: gltf (green up; N and T are not "
-                         "normalized per pixel, which glTF does not specify), opengl, directx, unreal, unity, blender, "
+                         "Program whose shading convention for normal maps is used: gltf (green up; N and T are used "
+                         "as interpolated, because glTF does not specify that they are normalized), opengl, directx, "
+                         "unreal, unity, blender, "
                          "godot or three. Tangents always follow the glTF convention.");
     for (const char* name : kReadings) made.choices.emplace_back(name);
     made.default_text = kReadings[0];
@@ -132,12 +133,14 @@ OptionList renderOptions(RenderOptions& options) {
     add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything except writing the output."));
     addAllowExternal(list, options.file);
     add(list, picture,
-        choice("--show", "WHAT", kShows, options.show,
-               "Content of the picture. lit: the model under one light, with its normal maps; normals: N as colors; "
-               "tangents: T as colors; sign: the tangent sign w, with stripes where UVs are mirrored; error: the angle "
-               "between the file's tangents and those of --method; uv: the UV map with its islands; mapped: the shaded "
-               "normals of lit, as colors; both: lit, divided by a line, with the file's tangents on its left and "
-               "those of --method on its right."));
+        choice(
+            "--show", "WHAT", kShows, options.show,
+            "Content of the picture. lit: the model under one light, with its normal maps; normals: N as colors; "
+            "tangents: T as colors; sign: the tangent sign w, with stripes where UVs are mirrored; error: the angle "
+            "between the file's tangents and those of --method; uv: the UV map with its islands; mapped: the normals "
+            "after normal mapping, as used by lit, as colors; both: lit, divided by a line, with the file's tangents "
+            "on its left and "
+            "those of --method on its right."));
     add(list, picture, viewOption(options));
     add(list, picture, lightOption(options));
     add(list, picture, sizeOption(options));
@@ -164,8 +167,8 @@ OptionList renderOptions(RenderOptions& options) {
         choice("--method", "NAME", kMethods, options.method, "Method of the computed tangents, as in generate."));
     add(list, frames, readingOption(options));
     add(list, frames, setting("--no-textures", options.textures, false, "Ignore base color textures and normal maps."));
-    addRunning(list, options.execution, "Number of threads; 0: one per core. The picture is the same for every number.",
-               options.file);
+    addRunning(list, options.execution,
+               "Number of threads; 0: one per core. The picture is the same for any number of threads.", options.file);
     return list;
 }
 

@@ -121,7 +121,8 @@ void addMaterialOfMap(OptionList& list, std::string& material) {
 void addMakingAnImage(OptionList& list, const char* group, Method& method, Execution& execution, FileOptions& file) {
     add(list, group,
         choice("--method", "NAME", kMethods, method, "Tangent method for a model without tangents, as in generate."));
-    addRunning(list, execution, "Number of threads; 0: one per core. The output is the same for every number.", file);
+    addRunning(list, execution, "Number of threads; 0: one per core. The output is the same for any number of threads.",
+               file);
 }
 
 void addSync(OptionList& list, bool& sync) {

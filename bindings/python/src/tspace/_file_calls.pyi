@@ -247,7 +247,6 @@ def compress_map_file(
     dry_run: bool = ...,
     threads: int = ...,
     memory_limit: Size = ...,
-    import_seconds: int = ...,
     no_sync: bool = ...,
 ) -> CompressMapReport: ...
 def compress_map_bytes(
@@ -268,7 +267,6 @@ def compress_map_bytes(
     dry_run: bool = ...,
     threads: int = ...,
     memory_limit: Size = ...,
-    import_seconds: int = ...,
     no_sync: bool = ...,
 ) -> Generated[CompressMapReport]: ...
 def bake_file(

@@ -149,7 +149,6 @@ OPTIONS = {
         "dry_run",
         "threads",
         "memory_limit",
-        "import_seconds",
         "no_sync",
     ),
     "bake": (
