@@ -17,7 +17,7 @@
 namespace tspace {
 namespace {
 
-/// Returns whether there are faults that another pairing of quads could explain.
+/// Returns whether there are faults that tangents computed on quads could explain.
 bool hasFaults(const FrameHealth& health) {
     for (const Tally* tally : {&health.signs_mixed, &health.signs_wrong, &health.mirrored_seams, &health.uv_seams,
                                &health.directions_wrong, &health.frames_differ}) {
@@ -150,14 +150,14 @@ std::string findOtherAxes(const PrimitiveFacts& facts, const FrameHealth& health
     return {};
 }
 
-// Tangents that are wrong for the UVs that they should follow may be correct for others.
+// Tangents that do not follow the expected UVs may follow other UVs.
 
 struct OtherReading {
     UvReading reading = {};
     Surface surface = {};
     FrameHealth health = {};
-    /// Index of a use of the primitive that samples its texture with these UVs, if there is one. In this case tangents
-    /// along them may be intended.
+    /// Index of a use of the primitive whose texture is sampled with these UVs, if there is one: then the tangents may
+    /// follow these UVs on purpose.
     std::optional<std::size_t> use = {};
 };
 

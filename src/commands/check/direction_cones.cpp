@@ -134,7 +134,7 @@ class NearestDirections {
     std::vector<float> left_, right_;
 };
 
-/// Uses, for vertices beyond the tolerance, also the triangles around equal vertices, except those of the opposite
+/// Also considers, for vertices beyond the tolerance, the triangles around equal vertices, except those of the opposite
 /// orientation.
 void considerEqualVertices(const TangentView& mesh, const Surface& surface, double tolerance_deg,
                            std::vector<float>& distances) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Distance of a stored tangent from all results that the triangles around it allow.
+// Distance of a stored tangent from all results that methods can compute from the triangles around it.
 //
 // Methods weight triangles differently, but each returns a direction between those of the triangles, projected to the
 // plane perpendicular to N: inside their *cone*. So a tangent inside the cone is never reported as wrong, whichever

@@ -151,10 +151,10 @@ SignAreas sumAreas(const TangentView& mesh, const Surface& surface, const Conven
     return areas;
 }
 
-/// If nearly all signs are inverted, undecided signs are treated as inverted too if most signs of their patch are, or
-/// if no sign of the patch is decided. This is independent of their own triangles: a folded quad, for example, has
-/// triangles of both orientations and one sign. If most signs of a patch are correct, its undecided signs are treated
-/// as correct.
+/// Sets the bit kUndecidedSign at vertices whose signs are probably inverted. Called if nearly all signs are inverted.
+/// A sign counts as correct if all triangles at the vertex confirm it, or if correct signs cover more of its patch than
+/// inverted ones. Otherwise it is probably inverted: a folded quad, for example, has triangles of both orientations,
+/// but only one sign.
 void findUndecided(const TangentView& mesh, const SignAreas& areas, FrameHealth& health) {
     // Only triangles with equal signs at all corners connect vertices.
     VertexPatches patches(mesh.positions.size(), mesh.corners, [&](const std::uint32_t* v) {
@@ -170,7 +170,7 @@ void findUndecided(const TangentView& mesh, const SignAreas& areas, FrameHealth&
     for (const std::uint32_t vertex : mesh.corners) {
         const float fits = mesh.tangents[vertex].w > 0 ? areas.plus[vertex] : areas.minus[vertex];
         const float other = mesh.tangents[vertex].w > 0 ? areas.minus[vertex] : areas.plus[vertex];
-        if (fits > 0 && other == 0) continue;  // the triangles of the vertex show that it is correct
+        if (fits > 0 && other == 0) continue;  // all triangles at the vertex confirm its sign
         const std::uint32_t patch = patches.of(vertex);
         if (wrong[patch] >= right[patch]) health.addFaults(vertex, kUndecidedSign, right.size());
     }
@@ -320,7 +320,7 @@ void examineDirections(const TangentView& mesh, const Surface& surface, const Ch
     for (const std::uint32_t v : far) {
         const double area = surface.known_areas[v];
         if (directions[v] > options.error_deg) health.far_directions += area;
-        // Vertices used by triangles of both orientations were counted with the signs.
+        // Vertices of triangles with both orientations are already counted in mirrored_seams.
         if (seams.isShared(v)) continue;
         const Cause cause = seams.causeOf(v);
         Tally& tally = cause == Cause::mirroredSeam ? health.mirrored_seams

@@ -12,8 +12,9 @@ namespace tspace {
 /// is assumed in doubtful cases.
 bool isOfMesh(std::span<const TexelOnSurface> surface, const MapLayout& layout, bool may_be_tangent);
 
-/// Variant of isOfMesh for strong relief, which hides the mesh in single vectors and lowers slopes. All quarters of the
-/// mesh must correlate, because a correlation by chance does not occur in each of them.
+/// Returns whether the vectors are the normals of the mesh, like isOfMesh, but for strong relief, which hides the mesh
+/// in single vectors and lowers slopes. All quarters of the mesh must correlate, because a correlation by chance does
+/// not occur in each of them.
 bool isOfMeshUnderRelief(std::span<const TexelOnSurface> surface, const MapLayout& layout, bool may_be_tangent);
 
 }  // namespace tspace

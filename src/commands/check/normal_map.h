@@ -26,7 +26,7 @@ struct GreenTest {
     std::uint64_t up_part_blocks = 0;  ///< number of blocks of the largest part where green points up
     TexelRect up_part = {};
 
-    /// Confidence of the verdict, 0 to 1: share of agreeing blocks beyond an even split.
+    /// Returns the confidence of the verdict, 0 to 1: the share of agreeing blocks beyond an even split.
     [[nodiscard]] double confidence() const;
 };
 

@@ -186,8 +186,9 @@ void checkWinding(PrimitiveFacts& facts, const Directions& directions) {
                                           {toCommand("generate --fix-winding")}});
 }
 
-/// Reports normals that are far from all their triangles: smoothed over hard edges, those of a whole tree on its
-/// leaves, or those of another shape. Some are intended, so the finding is a note.
+/// Reports normals that are far from the normals of all their triangles. They may be smoothed over hard edges, copied
+/// from a simpler shape (such as a whole tree for its leaves), or belong to another shape. Some are intended, so the
+/// finding is a note.
 void checkFarNormals(PrimitiveFacts& facts, const Directions& directions) {
     const TangentView& mesh = facts.mesh;
     const EqualVertices equal = findEqualVertices(mesh, false);
@@ -453,7 +454,8 @@ double comparedShare(const PrimitiveFacts& facts) {
     return facts.surface.area > 0 ? area / facts.surface.area : 0;
 }
 
-/// Reports positions so coarse that triangles determine neither tangents nor, reliably, normals.
+/// Reports positions that are rounded so coarsely that the triangles' tangents, and perhaps their normals, are
+/// unreliable.
 void checkRounding(PrimitiveFacts& facts) {
     PositionRounding rounding = facts.surface.rounding;
     // If positions were already rounded before their conversion to floats, this matters only to tangents. Without

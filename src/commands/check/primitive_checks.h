@@ -14,7 +14,7 @@
 
 namespace tspace {
 
-// Tangents that were computed on quads are compared with the triangles into which MikkTSpace splits these.
+// Tangents that were computed on quads are compared with the triangles into which MikkTSpace splits the quads.
 
 struct QuadReading {
     std::vector<std::uint32_t> corners = {};  ///< three per triangle, like TangentView::corners
@@ -34,7 +34,7 @@ struct PrimitiveFacts {
     const CheckOptions& options;
     bool is_gltf = true;          ///< other formats are rarely expected to contain tangents, and many cannot
     UvReading reading = {};       ///< UVs that the tangents should follow
-    TangentView mesh = {};        ///< with the UVs of `reading`; without UVs if these do not determine the tangents
+    TangentView mesh = {};        ///< the mesh, with the UVs of `reading` if they determine the tangents
     Surface surface = {};         ///< surface of `mesh`
     std::vector<bool> used = {};  ///< vertices that triangles use
     QuadReading quads = {};       ///< storage of the corners of `mesh` if its tangents were computed on quads
@@ -67,8 +67,8 @@ Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const C
 /// Returns only the findings, with complete remedies.
 Result<std::vector<Finding>> checkPrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf);
 
-// Checks, in the order in which they run. checkTangents may detect that tangents follow other UVs or were computed on
-// quads; it then stores those UVs or quads in `facts`.
+// Declares the checks in the order in which they run. checkTangents may detect that tangents follow other UVs, or were
+// computed on quads; it then stores these UVs or quads in `facts`.
 void checkPositions(PrimitiveFacts& facts);
 void checkNormals(PrimitiveFacts& facts);
 void checkNoise(PrimitiveFacts& facts);

@@ -69,7 +69,7 @@ LoneMap checkLoneMap(const Scene& scene, const CheckOptions& options);
 /// Returns a note for each normal map whose scale is 0 or negative.
 std::vector<Finding> checkMapScales(const Scene& scene);
 
-/// Placeholder for the file name of an image that has none, or whose name cannot be one word of a command line.
+/// Placeholder for the file name of an image without a name, or with a name that cannot be one word of a command line.
 inline constexpr const char* kUnnamed = "MAP";
 
 /// Names of an image in findings.

@@ -222,7 +222,8 @@ std::vector<TrianglePair> pairByPlace(const ScenePrimitive& a, const ScenePrimit
 
 namespace {
 
-/// Returns the key that both partners share. A primitive with an empty key is not paired by it.
+/// Returns the key of a primitive: primitives with equal keys are paired. A primitive with an empty key is not paired
+/// by it.
 using KeyOf = std::function<std::string(const ScenePrimitive&)>;
 
 class Pairer {
@@ -232,7 +233,7 @@ class Pairer {
         for (const ScenePrimitive& primitive : b.primitives) taken_.push_back(primitive.corners.empty());
     }
 
-    /// If several primitives have the same key, they are paired in order.
+    /// Pairs primitives with equal keys. If several primitives have the same key, they are paired in order.
     void pairBy(const char* how, const KeyOf& key_of) {
         std::map<std::string, std::vector<std::size_t>> free_by_key;
         for (std::size_t k = b_.primitives.size(); k-- > 0;) {

@@ -19,12 +19,12 @@ struct TrianglePair {
     std::uint32_t rotation = 0;
 };
 
-/// Returns a hash that is equal for two meshes of the same triangles (corner positions), in any order and with any
-/// vertices. The hashes of different meshes are almost never equal.
+/// Returns a hash of the triangles of a mesh (of their corner positions). It does not depend on the order of the
+/// triangles, nor on which corners share a vertex. The hashes of different meshes are almost never equal.
 std::uint64_t geometryHash(const ScenePrimitive& primitive);
 
-/// Pairs triangles with the same corner positions, first those with equal UVs (of `uv_set`). Positions are compared as
-/// numbers. Repeated triangles are paired in order. Expected linear time.
+/// Pairs triangles with the same corner positions, first those whose UVs (of the first set) are equal, too. Positions
+/// are compared as numbers. Repeated triangles are paired in order. Expected linear time.
 std::vector<TrianglePair> pairByCorners(const ScenePrimitive& a, const ScenePrimitive& b);
 
 /// Pairs triangles whose corners agree within 1/1000 of the size of the mesh, after both meshes were moved and scaled

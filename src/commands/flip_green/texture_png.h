@@ -6,8 +6,8 @@
 
 namespace tspace {
 
-/// Returns a KTX2 or DDS with inverted green as a PNG: x, y and z, and alpha if it is not one of them. Throws
-/// FileError.
+/// Returns a KTX2 or DDS with inverted green as a PNG, with x, y and z in its colors, and with alpha unless alpha
+/// contained x or y. Throws FileError.
 FlippedImage flippedTexturePng(ByteSpan bytes);
 
 }  // namespace tspace

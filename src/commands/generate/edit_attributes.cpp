@@ -103,7 +103,8 @@ bool canStripTangents(const Primitive& primitive) {
     return has;
 }
 
-/// Also removes the name from the primitive's Draco extension: decoders must not look for a removed attribute.
+/// Removes the attribute from the primitive, and from its Draco extension, because decoders must not look for a removed
+/// attribute.
 void eraseAttribute(Editor& editor, const Primitive& primitive, const char* name) {
     Json& object = editor.primitive(primitive.mesh, primitive.index);
     object["attributes"].erase(name);

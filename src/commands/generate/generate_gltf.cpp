@@ -51,7 +51,8 @@ std::size_t countTogether(std::span<const PoolPlan> pools, const Document& docum
     return count;
 }
 
-/// Bitangents are only written together with computed tangents; notes primitives that get none.
+/// Adds notes to primitives that get no bitangents, because bitangents are only written together with computed
+/// tangents.
 void noteMissingBitangents(std::span<const Primitive> primitives, std::span<PrimitiveReport> reports) {
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         if (reports[i].action != PrimitiveAction::kept || primitives[i].find("_BITANGENT")) continue;

@@ -207,7 +207,7 @@ void ImagePlacer::putInFile(std::size_t image, const std::string& uri, Bytes&& b
     document_.new_files[name] = std::move(bytes);
 }
 
-/// Returns a name derived from the old one that no other file has, or the name of a file with the same bytes.
+/// Returns a file name derived from `uri` that no file has, or that a file with the same bytes has.
 std::string ImagePlacer::freeName(const std::string& uri, const Bytes& bytes) {
     namespace fs = std::filesystem;
     fs::path old = Path(pathOfUri(uri));

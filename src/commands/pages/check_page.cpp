@@ -68,7 +68,7 @@ struct FindingPictures::Model {
 
     Model(std::string path, const FileOptions& options) : input(std::move(path)), file(options), before(input, file) {}
 
-    /// Returns the result of a command, which is run once. `line`: the command line with these options.
+    /// Returns the result of a command, which is run at the first call. `line`: the command line of `command`.
     FixResult& resultOf(const std::string& line, const GenerateOptions& command) {
         const auto [fix, is_new] = fixes.try_emplace(line);
         if (is_new) run(command, fix->second);
@@ -180,8 +180,8 @@ std::string figuresOf(const Finding& finding, const FindingPicture& picture) {
     return figures + noFigureHtml(why);
 }
 
-/// Pictures of one file, until the size limit is reached; none if the file cannot be drawn. The file is read when the
-/// first picture is requested.
+/// Draws the pictures of one file until the size limit is reached; draws none if the file cannot be drawn. The file is
+/// read when the first picture is requested.
 class PictureSource {
   public:
     PictureSource(std::string input, const FileOptions& file, std::size_t room, const Progress& progress)

@@ -20,7 +20,8 @@
 
 namespace tspace {
 
-/// Frames with which those of a primitive are compared, one per corner; zero: none. Empty: no comparison.
+/// Frames to compare with the frames of a primitive: one per corner, zero where there is none. Empty lists: no
+/// comparison.
 struct OtherFrames {
     std::vector<Vec3> normals = {};
     std::vector<Vec4> tangents = {};
@@ -38,8 +39,8 @@ struct FrameChoice {
 };
 
 /// Computes tangents by `method` for a primitive, one per corner, as a glTF file stores them: along the UVs of the
-/// texture that needs them, sanitized. Empty if the primitive has none. `normals`: normals of the primitive. Throws
-/// FileError.
+/// texture that needs them, sanitized. Empty if the primitive has no UVs that the method needs, or no triangles.
+/// `normals`: normals of the primitive. Throws FileError.
 std::vector<Vec4> computeCornerTangents(const ScenePrimitive& primitive, const CornerValues<Vec3>& normals,
                                         Method method, const Execution& execution);
 
