@@ -16,7 +16,8 @@
 #include "core/base/memory.h"
 
 #ifdef _WIN32
-// Declared here: the system header defines common words as macros, and the core may be compiled as one file.
+// These functions are declared here, because the system header defines common words as macros, and the core may be
+// compiled as one file.
 extern "C" __declspec(dllimport) void* __stdcall VirtualAlloc(void*, std::size_t, unsigned long, unsigned long);
 extern "C" __declspec(dllimport) int __stdcall VirtualFree(void*, std::size_t, unsigned long);
 #endif

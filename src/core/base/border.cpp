@@ -240,7 +240,7 @@ Error checkSpan(const void* data, std::size_t count, std::size_t stride_bytes, s
                          "%s has a stride of %zu bytes, which is less than its element size of %zu bytes", name,
                          stride_bytes, element_bytes);
     }
-    // 4 for floats and 32-bit indices; otherwise the size of the index
+    // alignment: 4 for floats and 32-bit indices; otherwise the size of the index
     const std::size_t alignment = element_bytes % 4 == 0 ? 4 : element_bytes;
     if (reinterpret_cast<std::uintptr_t>(data) % alignment != 0 || (count > 1 && stride_bytes % alignment != 0)) {
         return makeError(ErrorCode::misaligned, kNoElement, "%s is not aligned to %zu bytes", name, alignment);

@@ -7,7 +7,7 @@
 
 namespace tspace {
 
-// Both functions are always inlined: as calls, normals with a crease angle took 6.5 % more instructions.
+// Both functions are always inlined: with calls, computing normals with a crease angle took 6.5 % more instructions.
 
 /// Returns the root of a member's set, and halves the path to it.
 [[gnu::always_inline]] inline std::uint32_t rootOf(std::uint32_t* parents, std::uint32_t member) {

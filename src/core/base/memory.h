@@ -165,7 +165,7 @@ class ScratchBlock {
 
     static void release(void* user, void* memory, std::size_t bytes, std::size_t) {
         auto& self = *static_cast<ScratchBlock*>(user);
-        // Compared as integers: comparing pointers into different arrays is undefined.
+        // The addresses are compared as integers, because comparing pointers into different arrays is undefined.
         const std::size_t offset =
             reinterpret_cast<std::uintptr_t>(memory) - reinterpret_cast<std::uintptr_t>(self.block_);
         if (offset >= self.size_) {
@@ -205,8 +205,8 @@ inline bool areStreamed([[maybe_unused]] const void* to, [[maybe_unused]] std::s
 #endif
 }
 
-/// Performs to[0..3] = row[0..3]; both aligned to 16 bytes. No thread may read the result before this one calls
-/// endOfRows.
+/// Performs to[0..3] = row[0..3]; both pointers must be aligned to 16 bytes. No thread may read the result before this
+/// one calls endOfRows.
 inline void streamRow(float* to, const float* row) {
 #if defined(TSPACE_SIMD_X86)
     _mm_stream_ps(to, _mm_load_ps(row));

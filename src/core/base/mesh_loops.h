@@ -55,10 +55,11 @@ void forEachFace(const MeshView& mesh, Body&& body) {
     }
 }
 
-// Half-edges grouped by edge. They are listed by the lower point of their edge, so that all half-edges of an edge are
-// in one short list.
+// Half-edges grouped by edge. Each is in the list of the edge's point with the lower index, so that all half-edges of
+// an edge are in one short list.
 
-/// Higher point of an edge, and the corner of the face at which the half-edge starts.
+/// The edge's point with the higher index, in the upper 32 bits, and the corner at which the half-edge starts, in the
+/// lower ones.
 using HalfEdge = std::uint64_t;
 inline std::uint32_t cornerOf(HalfEdge half) { return static_cast<std::uint32_t>(half); }
 

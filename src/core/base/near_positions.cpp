@@ -61,7 +61,7 @@ class PositionCells {
         slots_[at] = {hash, vertex};
     }
 
-    /// Returns the lowest vertex within the distance, or kNoVertexNear.
+    /// Returns the vertex with the lowest index within the distance, or kNoVertexNear.
     [[nodiscard]] std::uint32_t lowestNear(const Vec3& p) const {
         const std::array<double, 2> x = cellsNear(p.x), y = cellsNear(p.y), z = cellsNear(p.z);
         std::uint32_t lowest = kNoVertexNear;

@@ -44,8 +44,8 @@ class TriangleGroups {
     ~TriangleGroups() = default;
 };
 
-/// Pads a list of vertices to whole groups of triangles, which kernels read, with a valid vertex. Returns `vertices` if
-/// no padding is necessary, otherwise `buffer`, which may be the same array.
+/// Pads a list of vertices with a valid vertex up to a whole group of triangles, because kernels read whole groups.
+/// Returns `vertices` if no padding is necessary, otherwise `buffer`, which may be the same array.
 inline const std::uint32_t* fillGroup(const std::uint32_t* vertices, std::size_t count, std::size_t group,
                                       std::uint32_t* buffer) {
     const std::size_t end = (count + group - 1) / group * group;
@@ -148,7 +148,7 @@ class RangeLists {
 
 // Sums of rows of numbers at groups of corners over all triangles of a call, in several rounds with different rows.
 // Ranges of groups are processed one by one, so that their sums stay in the cache, and by all threads. Sums are
-// computed in the order of triangles: the same bits for any number of ranges and threads.
+// computed in the order of triangles, so they have the same bits for any number of ranges and threads.
 
 /// One pass of sums: provides the rows that triangles add to groups, and processes the sums of each group. Works on
 /// blocks, as kernels do.

@@ -140,8 +140,8 @@ inline bool hasUvArea(double determinant) { return determinant != 0 && std::isfi
 
 inline constexpr double kPi = 3.14159265358979323846;
 
-/// Returns atan2(y, x) for y >= 0, in [0, pi]; 0 for (0, 0). Both must be finite and below 1e300. Absolute error below
-/// 1e-15 (tested against libm).
+/// Returns atan2(y, x) for y >= 0, in [0, pi]; 0 for (0, 0). x and y must be finite and below 1e300. Absolute error
+/// below 1e-15 (tested against libm).
 inline double polarAngle(double x, double y) {
     const double width = x < 0 ? -x : x;
     const double small = width < y ? width : y;
@@ -245,12 +245,13 @@ inline Float4 sqrt4(Float4 v) {
 inline Float4 loadFloat4(const float* p) { return *reinterpret_cast<const Float4InMemory*>(p); }
 inline void storeFloat4(float* p, Float4 v) { *reinterpret_cast<Float4InMemory*>(p) = v; }
 
-/// Returns two floats in the lower half, with zeros in the upper half.
+/// Returns the bits of two floats as a double.
 inline double pairBits(const float* p) {
     double bits;
     std::memcpy(&bits, p, sizeof bits);
     return bits;
 }
+/// Returns two floats in the lower half, with zeros in the upper half.
 inline Float4 loadPair(const float* p) { return std::bit_cast<Float4>(Double2{pairBits(p), 0.0}); }
 inline void storePair(float* p, Float4 v) {
     const double bits = std::bit_cast<Double2>(v)[0];
@@ -301,7 +302,7 @@ inline Vec3x4 gatherVec3(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3
 
 // Additions of rows, which all sums over corners use.
 
-/// Performs to[0..3] += row[0..3]; both aligned to 16 bytes.
+/// Performs to[0..3] += row[0..3]; both pointers must be aligned to 16 bytes.
 inline void addRow(float* to, const float* row) {
     using Row __attribute__((may_alias)) = Float4;
     *reinterpret_cast<Row*>(to) += *reinterpret_cast<const Row*>(row);

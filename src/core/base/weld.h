@@ -27,8 +27,8 @@ class Weldable {
     ~Weldable() = default;
 };
 
-/// Returns the root of each vertex: the lowest vertex that equals it. May be empty if no two are equal. Linear for any
-/// usual input, O(n log n) for input made to defeat the hash. `is_indexed`: few vertices are expected to have
+/// Returns the root of each vertex: the equal vertex with the lowest index. May be empty if no two are equal. Linear
+/// for any usual input, O(n log n) for input made to defeat the hash. `is_indexed`: few vertices are expected to have
 /// duplicates. Uses 10 to 12 bytes per vertex, up to 24 with four threads, and up to 32 if most vertices have
 /// duplicates. `transient` allocates everything except the result.
 Buffer<std::uint32_t> findRoots(Weldable& vertices, std::size_t count, bool is_indexed, const Allocator* allocator,

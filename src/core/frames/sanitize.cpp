@@ -116,10 +116,11 @@ bool isOrthonormal(const Vec3& tangent, const DVec3& n) {
 /// Conservative fast test: true only for tangents that causeOf considers valid, with a normal that has a direction. All
 /// limits are stricter than the exact ones by far more than float rounding.
 struct FastValidityTest {
-    static constexpr float kSquareTolerance = 9.9e-4f;      // below 2 * kUnitTolerance
-    static constexpr float kSquareCosine = 0.99f;           // squared cosine of 5.7 degrees
-    static constexpr float kSquareLean = 1e-13f;            // below kOrthogonalTolerance^2
-    static constexpr float kLeast = 1e-20f, kMost = 1e20f;  // squares of components neither underflow nor overflow
+    static constexpr float kSquareTolerance = 9.9e-4f;  // below 2 * kUnitTolerance
+    static constexpr float kSquareCosine = 0.99f;       // squared cosine of 5.7 degrees
+    static constexpr float kSquareLean = 1e-13f;        // below kOrthogonalTolerance^2
+    // limits within which squares neither underflow nor overflow
+    static constexpr float kLeast = 1e-20f, kMost = 1e20f;
 
     /// Tests four tangents at once; `w` contains their signs.
     static Mask4 of(const Vec3x4& t, Float4 w, const Vec3x4& n) {
@@ -365,8 +366,8 @@ class Sanitizer {
         }
     }
 
-    /// If N has no direction, all corners at a position with the same sign share the first substituted tangent, so that
-    /// no vertex has to be split.
+    /// If N has no direction, corners at one position with substituted tangents and equal signs share the first of
+    /// these tangents, so that no vertex has to be split.
     void alignWithoutNormals() {
         if (points_.empty()) points_ = weldPositions(mesh_, allocator_, parallel_);
         Buffer<Vec4> made(allocator_, 2 * mesh_.vertexCount(), Vec4{});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Converts a plan to words. Corners take their tangents from sources (groups, members of groups that split, conflicts,
-// vertices of lengyel), each a list of half-edges, and their normals from components; a result lists the corners of
-// both.
+// vertices of lengyel), each a list of half-edges, and their normals from components. The entries of a result list the
+// corners of its source and of its component.
 #include "tspace/plan_buffers.h"
 
 #include <algorithm>

@@ -132,7 +132,7 @@ class TriangleSmoother {
                 degenerate += terms.normal[t][3] == 0.0 && range.has(batch.groups[3 * t]) ? 1u : 0u;
             call_.kernel.add(terms, batch.groups, batch.count, sums, range.begin, range.end);
         }
-        // Squares of sums of products of floats neither overflow nor underflow.
+        // In double precision, squares of sums of products of floats neither overflow nor underflow.
         if (call_.kernel.finish(sums, size, kDoubtful) != 0) [[unlikely]]
             sumDoubtful(index, place);
         return degenerate;

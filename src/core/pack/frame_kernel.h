@@ -40,7 +40,7 @@ inline Doubles wholeBelow(Doubles x) {
     const Doubles magic = broadcastDouble(6755399441055744.0), near = (x + magic) - magic;  // 1.5 * 2^52
     return near - keepWhere(near > x, broadcastDouble(1.0));
 }
-/// Converts an integral value in [0, 2^23) to bits: these are the lower bits of its sum with 2^23.
+/// Converts an integral value in [0, 2^23) to an integer: the lower bits of its sum with 2^23.
 inline Bits wholeBits(Floats x) { return asBits(x + broadcast(8388608.0f)) ^ asBits(broadcast(8388608.0f)); }
 inline Floats clamped(Floats x, float low, float high) { return smaller(larger(x, broadcast(low)), broadcast(high)); }
 

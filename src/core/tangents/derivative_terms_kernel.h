@@ -12,7 +12,7 @@ using namespace simd::TSPACE_LANES;
 
 namespace {
 
-// limits that are far enough from those of float for all following operations
+// limits of determinants and squared lengths, far enough from the limits of float for all following operations
 constexpr float kLeast = 1e-30f, kGreatest = 1e30f;
 // Minimum difference |a - b|, relative to |a| + |b|, for computing a determinant a - b in single precision. Its terms
 // have an error of 3 roundings each, so its error is at most 100 roundings (6e-6) and its sign is certain.
@@ -56,7 +56,7 @@ struct GroupBits {
                 (size < broadcast(kGreatest));
 
     const Vectors e1 = g.p[1] - g.p[0], e2 = g.p[2] - g.p[0];
-    // Excludes degenerate triangles. Two corners at the same position have equal x, which is rare.
+    // Excludes degenerate triangles. Positions are compared only if two corners have equal x, which is rare.
     if (bitsOf((e1.x == zero) | (e2.x == zero) | (g.p[1].x == g.p[2].x)) != 0) [[unlikely]]
         safe = safe & !(equal(g.p[0], g.p[1]) | equal(g.p[0], g.p[2]) | equal(g.p[1], g.p[2]));
     // Divides first: products of edges and UV differences can exceed the range of float, but quotients cannot.

@@ -45,7 +45,7 @@ class Pairing {
 
   private:
     static constexpr std::uint32_t kForward =
-        0x80000000u;  // flag of a half-edge that runs from its lower point to the higher one
+        0x80000000u;  // flag of a half-edge that runs from its point with the lower index to the other
 
     /// Calls body(low, high, corner) for the edges of all used faces; the corner is combined with kForward.
     template <class Body>

@@ -129,9 +129,9 @@ class BorderedNormals {
     BorderedNormals(const LocalMesh& mesh, const Surroundings* around, const NormalOptions& options,
                     const Execution& execution);
 
-    /// Computes generateNormals of the mesh, one per corner. If a surrounding vertex at the same position has a normal
-    /// that is kept, within 30 degrees (and within the crease angle) of the computed one, that normal is used. Sums are
-    /// in file order, so that both sides of a border get the same bits.
+    /// Computes generateNormals of the mesh, one per corner. A computed normal is replaced by a kept normal of a
+    /// surrounding vertex at the same position, if the two differ by at most 30 degrees (and the crease angle). Sums
+    /// are in file order, so that both sides of a border get the same bits.
     Result<NormalReport> base(StridedSpan<Vec3> out);
     /// Computes generatePoseNormals; call after base(). `positions` are the positions of the mesh moved by target
     /// `target`.

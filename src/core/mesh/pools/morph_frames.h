@@ -145,7 +145,7 @@ struct PoolWithNormals {
     OwnedMesh vertices = {};
     /// targets read from the original pool, which must outlive this struct
     MorphTargets targets = {};
-    std::vector<PrimitiveGeometry> primitives = {};  ///< primitives with the same corners
+    std::vector<PrimitiveGeometry> primitives = {};  ///< the primitives, with the new vertex of each corner
     /// old vertex of each new vertex; the first vertices are unchanged
     std::vector<std::uint32_t> source_vertices = {};
     std::vector<VertexOffsets> offsets = {};  ///< offsets of each target for the normals of the new vertices

@@ -54,7 +54,7 @@ std::uint8_t seamOf(const MeshView& mesh, const SameVertex& same, const Corners&
     for (unsigned i = 0; i < 3; ++i) {
         for (unsigned k = 0; k < 3; ++k) {
             if (!same(a[i], b[(k + 1) % 3]) || !same(a[(i + 1) % 3], b[k])) continue;
-            if (seam != 0) return 0;  // both triangles have the same corners, or one triangle has no area
+            if (seam != 0) return 0;  // several shared edges: the triangles have the same corners, or one has no area
             seam = static_cast<std::uint8_t>(1 + 3 * i + k);
         }
     }
@@ -386,8 +386,8 @@ Result<QuadFit> fitQuads(const MeshView& triangles, std::span<const Vec4> stored
 
 namespace {
 
-/// Minimum share of the triangles that must be in pairs with one of Blender's two edge patterns for a mesh to count as
-/// a quad mesh from Blender: nearly all triangles of such a mesh are, but few triangles of a triangle mesh.
+/// Minimum share of the triangles in pairs with one of Blender's two edge patterns for a mesh to count as a quad mesh
+/// from Blender. Nearly all triangles of a quad mesh are in such pairs, but few triangles of a triangle mesh.
 constexpr double kLeastBlenderShare = 0.6;
 
 /// Returns whether the pattern is one that Blender writes. Blender cuts a quad along its first and third corner (or, if

@@ -76,8 +76,8 @@ bool hasTies(const MeshView& triangles, const QuadCandidates& candidates, const 
 /// Builds the faces. `pairs`: one entry per triangle.
 QuadFaces facesOfPairs(const QuadCandidates& candidates, const QuadPairs& pairs);
 
-// Detection of tangents that MikkTSpace computed on quads that were triangulated later, as in Blender, and of the pairs
-// of triangles that were these quads.
+// Detection of tangents that MikkTSpace computed on quads before the quads were triangulated, as in Blender, and of the
+// pairs of triangles that formed these quads.
 
 /// Returns whether quads explain clearly more corners than triangles. Pairs are selected by the corners that they
 /// explain, which explains a few more corners of any mesh; so quads must explain a minimum share of the unexplained

@@ -21,7 +21,7 @@ namespace tspace::estimators::TSPACE_LANES {
 
 namespace {
 
-// sin^2(3.4 degrees): the angle between both sums at which they have equal weights
+// squared sine of 3.4 degrees, the angle between the two means at which both have equal weights
 constexpr float kMixSquare = 0.00351691f;
 
 template <bool kTangentsOnly>

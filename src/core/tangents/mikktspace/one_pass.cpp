@@ -190,8 +190,9 @@ void distinguishDefaults(OnePass& pass) {
 
 /// Marks nodes at which triangles without UV area need the vertex path. Such a triangle uses the orientation of the
 /// first group that reaches it, at any of its nodes. If all other triangles at its three nodes have the same
-/// orientation, it uses that one, in any order, and only links its neighbors in the fan. Nodes of other such triangles
-/// become complex, unless they have no other triangle and so no group. Corners there are counted as defaults.
+/// orientation, it uses that orientation, whatever the order of groups, and only links its neighbors in the fan. Nodes
+/// of other such triangles become complex, unless they have no other triangle and so no group. Corners there are
+/// counted as defaults.
 void checkDegenerateUvs(OnePass& pass) {
     if (pass.sums.report.degenerate_uv_count == 0) return;
     distinguishDefaults(pass);
