@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Images as floats: decoded normal maps, and input of the encoders. Linear; color spaces are ignored.
+// Images as floats: decoded normal maps, and input of the encoders. Color spaces are ignored: values are used as
+// stored.
 #pragma once
 
 #include <optional>

@@ -15,9 +15,9 @@ namespace tspace {
 /// Returns the format according to the first bytes, regardless of the file's metadata. TGA has no magic number: a file
 /// of no other format is a TGA if its header is valid for its length. Not available in JavaScript (TSPACE_SMALL).
 ImageFormat imageFormat(ByteSpan bytes);
-/// Returns "PNG", "WebP", "KTX2"; empty for an unknown format.
+/// Returns a name such as "PNG", "WebP" or "KTX2"; empty for an unknown format.
 const char* formatName(ImageFormat format);
-/// Returns "image/png"; empty for an unknown format, and for TGA, which has no MIME type.
+/// Returns a MIME type such as "image/png"; empty for an unknown format, and for TGA, which has none.
 const char* mimeType(ImageFormat format);
 /// Returns why this build cannot read pixels of the format, as a clause ("it is AVIF, which is not read"), or
 /// null if it can.

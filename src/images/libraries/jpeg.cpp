@@ -48,8 +48,8 @@ JpegHead readHead(const Decompressor& decompressor, ByteSpan bytes) {
     return {{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)}, color_space};
 }
 
-/// Limits scans, because a progressive file may declare thousands of scans over all pixels. Stops at warnings, because
-/// the library would fill truncated data with gray.
+/// Decompresses to RGB. Limits the number of scans, because a progressive file may declare thousands of scans over all
+/// pixels. Stops at warnings, because the library would fill truncated data with gray.
 bool decompress(const Decompressor& decompressor, ByteSpan bytes, ImageSize size, std::vector<std::uint8_t>& rgb) {
     constexpr int kFlags = TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS | TJFLAG_STOPONWARNING;
     rgb.resize(3 * size.pixels());

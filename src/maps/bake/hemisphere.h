@@ -50,7 +50,7 @@ class ScrambledSobol {
 
   private:
     /// Scrambles bits by Owen's method: flips each bit depending on the seed and on the higher bits, which swaps halves
-    /// recursively. The bits below those that distinguish points are a constant derived from the seed.
+    /// recursively. The bits below those that distinguish points are a hash of the seed and of all higher bits.
     [[nodiscard]] double scrambled(std::uint32_t bits, std::uint64_t seed) const {
         std::uint64_t above = 1, result = 0;
         for (int level = 0; level < depth_; ++level) {

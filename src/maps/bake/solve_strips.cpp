@@ -56,7 +56,7 @@ class Solving {
             for (Vec3& texel : texels_) texel = kWantedLength * texel;
         }
         const std::vector<Strip> strips = stripsOf(options_.height, strip_rows);
-        // Half of the steps of a strip trace rays, the others solve its system.
+        // Half of the progress steps of a strip are for tracing rays, the others for solving its system.
         for (const Strip& strip : strips) steps_.total += 2 * bandsOf(strip.window).size();
         first_row_ = rowsFrom(0, 1);
         for (const Strip& strip : strips) solve(strip);

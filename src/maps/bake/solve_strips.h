@@ -8,7 +8,7 @@
 
 namespace tspace {
 
-/// Number of rows of a strip (even), and number of rows on each side that are solved together with it.
+/// Number of rows of a strip (even), and number of adjacent rows that are solved together with it and discarded.
 inline constexpr std::uint32_t kStripRows = 512, kRowsAround = 8;
 
 /// Sets traced.wanted to the texels whose filtered map is closest to the ray samples: for 8 bits, vectors that integers

@@ -155,7 +155,7 @@ void addMaterial(LayerTracing& tracing, std::size_t texel, const ShownMaterial& 
     }
 }
 
-/// Computes the mean over the rays of each texel.
+/// Computes the mean material over the rays of each texel.
 void traceMeans(LayerTracing& tracing) {
     tracing.sample_count = Buffer<std::uint16_t>(tracing.work.allocator, tracing.met.size(), std::uint16_t{0});
     const std::uint32_t n = samplingOf(tracing.options).points;
@@ -211,7 +211,7 @@ void setLayers(LayerTracing& tracing, std::size_t texel, const LowPoint& point, 
         tracing.set(MapLayer::thickness, texel, around.thickness);
         if (tracing.has(MapLayer::thickness)) tracing.solid[texel] = static_cast<float>(around.solid);
     }
-    // Inside triangles, colors are means over several rays.
+    // Texels inside triangles may already have a mean over several rays.
     if (tracing.has_material && !tracing.hasMean(texel))
         setMaterial(tracing, texel, tracing.layers.material(hit.triangle, hit.weights));
 }
@@ -325,7 +325,7 @@ double largest(const BakedLayer& layer, const std::vector<TexelState>& states) {
     return static_cast<double>(most);
 }
 
-/// Returns the 99th percentile of the absolute values.
+/// Returns the 99th percentile of the absolute values, or their maximum if that percentile is 0.
 double percentile99(const BakedLayer& layer, const std::vector<TexelState>& states) {
     std::vector<float> sizes;
     for (std::size_t i = 0; i < states.size(); ++i) {

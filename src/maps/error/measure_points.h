@@ -190,7 +190,7 @@ class MeasurePoints {
     /// Traces a ray for each of `count` points. Memory: 48 bytes per point.
     static MeasurePoints spread(const MapSurfaces& surfaces, std::uint32_t count, const MapWork& work);
 
-    /// Measures a map, without the heat map. `tangents`: as in MapCandidate.
+    /// Measures a map, without the heat map.
     [[nodiscard]] MapError measure(const MapImage& map, const MapSurfaces& surfaces, const MapCandidate& candidate,
                                    Parallel& parallel) const;
 

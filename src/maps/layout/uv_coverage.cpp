@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows of texel centers through each triangle, in integer arithmetic.
+// Fills the rows of texel centers inside each triangle, in integer arithmetic.
 #include "maps/layout/uv_coverage.h"
 
 #include <algorithm>

@@ -37,7 +37,8 @@ enum class UvPlacing : std::uint8_t {
 
 /// One UV coordinate of the three corners of a triangle, in texels.
 struct PlacedAxis {
-    /// Number of whole images that were subtracted, so that the first covered image has index 0.
+    /// Number of whole images that were subtracted from the coordinates, so that the first covered image has index 0
+    /// (with `mirror`: 0 or 1). With `clamp`, nothing is subtracted.
     double begin = 0;
     std::array<std::int64_t, 3> at = {};  ///< coordinate of each corner, in subdivisions of a texel
 

@@ -106,8 +106,8 @@ struct RaySurface::State {
         if (second_device != nullptr) embree().releaseDevice(second_device);
     }
 
-    /// Intersects the line with the plane of a triangle whose front faces against `direction`. Returns false if the
-    /// line misses it.
+    /// Intersects the line along `direction` with a triangle. Returns false if the line misses the triangle or does not
+    /// hit its front.
     bool meet(std::uint32_t triangle, const DVec3& from, const DVec3& direction, PlanePoint& point) const {
         std::array<DVec3, 3> corner{};
         for (std::size_t i = 0; i < 3; ++i) corner[i] = toDouble(positions[corners[3 * triangle + i]]) - from;
@@ -130,7 +130,7 @@ struct RaySurface::State {
 
 namespace {
 
-/// Triangles that a query searches on a line.
+/// What a query looks for on a line.
 enum class Wanted : std::uint8_t {
     nearest,  ///< the triangle nearest to `from`, on either side
     first,    ///< the first triangle along the direction
@@ -199,8 +199,7 @@ void countCrossing(Query& query, std::uint32_t triangle) {
     }
 }
 
-/// Intersects the line with the plane of a triangle, whichever way the triangle faces. Returns false if the line misses
-/// it.
+/// Intersects the line with the front or the back of a triangle. Returns false if the line misses the triangle.
 bool meetEitherSide(const Query& query, std::uint32_t triangle, PlanePoint& point) {
     if (query.surface->meet(triangle, query.from, query.direction, point)) return true;
     if (!query.surface->meet(triangle, query.from, -1.0 * query.direction, point)) return false;

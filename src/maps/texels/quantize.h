@@ -18,9 +18,9 @@ struct IntegerVectors {
 /// Rounds each component of a vector to the nearest value that an integer channel from 0 to `most` can represent.
 DVec3 roundedVector(unsigned most, const DVec3& vector);
 
-/// Returns the integer vector whose decoded direction is closest to `direction`, with any length from the minimum to
-/// the longest that fits. With two channels, the length is 1 (z is as close as possible), and z of `direction` must not
-/// be negative. `direction`: unit, before division by the scale.
+/// Returns the integer vector whose direction, as decoded by readers, is closest to that of `direction`. It has any
+/// length from the minimum to 1. With two channels, the length is 1 (z is as close as possible), and z of `direction`
+/// must not be negative. `direction`: unit vector as stored, that is, with x and y divided by the scale.
 DVec3 nearestIntegers(const IntegerVectors& numbers, const DVec3& direction);
 
 }  // namespace tspace

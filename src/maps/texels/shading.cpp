@@ -14,7 +14,7 @@ DVec3 mixed(const std::array<DVec3, 3>& of, const std::array<double, 3>& weights
     return weights[0] * of[0] + weights[1] * of[1] + weights[2] * of[2];
 }
 
-/// Returns the normalized vector. Zero and vectors that are not finite are returned unchanged: they shade nothing.
+/// Returns the normalized vector. Zero and vectors that are not finite are returned unchanged.
 DVec3 unitOrSame(DVec3 v) {
     normalize(v);
     return v;

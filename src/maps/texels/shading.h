@@ -30,7 +30,7 @@ ShadingFrame shadingFrame(const CornerFrames& corners, const std::array<double, 
 /// applied. The length is not changed.
 DVec3 decodeTexel(const Vec3& texel, const MapReading& reading);
 /// Returns the texel that decodes to the vector, approximately. Channels outside 0 to 1 are not clamped. With two
-/// channels, the vector is normalized first, and its z must not be negative.
+/// channels, z must not be negative, and the vector is normalized after x and y were divided by the scale.
 DVec3 encodeTexel(const DVec3& vector, const MapReading& reading);
 
 /// Converts a direction from mesh coordinates to the axes of a map (alongAxes), and back (fromAxes).

@@ -18,7 +18,7 @@ namespace tspace::gltf {
 namespace {
 
 /// Maximum memory for decoding without a user's limit. Draco has no minimum size per vertex (a flat grid takes almost
-/// nothing), so the limit is a choice: a file of any size may decode to 4 MiB, a large file to 256 times its size.
+/// nothing), so the limit is arbitrary: a file of any size may decode to 4 MiB, a large file to 256 times its size.
 constexpr std::uint64_t kFreeBytes = std::uint64_t{4} << 20;
 constexpr std::uint64_t kRatio = 256;
 /// Estimated temporary memory of the library per point, as a multiple of the size of the values.

@@ -49,8 +49,8 @@ struct DracoMesh {
     std::vector<DracoAttribute> attributes = {};
 };
 
-/// Upper limits of a mesh, checked before memory is allocated. 64 bits wide, because a file may declare more than a
-/// 32-bit size_t can hold.
+/// Upper limits of a mesh, checked before memory is allocated. The limits have 64 bits, because a file may declare more
+/// than a 32-bit size_t can hold.
 struct DracoLimits {
     std::uint64_t corner_count = 0, point_count = 0, bytes = 0;
 };
