@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: MIT
-// Empty: the headers of all tests are compiled once with it.
+// Empty file with which the headers of all tests are compiled once.

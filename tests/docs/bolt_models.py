@@ -4,7 +4,7 @@
 import os
 import sys
 
-# Points of a circle as text with enough digits to be equal on every machine.
+# Points of a circle, as text with as many digits as are equal on every machine.
 STEPS = 24
 RING = []
 x, y = 1.0, 0.0

@@ -13,10 +13,10 @@ PAGES = ["README.md", "docs/guides/from-mikktspace.md", "docs/guides/from-meshop
          *sorted(str(page.relative_to(docs)) for page in (docs / "docs/problems").glob("*.md"))]
 SOURCE = "docs/evidence/performance.md"
 
-# The columns of the table "Comparison".
+# Columns of the table "Comparison" in SOURCE.
 LOOP, REFERENCE, MESHOPT, ONE, TWO, CORRECTED = range(1, 7)
-# (page, pattern whose groups are figures, their sources). A source is (row, column) of a table of SOURCE, or a pattern
-# with one group.
+# Claims: (page, pattern whose groups are figures, sources of these figures). A source is (row, column) of a table of
+# SOURCE, or a pattern with one group.
 MILLION = "torus, 1 million"
 CLAIMS = [
     ("README.md", r"\| torus of 1 million triangles, one thread \| \*\*(\d+) ms\*\* \| (\d+) ms \| (\d+) ms",
@@ -42,9 +42,11 @@ CLAIMS = [
     ("docs/guides/from-meshoptimizer.md", r"\*\*(\d+) KB; less than (\d+) s\*\* \| (\d+) KB; (\d+) s of processor",
      [r"meshoptimizer's file adds (\d+) KB", r"the others less than (\d+) s", r"`generateTangents` with all methods adds (\d+) KB", r"two-files\.md\) takes (\d+) s of"]),
 ]
-# Shares of different corners in SOURCE that pages state as shares of equal ones: 97 % differ, 3 % are equal.
+# SOURCE states shares of corners that differ; pages state the complements, shares of equal corners (97 % differ, so 3 %
+# are equal).
 COMPLEMENTS = {("0.1", "99.9"), ("3", "97")}
-# Figures that are properties of a format, or whose measurement and command are stated on the page itself.
+# Figures of pages that need no source: properties of a format, or results whose measurement and command the page
+# states.
 OWN = {
     # sizes of one model; the page states the command
     "docs/problems/file-became-larger.md": {"23.0 MB", "32.6 MB", "25.5 MB", "13.0 MB"},

@@ -7,13 +7,13 @@ import struct
 import sys
 
 SIDES, RINGS, HEIGHT, RADIUS = 40, 60, 3.0, 0.42
-JOINTS = 3  # one unit apart, the first one at the bottom
-TURN = math.radians(42)  # of the second and third joint, about z
+JOINTS = 3  # in a line, one unit apart; the first one is at the bottom
+TURN = math.radians(42)  # angle by which the second and third joint are rotated about z
 
 positions, normals, colors, joints, weights, indices = [], [], [], [], [], []
 for ring in range(RINGS + 1):
     y = HEIGHT * ring / RINGS
-    # The weight moves from one joint to the next within 0.6 around the next joint.
+    # Near each further joint, within 0.6 units of height, the weight moves from the joint below to this joint.
     along = min(max((y - 0.7) / 0.6, 0), 1) + min(max((y - 1.7) / 0.6, 0), 1)
     low = min(int(along), JOINTS - 2)
     for side in range(SIDES):

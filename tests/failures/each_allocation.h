@@ -29,21 +29,21 @@ ErrorCode codeOf(const Result<Value>& result) {
     return result.error().code;
 }
 
-/// Returns whether the process refuses to call Embree: after a failed allocation inside Embree its locks may stay
-/// locked.
+/// Returns whether the process refuses to call Embree, because an allocation inside Embree failed and its locks may
+/// still be locked.
 inline bool isEmbreeRefused() {
     return std::string_view(last_message.data()).starts_with("Embree ran out of memory earlier");
 }
 
-/// Calls call() with a failing allocation (the first, the second etc.) until a call succeeds because it needs fewer;
-/// each time once with only that allocation failing, and once with all further ones failing too. call() returns an
-/// ErrorCode; look(k) is called after each.
+/// Calls call() while an allocation fails: the first one, then the second one etc., until a call succeeds because it
+/// makes fewer allocations. Each number is tested twice: only this allocation fails, or all further ones fail too.
+/// call() returns an ErrorCode; look(k) is called after each call().
 template <class Call, class Look>
 void failEachAllocation(const char* name, const Call& call, const Look& look) {
     for (const bool all_after : {false, true}) {
         constexpr long kMost = 200000;
         long k = 1, failures = 0;
-        // Beyond a limit not every allocation is tested, to save time: the calls make up to 10,000.
+        // The calls make up to 10,000 allocations. To save time, not every allocation beyond a limit is tested.
         for (; k < kMost; k += 1 + k / TSPACE_EVERY_ALLOCATION_UP_TO) {
             failAllocation(k, all_after);
             const ErrorCode code = call();
@@ -56,8 +56,8 @@ void failEachAllocation(const char* name, const Call& call, const Look& look) {
                 break;
             }
             failures += code != ErrorCode::ok;
-            // Optional data is skipped; the only permitted error is a lack of memory. Embree does not always know the
-            // reason of its failures.
+            // A call may succeed by skipping optional data. The only permitted error is a lack of memory, or an error
+            // of Embree, which does not always know why it failed.
             const bool is_embree =
                 code == ErrorCode::internal && std::string_view(last_message.data()).starts_with("Embree");
             ASSERT_TRUE(code == ErrorCode::ok || code == ErrorCode::outOfMemory || is_embree)
@@ -66,7 +66,7 @@ void failEachAllocation(const char* name, const Call& call, const Look& look) {
             if (::testing::Test::HasFailure()) return;
         }
         EXPECT_LT(k, kMost) << name;
-        // Small meshes of the C API fit into the memory that a thread keeps.
+        // Calls with small meshes may make no allocation, because the memory that a thread keeps is enough.
         EXPECT_TRUE(failures > 0 || k == 1) << name << ": no allocation failed";
     }
 }
@@ -88,13 +88,14 @@ class FailingMemory : public ::testing::Test {
         all.selection.existing = ExistingTangents::replace;
         EXPECT_TRUE(generateFile(at("plain.glb"), at("other.glb"), all));
     }
-    /// Allocates only on the first call. `name` is short enough to need no allocation.
+    /// Returns the path of a file in the folder. It allocates only for a new name: `name` itself is short enough to
+    /// need no allocation.
     const std::string& at(const std::string& name) {
         const auto known = paths_.find(name);
         return known != paths_.end() ? known->second : paths_.emplace(name, folder_.path(name).string()).first->second;
     }
 
-    /// The call must change no file, and must leave no file.
+    /// Checks that the call changes and leaves no file, whichever allocation fails.
     template <class Call>
     void onlyReads(const char* name, const Call& call) {
         const std::set<std::string> files = folder_.files();
@@ -104,7 +105,7 @@ class FailingMemory : public ::testing::Test {
         failEachAllocation(name, call,
                            [&](long k, ErrorCode) { EXPECT_EQ(folder_.files(), files) << name << " " << k; });
     }
-    /// The call writes only the file `output`, completely or not at all.
+    /// Checks that the call writes only the file `output`, completely or not at all.
     template <class Call>
     void writesOne(const char* name, const std::string& output, const Call& call) {
         std::filesystem::remove(at(output));

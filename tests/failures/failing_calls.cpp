@@ -4,7 +4,7 @@
 // TSPACE_FAIL_CALL=K       the Kth call of the functions below fails, as on a faulty disk
 // TSPACE_FAIL_MALLOC=K     the Kth allocation of the C library fails, and all further ones if TSPACE_FAIL_MALLOC_AFTER=1
 // TSPACE_NO_RESERVE=1      the C++ library does not get its emergency memory for exceptions
-// TSPACE_FAIL_MARK=FILE    a file that a program which has reached that call writes at its end: the number of allocations
+// TSPACE_FAIL_MARK=FILE    a program that has reached this call writes its number of allocations to FILE when it ends
 // TSPACE_SIGNAL_AT_SYNC=N  signal N is raised when the first file is synced to disk
 // TSPACE_SIGNAL_AFTER_COMMIT=N  signal N is raised once, when a folder is synced after its files were renamed
 // TSPACE_NO_THREADS=1      no thread can be started
@@ -30,7 +30,7 @@ long numberOf(const char* name) {
     return text == nullptr ? 0 : std::atol(text);
 }
 
-/// Counts a call; returns whether it is the one that must fail.
+/// Counts a call and returns whether it must fail, with `why` as errno.
 bool fails(int why) {
     static const long failing = numberOf("TSPACE_FAIL_CALL");
     if (++call_count != failing) return false;
@@ -49,7 +49,8 @@ bool allocations_fail_after = false, is_started = false;
     is_started = true;
 }
 
-/// Libraries are initialized before this one. The C++ library allocates its reserve, 73 KB, in one block.
+/// Returns whether this is the C++ library's reserve for exceptions: 73 KB, allocated in one block before this library
+/// is initialized.
 bool isReserve(size_t bytes) {
     constexpr size_t kLarge = 32768;
     return !is_started && bytes > kLarge && std::getenv("TSPACE_NO_RESERVE") != nullptr;
@@ -139,7 +140,7 @@ TSPACE_FAILING(int, -1, EIO, lstat, (const char* path, struct stat* status), (pa
 TSPACE_FAILING(int, -1, EIO, fstat, (int number, struct stat* status), (number, status))
 
 int fclose(FILE* file) {
-    // The system closes the file nevertheless.
+    // If it must fail, close the file nevertheless, as the system does.
     const bool is_failing = fails(EIO);
     const int done = real<int(FILE*)>("fclose")(file);
     if (!is_failing) return done;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tool when a system call fails, when a signal arrives, and when no thread can be started.
+// The tool when a system call fails, when a signal arrives, or when no thread can be started.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -21,7 +21,8 @@ std::string writeModel(const TempFolder& folder) {
     return folder.read("plain.glb");
 }
 
-/// Calls try_one(k) for each system call of the run, or for a subset, until a run has fewer calls.
+/// Runs the tool with a failing system call (the first one, then every `every`th one) and calls try_one(k, run), until
+/// a run makes fewer calls.
 template <class TryOne>
 void failEachCall(const TempFolder& folder, const std::string& arguments, const TryOne& try_one, int every = 1) {
     constexpr int kMostCalls = 3000;
@@ -40,7 +41,7 @@ void failEachCall(const TempFolder& folder, const std::string& arguments, const 
     EXPECT_LE(k, kMostCalls);
 }
 
-/// If only the messages cannot be printed, the files exist.
+/// Returns whether the outputs exist: the run succeeded, or only its messages could not be printed.
 bool hasWritten(const ToolRun& run) {
     return run.exit_code == 0 || run.err.find("standard output") != std::string::npos;
 }
@@ -93,11 +94,11 @@ TEST(FailingCalls, OfACheckAreReportedAndLeaveNoPartialPage) {
     failEachCall(folder, command, [&](int k, const ToolRun& run) {
         EXPECT_EQ(folder.files(), files) << "call " << k << ": " << run.err;
         const std::string found = folder.read("page.html");
-        // The pictures are rendered from the model, which is read again.
+        // A failure while pictures are rendered, for which the model is read again, may leave a page without them.
         EXPECT_TRUE(found == "old" || found.ends_with(page_end)) << "call " << k;
         if (run.exit_code == whole.exit_code) {
             EXPECT_NE(found, "old") << "call " << k << run.err;
-            // An unreadable image causes a remark, since frames can be checked without it.
+            // An unreadable image causes only a remark, because frames can be checked without it.
             EXPECT_TRUE(run.out == whole.out || run.out.find("fileRemark") != std::string::npos)
                 << "call " << k << run.err << run.out;
         }
@@ -105,7 +106,7 @@ TEST(FailingCalls, OfACheckAreReportedAndLeaveNoPartialPage) {
     });
 }
 
-/// Command lines for the files of writeModel, and their outputs.
+/// A command line for the files of writeModel, and its outputs.
 struct Writing {
     std::string command = {};
     std::vector<std::string> outputs = {};
@@ -138,13 +139,14 @@ bool isThere(const TempFolder& folder, const Writing& writing) {
     return false;
 }
 
-/// A page may lack a picture, and SARIF may contain what could not be read.
+/// Returns whether a page or SARIF file is complete. A page may lack a picture, and SARIF may say what could not be
+/// read.
 bool isWholeReport(const std::string& name, const std::string& text) {
     return (name.ends_with(".html") && text.ends_with("</html>\n")) ||
            (name.ends_with(".sarif") && text.ends_with("}\n"));
 }
 
-// SOURCE_DATE_EPOCH: pages contain the time of their creation.
+// SOURCE_DATE_EPOCH makes pages equal; otherwise they contain the time at which they were created.
 TEST(FailingCalls, OfAnyCommandLeaveItsOldFilesOrItsNewOnes) {
     const TempFolder folder;
     writeModel(folder);
@@ -170,12 +172,12 @@ TEST(FailingCalls, OfAnyCommandLeaveItsOldFilesOrItsNewOnes) {
                 folder.write(name, "old");
             }
             const bool has_written = run.exit_code == 1 || hasWritten(run);
-            // SARIF is also written for files that cannot be read.
+            // SARIF is written even if an input cannot be read.
             if (!after.contains("new.sarif")) {
                 EXPECT_EQ(new_count, has_written ? after.size() : 0) << where;
             }
         };
-        // Testing each of 1,000 calls takes 95 s of processor time; only long test runs include all of them.
+        // Testing each of 1,000 calls takes 95 s of processor time, so only long test runs test all of them.
         failEachCall(folder, writing.command, look, TSPACE_EVERY_FAILING_CALL);
         for (const std::string& name : writing.outputs) std::filesystem::remove(folder.path(name));
     }
@@ -210,8 +212,8 @@ TEST(Signals, LeaveNoTemporaryFileInAnyCommand) {
     }
 }
 
-/// Runs a command with failing allocations of the C library. The only permitted error is a lack of memory, and outputs
-/// must exist exactly if the exit code says so.
+/// Runs a command while allocations of the C library fail. The only permitted error is a lack of memory, and the
+/// outputs must exist if and only if the exit code says so.
 class FailingMallocs {
   public:
     FailingMallocs(const TempFolder& folder, const Writing& writing) : folder_(folder), writing_(writing) {
@@ -225,14 +227,14 @@ class FailingMallocs {
     FailingMallocs(const FailingMallocs&) = delete;
     FailingMallocs& operator=(const FailingMallocs&) = delete;
 
-    /// Lets each allocation fail, or a subset.
+    /// Lets each allocation fail in turn, or a subset of them in short test runs.
     void failEach() {
         for (const char* const mode : {"0", "1"}) {
             for (int k = 1; is_there_ && fail(k, mode); k += 1 + k / TSPACE_EVERY_MALLOC_UP_TO) {
             }
         }
     }
-    /// Lets the last allocations fail, when reports are prepared and outputs put in place.
+    /// Lets the last allocations fail, with which reports are prepared and outputs are put in place.
     void failLast() {
         if (!is_there_) return;
         fail(kNone, "0");
@@ -241,7 +243,7 @@ class FailingMallocs {
     }
 
   private:
-    /// Returns false if there are fewer allocations, or the test has failed.
+    /// Lets allocation k fail. Returns false if the run makes fewer allocations, or if the test has failed.
     bool fail(int k, const char* mode) {
         const std::string settings =
             "TSPACE_FAIL_MARK=mark TSPACE_FAIL_MALLOC=" + std::to_string(k) + " TSPACE_FAIL_MALLOC_AFTER=" + mode;

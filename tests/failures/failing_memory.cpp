@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All forms of operator new.
+// Replaces all forms of operator new.
 #include "failures/failing_memory.h"
 
 #include <dlfcn.h>
@@ -17,8 +17,8 @@ std::atomic<long> call_count = 0;
 long failing_call = 0;
 bool fails_after = false;
 
-/// Returns whether the caller is Embree or TBB, which terminate the program if memory runs out, even while they release
-/// it.
+/// Returns whether the caller is Embree or TBB. They terminate the program if memory runs out, even while they release
+/// memory.
 bool isOfOthers(void* caller) {
     Dl_info info = {};
     if (dladdr(caller, &info) == 0 || info.dli_fname == nullptr) return false;

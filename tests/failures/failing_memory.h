@@ -4,9 +4,9 @@
 
 namespace tspace::test {
 
-/// From now on the Kth call of operator new fails, and with `all_after` all further ones.
+/// Makes the Kth call of operator new from now on fail, and with `all_after` also all further calls.
 void failAllocation(long k, bool all_after);
-/// Stops failing. Returns whether an allocation failed.
+/// Stops the failures. Returns whether an allocation has failed.
 bool stopFailing();
 
 }  // namespace tspace::test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lets each allocation fail in turn, and callbacks throw: every call returns an error, and files are either all old or
-// all new.
+// Lets each allocation fail in turn, and lets callbacks throw. Every call returns an error, and the output files are
+// either all old or all new.
 #include <new>
 #include <stdexcept>
 
@@ -101,7 +101,7 @@ TEST_F(FailingMemory, OfFinish) {
 }
 
 TEST_F(FailingMemory, ASinkThatThrowsEndsTheCallWithAnError) {
-    // Large enough for helper threads.
+    // The model is large enough for helper threads.
     folder_.write("grid.obj", gridObj(150, 0.01));
     for (const unsigned threads : {1U, 2U, 8U}) {
         for (int round = 0; round < 10; ++round) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Images that declare far more pixels than their size justifies: every command that reads a map rejects them by
-// default.
+// Images whose headers declare far more pixels than the size of the file justifies: every command that reads a map
+// rejects them by default.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -22,7 +22,7 @@ TEST(MemoryLimit, HoldsByDefaultForEveryImageThatIsReadAsAMap) {
     const TempFolder folder;
     writeFoldedObj(folder, "folded.obj");
     writeBumpMap(folder);
-    // 4096 x 4096 pixels in the header of a small file: rejected before anything is decoded.
+    // The header of a small file declares 4096 x 4096 pixels. It is rejected before anything is decoded.
     writeOneColor(folder, "bomb.png", 16);
     std::string bomb = folder.read("bomb.png");
     for (const std::size_t side_at : {16, 20}) bomb.replace(side_at, 4, std::string("\0\0\x10\0", 4));

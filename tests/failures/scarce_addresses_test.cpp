@@ -14,13 +14,13 @@
 namespace tspace::test {
 namespace {
 
-/// Writes a wavy grid, large enough for helper threads and arenas.
+/// Writes a wavy grid that is large enough for helper threads and arenas.
 void writeGrid(const TempFolder& folder) {
     folder.write("grid.obj", "mtllib folded.mtl\n" + gridObj(150, 0.01, "usemtl skin\n"));
     EXPECT_EQ(runTool(folder, "generate grid.obj --all -q -o grid.glb").exit_code, 0);
 }
 
-/// Runs a copy of the tool instead of the built one, next to the page of tspace view.
+/// Runs a copy of the tool, next to which there is a page for tspace view.
 constexpr const char* kCopy = R"(sh -c 'exec ./bin/tspace "$@"')";
 
 void installCopy(const TempFolder& folder) {
@@ -34,7 +34,8 @@ ToolRun runWithin(const TempFolder& folder, const std::string& arguments, std::u
                    "ulimit -c 0; ulimit -v " + std::to_string(kilobytes) + " || exit 99; timeout -s KILL 20 " + kCopy);
 }
 
-/// Runs a command with each limit. It must end as without a limit, or with exit code 5, one line, and no output.
+/// Runs a command with each limit. It must end as without a limit, or with exit code 5, a message of one line, and no
+/// output.
 void sweep(const TempFolder& folder, const std::string& arguments) {
     const std::set<std::string> inputs = folder.files();
     const ToolRun unlimited = runTool(folder, arguments, kCopy);

@@ -30,8 +30,8 @@ namespace {
 
 constexpr int kDone = 0, kOutOfMemory = 5, kOther = 3;
 
-/// Returns the exit code of a child that calls call() with `megabytes` of address space, or the negated signal that
-/// ended it.
+/// Returns the exit code of a child process that runs call() with `megabytes` of address space, or the negated number
+/// of the signal that ended it.
 int exitWithin(std::uint64_t megabytes, const std::function<ErrorCode()>& call) {
     const pid_t child = fork();
     if (child == 0) {
@@ -43,7 +43,7 @@ int exitWithin(std::uint64_t megabytes, const std::function<ErrorCode()>& call) 
         try {
             code = call();
         } catch (const std::bad_alloc&) {
-            // Thrown by vectors of this test, or by the constructor of Arena.
+            // Vectors of this test, or the constructor of Arena, threw it.
         }
         _exit(code == ErrorCode::ok ? kDone : code == ErrorCode::outOfMemory ? kOutOfMemory : kOther);
     }
@@ -134,7 +134,7 @@ TEST(ScarceAddresses, EndNoFunctionOfTheLibraryBySignal) {
         {"bakeFile", [&] { return codeOf(bakeFile(glb, glb, map, small)); }},
     };
     for (const Named& each : calls) {
-        // A build without images or Embree cannot bake.
+        // Builds without images or without Embree cannot bake.
         const int unlimited = exitWithin(1 << 20, each.call);
         const auto removeOutputs = [&] {
             for (const char* name : {"new.glb", "new.png"}) std::filesystem::remove(folder.path(name));

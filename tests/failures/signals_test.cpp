@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Signals at random moments of each command: it ends immediately, with all outputs or none, and leaves no temporary
-// file.
+// Signals at random times during each command: the command ends immediately, with all outputs or none, and leaves no
+// temporary file.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -23,7 +23,7 @@ double secondsOf(const std::function<void()>& work) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Returns an uncompressed TGA of vectors near (0, 0, 1).
+/// Returns an uncompressed TGA whose texels are vectors near (0, 0, 1).
 std::string mapOf(unsigned side) {
     std::string tga(18, '\0');
     tga[2] = 2;
@@ -88,7 +88,7 @@ TEST(Signals, EndEveryCommandWithinASecondAtAnyMoment) {
         const std::set<std::string> outputs = entriesOf(folder);
         removeOutputs();
         if (code > 1) {
-            // The build lacks a feature that the command needs.
+            // This build lacks a feature that the command needs.
             EXPECT_NE(runTool(folder, command).err.find("this build"), std::string::npos) << command;
             continue;
         }
@@ -96,7 +96,7 @@ TEST(Signals, EndEveryCommandWithinASecondAtAnyMoment) {
         for (int i = 0; i < TSPACE_SIGNALS_PER_COMMAND; ++i) {
             const double wait = std::uniform_real_distribution<>(0, whole)(random);
             const int signal = i % 2 == 0 ? SIGINT : SIGTERM;
-            // Other programs on this machine slow everything down.
+            // Measure the load: other programs on this machine slow the command down.
             const double load = secondsOf([&] { StartedTool(folder.path(), {"--version"}).end(); });
             StartedTool tool(folder.path(), wordsOf(command));
             std::this_thread::sleep_for(std::chrono::duration<double>(wait));
@@ -135,7 +135,7 @@ TEST(Signals, EndABatchDuringALaterFile) {
     const TempFolder folder;
     writeInputs(folder);
     if (!fs::exists(fs::path(TSPACE_TOOL).parent_path() / "tspace-import")) GTEST_SKIP() << "no importer was built";
-    // 58 bytes that keep Assimp 5 busy for minutes.
+    // These 58 bytes keep Assimp 5 busy for minutes.
     folder.write("endless.ply", "ply\nformat ascii 1.0\nelement vertex 2147483647\nend_header\n");
     for (const int signals : {1, 2}) {
         StartedTool tool(folder.path(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// EXR as numbers: round trips, and rejected corrupt files.
+// Reading EXR files: round trips, interpretation of their values, and rejection of corrupt files.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -80,7 +80,8 @@ TEST_F(Exr, ValuesThatAreNotFiniteBecomeGray) {
     }
 }
 
-/// Returns the file with a changed corner of its data window: 0 to 3 for the first x and y and the last x and y.
+/// Returns the file with one changed number of its data window. `corner`: 0 to 3 for the first x, the first y, the last
+/// x and the last y.
 std::vector<std::uint8_t> withCorner(std::vector<std::uint8_t> file, std::size_t corner, std::int32_t value) {
     const std::string name("dataWindow\0box2i\0", 17);
     const auto found = std::search(file.begin(), file.end(), name.begin(), name.end());
@@ -158,7 +159,7 @@ TEST_F(Exr, VectorsFromMinusOneToOneAreMoved) {
     expectSame(image, moved, "tangent space");
     EXPECT_NE(image->range_text.find("read as vectors from -1 to 1"), std::string::npos) << image->range_text;
     expectSame(read(mapExr(as_they_are), nullptr, ImageUse::numbers), as_they_are, "numbers");
-    // All directions, as in object space.
+    // An object-space map contains all directions.
     RgbImage around{kSide, kSide, {}};
     for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
         const double a = 0.37 * i, h = 1 - 2 * (i + 0.5) / (kSide * kSide), r = std::sqrt(1 - h * h);
@@ -166,7 +167,7 @@ TEST_F(Exr, VectorsFromMinusOneToOneAreMoved) {
             around.rgb.push_back(static_cast<std::uint8_t>(127.5 * part + 128));
     }
     expectSame(read(mapExr(Vectors(around), "X", "Y", "Z")), Vectors(around, true), "object space");
-    // Flat: nothing is below 0.
+    // In a flat map, no value is below 0.
     const RgbImage flat = normalMapOf(kSide, [](double, double) { return 0.0; });
     Vectors up(flat);
     for (std::size_t i = 0; i < up.x.size(); ++i) up.x[i] = up.y[i] = 0, up.z[i] = 1;
@@ -188,7 +189,7 @@ TEST_F(Exr, NumbersFromZeroToOneStay) {
     const auto image = read(mapExr(stored));
     expectSame(image, stored, "overshoot");
     EXPECT_EQ(image->range_text, "");
-    // Colors.
+    // Values that are colors, not vectors.
     Vectors colors(stored);
     for (std::size_t i = 0; i < colors.x.size(); ++i) colors.x[i] = 0.1F, colors.y[i] = 0.3F, colors.z[i] = 0.9F;
     expectSame(read(mapExr(colors)), colors, "colors");
@@ -219,7 +220,7 @@ TEST_F(Exr, ChannelsHaveManyNames) {
     for (ExrChannel& channel : unclear) channel.name = channel.name.replace(0, 6, channel.name.substr(0, 5));
     EXPECT_FALSE(read(exrFile(kSide, kSide, unclear), &why));
     EXPECT_NE(why.find("several layers of the EXR"), std::string::npos) << why;
-    // Only x and y, as in textures with two channels.
+    // A map of x and y only, like textures with two channels.
     const auto two = read(exrFile(kSide, kSide, {{"R", v.x}, {"G", v.y}}));
     ASSERT_TRUE(two);
     EXPECT_EQ(two->texture.layout.z.channel, MapChannel::none);

@@ -21,7 +21,7 @@ namespace {
 using Bytes8 = std::vector<std::uint8_t>;
 constexpr std::uint8_t kGray = 0, kRgb = 2, kPalette = 3, kRgba = 6;
 
-/// Returns a PNG of raw samples, most significant byte first. `more` adds chunks.
+/// Returns a PNG of raw samples, whose most significant bytes come first. `more`: adds chunks.
 Bytes8 makePng(
     spng_ihdr header, const Bytes8& samples, const std::function<void(spng_ctx*)>& more = [](spng_ctx*) {}) {
     spng_ctx* context = spng_ctx_new(SPNG_CTX_ENCODER);
@@ -109,7 +109,7 @@ std::optional<FloatImage> floatsOf(std::span<const std::uint8_t> file) {
     return decodeFloatImage(file, 1 << 22, why);
 }
 
-/// Green of all levels; other formats are tested through files that start with them.
+/// Green of all levels of BC5 textures. Other formats are tested with whole files.
 TEST(FlipGreen, IsExactInTheBlocksOfATexture) {
     const Bytes8 random = noise(16 * 64);
     const std::string blocks(random.begin(), random.end());
@@ -314,7 +314,7 @@ TEST(FlipGreen, RejectsImagesWithoutGreenAndUnreadableOnes) {
     EXPECT_EQ(whyNot(color, {.format = ImageFileFormat::jpeg}), ErrorCode::unsupportedFile);
     EXPECT_EQ(whyNot(color, {.jpeg_quality = 0}), ErrorCode::invalidOption);
     Bytes8 vast = color;
-    // width and height of an interlaced image, which would have to be kept in memory completely
+    // Width and height become huge. The image is interlaced, so it would have to be kept in memory completely.
     vast[16] = vast[20] = 0x10;
     vast[28] = 1;
     EXPECT_EQ(whyNot(vast), ErrorCode::tooLarge);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Untrusted images.
+// Decoding images that may be corrupt or malicious.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -44,7 +44,7 @@ TEST(DecodeImage, RejectsWebpThatItCannotTrust) {
     const std::string webp = webpFile(normalMapOf(64, bumps), true);
     EXPECT_EQ(whyNot(webp.substr(0, webp.size() / 2)), "the WebP is damaged");
     EXPECT_EQ(whyNot(webp, 1000), "the image has more pixels than tspace supports");
-    // The header of a lossless image: 14 bits each of width - 1 and height - 1, after a byte 0x2f.
+    // The header of a lossless image contains width - 1 and height - 1 with 14 bits each, after the byte 0x2f.
     std::string claims = webp;
     const std::size_t head = claims.find("VP8L");
     ASSERT_NE(head, std::string::npos);
@@ -79,7 +79,7 @@ TEST(DecodeImage, ReportsWhyItDoesNotDecode) {
     EXPECT_EQ(whyNot("DDS |"), "the DDS is damaged");
     EXPECT_EQ(whyNot(png.substr(0, png.size() / 2)), "the PNG is damaged");
     EXPECT_EQ(whyNot(jpeg.substr(0, 10)), "the JPEG is damaged");
-    // A header with four components.
+    // A JPEG header with four components.
     EXPECT_EQ(whyNot(bytesOfHex("ffd8ffc0001408000800080401110002110003110004110"
                                 "0ffda000e0401000200030004000003f000000")),
               "the JPEG is CMYK (for print), which is not supported; convert it to RGB");
@@ -87,7 +87,8 @@ TEST(DecodeImage, ReportsWhyItDoesNotDecode) {
 
 TEST(DecodeImage, RejectsAFewBytesThatClaimManyPixels) {
     std::string png = pngFile(normalMapOf(64, bumps));
-    // Width and height of the header, whose checksum is then wrong; either reason is accepted.
+    // Change the width and the height in the header, which also makes its checksum wrong. Either reason for rejection
+    // is accepted.
     png[18] = png[22] = 0x20;
     EXPECT_NE(whyNot(png, std::uint64_t{1} << 40), "");
     std::string jpeg = jpegFile(normalMapOf(64, bumps), 90);
@@ -98,12 +99,12 @@ TEST(DecodeImage, RejectsAFewBytesThatClaimManyPixels) {
               "the header of the image declares far more pixels than its data can contain");
 }
 
-/// A code table has at most 256 entries; its 16 counts can declare 4080.
+/// The table can contain at most 256 codes, but its 16 counts can declare 4080.
 TEST(DecodeImage, RejectsAJpegWhoseTableHasTooManyCodes) {
     std::string jpeg = jpegFile(normalMapOf(64, bumps), 90);
     const std::size_t table = jpeg.find("\xff\xc4");
     ASSERT_NE(table, std::string::npos);
-    constexpr std::size_t kCountsAt = 5, kCountsFrom9 = 8;  // 255 codes each of 9 to 16 bits are possible
+    constexpr std::size_t kCountsAt = 5, kCountsFrom9 = 8;  // 255 codes of each length from 9 to 16 bits are possible
     std::fill_n(jpeg.begin() + static_cast<std::ptrdiff_t>(table + kCountsAt + kCountsFrom9), 8, '\xff');
     EXPECT_EQ(whyNot(jpeg), "the JPEG is damaged");
 }

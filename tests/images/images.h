@@ -11,10 +11,11 @@
 
 namespace tspace::test {
 
-/// Returns the normal map of a height field; x to the right, y upward, both 0 to 1. Green up, unless `green_down`.
+/// Returns the normal map of a height field. height(x, y): x runs to the right and y upward, both from 0 to 1. Green is
+/// up, unless `green_down`.
 RgbImage normalMapOf(std::uint32_t size, const std::function<double(double, double)>& height, bool green_down = false);
 
-/// Bumps in every direction.
+/// Returns the height of bumps with slopes in all directions.
 double bumps(double x, double y);
 
 std::string pngFile(const RgbImage& image);
@@ -24,9 +25,9 @@ std::string webpFile(const RgbImage& image, bool lossless);
 struct ExrChannel {
     std::string name = {};
     std::vector<float> values = {};  ///< width * height
-    bool is_whole = false;           ///< stored as an unsigned integer; otherwise as a 32-bit float
+    bool is_whole = false;           ///< stored as unsigned integers; otherwise as 32-bit floats
 };
-/// Returns an uncompressed EXR. Channels are stored in alphabetical order.
+/// Returns an uncompressed EXR, in which the channels are in alphabetical order.
 std::string exrFile(std::uint32_t width, std::uint32_t height, std::vector<ExrChannel> channels);
 
 inline std::span<const std::uint8_t> bytesOf(const std::string& file) {

@@ -5,11 +5,12 @@
 namespace tspace::test {
 
 struct KnownBlock {
-    const char* block;   ///< 16 bytes, hexadecimal
+    const char* block;   ///< 16 bytes as hexadecimal digits
     const char* texels;  ///< 64 bytes
 };
 
-/// Modes 0 to 18 except 14, of our own images: encoded, and decoded by way of ASTC, with basisu 1.16.3.
+/// Blocks of the modes 0 to 18 except 14, from images of this project. They were encoded with basisu 1.16.3, and
+/// decoded with it by way of ASTC.
 inline constexpr KnownBlock kUastcBlocks[] = {
     {"b18077f4db25a96978a7639b50f843b7",
      "b324e6ffa825e6ffa825e6ff9c25e6ffb824e6ffac24e6ff9825e6ff9f25e6ff"
@@ -115,7 +116,7 @@ inline constexpr KnownBlock kUastcBlocks[] = {
      "ffb5ceffffb5ceffc99ca3ff084208ffc99ca3ff084208ffc99ca3ffffb5ceff"},
 };
 
-/// Random blocks of modes 0 to 7, decoded with Pillow 9.4.
+/// Random blocks of the modes 0 to 7, decoded with Pillow 9.4.
 inline constexpr KnownBlock kBc7Blocks[] = {
     {"a9e5b8abeeab14cef599cc052535d5ce",
      "bd5710ff3a6e63ff546a53ffd65200ff6d6542ffa35b20ffa35b20ffa35b20ff"
@@ -167,8 +168,8 @@ inline constexpr KnownBlock kBc7Blocks[] = {
      "7eda5c1f9da9e0819a08a2eb9a08a2eb92fb280092fb28009ef7ff4d9a08a2eb"},
 };
 
-/// A complete KTX2 with ETC1S and BasisLZ, 14 x 10 texels with alpha and four levels, written by basisu 1.16.3; its
-/// first level as decoded by the Basis Universal transcoder of three.js 0.187.
+/// A complete KTX2 file with ETC1S and BasisLZ: 14 x 10 texels with alpha and four levels, written by basisu 1.16.3.
+/// The texels of its first level were decoded by the Basis Universal transcoder of three.js 0.187.
 inline constexpr const char* kEtc1sFile =
     "ab4b5458203230bb0d0a1a0a00000000010000000e0000000a0000000000000000000000010000000400000001000000b000"
     "00003c000000ec00000024000000100100000000000057010000000000007702000000000000130000000000000000000000"
@@ -197,7 +198,7 @@ inline constexpr const char* kEtc1sTexels =
     "33bfbfdb936aa45aa57cb666b990ca70b990ca7cd3baba83d3baba8fd3baba99d3babaa58cdfcea480d3c2b076c9b8ba6abd"
     "acc633bfbfd129b5b5db";
 
-/// A KTX2 with ETC1S: normalMapOf(64, bumps), written by basisu 1.16.3 with quality 1, one level.
+/// A KTX2 file with ETC1S: normalMapOf(64, bumps) with one level, written by basisu 1.16.3 with quality 1.
 inline constexpr const char* kEtc1sNormals =
     "ab4b5458203230bb0d0a1a0a0000000001000000400000004000000000000000000000000100000001000000010000006800"
     "00002c0000009400000024000000b8000000000000001102000000000000c902000000000000110100000000000000000000"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reading TGA: files of the tool, of other programs, and invalid ones.
+// Reading TGA files: those of the tool, those of other programs, and invalid ones.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -17,7 +17,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::uint8_t kFromTheTop = 0x20, kFromTheRight = 0x10;
 
-/// Returns a header without ID and palette.
+/// Returns the header of a TGA without ID and palette.
 Bytes head(std::uint8_t type, std::uint8_t width, std::uint8_t height, std::uint8_t bits, std::uint8_t descriptor) {
     return {0, 0, type, 0, 0, 0, 0, 0, 0, 0, 0, 0, width, 0, height, 0, bits, descriptor};
 }
@@ -41,7 +41,7 @@ std::string whyNot(ByteSpan file) {
 constexpr const char* kUnknown = "the image is neither PNG, JPEG, WebP, KTX2, DDS nor TGA";
 constexpr const char* kBroken = "the TGA is damaged";
 
-/// Two rows of two texels: red, green; blue, gray.
+/// Two rows of two texels: red and green; blue and gray.
 const Bytes kFourTexels = {255, 0, 0, 0, 255, 0, 0, 0, 255, 10, 20, 30};
 const Bytes kFourStored = {0, 0, 255, 0, 255, 0, 255, 0, 0, 30, 20, 10};
 
@@ -103,7 +103,7 @@ TEST(ReadTga, ReadsGrayWithAlphaAndFiveBits) {
     const Bytes gray = head(3, 2, 1, 16, 8) + Bytes{10, 20, 30, 40};
     EXPECT_EQ(rgbOf(gray), (Bytes{10, 10, 10, 30, 30, 30}));
     EXPECT_EQ(decodeAlpha(gray), (Bytes{20, 40}));
-    // Red of 31, green of 16, blue of 1.
+    // A 16-bit word with red 31, green 16 and blue 1, of 31 each.
     constexpr unsigned kWord = 31U << 10 | 16U << 5 | 1U;
     const Bytes word = {kWord & 0xff, kWord >> 8, kWord & 0xff, kWord >> 8 | 0x80};
     EXPECT_EQ(rgbOf(head(2, 2, 1, 16, 1) + word), (Bytes{255, 132, 8, 255, 132, 8}));
@@ -124,7 +124,8 @@ TEST(ReadTga, ReadsAPalette) {
     }
 }
 
-/// Zeros are not alpha if the header declares none; other values are, since many writers do not declare alpha.
+/// If the header declares no alpha, fourth bytes that are all zero are not alpha. Others are, because many writers do
+/// not declare alpha.
 TEST(ReadTga, TreatsAFourthByteAsAlphaUnlessUndeclaredAndZero) {
     EXPECT_EQ(decodeAlpha(head(2, 2, 1, 32, 0) + Bytes{1, 2, 3, 0, 4, 5, 6, 0}), Bytes());
     EXPECT_EQ(decodeAlpha(head(2, 2, 1, 32, 8) + Bytes{1, 2, 3, 0, 4, 5, 6, 0}), (Bytes{0, 0}));
@@ -193,7 +194,7 @@ TEST(ReadTga, RejectsMorePixelsThanItsBytesCanRepresent) {
     huge[2] = 10;
     EXPECT_EQ(imageFormat(huge), ImageFormat::unknown);
     EXPECT_EQ(imageWorkBytes(huge), 0U);
-    // 128 pixels in 2 bytes is the maximum compression of runs.
+    // Runs compress best with 128 pixels in 2 bytes.
     Bytes runs = head(11, 0, 0, 8, 0);
     runs[13] = runs[15] = 4;  // 1024 x 1024
     for (std::size_t i = 0; i < (std::size_t{1} << 20) / 128; ++i) runs = std::move(runs) + Bytes{0xff, 9};

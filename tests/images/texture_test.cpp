@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Texture files: every format compared with its formula or another decoder, invalid headers, and the channels of x, y
-// and z.
+// Texture files: every format compared with its formula or with another decoder, invalid headers, and the channels that
+// contain x, y and z.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -42,7 +42,7 @@ std::string randomBytes(std::size_t count, std::uint32_t seed) {
 
 std::uint8_t byteAt(const std::string& data, std::size_t at) { return static_cast<std::uint8_t>(data[at]); }
 
-/// Returns one channel of BC4: the formula in double precision.
+/// Returns one channel of a texel of a BC4 block, by the formula in double precision.
 double channelOf(const std::string& block, std::size_t at, std::size_t texel, bool is_signed) {
     const int first = is_signed ? std::bit_cast<std::int8_t>(block[at]) : byteAt(block, at);
     const int second = is_signed ? std::bit_cast<std::int8_t>(block[at + 1]) : byteAt(block, at + 1);
@@ -57,7 +57,8 @@ double channelOf(const std::string& block, std::size_t at, std::size_t texel, bo
     return ((6 - code) * a + (code - 1) * b) / 5;
 }
 
-/// Returns the position of a texel in row-by-row blocks: the block, and the texel in it.
+/// Returns the number of the block that contains a texel (blocks are in rows), and the number of the texel in the
+/// block.
 std::pair<std::size_t, std::size_t> placeOf(std::size_t x, std::size_t y, std::size_t width) {
     return {y / 4 * ((width + 3) / 4) + x / 4, y % 4 * 4 + x % 4};
 }
@@ -87,8 +88,8 @@ TEST(Texture, DecodesBc4AndBc5ByTheirFormulas) {
 }
 
 TEST(Texture, DecodesTheExampleOfTheSpecificationOfEac) {
-    // Base 103, table 13, multiplier 0 and code 3 give 818 of 2047: chapter ETC2 of the Khronos Data Format
-    // Specification.
+    // The example of the chapter about ETC2 in the Khronos Data Format Specification: base 103, table 13, multiplier 0
+    // and code 3 give 818 of 2047.
     std::string block{103, 13};
     std::uint64_t codes = 0;
     for (int i = 0; i < 16; ++i) codes = codes << 3 | 3;
@@ -99,7 +100,7 @@ TEST(Texture, DecodesTheExampleOfTheSpecificationOfEac) {
 }
 
 TEST(Texture, DecodesEacByItsFormulas) {
-    // Only table 13, which the example uses.
+    // All blocks use table 13, which the example in the specification uses too.
     constexpr int kTable[] = {-1, -2, -3, -10, 0, 1, 2, 9};
     constexpr std::uint32_t kSize = 64;
     std::string data = randomBytes(16 * 256, 9);
@@ -110,7 +111,7 @@ TEST(Texture, DecodesEacByItsFormulas) {
         ASSERT_TRUE(image);
         for (std::size_t y = 0; y < kSize; ++y) {
             for (std::size_t x = 0; x < kSize; ++x) {
-                const std::size_t at = 16 * placeOf(x, y, kSize).first + 8;  // of green
+                const std::size_t at = 16 * placeOf(x, y, kSize).first + 8;  // position of green in the block
                 std::uint64_t codes = 0;
                 for (std::size_t i = 2; i < 8; ++i) codes = codes << 8 | byteAt(data, at + i);
                 const std::size_t column_first = x % 4 * 4 + y % 4;
@@ -169,7 +170,7 @@ TEST(Texture, DecodesEtc1sAsTheBasisTranscoderDoes) {
 }
 
 TEST(Texture, DecodesAstcOfOneColor) {
-    // A block of one color (void extent) without coordinates: 0xdfc, ones, and four 16-bit numbers.
+    // A block of one color (void extent) without coordinates: the bits 0xdfc, then ones, and four 16-bit numbers.
     const std::string block("\xfc\xfd\xff\xff\xff\xff\xff\xff\x00\x40\x00\x80\xff\xff\xff\xff", 16);
     Ktx2Parts parts{.format = 163, .width = 11, .height = 6};
     for (int i = 0; i < 4; ++i) parts.levels.resize(1), parts.levels[0] += block;
@@ -181,7 +182,7 @@ TEST(Texture, DecodesAstcOfOneColor) {
     EXPECT_EQ(image->texture.name, "ASTC 6x5 in a KTX2");
     ASSERT_EQ(image->texels.size(), 66u);
     for (const Vec3& texel : image->texels) {
-        // The library decodes to half floats, like GPUs.
+        // The decoder returns half floats, as GPUs do.
         EXPECT_NEAR(texel.x, 0x4000 / 65535.0, 1e-5);
         EXPECT_NEAR(texel.y, 0x8000 / 65535.0, 1e-5);
         EXPECT_EQ(texel.z, 1);
@@ -198,7 +199,8 @@ TEST(Texture, InvalidBlocksHaveTheSpecifiedErrorColors) {
 }
 
 TEST(Texture, DecodesBc1AndBc3) {
-    // Ends 31, 0, 0 (red) and 0, 63, 0 (green): codes 0 to 3, then the same codes in a block with three colors.
+    // The end points are (31, 0, 0), red, and (0, 63, 0), green. The texels have codes 0 to 3. The second block has the
+    // same codes, but three colors.
     const std::string full("\x00\xf8\xe0\x07\xe4\xe4\xe4\xe4", 8), cut("\xe0\x07\x00\xf8\xe4\xe4\xe4\xe4", 8);
     const auto image = decode(ddsFile(71, 8, 4, full + cut));
     ASSERT_TRUE(image);
@@ -276,7 +278,8 @@ TEST(Texture, UnpacksZstandardAndZlib) {
         ASSERT_TRUE(image);
         EXPECT_EQ(image->texels, wanted->texels);
         EXPECT_GE(imageWorkBytes(bytesOf(ktx2File(parts))), plain.size());
-        // Data that decompresses to more or fewer bytes than the image has is corrupt, regardless of the declared size.
+        // Data that decompresses to more or fewer bytes than the image needs is corrupt, regardless of the declared
+        // size.
         for (const std::string& other : {plain + plain, plain.substr(2)}) {
             parts.levels = {scheme == 2 ? zstdOf(other) : zlibOf(other)};
             EXPECT_EQ(whyNot(ktx2File(parts)), "the KTX2 is damaged");
@@ -351,7 +354,7 @@ TEST(Texture, RejectsAFewBytesThatClaimManyPixels) {
 }
 
 TEST(Texture, SizesWhoseProductWith64BitsWouldBeZeroAreRejected) {
-    // 2^30 * 2^30 texels of 16 bytes (RGBA as floats).
+    // The size would be 2^30 * 2^30 texels of 16 bytes (RGBA as floats).
     constexpr std::uint32_t kSide = std::uint32_t{1} << 30;
     constexpr std::uint64_t kAny = ~std::uint64_t{0};
     EXPECT_EQ(whyNot(ddsFile(2, kSide, kSide, ""), kAny), "the DDS is damaged");
@@ -360,7 +363,7 @@ TEST(Texture, SizesWhoseProductWith64BitsWouldBeZeroAreRejected) {
 }
 
 TEST(Texture, ReadsTheRequestedLevel) {
-    // Red distinguishes the levels; 4 x 2, 2 x 1 and 1 x 1 texels of two bytes.
+    // Red tells the levels apart. They have 4 x 2, 2 x 1 and 1 x 1 texels of two bytes.
     const std::vector<std::string> levels = {std::string(16, '\x10'), std::string(4, '\x20'), std::string(2, '\x30')};
     const std::string ktx2 = ktx2File({.format = 16, .width = 4, .height = 2, .levels = levels});
     for (std::size_t level = 0; level < levels.size(); ++level) {
@@ -404,7 +407,8 @@ TEST(Texture, ReportsTheChannelsOfXAndY) {
     EXPECT_EQ(bc5->texture.layout.z.channel, MapChannel::none);
     EXPECT_FALSE(bc5->texture.is_guessed);
     EXPECT_EQ(textureFacts(bytesOf(ddsFile(83, 32, 32, bc5Blocks(map))))->name, "BC5 in a DDS");
-    // Four channels: x only in alpha, x in all colors and y in alpha, and x, y, z.
+    // Textures with four channels: x in alpha and y in green; x in all colors and y in alpha; x, y and z in red, green
+    // and blue.
     std::string alone, in_colors, normal;
     for (std::size_t i = 0; i < map.rgb.size(); i += 3) {
         const char x = static_cast<char>(map.rgb[i]), y = static_cast<char>(map.rgb[i + 1]);

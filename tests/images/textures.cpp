@@ -40,7 +40,7 @@ std::string bc4Block(const std::uint8_t (&values)[16]) {
     std::uint64_t codes = 0;
     for (unsigned i = 0; i < 16; ++i) {
         const int range = *most - *least;
-        // 0 to 7, starting with the largest value
+        // steps from 0 to 7, starting at the largest value
         const int step = range == 0 ? 0 : (7 * (*most - values[i]) + range / 2) / range;
         const auto code = static_cast<std::uint64_t>(step == 0 ? 0 : step == 7 ? 1 : step + 1);
         codes |= code << 3 * i;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A converted map renders the same on the new frames as the original on the old ones.
+// A converted map gives the same shading with the new frames as the original map with the old frames.
 #include "tspace/maps.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 namespace tspace::test {
 namespace {
 
-/// A conversion side that owns its corners.
+/// One side of a conversion, with the corners that it refers to.
 struct Corners {
     std::vector<Vec2> uvs = {};
     std::vector<Vec3> positions = {}, normals = {};
@@ -34,8 +34,8 @@ Vec3 unit(DVec3 v) {
     return toFloat(v);
 }
 
-/// A bent patch over UVs from `begin` to `end`, with `cells` x `cells` quads. `twist`: rotation of its tangents about
-/// the normal; `lean`: tilt of its normals; both vary smoothly over the patch.
+/// A bent patch of `cells` x `cells` quads over UVs from `begin` to `end`. `twist`: rotation of its tangents about the
+/// normal. `lean`: tilt of its normals. Both vary smoothly over the patch.
 struct Patch {
     int cells = 4;
     float begin = 0.1f, end = 0.9f;
@@ -78,7 +78,7 @@ Corners cornersOf(const Patch& patch) {
     return corners;
 }
 
-/// Returns texels tilted by up to 30 degrees, with slightly different lengths, as integers of `bits`.
+/// Returns texels as integers of `bits`: vectors tilted by up to 30 degrees with slightly different lengths.
 std::vector<Vec3> randomTexels(std::size_t count, unsigned bits, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> lean(-0.5, 0.5), size(0.85, 1.0);

@@ -29,7 +29,7 @@ double angleDeg(const Vec3& a, const Vec3& b) {
     return 57.29577951 * std::atan2(std::sqrt(x * x + y * y + z * z), product);
 }
 
-/// Returns a grid over [0, 1]^2 at the given lines, with a height for every point.
+/// Returns a grid over [0, 1]^2 with the given x and y of its lines, and with a height for every point.
 template <class HeightAt>
 SimpleMesh grid(const std::vector<float>& lines, HeightAt heightAt) {
     SimpleMesh mesh;
@@ -89,7 +89,7 @@ TEST(BestNormals, KeepTheFaceBesideANarrowBevelFlat) {
 }
 
 /// Returns a closed cylinder of radius 1 and height 2 with rounded rims. Each cap is a fan from one vertex of its rim,
-/// as written by CAD kernels; the triangles of the upper one come first.
+/// as CAD kernels write it; the triangles of the upper cap come first.
 SimpleMesh roundedCylinder(std::uint32_t sides, std::uint32_t segments, double fillet) {
     constexpr double kQuarter = 1.5707963267948966;
     SimpleMesh mesh;
@@ -117,7 +117,8 @@ SimpleMesh roundedCylinder(std::uint32_t sides, std::uint32_t segments, double f
     return mesh;
 }
 
-/// Returns the mean angle between +z and the interpolated normals over the area of the first `count` triangles.
+/// Returns the mean angle, in degrees, between +z and the interpolated normals, over the area of the first `count`
+/// triangles.
 double shadedErrorOfFlatTriangles(const SimpleMesh& mesh, std::size_t count, const std::vector<Vec3>& normals) {
     constexpr int kCells = 6;
     double sum = 0, areas = 0;

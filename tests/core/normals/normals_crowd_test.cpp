@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Inputs that cause quadratic time in naive code; results have the same bits for every number of threads.
+// Meshes on which naive code takes quadratic time. Results must have the same bits for every number of threads.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -52,7 +52,7 @@ TEST(Crowds, ABookOf100000PagesIsOneComponentOrOnePerPage) {
     book.positions = {{0, 0, 0}, {0, 0, 1}};
     std::vector<std::uint32_t> masks;
     for (std::uint32_t i = 0; i < kCount; ++i) {
-        // Half of a circle, in scattered order: all sides face one direction, so the mean is not zero.
+        // Points of half a circle, in scattered order. All faces point to the same side, so their mean is not zero.
         book.positions.push_back(onCircle(i * 7919ull % kCount, 2 * kCount, 0.5f));
         book.addFace({0, 1, 2 + i});
         masks.push_back(i % 2 == 0 ? 0x1 : 0x10);
@@ -142,7 +142,8 @@ TEST(NormalThreads, DoNotChangeABit) {
 }
 
 TEST(Threads, DoNotChangeABitOfTriangles) {
-    // Many vertices per position, collapsed triangles, and double-sided ones whose means are zero.
+    // The mesh has many vertices per position, collapsed triangles, and double-sided triangles whose mean normals are
+    // zero.
     std::mt19937 random(9);
     SimpleMesh mesh;
     for (int v = 0; v < 70'000; ++v) {
@@ -178,8 +179,8 @@ TEST(Threads, DoNotChangeABitOfTriangles) {
     }
 }
 
-/// Positions with colliding hashes would cause quadratic time; this is the closest approximation without knowing the
-/// hash.
+/// Positions with colliding hashes would cause quadratic time. Many vertices at few positions come closest to that
+/// without knowledge of the hash function.
 TEST(Welding, FindsTheLowestOfManyVerticesAtFewPositions) {
     constexpr std::uint32_t kCount = 200'001;
     SimpleMesh mesh;

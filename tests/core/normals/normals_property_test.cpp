@@ -42,8 +42,8 @@ double angleOf(const D3& a, const D3& b) {
     return std::atan2(std::sqrt(dotOf(c, c)), dotOf(a, b));
 }
 
-/// Compares all pairs of faces, with libm, for triangles: the result that generateNormals must give except for
-/// rounding.
+/// Computes the result that generateNormals must give except for rounding: compares all pairs of triangles, and uses
+/// the C library's functions.
 class BruteForce {
   public:
     BruteForce(const SimpleMesh& mesh, const NormalOptions& options) : mesh_(mesh), options_(options) {
@@ -146,8 +146,8 @@ class BruteForce {
     std::vector<double> areas_;
 };
 
-/// Returns triangles between points of a small grid: shared and duplicated edges, edges with many faces, collapsed
-/// faces, copies of vertices.
+/// Returns triangles between points of a small grid, so that there are shared and duplicated edges, edges with many
+/// faces, collapsed faces, and copies of vertices.
 SimpleMesh randomGridMesh() {
     SimpleMesh mesh;
     const int vertex_count = randomInt(4, 16);
@@ -169,7 +169,7 @@ struct RandomOptions {
 
     explicit RandomOptions(std::size_t face_count) {
         options.weighting = static_cast<NormalWeighting>(randomInt(0, 7));
-        // Values far from all angles of the grid.
+        // No angle between faces of the grid is near these values.
         constexpr float kCreases[] = {180, 180, 3, 37.3f, 63.1f, 91.7f, 122.9f, 171.3f};
         options.crease_angle_deg = kCreases[randomInt(0, 8)];
         options.weld_positions = randomInt(0, 3) != 0;
@@ -309,7 +309,7 @@ RC_GTEST_PROP(PoseNormals, WithoutHardEdgesAreThoseOfTheMovedMesh, ()) {
     RC_ASSERT(sameBits(poseNormalsOf(mesh, moved.positions, options), normalsOf(moved.view(), options)));
 }
 
-/// Returns two squares that share an edge and meet at `angle_deg`; 0: flat.
+/// Returns two squares that share an edge. `angle_deg`: angle between their normals; 0 means that they are coplanar.
 SimpleMesh book(double angle_deg) {
     const double angle = angle_deg * kPi / 180;
     const auto x = static_cast<float>(std::cos(angle)), z = static_cast<float>(std::sin(angle));

@@ -103,7 +103,8 @@ std::vector<SimpleMesh> meshes() {
     all.push_back(withBackSides(sheet(30)));
     all.push_back(withBackSides(sheet(30, 1e-30f)));
     all.push_back(withBrokenValues(sheet(40)));
-    // This mesh is large enough to be processed in ranges of points, whose number depends on the threads.
+    // The following meshes are so large that they are processed in ranges of points, whose number depends on the number
+    // of threads.
     all.push_back(withBackSides(sheet(190)));
     all.push_back(withBrokenValues(sheet(200)));
     return all;
@@ -124,8 +125,8 @@ TEST(Simd, EveryTargetGivesTheNormalsOfPlainCode) {
     }
 }
 
-/// As many hard as soft edges: angles of the random mesh are arbitrary, those of the sheets are small, those of the
-/// back sides are 180 degrees.
+/// These meshes have both hard and soft edges: angles of the random mesh are arbitrary, angles between faces of the
+/// sheets are small, and those between faces and their back sides are 180 degrees.
 TEST(HardEdges, GiveTheSameBitsForAnyTargetAndNumberOfThreads) {
     for (const SimpleMesh& mesh : {randomMesh(), withBackSides(sheet(60)), withBrokenValues(sheet(100))}) {
         std::vector<NormalOptions> kinds(std::begin(kKinds), std::end(kKinds));
@@ -141,7 +142,7 @@ TEST(HardEdges, GiveTheSameBitsForAnyTargetAndNumberOfThreads) {
     }
 }
 
-/// Vertices without indices are in different ranges of points than those of an indexed mesh.
+/// Without indices, the vertices are divided into other ranges of points than with indices.
 TEST(HardEdges, DoNotDependOnWhichVerticesArePoints) {
     for (const SimpleMesh& mesh : {sheet(150), withBackSides(sheet(60)), randomMesh()}) {
         SimpleMesh soup;
@@ -178,7 +179,7 @@ TEST(Simd, AnyNumberOfTrianglesAndVerticesIsProcessed) {
 TEST(Simd, ReadsInterleavedPositionsUpToTheLastByteOnly) {
     const SimpleMesh mesh = sheet(20);
     const std::size_t count = mesh.positions.size();
-    // two other numbers, then the position: the last position ends at the end of the memory
+    // Each record holds two other numbers and then the position, so the last position ends where the memory ends.
     std::vector<float> data(5 * count);
     for (std::size_t v = 0; v < count; ++v) std::memcpy(&data[5 * v + 2], &mesh.positions[v], sizeof(Vec3));
     const std::vector<float> exact(data);  // its capacity is its size, so a sanitizer detects any access beyond it
@@ -202,9 +203,9 @@ TEST(Simd, WritesIntoInterleavedVerticesWithoutTouchingTheirNeighbors) {
     }
 }
 
-/// Returns the tolerance of `best`, which adds the corners of triangles in one code path, and the corners of points in
-/// the other. Edges that differ by 1e-5 from one direction are nearly parallel in single precision: then it uses the
-/// mean by `max`.
+/// Returns the tolerance for `best`. It adds up the corners of each triangle in one code path, and the corners of each
+/// point in the other. If edges differ by only 1e-5 from one direction, they are nearly parallel in single precision,
+/// and `best` uses the `max` mean.
 float allowedOfBest(const SimpleMesh& mesh) {
     float reach = 0;
     for (const Vec3& p : mesh.positions)
@@ -212,7 +213,7 @@ float allowedOfBest(const SimpleMesh& mesh) {
     return reach > 1e3f && reach < 1e6f ? 0.03f : 2e-4f;
 }
 
-/// A smoothing group that contains every face changes only the code path.
+/// With a smoothing group that contains every face, only the code path differs.
 TEST(TriangleFastPath, EqualsTheGeneralPathForTinyHugeAndThinTriangles) {
     for (const SimpleMesh& mesh : soundMeshes()) {
         const std::vector<std::uint32_t> one_group(mesh.indices.size() / 3, 1);
@@ -223,7 +224,7 @@ TEST(TriangleFastPath, EqualsTheGeneralPathForTinyHugeAndThinTriangles) {
             const Outcome want = compute(mesh.view(), options);
             EXPECT_EQ(got.report.degenerate_face_count, want.report.degenerate_face_count);
             EXPECT_EQ(got.report.fallback_corner_count, want.report.fallback_corner_count);
-            // Angles are accurate to 2e-7, and a mean may be shorter than its terms.
+            // Angles are accurate to 2e-7, but the errors of a mean are relatively larger if its terms cancel.
             const float allowed = weighting == NormalWeighting::area   ? 2e-7f
                                   : weighting == NormalWeighting::best ? allowedOfBest(mesh)
                                                                        : 1e-5f;
@@ -260,7 +261,7 @@ TEST(Indices, BeyondTheVerticesAreFoundInMeshesOfAnySizeAndOrder) {
 }
 
 TEST(Welding, OfAnIndexedMeshIsThatOfTheSameVerticesWithoutIndices) {
-    // Few vertices of the first mesh share a position; most vertices of the second one do.
+    // In the first mesh few vertices share a position; in the second one most do.
     for (const SimpleMesh& mesh : {sheet(150), randomMesh()}) {
         SimpleMesh soup;
         for (const std::uint32_t v : mesh.indices) soup.positions.push_back(mesh.positions[v]);

@@ -56,7 +56,8 @@ TEST(AngleWeights, GiveTheBoxDiagonalForAnyTriangulation) {
 }
 
 TEST(AngleWeights, CountAReflexCornerByItsInteriorAngle) {
-    // An L with its notch at vertex 0, and a wall on the notch: as one polygon, and triangulated from the notch.
+    // An L-shaped polygon whose reflex corner is vertex 0, and a wall at the notch. The L is given as one polygon, and
+    // as triangles that all use vertex 0.
     SimpleMesh whole;
     whole.positions = {{0, 0, 0}, {0, 1, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, -1, 0}, {1, 0, 0}, {0, 0, 1}};
     SimpleMesh cut = whole;
@@ -68,7 +69,8 @@ TEST(AngleWeights, CountAReflexCornerByItsInteriorAngle) {
 }
 
 TEST(Weights, EqualTheirFormulas) {
-    // Two triangles at the origin: in the plane z = 0 with legs 1 and 1, in the plane x = 0 with legs 2 and 4.
+    // Two triangles at the origin: one in the plane z = 0 with edges of length 1 and 1, the other in the plane x = 0
+    // with edges of length 2 and 4.
     SimpleMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 2, 0}, {0, 0, 4}};
     mesh.positions[2] = {0.70710678f, 0.70710678f, 0};
@@ -110,7 +112,7 @@ TEST(Weights, CountAFaceOnceAtACollapsedEdge) {
 TEST(Newell, GivesTheNormalOfABentAndOfAConcavePolygon) {
     SimpleMesh mesh;
     mesh.positions = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 1, 0}, {0, 4, 0}};
-    mesh.addFace({3, 4, 0, 1, 2});  // starts at its reflex corner
+    mesh.addFace({3, 4, 0, 1, 2});  // the polygon starts at its reflex corner
     for (const Vec3& n : normalsOf(mesh.view())) EXPECT_EQ(n, (Vec3{0, 0, 1}));
 }
 
@@ -133,7 +135,8 @@ TEST(CreaseAngle, SplitsACubeBelowNinetyDegreesOnly) {
 }
 
 TEST(CreaseAngle, AppliesToEdgesSoThatSmallAnglesAddUp) {
-    // A quarter of a cylinder in nine steps of 10 degrees about one point: first and last face differ by 80 degrees.
+    // A quarter of a cone: nine faces at its apex, in steps of 10 degrees around its axis. The first and the last face
+    // are eight steps apart.
     SimpleMesh mesh;
     mesh.positions.push_back({0, 0, 0});
     for (int i = 0; i <= 9; ++i) {
@@ -187,10 +190,10 @@ TEST(SmoothingGroups, AsMasksSmoothFacesWithABitInCommon) {
             .crease_angle_deg = crease, .smoothing_groups = masks, .smoothing_groups_are_masks = true};
         const std::vector<Vec3> normals = normalsOf(cube.view(), options);
         const float k = std::sqrt(0.5f);
-        EXPECT_EQ(normals[0], (Vec3{-1, 0, 0}));  // vertex 0: its neighbors there share no bit with it
-        expectNear(normals[4], {k, 0, -k});       // vertex 1: +x and -z share the highest bit
-        EXPECT_EQ(normals[8], (Vec3{0, -1, 0}));  // vertex 0
-        EXPECT_EQ(normals[20], (Vec3{0, 0, 1}));  // no bits
+        EXPECT_EQ(normals[0], (Vec3{-1, 0, 0}));  // corner at vertex 0: no neighbor there shares a bit
+        expectNear(normals[4], {k, 0, -k});       // corner at vertex 1: +x and -z share the highest bit
+        EXPECT_EQ(normals[8], (Vec3{0, -1, 0}));  // corner at vertex 0
+        EXPECT_EQ(normals[20], (Vec3{0, 0, 1}));  // a face without bits
     }
 }
 
@@ -257,7 +260,7 @@ TEST(Fallbacks, ReplaceWhatHasNoMean) {
 }
 
 TEST(Fallbacks, ReplaceAMeanWhoseAnglesAddUpToNothing) {
-    // At vertex 0 one triangle faces up, and two that divide its angle face down.
+    // At vertex 0 one triangle faces up. Two triangles that together have the same angle face down.
     for (const Vec3 middle : {Vec3{1, 1, 0}, Vec3{2, 1, 0}, Vec3{1, 2, 0}, Vec3{3, 1, 0}, Vec3{5, 7, 0}}) {
         SimpleMesh mesh;
         mesh.positions = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, middle};

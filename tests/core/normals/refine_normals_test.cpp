@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// NormalOptions::refine: the step compared with the same step in double precision, and its limits.
+// NormalOptions::refine: a refinement step compared with the same step in double precision, and the limits of steps.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -32,7 +32,7 @@ double angleDeg(const Vec3& a, const Vec3& b) {
     return 180 / 3.141592653589793 * std::atan2(length(cross(toDouble(a), toDouble(b))), dot(toDouble(a), toDouble(b)));
 }
 
-/// The least-squares system of one normal's step, in the plane perpendicular to it.
+/// The least-squares system of the step of one normal, in the plane perpendicular to this normal.
 struct Step {
     DVec3 n, x, y;
     double xx = 0, xy = 0, yy = 0, xm = 0, ym = 0, mm = 0, turn = 0;
@@ -58,7 +58,8 @@ struct Step {
     }
 };
 
-/// Performs one step from the given normals of corners, for triangles. Corners with equal vertex and normal are merged.
+/// Returns the normals after one step from the given normals of corners, for triangles. Corners with equal vertex and
+/// normal have one system.
 std::vector<Vec3> oneStep(const SimpleMesh& mesh, const std::vector<Vec3>& from) {
     using Key = std::pair<std::uint32_t, std::array<float, 3>>;
     const auto keyOf = [&](std::size_t c) { return Key{mesh.indices[c], {from[c].x, from[c].y, from[c].z}}; };
@@ -77,7 +78,7 @@ std::vector<Vec3> oneStep(const SimpleMesh& mesh, const std::vector<Vec3>& from)
     return out;
 }
 
-/// Returns a bent sheet of side x side cells with uneven lines, whose second half is folded up at a hard edge.
+/// Returns a bent sheet of side x side cells with uneven grid lines. Its second half is folded up at a hard edge.
 SimpleMesh foldedSheet(std::uint32_t side, float fold) {
     SimpleMesh mesh;
     std::vector<float> lines{0};
@@ -120,7 +121,7 @@ RC_GTEST_PROP(RefinedNormals, WithHardEdgesAreTheStepOfEachSide, ()) {
     const std::vector<Vec3> fit = normalsOf(mesh.view(), creased, 0), one = normalsOf(mesh.view(), creased, 1);
     RC_ASSERT(areClose(one, oneStep(mesh, fit)));
 
-    // The lower side alone, without the faces across the hard edge.
+    // The lower side by itself, without the faces beyond the hard edge.
     SimpleMesh alone = mesh;
     alone.indices.clear();
     std::vector<Vec3> wanted;
@@ -145,7 +146,8 @@ RC_GTEST_PROP(RefinedNormals, WithHardEdgesAreTheStepOfEachSide, ()) {
     RC_ASSERT(areClose(normalsOf(mesh.view(), grouped, 1), one));
 }
 
-/// Triangles of arbitrary values, or of a small grid: collapsed, double-sided, not finite, or many at one edge.
+/// Triangles of arbitrary values, or of points of a small grid: some are collapsed, double-sided or not finite, or
+/// share an edge with many others.
 RC_GTEST_PROP(RefinedNormals, OfGarbageRotateByAtMostFourteenDegreesAndStayUnit, ()) {
     SimpleMesh mesh;
     const bool is_grid = test::randomInt(0, 2) == 0;
@@ -185,7 +187,7 @@ TEST(RefinedNormals, AreOfTwoStepsAtMost) {
     EXPECT_EQ(result.error().code, ErrorCode::invalidOption);
 }
 
-/// The center of a fan of 200,000 triangles costs one sum, regardless of the number of steps.
+/// The center of a fan of 200,000 triangles costs one sum per step.
 TEST(RefinedNormals, OfAFanTakeOnePassPerStep) {
     SimpleMesh fan;
     fan.positions.push_back({0, 0, 0.2f});

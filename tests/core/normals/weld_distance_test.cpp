@@ -15,7 +15,7 @@
 namespace tspace::test {
 namespace {
 
-/// Returns a grid over u and v from 0 to 1; the last row and column have separate vertices, as at a UV seam.
+/// Returns a grid over u and v from 0 to 1. Its last row and column have vertices of their own, as at a UV seam.
 SimpleMesh sweep(std::uint32_t columns, std::uint32_t rows, const std::function<Vec3(double, double)>& at) {
     SimpleMesh mesh;
     for (std::uint32_t row = 0; row <= rows; ++row) {
@@ -36,7 +36,8 @@ Vec3 point(double x, double y, double z) {
     return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
 }
 
-/// Returns a torus closed by sin(2 pi), as programs compute it. `offset` moves it before it is rounded to floats.
+/// Returns a torus as many programs compute it: sin(2 pi) is not exactly 0, so it is closed only up to rounding.
+/// `offset`: added before rounding to floats.
 SimpleMesh torus(double scale = 1, const Vec3& offset = {}) {
     return sweep(32, 16, [&](double u, double v) {
         const double a = 2 * std::numbers::pi * u, b = 2 * std::numbers::pi * v, ring = 1 + 0.4 * std::cos(b);
@@ -45,7 +46,7 @@ SimpleMesh torus(double scale = 1, const Vec3& offset = {}) {
     });
 }
 
-/// Returns the torus with the last row and column exactly at the first.
+/// Returns the torus with the last row and column moved exactly to the first ones.
 SimpleMesh closedTorus() {
     SimpleMesh mesh = torus();
     for (std::size_t row = 0; row <= 16; ++row) mesh.positions[33 * row + 32] = mesh.positions[33 * row];
@@ -53,8 +54,8 @@ SimpleMesh closedTorus() {
     return mesh;
 }
 
-/// Returns a sphere with poles by sin(pi): the vertices of the last row differ by less than the spacing of floats near
-/// 1.
+/// Returns a sphere whose poles are computed with sin(pi), which is not exactly 0: the vertices of the last row differ
+/// by less than the spacing of floats near 1.
 SimpleMesh sphere() {
     return sweep(24, 12, [](double u, double v) {
         const double a = 2 * std::numbers::pi * u, b = std::numbers::pi * v;
@@ -68,7 +69,7 @@ std::vector<Vec3> normalsOf(const SimpleMesh& mesh, NormalOptions options, unsig
     return normals;
 }
 
-/// Returns the angle between unit vectors; accurate for small angles.
+/// Returns the angle between unit vectors in degrees. It is accurate for small angles.
 double degrees(const Vec3& a, const Vec3& b) {
     const double x = double{a.x} - b.x, y = double{a.y} - b.y, z = double{a.z} - b.z;
     return 2 * std::asin(std::min(1.0, std::sqrt(x * x + y * y + z * z) / 2)) * 180 / std::numbers::pi;
@@ -120,7 +121,7 @@ TEST(WeldDistance, GivesTheSameBitsForAnyNumberOfThreads) {
     EXPECT_EQ(normalsOf(mesh, options, 1), normalsOf(mesh, options, 3));
 }
 
-/// Edges are a few float spacings long: the remaining shape must be preserved.
+/// The edges are only a few float spacings long, but the shape that remains must be preserved.
 TEST(WeldDistance, KeepsSmallMeshesFarFromTheOrigin) {
     const SimpleMesh mesh = torus(0.01, {4096, 0, 0});
     Parallel parallel({});
@@ -171,7 +172,8 @@ TEST(WeldDistance, RejectsInvalidDistances) {
     }
 }
 
-/// Without welding the seam, the flipped half is a separate component whose winding is equally plausible.
+/// The faces next to the seam are flipped. With the seam welded, the torus is closed, and its volume determines the
+/// winding.
 TEST(WeldDistance, JoinsTheFacesOfASeamForWinding) {
     SimpleMesh mesh = torus();
     const std::size_t faces = mesh.cornerCount() / 3;

@@ -25,7 +25,7 @@ inline constexpr FrameFormat kExactFormats[] = {FrameFormat::frame32, FrameForma
 
 inline std::string nameOf(FrameFormat format) { return kFormatNames[static_cast<std::size_t>(format)]; }
 
-/// Returns the number of frames to test: `otherwise`, unless an environment variable is set.
+/// Returns the number of frames to test: `otherwise`, unless the environment variable TSPACE_FRAMES is set.
 inline long frameCount(long otherwise) {
     const char* text = std::getenv("TSPACE_FRAMES");
     return text != nullptr ? std::atol(text) : otherwise;
@@ -45,7 +45,7 @@ inline FrameList unpacked(FrameFormat format, const std::vector<std::byte>& byte
 }
 
 struct PackErrors {
-    double normal_deg = 0, tangent_deg = 0;  ///< maximum over all frames
+    double normal_deg = 0, tangent_deg = 0;  ///< maximum error over all frames
     double normal_sum = 0, tangent_sum = 0;
     std::uint64_t wrong_signs = 0;
 

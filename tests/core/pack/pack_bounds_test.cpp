@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The bounds of pack.h, and that unpacked frames are restored exactly. TSPACE_FRAMES=100000000 tests that many random
-// frames of each format, and prints their errors in any case.
+// The error bounds that pack.h states, and exact restoration of unpacked frames. TSPACE_FRAMES=100000000 tests that
+// many random frames of each format. Their errors are printed in any case.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -35,8 +35,8 @@ TEST_P(PackBounds, HoldForRandomFrames) {
                 errors.normal_deg, errors.tangent_deg, errors.normal_sum / frames, errors.tangent_sum / frames, done);
 }
 
-/// Returns rotations at and near those where codes change sides: rotations of axes to axes, by 45, 120 and 180 degrees,
-/// with deviations from 1e-11 to a quantization step.
+/// Returns rotations at which encoders switch between cases, and rotations near them: rotations of axes to axes, and by
+/// 45, 120 and 180 degrees, with deviations from 1e-11 to a quantization step.
 FrameList specialFrames() {
     const double offsets[] = {0, 1e-11, 1e-7, 1e-5, 1e-3, 2e-3};
     const double values[] = {0, 0.41421356237309503, 1, -0.41421356237309503, -1};
@@ -55,7 +55,7 @@ FrameList specialFrames() {
     return frames;
 }
 
-/// The sign of qtangent64 is stored in w, which therefore cannot be 0.
+/// The sign of qtangent64 is stored as the sign of w, which therefore cannot be 0.
 TEST_P(PackBounds, HoldForHalfTurns) {
     RandomBits random(10);
     PackErrors errors;
@@ -73,7 +73,8 @@ TEST_P(PackBounds, HoldForHalfTurns) {
 
 TEST_P(PackBounds, HoldAtAxesAndBetweenThem) { expectWithinBounds(GetParam(), errorsOf(GetParam(), specialFrames())); }
 
-/// Maximizes the error from the worst of some frames by ever smaller rotations: ends in corners of cells.
+/// Starts from the worst of some frames and maximizes the error by smaller and smaller rotations. This ends in corners
+/// of quantization cells.
 TEST_P(PackBounds, HoldInCornersOfCells) {
     constexpr std::size_t kClimbers = 512;
     const FrameErrorBound bound = frameErrorBound(GetParam());
@@ -124,7 +125,7 @@ void expectFoundAgain(FrameFormat format, const std::vector<std::byte>& bytes) {
         };
         const double off =
             std::max({std::fabs(std::sqrt(dot(n, n)) - 1), std::fabs(std::sqrt(dot(t, t)) - 1), std::fabs(dot(n, t))});
-        worst = off <= worst ? worst : off;  // also accepts NaN
+        worst = off <= worst ? worst : off;  // worst also becomes NaN if off is NaN
     }
     EXPECT_LE(worst, 5e-7) << nameOf(format);
     const FrameList again = unpacked(format, packed(format, frames));
@@ -154,7 +155,7 @@ TEST_P(PackExact, RestoresTheFirstAndLastWords) {
     expectFoundAgain(GetParam(), bytes);
 }
 
-/// Evenly distributed over all 4-byte words: TSPACE_FRAMES=4294967296 tests all of them.
+/// Tests words that are evenly distributed over all 4-byte words. TSPACE_FRAMES=4294967296 tests all words.
 TEST(PackWords, OfFourBytesAreRestored) {
     const std::uint64_t count = std::uint64_t{1} << 32, step = count / static_cast<std::uint64_t>(frameCount(500'000));
     for (const FrameFormat format : {FrameFormat::frame32, FrameFormat::oct32}) {
@@ -168,7 +169,7 @@ TEST(PackWords, OfFourBytesAreRestored) {
     }
 }
 
-/// Corners, edges and centers of the cubes in all charts of frame32.
+/// Tests words at corners, edges and centers of the cubes of all charts of frame32.
 TEST(Frame32, RestoresWordsAtTheBordersOfCharts) {
     std::vector<std::byte> bytes;
     for (std::uint32_t g = 0; g < 24; ++g) {
@@ -185,7 +186,7 @@ TEST(Frame32, RestoresWordsAtTheBordersOfCharts) {
 }
 
 TEST(Frame32, FillsTheFacesOfCharts) {
-    // Random rotations are rarely at the border of charts; these all are.
+    // All of these rotations are at the border of a chart, where random rotations rarely are.
     RandomBits random(5);
     FrameList frames;
     for (int i = 0; i < 200'000; ++i) {
@@ -212,7 +213,7 @@ TEST_P(PackExact, KeepsTheBitsOfFramesAlongAxes) {
 }
 
 TEST(PackBounds, AreExceededByCoarserCodes) {
-    // Checks that the error measure can fail: N and T with 8 bits each exceed the bound of frame32.
+    // N and T with 8 bits per component exceed the bound of frame32, which shows that the error measure detects errors.
     RandomBits random(6);
     const PackErrors errors = errorsOf(FrameFormat::snorm8Pair, randomFrames(random, 10'000));
     EXPECT_GT(errors.normal_deg, frameErrorBound(FrameFormat::frame32).normal_deg);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Proof of the bounds of pack.h by computation: upper bounds for all frames instead of random frames.
-// docs/concepts/pack.md explains the reasoning.
+// Proof of the bounds of pack.h by computation: upper bounds of the errors of all frames, instead of the errors of
+// random frames. docs/concepts/pack.md explains the reasoning.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -32,13 +32,13 @@ Interval squared(const Interval& x) {
 
 using Box = std::array<Interval, 3>;
 
-/// A matrix of which each element is within `radius` of `center`.
+/// A set of matrices: each element is within `radius` of the one of `center`.
 struct Matrix {
     double center[3][3], radius[3][3];
 };
 
-/// Returns the rotation of the frame, in its own axes, per step of one along x, y and z of the lattice, anywhere in a
-/// box of the chart: r = 2 (dp - p x dp) / (1 + p.p), with p_i = t u_i (1 + 0.065 (u_i^2 - 1)).
+/// Returns how far the frame rotates, in its own axes, per lattice step along x, y and z, anywhere in a box of the
+/// chart: r = 2 (dp - p x dp) / (1 + p.p), with p_i = t u_i (1 + 0.065 (u_i^2 - 1)).
 Matrix turnsPerStep(const Box& box) {
     constexpr double kEdge = 0.41421356237309503, kWarp = 0.065;
     constexpr double kSteps[3] = {1.0 / 226, 2.0 / 435, 1.0 / 226};
@@ -68,7 +68,8 @@ Matrix turnsPerStep(const Box& box) {
 
 using Point3 = std::array<double, 3>;
 
-/// Returns whether N and T move by at most `reach` from any point within `half` of `middle` to `code`.
+/// Returns whether N and T rotate by at most `reach` radians between `code` and any point that is within `half` of
+/// `middle`.
 bool isWithin(const Matrix& m, const Point3& middle, const Point3& half, const Point3& code, double reach) {
     double r[3];
     for (int i = 0; i < 3; ++i) {
@@ -84,8 +85,8 @@ bool isWithin(const Matrix& m, const Point3& middle, const Point3& half, const P
     return r[0] * r[0] + r[1] * r[1] <= square && r[1] * r[1] + r[2] * r[2] <= square;
 }
 
-/// Returns whether each point of this part of a cell has a code within `reach`; halves parts that have no common code
-/// for all of their points.
+/// Returns whether each point of this part of a cell has a code within `reach`. If no code is near enough for the whole
+/// part, its halves are tested.
 bool isCovered(const Matrix& m, const Point3& middle, const Point3& half, const std::vector<Point3>& codes,
                double reach, int depth = 0) {
     for (const Point3& code : codes) {
@@ -103,8 +104,9 @@ bool isCovered(const Matrix& m, const Point3& middle, const Point3& half, const 
 }
 
 /// Returns whether all cells of a lattice with this matrix are covered by the codes that the encoder tries at least:
-/// four columns, two of which are shifted by half a step. Tests the lower and upper half separately. At the upper face
-/// of a chart the lower half is the last one, and the next row of the unshifted columns is missing.
+/// those of four columns, two of which are shifted by half a step. The lower and the upper half of the cell are tested
+/// separately. At the upper face of a chart only the lower half exists, and the next row of the unshifted columns is
+/// missing.
 bool isCellCovered(const Matrix& m, bool is_upper_face, double reach) {
     const Point3 half{0.5, 0.25, 0.5};
     std::vector<Point3> lower{{0, 0, 0}, {1, 0, 1}, {1, -0.5, 0}, {1, 0.5, 0}, {0, -0.5, 1}, {0, 0.5, 1}};
@@ -115,7 +117,8 @@ bool isCellCovered(const Matrix& m, bool is_upper_face, double reach) {
     return isCovered(m, {0.5, 0.25, 0.5}, half, lower, reach) && isCovered(m, {0.5, 0.75, 0.5}, half, upper, reach);
 }
 
-/// Halves the box along its longest side until each part is covered; returns false if parts of a hundredth are not.
+/// Halves the box along its longest side until each part is covered. Returns false if a part of a hundredth of a side
+/// is not covered.
 bool isChartCovered(const Box& box, bool is_upper_face, double reach, long& parts) {
     // A code may be at most one cell outside the box.
     Box wide = box;
@@ -134,8 +137,9 @@ bool isChartCovered(const Box& box, bool is_upper_face, double reach, long& part
 }
 
 TEST(Frame32, CoversAllRotationsWithinItsBound) {
-    // All charts are alike, and within one, changing two signs of (u, v, w) has no effect. Minus the rounding of
-    // floats, and 0.2 % by which the encoder may choose a code that is not the best.
+    // All charts are alike, and changing two signs of (u, v, w) has no effect, so a quarter of one chart is enough.
+    // `reach` is the promised bound, less float rounding and less 0.2 %, because the encoder may miss the best code by
+    // that much.
     const double reach = (0.998 * frameErrorBound(FrameFormat::frame32).normal_deg - 0.00005) / kDegree;
     long parts = 0;
     EXPECT_TRUE(isChartCovered({{{-1, 1}, {0, 1}, {0, 1}}}, false, reach, parts));
@@ -169,14 +173,15 @@ constexpr AngleFormat kAngleFormats[] = {{FrameFormat::oct32, 1023, 512, 11},
                                          {FrameFormat::frame48, 46339, 16384, 16},
                                          {FrameFormat::frame64, 2097151, 524288, 21}};
 
-/// Returns the circumradius of three points on the sphere: no point between them is farther from all of them.
+/// Returns the circumradius of three points on the sphere, in degrees: no point between them is farther from all three.
 double circumradiusDeg(const Vec3& a, const Vec3& b, const Vec3& c) {
     const double x = angleDeg(a, b) / kDegree, y = angleDeg(b, c) / kDegree, z = angleDeg(c, a) / kDegree;
     const double s = (x + y + z) / 2, area = std::sqrt(std::max(s * (s - x) * (s - y) * (s - z), 0.0));
     return area > 0 ? x * y * z / (4 * area) * kDegree : 0;
 }
 
-/// Returns the maximum over all cells, or every `stride`th row and column, each divided along its shorter diagonal.
+/// Returns the maximum circumradius over all cells, or those in every `stride`th row and column. Each cell is divided
+/// along its shorter diagonal.
 double worstCellDeg(const AngleFormat& format, std::uint64_t stride) {
     double worst = 0;
     for (std::uint64_t i = 0; i + 1 < format.width; i += stride) {

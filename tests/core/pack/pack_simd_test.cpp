@@ -64,7 +64,7 @@ TEST_P(PackSimd, PacksFramesToTheSameBytes) {
     RandomBits random(13);
     FrameList frames = randomFrames(random, 50'000);
     const double values[] = {0, 0.41421356237309503, 1, -0.41421356237309503, -1};
-    for (int index = 1; index < 625; ++index) {  // axes, half turns, borders of charts
+    for (int index = 1; index < 625; ++index) {  // rotations of axes to axes, half turns, and borders of charts
         for (const double by : {0.0, 1e-7}) {
             const double q[4] = {values[index % 5], values[index / 5 % 5], values[index / 25 % 5], values[index / 125]};
             frames.add({q[0] + by, q[1] - by, q[2] + by, q[3] + by}, 1);

@@ -47,11 +47,11 @@ TEST(FrameBytes, IsTheSizeOfEachFormat) {
 TEST(PackFrames, StoresTheDocumentedLayout) {
     const Vec3 z{0, 0, 1};
     const Vec4 x{1, 0, 0, 1}, x_mirrored{1, 0, 0, -1};
-    // N at the center of the grid, angle 0, and the sign in the lowest bit.
+    // N is at the center of the octahedral grid, the angle is 0, and the sign is in the lowest bit.
     EXPECT_EQ(bytesOf(FrameFormat::oct32, z, x), (std::vector{0x00, 0xf0, 0xdf, 0x7f}));  // 511 << 22 | 511 << 12
     EXPECT_EQ(bytesOf(FrameFormat::oct32, z, x_mirrored)[0], 0x01);
     EXPECT_EQ(bytesOf(FrameFormat::frame64, z, x), (std::vector{0x00, 0x00, 0xc0, 0xff, 0xff, 0xfb, 0xff, 0x7f}));
-    // 2 (((0 * 453 + 226) * 436 + 218) * 453 + 226) = 0x05553a58: the center of the first chart.
+    // The center of the first chart: 2 (((0 * 453 + 226) * 436 + 218) * 453 + 226) = 0x05553a58.
     EXPECT_EQ(bytesOf(FrameFormat::frame32, z, x), (std::vector{0x58, 0x3a, 0x55, 0x05}));
     EXPECT_EQ(bytesOf(FrameFormat::frame32, z, x_mirrored)[0], 0x59);
     EXPECT_EQ(bytesOf(FrameFormat::qtangent64, z, x), (std::vector{0, 0, 0, 0, 0, 0, 0xff, 0x7f}));

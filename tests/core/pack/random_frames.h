@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Frames for packing, generated without tspace.
+// Frames for tests of packing. They are generated without functions of tspace.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace tspace::test {
 
-/// Random numbers that are equal on every machine.
+/// Random numbers that are the same on every machine.
 class RandomBits {
   public:
     explicit RandomBits(std::uint64_t seed) : state_(seed) {}
@@ -20,7 +20,7 @@ class RandomBits {
         x = (x ^ x >> 27) * 0x94d049bb133111ebu;
         return x ^ x >> 31;
     }
-    /// In [-1, 1).
+    /// Returns a number in [-1, 1).
     double number() { return static_cast<double>(next() >> 11) * 0x1p-52 - 1; }
 
   private:
@@ -45,7 +45,7 @@ struct FrameList {
         normals.push_back(n);
         tangents.push_back(t);
     }
-    /// Adds the frame that results from rotating the axes.
+    /// Adds the frame that results when the axes are rotated by q.
     void add(Quaternion q, float sign) {
         const double scale = 2 / (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
         const auto f = [](double x) { return static_cast<float>(x); };
@@ -60,7 +60,7 @@ struct FrameList {
     }
 };
 
-/// Returns a rotation, uniformly distributed: points in the four-dimensional ball.
+/// Returns a uniformly distributed rotation: a quaternion sampled in the unit 4-ball by rejection, not normalized.
 inline Quaternion randomRotation(RandomBits& random) {
     for (;;) {
         const Quaternion q{random.number(), random.number(), random.number(), random.number()};
@@ -74,14 +74,15 @@ inline FrameList randomFrames(RandomBits& random, std::size_t count) {
     frames.normals.reserve(count);
     frames.tangents.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
-        // before the sign, regardless of the compiler's evaluation order
+        // The rotation is generated in a separate statement, so that its numbers come before the sign's with every
+        // compiler.
         const Quaternion rotation = randomRotation(random);
         frames.add(rotation, (random.next() & 1) != 0 ? -1.0f : 1.0f);
     }
     return frames;
 }
 
-/// Returns the angle; accurate for angles of any size, unlike the arc cosine.
+/// Returns the angle in degrees. It is accurate for angles of any size, unlike the arc cosine.
 inline double angleDeg(const Vec3& a, const Vec3& b) {
     const double ax = a.x, ay = a.y, az = a.z, bx = b.x, by = b.y, bz = b.z;
     const double x = ay * bz - az * by, y = az * bx - ax * bz, z = ax * by - ay * bx;

@@ -18,7 +18,7 @@ struct MirroredStrip {
     std::vector<std::uint32_t> indices{0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4};
     std::vector<Vec3> normals{6};
 
-    /// Sets normals that point to the convention's outside.
+    /// Sets normals that point outward according to the convention.
     explicit MirroredStrip(const Convention& convention) {
         for (Vec3& n : normals) n = {0, 0, normalFactor(convention)};
     }
@@ -30,7 +30,8 @@ struct MirroredStrip {
     }
 };
 
-/// dP/dv is (0, 1, 0) on the whole strip; the bitangent required by the convention follows from v and green only.
+/// Returns the bitangent that the convention requires. dP/dv is (0, 1, 0) on the whole strip, so only v_axis and green
+/// matter.
 Vec3 wantedBitangent(const Convention& c) {
     return {0, (c.v_axis == VAxis::down) == (c.green == Green::down) ? 1.0f : -1.0f, 0};
 }
@@ -54,9 +55,9 @@ TEST(Conventions, GiveEveryMethodTheSignThatRebuildsTheWantedBitangent) {
 }
 
 TEST(Conventions, DecideWhichTrianglesAreCountedAsMirrored) {
-    // The left square has negative UV area. With v up it is mirrored; with v down the other one is; clockwise winding,
-    // seen from outside, reverses that. An additional triangle has two corners at one vertex, and another repeats a
-    // left one.
+    // The left square has negative UV area. With v up, the left square is mirrored; with v down, the right one is.
+    // Clockwise winding (seen from outside) exchanges them. One additional triangle has two corners at one vertex, and
+    // another one repeats a triangle of the left square.
     const std::vector<std::uint32_t> left{0, 1, 4};
     for (const char* preset : {"gltf", "opengl", "directx", "unreal", "unity", "blender", "godot"}) {
         const Convention convention = *findConvention(preset);

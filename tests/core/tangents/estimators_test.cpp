@@ -107,7 +107,7 @@ TEST(Estimators, BestFollowsAQuadraticMapThatMeansDoNot) {
     const double angle = meanError(patch, Method::angle);
     EXPECT_GT(angle, 0.02);
     EXPECT_LT(meanError(patch, Method::best, 0), angle / 20);
-    // interpolated frames fit the edges, not the directions at vertices
+    // Interpolated frames are fitted to the edges, not to the directions at vertices, so the bound is weaker.
     EXPECT_LT(meanError(patch, Method::best), angle / 12);
     EXPECT_LT(meanError(patch, Method::fast), angle / 1.5);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Evaluating plans repeatedly on an arena allocates nothing after the first evaluation, from any source.
+// Evaluating plans repeatedly with an arena allocates nothing after the first evaluation.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Following a fan by its open ends must agree with pairing all of its half-edges.
+// Following a fan by its open ends must give the same result as pairing all of its half-edges.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -25,7 +25,7 @@ std::vector<NodeCorner> around(const Corners& corners) {
     return around;
 }
 
-/// Returns the number of connected components formed by the links of groups.h.
+/// Returns the number of components that are connected by the links of groups.h.
 std::size_t countParts(const Corners& corners) {
     const auto count = static_cast<std::uint32_t>(corners.next.size());
     std::vector<std::uint32_t> left(count), right(count), part(count, kNone);
@@ -40,7 +40,7 @@ std::size_t countParts(const Corners& corners) {
     return parts;
 }
 
-/// Returns neighbors around a ring or path, in random order, with some corners that do not fit.
+/// Returns the corners of a ring or path in random order, with some additional corners that do not fit.
 Corners randomCorners() {
     const auto size = *rc::gen::inRange<std::uint32_t>(2, 10);
     const bool closed = *rc::gen::arbitrary<bool>();
@@ -83,7 +83,7 @@ RC_GTEST_PROP(Fan, IsOneOnlyWherePairingMakesOnePart, ()) {
     const bool found = isFoundOne(corners);
     RC_TAG(found);
     if (found) RC_ASSERT(countParts(corners) == 1u);
-    // More corners may start more paths than fit into the fixed space.
+    // With more corners, there may be more paths than fit into the fixed space.
     if (corners.next.size() <= 8 && isPlainFan(corners)) RC_ASSERT(found);
 }
 
@@ -118,7 +118,7 @@ TEST(Fan, KnowsAllFansOfUpToFourCornersWithFourNeighbors) {
             fans += is_plain ? 1 : 0;
         }
     }
-    // Rings: 6 of two corners, 8 of three, 6 of four. Paths: 12, 24 and 24. Each in any order.
+    // There are 6 rings of two corners, 8 of three and 6 of four, and 12, 24 and 24 paths; all of them in any order.
     EXPECT_EQ(fans, 12u + 2u * (6 + 24) + 6u * (8 + 24) + 24u * 6);
 }
 
@@ -140,13 +140,13 @@ TEST(Fan, FollowsTrianglesInTheOrderOfAMesh) {
     FanPool room(&place);
     Fan fan;
     EXPECT_FALSE(fan.isOne());
-    // Two strips of three triangles around a node, in the order of the rows of a grid.
+    // A node between two strips of three triangles, in the order of a grid's rows.
     const std::uint32_t next[] = {0, 1, 2, 5, 4, 3}, previous[] = {1, 2, 3, 0, 5, 4};
     for (int i = 0; i < 6; ++i) fan.add(next[i], previous[i], room);
     EXPECT_TRUE(fan.isOne());
 }
 
-/// Every second triangle of a ring, then the others.
+/// Returns whether a ring is detected if first every second triangle is added, and then the others.
 bool isRingFound(std::uint32_t size) {
     ManyPaths place;
     FanPool room(&place);
@@ -176,7 +176,7 @@ TEST(Fan, GivesItsPlaceBackWhereTwoPathsAreLeft) {
     for (const std::uint32_t i : {1u, 3u}) fans[1].add(i, i + 1, room);
     EXPECT_TRUE(fans[0].isOne());
     EXPECT_TRUE(fans[1].isOne());
-    EXPECT_EQ(places[2].paths[0].leaves, 0u);  // never needed
+    EXPECT_EQ(places[2].paths[0].leaves, 0u);  // its space is not used
 }
 
 TEST(Fan, StaysComplexOnceTwoWaitForOneNeighbor) {

@@ -13,7 +13,7 @@
 
 namespace tspace::test {
 
-/// Same layout as in the file.
+/// The results for one corner, laid out as in the file.
 struct GoldenResult {
     Vec3 tangent, bitangent;
     float magnitude_s = 0, magnitude_t = 0;
@@ -55,7 +55,7 @@ inline bool hasPromisedBits(const SimpleMesh& shape) {
     });
 }
 
-/// Returns whether words are equal; any NaN equals any NaN.
+/// Returns whether words are equal. Any two NaNs are equal.
 inline bool sameBits(float a, float b) { return (a != a && b != b) || std::memcmp(&a, &b, sizeof a) == 0; }
 inline bool sameBits(const Vec3& a, const Vec3& b) {
     return sameBits(a.x, b.x) && sameBits(a.y, b.y) && sameBits(a.z, b.z);

@@ -21,7 +21,7 @@ using test::SimpleMesh;
 
 constexpr int kCells = 2048;
 
-/// Implements the rules of the reference, one element at a time.
+/// Implements the reference's search literally, one element at a time.
 class Replay {
   public:
     explicit Replay(const MeshView& mesh) : mesh_(mesh) {}
@@ -89,8 +89,8 @@ class Replay {
     float low_[3] = {}, high_[3] = {};
 };
 
-/// Returns random triangles over `count` positions, with vertices in any order; and one vertex `far` away, so that all
-/// others are in few cells.
+/// Returns random triangles over `count` positions, with vertices in any order, and one vertex at distance `far`, so
+/// that all others are in few cells.
 SimpleMesh soup(std::uint32_t count, float far, std::uint32_t seed) {
     std::mt19937 random(seed);
     const auto value = [&] { return static_cast<float>(random() % 4096) / 64; };
@@ -108,7 +108,8 @@ struct Found {
     std::vector<std::uint32_t> wanted, all, some;
 };
 
-/// Computes representatives with the simulation, for all nodes, and for the first `asked` ones.
+/// Computes representatives of all nodes by the simulation and by the library, and of the first `asked` nodes by the
+/// library.
 Found representatives(const MeshView& mesh, std::size_t asked, unsigned threads) {
     Parallel parallel(Execution{.thread_count = threads});
     const TriangleList triangles = cutFaces(mesh, Ngons::skip, nullptr);
@@ -127,7 +128,7 @@ Found representatives(const MeshView& mesh, std::size_t asked, unsigned threads)
 }
 
 TEST(GridOrder, IsTheReferencesInCellsOfManyCorners) {
-    for (const float far : {64.0f, 100000.0f, 30000000.0f}) {  // from all cells to a single one
+    for (const float far : {64.0f, 100000.0f, 30000000.0f}) {  // the larger, the fewer cells contain the other vertices
         for (const std::uint32_t seed : {1u, 2u, 3u}) {
             const SimpleMesh shape = soup(3000, far, seed);
             const Found found = representatives(shape.view(), 20, 1 + seed % 2);
@@ -146,7 +147,7 @@ TEST(GridOrder, IsTheReferencesForNodesInManyCells) {
 TEST(GridOrder, IsTheReferencesForAFewNodesOfALongCell) {
     for (const std::uint32_t seed : {6u, 7u, 8u}) {
         SimpleMesh shape = soup(10000, 30000000.0f, seed);  // 60,000 corners, nearly all in one cell
-        shape.addVertex({0, -500, 0}, {0, 0, 1}, {0, 0});   // used by no triangle: not in any box
+        shape.addVertex({0, -500, 0}, {0, 0, 1}, {0, 0});   // no triangle uses it, so it is in no bounding box
         for (const unsigned threads : {1u, 3u}) {
             const Found found = representatives(shape.view(), 20, threads);
             for (std::size_t n = 0; n < 20; ++n) EXPECT_EQ(found.some[n], found.wanted[n]);

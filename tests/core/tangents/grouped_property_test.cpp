@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Properties that must not affect the results: index width, strides, threads, order of vertices, representation of the
+// Properties that must not affect results: index width, strides, threads, order of vertices, and representation of the
 // mesh.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -164,7 +164,7 @@ RC_GTEST_PROP(GroupedProperty, TheConventionChangesOnlySignAndBitangent, ()) {
     }
 }
 
-/// Large enough for every phase to be divided into several tasks.
+/// The meshes are so large that every phase is divided into several tasks.
 TEST(GroupedThreads, GiveTheSameBits) {
     std::vector<SimpleMesh> shapes{gridOf(40000),       fan(20000),       someDegenerate(40000),
                                    checkerboard(40000), notFinite(40000), someWithoutUvArea(40000),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Properties of the grouping methods on small meshes, at the API border, and when memory runs out.
+// Properties of the grouping methods on small meshes, for invalid calls, and when memory runs out.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -204,7 +204,7 @@ TEST(TangentPlan, GivesTheBitsOfTheOneCallOnItsOwnPose) {
     }
 }
 
-/// A square of two triangles that do not share vertices, but have equal ones along the diagonal.
+/// A square of two triangles that do not share vertices: along the diagonal, each has equal vertices of its own.
 TEST(TangentPlan, SupportsEqualVerticesThatSeparate) {
     SimpleMesh square;
     for (const Vec2& uv : {Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 0}, Vec2{1, 1}, Vec2{0, 1}}) {
@@ -306,7 +306,7 @@ TEST(TangentBorder, UnwantedOutputsMayBeMissing) {
     EXPECT_EQ(all.tangents, some.tangents);
 }
 
-/// Counts allocations, and fails from a given call on.
+/// Counts allocations, and fails from the call `fails_at` on.
 struct CountingAllocator {
     std::size_t calls = 0, fails_at = ~std::size_t{0}, live_bytes = 0, peak_bytes = 0;
     Allocator allocator{.allocate = [](void* user, std::size_t bytes, std::size_t alignment) -> void* {
@@ -324,7 +324,7 @@ struct CountingAllocator {
                         .user = this};
 };
 
-/// Lets each allocation of a call fail once; returns the number of allocations.
+/// Lets each allocation of a call fail in turn, and returns the number of allocations.
 std::size_t letEachAllocationFail(const SimpleMesh& shape, float threshold, Method method = Method::mikktspace) {
     CountingAllocator counting;
     const Execution execution{.allocator = &counting.allocator};
@@ -359,7 +359,7 @@ TEST(TangentMemory, EachAllocationMayFail) {
 
 TEST(TangentMemory, UnindexedCornersTakeAtMost32BytesPerTriangle) {
     SimpleMesh shape = grid(200);
-    // requires a second pass
+    // Triangles whose UVs are a single point require a second pass.
     for (std::uint32_t corner = 0; corner < 300; ++corner) shape.uvs[shape.indices[corner]] = {};
     SimpleMesh corners;
     for (const std::uint32_t v : shape.indices) corners.addVertex(shape.positions[v], shape.normals[v], shape.uvs[v]);
@@ -374,7 +374,8 @@ TEST(TangentMemory, UnindexedCornersTakeAtMost32BytesPerTriangle) {
     }
 }
 
-/// Nodes handled by the vertex path need memory, and one pass completes the nodes of a grid in this order too.
+/// If first all first triangles of quads and then all second ones are listed, one pass still completes the nodes of a
+/// grid. It needs no memory for the vertex path.
 TEST(TangentMemory, SecondTrianglesOfQuadsMayFollowAllFirstOnes) {
     const SimpleMesh natural = gridOf(20000);
     SimpleMesh sweeps = natural;

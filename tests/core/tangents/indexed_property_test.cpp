@@ -83,7 +83,7 @@ RC_GTEST_PROP(IndexedProperty, IsFiniteUnitAndSignedForGarbage, ()) {
     }
 }
 
-/// Compares with the sums of the method's definition, in double precision.
+/// Compares the results with sums by the method's definition, in double precision.
 RC_GTEST_PROP(IndexedProperty, LengyelIsItsDefinition, ()) {
     const SimpleMesh mesh = randomMesh(3);
     const Outputs out = tangentsOf(mesh.view(), Method::lengyel);
@@ -112,7 +112,7 @@ RC_GTEST_PROP(IndexedProperty, LengyelIsItsDefinition, ()) {
         const double along = n.x * s[0] + n.y * s[1] + n.z * s[2];
         const double rest[3] = {s[0] - along * n.x, s[1] - along * n.y, s[2] - along * n.z};
         const double l = std::sqrt(rest[0] * rest[0] + rest[1] * rest[1] + rest[2] * rest[2]);
-        if (l < 1e-2 * greatest || l == 0) continue;  // cancellation: no reference value in floats
+        if (l < 1e-2 * greatest || l == 0) continue;  // terms cancel: a float result may differ arbitrarily
         const Vec3 wanted{static_cast<float>(rest[0] / l), static_cast<float>(rest[1] / l),
                           static_cast<float>(rest[2] / l)};
         RC_ASSERT(test::dot(wanted, xyz(out.tangents[c])) > 1 - 1e-6);
@@ -134,7 +134,7 @@ RC_GTEST_PROP(IndexedProperty, LengyelGivesAllCornersOfAVertexOneFrame, ()) {
     }
 }
 
-/// A plan with permanent data, and a plan that is used up within a call, for both domains.
+/// Tests a plan with permanent data, and a plan that exists only within a call, for both domains.
 RC_GTEST_PROP(IndexedProperty, VertexDomainAndPlanGiveTheBitsOfTheOneCallPerCorner, ()) {
     SimpleMesh mesh = randomMesh(randomInt(3, 7));
     if (randomInt(0, 2) == 0) {
@@ -182,7 +182,7 @@ RC_GTEST_PROP(IndexedProperty, VertexDomainAndPlanGiveTheBitsOfTheOneCallPerCorn
     }
 }
 
-/// Four triangles are computed at a time: adjacent ones must not affect the result.
+/// Four triangles are computed at a time, so the other three could affect a result.
 RC_GTEST_PROP(IndexedProperty, LengyelGivesATriangleItsOwnBits, ()) {
     SimpleMesh mesh;
     const int count = randomInt(1, 12);
@@ -239,7 +239,7 @@ RC_GTEST_PROP(IndexedProperty, DoesNotDependOnVertexOrderIndexWidthOrStrides, ()
         float padding;
         Vec3 normal, position;
     };
-    // Vertices in reverse order, interleaved.
+    // The vertices are in reverse order, and their attributes are interleaved.
     const std::size_t count = mesh.positions.size();
     std::vector<Vertex> vertices(count);
     for (std::size_t v = 0; v < count; ++v) {

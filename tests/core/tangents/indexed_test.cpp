@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// lengyel, flat and basis, with their plans.
+// The methods lengyel, flat and basis, with and without plans.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ void expectNear(const Vec3& a, const Vec3& b, double tolerance = 1e-6) {
     EXPECT_NEAR(a.z, b.z, tolerance);
 }
 
-/// A unit square in z = 0 with N = +z, divided along 0-2; u along 2x, v along 4y.
+/// A unit square in z = 0 with N = +z, divided along its diagonal 0-2. UVs are (2 x, 4 y).
 SimpleMesh square() {
     SimpleMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -59,7 +59,7 @@ SimpleMesh square() {
     return mesh;
 }
 
-/// A square with mirrored u and v.
+/// The square with both u and v mirrored.
 SimpleMesh mirroredSquare() {
     SimpleMesh mesh = square();
     for (Vec2& uv : mesh.uvs) uv.x = -uv.x;
@@ -116,7 +116,8 @@ TEST(Lengyel, GivesTheNumbersOfItsPage) {
 }
 
 TEST(Lengyel, SumsUnnormalizedDerivatives) {
-    // At vertex 0 one face has T = (1, 0, 0), the other T = (0, 3, 0): the longer one has three times the weight.
+    // At vertex 0 one face has T = (1, 0, 0) and the other T = (0, 3, 0), which has three times the weight because it
+    // is longer.
     SimpleMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 3, 0}, {-1, 0, 0}};
     mesh.normals.assign(5, {0, 0, 1});
@@ -153,7 +154,7 @@ TEST(Lengyel, IgnoresFacesWithoutUvAreaAndInvalidOnes) {
     mesh.normals.push_back({0, 0, 1});
     mesh.uvs.push_back({1, 0});
     mesh.addFace({0, 1, 4});
-    mesh.addFace({0, 1, 5});  // all UVs on v = 0
+    mesh.addFace({0, 1, 5});  // all of its UVs have v = 0
     const Outputs out = tangentsOf(mesh.view(), {.method = Method::lengyel, .convention = conventions::opengl});
     EXPECT_EQ(out.tangents[0], (Vec4{1, 0, 0, 1}));
     EXPECT_EQ(out.magnitudes_s[0], 0.5f);
@@ -257,7 +258,7 @@ TEST(VertexDomain, GivesUnusedVerticesZeroAndCountsOutputs) {
     mesh.positions.resize(7);
     mesh.normals.resize(7, {0, 0, 1});
     mesh.uvs.resize(7);
-    mesh.addFace({4, 5});     // ignored
+    mesh.addFace({4, 5});     // ignored, because it has two corners
     mesh.addFace({0, 1, 6});  // collapsed in UV: vertex 6 is used, but has no tangent
     mesh.uvs[6] = mesh.uvs[0];
     for (const Method method : {Method::lengyel, Method::basis}) {
@@ -318,7 +319,8 @@ TEST(OneCall, CopiesNeitherIndicesNorUvs) {
         ASSERT_TRUE(generateTangents(mesh.view(),
                                      {.method = Method::lengyel, .convention = conventions::opengl, .domain = domain},
                                      {.tangents = out}, {.thread_count = 1, .allocator = &allocator}));
-        // A part of each vertex's sum; the rest is in the output memory. With domain corner, also a mark.
+        // Scratch memory holds a part of each vertex's sum (the rest is in the output memory) and, with domain corner,
+        // a mark.
         EXPECT_EQ(count.peak, 4 * (domain == OutputDomain::vertex ? 8u : 17u));
     }
     EXPECT_EQ(count.live, 0u);
@@ -335,7 +337,7 @@ TEST(Lengyel, LosesNoDigitsAtExtremeScales) {
             const Outputs out = tangentsOf(mesh.view(), {.method = Method::lengyel, .convention = conventions::opengl});
             for (std::size_t c = 0; c < 6; ++c) {
                 const double expected = 0.5 * (double{space} / texture);
-                if (expected < 1e-37 || expected > 1e37) continue;  // outside of float
+                if (expected < 1e-37 || expected > 1e37) continue;  // float cannot represent it
                 EXPECT_EQ(out.tangents[c], (Vec4{1, 0, 0, 1})) << space << " " << texture;
                 EXPECT_NEAR(out.magnitudes_s[c] / expected, 1, 1e-5) << space << " " << texture;
             }
@@ -350,7 +352,7 @@ TEST(Lengyel, DistinguishesUvSliversFromCollinearUvs) {
     mesh.addFace({0, 1, 2});
     for (const int bits : {0, 8, 16, 22}) {
         const float height = std::ldexp(1.0f, -bits);
-        // In UV space a sliver along the diagonal, whose determinant is exactly `height`.
+        // In UV space the triangle is a sliver along the diagonal, whose determinant is exactly `height`.
         mesh.uvs = {{0, 0}, {1, 1}, {1, 1 + height}};
         const Outputs out = tangentsOf(mesh.view(), {.method = Method::lengyel, .convention = conventions::opengl});
         // dP/du = ((1 + h) E1 - E2) / h, dP/dv = (E2 - E1) / h
@@ -399,7 +401,7 @@ TEST(Plan, AfterAMoveEqualsThatOfAnEmptyMesh) {
         EXPECT_LT(left.memoryBytes(), 100u);
         EXPECT_EQ(evaluateTangents(left, pose, {.tangents = tangents}).error().code, ErrorCode::planMismatch);
         EXPECT_TRUE(evaluateTangents(left, {}, {}));
-        // A plan can be assigned again, including itself.
+        // A plan can be assigned again, even to itself.
         *made = *std::move(other);
         EXPECT_TRUE(evaluateTangents(*made, pose, {.tangents = tangents}));
         TangentPlan& same = *made;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The kernels' arc cosine compared with the C library's in double, rounded to float. All floats from -1 to 1 were
-// compared once; here only a sample is.
+// compared once; this test compares a sample.
 #include <gtest/gtest.h>
 
 #include <bit>

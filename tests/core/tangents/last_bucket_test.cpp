@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The effect of the reference's unsorted last bucket, computed without a list of all edges.
+// The effect of the reference's unsorted last edge bucket: the library determines it without a list of all edges.
 #include "core/tangents/mikktspace/last_bucket.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ namespace tspace::mikk {
 namespace {
 
 using test::SimpleMesh;
-using Links = std::map<std::uint32_t, std::uint32_t>;  // half-edge -> neighbor; kNone: none
+using Links = std::map<std::uint32_t, std::uint32_t>;  // half-edge -> its neighbor, or kNone
 
 struct Welded {
     MeshView mesh;
@@ -52,7 +52,7 @@ struct Welded {
     }
 };
 
-/// Finds the same links by the reference's rules, in sequence, from a list of all edges.
+/// Finds the same links sequentially by the reference's rules, from a list of all edges.
 class AllEdges {
   public:
     explicit AllEdges(Welded& welded) {
@@ -150,8 +150,8 @@ std::vector<Vec4> tangents(const MeshView& mesh, Pairing pairing) {
     return result;
 }
 
-/// Returns one of several meshes: sheets, random triangles and quads, triangles around one edge, or fans; in natural
-/// order or shuffled.
+/// Returns one of several meshes, in natural order or shuffled: sheets, random triangles and quads, triangles around
+/// one edge, or fans.
 SimpleMesh someShape(std::uint32_t seed) {
     std::mt19937 random(seed);
     SimpleMesh shape;
@@ -194,7 +194,7 @@ TEST(LastBucket, ChangesTheLinksThatAListOfAllEdgesChanges) {
     EXPECT_GT(changed, 40);
 }
 
-/// Returns `tail` after a sheet with so many triangles that only the end of the mesh is examined.
+/// Returns a sheet followed by `tail`. The sheet has so many triangles that only the end of the mesh is examined.
 SimpleMesh afterSheet(const SimpleMesh& tail) {
     SimpleMesh shape = test::grid(30);
     const auto first = static_cast<std::uint32_t>(shape.positions.size());
@@ -247,7 +247,7 @@ TEST(LastBucket, RarelyChangesAnything) {
     EXPECT_LT(changed, kGrids / 10);
 }
 
-/// Meshes so large that several threads share the work.
+/// The meshes are so large that several threads share the work.
 TEST(LastBucket, IsTheSameForLargeMeshesAndAllThreads) {
     for (std::uint32_t seed = 0; seed < 6; ++seed) {
         SimpleMesh shape = seed < 5 ? test::grid(300) : test::fan(100000);
@@ -258,7 +258,8 @@ TEST(LastBucket, IsTheSameForLargeMeshesAndAllThreads) {
     }
 }
 
-/// The nodes of the last triangles all have their first corners, and therefore their representatives, at the start.
+/// The first corners of the last triangles' nodes, and therefore their representatives, are all at the start of the
+/// mesh.
 TEST(LastBucket, IsFoundIfTheLastTrianglesUseOnlyEarlierNodes) {
     SimpleMesh shape = test::grid(80);
     for (int repeat = 0; repeat < 6000; ++repeat) shape.addTriangle(0, 1, 82);
@@ -291,7 +292,7 @@ TEST(LastBucket, ChangesTheLinksOfToriThatAListOfAllEdgesChanges) {
     EXPECT_GT(changed, 10);
 }
 
-/// Compares with the bits of tspace 0.x, which processed such meshes differently and was compared with the reference.
+/// Compares with results of tspace 0.x, which processed such meshes differently and was compared with the reference.
 TEST(LastBucket, ToriKeepTheirBits) {
     std::uint64_t hash = 0;
     int different = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A call for many meshes: results of single calls, one error per job, and memory reused by threads.
+// A call for many meshes: results equal those of single calls, each job has its own error, and threads reuse memory.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -58,7 +58,7 @@ void expectSingleCalls(Batch& batch, const Execution& execution) {
 TEST(ManyMeshes, HaveTheResultsOfSingleCalls) {
     std::vector<SimpleMesh> meshes = smallMeshes(300);
     meshes.push_back(grid(40));
-    meshes.insert(meshes.begin() + 100, grid(200));  // more than the share of one thread
+    meshes.insert(meshes.begin() + 100, grid(200));  // has more faces than one thread's share of all
     for (const unsigned threads : {1u, 2u, 3u}) {
         Batch batch(meshes);
         for (std::size_t i = 0; i < batch.jobs.size(); i += 3) batch.jobs[i].options.method = Method::best;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compares every output word of `mikktspace` with results of the reference implementation. Built several times with
-// different compiler flags: the bits must not change.
+// Compares every output word of `mikktspace` with results of the reference implementation. This file is built several
+// times with different compiler flags, which must not change the bits.
 #include <gtest/gtest.h>
 
 #include <algorithm>

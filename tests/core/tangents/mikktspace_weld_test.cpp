@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Welding: which vertices become one node, how nodes are numbered, and whose data represents them.
+// Welding: which vertices become one node, how nodes are numbered, and which vertex's data represents a node.
 #include "core/tangents/mikktspace/weld.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ Nodes weldWith(const MeshView& mesh, unsigned threads, const Allocator* transien
     return weld(mesh, triangles, nullptr, parallel, transient);
 }
 
-/// Finds nodes with a search tree: numbered by the first of equal vertices.
+/// Returns the node of each vertex, found with a search tree. Nodes are numbered in the order of their first vertices.
 std::vector<std::uint32_t> wantedNodes(const MeshView& mesh) {
     std::map<std::array<float, 8>, std::uint32_t> found;
     std::vector<std::uint32_t> nodes;
@@ -53,7 +53,8 @@ void expectWanted(const MeshView& mesh) {
     }
 }
 
-/// Checks that no permanent data is in the transient memory, whether all or only a part of the transient data fits.
+/// Checks that the nodes keep no data in the transient memory, whether it is large enough for all transient data or
+/// only for a part.
 void expectTheSameWithTransientMemory(const MeshView& mesh) {
     const Nodes want = weldWith(mesh, 2);
     for (const std::size_t bytes_per_vertex : {1u, 5u, 64u}) {
@@ -67,7 +68,8 @@ void expectTheSameWithTransientMemory(const MeshView& mesh) {
     }
 }
 
-/// Returns random vertices, each with probability 1/`rarity` a copy of an earlier one; triangles use all of them.
+/// Returns random vertices, each of which is a copy of an earlier one with probability 1 / `rarity`. Triangles use all
+/// vertices.
 SimpleMesh randomVertices(std::size_t count, unsigned rarity) {
     std::mt19937 random(7);
     SimpleMesh shape;
@@ -88,7 +90,7 @@ TEST(Weld, FindsTheFewEqualVerticesOfAnIndexedMesh) { expectWanted(randomVertice
 
 TEST(Weld, FindsEqualVerticesWhereMostAreEqual) {
     SimpleMesh shape = randomVertices(kMany, 100);
-    for (std::size_t v = kMany; v-- > 0;) {  // each vertex is one of a few
+    for (std::size_t v = kMany; v-- > 0;) {  // makes each vertex one of 1000
         const std::size_t other = v * 7919 % 1000;
         shape.positions[v] = shape.positions[other];
         shape.normals[v] = shape.normals[other];
@@ -176,8 +178,7 @@ TEST(Weld, TreatsZerosOfBothSignsAsEqual) {
     for (const float zero : {0.0f, -0.0f, 0.0f}) shape.addVertex({zero, 0, 0}, {0, 0, 1}, {0, -zero});
     shape.addVertex({1, 0, 0}, {0, 0, 1}, {1, 0});
     shape.addVertex({0, 1, 0}, {0, 0, 1}, {0, 1});
-    shape.addTriangle(1, 3,
-                      4);  // the only used vertex of this node: it represents the node, not the first one
+    shape.addTriangle(1, 3, 4);  // 1 is the only used vertex of its node, so it represents the node
     const Nodes nodes = weldWith(shape.view(), 1);
     EXPECT_EQ(nodes.count, 3u);
     EXPECT_TRUE(nodes.mixed);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The reference's grouping depends on the order of faces (its last edge bucket is not sorted); the corrected one does
-// not.
+// The reference's grouping depends on the order of faces, because its last edge bucket is not sorted; corrected pairing
+// does not.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace tspace {
 namespace {
 
-constexpr unsigned kCells = 2;  // small, so that the last edge affects most of the mesh
+constexpr unsigned kCells = 2;  // so few that the last edge affects most of the mesh
 
 /// A grid with slanted UVs that differ from cell to cell, so that a missing neighbor changes the result.
 struct Grid : test::SimpleMesh {
@@ -35,7 +35,7 @@ struct Grid : test::SimpleMesh {
         }
     }
 
-    /// Returns tangents per (face, corner) in storage order, computed with the faces in the given order.
+    /// Returns tangents per corner of the faces as stored, computed with the faces in the given order.
     [[nodiscard]] std::vector<Vec4> tangents(const std::vector<std::size_t>& order, Pairing pairing) const {
         std::vector<std::uint32_t> ordered;
         for (const std::size_t f : order) ordered.insert(ordered.end(), &indices[3 * f], &indices[3 * f] + 3);
@@ -49,7 +49,7 @@ struct Grid : test::SimpleMesh {
     }
 };
 
-/// Returns the largest change of any tangent when faces are shuffled, over many grids.
+/// Returns the largest change of any tangent when the faces of many grids are shuffled.
 float largestChange(Pairing pairing) {
     float largest = 0;
     for (unsigned seed = 0; seed < 500; ++seed) {

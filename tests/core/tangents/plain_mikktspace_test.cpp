@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compares the simple implementation of MikkTSpace with stored results of the reference, and the engine with the simple
-// implementation.
+// Compares the simple implementation of MikkTSpace with stored results of the reference, and the library's `mikktspace`
+// with the simple implementation.
 #include "core/tangents/mikktspace/plain.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,8 @@ bool sameCounts(const TangentReport& a, const TangentReport& b) {
     return counts(a) == counts(b);
 }
 
-/// Small meshes have a separate code path, which does not support this many vertices.
+/// Compares a single call. Unused vertices are added, because the code path for small meshes does not support so many
+/// vertices.
 bool onePassIsExact(const MeshView& mesh, const TangentOptions& options) {
     std::vector<Vec3> positions(mesh.vertexCount() + 200, Vec3{1, 2, 3}), normals(positions.size(), Vec3{0, 0, 1});
     std::vector<Vec2> uvs(positions.size());
@@ -62,7 +63,7 @@ bool onePassIsExact(const MeshView& mesh, const TangentOptions& options) {
            sameBits(small, got);
 }
 
-/// The engine computes the result of a plan differently from that of one call.
+/// Compares the evaluation of a plan, which computes its result differently from a single call.
 bool planIsExact(const MeshView& mesh, const TangentOptions& options) {
     Outputs got(mesh.cornerCount());
     const Result<TangentPlan> plan_made = planTangents(mesh, options, {.thread_count = 1});
@@ -98,7 +99,8 @@ TEST(PlainMikktspace, EveryWordEqualsTheReference) {
     EXPECT_GT(count, 300);
 }
 
-/// Compares random meshes, starting at number `first`. TSPACE_MESHES and TSPACE_FIRST_MESH select others.
+/// Compares `count` random meshes, starting at number `first`. The environment variables TSPACE_FIRST_MESH and
+/// TSPACE_MESHES override them.
 void compareRandomMeshes(std::uint64_t first, std::uint64_t count,
                          bool (*isExact)(const MeshView&, const TangentOptions&)) {
     first = setting("TSPACE_FIRST_MESH", first);
@@ -121,7 +123,7 @@ TEST(PlainMikktspace, TheEngineHasItsBitsOnRandomMeshes) { compareRandomMeshes(0
 TEST(PlainMikktspace, OnePassHasItsBitsOnRandomMeshes) { compareRandomMeshes(2'000'000, 250'000, onePassIsExact); }
 TEST(PlainMikktspace, PlansHaveItsBitsOnRandomMeshes) { compareRandomMeshes(1'000'000, 250'000, planIsExact); }
 
-/// Larger meshes, whose nodes the engine's fast path computes, in natural and random order.
+/// Compares larger meshes, whose nodes the library computes by its fast path, in natural and in random order.
 TEST(PlainMikktspace, TheEngineHasItsBitsOnRegularMeshes) {
     std::vector<SimpleMesh> shapes{test::grid(40),
                                    test::fan(300),

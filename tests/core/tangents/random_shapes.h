@@ -21,7 +21,8 @@ class Dice {
 
     int below(int count) { return static_cast<int>(random_() % static_cast<unsigned>(count)); }
     float fraction() { return static_cast<float>(random_() >> 40) / 16777216.0f; }
-    /// `kind`: 0 integers, 1 halves, 2 anything from -1 to 1, 3 of any size, 4 sometimes NaN.
+    /// `kind`: 0 integers, 1 halves, 2 any number from -1 to 1, 3 numbers of any size, 4 like 2 but sometimes NaN,
+    /// infinite, 3e38 or -0.
     float number(int kind) {
         switch (kind) {
             case 0:
@@ -94,7 +95,7 @@ inline Faces addSoup(Dice& dice, SimpleMesh& shape, int position_kind, int norma
     const int vertices = 3 + dice.below(20);
     for (int v = 0; v < vertices; ++v) shape.addVertex(any(positions), any(normals), any(uvs));
     Faces faces(1 + dice.below(24));
-    const int quads = dice.below(3);  // none, half, all
+    const int quads = dice.below(3);  // none of the faces, about half of them, or all of them
     for (auto& face : faces) {
         face.resize(quads == 0 || (quads == 1 && dice.below(2) != 0) ? 3 : 4);
         for (std::uint32_t& v : face) v = dice.below(vertices);
@@ -102,7 +103,7 @@ inline Faces addSoup(Dice& dice, SimpleMesh& shape, int position_kind, int norma
     return faces;
 }
 
-/// Returns a mesh whose faces are in random order and start at any corner. Every fifth mesh has NaN, infinities and
+/// Returns a mesh whose faces are in random order and start at any corner. `strange`: some values are NaN, infinite or
 /// 3e38.
 inline SimpleMesh randomShape(Dice& dice, bool strange) {
     SimpleMesh shape;
@@ -129,7 +130,7 @@ struct RandomCase {
     float threshold_deg = 180;
 };
 
-/// Returns case `number`, which is the same on all machines. Every fifth one has values that are not finite.
+/// Returns random case `number`, which is the same on all machines. Every fifth case has values that are not finite.
 inline RandomCase randomCase(std::uint64_t number) {
     Dice dice(0x9E3779B97F4A7C15u * (number + 1));
     SimpleMesh shape = randomShape(dice, number % 5 == 4);

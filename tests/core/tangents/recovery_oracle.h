@@ -19,7 +19,7 @@ struct ExpectedFrame {
 inline DVec3 unitOf(const DVec3& v) { return (1 / length(v)) * v; }
 inline DVec3 across(const DVec3& n, const DVec3& v) { return v - dot(n, v) * n; }
 
-/// Equations of one triangle at vertex 0 (its first corner).
+/// Quantities of one triangle whose first corner is at vertex 0.
 struct RingTriangle {
     DVec3 e1, e2, e3;
     double u1, v1, u2, v2;
@@ -72,7 +72,7 @@ inline ExpectedFrame twoWeightsAtFirst(const SimpleMesh& shape) {
     return {result[0], result[1], lengths[0] / weight, lengths[1] / weight};
 }
 
-/// One edge of a triangle, as an equation for the five coefficients: l = J d + q f.
+/// An equation for the five coefficients d and f from one edge of a triangle: l = J d + q f.
 struct EdgeEquation {
     double weight;
     std::array<double, 5> x;  ///< u, v, u^2/2, u v, v^2/2
@@ -87,7 +87,8 @@ inline EdgeEquation equationOf(const DVec3& n, const DVec3& other, const DVec3& 
             (size / length(p) * (1 + turn * turn / 24)) * p};
 }
 
-/// Minimizes the sum of weight * |l - sum x c|^2, plus k * diagonal * c^2 for the last three coefficients.
+/// Returns the coefficients c that minimize the sum of weight * |l - sum x c|^2, plus k * diagonal * c^2 for the last
+/// three coefficients.
 inline std::array<DVec3, 5> solveFit(const std::vector<EdgeEquation>& equations, const std::array<double, 3>& diagonal,
                                      double k) {
     double m[5][5] = {};
@@ -115,7 +116,7 @@ inline std::array<DVec3, 5> solveFit(const std::vector<EdgeEquation>& equations,
     return c;
 }
 
-/// Returns the residual of l after coefficients [begin, end) are applied.
+/// Returns the weighted sum of the squared residuals |l - sum x c|^2.
 inline double unexplained(const std::vector<EdgeEquation>& equations, const std::array<DVec3, 5>& c) {
     double sum = 0;
     for (const EdgeEquation& e : equations) {

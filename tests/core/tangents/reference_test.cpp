@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compares `mikktspace` with the compiled MikkTSpace reference, on small random meshes. Built only if
-// TSPACE_MIKKTSPACE_DIR specifies its source; tests/core/tangents/CMakeLists.txt renames its function.
+// Compares `mikktspace` with the compiled MikkTSpace reference, on small random meshes. This test is built only if
+// TSPACE_MIKKTSPACE_DIR is the path of its source; tests/core/tangents/CMakeLists.txt renames its function.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -62,7 +62,7 @@ void runReference(const SimpleMesh& shape, float threshold, Outputs& outputs) {
     ASSERT_NE(reference_genTangSpace(&context, threshold), 0);
 }
 
-/// Returns a number from the environment.
+/// Returns a number from an environment variable, or `otherwise` if it is not set.
 long setting(const char* name, long otherwise) {
     const char* text = std::getenv(name);
     return text != nullptr ? std::atol(text) : otherwise;
@@ -89,7 +89,7 @@ TEST(MikktspaceReference, HasTheSameBitsOnRandomMeshes) {
     EXPECT_EQ(countDifferent(setting("TSPACE_FIRST_MESH", 0), setting("TSPACE_MESHES", 20'000), Pairing::reference), 0);
 }
 
-/// In natural order, where the last bucket sometimes matters.
+/// The triangles are in natural order, in which the last bucket sometimes affects the result.
 TEST(MikktspaceReference, HasTheSameBitsOnTori) {
     for (std::uint32_t columns = 4; columns <= 60; ++columns) {
         for (std::uint32_t rows = 4; rows <= 60; ++rows) {

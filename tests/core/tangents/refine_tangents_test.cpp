@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// TangentOptions::refine: the step compared with the same step in double precision, and its limits.
+// TangentOptions::refine: a refinement step compared with the same step in double precision, and the limits of steps.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -42,7 +42,7 @@ SmoothPatch patchOf(std::uint32_t seed, double wave = 0.2) {
     return test::smoothPatch(surface, 10, seed);
 }
 
-/// The step of the group at vertex v, from the previous frames of all vertices; in double precision.
+/// The refinement step of the group at vertex v, in double precision, from the previous frames of all vertices.
 class Step {
   public:
     Step(const SimpleMesh& shape, const Outputs& before) : shape_(shape), u_(shape.positions.size()), v_(u_.size()) {
@@ -106,10 +106,11 @@ TEST(RefinedTangents, AreTheStepInDoublePrecision) {
             const DVec3 before = toDouble(xyz(fit.tangents[c])), after = toDouble(xyz(one.tangents[c]));
             const double turn = angleDeg(before, step.tangentAt(v));
             largest = std::max(largest, turn);
-            // The weight of the robust mean, which limits the step, is not visible from outside.
+            // The weight of the robust mean, which limits the step, is not known here, so the comparison has a
+            // tolerance.
             EXPECT_LT(angleDeg(after, step.tangentAt(v)), 0.1 * turn + 1e-3) << "vertex " << v;
         }
-        EXPECT_GT(largest, 0.1);  // proves that there is a difference to compare
+        EXPECT_GT(largest, 0.1);  // otherwise the comparison would prove nothing
     }
 }
 
@@ -154,8 +155,8 @@ RC_GTEST_PROP(RefinedTangents, TurnByFourteenDegreesAtMost, ()) {
     }
 }
 
-/// A plan created for two steps gives the same result as generate, and after the mesh has moved, the result for the
-/// pose.
+/// The evaluation of a plan gives the same result as generateTangents, for the plan's pose and for another one, with
+/// any number of refinement steps.
 TEST(RefinedTangents, OfAPlanFollowThePose) {
     const SmoothPatch patch = patchOf(6);
     SimpleMesh moved = patch.shape;
@@ -173,7 +174,7 @@ TEST(RefinedTangents, OfAPlanFollowThePose) {
     }
 }
 
-/// A closed tube with a UV seam along one line: neighbors on each side of that line are separate.
+/// A closed tube with a UV seam along a line. Vertices on the two sides of the seam have no common neighbors.
 TEST(RefinedTangents, HaveHalfTheDifferenceAcrossASeam) {
     constexpr std::uint32_t kSide = 32;
     const auto tube = [](double u, double v) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Counts of a report, and TangentOutput::has_tangent: equal in one call and with plan and evaluation.
+// Counts of a report, and TangentOutput::has_tangent: a single call gives the same values as a plan and its evaluation.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -19,7 +19,7 @@ constexpr Method kMethods[] = {Method::mikktspace, Method::uniform, Method::angl
 
 float smallNumber() { return 0.5f * static_cast<float>(*rc::gen::inRange(-2, 3)); }
 
-/// Returns faces of 1 to 9 corners over few vertices: corners coincide, UVs are mirrored or have no area, and sometimes
+/// Returns faces of 1 to 9 corners over few vertices. Corners coincide, UVs are mirrored or have no area, and sometimes
 /// a position or a UV is NaN.
 SimpleMesh polygons() {
     SimpleMesh shape;
@@ -70,7 +70,8 @@ RC_GTEST_PROP(ReportCounts, AreTheSameInOneCallAndByPlanAndEvaluation, ()) {
     }
 }
 
-/// Results of one call, or of a plan, with the mask; its entries start as 7, which no method writes.
+/// Results of a single call or of a plan, with the has_tangent mask. Its entries are initially 7, which no method
+/// writes.
 struct Masked {
     Outputs outputs;
     std::vector<std::uint8_t> has_tangent;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Time grows linearly with the number of triangles, on meshes that cause quadratic time or deep recursion in the
-// reference. The bound is generous: ten times the triangles may take forty times the processor time, whereas quadratic
+// Time grows linearly with the number of triangles, on meshes that make the reference take quadratic time or recurse
+// deeply. The bound is generous: ten times the triangles may take forty times the processor time, whereas quadratic
 // time would take a hundred times.
 #include <gtest/gtest.h>
 #include <pthread.h>
@@ -33,7 +33,7 @@ constexpr Case kCases[] = {
     {"someWithoutUvArea", someWithoutUvArea},
 };
 
-/// Returns the processor seconds of one call, the best of several.
+/// Returns the processor time of a call in seconds: the best of several calls.
 double seconds(const SimpleMesh& shape, Method method, int tries) {
     double best = 1e9;
     for (int i = 0; i < tries; ++i) {

@@ -48,7 +48,7 @@ inline void shuffleTriangles(SimpleMesh& shape, std::uint32_t seed) {
     }
 }
 
-/// Returns triangles that share one vertex; the UVs are the positions seen from above.
+/// Returns triangles that share one vertex. UVs are the positions, seen from above.
 inline SimpleMesh fan(std::size_t triangles) {
     SimpleMesh shape;
     const std::uint32_t apex = shape.addVertex({0, 0, 0.5f}, kUp, {0.5f, 0.5f});
@@ -64,7 +64,7 @@ inline SimpleMesh fan(std::size_t triangles) {
     return shape;
 }
 
-/// Returns a fan whose UVs unroll the rim: tangents at the apex point in all directions.
+/// Returns a fan whose rim is unrolled in UV space, so that the tangents at the apex point in all directions.
 inline SimpleMesh unrolledFan(std::size_t triangles) {
     SimpleMesh shape = fan(triangles);
     for (std::size_t i = 0; i < triangles; ++i) {
@@ -75,7 +75,7 @@ inline SimpleMesh unrolledFan(std::size_t triangles) {
     return shape;
 }
 
-/// Returns a cone with a separate UV per face at the apex: as many nodes at one position.
+/// Returns a cone with a separate UV per face at the apex, so that there are as many nodes at one position as faces.
 inline SimpleMesh cone(std::size_t triangles) {
     SimpleMesh shape = fan(triangles);
     for (std::size_t i = 0; i < triangles; ++i) {
@@ -85,7 +85,7 @@ inline SimpleMesh cone(std::size_t triangles) {
     return shape;
 }
 
-/// Returns triangles that are all a point at the same position, with separate UVs.
+/// Returns triangles whose corners are all at one position, with separate UVs.
 inline SimpleMesh collapsed(std::size_t triangles) {
     SimpleMesh shape;
     for (std::size_t i = 0; i < triangles; ++i) {
@@ -98,7 +98,7 @@ inline SimpleMesh collapsed(std::size_t triangles) {
     return shape;
 }
 
-/// Returns triangles that share one edge; with `mixed`, every second one traverses it in the opposite direction.
+/// Returns triangles that share one edge. `mixed`: every second triangle traverses the edge in the opposite direction.
 inline SimpleMesh book(std::size_t pages, bool mixed) {
     SimpleMesh shape;
     const std::uint32_t a = shape.addVertex({0, 0, 0}, {0, 1, 0}, {0, 0}),
@@ -181,7 +181,7 @@ inline SimpleMesh sortKiller(std::size_t triangles) {
     }
     std::mt19937 random(1);
     std::vector<std::uint32_t> corners(3 * triangles);
-    // Initially all corners are high, so any of them may become low.
+    // At first all corners are high, so any of them may be made low later.
     for (std::size_t t = 0; t < triangles; ++t) {
         const std::uint32_t a = random() % 48, b = a + 1 + random() % 23, c = b + 24;
         corners[3 * t] = kHigh + a;
@@ -231,7 +231,7 @@ struct Outputs {
 /// the same on all machines. If `closed`, the first and last rows share vertices; otherwise the mesh has UV seams.
 inline SimpleMesh torus(std::uint32_t columns, std::uint32_t rows, bool closed) {
     const auto circle = [](std::uint32_t i, std::uint32_t count, float& x, float& y) {
-        // Four quarters, each by t -> ((1 - t t), 2 t) / (1 + t t).
+        // The circle consists of four quarters, each of which is ((1 - t t), 2 t) / (1 + t t) for t from 0 to 1.
         const std::uint32_t step = 4 * (i % count), quarter = step / count;
         const float t = static_cast<float>(step % count) / static_cast<float>(count), n = 1 / (1 + t * t);
         const float a = (1 - t * t) * n, b = 2 * t * n;

@@ -20,14 +20,14 @@ namespace {
 
 constexpr SimdTarget kTargets[] = {SimdTarget::scalar, SimdTarget::sse2, SimdTarget::avx2, SimdTarget::avx512,
                                    SimdTarget::neon};
-/// Fails to link without tspace_scalar_kernels, in which case SSE2 would run instead of scalar code.
+/// Linking fails without tspace_scalar_kernels. Otherwise SSE2 would be tested in place of scalar code.
 [[maybe_unused]] const volatile auto kPlainCode = &mikk::scalar::cornerTerms;
 
 constexpr Method kMethods[] = {Method::mikktspace, Method::uniform, Method::angle,  Method::area,
                                Method::fast,       Method::best,    Method::lengyel};
 
-/// Returns a rolled-up sheet: duplicated vertices along its seam, mirrored UVs on one half, some triangles without UV
-/// area and some without area, and normals that are not exactly unit.
+/// Returns a rolled-up sheet with duplicated vertices along its seam, mirrored UVs on one half, some triangles without
+/// UV area, some without area, and normals whose length is not exactly 1.
 SimpleMesh rolledSheet(std::uint32_t side) {
     SimpleMesh shape = grid(side);
     for (std::size_t v = 0; v < shape.positions.size(); ++v) {
@@ -42,7 +42,7 @@ SimpleMesh rolledSheet(std::uint32_t side) {
     return shape;
 }
 
-/// Converts every third pair of triangles to a quad.
+/// Returns the mesh with every third pair of triangles combined into a quad.
 SimpleMesh withQuads(const SimpleMesh& from) {
     SimpleMesh shape = from;
     shape.indices.clear();
@@ -65,8 +65,8 @@ SimpleMesh unindexed(const SimpleMesh& from) {
     return shape;
 }
 
-/// Returns a wavy sheet with everything that prevents a node from being a simple fan: UVs mirrored every few columns,
-/// columns and patches without UV area, flipped and duplicated triangles, and triangles without area.
+/// Returns a wavy sheet with everything that prevents a node from being a simple fan: UVs that are mirrored every few
+/// columns, columns and patches without UV area, flipped and duplicated triangles, and triangles without area.
 SimpleMesh foldedSheet(std::uint32_t side, std::uint32_t fold) {
     SimpleMesh shape = grid(side);
     const std::uint32_t columns = side + 1;
@@ -84,7 +84,7 @@ SimpleMesh foldedSheet(std::uint32_t side, std::uint32_t fold) {
     return shape;
 }
 
-/// Converts rows of four triangles to hexagons; some use one vertex twice.
+/// Returns the mesh with each run of four triangles combined into a hexagon. Some hexagons use one vertex twice.
 SimpleMesh withHexagons(const SimpleMesh& from) {
     SimpleMesh shape = from;
     shape.indices.clear();
@@ -175,7 +175,7 @@ TEST(OnePass, GivesTheBitsOfPlanAndEvaluationForAnyNumberOfThreads) {
     }
 }
 
-/// Returns soups of few vertices, as in grouped_property_test.cpp, but larger.
+/// Returns random faces over few vertices, as in grouped_property_test.cpp, but more of them.
 SimpleMesh soup(std::uint32_t seed) {
     std::mt19937 random(seed);
     const auto number = [&](std::uint32_t most) { return 0.25f * static_cast<float>(random() % most); };
@@ -193,7 +193,8 @@ SimpleMesh soup(std::uint32_t seed) {
     return shape;
 }
 
-/// Returns a flat ring of rows whose last one is connected to the first: there neighbors have very different indices.
+/// Returns a flat ring of rows, the last of which is connected to the first, so that neighbors there have very
+/// different indices.
 SimpleMesh ring(std::uint32_t rows, std::uint32_t columns) {
     SimpleMesh shape;
     for (std::uint32_t v = 0; v < rows * columns; ++v) {
@@ -211,8 +212,8 @@ SimpleMesh ring(std::uint32_t rows, std::uint32_t columns) {
     return shape;
 }
 
-/// Returns the outputs of mikk::evaluateInOnePass. `range_shift`: log2 of the number of nodes per range; 0: chosen for
-/// the mesh.
+/// Returns the outputs of mikk::evaluateInOnePass. `range_shift`: log2 of the number of nodes per range; 0 means that
+/// it is chosen for the mesh.
 Outputs onePass(const SimpleMesh& shape, const Call<TangentOptions>& options, bool tangents_only,
                 unsigned range_shift = 0) {
     const MeshView mesh = shape.view();
@@ -257,7 +258,7 @@ TEST(OnePass, AndAPlanGiveTheSameBits) {
 TEST(OnePass, InRangesOfNodesGivesTheSameBits) {
     std::vector<SimpleMesh> list = shapes();
     list.push_back(foldedSheet(200, 7));
-    list.push_back(ring(500, 70));  // farther apart than lists of fans can represent
+    list.push_back(ring(500, 70));  // its neighbors are farther apart than lists of fans can represent
     shuffleTriangles(list.back(), 8);
     for (std::uint32_t seed = 0; seed < 40; ++seed) {
         list.push_back(soup(seed + 3000));
@@ -306,7 +307,7 @@ TEST(OnePass, GivesTheSameTangentsWithoutTheOtherOutputs) {
 }
 
 TEST(OnePass, WritesLargeOutputsAsItWritesOthers) {
-    const SimpleMesh shape = gridOf(720000);  // 34 MB of tangents (areStreamed)
+    const SimpleMesh shape = gridOf(720000);  // 34 MB of tangents, so that areStreamed() is true
     struct Padded {
         Vec4 tangent;
         float other = 7;
@@ -331,7 +332,7 @@ TEST(OnePass, WritesLargeOutputsAsItWritesOthers) {
 TEST(OnePass, ReadsInterleavedVerticesUpToTheLastByteOnly) {
     const SimpleMesh shape = rolledSheet(20);
     const std::size_t count = shape.positions.size();
-    std::vector<float> data(8 * count);  // position, UV, normal: the last normal ends at the end of the memory
+    std::vector<float> data(8 * count);  // position, UV, normal: the last normal ends where the memory ends
     for (std::size_t v = 0; v < count; ++v) {
         const float values[8] = {shape.positions[v].x, shape.positions[v].y, shape.positions[v].z, shape.uvs[v].x,
                                  shape.uvs[v].y,       shape.normals[v].x,   shape.normals[v].y,   shape.normals[v].z};

@@ -14,12 +14,12 @@ struct PatchPoint {
 
 struct SmoothPatch {
     SimpleMesh shape;
-    std::vector<Vec3> tangents;  ///< one per vertex: the direction of dP/du
+    std::vector<Vec3> tangents;  ///< one per vertex: unit vector along dP/du
     std::vector<bool> inside;    ///< one per vertex: not at the border
 };
 
-/// Returns an irregular mesh of [0,1]^2: `side` squared cells, inner points moved by up to a quarter of a cell, random
-/// diagonals.
+/// Returns an irregular mesh of a surface over [0, 1]^2, with `side` x `side` cells. Inner points are moved by up to a
+/// quarter of a cell, and diagonals are random.
 inline SmoothPatch smoothPatch(const std::function<PatchPoint(double, double)>& surface, std::uint32_t side,
                                std::uint32_t seed) {
     SmoothPatch patch;
@@ -57,8 +57,8 @@ inline SmoothPatch smoothPatch(const std::function<PatchPoint(double, double)>& 
     return patch;
 }
 
-/// Returns triangles around vertex 0, which is the first corner of each: a curved surface, with unrelated normals and
-/// UVs.
+/// Returns triangles around vertex 0, which is their first corner. The surface is curved, and normals and UVs are
+/// unrelated to it.
 inline SimpleMesh bumpyRing(std::uint32_t count, std::uint32_t seed) {
     std::mt19937 random(seed);
     const auto noise = [&] { return static_cast<float>(random() % 1000) / 999 - 0.5f; };
@@ -79,8 +79,8 @@ inline SimpleMesh bumpyRing(std::uint32_t count, std::uint32_t seed) {
     return shape;
 }
 
-/// Returns a flat square (the first two triangles) with a rounded border of this radius on two sides, in which the UVs
-/// are sheared.
+/// Returns a flat square (the first two triangles) with a rounded border of this radius on two sides. The UVs of the
+/// border are sheared.
 inline SimpleMesh shearedBevel(float radius) {
     SimpleMesh shape;
     const float edges[3] = {-1, 1, 1 + radius};

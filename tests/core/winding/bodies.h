@@ -12,7 +12,7 @@
 
 namespace tspace::test {
 
-/// Triangles, with the body that each belongs to.
+/// Triangles, and the number of the body to which each of them belongs.
 struct Bodies {
     SimpleMesh mesh = {};
     std::vector<std::uint32_t> body_of = {};
@@ -35,8 +35,9 @@ struct Bodies {
     }
 };
 
-/// Adds a sheet over [0, 1]^2 of u by v cells; a side whose ends have equal positions is closed. Vertices are separate
-/// per grid point, so that seams are open by indices. `keeps`: which cells to create.
+/// Adds a sheet over [0, 1]^2 with u_cells x v_cells cells. If opposite sides have equal positions, the sheet is closed
+/// there, but the two sides have separate vertices, so that the seam is open by indices. `keeps`: selects the cells to
+/// create.
 inline void addSheet(
     Bodies& to, std::uint32_t u_cells, std::uint32_t v_cells, const std::function<Vec3(double, double)>& at,
     const std::function<bool(std::uint32_t, std::uint32_t)>& keeps = [](std::uint32_t, std::uint32_t) {
@@ -58,7 +59,7 @@ inline void addSheet(
     to.closeBody();
 }
 
-/// Sine and cosine of a fraction of a turn; both ends have the same bits.
+/// Return the sine and cosine of a fraction of a turn. The results for 0 and 1 have the same bits.
 inline double sineOfTurn(double turn) { return std::sin(6.283185307179586 * (turn == 1 ? 0 : turn)); }
 inline double cosineOfTurn(double turn) { return std::cos(6.283185307179586 * (turn == 1 ? 0 : turn)); }
 inline Vec3 vec3(double x, double y, double z) {
@@ -99,7 +100,7 @@ inline void addBox(Bodies& to, Vec3 least, Vec3 most) {
     }
     to.closeBody();
 }
-/// Merges vertices with equal positions.
+/// Merges vertices that have equal positions.
 inline void shareVertices(Bodies& bodies) {
     std::vector<Vec3> positions;
     for (std::uint32_t& index : bodies.mesh.indices) {
@@ -111,7 +112,7 @@ inline void shareVertices(Bodies& bodies) {
     }
     bodies.mesh.positions = positions;
 }
-/// Gives each corner a separate vertex.
+/// Gives each corner a vertex of its own.
 inline void separateVertices(Bodies& bodies) {
     std::vector<Vec3> positions;
     for (std::uint32_t& index : bodies.mesh.indices) {
@@ -121,7 +122,7 @@ inline void separateVertices(Bodies& bodies) {
     bodies.mesh.positions = positions;
 }
 
-/// Returns a Moebius band: it has one side.
+/// Returns a Moebius band, which has only one side.
 inline Bodies moebiusBand(std::uint32_t cells) {
     Bodies band;
     for (std::uint32_t i = 0; i < cells; ++i) {
@@ -142,7 +143,7 @@ inline Bodies moebiusBand(std::uint32_t cells) {
     return band;
 }
 
-/// Flips each face with the given probability.
+/// Returns the bodies with each face flipped with probability `share`.
 inline Bodies turnedByChance(Bodies bodies, double share, unsigned seed) {
     std::mt19937 random(seed);
     for (std::size_t f = 0; f < bodies.faceCount(); ++f) {
@@ -150,7 +151,7 @@ inline Bodies turnedByChance(Bodies bodies, double share, unsigned seed) {
     }
     return bodies;
 }
-/// Flips faces within balls until the given share of them is flipped.
+/// Returns the bodies with faces in random balls flipped, until the given share of all faces is flipped.
 inline Bodies turnedInPatches(Bodies bodies, double share, unsigned seed) {
     std::mt19937 random(seed);
     std::vector<bool> turned(bodies.faceCount());
@@ -170,7 +171,7 @@ inline Bodies turnedInPatches(Bodies bodies, double share, unsigned seed) {
     }
     return bodies;
 }
-/// Flips every second body, or all of them.
+/// Returns the bodies with every second body flipped, or all of them.
 inline Bodies turnedWhole(Bodies bodies, bool all) {
     for (std::size_t f = 0; f < bodies.faceCount(); ++f) {
         if (all || bodies.body_of[f] % 2 == 0) bodies.turn(f);

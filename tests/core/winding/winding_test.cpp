@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// mendWinding: damage to bodies of every kind, cases that cannot be repaired, and faces that must not change.
+// mendWinding: damage to bodies of every kind, damage that cannot be repaired, and faces that must not change.
 #include "tspace/winding.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ Mended mend(const MeshView& mesh, const WindingOptions& options = {}, const Exec
     return mended;
 }
 
-/// Returns the share of the area with the winding of `sound` after `damaged` is repaired.
+/// Returns the share of the area that has the winding of `sound` after `damaged` is repaired.
 double shareRight(const Bodies& sound, const Bodies& damaged, const Mended& mended) {
     double right = 0, all = 0;
     for (std::size_t f = 0; f < sound.faceCount(); ++f) {
@@ -83,7 +83,7 @@ std::vector<NamedBodies> openBodies() {
     return all;
 }
 
-/// Returns boxes in a three-dimensional checkerboard: each inner edge has four faces, and no two boxes share a face.
+/// Returns boxes in a three-dimensional checkerboard. Each inner edge has four faces, and no two boxes share a face.
 Bodies boxesThatShareEdges(bool shared) {
     Bodies boxes;
     for (int i = 0; i < 27; ++i) {
@@ -121,7 +121,7 @@ void expectMended(const NamedBodies& sound, const Bodies& damaged, const char* d
     const Mended mended = mend(damaged.view());
     EXPECT_EQ(0u, mended.report.conflict_count_after) << sound.name << ", " << damage;
     EXPECT_GE(shareRight(sound.bodies, damaged, mended), 0.99) << sound.name << ", " << damage;
-    // The repaired part is valid.
+    // Repairing the result again must change nothing.
     Bodies result = damaged;
     for (std::size_t f = 0; f < result.faceCount(); ++f) {
         if (mended.turned[f] != 0) result.turn(f);
@@ -188,7 +188,7 @@ TEST(FixWinding, KeepsTheMajorityWindingOfNestedBodies) {
         EXPECT_EQ(1u, mend(sound.bodies.view()).report.by_nesting_count) << sound.name;
         for (const double share : {0.01, 0.17, 0.3})
             expectMended(sound, turnedByChance(sound.bodies, share, 5), sound.name.c_str());
-        // Only the outer body is inside out.
+        // Every second body is inside out.
         expectMended(sound, turnedWhole(sound.bodies, false), sound.name.c_str());
     }
 }
@@ -240,7 +240,8 @@ TEST(FixWinding, FlipsEachLeafTowardItsOwnNormals) {
     for (std::size_t f = 0; f < damaged.faceCount(); ++f) {
         if (f / 2 % 2 == 0) damaged.turn(f);
     }
-    // Rounded normals, like those of a tree crown around its leaves, on the side of the original winding.
+    // Normals that vary around +z, like those of a tree crown around its leaves. They are on the side of the original
+    // winding.
     std::vector<Vec3> normals;
     for (std::size_t v = 0; v < damaged.mesh.positions.size(); ++v)
         normals.push_back(v % 3 == 0 ? Vec3{0.6F, 0, 0.8F} : Vec3{0, -0.6F, 0.8F});
@@ -250,7 +251,7 @@ TEST(FixWinding, FlipsEachLeafTowardItsOwnNormals) {
     EXPECT_EQ(50u, mended.report.by_normals_count);
     EXPECT_EQ(50u, mended.report.turned_count);
     for (std::size_t f = 0; f < damaged.faceCount(); ++f) EXPECT_EQ(f / 2 % 2 == 0, mended.turned[f] != 0) << f;
-    // Alternating normals have no majority for either side.
+    // Alternating normals have no majority, so they do not determine a side.
     for (std::size_t v = 0; v < normals.size(); ++v) normals[v].z *= v % 2 == 0 ? 1.0F : -1.0F;
     EXPECT_EQ(50u, mend(with_normals).report.small_count);
     EXPECT_EQ(50u, mend(with_normals, {.use_normals = false}).report.small_count);
@@ -290,7 +291,8 @@ TEST(FixWinding, KeepsBothSidesOfASheet) {
 }
 
 TEST(FixWinding, FixesBothSidesOfATJunctionSeparately) {
-    // The right half has twice as many cells along the seam: only every second of its edges has a neighbor there.
+    // The right half has twice as many cells along the seam, so only every second of its vertices there is a vertex of
+    // the left half.
     Bodies sheet;
     addSheet(sheet, 4, 4, [](double u, double v) { return vec3(u, v, 0); });
     addSheet(sheet, 4, 8, [](double u, double v) { return vec3(1 + u, v, 0); });
@@ -311,8 +313,8 @@ TEST(FixWinding, ContinuesStraightAcrossAFin) {
     EXPECT_EQ(1, shareRight(sheet, damaged, mended));
 }
 
-/// Returns the surface net of a shape on a noisy field, without every tenth face. An edge with four faces may be left
-/// with three or two that are not neighbors.
+/// Returns the surface net of a shape on a noisy field, without every tenth face. Of an edge with four faces, three
+/// faces may remain, or two that are not neighbors.
 NamedBodies netWithHoles(const accuracy::Shape& shape, int cells, unsigned seed) {
     const accuracy::Scan net = accuracy::surfaceNets(shape, cells, 0.1, accuracy::Random{seed});
     NamedBodies net_with_holes{shape.name, {}};
@@ -333,15 +335,16 @@ TEST(FixWinding, FixesGridsWithEdgesOfFourFacesAndHoles) {
         for (const double share : {0.0, 0.3, 1.0}) {
             const Bodies damaged = turnedByChance(body.bodies, share, 1);
             const Mended mended = mend(damaged.view());
-            // Remaining conflicts: islands of two and three faces, and an edge that had four faces before two were
-            // removed.
+            // Conflicts may remain at islands of two and three faces, and at an edge that had four faces before two
+            // were removed.
             EXPECT_LE(mended.report.conflict_count_after, 4u) << name << ' ' << share;
             EXPECT_GE(shareRight(body.bodies, damaged, mended), 0.99) << name << ' ' << share;
         }
     }
 }
 
-/// Faces reached over such an edge have the opposite winding to all faces around them.
+/// A face that is reached only over an edge that lost two of four faces would get the opposite winding to all faces
+/// around it.
 TEST(FixWinding, ReachesFacesByOtherEdgesThanThoseThatLostTwoOfFour) {
     std::vector<NamedBodies> bodies{netWithHoles(shape("gear"), 48, 4)};
     for (const accuracy::Shape& shape : accuracy::heldOutShapes()) bodies.push_back(netWithHoles(shape, 48, 4));
@@ -357,7 +360,7 @@ TEST(FixWinding, FollowsNormalsThatAgreeAmongThemselves) {
     Bodies ball;
     addSphere(ball, {}, 1);
     for (const Vec3& p : ball.mesh.positions) ball.mesh.normals.push_back({-p.x, -p.y, -p.z});
-    // A sky dome is seen from inside, as its normals indicate.
+    // Like a sky dome, the ball is seen from inside, as its normals indicate.
     const Mended mended = mend(ball.view());
     EXPECT_EQ(1u, mended.report.by_normals_count);
     EXPECT_EQ(1, shareRight(turnedWhole(ball, true), ball, mended));
@@ -413,7 +416,7 @@ TEST(FixWinding, SurvivesFacesWithoutAreaAndNan) {
     for (std::size_t f = 0; f < 24 * 48 * 2; ++f) {
         EXPECT_EQ(torus.mesh.indices[3 * f + 1] != damaged.mesh.indices[3 * f + 1], mended.turned[f] != 0) << f;
     }
-    // An open part for which the winding number is needed.
+    // An open part, whose winding must be determined by the winding number.
     Bodies open;
     addSphere(open, {}, 1, 0.7);
     open.mesh.positions[30] = {std::nanf(""), INFINITY, 0};

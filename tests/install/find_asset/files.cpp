@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The C API of files, installed.
+// Uses the installed C API for files.
 #include <tspace/tspace_files.h>
 
 #include <cstdio>

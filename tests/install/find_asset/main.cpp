@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Uses one function of the installed asset layer: enough to link it.
+// Uses one function of the installed library for files, which is enough to link it.
 #include <tspace/generate.h>
 
 int main() {

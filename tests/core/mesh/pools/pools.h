@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pools and primitives for tests of computeFrames: a few valid ones, and random ones with all special cases.
+// Pools and primitives for tests of computeFrames: a few fixed valid ones, and random ones with all special cases.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -64,7 +64,8 @@ inline float anyNumber() {
     return *rc::gen::element(0.0f, -0.0f, 1.0f, -1.0f, 0.5f, 2.0f, 0.25f, -0.75f, 3.0f, 1e20f, 1e-30f, std::nanf(""));
 }
 
-/// Returns small integers nearly always, so that neighbors, mirrored UVs, degenerate faces and collapsed UVs all occur.
+/// Returns a number, nearly always a small integer, so that neighbors, mirrored UVs, degenerate faces and collapsed UVs
+/// all occur.
 inline float someNumber() {
     return *rc::gen::inRange(0, 60) == 0 ? anyNumber() : static_cast<float>(*rc::gen::inRange(-2, 3));
 }
@@ -100,7 +101,7 @@ inline std::vector<PrimitiveGeometry> anyTriangles(const OwnedMesh& pool) {
     return primitives;
 }
 
-/// Returns triangles, or sometimes faces of 1 to 6 corners.
+/// Returns random primitives: triangles, or sometimes faces of 1 to 6 corners.
 inline std::vector<PrimitiveGeometry> anyFaces(const OwnedMesh& pool) {
     std::vector<PrimitiveGeometry> primitives = anyTriangles(pool);
     for (PrimitiveGeometry& primitive : primitives) {

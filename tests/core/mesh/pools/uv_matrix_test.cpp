@@ -44,8 +44,8 @@ TEST(UvMatrix, KeepsTheDigitsOfUvsInQuarterTurns) {
     EXPECT_EQ(turned[1], (Vec2{1e-20f, 3}));
 }
 
-/// A triangle whose UVs are (u, v) = M (x, y), with low distortion in M: dP/du and dP/dv are the columns of the inverse
-/// of M.
+/// The UVs of the triangle are (u, v) = M (x, y), where M distorts little, so dP/du and dP/dv are the columns of the
+/// inverse of M.
 RC_GTEST_PROP(UvMatrix, GivesTheFrameThatTheTransformedUvsHaveByTheChainRule, ()) {
     const auto number = [](int low, int high) { return *rc::gen::inRange(low, high) / 100.0; };
     const double angle = number(-700, 700);

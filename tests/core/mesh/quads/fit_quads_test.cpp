@@ -31,8 +31,8 @@ TEST(FitQuads, ExplainsNearlyAllBesideRealTriangles) {
     for (const int triangles_every : {3, 4, 5}) {
         const PolygonMesh mesh = hills(16, triangles_every);
         for (const Cut& cut : kCuts) {
-            // The original triangles are connected like those of this triangulation, so that more of them look like
-            // quads.
+            // With some cuts, the two halves of a quad are connected like the mesh's original triangles, so that more
+            // of the original triangles look like quads.
             const bool is_hard = cut == kOtherFan || cut == kCuts.back();
             const QuadFit fit = fitOf(withTangentsOnQuads(mesh, cut));
             EXPECT_TRUE(fit.wins());
@@ -50,7 +50,7 @@ TEST(FitQuads, LosesIfTangentsWereComputedOnTriangles) {
 }
 
 TEST(FitQuads, FindsTheFewRealTrianglesThatAreOnlyLikeQuads) {
-    // By shape all of them are quads.
+    // By their shapes, all pairs of triangles are quads.
     const PolygonMesh mesh = hills(16, 4);
     const ModelData data = withTangentsOnQuads(mesh, kFan);
     const MeshView view = viewOf(data);
@@ -79,9 +79,9 @@ TEST(FitQuads, WinsOnlyByAMargin) {
     EXPECT_TRUE(quadsWin(1000, 500, 950));
     EXPECT_TRUE(quadsWin(1000, 945, 1000));
     EXPECT_FALSE(quadsWin(1000, 500, 500));
-    EXPECT_FALSE(quadsWin(1000, 500, 560));   // a part of what triangles leave unexplained, as expected by chance
-    EXPECT_FALSE(quadsWin(1000, 999, 1000));  // all of it, but that is a single corner
-    EXPECT_FALSE(quadsWin(1000, 50, 450));    // more, but still not the program's faces
+    EXPECT_FALSE(quadsWin(1000, 500, 560));   // a part of what triangles do not explain, as expected by chance
+    EXPECT_FALSE(quadsWin(1000, 999, 1000));  // all that triangles do not explain, but that is a single corner
+    EXPECT_FALSE(quadsWin(1000, 50, 450));    // much more than triangles, but less than half of all corners
 }
 
 TEST(ChooseFaces, TakesTrianglesUnlessTangentsOrBlenderShowQuads) {
@@ -101,7 +101,7 @@ TEST(ChooseFaces, TakesTrianglesUnlessTangentsOrBlenderShowQuads) {
         EXPECT_EQ(quads(on_quads, false, is_from_blender, Faces::automatic), is_from_blender ? 144U : 0U);
         EXPECT_EQ(quads(on_quads, false, is_from_blender, Faces::quads), 144U);
     }
-    // Original triangles of Blender are rarely connected like the halves of its quads.
+    // Triangles that were not cut from quads are rarely connected as Blender connects the halves of a quad.
     ModelData scattered = trianglesOf(hills(12), kCuts[3]);
     EXPECT_EQ(quads(scattered, false, true, Faces::automatic), 0U);
 }

@@ -11,7 +11,7 @@
 
 namespace tspace::test {
 
-/// Polygons over the vertices of `data`, whose indices are not used.
+/// Polygons over the vertices of `data`; the indices of `data` are not used.
 struct PolygonMesh {
     ModelData data = {};
     std::vector<std::uint32_t> corners = {}, sizes = {};
@@ -28,7 +28,7 @@ struct PolygonMesh {
 };
 
 /// Returns n x n quads over a hilly height field with curved UVs, so that the shorter diagonal in UV space varies, and
-/// frames depend on it. Every `triangles_every`-th quad (0: none) is replaced by two original triangles.
+/// frames depend on it. Every `triangles_every`-th quad is replaced by two triangles (0: no quad is replaced).
 inline PolygonMesh hills(int n, int triangles_every = 0) {
     PolygonMesh mesh;
     const auto height = [](float x, float y) { return 0.35F * std::sin(5 * x + 1) * std::cos(4 * y); };
@@ -62,11 +62,11 @@ inline PolygonMesh hills(int n, int triangles_every = 0) {
 /// The two triangles that an exporter writes for quad 0 1 2 3, as indices of its corners.
 using Cut = std::array<unsigned, 6>;
 inline constexpr Cut kFan = {0, 1, 2, 0, 2, 3};       // Blender and most other programs
-inline constexpr Cut kOtherFan = {0, 1, 3, 1, 2, 3};  // Blender, if the first split would flip a triangle
+inline constexpr Cut kOtherFan = {0, 1, 3, 1, 2, 3};  // Blender, if kFan would flip a triangle
 inline const std::vector<Cut> kCuts = {
     kFan, kOtherFan, {0, 1, 2, 2, 3, 0}, {1, 2, 0, 3, 0, 2}, {2, 0, 1, 0, 2, 3}, {3, 0, 1, 3, 1, 2}};
 
-/// Returns, for each corner of the triangles, the corresponding corner of a polygon.
+/// Returns, for each corner of the triangles, the corresponding corner of the polygons.
 inline std::vector<std::uint32_t> cutQuads(const PolygonMesh& mesh, const Cut& cut) {
     std::vector<std::uint32_t> corners;
     std::uint32_t first = 0;
@@ -95,7 +95,8 @@ inline MeshView viewOf(const ModelData& data) {
     return mesh;
 }
 
-/// Returns the output of an exporter that computes tangents on the polygons: vertices with one tangent each, for glTF.
+/// Returns the output of an exporter that computes tangents on the polygons and writes triangles: vertices with one
+/// tangent each, for glTF.
 inline ModelData withTangentsOnQuads(const PolygonMesh& mesh, const Cut& cut) {
     std::vector<Vec4> tangents(mesh.corners.size());
     if (!generateTangents(mesh.view(), {.convention = conventions::opengl}, {.tangents = std::span(tangents)}))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pairs of triangles become the quads from which they were triangulated, corner by corner.
+// Pairing triangles restores the quads from which they were cut, corner by corner.
 #include "core/mesh/quads/quads.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,8 @@ TEST(QuadPairs, OfRealTrianglesBetweenQuadsAreNone) {
         const ModelData data = trianglesOf(mesh, kFan);
         const QuadFaces faces = facesByShape(data);
         expectSameVertices(faces, data);
-        // The halves of a quad also look like a quad with their neighbors; but no half may be paired with a neighbor.
+        // A half of a quad also looks like a quad with a neighboring triangle, but must be paired only with the other
+        // half.
         std::size_t triangle = 0;
         for (const std::uint32_t size : faces.sizes) {
             EXPECT_TRUE(size == 3 || triangle % 2 == 0);
@@ -91,7 +92,7 @@ TEST(QuadPairs, AreNeitherFoldedNorTheSameTriangleTwice) {
 }
 
 TEST(QuadPairs, OfOneRunMaximizeTheGain) {
-    // A strip of five triangles: four candidate pairs in a row.
+    // A strip of five triangles: each of the four pairs of adjacent triangles is a candidate.
     ModelData data;
     for (int i = 0; i < 7; ++i) data.positions.push_back({static_cast<float>(i) / 2, static_cast<float>(i % 2), 0});
     data.normals.resize(7, Vec3{0, 0, 1});
