@@ -20,8 +20,8 @@ constexpr std::size_t kEdges = 512;
 /// than kMostPoints indicate triangle fans.
 constexpr std::size_t kMostPoints = 32768;
 
-/// Safety factors for the values that all vertices would give. For sigma: three standard errors, each 5.3 % for the
-/// median of 480 noisy distances and 1.8 % for the median of 4096.
+/// Safety factors for the values that all vertices would give. The factor for sigma covers three standard errors. One
+/// standard error is 5.3 % for the median of 480 noisy distances, and 1.8 % for the median of 4096.
 constexpr double kSigmaError = 1.17, kDihedralError = 1.25, kKinkError = 1.1;
 constexpr double kMostGrowth = 1.2;  // maximum factor of withoutGrowth
 
@@ -163,8 +163,8 @@ class NoiseScreen {
         });
         for (DVec3& normal : std::span(normals.data(), normals.size())) normalize(normal);
         Buffer<float> shares(execution_.allocator, edge_count_);
-        // Smaller angles are not noise. This threshold reduces the kink shares of noise by at most 5 % (measured on
-        // scans).
+        // Edges with smaller angles count as having no kink. This threshold reduces the kink shares of noise by at most
+        // 5 % (measured on scans).
         const double flat = noise * noise / 16;
         std::size_t count = 0;
         for (const Edge& edge : edges()) {

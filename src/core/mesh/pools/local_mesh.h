@@ -124,8 +124,8 @@ struct Surroundings {
 /// Computes the normals of one primitive, on the base mesh and in its poses, one after the other.
 class BorderedNormals {
   public:
-    /// `around`: null if no triangles surround the mesh; required for meshes with polygons. All arguments must outlive
-    /// the object.
+    /// `around`: null if no triangles surround the mesh; must be null for meshes with polygons. All arguments must
+    /// outlive the object.
     BorderedNormals(const LocalMesh& mesh, const Surroundings* around, const NormalOptions& options,
                     const Execution& execution);
 

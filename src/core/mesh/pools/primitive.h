@@ -165,7 +165,8 @@ struct PoolView {
 
 /// Frames for all primitives of one pool after splitting it.
 struct PoolFrames {
-    bool normals_generated = false;  ///< rounded to FramesOptions::format; tangents fit the rounded normals
+    /// true: `normals` were generated and rounded to FramesOptions::format, and tangents fit the rounded normals
+    bool normals_generated = false;
     /// Old vertex of each new vertex; the first vertices are unchanged (SplitResult::source_vertices).
     std::vector<std::uint32_t> source_vertices = {};
     std::vector<Vec3> normals = {};     ///< one per new vertex when normals_generated, else empty

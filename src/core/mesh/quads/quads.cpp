@@ -311,7 +311,7 @@ class Fitter {
     std::vector<std::uint8_t> votes_;
     std::vector<float> alone_,
         paired_;            ///< corners that were explained in the last computation, by single triangles and by pairs
-    QuadPairs best_kinds_;  ///< kind of each pair when it explained most
+    QuadPairs best_kinds_;  ///< kind of each pair (`quad` or `turned`) that explained most
     QuadFit fit_ = {};
 };
 

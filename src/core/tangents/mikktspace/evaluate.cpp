@@ -18,7 +18,8 @@ namespace tspace::mikk {
 namespace {
 
 constexpr std::size_t kGroupGrain = 8192, kWriteGrain = 8192;
-constexpr std::size_t kWriteAhead = 2048;  // bytes: a store waits for its cache line unless it was prefetched
+// prefetch distance in bytes: a store waits for its cache line unless the line was prefetched
+constexpr std::size_t kWriteAhead = 2048;
 
 // minimum number of groups per task: for fewer, another thread costs more than it saves
 constexpr std::size_t kGroupsPerTask = 4096;
