@@ -280,7 +280,7 @@ class Denoiser {
         });
     }
 
-    /// Returns the area-weighted normals, averaged with their neighbors.
+    /// Returns the area-weighted normals, averaged with those of the neighbors in one or more passes.
     Buffer<float> makePlanes() {
         const std::size_t count = groups_.count();
         Buffer<float> planes(allocator_, 4 * count), before(allocator_, 4 * count);

@@ -94,11 +94,12 @@ RotatedDirection directionOf(StridedSpan<const Vec3> positions, StridedSpan<cons
     return result;
 }
 
-/// Returns whether triangles scatter as after rounding: if steps can rotate dP/du by over 10 degrees, it differs
-/// between neighbors by about as much, in direction and length. Models that were built on a grid also have steps, but
-/// matching UVs; and so does terrain along its raster axes: `may_be_raster` marks axes along which all edges have equal
-/// length. `error`: as in PositionRounding. Returns false if too few triangles are usable. O(n log n).
-/// Temporary memory comes from the allocator: growing vectors among long-lived results left holes of their own size.
+/// Returns whether dP/du scatters as after rounding: where rounding can rotate it by over 10 degrees, it differs
+/// between neighboring triangles by about as much, in direction and length. The positions of models that were built on
+/// a grid are multiples of a step too, but their UVs match these positions. This also applies to terrain, along axes
+/// on which all edges have equal length (`may_be_raster`). `error`: as in PositionRounding. Returns false if too few
+/// triangles are usable. O(n log n).
+/// Temporary memory comes from the allocator, because vectors that grew between long-lived results fragmented the heap.
 bool scattersByRounding(StridedSpan<const Vec3> positions, StridedSpan<const Vec2> uvs,
                         std::span<const std::span<const std::uint32_t>> corner_lists, double error,
                         const std::array<bool, 3>& may_be_raster, const Allocator* allocator) {
