@@ -114,8 +114,8 @@ BakeFileOptions optionsOf(const BakePairsArguments& arguments, const Pair& pair)
     return options;
 }
 
-/// Adds file names that depend on materials and tiles. A low poly is read for them only if another pair has a name that
-/// this pair may write.
+/// Adds file names that depend on materials and tiles. Reads a low poly for them only if another pair writes a file
+/// whose name this pair may also use.
 void addSuffixedFiles(const BakePairsArguments& arguments, const std::vector<Pair>& pairs,
                       std::vector<PairOutputs>& outputs) {
     std::map<std::string, std::size_t> plain;  // index of the pair by the identity of each of its files

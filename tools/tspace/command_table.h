@@ -18,7 +18,7 @@ namespace tspace::tool {
 
 using namespace tspace::options;  // NOLINT: the table consists of these names
 
-/// A command owns its arguments, which its copies share: options write them, and `run` reads them.
+/// A command with its arguments, which its copies share: options store them, and `run` reads them.
 struct Command {
     std::string name = {};                   ///< set by the table
     std::string summary = {};                ///< such as "add the tangents that normal maps need"

@@ -28,8 +28,8 @@ namespace {
 
 using namespace tspace::tool;
 
-/// Makes freed memory of one primitive available to the next. By default large blocks are returned to the system
-/// immediately, and each page of the next block has to be cleared again.
+/// Makes the allocator reuse the freed memory of one primitive for the next. By default, large blocks are returned to
+/// the system immediately, and each page of the next block has to be cleared again.
 void keepFreedMemory() {
 #ifdef __GLIBC__
     constexpr int kMaxAllowed = 32 << 20;

@@ -10,9 +10,9 @@
 
 namespace tspace::tool {
 
-/// Must be called before anything is written. An output that is one of `inputs`, or equals another output under any
-/// name, is an error, whose message describes a wrong command line. Empty paths and "-" are ignored. Removes temporary
-/// files that killed runs left next to the outputs, except in a dry run.
+/// Checks the outputs of a run before anything is written. Fails if an output is one of `inputs`, or equals another
+/// output under any name; the message describes a wrong command line. Empty paths and "-" are ignored. Removes
+/// temporary files that killed runs left next to the outputs, except in a dry run.
 Result<Done> prepareOutputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs,
                             bool is_dry_run = false);
 

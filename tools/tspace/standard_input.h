@@ -41,7 +41,8 @@ class StandardOutput {
     /// Writes bytes. Returns false if they cannot be written. close() returns the reason, since errno may have changed
     /// by the time of the message.
     bool write(std::span<const std::uint8_t> bytes);
-    /// Must be called at the end, also after errors: fails with the reason if not everything was written.
+    /// Flushes the output; must be called at the end, also after errors. Fails with the reason if not everything was
+    /// written.
     Result<Done> close();
 
   private:

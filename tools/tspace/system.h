@@ -9,8 +9,8 @@
 
 namespace tspace::tool {
 
-/// Must be called before all else. If the program was started without stdin, stdout or stderr, opens a dummy in their
-/// place: otherwise the next opened file would get such a descriptor, and receive printed text.
+/// Opens a dummy for each standard stream that is closed when the program starts: otherwise the next opened file would
+/// get its descriptor, and receive printed text. Must be called before all else.
 void openStandardStreams();
 
 /// Returns the arguments of the command line in UTF-8. Must be called once, first: it also switches standard input and

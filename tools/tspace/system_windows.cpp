@@ -38,7 +38,7 @@ bool takeOne(std::string_view& pattern, char c) {
     return fits;
 }
 
-/// Sets binary mode and unbuffered stderr; UTF-8 and colors on a terminal.
+/// Sets binary mode for all standard streams, makes stderr unbuffered, and enables UTF-8 and colors on a terminal.
 void prepareStreams() {
     for (std::FILE* file : {stdin, stdout, stderr}) _setmode(_fileno(file), _O_BINARY);
     std::setvbuf(stderr, nullptr, _IONBF, 0);

@@ -131,7 +131,7 @@ class SceneWriter {
         if (numbers.skin) json["skin"] = *numbers.skin;
     }
 
-    /// Returns the meshes for a list. Nodes with equal lists and skins share a mesh.
+    /// Returns the glTF mesh for a list of Assimp meshes, and its skin. Nodes with equal lists share both.
     MeshNumbers meshOf(const std::vector<unsigned>& list, const aiNode& node) {
         if (list.empty()) return {};
         const auto [known, is_new] = mesh_of_.try_emplace(list);
@@ -139,8 +139,8 @@ class SceneWriter {
         return known->second;
     }
 
-    /// Returns the node itself, with the offset as its translation, if it has no transform and no other content;
-    /// otherwise a new child.
+    /// Returns the node that draws meshes with the offset: the node itself, with the offset as its translation, if it
+    /// has no transform and no other content; otherwise a new child.
     std::size_t nodeAtOffset(std::size_t i, bool has_other_mesh) {
         const Json translation = {moved_.offset.x, moved_.offset.y, moved_.offset.z};
         Json& json = builder_.json()["nodes"][i];

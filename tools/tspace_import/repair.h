@@ -19,7 +19,7 @@ struct RepairCounts {
     std::size_t coarse_places = 0;
     double worst_place = 0;  ///< largest shift of a node by rounding to floats, in meters
 
-    /// Returns whether so many edges are coarse that it is visible: one in twenty, as for OBJ.
+    /// Returns whether enough edges are coarse to be visible: one in twenty, as for OBJ.
     [[nodiscard]] bool isCoarse() const { return coarse_edges != 0 && 20 * coarse_edges >= edges; }
     /// Returns a description of the coarse edges for isCoarse().
     [[nodiscard]] std::string coarseness() const;
@@ -41,9 +41,9 @@ std::size_t zeroNotFinite(std::vector<float>& values, std::size_t components);
 std::size_t repairNormals(std::vector<float>& normals, const std::vector<float>& positions,
                           const std::vector<std::uint32_t>& triangles);
 
-/// Counts the edges of triangles, and those too far from the origin: rounding to floats (Assimp reads all numbers as
-/// floats) may change them by more than 1/500 of their length along an axis. Counts all edges if all have length zero,
-/// and the mesh is so far away that rounding may be the cause.
+/// Counts the edges of triangles, and the coarse ones among them: edges so far from the origin that rounding to floats
+/// (Assimp reads all numbers as floats) may change them by more than 1/500 of their length along an axis. If all edges
+/// have length zero, and the mesh is so far away that rounding may be the cause, all edges are counted as coarse.
 void countCoarseEdges(const std::vector<float>& positions, const std::vector<std::uint32_t>& triangles,
                       RepairCounts& repairs);
 

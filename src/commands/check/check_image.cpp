@@ -136,7 +136,7 @@ std::optional<Finding> zeroFinding(const std::string& name, const RgbImage& imag
 }  // namespace
 
 bool isImageInput(const std::string& input, ByteSpan content) {
-    // AVIF cannot be read, but the error for it names the format.
+    // AVIF cannot be read, but counts as an image, so that the error names the format.
     const bool is_named = isImageName(input) || lowerExtension(input) == ".avif";
     if (content.data() == nullptr) return is_named;
     const ImageFormat format = imageFormat(content);

@@ -168,8 +168,8 @@ bool turns(const Affine& place) {
     return false;
 }
 
-/// Returns the points with their normals in world space, using the first transform of each primitive that changes
-/// directions. `parts`: index of the first point of each part. Empty if no transform changes directions.
+/// Returns the sampled points with their normals in world space, using the first transform of each primitive that
+/// changes directions. `parts`: index of the first point of each part. Empty if no transform changes directions.
 std::vector<TexelOnSurface> placedInWorld(const NormalMap& map, std::span<const std::size_t> parts,
                                           std::span<const TexelOnSurface> surface) {
     std::vector<TexelOnSurface> in_world;

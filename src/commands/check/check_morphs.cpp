@@ -20,8 +20,8 @@ namespace {
 
 // Collects the morph targets of a primitive that share a fault into one finding.
 
-/// Minimum share of the rotating surface that must be off before a target is reported. Offsets that come from a formula
-/// or a finer mesh deviate near coarse triangles.
+/// A target is reported if at least this share of the rotating surface has wrong vectors. Offsets that were computed by
+/// a formula, or on a finer mesh, deviate near coarse triangles.
 inline constexpr double kOffShare = 0.25;
 
 struct MorphFault {

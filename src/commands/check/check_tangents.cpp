@@ -88,7 +88,8 @@ namespace {
 
 /// Other axes are tried if tangents are tilted out of at least this share of the surface.
 constexpr double kManyTilted = 0.2;
-/// Maximum share of tilted tangents, and of wrong directions, in the correct axes.
+/// Axes are correct if at most this share of the surface has tilted tangents, and at most this share has wrong
+/// directions.
 constexpr double kMaxWrong = 0.02;
 
 /// Permutation of signed axes: component i of the result is `sign[i]` times component `from[i]`.
@@ -161,7 +162,7 @@ struct OtherReading {
     std::optional<std::size_t> use = {};
 };
 
-/// Thresholds of wrong tangents, as shares of the surface that has UV area.
+/// Tangents are clearly wrong if they are wrong on more than this share of the surface that has UV area.
 constexpr double kClearlyWrong = 0.2;
 /// Wrong signs without wrong directions are explained only by the primitive's own texture transform, which may mirror.
 constexpr double kSomeSigns = 0.1;

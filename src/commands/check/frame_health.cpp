@@ -223,8 +223,8 @@ constexpr double kMaxly = 0.5;
 
 enum class Cause { unknown, uvSeam, mirroredSeam };
 
-/// Finds the cause of tangents outside their cones: whether they are the mean of all triangles at the point, some of
-/// which lie on the other side of a seam.
+/// Finds the cause of tangents outside their cones. The most common cause is a mean over all triangles at the point,
+/// including those on the other side of a seam.
 class SeamFinder {
   public:
     SeamFinder(const TangentView& mesh, const Surface& surface, std::span<const std::uint32_t> far)
@@ -422,8 +422,8 @@ bool doAnyDiffer(const TangentView& mesh, const EqualVertices& equal, double tol
     return false;
 }
 
-/// Returns whether the tangent has nearly unit length. Opposite triangles can cancel out, and then the tangent that a
-/// tool stores depends on more than the vertex.
+/// Returns whether the tangent has nearly unit length. If the directions of triangles cancel out, the length is small,
+/// and the tangent that a tool stores depends on more than the vertex.
 bool isSound(const Vec4& tangent) {
     const float size = length(xyz(tangent));
     return size > 0.9f && size < 1.1f;

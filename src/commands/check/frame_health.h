@@ -63,7 +63,7 @@ struct FrameHealth {
     Tally signs_mixed;           ///< triangles with mixed signs; with UVs, only those with UV area
 
     // Results of the comparison with the UVs; all are zero without UVs.
-    Tally signs_wrong;             ///< vertices whose triangles agree with each other, but not with w
+    Tally signs_wrong;             ///< vertices whose triangles have one orientation, which contradicts w
     double wrong_sign_share = 0;   ///< share of the examined surface with wrong signs
     bool all_signs_wrong = false;  ///< wrong on nearly all of the examined surface
     Tally mirrored_seams;          ///< vertices where mirrored and unmirrored triangles share a tangent

@@ -50,7 +50,7 @@ double shareOf(std::span<const TexelBytes> texels, const Test& test) {
 struct Fit {
     double unit_share = 0;
     DVec3 mean = {};
-    std::array<double, 3> below_share = {};  ///< per component: share of unit vectors where it is negative
+    std::array<double, 3> below_share = {};  ///< for x, y and z: share of unit vectors in which it is negative
 };
 
 Fit fitOf(std::span<const TexelBytes> texels, const MapLayout& layout) {

@@ -26,7 +26,7 @@ struct TexelOnSurface {
     Vec2 uv = {};
 };
 
-/// Distance of neighboring values in [-1, 1] that are stored in 8 bits.
+/// Distance between neighboring values in [-1, 1] as stored in 8 bits.
 inline constexpr double kByteStep = 1.0 / 127.5;
 
 inline double signedValue(std::uint8_t channel) { return static_cast<double>(channel) * kByteStep - 1; }

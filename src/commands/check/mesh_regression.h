@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Maps in object space: whether their vectors are the normals of the mesh.
+// Detects maps in object space: tests whether their vectors are the normals of the mesh.
 #pragma once
 
 #include <span>

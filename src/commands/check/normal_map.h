@@ -50,7 +50,7 @@ class GreenBlocks {
     /// and the whole map has one direction, the result is that direction.
     [[nodiscard]] GreenTest within(const TexelMask& part) const;
 
-    /// Returns the memory of this object in bytes.
+    /// Returns the memory in bytes that this object needs for an image of this size.
     static std::uint64_t bytesOf(std::uint64_t width, std::uint64_t height) {
         return 2 * (width / kBlock + 1) * (height / kBlock + 1) * sizeof(Block);
     }

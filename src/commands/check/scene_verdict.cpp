@@ -344,7 +344,7 @@ void applyImageVerdicts(const Scene& scene, const CheckOptions& options, ImageFi
     }
 }
 
-// Remedies of findings in their file. A command is named only if running it fixes the finding.
+// Chooses the remedies of findings for their file. A command is named only if running it fixes the finding.
 
 namespace {
 

@@ -20,7 +20,7 @@ struct VertexFaults {
 
 /// States whether the normal maps of a primitive cancel its wrong signs.
 enum class SignVerdict {
-    plain,      ///< no: the signs are wrong if a finding reports it
+    plain,      ///< no: the signs are wrong if a finding reports wrong signs
     cancelled,  ///< yes: green is inverted too
     open,       ///< unknown: a map could not be examined
 };

@@ -19,7 +19,7 @@ struct Tally {
     double area = 0;
     double surface_share = 0;  ///< share of the area of the mesh; set by finish()
     double worst_deg = 0;
-    std::vector<std::uint32_t> vertices = {};  ///< first vertices, without duplicates
+    std::vector<std::uint32_t> vertices = {};  ///< first vertices that have the fault, without duplicates
 
     void add(std::uint32_t vertex, double its_area, double deg = 0) {
         ++count;

@@ -72,7 +72,8 @@ struct MapSides {
     MapSide from, to;
 };
 
-/// Returns the mean cosine, over the triangles, between directions along these axes and the normals of the mesh.
+/// Returns the mean cosine, over the triangles, between the directions in the map, along the axes `axes`, and the
+/// normals of the mesh.
 double agreementOf(const FloatImage& image, const MapMesh& mesh, const MapReading& reading, const MapAxes& axes) {
     const TextureShape shape{image.width, image.height, mesh.wrap_u, mesh.wrap_v};
     const std::vector<Vec2>& uvs = mesh.corners.uvs;
@@ -113,7 +114,8 @@ MapAxes axesOf(const FloatImage& image, const Meshes& meshes, const ConvertMapFi
     return kMapAxesZUp;
 }
 
-/// Returns both sides of the conversion. `axes`: one entry per triangle if they differ from those of the mesh.
+/// Returns both sides of the conversion. `axes`: axes per triangle, if they differ from those of the mesh; otherwise
+/// empty.
 MapSides sidesOf(const Meshes& meshes, const ConvertMapFileOptions& options, std::span<const MapAxes> axes) {
     const MapMesh* const from = meshes.from ? &*meshes.from : nullptr;
     const MapMesh* const to = meshes.to ? &*meshes.to : nullptr;

@@ -24,7 +24,7 @@ struct FinishViews {
 };
 
 /// Returns a self-contained HTML page: pictures before and after, the changes, and the findings of check on the output.
-/// `output`: its bytes. Throws FileError.
+/// `output`: bytes of the output. Throws FileError.
 std::string finishPage(const FinishReport& report, const FinishViews& views, const std::string& output_path,
                        std::span<const std::uint8_t> output, const FileOptions& file, const PageOrigin& origin);
 

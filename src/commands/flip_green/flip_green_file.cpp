@@ -51,7 +51,7 @@ struct Extension {
     std::string_view name;
     ImageFileFormat format;
 };
-/// Extensions of outputs, each with its format. PNG is last in lists of formats that keep all data.
+/// Extensions of outputs, each with its format, in the order in which error messages list them. PNG is last.
 constexpr Extension kExtensions[] = {{".jpg", ImageFileFormat::jpeg},  {".jpeg", ImageFileFormat::jpeg},
                                      {".webp", ImageFileFormat::webp}, {".ktx2", ImageFileFormat::ktx2},
                                      {".dds", ImageFileFormat::dds},   {".png", ImageFileFormat::png}};

@@ -24,7 +24,7 @@ FlippedImage flippedTexturePng(ByteSpan bytes) {
     FlippedImage flipped{
         *std::move(file),
         {.format = ImageFileFormat::png, .width = image->width, .height = image->height, .bits = bits}};
-    // Values of block formats and floats may be between integers.
+    // Texels of block formats and floats can have values between integers.
     const float most = bits == 8 ? 255.0F : 65535.0F;
     flipped.report.is_exact = std::all_of(image->texels.begin(), image->texels.end(), [&](const Vec3& texel) {
         constexpr float kRounding = 0.01F;  // rounding error of a float that was multiplied by 65535

@@ -52,7 +52,7 @@ class Applier {
             PoolElements& elements)
         : editor_(editor), document_(document), primitives_(primitives), pool_(pool), elements_(elements) {}
 
-    /// Returns true when the document changed.
+    /// Stores the frames of the pool. Returns whether the document changed.
     bool run() {
         if (pool_.keeps_tangents) return setTargets();
         bool changed = elements_.was_split;

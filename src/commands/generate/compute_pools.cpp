@@ -192,7 +192,7 @@ void weld(const WeldedVertices& welded, std::vector<PrimitiveGeometry>& geometri
     };
 }
 
-/// Computes normal offsets of morph targets whose base normals are kept, when they are first used.
+/// Computes the normal offsets of morph targets whose base normals are kept, each when it is first used.
 class NewMorphNormals {
   public:
     /// Replaces the target reader of `vertices`, so that it returns the new offsets. `vertices` and `geometries` must

@@ -268,7 +268,8 @@ Bytes floatsOf(const std::vector<Vec3>& vectors) {
     return Bytes(bytes.begin(), bytes.end());
 }
 
-/// Returns the unit normals, or the offsets of a target (floats), of primitives that share them.
+/// Returns the normals that primitives share, scaled to length 1, or the accordingly scaled offsets of a morph target
+/// as floats.
 ElementData unitNormals(const Document& document, const Primitive& primitive, std::ptrdiff_t target) {
     if (target != kBase) {
         const std::vector<Vec3> offsets = readOffsets(document, primitive, static_cast<std::size_t>(target), "NORMAL");

@@ -19,7 +19,7 @@ namespace tspace {
 
 // Decides which normal maps get an inverted green channel, and rewrites their files.
 
-/// An image that is a normal map.
+/// An image that is used as a normal map.
 struct JudgedMap {
     std::size_t image = 0;
     Bytes flipped = {};          ///< image file with green inverted; empty: the image is unchanged
@@ -51,7 +51,7 @@ std::vector<JudgedMap> judgeMaps(const Scene& scene, const std::vector<bool>& ke
 Bytes rewriteMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options, JudgedMap& map);
 
 struct ConvertedHeights {
-    /// The image is gray, or cannot be decoded. Other images are treated as normal maps.
+    /// True if the image is gray, or cannot be decoded. Other images are treated as normal maps.
     bool is_height_map = false;
     Bytes file = {};           ///< PNG; empty: not converted
     std::string why_not = {};  ///< reason why it was not converted, as a clause

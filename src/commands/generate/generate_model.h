@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Generating in memory, and generateFile for each input format.
+// Generates frames in memory, and implements generateFile for each input format.
 #pragma once
 
 #include <cstdint>

@@ -124,7 +124,7 @@ struct PictureSize {
     std::uint32_t samples = 1;            ///< along each side of a pixel
 };
 
-/// Statistics of the angles of all samples that have one.
+/// Statistics of the angles of all samples that have an angle.
 struct ErrorStatistics {
     std::uint64_t count = 0;
     double sum_deg = 0, max_deg = 0;

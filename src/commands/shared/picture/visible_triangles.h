@@ -102,7 +102,7 @@ class SeenTriangle {
     double determinant_ = 0;
 };
 
-/// Index of the visible triangle at each sample, consecutive over all meshes.
+/// Index of the visible triangle at each sample. Triangles are numbered consecutively over all meshes.
 class VisibleTriangles {
   public:
     static constexpr std::uint32_t kNone = 0xffffffffu;
