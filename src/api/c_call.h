@@ -41,8 +41,8 @@ class GrowingBytes {
 /// Writes `error` with its location to the caller's struct, which may be null, and returns its code. Does not allocate.
 tspace_ErrorCode finishCall(const Error& error, tspace_Error* out) noexcept;
 
-/// Runs `body`, which may throw like the file layer, and converts its outcome. `results`, which may be null, are empty
-/// before the call and after an error.
+/// Runs `body`, which may throw like the file layer, and converts its outcome to an error code. Empties `results`, each
+/// of which may be null, before the call and after an error.
 template <class Body>
 tspace_ErrorCode atCallBorder(tspace_Error* out, std::initializer_list<tspace_Bytes*> results, Body&& body) noexcept {
     for (tspace_Bytes* result : results) {

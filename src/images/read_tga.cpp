@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads TGA according to "Truevision TGA File Format Specification", version 2.0 (1991). Files have no magic number at
-// their start, and those of version 1 none at their end either, so every header field must be valid.
+// Reads TGA according to "Truevision TGA File Format Specification", version 2.0 (1991). A TGA has no magic number at
+// its start, and in version 1 none at its end either, so every header field must be valid.
 #include <algorithm>
 #include <array>
 

@@ -200,8 +200,8 @@ struct ExrLayer {
     std::string prefix = {};  ///< name of the layer with the dot
     std::vector<std::string_view> names = {};
 
-    /// Returns the full name of the channel whose name without the prefix is this lower-case letter, in either case;
-    /// empty if there is none.
+    /// Returns the full name of the channel whose name without the prefix is `letter`, in upper or lower case; empty if
+    /// there is none.
     [[nodiscard]] std::string find(const char* letter) const {
         for (const std::string_view name : names) {
             if (lowerAscii(std::string(name.substr(prefix.size()))) == letter) return std::string(name);

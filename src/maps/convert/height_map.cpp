@@ -117,8 +117,8 @@ class Heights {
     }
 
     /// Returns the derivative over one texel along a row (or column). It is the central difference; at an end of the
-    /// image it is the one-sided difference of second order, or of first order if there are only two texels. All are
-    /// exact for planes, the first two also for parabolas.
+    /// image it is the one-sided difference of second order, or of first order if there are only two texels. All three
+    /// are exact for planes, and the differences of second order also for parabolas.
     [[nodiscard]] double derivativeAt(std::int64_t column, std::int64_t row, bool along_u) const {
         const std::int64_t at = along_u ? column : row;
         const std::uint32_t size = along_u ? map_.width : map_.height;

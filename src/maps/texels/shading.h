@@ -17,7 +17,7 @@ struct CornerFrames {
     std::array<Vec4, 3> tangents = {};
 };
 
-/// T, B and N at a shaded point, in general neither unit nor orthogonal.
+/// T, B and N at a shaded point. They need not be unit vectors or orthogonal.
 struct ShadingFrame {
     DVec3 tangent, bitangent, normal;
 };

@@ -36,8 +36,8 @@ struct ElementData {
     /// Elements before meshopt's `filter` is applied, in rows of a multiple of 4 bytes; empty: only `bytes` exist.
     Bytes unfiltered = {};
     MeshoptFilter filter = MeshoptFilter::none;
-    /// If set, `bytes` contains only the elements at these ascending indices, and all others of the `count` elements
-    /// are zero: they are stored as a sparse accessor.
+    /// If set, `bytes` contains only the elements at these ascending indices, and the other elements (of `count`) are
+    /// zero. The accessor is then sparse.
     std::optional<std::vector<std::uint32_t>> places = {};
     Json min = nullptr, max = nullptr;  ///< written unless null
 

@@ -43,8 +43,8 @@ bool isUnlit(const Document& document, std::size_t material);
 /// (VRM_USE_GLTFSHADER).
 const Json* vrmMaterial(const Document& document, std::size_t material);
 
-/// Properties shared by all materials of a primitive, including those of variants. Without materials: those of the
-/// default material.
+/// Properties shared by all materials of a primitive, including those of variants. A primitive without materials has
+/// the properties of the default material.
 struct SurfaceKind {
     bool is_unlit = false;         ///< isUnlit: neither normals nor normal maps are used
     bool is_double_sided = false;  ///< back faces are drawn, with inverted normals

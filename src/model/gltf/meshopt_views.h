@@ -31,8 +31,9 @@ std::optional<MeshoptView> readMeshoptView(const Document& document, std::size_t
 /// library, these fallback buffers stay absent.
 void decodeMeshoptViews(Document& document);
 
-/// Returns the elements sources[0], sources[1], ... of an accessor before the filter of its view, in rows of a multiple
-/// of 4 bytes. Empty if there is no filter, or if the filter mixes bytes of several accessors.
+/// Returns the elements sources[0], sources[1], ... of an accessor as they are before the filter of the view is
+/// applied, in rows of a multiple of 4 bytes. Empty if there is no filter, or if the filter mixes bytes of several
+/// accessors.
 Bytes gatherUnfiltered(const Document& document, const Accessor& accessor, std::span<const std::uint32_t> sources);
 
 /// Returns the filter of the view that contains an accessor.

@@ -71,8 +71,8 @@ struct OutputPiece {
     std::shared_ptr<const ByteMaker> maker = {};  ///< owner or generator of the bytes; null if the caller owns them
 };
 
-// Temporary files: their names, which identify the owning process, and the list of this process's files, which a signal
-// handler removes together with the folders that were created for them.
+// Temporary files. Their names identify the process that owns them. The files of this process are listed, so that a
+// signal handler can remove them, together with the folders that were created for them.
 
 inline constexpr const char* kTemporaryEnding = ".tmp";
 /// Name ending of the old file while new files are renamed.
@@ -146,8 +146,8 @@ class ProtectedFiles {
     std::vector<std::string> identities_ = {};
 };
 
-/// Makes all calls part of one run over several models while it exists. The calls may run in parallel: no call changes
-/// a file that another call read, wrote, or left unchanged because its content was already correct. At most one may
+/// While it exists, all calls are part of one run over several models. The calls may run in parallel: no call changes a
+/// file that another call read, wrote, or left unchanged because its content was already correct. At most one may
 /// exist.
 class OneRun {
   public:

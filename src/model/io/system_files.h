@@ -50,7 +50,7 @@ struct FolderEntry {
 int listFolder(const Path& folder, std::vector<FolderEntry>& entries);
 
 /// Returns whether a path is a symbolic link that another user may have planted: in a world-writable sticky folder
-/// (/tmp), and owned by neither this user nor the folder's owner. Same rule as protected_symlinks of Linux.
+/// (/tmp), and owned by neither this user nor the folder's owner. This is the rule of protected_symlinks in Linux.
 bool isForeignLink(const Path& path);
 
 /// Creates a file exclusively for writing; fails if a file or link exists. If `like` exists, the new file gets at most

@@ -171,8 +171,8 @@ std::vector<std::uint32_t> triangleCorners(const OwnedMesh& mesh) {
     return corners;
 }
 
-// Conversion of an OBJ file to a Scene: its primitives equal those of a glTF converted from it, before missing normals
-// are computed.
+// Conversion of an OBJ file to a Scene. The primitives equal those of a glTF that is converted from the file, before
+// missing normals are computed.
 
 namespace {
 

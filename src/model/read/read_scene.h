@@ -46,8 +46,8 @@ class ModelFile {
     /// Returns the primitives; `with_images`: also the image bytes of every TangentUse; an unreadable image is not an
     /// error. Fails with tooLarge if the arrays of a small file are far larger than the file.
     [[nodiscard]] Scene scene(bool with_images);
-    /// Returns the scene with placements and looks; `with_images`: also the bytes of images that pictures need. Faces of
-    /// an OBJ file without normals get those that generateFile computes.
+    /// Returns the scene with placements and looks; `with_images`: also the bytes of images that pictures need. Faces
+    /// of an OBJ file that have no normals get the normals that generateFile computes.
     [[nodiscard]] DrawnScene drawnScene(bool with_images);
     /// Like drawnScene, with everything that materials use: images of base color, metalness and emission, and vertex
     /// colors as stored. `with_normal_maps`: normal maps too. OBJ has only base color images.

@@ -137,8 +137,9 @@ std::vector<NormalLevel> makeNormalLevels(NormalLevel first, Parallel& parallel,
     while (levels.back().width > 1 || levels.back().height > 1) {
         const std::uint32_t width = std::max(levels.back().width / 2, 1U);
         const std::uint32_t height = std::max(levels.back().height / 2, 1U);
-        // The last level can replace the first level as the source only if its texel edges cut no texel of the first
-        // level, and those of the new level cut no texel of the last level: the resulting means are then equal.
+        // The last level can replace the first level as the source only if the means are then equal: the edges of the
+        // last level's texels must cut no texel of the first level, and the edges of the new level's texels no texel of
+        // the last level.
         const bool is_even = !last.means.empty() && whole.width % last.width == 0 && whole.height % last.height == 0 &&
                              last.width % width == 0 && last.height % height == 0;
         last = shrink(is_even ? last : whole, width, height, parallel);

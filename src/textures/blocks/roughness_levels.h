@@ -21,10 +21,10 @@ struct RoughnessLevel {
 std::string whyGridsDiffer(const RoughnessLevel& roughness, std::uint32_t width, std::uint32_t height);
 
 /// Returns all levels down to 1 x 1. Channels are means, weighted by the coverage of the normals if there is any.
-/// Green, the roughness r, becomes (mean(r)^4 + spread)^(1/4), at most 1: a Beckmann microfacet lobe, whose slopes have
-/// the variance r^4 / 2 along each axis, convolved with the normals of the normal-map level that a pixel samples at the
-/// same time. Green is multiplied by `factor` first. `normals`: all levels, with spreads; whyGridsDiffer must return an
-/// empty string.
+/// Green, the roughness r, becomes (mean(r)^4 + spread)^(1/4), at most 1. This convolves a Beckmann microfacet lobe,
+/// whose slopes have the variance r^4 / 2 along each axis, with the normals in the level of the normal map that a pixel
+/// samples at the same time. Green is multiplied by `factor` first. `normals`: all levels, with spreads; whyGridsDiffer
+/// must return an empty string.
 std::vector<RoughnessLevel> makeRoughnessLevels(const RoughnessLevel& first, float factor,
                                                 std::span<const NormalLevel> normals, Parallel& parallel);
 

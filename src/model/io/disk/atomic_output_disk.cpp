@@ -31,8 +31,8 @@ namespace tspace {
 
 // Temporary files of this process, and those left by killed processes.
 //
-// A signal handler may neither lock a mutex nor allocate. It waits until no thread works on the list; threads block
-// signals during such work, so the handler never interrupts it on its own thread.
+// A signal handler may neither lock a mutex nor allocate. It waits until no thread works on the list of temporary
+// files. Threads block signals during such work, so the handler never interrupts this work on its own thread.
 //
 // A process ID is meaningful only on one machine, since its last boot, among processes of one PID namespace. The names
 // of temporary files therefore contain all three.

@@ -142,7 +142,7 @@ void takePermissions(std::FILE* file, const Path& like) {
     if (::fchown(number, old.st_uid, old.st_gid) != 0)
         static_cast<void>(::fchown(number, ~::uid_t{0}, old.st_gid) == 0);  // the result is checked below
     ::mode_t mode = old.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO);
-    // If the group differs, it gets at most the permissions of others.
+    // If the group could not be kept, the file's group gets at most the permissions of others.
     if (::fstat(number, &made) != 0 || made.st_gid != old.st_gid) mode &= ~S_IRWXG | (mode & S_IRWXO) << 3;
     static_cast<void>(::fchmod(number, mode));
 }
