@@ -14,8 +14,8 @@
 
 namespace tspace {
 
-/// Returns whether an image is too large. A few bytes may declare any number of pixels; valid images are rarely more
-/// than 64 times as large as their file.
+/// Returns whether an image has more than `most_pixels` pixels, or far more than its file can contain: a few bytes may
+/// declare any number of pixels, but valid large images rarely have more than 64 pixels per byte.
 bool isTooLarge(ImageSize size, std::size_t byte_count, std::uint64_t most_pixels, std::string& why);
 
 /// Size declared in the header of a file (read without a library, and not verified), and the memory that decoding

@@ -52,7 +52,7 @@ class ExrHeaderReader {
             at_ = begin + size;
         }
         if (failed_ || head.size.pixels() == 0) return {};
-        constexpr std::uint64_t kMaxRows = 256;  // maximum rows of a chunk, with any compression
+        constexpr std::uint64_t kMaxRows = 256;  // maximum number of rows of a chunk, with any compression
         const std::uint64_t rows = head.size.width * std::min<std::uint64_t>(kMaxRows, head.size.height);
         head.chunk_pixels = tile_pixels != 0 ? std::min(tile_pixels, head.size.pixels()) : rows;
         return head;

@@ -56,7 +56,8 @@ constexpr std::uint8_t kUastcWeights[6][32] = {{},
                                                 34, 36, 38, 40, 42, 44, 46, 48, 50, 52, 54, 56, 58, 60, 62, 64}};
 
 /// Expands an endpoint of `bits` bits and a digit to 8 bits by ASTC's formula, whose constants depend on the number of
-/// bits.
+/// bits. The comments at the cases show the bits of `spread` as in ASTC's table: b is the second lowest bit of `value`,
+/// c the third, and so on.
 std::uint32_t widenWithDigit(std::uint32_t value, std::uint32_t digit, unsigned base, unsigned bits) {
     const std::uint32_t high = value >> 1;
     std::uint32_t spread = 0, factor = 0;

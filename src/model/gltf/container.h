@@ -66,7 +66,8 @@ void embedImagesInGlb(Document& document, const OutputTarget& target, std::vecto
 /// Returns whether a buffer or image of the document references this file (a path relative to the model's folder).
 bool referencesFile(const Document& document, const std::string& name);
 
-/// Returns a name for a buffer file of the output that no URI of the document uses: "<stem><ending>".
+/// Returns a name for a buffer file of the output that no URI of the document uses: "<stem><ending>", with a number
+/// before the extension if necessary.
 std::string freeFileName(const Document& document, const OutputTarget& target, const std::string& ending);
 
 /// Returns the buffer files that may be written next to a model; none unless its name ends in .gltf.

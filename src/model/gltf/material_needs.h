@@ -25,9 +25,9 @@ namespace tspace::gltf {
 /// the texture refers to one. Fails with invalidFile.
 std::vector<TangentUse> tangentUses(const Document& document, const Primitive& primitive);
 
-/// Returns a sentence on what else may read the primitive's tangents or suggests that an artist made them: an unknown
-/// material extension, or an attribute, extension or entry of `extras` whose name contains tangent, flow, hair etc.
-/// Empty if there is nothing.
+/// Names something else that may read the primitive's tangents or suggests that an artist made them, such as "the
+/// material extension EXT_hair": an unknown material extension, or an attribute, extension or entry of `extras` whose
+/// name contains tangent, flow, hair etc. Returns an empty text if there is nothing.
 std::string otherTangentReader(const Document& document, const Primitive& primitive);
 
 /// Returns the materials that KHR_materials_variants can assign to the primitive, in the order of the mappings, each
