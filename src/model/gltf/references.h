@@ -42,7 +42,8 @@ std::vector<Extent> collectExtents(const Document& document);
 /// Returns whether both extents share a byte. Interleaved elements with the same stride are distinguished.
 bool overlaps(const Extent& a, const Extent& b);
 
-/// Cuts unused bytes in the ranges of `vacated` from the output's own buffers, and adjusts all later offsets.
+/// Cuts unused bytes in the ranges of `vacated` from the output's own buffers and from decoded buffers, and adjusts all
+/// later offsets.
 void cutVacated(Document& document, std::span<const ByteRange> vacated);
 
 /// Removes buffers that neither a view nor a compression extension references, except the output's own. Renumbers the

@@ -233,7 +233,8 @@ class AtomicOutput {
     /// Adds a file written by writeTo(sink), which returns 0 or errno.
     void addFile(File planned, const std::function<int(const Sink&)>& writeTo);
     void makeFolders(const Path& target);
-    /// Fails if another call of the run relies on a target; skips targets that already have equal bytes.
+    /// Checks existing targets that are shared, or that another call of the run uses: keeps those whose bytes are
+    /// equal, and fails if they differ.
     void leaveSharedFiles();
     void leave(File& file);
     void renameFiles();
